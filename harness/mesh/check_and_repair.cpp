@@ -1,0 +1,254 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+
+#include "harness/mesh/mesh_io.h"
+#include "harness/mesh/predicates.h"
+
+namespace cutbench {
+
+namespace {
+
+constexpr double largest_coordinate = 1e60;  // far enough from the overflow of a product of three
+
+/// A half-edge, 3 t + k, filed under the two vertices it joins.
+struct EdgeUse {
+  std::int32_t low, high;
+  std::size_t half_edge;
+  bool forward;  ///< it runs from low to high
+
+  bool same_edge(const EdgeUse& other) const { return low == other.low && high == other.high; }
+  std::size_t triangle() const { return half_edge / 3; }
+};
+
+/// Union-find over corners; the smallest number stands for its class.
+class Fans {
+ public:
+  explicit Fans(std::size_t corners) : parent_(corners) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  std::size_t find(std::size_t c) {
+    while (parent_[c] != c) c = parent_[c] = parent_[parent_[c]];
+    return c;
+  }
+  void join(std::size_t a, std::size_t b) {
+    a = find(a), b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+std::size_t next_half_edge(std::size_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
+
+class Repair {
+ public:
+  Repair(MeshData& mesh, const std::string& name) : mesh_(mesh), name_(name) {}
+
+  void run() {
+    // Vertices are dropped last, so that the numbers in messages are those of the file.
+    check_indices();
+    check_coordinates();
+    if (mesh_.rest.empty()) take_rest_from_plane();
+    orient();
+    weld_by_rest();
+    check_duplicates();
+    check_edges();
+    split_bow_ties();
+    drop_unused_vertices();
+  }
+
+ private:
+  static std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+  std::int32_t& vertex(std::size_t corner) { return mesh_.triangles[corner / 3][corner % 3]; }
+  std::size_t corners() const { return 3 * mesh_.triangles.size(); }
+
+  [[noreturn]] void fail(const std::string& what) const { throw InputError(name_ + ": " + what); }
+  void note(const std::string& what) { mesh_.notes.push_back(name_ + ": " + what); }
+
+  std::string triangle_name(std::size_t t) const {
+    return "triangle " + std::to_string(t + 1) + " of " + std::to_string(mesh_.triangles.size());
+  }
+
+  void check_indices() {
+    if (mesh_.triangles.empty()) fail("no triangles; the file is empty, cut short or holds no mesh");
+    if (!mesh_.rest.empty() && mesh_.rest.size() != mesh_.deformed.size())
+      fail(std::to_string(mesh_.rest.size()) + " rest but " + std::to_string(mesh_.deformed.size()) +
+           " deformed positions; give as many of one as of the other");
+    const auto count = std::ssize(mesh_.deformed);
+    used_.assign(mesh_.deformed.size(), false);
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const auto [a, b, c] = mesh_.triangles[t];
+      for (std::int32_t v : {a, b, c}) {
+        if (v < 0 || v >= count)
+          fail(triangle_name(t) + " has a corner beyond the " + std::to_string(count) + " vertices; mend its indices");
+        used_[at(v)] = true;
+      }
+      if (a == b || b == c || c == a) fail(triangle_name(t) + " has the same corner twice; delete it");
+    }
+  }
+
+  void check_coordinates() const {
+    auto good = [](double c) { return std::abs(c) <= largest_coordinate; };  // false for a NaN
+    for (std::size_t v = 0; v < mesh_.deformed.size(); ++v) {
+      if (!used_[v]) continue;
+      const Point3 p = mesh_.deformed[v];
+      const Point2 r = mesh_.rest.empty() ? Point2{} : mesh_.rest[v];
+      if (!good(p.x) || !good(p.y) || !good(p.z) || !good(r.x) || !good(r.y))
+        fail("vertex " + std::to_string(v + 1) + " of " + std::to_string(mesh_.deformed.size()) +
+             " has a coordinate that is not finite or beyond 1e60; mend or rescale it");
+    }
+  }
+
+  bool constant(double Point3::*axis) const {
+    const Point3 first = mesh_.deformed[at(mesh_.triangles.front().front())];
+    for (std::size_t v = 0; v < mesh_.deformed.size(); ++v)
+      if (used_[v] && mesh_.deformed[v].*axis != first.*axis) return false;
+    return true;
+  }
+
+  void take_rest_from_plane() {
+    using Axis = double Point3::*;
+    constexpr Axis x = &Point3::x, y = &Point3::y, z = &Point3::z;
+    auto take = [this](Axis u, Axis v) {
+      for (const Point3& p : mesh_.deformed) mesh_.rest.push_back({p.*u, p.*v});
+    };
+    if (constant(z)) return take(x, y);
+    if (constant(y)) return take(z, x);
+    if (constant(x)) return take(y, z);
+    fail(
+        "no rest positions: neither x, y nor z is exactly constant; use an OBJ with vt (rest positions), or flatten "
+        "it");
+  }
+
+  /// Every triangle on its own: in the plane, a mesh that is not folded is then consistent too.
+  void orient() {
+    std::size_t reversed = 0;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      auto& [a, b, c] = mesh_.triangles[t];
+      const int turn = orientation(mesh_.rest[at(a)], mesh_.rest[at(b)], mesh_.rest[at(c)]);
+      if (turn == 0) fail(triangle_name(t) + " has zero area in rest space; collapse or delete it");
+      if (turn < 0) std::swap(b, c), ++reversed;
+    }
+    const std::size_t all = mesh_.triangles.size();
+    if (reversed > 0)
+      note("clockwise triangles reversed: " + (reversed < all ? std::to_string(reversed) + " of " : "all ") +
+           std::to_string(all));
+  }
+
+  /// Vertices with equal rest positions get the same number: a fold must not hide behind doubled vertices.
+  void weld_by_rest() {
+    auto before = [this](std::int32_t a, std::int32_t b) {
+      const Point2 p = mesh_.rest[at(a)], q = mesh_.rest[at(b)];
+      return p.x != q.x ? p.x < q.x : p.y < q.y;
+    };
+    std::vector<std::int32_t> order;
+    for (std::size_t v = 0; v < mesh_.rest.size(); ++v)
+      if (used_[v]) order.push_back(static_cast<std::int32_t>(v));
+    std::sort(order.begin(), order.end(), before);
+    welded_.assign(mesh_.rest.size(), -1);
+    for (std::size_t i = 0; i < order.size(); ++i)
+      welded_[at(order[i])] = i > 0 && !before(order[i - 1], order[i]) ? welded_[at(order[i - 1])] : order[i];
+  }
+
+  void check_duplicates() const {
+    std::vector<std::pair<std::array<std::int32_t, 3>, std::size_t>> sorted;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      auto [a, b, c] = mesh_.triangles[t];
+      std::array<std::int32_t, 3> key{welded_[at(a)], welded_[at(b)], welded_[at(c)]};
+      std::sort(key.begin(), key.end());
+      sorted.push_back({key, t});
+    }
+    std::sort(sorted.begin(), sorted.end());
+    for (std::size_t i = 1; i < sorted.size(); ++i)
+      if (sorted[i].first == sorted[i - 1].first)
+        fail(triangle_name(sorted[i].second) + " has the same rest corners as triangle " +
+             std::to_string(sorted[i - 1].second + 1) + "; delete one of them");
+  }
+
+  /// All half-edges sorted by edge; `number` gives the number a vertex goes by.
+  template <class Number>
+  std::vector<EdgeUse> edges(Number number) {
+    std::vector<EdgeUse> result;
+    for (std::size_t h = 0; h < corners(); ++h) {
+      const std::int32_t a = number(vertex(h)), b = number(vertex(next_half_edge(h)));
+      result.push_back({std::min(a, b), std::max(a, b), h, a < b});
+    }
+    std::sort(result.begin(), result.end(), [](const EdgeUse& p, const EdgeUse& q) {
+      return std::tie(p.low, p.high, p.half_edge) < std::tie(q.low, q.high, q.half_edge);
+    });
+    return result;
+  }
+
+  void check_edges() {
+    const std::vector<EdgeUse> uses = edges([this](std::int32_t v) { return welded_[at(v)]; });
+    for (std::size_t i = 1; i < uses.size(); ++i) {
+      if (!uses[i].same_edge(uses[i - 1])) continue;
+      if (i >= 2 && uses[i].same_edge(uses[i - 2]))
+        fail("three triangles meet at the edge " + edge_name(uses[i]) + ": " + triangle_name(uses[i - 2].triangle()) +
+             ", " + std::to_string(uses[i - 1].triangle() + 1) + " and " + std::to_string(uses[i].triangle() + 1) +
+             "; a sheet has two at most: delete one");
+      const bool third_follows = i + 1 < uses.size() && uses[i + 1].same_edge(uses[i]);
+      if (!third_follows && uses[i].forward == uses[i - 1].forward)
+        fail(triangle_name(uses[i].triangle()) + " overlaps triangle " + std::to_string(uses[i - 1].triangle() + 1) +
+             " in rest space, on the same side of the edge " + edge_name(uses[i]) + "; unfold the rest positions");
+    }
+  }
+
+  std::string edge_name(const EdgeUse& e) const {
+    const Point2 a = mesh_.rest[at(e.low)], b = mesh_.rest[at(e.high)];
+    std::ostringstream text;
+    text << '(' << a.x << ", " << a.y << ")-(" << b.x << ", " << b.y << ')';
+    return text.str();
+  }
+
+  /// Corners are joined across shared edges; the first fan at a vertex keeps it, every other gets a copy.
+  void split_bow_ties() {
+    const std::vector<EdgeUse> uses = edges([](std::int32_t v) { return v; });
+    Fans fans(corners());
+    for (std::size_t i = 1; i < uses.size(); ++i)
+      if (uses[i].same_edge(uses[i - 1])) {
+        fans.join(uses[i].half_edge, next_half_edge(uses[i - 1].half_edge));
+        fans.join(next_half_edge(uses[i].half_edge), uses[i - 1].half_edge);
+      }
+    const std::size_t before = mesh_.rest.size();
+    std::vector<bool> taken(before, false);
+    for (std::size_t c = 0; c < corners(); ++c) {
+      if (const std::size_t first = fans.find(c); first != c) {
+        vertex(c) = vertex(first);
+      } else if (const std::size_t v = at(vertex(c)); !taken[v]) {
+        taken[v] = true;
+      } else {
+        vertex(c) = static_cast<std::int32_t>(mesh_.rest.size());
+        mesh_.rest.push_back(Point2(mesh_.rest[v])), mesh_.deformed.push_back(Point3(mesh_.deformed[v]));
+      }
+    }
+    used_.resize(mesh_.rest.size(), true);
+    if (const std::size_t added = mesh_.rest.size() - before; added > 0)
+      note("vertices added where triangles met in a point only: " + std::to_string(added));
+  }
+
+  void drop_unused_vertices() {
+    std::vector<std::int32_t> number(used_.size(), -1);
+    std::size_t kept = 0;
+    for (std::size_t v = 0; v < used_.size(); ++v) {
+      if (!used_[v]) continue;
+      mesh_.rest[kept] = mesh_.rest[v], mesh_.deformed[kept] = mesh_.deformed[v];
+      number[v] = static_cast<std::int32_t>(kept++);
+    }
+    mesh_.rest.resize(kept), mesh_.deformed.resize(kept);
+    for (std::size_t c = 0; c < corners(); ++c) vertex(c) = number[at(vertex(c))];
+    if (kept < used_.size()) note("vertices without triangles dropped: " + std::to_string(used_.size() - kept));
+  }
+
+  MeshData& mesh_;
+  const std::string& name_;
+  std::vector<bool> used_;            ///< per vertex: it is a corner of a triangle
+  std::vector<std::int32_t> welded_;  ///< per used vertex: one vertex number per rest position
+};
+
+}  // namespace
+
+void check_and_repair(MeshData& mesh, const std::string& name) { Repair(mesh, name).run(); }
+
+}  // namespace cutbench

@@ -1,0 +1,78 @@
+#include "harness/mesh/locator.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cutbench {
+
+Locator::Locator(const Sheet& sheet) {
+  low_ = {1e300, 1e300}, high_ = {-1e300, -1e300};
+  for (std::size_t v = 0; v < sheet.vertex_slots(); ++v) {
+    if (!sheet.triangle_of_vertex(VertexIndex(v)).valid()) continue;
+    const Point2 p = sheet.rest(VertexIndex(v));
+    low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)}, high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
+  }
+  // About two triangles per cell, cells about square.
+  const Point2 extent{high_.x - low_.x, high_.y - low_.y};
+  const double cells = std::max(1.0, static_cast<double>(sheet.triangle_count()) / 2);
+  const double ratio = std::clamp(extent.x / extent.y, 1 / cells, cells);
+  columns_ = std::max(1, static_cast<int>(std::sqrt(cells * ratio)));
+  rows_ = std::max(1, static_cast<int>(cells / columns_));
+  per_cell_ = {columns_ / extent.x, rows_ / extent.y};
+  triangle_.resize(cell(0, rows_));
+  border_.assign(cell(0, rows_), -1);
+  for (std::size_t i = 0; i < sheet.triangle_slots(); ++i) {
+    const TriangleIndex t(i);
+    if (!sheet.triangle(t).alive()) continue;
+    const auto p = sheet.corners(t);
+    triangle_[cell(column((p[0].x + p[1].x + p[2].x) / 3), row((p[0].y + p[1].y + p[2].y) / 3))] = t;
+    for (int k = 0; k < 3; ++k)
+      if (sheet.on_border(half_edge(t, k))) add_border(sheet, half_edge(t, k));
+  }
+
+  // Cells without a triangle's centre take over their neighbours' triangles, ring by ring.
+  std::vector<std::size_t> front;
+  for (std::size_t i = 0; i < triangle_.size(); ++i)
+    if (triangle_[i].valid()) front.push_back(i);
+  for (std::size_t i = 0; i < front.size(); ++i) {
+    const int c = static_cast<int>(front[i]) % columns_, r = static_cast<int>(front[i]) / columns_;
+    for (const auto& [dc, dr] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+      if (c + dc < 0 || c + dc >= columns_ || r + dr < 0 || r + dr >= rows_) continue;
+      const std::size_t other = cell(c + dc, r + dr);
+      if (triangle_[other].valid()) continue;
+      triangle_[other] = triangle_[front[i]];
+      front.push_back(other);
+    }
+  }
+}
+
+void Locator::add_border(const Sheet& sheet, HalfEdge h) {
+  const Point2 a = sheet.rest(sheet.origin(h)), b = sheet.rest(sheet.target(h));
+  for (int r = row(std::min(a.y, b.y)); r <= row(std::max(a.y, b.y)); ++r)
+    for (int c = column(std::min(a.x, b.x)); c <= column(std::max(a.x, b.x)); ++c) {
+      entries_.push_back({h, border_[cell(c, r)]});
+      border_[cell(c, r)] = static_cast<std::int32_t>(entries_.size() - 1);
+    }
+}
+
+void Locator::update(const Sheet& sheet) {
+  // A cell's triangle needs no update: the first child of a triangle keeps its slot, so what is there is still near.
+  const auto add = [&](TriangleIndex t) {
+    const Triangle& triangle = sheet.triangle(t);
+    if (!triangle.alive()) return;
+    for (int k = 0; k < 3; ++k)
+      if (!triangle.opposite[static_cast<std::size_t>(k)].valid()) add_border(sheet, half_edge(t, k));
+  };
+  for (const auto& entry : sheet.log().touched) add(entry.slot);
+  for (std::size_t t = sheet.log().triangles_before; t < sheet.triangle_slots(); ++t) add(TriangleIndex(t));
+}
+
+TriangleIndex Locator::near(const Sheet& sheet, Point2 p) const {
+  const TriangleIndex t = triangle_[cell(column(p.x), row(p.y))];
+  if (t() < sheet.triangle_slots() && sheet.triangle(t).alive()) return t;
+  std::size_t other = 0;  // the cell's triangle was collapsed away: any other will do
+  while (!sheet.triangle(TriangleIndex(other)).alive()) ++other;
+  return TriangleIndex(other);
+}
+
+}  // namespace cutbench

@@ -1,0 +1,28 @@
+// A sheet as files and generators know it: opened, plain arrays, no connectivity.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "harness/mesh/types.h"
+
+namespace cutbench {
+
+/// What is wrong with a file, option or number the user gave: what, where and the mend, in one line.
+struct InputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// An opened sheet. One entry of `rest` and `deformed` per deformed vertex: the two lips of an incision are
+/// different vertices with bit-equal rest positions.
+struct MeshData {
+  std::vector<Point2> rest;                            ///< per vertex, rest position
+  std::vector<Point3> deformed;                        ///< per vertex, deformed position
+  std::vector<std::array<std::int32_t, 3>> triangles;  ///< counter-clockwise in rest space
+  std::vector<std::string> notes;                      ///< repairs made while reading, one line each
+};
+
+}  // namespace cutbench

@@ -1,0 +1,132 @@
+#include "harness/mesh/mesh_io.h"
+
+#include <CGAL/IO/OFF.h>
+#include <CGAL/IO/PLY.h>
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+
+#include "harness/mesh/predicates.h"
+#include "harness/mesh/read_obj.h"
+
+namespace cutbench {
+
+namespace {
+
+using Points = std::vector<Kernel::Point_3>;
+
+/// CGAL gives a face the size the file announces before it reads it: a nonsensical size must not ask for the memory.
+struct Face : std::vector<std::size_t> {
+  void resize(std::size_t corners) {
+    if (corners > 1000) throw std::length_error("a face of more than 1000 corners");
+    std::vector<std::size_t>::resize(corners);
+  }
+};
+using Faces = std::vector<Face>;
+
+MeshData from_soup(const Points& points, const Faces& faces, const std::string& name) {
+  MeshData mesh;
+  for (const Kernel::Point_3& p : points) mesh.deformed.push_back({p.x(), p.y(), p.z()});
+  for (const Face& face : faces) {
+    if (face.size() != 3)
+      throw InputError(name + ": face " + std::to_string(mesh.triangles.size() + 1) + " of " +
+                       std::to_string(faces.size()) + " has " + std::to_string(face.size()) +
+                       " corners; only triangles are read: triangulate the mesh");
+    // check_and_repair looks at the range; here an index too large for 32 bits must only not turn into a good one.
+    auto& triangle = mesh.triangles.emplace_back();
+    std::transform(face.begin(), face.end(), triangle.begin(), [](std::size_t i) {
+      return i > static_cast<std::size_t>(INT32_MAX) ? -1 : static_cast<std::int32_t>(i);
+    });
+  }
+  return mesh;
+}
+
+/// CGAL asks for the memory of all the elements an OFF file announces before it reads the first.
+bool announces_more_than_it_holds(std::istream& in, std::uintmax_t bytes) {
+  CGAL::File_header_OFF header;
+  in >> header;
+  const bool result = header.size_of_vertices() > bytes || header.size_of_facets() > bytes;
+  in.clear();
+  in.seekg(0);
+  return result;
+}
+
+/// CGAL takes an element before the first `property` for granted, and any text without `end_header` for an empty mesh.
+bool has_ply_header(std::istream& in) {
+  bool has_element = false, sound = false;
+  std::string line, keyword;
+  for (int number = 1; !sound && std::getline(in, line); ++number) {
+    keyword.clear();
+    std::istringstream(line) >> keyword;
+    if (number <= 2) continue;  // `ply` and `format`, which CGAL does look at
+    if (keyword == "property" && !has_element) break;
+    has_element = has_element || keyword == "element";
+    sound = keyword == "end_header";
+  }
+  in.clear();
+  in.seekg(0);
+  return sound;
+}
+
+template <class Reader>
+MeshData read_soup(std::istream& in, const std::string& name, const char* format, Reader read) {
+  Points points;
+  Faces faces;
+  bool complete = false;
+  try {
+    complete = read(in, points, faces);
+  } catch (const std::exception&) {  // a nonsensical number of corners
+  }
+  if (!complete)
+    throw InputError(name + ": not a complete " + format +
+                     " file: cut short, a bad number or an index out of range; export it again");
+  return from_soup(points, faces, name);
+}
+
+MeshData read_off(std::istream& in, const std::string& name, std::uintmax_t bytes) {
+  return read_soup(in, name, "OFF", [bytes](std::istream& s, Points& points, Faces& faces) {
+    if (announces_more_than_it_holds(s, bytes)) return false;
+    return CGAL::IO::read_OFF(s, points, faces, CGAL::parameters::verbose(false));
+  });
+}
+
+MeshData read_ply(std::istream& in, const std::string& name) {
+  return read_soup(in, name, "PLY", [](std::istream& s, Points& points, Faces& faces) {
+    return has_ply_header(s) && CGAL::IO::read_PLY(s, points, faces, CGAL::parameters::verbose(false));
+  });
+}
+
+std::string lower_case_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+MeshData read_unchecked(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  const std::string extension = lower_case_extension(path);
+  if (extension != ".obj" && extension != ".off" && extension != ".ply")
+    throw InputError(name + ": unknown mesh format; use .obj, .off or .ply");
+
+  std::error_code error;
+  const bool is_file = std::filesystem::is_regular_file(path, error);
+  std::ifstream in(path, std::ios::binary);
+  if (!in || !is_file) throw InputError(path.string() + ": no such file, or it can't be read; check the path");
+  if (extension == ".off") return read_off(in, name, std::filesystem::file_size(path));
+  if (extension == ".ply") return read_ply(in, name);
+  return read_obj(std::string(std::istreambuf_iterator<char>(in), {}), name);
+}
+
+}  // namespace
+
+MeshData read_mesh(const std::filesystem::path& path) {
+  MeshData mesh = read_unchecked(path);
+  check_and_repair(mesh, path.filename().string());
+  return mesh;
+}
+
+}  // namespace cutbench

@@ -1,0 +1,48 @@
+// Reading and writing meshes, and the checks every mesh passes before it becomes a sheet.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "harness/mesh/mesh_data.h"
+
+namespace cutbench {
+
+/// Reads a triangle mesh by its extension (.obj, .off, .ply; upper case too) and passes it through check_and_repair.
+///
+/// OBJ: `v`, `vt` and `f` (v, v/vt, v//vn, v/vt/vn, negative indices); other keywords are ignored. A `v` used with
+/// several different `vt` becomes as many vertices, the first keeping its number. OFF, PLY: CGAL's readers, text or
+/// binary; colours, normals and texture coordinates are ignored.
+///
+/// Rest positions are the `vt` of the OBJ, else see check_and_repair. Positions are taken as written, without a unit.
+/// \throw InputError naming the file, the element (counted from 1; lines in an OBJ) and the mend: no such file, unknown
+/// extension, cut short or not of its format, faces that aren't triangles, and all that check_and_repair refuses.
+MeshData read_mesh(const std::filesystem::path& path);
+
+/// Makes `mesh` fit for a sheet, or says why it can't be. `name` (the file's) begins every note and error.
+/// \pre `rest` and `deformed` have one entry per vertex, or `rest` is empty: then it is taken from `deformed`, which
+/// must lie exactly in a plane z, y or x = constant (tried in this order), as the other two axes in cyclic order:
+/// (x, y), (z, x) or (y, z).
+///
+/// Repaired, each with a note: clockwise triangles are reversed (all of them, or the inconsistent ones), never an axis;
+/// unused vertices are dropped; a vertex where several fans of triangles meet is split into one per fan.
+/// \post every triangle is strictly counter-clockwise in rest space (exact predicate); every edge, also between
+/// bit-equal rest positions, has at most one triangle on each side; the triangles round every vertex are one fan. What
+/// passed once passes again unchanged.
+/// \throw InputError for no triangles, an index out of range or repeated in a triangle, a coordinate that is not finite
+/// or beyond 1e60, a curved mesh without rest positions, a triangle of zero rest area, two triangles with the same
+/// corners, more than two triangles on an edge or two on the same side of it (folded, overlapping or not orientable in
+/// rest space). `mesh` is then half-way: discard it. Overlaps of triangles that share no edge are not looked for.
+void check_and_repair(MeshData& mesh, const std::string& name);
+
+/// Writes by extension (lower case), numbers with the fewest digits that read back bit for bit (17 at most):
+/// - .obj: `v` deformed, `vt` rest, one per vertex, `f v/vt`; read_mesh gives it back unchanged.
+/// - .off: the deformed positions alone.
+/// - .vtu: text; points deformed, point data `rest` (z = 0), cell data `piece` (connected component, from 0 in order of
+///   the first triangle) and `aspect_ratio` (of the rest triangle).
+///
+/// The file appears whole or not at all: it is written beside `path`, `.part` added to its name, and then renamed.
+/// \throw InputError for an unknown extension or a place that can't be written.
+void write_mesh(const MeshData& mesh, const std::filesystem::path& path);
+
+}  // namespace cutbench

@@ -1,0 +1,25 @@
+// Exact decisions on stored doubles: CGAL's Epick kernel (filtered floating point, exact where the filter can't tell).
+// Needs CGAL_ALWAYS_ROUND_TO_NEAREST, which the interface target `cutbench_cgal` defines.
+#pragma once
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include "harness/mesh/types.h"
+
+namespace cutbench {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+inline Kernel::Point_2 to_cgal(Point2 p) { return {p.x, p.y}; }
+
+/// +1 where c lies left of the directed line a -> b, -1 right of it, 0 exactly on it.
+inline int orientation(Point2 a, Point2 b, Point2 c) {
+  return static_cast<int>(CGAL::orientation(to_cgal(a), to_cgal(b), to_cgal(c)));
+}
+
+/// +1 where d lies strictly inside the circumcircle of the counter-clockwise triangle a, b, c, 0 on it, -1 outside.
+inline int in_circle(Point2 a, Point2 b, Point2 c, Point2 d) {
+  return static_cast<int>(CGAL::side_of_oriented_circle(to_cgal(a), to_cgal(b), to_cgal(c), to_cgal(d)));
+}
+
+}  // namespace cutbench

@@ -1,0 +1,174 @@
+#include "harness/mesh/read_obj.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace cutbench {
+
+namespace {
+
+/// The next run of characters that are not blank, taken off the front of `line`; empty at its end.
+std::string_view next_token(std::string_view& line) {
+  constexpr std::string_view blanks = " \t\r\v\f";
+  line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+  const std::string_view token = line.substr(0, line.find_first_of(blanks));
+  line.remove_prefix(token.size());
+  return token;
+}
+
+class ObjReader {
+ public:
+  explicit ObjReader(const std::string& name) : name_(name) {}
+
+  MeshData read(std::string_view text) {
+    if (text.find('\0') != std::string_view::npos)
+      throw InputError(name_ + ": not a text file, so not an OBJ; check the extension");
+    while (!text.empty()) {
+      ++line_;
+      const std::size_t end = std::min(text.find('\n'), text.size());
+      read_line(text.substr(0, end));
+      text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return build();
+  }
+
+ private:
+  /// One corner of a face: numbers counted from 1, 0 for a `vt` that is not given.
+  struct Corner {
+    std::int64_t v = 0, vt = 0;
+  };
+  struct Face {
+    std::array<Corner, 3> corners;
+    std::size_t line = 0;
+  };
+
+  [[noreturn]] void fail(std::size_t line, const std::string& what) const {
+    throw InputError(name_ + ": line " + std::to_string(line) + ": " + what);
+  }
+
+  void read_line(std::string_view line) {
+    line = line.substr(0, line.find('#'));
+    const std::string_view keyword = next_token(line);
+    if (keyword == "v") {
+      const double x = number(line), y = number(line), z = number(line);
+      positions_.push_back({x, y, z});
+    } else if (keyword == "vt") {
+      const double u = number(line), v = number(line);
+      textures_.push_back({u, v});
+    } else if (keyword == "f") {
+      read_face(line);
+    }
+  }
+
+  double number(std::string_view& line) const {
+    std::string_view token = next_token(line);
+    if (token.empty()) fail(line_, "a number is missing; write `v x y z` or `vt u v`");
+    const std::string shown(token);
+    if (token.front() == '+') token.remove_prefix(1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
+    if (error != std::errc() || end != token.data() + token.size() || !std::isfinite(value))
+      fail(line_, "'" + shown + "' is not a finite number; mend it");
+    return value;
+  }
+
+  void read_face(std::string_view line) {
+    Face face;
+    face.line = line_;
+    std::size_t corners = 0;
+    for (std::string_view token = next_token(line); !token.empty(); token = next_token(line), ++corners)
+      if (corners < 3) face.corners[corners] = read_corner(token);
+    if (corners != 3)
+      fail(line_, "a face with " + std::to_string(corners) + " corners; only triangles are read: triangulate the mesh");
+    faces_.push_back(face);
+  }
+
+  Corner read_corner(std::string_view token) const {
+    const std::string_view shown = token;
+    const std::size_t slash = std::min(token.find('/'), token.size());
+    Corner corner;
+    corner.v = index(token.substr(0, slash), positions_.size(), shown);
+    token.remove_prefix(std::min(slash + 1, token.size()));
+    const std::string_view vt = token.substr(0, token.find('/'));
+    if (!vt.empty()) corner.vt = index(vt, textures_.size(), shown);
+    return corner;
+  }
+
+  /// `token` as a number counted from 1; a negative one counts back from the `count` elements read so far.
+  std::int64_t index(std::string_view token, std::size_t count, std::string_view shown) const {
+    std::int32_t value = 0;
+    const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
+    const std::int64_t resolved = value < 0 ? static_cast<std::int64_t>(count) + value + 1 : value;
+    if (error != std::errc() || end != token.data() + token.size() || resolved < 1)
+      fail(line_, "'" + std::string(shown) + "' is not a face corner; write v, v/vt, v//vn or v/vt/vn, counted from 1");
+    return resolved;
+  }
+
+  MeshData build() const {
+    bool any_vt = false;
+    for (const Face& face : faces_)
+      for (const Corner& c : face.corners) {
+        any_vt = any_vt || c.vt != 0;
+        if (c.v > std::ssize(positions_) || c.vt > std::ssize(textures_))
+          fail(face.line, "a corner beyond the " + std::to_string(positions_.size()) + " v and " +
+                              std::to_string(textures_.size()) + " vt of the file, which may be cut short");
+      }
+    return any_vt ? with_rest() : without_rest();
+  }
+
+  MeshData without_rest() const {
+    MeshData mesh;
+    mesh.deformed = positions_;
+    for (const Face& face : faces_) {
+      auto& triangle = mesh.triangles.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) triangle[k] = static_cast<std::int32_t>(face.corners[k].v - 1);
+    }
+    return mesh;
+  }
+
+  /// The first `vt` a `v` is used with keeps the number of the `v`; others, compared by value because some programs
+  /// write one `vt` per corner, get numbers after the last `v`.
+  MeshData with_rest() const {
+    MeshData mesh;
+    mesh.deformed = positions_;
+    mesh.rest.resize(positions_.size());
+    std::vector<bool> has_rest(positions_.size(), false);
+    std::map<std::tuple<std::size_t, double, double>, std::int32_t> copies;
+    auto vertex_of = [&](const Corner& corner) {
+      const auto v = static_cast<std::size_t>(corner.v - 1);
+      const Point2 rest = textures_[static_cast<std::size_t>(corner.vt - 1)];
+      if (!has_rest[v]) mesh.rest[v] = rest, has_rest[v] = true;
+      if (mesh.rest[v] == rest) return static_cast<std::int32_t>(v);
+      const auto next = static_cast<std::int32_t>(mesh.rest.size());
+      const auto [copy, is_new] = copies.try_emplace({v, rest.x, rest.y}, next);
+      if (is_new) mesh.rest.push_back(rest), mesh.deformed.push_back(positions_[v]);
+      return copy->second;
+    };
+    for (const Face& face : faces_) {
+      auto& triangle = mesh.triangles.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (face.corners[k].vt == 0)
+          fail(face.line, "a corner without vt in a mesh with vt; give every corner a vt, or none");
+        triangle[k] = vertex_of(face.corners[k]);
+      }
+    }
+    if (!copies.empty())
+      mesh.notes.push_back(name_ + ": vertices added where one v has several vt: " + std::to_string(copies.size()));
+    return mesh;
+  }
+
+  const std::string& name_;
+  std::size_t line_ = 0;  ///< of the line being read, from 1
+  std::vector<Point3> positions_;
+  std::vector<Point2> textures_;
+  std::vector<Face> faces_;
+};
+
+}  // namespace
+
+MeshData read_obj(std::string_view text, const std::string& name) { return ObjReader(name).read(text); }
+
+}  // namespace cutbench

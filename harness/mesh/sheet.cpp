@@ -1,0 +1,433 @@
+#include "harness/mesh/sheet.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "harness/mesh/predicates.h"
+
+namespace cutbench {
+
+namespace {
+
+/// Barycentric coordinates of p in the triangle c (Cramer's rule).
+std::array<double, 3> barycentric(const std::array<Point2, 3>& c, Point2 p) {
+  const double area = cross(c[1] - c[0], c[2] - c[0]);
+  const double b = cross(p - c[0], c[2] - c[0]) / area, d = cross(c[1] - c[0], p - c[0]) / area;
+  return {1 - b - d, b, d};
+}
+
+}  // namespace
+
+std::array<Point2, 3> Sheet::corners(TriangleIndex t) const {
+  const auto& v = triangle(t).vertex;
+  return {rest(v[0]), rest(v[1]), rest(v[2])};
+}
+
+HalfEdge Sheet::first_spoke(VertexIndex v) const {
+  const TriangleIndex t = triangle_of_vertex(v);
+  const auto& corner = triangle(t).vertex;
+  const HalfEdge start = half_edge(t, corner[0] == v ? 0 : corner[1] == v ? 1 : 2);
+  HalfEdge h = start;
+  for (HalfEdge right = turn_right(h); right.valid() && right != start; right = turn_right(h)) h = right;
+  return on_border(h) ? h : start;
+}
+
+// --- the log
+// -----------------------------------------------------------------------------------------------------------
+
+void Sheet::begin_cut() {
+  auto recycle = [](auto& freed, auto& free) { free.insert(free.end(), freed.begin(), freed.end()), freed.clear(); };
+  recycle(freed_triangles_, free_triangles_);
+  recycle(freed_vertices_, free_vertices_);
+  recycle(freed_deformed_, free_deformed_);
+  log_.clear();
+  log_.triangles_before = triangles_.size();
+  log_.vertices_before = rest_.size();
+  log_.deformed_before = position_.size();
+  if (work_.touched_in.size() < triangles_.size()) work_.touched_in.resize(triangles_.size());
+  ++work_.epoch;
+}
+
+void Sheet::touch(TriangleIndex t) {
+  if (t() >= log_.triangles_before || work_.touched_in[t()] == work_.epoch) return;
+  work_.touched_in[t()] = work_.epoch;
+  const Triangle& now = triangle(t);
+  auto& entry = log_.touched.emplace_back(EditLog::Touched{t, now, {}});
+  if (!now.alive()) return;
+  for (std::size_t k = 0; k < 3; ++k) entry.vertex_triangle[k] = triangle_of_vertex(now.vertex[k]);
+}
+
+void Sheet::rollback() {
+  // Backwards, so that what was logged first, the oldest state, is written last.
+  for (auto moved = log_.moved.rbegin(); moved != log_.moved.rend(); ++moved) rest_[moved->vertex()] = moved->from;
+  for (auto d = log_.displaced.rbegin(); d != log_.displaced.rend(); ++d) position_[d->vertex()] = d->from;
+  for (std::size_t i = 0; i < freed_vertices_.size(); ++i)
+    vertex_of_deformed_[freed_deformed_[i]()] = freed_vertices_[i];
+  for (auto d : log_.new_deformed) {
+    vertex_of_deformed_[d()] = {};
+    if (d() < log_.deformed_before) free_deformed_.push_back(d);
+  }
+  for (auto v : log_.new_vertices) {
+    triangle_of_vertex_[v()] = {};
+    if (v() < log_.vertices_before) free_vertices_.push_back(v);
+  }
+  for (auto entry = log_.touched.rbegin(); entry != log_.touched.rend(); ++entry) {
+    at(entry->slot) = entry->before;
+    if (!entry->before.alive()) {
+      free_triangles_.push_back(entry->slot);
+      continue;
+    }
+    for (std::size_t k = 0; k < 3; ++k) triangle_of_vertex_[entry->before.vertex[k]()] = entry->vertex_triangle[k];
+  }
+  // Neighbours of touched triangles were re-linked without being touched themselves.
+  for (const auto& entry : log_.touched)
+    for (int k = 0; k < 3 && entry.before.alive(); ++k)
+      if (const HalfEdge o = entry.before.opposite[static_cast<std::size_t>(k)]; o.valid())
+        at(triangle_of(o)).opposite[corner(o)] = half_edge(entry.slot, k);
+  triangles_.resize(log_.triangles_before);
+  rest_.resize(log_.vertices_before), triangle_of_vertex_.resize(log_.vertices_before);
+  position_.resize(log_.deformed_before), vertex_of_deformed_.resize(log_.deformed_before);
+  freed_triangles_.clear(), freed_vertices_.clear(), freed_deformed_.clear();
+  work_.pending.clear();
+  log_.clear();
+}
+
+// --- slots
+// -------------------------------------------------------------------------------------------------------------
+
+TriangleIndex Sheet::new_triangle() {
+  if (free_triangles_.empty()) {
+    triangles_.emplace_back();
+    return TriangleIndex(triangles_.size() - 1);
+  }
+  const TriangleIndex t = free_triangles_.back();
+  free_triangles_.pop_back();
+  touch(t);
+  return t;
+}
+
+VertexIndex Sheet::new_rest_vertex(Point2 p) {
+  VertexIndex v(rest_.size());
+  if (free_vertices_.empty()) {
+    rest_.push_back(p), triangle_of_vertex_.emplace_back();
+  } else {
+    v = free_vertices_.back();
+    free_vertices_.pop_back();
+    rest_[v()] = p;
+  }
+  log_.new_vertices.push_back(v);
+  if (v() >= work_.pending_of.size()) work_.pending_of.resize(std::max(rest_.capacity(), v() + 1));
+  work_.pending_of[v()] = static_cast<std::uint32_t>(work_.pending.size());
+  return v;
+}
+
+DeformedIndex Sheet::new_deformed(VertexIndex v, const EditLog::Ancestry& from) {
+  Point3 x;
+  for (std::size_t i = 0; i < 3 && from.parents[i].valid(); ++i) x = x + from.weights[i] * position(from.parents[i]);
+  DeformedIndex d(position_.size());
+  if (free_deformed_.empty()) {
+    position_.push_back(x), vertex_of_deformed_.push_back(v);
+  } else {
+    d = free_deformed_.back();
+    free_deformed_.pop_back();
+    position_[d()] = x, vertex_of_deformed_[d()] = v;
+  }
+  log_.new_deformed.push_back(d);
+  log_.ancestry.push_back({d, from.parents, from.weights});
+  return d;
+}
+
+DeformedIndex Sheet::copy_deformed(DeformedIndex d) {
+  return new_deformed(rest_vertex(d), {{}, {d, {}, {}}, {1, 0, 0}});
+}
+
+void Sheet::reserve(std::size_t triangles, std::size_t vertices, std::size_t deformed) {
+  triangles_.reserve(triangles);
+  rest_.reserve(vertices), triangle_of_vertex_.reserve(vertices);
+  position_.reserve(deformed), vertex_of_deformed_.reserve(deformed);
+}
+
+// --- new vertices
+// ------------------------------------------------------------------------------------------------------
+
+VertexIndex Sheet::new_vertex(HalfEdge h, double lambda, Point2 p) {
+  auto on_side = [&](HalfEdge side, double fraction, VertexIndex v) {
+    const auto& d = triangle(triangle_of(side)).deformed;
+    const auto k = corner(side);
+    return new_deformed(v, {{}, {d[k], d[k == 2 ? 0 : k + 1], {}}, {1 - fraction, fraction, 0}});
+  };
+  const VertexIndex v = new_rest_vertex(p);
+  Work::Pending pending{v, triangle_of(h), {}, on_side(h, lambda, v), {}};
+  if (mark(h) == EdgeMark::incision) {
+    pending.right = triangle_of(opposite(h));
+    pending.at_right = on_side(opposite(h), 1 - lambda, v);
+  }
+  work_.pending.push_back(pending);
+  return v;
+}
+
+VertexIndex Sheet::new_vertex(TriangleIndex t, Point2 p) {
+  const VertexIndex v = new_rest_vertex(p);
+  work_.pending.push_back({v, t, {}, new_deformed(v, {{}, triangle(t).deformed, barycentric(corners(t), p)}), {}});
+  return v;
+}
+
+// --- replacing a cavity
+// ------------------------------------------------------------------------------------------------
+
+/// The deformed vertex, on the side of triangle `parent`, of a vertex made since the last replace_cavity().
+DeformedIndex Sheet::pending_deformed(VertexIndex v, TriangleIndex parent) const {
+  const auto i = work_.pending_of[v()];
+  if (i >= work_.pending.size() || work_.pending[i].vertex != v) return {};
+  const auto& made = work_.pending[i];
+  if (!made.right.valid() || parent == made.left) return made.at_left;
+  return parent == made.right ? made.at_right : DeformedIndex();
+}
+
+/// Makes h and o neighbours. What o is marked with counts.
+void Sheet::link(HalfEdge h, HalfEdge o) {
+  Triangle &left = at(triangle_of(h)), &right = at(triangle_of(o));
+  left.opposite[corner(h)] = o, right.opposite[corner(o)] = h;
+  const EdgeMark mark = left.mark[corner(h)] = right.mark[corner(o)];
+  if (mark == EdgeMark::path) put_on_path(origin(h)), put_on_path(target(h));
+}
+
+void Sheet::link_by_vertices(HalfEdge h) {
+  if (const HalfEdge o = work_.edges.pair_or_insert(origin(h), target(h), h); o.valid()) link(h, o);
+}
+
+void Sheet::put_on_path(VertexIndex v) {
+  if (v() >= work_.on_path_in.size()) work_.on_path_in.resize(std::max(rest_.capacity(), v() + 1));
+  if (std::exchange(work_.on_path_in[v()], work_.epoch) != work_.epoch) log_.path_vertices.push_back(v);
+}
+
+/// Gives the corner at the origin of `spoke` the deformed vertex that others of its fan have.
+void Sheet::inherit_round(HalfEdge spoke) {
+  const auto known = [&](HalfEdge h) { return triangle(triangle_of(h)).deformed[corner(h)]; };
+  DeformedIndex d;
+  for (HalfEdge h = spoke; h.valid() && !d.valid();) {
+    if (mark(previous(h)) == EdgeMark::incision) break;
+    h = turn_left(h);
+    if (h == spoke) break;
+    if (h.valid()) d = known(h);
+  }
+  for (HalfEdge h = spoke; h.valid() && !d.valid();) {
+    if (mark(h) == EdgeMark::incision) break;
+    h = turn_right(h);
+    if (h == spoke) break;
+    if (h.valid()) d = known(h);
+  }
+  // All triangles at the vertex were replaced: it has one fan, and any of the old ones knows.
+  for (const Triangle& t : work_.old)
+    for (std::size_t k = 0; k < 3 && !d.valid(); ++k)
+      if (t.vertex[k] == origin(spoke)) d = t.deformed[k];
+  at(triangle_of(spoke)).deformed[corner(spoke)] = d;
+}
+
+/// Fills a slot, with what its parent knows: deformed vertices, and neighbours across edges that stay as they were.
+void Sheet::add_triangle(TriangleIndex slot, const NewTriangle& made, std::span<const TriangleIndex> removed) {
+  const Triangle* old = made.parent >= 0 ? &work_.old[static_cast<std::size_t>(made.parent)] : nullptr;
+  const TriangleIndex parent = old ? removed[static_cast<std::size_t>(made.parent)] : TriangleIndex();
+  Triangle& t = at(slot);
+  t.vertex = made.vertex, t.mark = made.mark, t.opposite = {};
+  std::array<int, 3> corner_of_parent{-1, -1, -1};
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t j = 0; old && j < 3; ++j)
+      if (old->vertex[j] == t.vertex[k]) corner_of_parent[k] = static_cast<int>(j);
+    t.deformed[k] = corner_of_parent[k] >= 0 ? old->deformed[static_cast<std::size_t>(corner_of_parent[k])]
+                                             : pending_deformed(t.vertex[k], parent);
+    if (!t.deformed[k].valid()) work_.unassigned.push_back(half_edge(slot, static_cast<int>(k)));
+  }
+  for (int k = 0; k < 3; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const HalfEdge h = half_edge(slot, k), across = made.across[i];
+    const int from = corner_of_parent[i], to = corner_of_parent[static_cast<std::size_t>(next_corner(k))];
+    if (across.valid()) {  // linked by whichever of the two comes second
+      const TriangleIndex other = work_.slot[triangle_of(across)()];
+      if (triangle_of(across)() < work_.added) link(h, half_edge(other, corner_of(across)));
+    } else if (from >= 0 && to == next_corner(from)) {
+      const HalfEdge o = old->opposite[static_cast<std::size_t>(from)];
+      if (!o.valid()) continue;
+      if (was_removed(o))
+        link_by_vertices(h);
+      else
+        link(h, o);
+    } else {
+      link_by_vertices(h);
+    }
+  }
+  ++work_.added;
+}
+
+void Sheet::replace_cavity(std::span<const TriangleIndex> removed, std::span<const NewTriangle> added) {
+  auto& old = work_.old;
+  auto& slot = work_.slot;
+  auto& claimed = work_.claimed;
+  old.clear(), slot.resize(added.size()), work_.unassigned.clear(), claimed.assign(removed.size(), 0);
+  work_.edges.reset(3 * (removed.size() + added.size()));
+  work_.added = 0;
+  if (work_.removed_in.size() < triangles_.size()) work_.removed_in.resize(triangles_.capacity());
+  ++work_.call;
+  for (auto t : removed) {
+    touch(t);
+    old.push_back(triangle(t));
+    at(t).vertex[0] = {};
+    work_.removed_in[t()] = work_.call;
+  }
+  for (const Triangle& t : old)  // neighbours outside lose their opposite; those that stay unlinked are looked up below
+    for (const HalfEdge o : t.opposite)
+      if (o.valid() && !was_removed(o)) at(triangle_of(o)).opposite[corner(o)] = {};
+
+  // First children take their parents' slots, others what is left of the removed ones, then new ones.
+  std::size_t unclaimed = 0;
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    const int p = added[i].parent;
+    const bool first = p >= 0 && !claimed[static_cast<std::size_t>(p)];
+    slot[i] = first ? removed[static_cast<std::size_t>(p)] : TriangleIndex();
+    if (first) claimed[static_cast<std::size_t>(p)] = 1;
+  }
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    while (!slot[i].valid() && unclaimed < removed.size())
+      if (const std::size_t j = unclaimed++; !claimed[j]) slot[i] = removed[j], claimed[j] = 1;
+    if (!slot[i].valid()) slot[i] = new_triangle();
+  }
+  for (std::size_t i = 0; i < added.size(); ++i) add_triangle(slot[i], added[i], removed);
+  for (std::size_t j = 0; j < removed.size(); ++j)
+    if (!claimed[j]) freed_triangles_.push_back(removed[j]);
+  for (const Triangle& t : old)
+    for (const HalfEdge o : t.opposite)
+      if (o.valid() && !was_removed(o) && !opposite(o).valid()) link_by_vertices(o);
+
+  for (auto t : slot)
+    for (auto v : triangle(t).vertex) triangle_of_vertex_[v()] = t;
+  for (auto spoke : work_.unassigned) inherit_round(spoke);
+  work_.pending.clear();
+}
+
+// --- editing calls made of it
+// ------------------------------------------------------------------------------------------
+
+VertexIndex Sheet::split_edge(HalfEdge h, double lambda, Point2 p) {
+  const HalfEdge o = opposite(h);
+  const EdgeMark m = mark(h);
+  const VertexIndex a = origin(h), b = target(h), c = origin(previous(h));
+  const VertexIndex v = new_vertex(h, lambda, p);
+  const auto none = EdgeMark::none;
+  if (!o.valid()) {
+    const NewTriangle halves[] = {{{a, v, c}, 0, {}}, {{v, b, c}, 0, {}}};
+    replace_cavity(std::array{triangle_of(h)}, halves);
+    return v;
+  }
+  const VertexIndex d = origin(previous(o));
+  const NewTriangle quarters[] = {{{a, v, c}, 0, {m, none, none}},
+                                  {{v, b, c}, 0, {m, none, none}},
+                                  {{b, v, d}, 1, {m, none, none}},
+                                  {{v, a, d}, 1, {m, none, none}}};
+  replace_cavity(std::array{triangle_of(h), triangle_of(o)}, quarters);
+  return v;
+}
+
+VertexIndex Sheet::split_triangle(TriangleIndex t, Point2 p) {
+  const auto [a, b, c] = triangle(t).vertex;
+  const VertexIndex v = new_vertex(t, p);
+  const NewTriangle thirds[] = {{{a, b, v}, 0, {}}, {{b, c, v}, 0, {}}, {{c, a, v}, 0, {}}};
+  replace_cavity(std::array{t}, thirds);
+  return v;
+}
+
+bool Sheet::flip(HalfEdge h) {
+  const HalfEdge o = opposite(h);
+  if (!o.valid() || mark(h) != EdgeMark::none) return false;
+  const VertexIndex a = origin(h), b = target(h), c = origin(previous(h)), d = origin(previous(o));
+  if (orientation(rest(d), rest(b), rest(c)) <= 0 || orientation(rest(a), rest(d), rest(c)) <= 0) return false;
+  const NewTriangle turned[] = {{{a, d, c}, 0, {}}, {{d, b, c}, 1, {}}};
+  replace_cavity(std::array{triangle_of(h), triangle_of(o)}, turned);
+  return true;
+}
+
+bool Sheet::move(VertexIndex v, Point2 to) {
+  const HalfEdge first = first_spoke(v);
+  HalfEdge h = first;
+  do {
+    if (orientation(to, rest(target(h)), rest(origin(previous(h)))) <= 0) return false;
+    h = turn_left(h);
+  } while (h.valid() && h != first);
+  // Each fan's deformed vertex follows the fan's own old map: interpolated in the triangle that holds the new place, or
+  // comes nearest to holding it.
+  struct Carried {
+    EditLog::Ancestry from;
+    double depth;  // smallest barycentric coordinate: positive inside
+  };
+  std::vector<Carried> carried;
+  do {
+    const Triangle& t = triangle(triangle_of(h = h.valid() ? h : first));
+    touch(triangle_of(h));
+    const DeformedIndex d = t.deformed[corner(h)];
+    const auto w = barycentric(corners(triangle_of(h)), to);
+    const double depth = std::min({w[0], w[1], w[2]});
+    auto known = std::find_if(carried.begin(), carried.end(), [&](const Carried& c) { return c.from.vertex == d; });
+    if (known == carried.end())
+      carried.push_back({{d, t.deformed, w}, depth});
+    else if (depth > known->depth)
+      *known = {{d, t.deformed, w}, depth};
+    h = turn_left(h);
+  } while (h.valid() && h != first);
+  log_.moved.push_back({v, rest(v)});
+  rest_[v()] = to;
+  for (const auto& [from, depth] : carried) {
+    Point3 x;
+    for (std::size_t i = 0; i < 3; ++i) x = x + from.weights[i] * position(from.parents[i]);
+    log_.displaced.push_back({from.vertex, position(from.vertex)});
+    log_.ancestry.push_back(from);
+    position_[from.vertex()] = x;
+  }
+  return true;
+}
+
+void Sheet::free_vertex(VertexIndex v) {
+  triangle_of_vertex_[v()] = {};
+  freed_vertices_.push_back(v);
+}
+
+bool Sheet::collapse(HalfEdge h) {
+  const VertexIndex a = origin(h), b = target(h);
+  std::vector<TriangleIndex> star;
+  std::vector<NewTriangle> rest_of_star;
+  HalfEdge spoke = h;
+  do {
+    if (on_border(spoke) || mark(spoke) != EdgeMark::none) return false;
+    const VertexIndex c = target(spoke), d = origin(previous(spoke));
+    if (c != b && d != b) {
+      if (orientation(rest(b), rest(c), rest(d)) <= 0) return false;
+      rest_of_star.push_back({{b, c, d}, static_cast<int>(star.size()), {}});
+    }
+    star.push_back(triangle_of(spoke));
+    spoke = turn_left(spoke);
+  } while (spoke != h);
+  const DeformedIndex d = triangle(triangle_of(h)).deformed[corner(h)];
+  replace_cavity(star, rest_of_star);
+  free_vertex(a);
+  vertex_of_deformed_[d()] = {};
+  freed_deformed_.push_back(d);
+  return true;
+}
+
+// --- small changes
+// -----------------------------------------------------------------------------------------------------
+
+void Sheet::set_mark(HalfEdge h, EdgeMark mark) {
+  const HalfEdge o = opposite(h);
+  if (!o.valid() || this->mark(h) == mark) return;
+  touch(triangle_of(h)), touch(triangle_of(o));
+  at(triangle_of(h)).mark[corner(h)] = mark;
+  at(triangle_of(o)).mark[corner(o)] = mark;
+  if (mark != EdgeMark::path) return;
+  put_on_path(origin(h)), put_on_path(target(h));
+}
+
+void Sheet::set_deformed(TriangleIndex t, int corner, DeformedIndex d) {
+  touch(t);
+  at(t).deformed[static_cast<std::size_t>(corner)] = d;
+}
+
+}  // namespace cutbench

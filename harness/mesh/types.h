@@ -1,0 +1,58 @@
+// Points and indices. Every index is its own type, so that a triangle can't be used where a vertex is meant.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+
+namespace cutbench {
+
+/// A 32-bit index into one particular array; negative means "none".
+template <class Tag>
+struct Index {
+  std::int32_t value = -1;
+
+  constexpr Index() = default;
+  constexpr explicit Index(std::size_t i) : value(static_cast<std::int32_t>(i)) {}
+  constexpr bool valid() const { return value >= 0; }
+  constexpr std::size_t operator()() const { return static_cast<std::size_t>(value); }
+  constexpr auto operator<=>(const Index&) const = default;
+};
+
+using VertexIndex = Index<struct VertexTag>;      ///< vertex of the (welded) rest mesh
+using DeformedIndex = Index<struct DeformedTag>;  ///< vertex of the opened, deformed sheet
+using TriangleIndex = Index<struct TriangleTag>;  ///< slot in the triangle array
+
+/// Half-edge k of triangle t runs from corner k to corner k+1 (mod 3), counter-clockwise. It is 4 t + k: both parts
+/// come back with a shift and a mask, and every fourth number is unused.
+using HalfEdge = Index<struct HalfEdgeTag>;
+
+constexpr HalfEdge half_edge(TriangleIndex t, int k) { return HalfEdge(4 * t() + static_cast<std::size_t>(k)); }
+constexpr TriangleIndex triangle_of(HalfEdge h) { return TriangleIndex(h() >> 2); }
+constexpr int corner_of(HalfEdge h) { return static_cast<int>(h() & 3); }
+constexpr int next_corner(int k) { return k == 2 ? 0 : k + 1; }
+constexpr int previous_corner(int k) { return k == 0 ? 2 : k - 1; }
+
+/// A position in rest space: the plane of the undeformed sheet.
+struct Point2 {
+  double x = 0, y = 0;
+  constexpr bool operator==(const Point2&) const = default;
+};
+
+/// A position of the deformed sheet.
+struct Point3 {
+  double x = 0, y = 0, z = 0;
+  constexpr bool operator==(const Point3&) const = default;
+};
+
+constexpr Point2 operator+(Point2 a, Point2 b) { return {a.x + b.x, a.y + b.y}; }
+constexpr Point2 operator-(Point2 a, Point2 b) { return {a.x - b.x, a.y - b.y}; }
+constexpr Point2 operator*(double s, Point2 a) { return {s * a.x, s * a.y}; }
+constexpr double dot(Point2 a, Point2 b) { return a.x * b.x + a.y * b.y; }
+constexpr double cross(Point2 a, Point2 b) { return a.x * b.y - a.y * b.x; }
+constexpr double squared_length(Point2 a) { return dot(a, a); }
+
+constexpr Point3 operator+(Point3 a, Point3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+constexpr Point3 operator*(double s, Point3 a) { return {s * a.x, s * a.y, s * a.z}; }
+
+}  // namespace cutbench

@@ -1,0 +1,136 @@
+#include <charconv>
+#include <fstream>
+#include <map>
+#include <numeric>
+#include <string_view>
+
+#include "harness/mesh/mesh_io.h"
+#include "harness/mesh/quality.h"
+
+namespace cutbench {
+
+namespace {
+
+/// Text that grows: numbers in the shortest form that reads back bit-equal, whatever the locale.
+class Text {
+ public:
+  Text& operator<<(std::string_view s) {
+    text_ += s;
+    return *this;
+  }
+  Text& operator<<(char c) {
+    text_ += c;
+    return *this;
+  }
+  template <class Number>
+  requires std::is_arithmetic_v<Number> Text& operator<<(Number x) {
+    char digits[32];
+    text_.append(digits, std::to_chars(digits, digits + sizeof digits, x).ptr);
+    return *this;
+  }
+  Text& operator<<(const Point2& p) { return *this << p.x << ' ' << p.y; }
+  Text& operator<<(const Point3& p) { return *this << p.x << ' ' << p.y << ' ' << p.z; }
+  const std::string& str() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+std::string obj(const MeshData& mesh) {
+  Text text;
+  for (const Point3& p : mesh.deformed) text << "v " << p << '\n';
+  for (const Point2& p : mesh.rest) text << "vt " << p << '\n';
+  for (const auto& triangle : mesh.triangles) {
+    text << 'f';
+    for (std::int32_t v : triangle) text << ' ' << v + 1 << '/' << v + 1;
+    text << '\n';
+  }
+  return text.str();
+}
+
+std::string off(const MeshData& mesh) {
+  Text text;
+  text << "OFF\n" << mesh.deformed.size() << ' ' << mesh.triangles.size() << " 0\n";
+  for (const Point3& p : mesh.deformed) text << p << '\n';
+  for (const auto& [a, b, c] : mesh.triangles) text << "3 " << a << ' ' << b << ' ' << c << '\n';
+  return text.str();
+}
+
+/// Per triangle, the number of its piece: triangles that share a vertex are of one piece.
+std::vector<std::int32_t> pieces(const MeshData& mesh) {
+  std::vector<std::size_t> parent(mesh.rest.size());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  auto find = [&parent](std::int32_t vertex) {
+    auto v = static_cast<std::size_t>(vertex);
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const auto& [a, b, c] : mesh.triangles) {
+    parent[find(b)] = find(a);
+    parent[find(c)] = find(a);
+  }
+  std::map<std::size_t, std::int32_t> number;
+  std::vector<std::int32_t> result;
+  for (const auto& triangle : mesh.triangles)
+    result.push_back(number.try_emplace(find(triangle[0]), static_cast<std::int32_t>(number.size())).first->second);
+  return result;
+}
+
+double rest_aspect_ratio(const MeshData& mesh, const std::array<std::int32_t, 3>& triangle) {
+  auto rest = [&](std::int32_t v) { return mesh.rest[static_cast<std::size_t>(v)]; };
+  return aspect_ratio(rest(triangle[0]), rest(triangle[1]), rest(triangle[2]));
+}
+
+std::string vtu(const MeshData& mesh) {
+  Text text;
+  auto array = [&text](std::string_view type, std::string_view name, int components, const auto& values, auto put) {
+    text << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\"" << components
+         << "\" format=\"ascii\">\n";
+    for (const auto& value : values) put(value), text << '\n';
+    text << "</DataArray>\n";
+  };
+  std::vector<std::size_t> ends(mesh.triangles.size());
+  for (std::size_t t = 0; t < ends.size(); ++t) ends[t] = 3 * (t + 1);
+
+  text << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+       << "<UnstructuredGrid>\n<Piece NumberOfPoints=\"" << mesh.deformed.size() << "\" NumberOfCells=\""
+       << mesh.triangles.size() << "\">\n<Points>\n";
+  array("Float64", "deformed", 3, mesh.deformed, [&](const Point3& p) { text << p; });
+  text << "</Points>\n<Cells>\n";
+  array("Int32", "connectivity", 1, mesh.triangles, [&](const auto& t) { text << t[0] << ' ' << t[1] << ' ' << t[2]; });
+  array("Int64", "offsets", 1, ends, [&](std::size_t end) { text << end; });
+  array("UInt8", "types", 1, mesh.triangles, [&](const auto&) { text << 5; });  // VTK_TRIANGLE
+  text << "</Cells>\n<PointData>\n";
+  array("Float64", "rest", 3, mesh.rest, [&](const Point2& p) { text << p << " 0"; });
+  text << "</PointData>\n<CellData>\n";
+  array("Int32", "piece", 1, pieces(mesh), [&](std::int32_t piece) { text << piece; });
+  array("Float64", "aspect_ratio", 1, mesh.triangles, [&](const auto& t) { text << rest_aspect_ratio(mesh, t); });
+  text << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  return text.str();
+}
+
+void write_whole(const std::string& text, const std::filesystem::path& path) {
+  std::filesystem::path part = path;
+  part += ".part";
+  std::ofstream out(part, std::ios::binary);
+  out << text;
+  out.close();
+  std::error_code error;
+  if (out) std::filesystem::rename(part, path, error);
+  if (out && !error) return;
+  std::error_code ignored;
+  std::filesystem::remove(part, ignored);
+  throw InputError(path.string() + ": can't be written; check that the folder exists, is writable and has room");
+}
+
+}  // namespace
+
+void write_mesh(const MeshData& mesh, const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  if (extension == ".obj") return write_whole(obj(mesh), path);
+  if (extension == ".off") return write_whole(off(mesh), path);
+  if (extension == ".vtu") return write_whole(vtu(mesh), path);
+  throw InputError(path.string() + ": unknown mesh format; use .obj, .off or .vtu");
+}
+
+}  // namespace cutbench

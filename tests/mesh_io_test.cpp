@@ -1,0 +1,299 @@
+#include "harness/mesh/mesh_io.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "harness/mesh/families.h"
+#include "tests/mesh_checks.h"
+
+namespace cutbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path cases = CUTBENCH_TEST_CASES;
+
+/// A new folder for each test, gone at its end.
+class MeshIo : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "cutbench_XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path file(const std::string& name, const std::string& content) const {
+    std::ofstream(folder_ / name, std::ios::binary) << content;
+    return folder_ / name;
+  }
+  MeshData read(const std::string& name, const std::string& content) const { return read_mesh(file(name, content)); }
+
+  fs::path folder_;
+};
+
+TEST(MeshFiles, GoodMeshesReadWithoutANote) {
+  const std::map<std::string, std::pair<std::size_t, std::size_t>> expected{
+      {"skfem_annulus.off", {98, 60}},     {"skfem_square.off", {184, 109}},  {"mfem_square-disc.off", {154, 101}},
+      {"mfem_beam-tri.off", {16, 18}},     {"mfem_ref-triangle.off", {1, 3}}, {"libigl_grid.off", {256, 145}},
+      {"pbd_plane_30x30.off", {1800, 961}}};
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(cases / "meshes")) {
+    SCOPED_TRACE(entry.path());
+    const auto [triangles, vertices] = expected.at(entry.path().filename().string());
+    const MeshData mesh = read_mesh(entry.path());
+    EXPECT_EQ(mesh.triangles.size(), triangles);
+    EXPECT_EQ(mesh.rest.size(), vertices);
+    EXPECT_EQ(joined_notes(mesh), "");
+    expect_sound(mesh);
+    ++files;
+  }
+  EXPECT_EQ(files, expected.size());
+}
+
+TEST(MeshFiles, BadMeshesAreRefusedOrRepaired) {
+  struct Outcome {
+    bool refused;
+    std::string message;
+  };
+  const std::map<std::string, Outcome> expected{
+      {"cgal_degtri_sliding.off", {true, "triangle 3 of 8 has zero area in rest space"}},
+      {"cgal_corner_with_sharp_edge.off", {true, "no rest positions: neither x, y nor z is exactly constant"}},
+      {"cgal_non_manifold_face_graph_quads.off", {true, "face 2 of 11 has 4 corners"}},
+      {"blender_nonmanifold_edge_3tri.off", {true, "three triangles meet at the edge (0, 0)-(2, 0)"}},
+      {"blender_duplicate_triangle.off", {true, "triangle 2 of 2 has the same rest corners as triangle 1"}},
+      {"skfem_ex04.off", {false, "clockwise triangles reversed: 171 of 390|"}},
+      {"skfem_ex35_2p5mm.off", {false, "clockwise triangles reversed: 612 of 1296|"}}};
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(cases / "bad_meshes")) {
+    SCOPED_TRACE(entry.path());
+    const Outcome outcome = expected.at(entry.path().filename().string());
+    ++files;
+    if (outcome.refused) {
+      expect_refused([&] { read_mesh(entry.path()); }, entry.path().filename().string() + ": " + outcome.message);
+    } else {
+      const MeshData mesh = read_mesh(entry.path());
+      EXPECT_EQ(joined_notes(mesh), entry.path().filename().string() + ": " + outcome.message);
+      expect_sound(mesh);
+    }
+  }
+  EXPECT_EQ(files, expected.size());
+}
+
+const std::string two_triangles = "v 0 0 1\nv 1 0 2\nv 1 1 3\nv 0 1 4\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+
+TEST_F(MeshIo, ObjCornersInAllNotations) {
+  const MeshData expected = read("a.obj", two_triangles + "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n");
+  EXPECT_EQ(expected.deformed[3], (Point3{0, 1, 4}));
+  EXPECT_EQ(expected.rest[3], (Point2{0, 1}));
+  EXPECT_EQ(joined_notes(expected), "");
+  expect_bit_equal(expected, read("b.obj", two_triangles + "f 1/1/7 2/2/8 3/3/9\nf 1/1/7 3/3/9 4/4/1\n"));
+  expect_bit_equal(expected, read("c.OBJ", two_triangles + "f -4/-4 -3/-3 -2/-2\nf -4/-4 -2/-2 -1/-1\n"));
+  expect_bit_equal(expected,
+                   read("d.obj", "# sheet\r\nmtllib a.mtl\r\no a\r\ng b\r\ns off\r\nusemtl c\r\nvn 0 0 1\r\n\r\n" +
+                                     two_triangles + "f 1/1 2/2 3/3 # first\r\n\tf 1/1 3/3  4/4 \r\n"));
+  expect_bit_equal(expected, read("e.obj", "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n" + two_triangles));
+}
+
+TEST_F(MeshIo, ObjWithoutVtTakesThePlane) {
+  const std::string faces = "f 1 2 3\nf 1//1 3//1 4//1\n";
+  const MeshData z = read("z.obj", "v 0 0 7\nv 2 0 7 1.0\nv 2 1 7 0.5 0.5 0.5\nv 0 1 +7e0\n" + faces);
+  EXPECT_EQ(z.rest[2], (Point2{2, 1}));
+  const MeshData y = read("y.obj", "v 0 7 0\nv 0 7 2\nv 1 7 2\nv 1 7 0\n" + faces);
+  EXPECT_EQ(y.rest, z.rest);
+  const MeshData x = read("x.obj", "v 7 0 0\nv 7 2 0\nv 7 2 1\nv 7 0 1\n" + faces);
+  EXPECT_EQ(x.rest, z.rest);
+  for (const MeshData& mesh : {x, y, z}) EXPECT_EQ(joined_notes(mesh), "");
+  expect_refused([&] { read("curved.obj", "v 0 0 0\nv 1 0 1e-300\nv 1 1 0\nv 0 1 1\n" + faces); }, "no rest positions");
+}
+
+TEST_F(MeshIo, SeveralVtOfOneVAreSeveralVertices) {
+  // A strip of two triangles, cut open in rest space: v 1 and v 3 lie at two places each.
+  const MeshData mesh =
+      read("seam.obj", two_triangles + "vt 5 0\nvt 6 1\nvt 5 1\nvt 0 0\nf 1/1 2/2 3/3\nf 1/5 3/6 4/7\n");
+  EXPECT_EQ(mesh.rest.size(), 6u);
+  EXPECT_EQ(mesh.deformed[4], mesh.deformed[0]);
+  EXPECT_EQ(mesh.rest[4], (Point2{5, 0}));
+  EXPECT_EQ(joined_notes(mesh), "seam.obj: vertices added where one v has several vt: 2|");
+  expect_sound(mesh);
+  // The same place under two numbers is no seam.
+  EXPECT_EQ(read("same.obj", two_triangles + "vt 0 0\nf 1/1 2/2 3/3\nf 1/5 3/3 4/4\n").rest.size(), 4u);
+}
+
+TEST_F(MeshIo, BadObjLinesAreNamed) {
+  const std::vector<std::pair<std::string, std::string>> table{
+      {"v 0 0\n", "line 1: a number is missing"},
+      {"v 0 0 a\n", "line 1: 'a' is not a finite number"},
+      {"v 0 0 1,5\n", "'1,5' is not a finite number"},
+      {"v 0 0 nan\n", "'nan' is not a finite number"},
+      {"v 0 0 -inf\n", "'-inf' is not a finite number"},
+      {"v 0 0 1e999\n", "'1e999' is not a finite number"},
+      {"vt 0\n", "line 1: a number is missing"},
+      {two_triangles + "f 1 2\n", "line 9: a face with 2 corners"},
+      {two_triangles + "f 1 2 3 4\n", "line 9: a face with 4 corners; only triangles are read: triangulate the mesh"},
+      {two_triangles + "f 1 2 3 4 1\n", "a face with 5 corners"},
+      {two_triangles + "f 0 1 2\n", "'0' is not a face corner"},
+      {two_triangles + "f 1 2 x\n", "'x' is not a face corner"},
+      {two_triangles + "f 1 2 3.5\n", "'3.5' is not a face corner"},
+      {two_triangles + "f 1 2 99999999999\n", "'99999999999' is not a face corner"},
+      {two_triangles + "f 1 2 -5\n", "'-5' is not a face corner"},
+      {two_triangles + "f 1/1 2/2 3/y\n", "'3/y' is not a face corner"},
+      {two_triangles + "f 1 2 5\n", "line 9: a corner beyond the 4 v and 4 vt"},
+      {two_triangles + "f 1/1 2/2 3/5\n", "line 9: a corner beyond the 4 v and 4 vt"},
+      {two_triangles + "f 1/1 2/2 3\n", "line 9: a corner without vt in a mesh with vt"},
+      {std::string("v 0 0 0\n\0", 9), "not a text file"},
+      {two_triangles, "no triangles"},
+      {"", "no triangles"},
+      {two_triangles.substr(0, 20) + "f 1 2 3\n", "bad.obj: "}};
+  for (const auto& [content, message] : table) {
+    SCOPED_TRACE(content);
+    expect_refused([&, text = content] { read("bad.obj", text); }, "bad.obj: ");
+    expect_refused([&, text = content] { read("bad.obj", text); }, message);
+  }
+}
+
+TEST_F(MeshIo, BadPlacesAreNamed) {
+  expect_refused([&] { read_mesh(folder_ / "none.obj"); }, "none.obj: no such file");
+  fs::create_directory(folder_ / "folder.obj");
+  expect_refused([&] { read_mesh(folder_ / "folder.obj"); }, "folder.obj: no such file, or it can't be read");
+  expect_refused([&] { read("a.stl", ""); }, "a.stl: unknown mesh format; use .obj, .off or .ply");
+  expect_refused([&] { read("a", ""); }, "a: unknown mesh format; use .obj, .off or .ply");
+}
+
+TEST_F(MeshIo, BadOffFilesAreRefused) {
+  const std::string good = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  EXPECT_EQ(read("good.off", good).triangles.size(), 1u);
+  const std::string broken = "not a complete OFF file";
+  for (const char* content :
+       {"", "OFF", "OFF\n3 1 0\n0 0 0\n1 0 0\n", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n",
+        "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n",
+        "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n",
+        "OFF\n3 1 0\n0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n", "OFF\n3 1 0\n0 0 0\n1 0 zero\n0 1 0\n3 0 1 2\n",
+        "OFF\n2000000000 1 0\n0 0 0\n", "OFF\n-3 1 0\n0 0 0\n", "OFF\n3 2000000000 0\n0 0 0\n",
+        "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n1e18 0 1 2\n", "v 0 0 0\n",
+        "\x7f"
+        "ELF\x02\x01"}) {
+    SCOPED_TRACE(content);
+    expect_refused([&] { read("bad.off", content); }, "bad.off: " + broken);
+  }
+  expect_refused([&] { read("bad.off", "OFF\n0 0 0\n"); }, "bad.off: no triangles");
+  expect_refused([&] { read("bad.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1e61 0\n3 0 1 2\n"); },
+                 "vertex 3 of 3 has a coordinate that is not finite or beyond 1e60");
+}
+
+TEST_F(MeshIo, Ply) {
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
+      "property double z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  const MeshData mesh = read("a.ply", head + "0 0 0\n1 0 0\n0 0.1 0\n3 0 1 2\n");
+  EXPECT_EQ(mesh.triangles.size(), 1u);
+  EXPECT_EQ(mesh.rest[2], (Point2{0, 0.1}));
+
+  std::string binary = head;
+  binary.replace(binary.find("ascii"), 5, "binary_little_endian");
+  const double coordinates[] = {0, 0, 0, 1, 0, 0, 0, 0.1, 0};
+  binary.append(reinterpret_cast<const char*>(coordinates), sizeof coordinates);
+  const std::int32_t corners[] = {0, 1, 2};
+  binary += '\3';
+  binary.append(reinterpret_cast<const char*>(corners), sizeof corners);
+  expect_bit_equal(read("b.ply", binary), mesh);
+
+  for (const std::string& content :
+       {std::string(), head + "0 0 0\n1 0 0\n", head + "0 0 0\n1 0 0\n0 x 0\n3 0 1 2\n",
+        head + "0 0 0\n1 0 0\n0 1 0\n3 0 1\n", binary.substr(0, binary.size() - 1), std::string("solid\n")}) {
+    SCOPED_TRACE(content);
+    EXPECT_NE(error_of([&] { read("bad.ply", content); }).find("bad.ply: "), std::string::npos);
+  }
+  expect_refused([&] { read("bad.ply", binary.substr(0, binary.size() - 1)); }, "not a complete PLY file");
+  expect_refused([&] { read("bad.ply", "ply\nformat ascii 1.0\nproperty double x\nend_header\n"); },
+                 "not a complete PLY");
+  expect_refused([&] { read("bad.ply", "ply\nformat ascii 1.0\nelement vertex 0\nend_header\n"); }, "no triangles");
+  expect_refused([&] { read("bad.ply", head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n"); },
+                 "triangle 1 of 1 has a corner beyond the 3 vertices");
+  expect_refused([&] { read("bad.ply", head + "0 0 0\n1 0 0\n0 1 0\n4 0 1 2 1\n"); }, "face 1 of 1 has 4 corners");
+}
+
+/// An opened sheet, bent, with numbers that need all 17 digits.
+MeshData bent_sheet() {
+  MeshData mesh = make_sheet("delaunay", 6);
+  for (std::size_t v = 0; v < mesh.rest.size(); ++v) {
+    const Point2 p = mesh.rest[v];
+    mesh.deformed[v] = {p.x / 3, std::sin(p.y) * 1e-9, std::exp(40 * p.x * p.y)};
+  }
+  mesh.deformed[0].x = -0.0;
+  mesh.deformed[1].x = std::numeric_limits<double>::denorm_min();
+  mesh.deformed[2].x = 1e60;
+  return mesh;
+}
+
+TEST_F(MeshIo, ObjRoundTripIsBitEqual) {
+  const MeshData mesh = bent_sheet();
+  write_mesh(mesh, folder_ / "a.obj");
+  const MeshData back = read_mesh(folder_ / "a.obj");
+  expect_bit_equal(mesh, back);
+  EXPECT_TRUE(back.notes.empty());
+  EXPECT_FALSE(fs::exists(folder_ / "a.obj.part"));
+
+  // The lips of an incision: different vertices at bit-equal rest positions stay apart.
+  MeshData open{{{0, 0}, {1, 0}, {0, 1}, {1, 0}, {1, 1}, {0, 1}},
+                {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, .1}, {1, 1, .1}, {0, 1, .1}},
+                {{0, 1, 2}, {3, 4, 5}},
+                {}};
+  write_mesh(open, folder_ / "a.obj");
+  expect_bit_equal(open, read_mesh(folder_ / "a.obj"));
+}
+
+TEST_F(MeshIo, OffRoundTripOfAFlatSheet) {
+  const MeshData mesh = make_sheet("delaunay", 6);
+  write_mesh(mesh, folder_ / "a.off");
+  expect_bit_equal(mesh, read_mesh(folder_ / "a.off"));
+}
+
+std::string content_of(const fs::path& path) {
+  std::stringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+TEST_F(MeshIo, Vtu) {
+  const MeshData open{{{0, 0}, {1, 0}, {0, 1}, {1, 0}, {1, 1}, {0, 1}},
+                      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, .5}, {1, 1, .5}, {0, 1, .5}},
+                      {{0, 1, 2}, {3, 4, 5}},
+                      {}};
+  write_mesh(open, folder_ / "a.vtu");
+  const std::string text = content_of(folder_ / "a.vtu");
+  for (const char* part : {"NumberOfPoints=\"6\" NumberOfCells=\"2\"",
+                           "Name=\"connectivity\" NumberOfComponents=\"1\" format=\"ascii\">\n0 1 2\n3 4 5\n",
+                           "Name=\"offsets\" NumberOfComponents=\"1\" format=\"ascii\">\n3\n6\n",
+                           "Name=\"types\" NumberOfComponents=\"1\" format=\"ascii\">\n5\n5\n",
+                           "Name=\"rest\" NumberOfComponents=\"3\" format=\"ascii\">\n0 0 0\n1 0 0\n",
+                           "Name=\"piece\" NumberOfComponents=\"1\" format=\"ascii\">\n0\n1\n",
+                           "Name=\"aspect_ratio\" NumberOfComponents=\"1\" format=\"ascii\">\n2\n2\n", "\n1 0 0.5\n"})
+    EXPECT_NE(text.find(part), std::string::npos) << part;
+}
+
+TEST_F(MeshIo, UnwritablePlaces) {
+  const MeshData mesh = make_sheet("grid", 1);
+  expect_refused([&] { write_mesh(mesh, folder_ / "a.ply"); }, "a.ply: unknown mesh format; use .obj, .off or .vtu");
+  expect_refused([&] { write_mesh(mesh, folder_ / "none" / "a.obj"); }, "a.obj: can't be written");
+  fs::create_directories(folder_ / "taken.obj" / "inside");
+  expect_refused([&] { write_mesh(mesh, folder_ / "taken.obj"); }, "taken.obj: can't be written");
+  EXPECT_FALSE(fs::exists(folder_ / "taken.obj.part"));
+  // A full disk: the old file stays.
+  write_mesh(mesh, folder_ / "old.obj");
+  const std::string old = content_of(folder_ / "old.obj");
+  fs::create_symlink("/dev/full", folder_ / "old.obj.part");
+  expect_refused([&] { write_mesh(mesh, folder_ / "old.obj"); }, "old.obj: can't be written");
+  EXPECT_EQ(content_of(folder_ / "old.obj"), old);
+}
+
+}  // namespace
+}  // namespace cutbench
