@@ -1,0 +1,60 @@
+// A cut, in the steps that every method shares: locate, trace, embed, improve, open. The times are taken here, for all
+// methods alike, and a cut that fails leaves the sheet bit-unchanged.
+#pragma once
+
+#include <string>
+
+#include "harness/cut/cutting_method.h"
+#include "harness/cut/path.h"
+#include "harness/cut/trace.h"
+#include "harness/mesh/locator.h"
+
+namespace cutbench {
+
+enum class Status {
+  ok,
+  noop,      ///< nothing to do, the sheet is bit-unchanged
+  deviated,  ///< done, but not the requested topology, by a declared policy
+  refused,   ///< known before the cut, the sheet is bit-unchanged
+  failed,    ///< the sheet is bit-unchanged
+};
+const char* name_of(Status status);
+
+struct CutOptions {
+  // In mean rest edges of the sheet as constructed.
+  double flatten_tolerance = 1e-3;  ///< Bezier to polyline, for tracing only
+  double chord_tolerance = 0.05;  ///< curve points inside triangles become vertices beyond it; infinity: crossings only
+};
+
+/// Microseconds (steady clock) per phase. `trace` includes flattening; `locate` finding the first triangle and keeping
+/// the locator up to date.
+struct PhaseTimes {
+  double locate = 0, trace = 0, embed = 0, improve = 0, open = 0;
+  double total() const { return locate + trace + embed + improve + open; }
+  PhaseTimes& operator+=(const PhaseTimes& o) {
+    locate += o.locate, trace += o.trace, embed += o.embed, improve += o.improve, open += o.open;
+    return *this;
+  }
+};
+
+struct CutOutcome {
+  Status status = Status::ok;
+  std::string verdict = "ok", reason;  ///< of a failure; the reason of a refusal or a noop
+  std::size_t crossed_triangles = 0;   ///< of the mesh before the cut, whose interior the path meets
+  std::size_t path_nodes = 0;          ///< vertices on the path, made or met
+  int recovered_segments = 0;
+  PhaseTimes time_us;
+};
+
+/// Cuts sheets; keeps its working storage, so that a warm cut allocates next to nothing.
+class Cutter {
+ public:
+  /// \pre check_curve(curve); the locator is the sheet's and up to date.
+  CutOutcome cut(Sheet& sheet, Locator& locator, const Curve& curve, CuttingMethod& method, const CutOptions& options);
+
+ private:
+  Tracer tracer_;
+  Polyline polyline_;
+};
+
+}  // namespace cutbench

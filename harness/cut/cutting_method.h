@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// The socket for cutting methods: one class, one required function.
+//
+// The harness traces the path, calls embed() and improve(), opens the incision, takes the times and undoes a cut that
+// failed; a method only changes triangles, through the sheet's editing calls, and holds no timer, counter, log or file.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "harness/cut/subdivision.h"
+#include "harness/mesh/sheet.h"
+
+namespace cutbench {
+
+class CuttingMethod {
+ public:
+  virtual ~CuttingMethod() = default;
+
+  /// A reason, known before the cut, why this method can't cut this sheet: the cut is refused and nothing changed.
+  virtual std::optional<std::string> why_unsupported(const Sheet&) const { return {}; }
+
+  /// Changes the mesh so that every segment of the trace is a chain of edges marked `path`. Sheet vertices made for the
+  /// nodes are entered in them (Subdivision::Node::vertex). Pieces along edges are marked by the harness afterwards.
+  /// Throws CutFailed.
+  virtual void embed(Sheet& sheet, Subdivision& trace) = 0;
+
+  /// Improves the mesh round the embedded path, still closed. Must not flip, move or lose a marked edge.
+  virtual void improve(Sheet&) {}
+
+  /// Path segments that embed() had to recover because its triangulation did not contain them, in the last cut.
+  virtual int recovered_segments() const { return 0; }
+};
+
+/// The one number of a method that may be swept.
+struct Knob {
+  std::string name;  ///< empty: the method has none
+  double value = 0;  ///< default
+  std::string meaning;
+};
+
+/// What a method guarantees for every cut it does not refuse. The tests hold it to that.
+struct Promises {
+  bool exact_incision = false;  ///< opens the traced path itself: no shortcut, no shift
+  bool keeps_area = false;      ///< the rest area is unchanged
+  bool conforming = false;      ///< the result is a conforming triangulation
+  bool keeps_vertices = false;  ///< no vertex of the sheet moves in rest space
+};
+
+/// A row of the table of methods.
+struct MethodRow {
+  std::string name, summary;
+  Knob knob;
+  Promises promises;
+  std::function<std::unique_ptr<CuttingMethod>(double knob)> make;
+};
+
+}  // namespace cutbench

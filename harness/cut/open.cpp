@@ -1,0 +1,60 @@
+#include "harness/cut/open.h"
+
+#include <algorithm>
+
+namespace cutbench {
+
+namespace {
+
+bool separates(const Sheet& sheet, HalfEdge h) { return sheet.on_border(h) || sheet.mark(h) != EdgeMark::none; }
+
+/// A spoke of v that separates, looked for counter-clockwise as far as the border; none where there is none.
+HalfEdge some_separating_spoke(const Sheet& sheet, VertexIndex v) {
+  const TriangleIndex t = sheet.triangle_of_vertex(v);
+  const auto& corner = sheet.triangle(t).vertex;
+  const HalfEdge start = half_edge(t, corner[0] == v ? 0 : corner[1] == v ? 1 : 2);
+  HalfEdge h = start;
+  do {
+    if (separates(sheet, h)) return h;
+    h = sheet.turn_left(h);
+  } while (h.valid() && h != start);
+  return h.valid() ? HalfEdge() : sheet.first_spoke(v);
+}
+
+/// Gives the fans from spoke `first` on deformed vertices of their own; false where that ended at the border and not
+/// back at `first`. `seen` is working storage.
+bool separate_fans(Sheet& sheet, HalfEdge first, std::vector<DeformedIndex>& seen) {
+  seen.clear();
+  bool copied = false;
+  DeformedIndex mine;
+  HalfEdge h = first;
+  do {
+    const TriangleIndex t = triangle_of(h);
+    const auto k = static_cast<std::size_t>(corner_of(h));
+    if (separates(sheet, h)) {  // a fan begins
+      mine = sheet.triangle(t).deformed[k];
+      copied = std::find(seen.begin(), seen.end(), mine) != seen.end();
+      if (copied)
+        mine = sheet.copy_deformed(mine);
+      else
+        seen.push_back(mine);
+      if (sheet.mark(h) == EdgeMark::path) sheet.set_mark(h, EdgeMark::incision);
+    }
+    if (copied) sheet.set_deformed(t, static_cast<int>(k), mine);
+    h = sheet.turn_left(h);
+  } while (h.valid() && h != first);
+  return h.valid();
+}
+
+}  // namespace
+
+void open_path(Sheet& sheet) {
+  std::vector<DeformedIndex> seen;
+  for (auto v : sheet.log().path_vertices) {
+    const HalfEdge spoke = some_separating_spoke(sheet, v);
+    if (!spoke.valid() || separate_fans(sheet, spoke, seen) || sheet.on_border(spoke)) continue;
+    separate_fans(sheet, sheet.first_spoke(v), seen);  // a border vertex: once more, from the border on
+  }
+}
+
+}  // namespace cutbench

@@ -1,0 +1,323 @@
+#include "harness/cut/patch.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "harness/mesh/predicates.h"
+
+namespace cutbench {
+
+namespace {
+
+int orientation(const Patch& patch, int a, int b, int c) {
+  const auto& p = patch.points;
+  return cutbench::orientation(p[static_cast<std::size_t>(a)], p[static_cast<std::size_t>(b)],
+                               p[static_cast<std::size_t>(c)]);
+}
+
+bool is_segment(const Patch& patch, int a, int b) {
+  for (const auto& s : patch.segments)
+    if ((s[0] == a && s[1] == b) || (s[0] == b && s[1] == a)) return true;
+  return false;
+}
+
+/// Mark of edge a -> b of the answer.
+EdgeMark mark_of(const Patch& patch, int a, int b) {
+  const int i = patch.ring_position[static_cast<std::size_t>(a)], j = patch.ring_position[static_cast<std::size_t>(b)];
+  if (i >= 0 && j == (i + 1 == static_cast<int>(patch.ring.size()) ? 0 : i + 1))
+    return patch.ring_marks[static_cast<std::size_t>(i)];
+  return is_segment(patch, a, b) ? EdgeMark::path : EdgeMark::none;
+}
+
+HalfEdge find_spoke(const Sheet& sheet, VertexIndex from, VertexIndex to) {
+  const HalfEdge first = sheet.first_spoke(from);
+  HalfEdge h = first;
+  do {
+    if (sheet.target(h) == to) return h;
+    h = sheet.turn_left(h);
+  } while (h.valid() && h != first);
+  return {};
+}
+
+}  // namespace
+
+int Patch::edge_of(int point) const {
+  int edge = -1;
+  for (int i = 0; i <= ring_position[static_cast<std::size_t>(point)]; ++i)
+    if (ring[static_cast<std::size_t>(i)] < 3) ++edge;
+  return edge;
+}
+
+void make_vertices(Sheet& sheet, Subdivision& subdivision) {
+  for (auto& node : subdivision.nodes) {
+    if (node.vertex.valid()) continue;
+    const Place& at = node.place;
+    node.vertex = at.kind == Place::Kind::edge ? sheet.new_vertex(at.edge, at.lambda, at.point)
+                                               : sheet.new_vertex(at.face, at.point);
+  }
+}
+
+void make_patch(const Sheet& sheet, const Subdivision& subdivision, int f, Patch& patch) {
+  const Subdivision::Face& face = subdivision.face(f);
+  patch.triangle = face.triangle;
+  patch.points.clear(), patch.vertices.clear(), patch.nodes.clear(), patch.ring.clear(), patch.ring_marks.clear();
+  patch.path_order.clear(), patch.segments.clear();
+  for (auto v : sheet.triangle(face.triangle).vertex) {
+    patch.points.push_back(sheet.rest(v));
+    patch.vertices.push_back(v);
+    patch.nodes.push_back(subdivision.node_at(v));
+  }
+  auto add = [&](int n) {
+    const int local = static_cast<int>(patch.points.size());
+    patch.points.push_back(subdivision.node(n).place.point);
+    patch.vertices.push_back(subdivision.node(n).vertex);
+    patch.nodes.push_back(n);
+    patch.path_order.push_back(local);
+    return local;
+  };
+  for (int k = 0; k < 3; ++k) {
+    const HalfEdge h = half_edge(face.triangle, k);
+    patch.ring.push_back(k);
+    const auto on_edge = static_cast<std::ptrdiff_t>(patch.ring.size());
+    for (int n = face.on_edge[static_cast<std::size_t>(k)]; n >= 0; n = subdivision.node(n).next)
+      patch.ring.push_back(add(n));
+    if (first_half_edge(sheet, h) != h) std::reverse(patch.ring.begin() + on_edge, patch.ring.end());
+    patch.ring_marks.resize(patch.ring.size(), sheet.mark(h));
+  }
+  for (int n = face.inside; n >= 0; n = subdivision.node(n).next) add(n);
+
+  patch.ring_position.assign(patch.points.size(), -1);
+  for (std::size_t i = 0; i < patch.ring.size(); ++i)
+    patch.ring_position[static_cast<std::size_t>(patch.ring[i])] = static_cast<int>(i);
+  const auto node = [&](int local) { return patch.nodes[static_cast<std::size_t>(local)]; };
+  std::sort(patch.path_order.begin(), patch.path_order.end(), [&](int a, int b) { return node(a) < node(b); });
+  const auto local = [&](int n) {
+    return static_cast<int>(std::find(patch.nodes.begin(), patch.nodes.end(), n) - patch.nodes.begin());
+  };
+  for (int s = face.segments; s >= 0; s = subdivision.segment(s).next)
+    patch.segments.push_back({local(subdivision.segment(s).from), local(subdivision.segment(s).to)});
+}
+
+bool find_crossing(const Sheet& sheet, const Subdivision& subdivision, int f, Crossing& crossing) {
+  const Subdivision::Face& face = subdivision.face(f);
+  if (face.edge_nodes != 2 || face.inside >= 0) return false;
+  if (face.segments >= 0 && subdivision.segment(face.segments).next >= 0) return false;
+  const auto& on = face.on_edge;
+  const int free = on[0] < 0 ? 0 : on[1] < 0 ? 1 : 2;  // the edge without a node
+  const int edge_q = previous_corner(free), edge_p = next_corner(free);
+  const int p = on[static_cast<std::size_t>(edge_p)], q = on[static_cast<std::size_t>(edge_q)];
+  if (p < 0 || q < 0) return false;
+  if (face.segments >= 0) {
+    const auto& s = subdivision.segment(face.segments);
+    if (!(s.from == p && s.to == q) && !(s.from == q && s.to == p)) return false;
+  }
+  const Triangle& t = sheet.triangle(face.triangle);
+  const auto corner = [&](int k) {
+    const VertexIndex v = t.vertex[static_cast<std::size_t>(k)];
+    return Crossing::Corner{v, sheet.rest(v)};
+  };
+  const auto node = [&](int n) {
+    return Crossing::Corner{subdivision.node(n).vertex, subdivision.node(n).place.point};
+  };
+  crossing = {corner(edge_q),
+              node(q),
+              corner(free),
+              corner(edge_p),
+              node(p),
+              p < q,
+              face.segments >= 0 ? EdgeMark::path : EdgeMark::none,
+              t.mark[static_cast<std::size_t>(edge_p)],
+              t.mark[static_cast<std::size_t>(edge_q)],
+              t.mark[static_cast<std::size_t>(free)]};
+  return true;
+}
+
+namespace {
+
+Sheet::NewTriangle positive(const Crossing::Corner& x, const Crossing::Corner& y, const Crossing::Corner& z, int parent,
+                            const std::array<EdgeMark, 3>& marks) {
+  if (cutbench::orientation(x.point, y.point, z.point) <= 0)
+    throw CutFailed("inverted", "a new triangle is not positive, its corners are too close for doubles");
+  return {{x.vertex, y.vertex, z.vertex}, parent, marks, {}};
+}
+
+}  // namespace
+
+void append_crossing(const Crossing& crossing, bool diagonal_from_p, int parent,
+                     std::vector<Sheet::NewTriangle>& added) {
+  const auto& [apex, q, c, a, p, p_first, path, mark_p, mark_q, mark_ca] = crossing;
+  const auto none = EdgeMark::none;
+  const std::size_t i = added.size();
+  const auto half = [&](std::size_t triangle, int k) { return half_edge(TriangleIndex(i + triangle), k); };
+  added.push_back(positive(apex, q, p, parent, {mark_q, path, mark_p}));
+  added[i].across[1] = half(1, 0);
+  if (diagonal_from_p) {
+    added.push_back(positive(p, q, c, parent, {path, mark_q, none}));
+    added.push_back(positive(p, c, a, parent, {none, mark_ca, mark_p}));
+    added[i + 1].across = {half(0, 1), {}, half(2, 0)};
+    added[i + 2].across[0] = half(1, 2);
+  } else {
+    added.push_back(positive(p, q, a, parent, {path, none, mark_p}));
+    added.push_back(positive(q, c, a, parent, {mark_q, mark_ca, none}));
+    added[i + 1].across = {half(0, 1), half(2, 2), {}};
+    added[i + 2].across[2] = half(1, 1);
+  }
+}
+
+void append_answer(const Patch& patch, int parent, std::vector<Sheet::NewTriangle>& added) {
+  std::size_t found = 0;  // half-edges that are segments
+  for (const auto& t : patch.triangles) {
+    if (orientation(patch, t[0], t[1], t[2]) <= 0)
+      throw CutFailed("inverted", "a new triangle is not positive, its corners are too close for doubles");
+    Sheet::NewTriangle made;
+    made.parent = parent;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int a = t[k], b = t[k == 2 ? 0 : k + 1];
+      made.vertex[k] = patch.vertices[static_cast<std::size_t>(a)];
+      made.mark[k] = mark_of(patch, a, b);
+      found += made.mark[k] == EdgeMark::path && is_segment(patch, a, b);
+    }
+    added.push_back(made);
+  }
+  if (patch.triangles.size() != patch.ring.size() - 2 + 2 * patch.inside_count() || found < 2 * patch.segments.size())
+    throw CutFailed("not_terminated", "a triangle could not be subdivided along the path");
+}
+
+void mark_along(Sheet& sheet, const Subdivision& subdivision) {
+  std::vector<VertexIndex> stops;
+  for (const auto& along : subdivision.along) {
+    // From end to end by way of the nodes in between, which are sorted along the edge's first half.
+    const auto &from = subdivision.node(along.from), &to = subdivision.node(along.to);
+    const Point2 line = to.place.point - from.place.point;
+    stops.assign(1, from.vertex);
+    for (int n = subdivision.first_on(along.edge); n >= 0; n = subdivision.node(n).next) {
+      const double s = dot(subdivision.node(n).place.point - from.place.point, line);
+      if (n != along.from && n != along.to && s > 0 && s < squared_length(line))
+        stops.push_back(subdivision.node(n).vertex);
+    }
+    stops.push_back(to.vertex);
+    const auto progress = [&](VertexIndex v) { return dot(sheet.rest(v) - from.place.point, line); };
+    if (stops.size() > 3 && progress(stops[1]) > progress(stops[2])) std::reverse(stops.begin() + 1, stops.end() - 1);
+    for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+      const HalfEdge h = find_spoke(sheet, stops[i], stops[i + 1]);
+      if (h.valid() && sheet.mark(h) == EdgeMark::none) sheet.set_mark(h, EdgeMark::path);
+      if (!h.valid() && !find_spoke(sheet, stops[i + 1], stops[i]).valid())  // a border edge has one half-edge only
+        throw CutFailed("not_terminated", "the path along an edge is not an edge of the result");
+    }
+  }
+}
+
+// --- moves on a patch's triangles
+// --------------------------------------------------------------------------------------
+
+PatchEdge find_edge(const Patch& patch, int a, int b) {
+  for (std::size_t t = 0; t < patch.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (patch.triangles[t][k] == a && patch.triangles[t][k == 2 ? 0 : k + 1] == b)
+        return {static_cast<int>(t), static_cast<int>(k)};
+  return {};
+}
+
+void start_triangulation(Patch& patch) { patch.triangles.assign(1, {0, 1, 2}); }
+
+namespace {
+
+/// Splits the triangle with edge a -> b at p, which lies on it.
+void split_side(Patch& patch, int a, int b, int p) {
+  const PatchEdge e = find_edge(patch, a, b);
+  if (e.triangle < 0) return;
+  auto& t = patch.triangles[static_cast<std::size_t>(e.triangle)];
+  const int c = t[static_cast<std::size_t>(previous_corner(e.corner))];
+  t = {a, p, c};
+  patch.triangles.push_back({p, b, c});
+}
+
+}  // namespace
+
+void insert_on_ring(Patch& patch, int p) {
+  // The nearest points of the ring, both ways, that are in the triangulation already.
+  const auto inserted = [&](int q) {
+    return std::any_of(patch.triangles.begin(), patch.triangles.end(),
+                       [&](const auto& t) { return t[0] == q || t[1] == q || t[2] == q; });
+  };
+  const auto neighbour = [&](std::size_t step) {
+    std::size_t i = static_cast<std::size_t>(patch.ring_position[static_cast<std::size_t>(p)]);
+    do i = (i + step) % patch.ring.size();
+    while (!inserted(patch.ring[i]));
+    return patch.ring[i];
+  };
+  split_side(patch, neighbour(patch.ring.size() - 1), neighbour(1), p);
+}
+
+void insert_inside(Patch& patch, int p) {
+  for (std::size_t i = 0; i < patch.triangles.size(); ++i) {
+    const auto [a, b, c] = patch.triangles[i];
+    const std::array<int, 3> side{orientation(patch, a, b, p), orientation(patch, b, c, p),
+                                  orientation(patch, c, a, p)};
+    if (side[0] < 0 || side[1] < 0 || side[2] < 0) continue;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (side[k] == 0) {
+        const int from = patch.triangles[i][k], to = patch.triangles[i][k == 2 ? 0 : k + 1];
+        split_side(patch, from, to, p), split_side(patch, to, from, p);
+        return;
+      }
+    patch.triangles[i] = {a, b, p};
+    patch.triangles.push_back({b, c, p}), patch.triangles.push_back({c, a, p});
+    return;
+  }
+  throw CutFailed("inverted", "a point of the path fell out of its triangle, coordinates too close for doubles");
+}
+
+namespace {
+
+bool cross_properly(const Patch& patch, int a, int b, int c, int d) {
+  if (c == a || c == b || d == a || d == b) return false;
+  return orientation(patch, a, b, c) * orientation(patch, a, b, d) < 0 &&
+         orientation(patch, c, d, a) * orientation(patch, c, d, b) < 0;
+}
+
+/// Puts the other diagonal, which it returns, in the place of edge a -> b; nothing unless the four corners are strictly
+/// convex.
+std::optional<std::array<int, 2>> flip(Patch& patch, int a, int b) {
+  const PatchEdge e = find_edge(patch, a, b), o = find_edge(patch, b, a);
+  if (e.triangle < 0 || o.triangle < 0) return {};
+  auto& left = patch.triangles[static_cast<std::size_t>(e.triangle)];
+  auto& right = patch.triangles[static_cast<std::size_t>(o.triangle)];
+  const int c = left[static_cast<std::size_t>(previous_corner(e.corner))];
+  const int d = right[static_cast<std::size_t>(previous_corner(o.corner))];
+  if (orientation(patch, a, d, c) <= 0 || orientation(patch, d, b, c) <= 0) return {};
+  left = {a, d, c}, right = {d, b, c};
+  return std::array{c, d};
+}
+
+std::vector<std::array<int, 2>> crossed_edges(const Patch& patch, int a, int b) {
+  std::vector<std::array<int, 2>> edges;
+  for (const auto& t : patch.triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const int c = t[k], d = t[k == 2 ? 0 : k + 1]; c < d && cross_properly(patch, a, b, c, d))
+        edges.push_back({c, d});
+  return edges;
+}
+
+}  // namespace
+
+int recover_segments(Patch& patch) {
+  int missing = 0;
+  for (const auto& [a, b] : patch.segments) {
+    if (find_edge(patch, a, b).triangle >= 0 || find_edge(patch, b, a).triangle >= 0) continue;
+    ++missing;
+    std::vector<std::array<int, 2>> queue = crossed_edges(patch, a, b);
+    const std::size_t budget = 100 + 10 * queue.size() * queue.size();
+    for (std::size_t i = 0; i < queue.size(); ++i) {
+      if (i > budget) throw CutFailed("not_terminated", "a path segment could not be recovered by flips");
+      const auto diagonal = flip(patch, queue[i][0], queue[i][1]);
+      if (!diagonal)
+        queue.push_back(queue[i]);
+      else if (cross_properly(patch, a, b, (*diagonal)[0], (*diagonal)[1]))
+        queue.push_back(*diagonal);
+    }
+  }
+  return missing;
+}
+
+}  // namespace cutbench

@@ -1,0 +1,132 @@
+#include "harness/cut/path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "harness/mesh/mesh_data.h"
+
+namespace cutbench {
+
+namespace {
+
+Point2 bezier_point(const Point2* p, double t) {
+  const double s = 1 - t;
+  return s * s * s * p[0] + 3 * s * s * t * p[1] + 3 * s * t * t * p[2] + t * t * t * p[3];
+}
+
+/// Two Beziers meet at `joint` with the tangents' directions more than 0.06 degrees apart.
+bool is_kink(Point2 before, Point2 joint, Point2 after) {
+  const Point2 in = joint - before, out = after - joint;
+  return dot(in, out) <= 0 || std::abs(cross(in, out)) > 1e-3 * dot(in, out);
+}
+
+void add(Polyline& out, Point2 p, bool kept, double snap) {
+  if (!out.points.empty()) {
+    const Point2 d = p - out.points.back();
+    if (std::max(std::abs(d.x), std::abs(d.y)) <= snap) {
+      out.kept.back() |= static_cast<std::uint8_t>(kept);
+      return;
+    }
+  }
+  out.points.push_back(p);
+  out.kept.push_back(kept);
+}
+
+void flatten_bezier(const Curve& curve, double tolerance, double snap, Polyline& out) {
+  const auto& c = curve.points;
+  const std::size_t n = c.size();
+  for (std::size_t i = 0; i + 3 < n; i += 3) {
+    const Point2* p = &c[i];
+    const double bend = std::max(squared_length(p[0] - 2 * p[1] + p[2]), squared_length(p[1] - 2 * p[2] + p[3]));
+    const double steps = std::clamp(std::ceil(std::sqrt(0.75 * std::sqrt(bend) / tolerance)), 1.0, 1e6);
+    const bool tip = i == 0 && !curve.closed;
+    const bool kink = i == 0 ? is_kink(c[n - 2], c[0], c[1]) : is_kink(c[i - 1], c[i], c[i + 1]);
+    add(out, p[0], tip || kink, snap);
+    for (double k = 1; k < steps; ++k) add(out, bezier_point(p, k / steps), false, snap);
+  }
+  if (!curve.closed) add(out, c.back(), true, snap);
+}
+
+}  // namespace
+
+void flatten(const Curve& curve, double tolerance, double snap, Polyline& out) {
+  out.points.clear(), out.kept.clear();
+  out.closed = curve.closed;
+  if (curve.kind == Curve::Kind::bezier)
+    flatten_bezier(curve, tolerance, snap, out);
+  else
+    for (Point2 p : curve.points) add(out, p, true, snap);
+  if (!out.closed || out.points.empty()) return;
+  const Point2 d = out.points.back() - out.points.front();  // the closing step, too, has a length
+  if (out.points.size() > 1 && std::max(std::abs(d.x), std::abs(d.y)) <= snap)
+    out.points.pop_back(), out.kept.pop_back();
+}
+
+void check_curve(const Curve& curve, const std::string& name) {
+  const std::size_t n = curve.points.size();
+  const bool bezier = curve.kind == Curve::Kind::bezier;
+  if (bezier && (n < 4 || n % 3 != 1))
+    throw InputError(name + ": a chain of cubic Beziers has 4, 7, 10, ... points, this one has " + std::to_string(n));
+  if (!bezier && n < (curve.closed ? 3u : 2u))
+    throw InputError(name + ": a polyline needs at least " + (curve.closed ? "3 points when closed" : "2 points") +
+                     ", this one has " + std::to_string(n));
+  for (std::size_t i = 0; i < n; ++i)
+    for (double c : {curve.points[i].x, curve.points[i].y})
+      if (!std::isfinite(c) || std::abs(c) > 1e60)
+        throw InputError(name + ", point " + std::to_string(i) + ": coordinates must be finite and below 1e60");
+  if (bezier && curve.closed && curve.points.front() != curve.points.back())
+    throw InputError(name + ": a closed Bezier must end where it began; repeat its first point at the end");
+}
+
+std::vector<Curve> read_path(const std::filesystem::path& file) {
+  using nlohmann::json;
+  const std::string name = file.string();
+  std::ifstream in(file);
+  if (!in) throw InputError(name + ": can't be read; check the name and its permissions");
+  std::vector<Curve> cuts;
+  try {
+    const json document = json::parse(in);
+    for (const auto& [key, value] : document.items())
+      if (key != "cuts") throw InputError(name + ": unknown key \"" + key + "\"; the only one is \"cuts\"");
+    for (const json& entry : document.at("cuts")) {
+      const std::string where = name + ", cut " + std::to_string(cuts.size());
+      Curve curve;
+      for (const auto& [key, value] : entry.items())
+        if (key != "bezier" && key != "polyline" && key != "closed")
+          throw InputError(where + ": unknown key \"" + key + "\"; known are \"bezier\", \"polyline\", \"closed\"");
+      if (entry.contains("bezier") == entry.contains("polyline"))
+        throw InputError(where + ": give either \"bezier\" or \"polyline\"");
+      curve.kind = entry.contains("bezier") ? Curve::Kind::bezier : Curve::Kind::polyline;
+      curve.closed = entry.value("closed", false);
+      for (const json& p : entry.at(entry.contains("bezier") ? "bezier" : "polyline")) {
+        if (!p.is_array() || p.size() != 2) throw InputError(where + ": a point is [x, y]");
+        curve.points.push_back({p[0].get<double>(), p[1].get<double>()});
+      }
+      check_curve(curve, where);
+      cuts.push_back(std::move(curve));
+    }
+  } catch (const json::exception& error) {
+    throw InputError(name + ": not a path file (" + error.what() +
+                     "); expected {\"cuts\": [{\"bezier\": [[x,y], ...]}]}");
+  }
+  if (cuts.empty()) throw InputError(name + ": \"cuts\" is empty; give at least one");
+  return cuts;
+}
+
+void write_path(const std::vector<Curve>& cuts, const std::filesystem::path& file) {
+  nlohmann::json document{{"cuts", nlohmann::json::array()}};
+  for (const Curve& curve : cuts) {
+    nlohmann::json points = nlohmann::json::array();
+    for (Point2 p : curve.points) points.push_back({p.x, p.y});
+    nlohmann::json entry{{curve.kind == Curve::Kind::bezier ? "bezier" : "polyline", points}};
+    if (curve.closed) entry["closed"] = true;
+    document["cuts"].push_back(entry);
+  }
+  std::ofstream out(file);
+  out << document.dump() << '\n';
+  if (!out) throw InputError(file.string() + ": can't be written; check that the folder exists and has room");
+}
+
+}  // namespace cutbench

@@ -1,0 +1,262 @@
+#include "harness/cut/walk.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "harness/mesh/predicates.h"
+
+namespace cutbench {
+
+namespace {
+
+constexpr Passage through_face(TriangleIndex t) { return {Passage::Kind::face, t, {}}; }
+constexpr Passage along_edge(HalfEdge h) { return {Passage::Kind::along, {}, h}; }
+constexpr Passage outside{Passage::Kind::outside, {}, {}};
+
+}  // namespace
+
+/// Side of p on the line a -> b. The snap distance is at least 8 ulp of the largest coordinate and thousands of times
+/// the rounding error of the determinant, so the sign of what is not snapped is the exact one; builds with assertions
+/// hold every single decision against the exact predicate.
+Walk::Side Walk::side(Point2 a, Point2 b, Point2 p) const {
+  const Point2 ab = b - a;
+  const double area = cross(ab, p - a);
+  if (std::abs(area) <= 2 * snap_ * std::max(std::abs(ab.x), std::abs(ab.y))) return {area, 0};
+  const int sign = area > 0 ? 1 : -1;
+  assert(sign == orientation(a, b, p));
+  return {area, sign};
+}
+
+bool Walk::near(Point2 a, Point2 b) const { return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) <= snap_; }
+
+Place Walk::place_at(VertexIndex v) const {
+  Place place;
+  place.kind = Place::Kind::vertex, place.vertex = v, place.point = rest(v);
+  return place;
+}
+
+Place Walk::place_on(HalfEdge h, Point2 p) const {
+  const Point2 a = rest(sheet_.origin(h)), ab = rest(sheet_.target(h)) - a;
+  Place place;
+  place.kind = Place::Kind::edge, place.edge = h;
+  place.lambda = std::clamp(dot(p - a, ab) / dot(ab, ab), 0.0, 1.0);
+  place.point = a + place.lambda * ab;
+  return place;
+}
+
+/// \pre p lies in t, or within the snap distance of it.
+Place Walk::classify(TriangleIndex t, Point2 p) const {
+  const Triangle& triangle = sheet_.triangle(t);
+  for (auto v : triangle.vertex)
+    if (near(rest(v), p)) return place_at(v);
+  for (int k = 0; k < 3; ++k) {
+    const HalfEdge h = half_edge(t, k);
+    if (side(rest(sheet_.origin(h)), rest(sheet_.target(h)), p).sign == 0) return place_on(h, p);
+  }
+  return place_in(t, p);
+}
+
+Step Walk::reach(Passage passage, Place place) {
+  at_ = place;
+  origin_ = place.point;
+  crossing_ = false;
+  return {passage, place, true};
+}
+
+Step Walk::arrive(TriangleIndex t, Point2 target) { return reach(through_face(t), classify(t, target)); }
+
+/// Like arrive(), where the target is known to lie clearly on the left of two of the edges, and `third` is the other.
+Step Walk::arrive_behind(HalfEdge third, Point2 target) {
+  const TriangleIndex t = triangle_of(third);
+  if (side(rest(sheet_.origin(third)), rest(sheet_.target(third)), target).sign > 0)
+    return reach(through_face(t), place_in(t, target));
+  return arrive(t, target);
+}
+
+/// Vertex v lies on the line, before the target or at it.
+Step Walk::pass_vertex(Passage passage, VertexIndex v, Point2 target) {
+  Step step = reach(passage, place_at(v));
+  step.arrived = near(rest(v), target);
+  return step;
+}
+
+/// The path runs along the edge of h towards its end v.
+Step Walk::along(HalfEdge h, VertexIndex v, Point2 target) {
+  if (near(rest(v), target) || dot(target - rest(v), rest(v) - origin_) > 0)
+    return pass_vertex(along_edge(h), v, target);
+  return reach(along_edge(h), place_on(h, target));
+}
+
+/// The line leaves through half-edge `exit`, whose origin lies to its right and whose target to its left.
+Step Walk::leave(HalfEdge exit, double right, double left, Passage passage) {
+  const Point2 a = rest(sheet_.origin(exit)), b = rest(sheet_.target(exit));
+  Place place;
+  place.kind = Place::Kind::edge, place.edge = exit;
+  place.lambda = std::abs(right) / (std::abs(right) + std::abs(left));
+  place.point = a + place.lambda * (b - a);
+  at_ = place;
+  crossing_ = true, entry_ = sheet_.opposite(exit);
+  left_ = left, right_ = right;
+  return {passage, place, false};
+}
+
+/// The line has come in through `entry`, whose origin lies to its left and whose target to its right.
+Step Walk::through(HalfEdge entry, double left, double right, Point2 target) {
+  const TriangleIndex t = triangle_of(entry);
+  const HalfEdge to_apex = Sheet::next(entry), from_apex = Sheet::previous(entry);
+  const VertexIndex apex = sheet_.origin(from_apex);
+  const Point2 w = rest(apex);
+  const Side s = side(origin_, target, w);
+  if (s.sign == 0) {
+    if (!near(w, target) && dot(target - w, target - origin_) < 0) return arrive(t, target);
+    return pass_vertex(through_face(t), apex, target);
+  }
+  const HalfEdge exit = s.sign > 0 ? to_apex : from_apex, other = s.sign > 0 ? from_apex : to_apex;
+  if (const int beyond = side(rest(sheet_.origin(exit)), rest(sheet_.target(exit)), target).sign; beyond >= 0) {
+    const bool clear = beyond > 0 && side(rest(sheet_.origin(entry)), rest(sheet_.target(entry)), target).sign > 0;
+    return clear ? arrive_behind(other, target) : arrive(t, target);
+  }
+  return s.sign > 0 ? leave(exit, right, s.distance, through_face(t)) : leave(exit, s.distance, left, through_face(t));
+}
+
+Step Walk::from_face(TriangleIndex t, Point2 target) {
+  std::array<Side, 3> beyond, lateral;
+  bool inside = true, clear = true;
+  for (int k = 0; k < 3; ++k) {
+    const HalfEdge h = half_edge(t, k);
+    const auto i = static_cast<std::size_t>(k);
+    beyond[i] = side(rest(sheet_.origin(h)), rest(sheet_.target(h)), target);
+    inside &= beyond[i].sign >= 0;
+    clear &= beyond[i].sign > 0;
+  }
+  if (clear) return reach(through_face(t), place_in(t, target));
+  if (inside) return arrive(t, target);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const VertexIndex v = sheet_.triangle(t).vertex[k];
+    lateral[k] = side(origin_, target, rest(v));
+    if (lateral[k].sign == 0 && ahead(rest(v), target)) return pass_vertex(through_face(t), v, target);
+  }
+  for (int k = 0; k < 3; ++k) {
+    const auto i = static_cast<std::size_t>(k), j = static_cast<std::size_t>(next_corner(k));
+    if (lateral[i].sign < 0 && lateral[j].sign > 0 && beyond[i].sign < 0)
+      return leave(half_edge(t, k), lateral[i].distance, lateral[j].distance, through_face(t));
+  }
+  throw WalkLost();
+}
+
+Step Walk::from_edge(Place at, Point2 target) {
+  HalfEdge h = at.edge;
+  const Side s = side(rest(sheet_.origin(h)), rest(sheet_.target(h)), target);
+  const auto end = [&](bool forward) { return forward ? sheet_.target(h) : sheet_.origin(h); };
+  if (s.sign == 0)
+    return along(h, end(dot(target - at.point, rest(sheet_.target(h)) - rest(sheet_.origin(h))) > 0), target);
+  if (s.sign < 0) h = sheet_.opposite(h);
+  if (!h.valid()) return outside_from_ = 0, from_outside(target);
+  const Side left = side(origin_, target, rest(sheet_.origin(h))),
+             right = side(origin_, target, rest(sheet_.target(h)));
+  if (right.sign == 0 && ahead(rest(sheet_.target(h)), target)) return along(h, sheet_.target(h), target);
+  if (left.sign == 0 && ahead(rest(sheet_.origin(h)), target)) return along(h, sheet_.origin(h), target);
+  return through(h, left.distance, right.distance, target);
+}
+
+Step Walk::from_vertex(VertexIndex v, Point2 target) {
+  if (near(rest(v), target)) return reach({}, place_at(v));
+  const HalfEdge first = sheet_.first_spoke(v);
+  // Along a spoke? At a border vertex the last one has no half-edge out of v, but its triangle's edge into v.
+  const auto lies_on_line = [&](VertexIndex x) {
+    return side(origin_, target, rest(x)).sign == 0 && ahead(rest(x), target);
+  };
+  HalfEdge h = first;
+  do {
+    if (lies_on_line(sheet_.target(h))) return along(h, sheet_.target(h), target);
+    const HalfEdge into = Sheet::previous(h);
+    h = sheet_.turn_left(h);
+    if (!h.valid() && lies_on_line(sheet_.origin(into))) return along(into, sheet_.origin(into), target);
+  } while (h.valid() && h != first);
+  // Into the triangle whose spokes have the target between them.
+  h = first;
+  do {
+    const HalfEdge exit = Sheet::next(h);
+    const Point2 a = rest(sheet_.origin(exit)), b = rest(sheet_.target(exit));
+    const Side right = side(origin_, target, a), left = side(origin_, target, b);
+    if (right.sign < 0 && left.sign > 0) {
+      if (side(a, b, target).sign >= 0) return arrive(triangle_of(h), target);
+      return leave(exit, right.distance, left.distance, through_face(triangle_of(h)));
+    }
+    h = sheet_.turn_left(h);
+  } while (h.valid() && h != first);
+  return outside_from_ = 0, from_outside(target);
+}
+
+/// The first border edge or vertex on the line after `outside_from_`.
+Step Walk::from_outside(Point2 target) {
+  const Point2 line = target - origin_;
+  const double length2 = dot(line, line), margin = snap_ / std::sqrt(length2);
+  double best = 2;
+  HalfEdge best_edge;
+  VertexIndex best_vertex;
+  auto try_vertex = [&](VertexIndex v, const Side& s) {
+    const double at = dot(rest(v) - origin_, line) / length2;
+    if (s.sign == 0 && at > outside_from_ + margin && at <= 1 + margin && at < best)
+      best = at, best_edge = {}, best_vertex = v;
+  };
+  locator_.visit_border(
+      sheet_, origin_, target,
+      [&](HalfEdge h) {
+        const VertexIndex u = sheet_.origin(h), v = sheet_.target(h);
+        const Side left = side(origin_, target, rest(u)), right = side(origin_, target, rest(v));
+        try_vertex(u, left), try_vertex(v, right);
+        if (left.sign <= 0 || right.sign >= 0) return;
+        const Side from = side(rest(u), rest(v), origin_), to = side(rest(u), rest(v), target);
+        if (to.sign < 0 || from.sign >= 0) return;
+        const double at = from.distance / (from.distance - to.distance);
+        if (at > outside_from_ && at < best) best = at, best_edge = h, best_vertex = {};
+      },
+      [&](double covered) { return best < covered; });
+  if (best_vertex.valid()) return pass_vertex(outside, best_vertex, target);
+  if (!best_edge.valid()) {
+    Place place;
+    place.point = target;
+    return reach(outside, place);
+  }
+  const VertexIndex u = sheet_.origin(best_edge), v = sheet_.target(best_edge);
+  if (side(rest(u), rest(v), target).sign == 0) return reach(outside, place_on(best_edge, target));
+  const double left = side(origin_, target, rest(u)).distance, right = side(origin_, target, rest(v)).distance;
+  Place place;
+  place.kind = Place::Kind::edge, place.edge = best_edge;
+  place.lambda = std::abs(left) / (std::abs(left) + std::abs(right));
+  place.point = rest(u) + place.lambda * (rest(v) - rest(u));
+  at_ = place;
+  crossing_ = true, entry_ = best_edge;
+  left_ = left, right_ = right;
+  return {outside, place, false};
+}
+
+Step Walk::advance(Point2 target) {
+  switch (at_.kind) {
+    case Place::Kind::face:
+      return from_face(at_.face, target);
+    case Place::Kind::vertex:
+      return from_vertex(at_.vertex, target);
+    case Place::Kind::outside:
+      return outside_from_ = 0, from_outside(target);
+    case Place::Kind::edge:
+      break;
+  }
+  if (!crossing_) return from_edge(at_, target);
+  crossing_ = false;
+  if (entry_.valid()) return through(entry_, left_, right_, target);
+  const Point2 line = target - origin_;
+  outside_from_ = dot(at_.point - origin_, line) / dot(line, line);
+  return from_outside(target);
+}
+
+Place Walk::locate(Point2 p) {
+  reach({}, place_at(sheet_.triangle(locator_.near(sheet_, p)).vertex[0]));
+  for (std::size_t steps = 0; !advance(p).arrived; ++steps)
+    if (steps > 4 * sheet_.triangle_slots() + 100) throw WalkLost();
+  return at_;
+}
+
+}  // namespace cutbench

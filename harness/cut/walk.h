@@ -1,0 +1,100 @@
+// Walking a polyline through the rest triangles, from event to event: through an edge, through a vertex, along an edge,
+// out of the sheet and back into it, and arriving at each corner of the polyline.
+//
+// Decisions are exact signs on stored doubles. Where a vertex lies within twice the sheet's snap distance of the path
+// the path goes through that vertex, and where a corner of the path lies that near to an edge, or within the snap
+// distance of a vertex, it lies on it. So every crossing that is left is clear of the ends of its edge, and its rounded
+// position can't fall behind them.
+#pragma once
+
+#include "harness/cut/cut_failed.h"
+#include "harness/mesh/locator.h"
+#include "harness/mesh/sheet.h"
+
+namespace cutbench {
+
+/// Where a point of the path is. The member that the kind names is valid.
+struct Place {
+  enum class Kind : std::uint8_t { outside, vertex, edge, face };
+  Kind kind = Kind::outside;
+  VertexIndex vertex;
+  HalfEdge edge;  ///< either of the edge's two
+  TriangleIndex face;
+  Point2 point;       ///< rest position, rounded; the vertex's own where the place is one
+  double lambda = 0;  ///< on an edge: fraction from the origin of `edge`
+};
+
+inline Place place_in(TriangleIndex t, Point2 p) {
+  Place place;
+  place.kind = Place::Kind::face, place.face = t, place.point = p;
+  return place;
+}
+
+/// What lies between two places of a walk.
+struct Passage {
+  enum class Kind : std::uint8_t { nothing, outside, face, along };
+  Kind kind = Kind::nothing;
+  TriangleIndex face;  ///< whose interior was crossed
+  HalfEdge edge;       ///< that the path ran along
+};
+
+struct Step {
+  Passage passage;
+  Place place;
+  bool arrived = false;  ///< at the target; else the walk goes on from `place`
+};
+
+/// A walk that can't go on: the mesh is broken, or the coordinates are too close together for doubles.
+struct WalkLost : CutFailed {
+  WalkLost() : CutFailed("not_terminated", "the path could not be followed through the mesh") {}
+};
+
+class Walk {
+ public:
+  Walk(const Sheet& sheet, const Locator& locator) : sheet_(sheet), locator_(locator), snap_(sheet.snap()) {}
+
+  /// The place of p; the walk then stands there. Outside, where no triangle holds it.
+  Place locate(Point2 p);
+  const Place& place() const { return at_; }
+  /// The next event on the straight way to `target`. \pre the target differs from the last one arrived at.
+  Step advance(Point2 target);
+
+ private:
+  struct Side {
+    double distance;  // (twice the area)
+    int sign;         // 0 within twice the snap distance of the line
+  };
+  Point2 rest(VertexIndex v) const { return sheet_.rest(v); }
+  Side side(Point2 a, Point2 b, Point2 p) const;
+  bool near(Point2 a, Point2 b) const;
+  bool ahead(Point2 p, Point2 target) const { return dot(p - origin_, target - origin_) > 0; }
+
+  Step from_face(TriangleIndex t, Point2 target);
+  Step from_vertex(VertexIndex v, Point2 target);
+  Step from_edge(Place at, Point2 target);
+  Step from_outside(Point2 target);
+  Step through(HalfEdge entry, double left, double right, Point2 target);
+  Step leave(HalfEdge exit, double right, double left, Passage passage);
+  Step arrive(TriangleIndex t, Point2 target);
+  Step arrive_behind(HalfEdge third, Point2 target);
+  Step reach(Passage passage, Place place);
+  Step pass_vertex(Passage passage, VertexIndex v, Point2 target);
+  Step along(HalfEdge h, VertexIndex end, Point2 target);
+  Place place_on(HalfEdge h, Point2 p) const;
+  Place place_at(VertexIndex v) const;
+  Place classify(TriangleIndex t, Point2 p) const;
+
+  const Sheet& sheet_;
+  const Locator& locator_;
+  double snap_;
+  Place at_;
+  Point2 origin_;  // of the straight line to the target
+  // After an edge was crossed the line goes on through half-edge entry_ (none: it has left the sheet), whose origin and
+  // target lie to its left and right by:
+  bool crossing_ = false;
+  HalfEdge entry_;
+  double left_ = 0, right_ = 0;
+  double outside_from_ = 0;  // fraction of the line at which it left the sheet
+};
+
+}  // namespace cutbench

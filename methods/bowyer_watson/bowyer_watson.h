@@ -1,0 +1,54 @@
+// The paper's method: Delaunay re-triangulation of each crossed triangle, then local split of the ill-shaped ones.
+//
+// How it works. embed: the path's points are inserted into the crossed triangle one after the other by Bowyer-Watson:
+// the triangles whose circumcircle holds the point are removed and the cavity is joined to the point. All stays inside
+// the crossed triangle. With two crossings that leaves a single choice, the diagonal of one quadrilateral, and the path
+// is always contained; with kept points or several passages a path segment can be missing and is recovered by flips.
+// improve: `rounds` times, each triangle the cut made or changed whose aspect ratio exceeds 3 gets its two longest
+// edges split at their midpoints and is triangulated anew by Bowyer-Watson inside itself; its neighbours across those
+// edges are bisected at the same points. Edges shorter than twice `min_edge` are left alone.
+//
+// Source: Xin et al. 2018, 4.1.2 and 4.1.3; Bowyer 1981; Watson 1981.
+// Promises: the exact path, area, conforming, no vertex moved.
+// Fails: the local split, read literally, cannot bring the largest aspect ratio down. The circle through a corner A and
+// the midpoints P, Q of the two long edges at A meets each of these edges only in A and its midpoint, so it holds no
+// other point of the triangle: A P Q is always Delaunay, and it is the triangle itself at half the size. Each round
+// leaves a copy of every ill-shaped triangle and bisects its neighbours, some of them into worse ones: their number
+// grows, by a factor of about 3.8 a round (experiments/local_split_rounds.toml).
+#pragma once
+
+#include "harness/cut/cutting_method.h"
+#include "harness/cut/patch.h"
+
+namespace cutbench {
+
+class BowyerWatson : public CuttingMethod {
+ public:
+  struct Options {
+    int rounds = 0;          ///< of the local split
+    double max_aspect = 3;   ///< a triangle beyond it is ill-shaped
+    double min_edge = 1e-6;  ///< no edge is made shorter than this, in mean rest edges
+  };
+  explicit BowyerWatson(const Options& options) : options_(options) {}
+
+  void embed(Sheet& sheet, Subdivision& trace) override;
+  void improve(Sheet& sheet) override;
+  int recovered_segments() const override { return recovered_; }
+
+ private:
+  void split_long_edges(const Sheet& sheet, TriangleIndex t);
+
+  Options options_;
+  PatchWork work_;
+  Subdivision midpoints_;
+  std::vector<TriangleIndex> ill_shaped_;
+  int recovered_ = 0;
+};
+
+/// Fills patch.triangles with a Delaunay triangulation of the patch's points; returns the number of segments recovered.
+int triangulate_delaunay(Patch& patch);
+/// What that comes down to in a crossing: is the diagonal p - c (else q - a) Delaunay? On a tie the point that the path
+/// met first has it, as when it is inserted first.
+bool is_diagonal_from_p_delaunay(const Crossing& crossing);
+
+}  // namespace cutbench

@@ -1,0 +1,34 @@
+#include "methods/conventional_split/conventional_split.h"
+
+namespace cutbench {
+
+int split_step_by_step(Patch& patch) {
+  const auto inside = [&](int p) { return patch.ring_position[static_cast<std::size_t>(p)] < 0; };
+  start_triangulation(patch);
+  for (int p : patch.path_order)
+    if (inside(p)) insert_inside(patch, p);
+  for (int p : patch.path_order)
+    if (!inside(p)) insert_on_ring(patch, p);
+  return recover_segments(patch);
+}
+
+int split_conventionally(Patch& patch) {
+  const std::size_t on_edges = patch.ring.size() - 3, inside = patch.inside_count();
+  if (on_edges != 1 || inside > 1 || (inside == 1 && patch.segments.size() != 1)) return split_step_by_step(patch);
+  const int p = 3, tip = 4;
+  const int a = patch.edge_of(p), b = next_corner(a), c = previous_corner(a);  // p lies between a and b
+  if (inside == 0)
+    patch.triangles = {{a, p, c}, {p, b, c}};
+  else
+    patch.triangles = {{a, p, tip}, {p, b, tip}, {b, c, tip}, {c, a, tip}};
+  return 0;
+}
+
+void ConventionalSplit::embed(Sheet& sheet, Subdivision& trace) {
+  recovered_ = 0;
+  embed_patches(
+      sheet, trace, work_, [](const Crossing& crossing) { return crossing.p_first; },
+      [&](Patch& patch) { recovered_ += split_conventionally(patch); });
+}
+
+}  // namespace cutbench

@@ -1,0 +1,50 @@
+#include "methods/registry.h"
+
+#include <algorithm>
+
+#include "harness/mesh/mesh_data.h"
+#include "methods/bowyer_watson/bowyer_watson.h"
+#include "methods/cgal_cdt/cgal_cdt.h"
+#include "methods/conventional_split/conventional_split.h"
+
+namespace cutbench {
+
+namespace {
+
+constexpr Promises exact_split{.exact_incision = true, .keeps_area = true, .conforming = true, .keeps_vertices = true};
+
+}  // namespace
+
+const std::vector<MethodRow>& all_methods() {
+  static const std::vector<MethodRow> rows{
+      {"conventional_split",
+       "crossed triangles into two, three or four in a static order",
+       {},
+       exact_split,
+       [](double) { return std::make_unique<ConventionalSplit>(); }},
+      {"bowyer_watson",
+       "the paper's method: Bowyer-Watson in each crossed triangle, then local split",
+       {"rounds", 1, "rounds of the local split; 0: the best diagonal alone"},
+       exact_split,
+       [](double rounds) {
+         return std::make_unique<BowyerWatson>(BowyerWatson::Options{.rounds = static_cast<int>(rounds)});
+       }},
+      {"cgal_cdt",
+       "CGAL's constrained Delaunay triangulation of the strip of crossed triangles",
+       {},
+       exact_split,
+       [](double) { return std::make_unique<CgalCdt>(); }},
+  };
+  return rows;
+}
+
+const MethodRow& find_method(const std::string& name) {
+  const auto& rows = all_methods();
+  const auto row = std::find_if(rows.begin(), rows.end(), [&](const MethodRow& r) { return r.name == name; });
+  if (row != rows.end()) return *row;
+  std::string known;
+  for (const auto& r : rows) known += (known.empty() ? "" : ", ") + r.name;
+  throw InputError("unknown method \"" + name + "\"; known are " + known);
+}
+
+}  // namespace cutbench
