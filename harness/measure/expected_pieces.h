@@ -1,0 +1,29 @@
+// How many pieces a sheet must have after a cut: from the sheet's border, its older incisions and the path alone.
+#pragma once
+
+#include <vector>
+
+#include "harness/measure/plane.h"
+
+namespace cutbench::oracle {
+
+/// Numbers of pieces. They differ only where the answer hangs on something smaller than the tolerances: a path that
+/// ends that near to something, or a piece that thin.
+struct ExpectedPieces {
+  int expected = 0;  ///< open ends as they are, pieces thinner than tip_tolerance left out
+  int least = 0;     ///< pieces thinner than thin_tolerance left out too
+  int most = 0;      ///< open ends lengthened by tip_tolerance, however thin the pieces
+};
+
+/// Counts the faces inside the sheet of the exact planar arrangement of all given segments (CGAL, Arrangement_2).
+/// Inside is where a walk from the unbounded face has crossed an odd number of border edges. The thickness of a face is
+/// 2 area / perimeter.
+/// @param border     border edges of the sheet, each once
+/// @param incisions  older incisions, each pair of lips once: both sides are inside
+/// @param paths      flattened requested curves, each a chain, closed where its last point is its first
+/// Tolerances are in rest units, 0 <= tip_tolerance <= thin_tolerance. Precondition: no segment has zero length.
+ExpectedPieces expected_pieces(const std::vector<Segment>& border, const std::vector<Segment>& incisions,
+                               const std::vector<std::vector<Segment>>& paths, double tip_tolerance,
+                               double thin_tolerance);
+
+}  // namespace cutbench::oracle

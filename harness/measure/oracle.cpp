@@ -1,0 +1,262 @@
+#include "harness/measure/oracle.h"
+
+#include <bit>
+#include <cstdint>
+#include <cstdio>
+#include <map>
+#include <stdexcept>
+
+#include "harness/measure/exact.h"
+#include "harness/measure/expected_pieces.h"
+#include "harness/measure/flatten.h"
+#include "harness/measure/grids.h"
+#include "harness/measure/incision_error.h"
+#include "harness/measure/sheet_topology.h"
+
+namespace cutbench::oracle {
+namespace {
+
+/// Collects problems; the first one gives the verdict.
+class Problems {
+ public:
+  explicit Problems(Judgement& judgement) : judgement_(judgement) {}
+
+  void add(const std::string& verdict, const std::string& text) {
+    constexpr int shown = 5;
+    if (judgement_.verdict == "ok") judgement_.verdict = verdict;
+    judgement_.ok = false;
+    if (++count_[verdict] <= shown) judgement_.problems.push_back(verdict + ": " + text);
+  }
+
+ private:
+  Judgement& judgement_;
+  std::map<std::string, int> count_;
+};
+
+std::string name(const Mesh& mesh, int t) {
+  std::string text = "triangle " + std::to_string(t) + " (";
+  for (int v : mesh.triangles[t]) text += std::to_string(v) + " ";
+  text.back() = ')';
+  return text;
+}
+
+std::string number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", x);
+  return text;
+}
+
+std::string name(const Point& p) {
+  char text[64];
+  std::snprintf(text, sizeof text, "(%.17g, %.17g)", p[0], p[1]);
+  return text;
+}
+
+std::string name(const Segment& s) { return name(s[0]) + "-" + name(s[1]); }
+
+/// True where the later checks may use the indices and coordinates.
+bool check_values(const Mesh& mesh, Problems& problems) {
+  bool usable = true;
+  for (std::size_t v = 0; v < mesh.rest.size(); ++v)
+    if (!std::isfinite(mesh.rest[v][0]) || !std::isfinite(mesh.rest[v][1])) {
+      problems.add("not_finite", "vertex " + std::to_string(v));
+      usable = false;
+    }
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const int count = static_cast<int>(mesh.rest.size());
+    const bool in_range = std::min({a, b, c}) >= 0 && std::max({a, b, c}) < count;
+    if (in_range && a != b && b != c && c != a) continue;
+    problems.add("bad_index", name(mesh, t) + " of " + std::to_string(count) + " vertices");
+    usable = false;
+  }
+  return usable;
+}
+
+void check_orientation(const Mesh& mesh, Problems& problems) {
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    if (orientation(mesh.rest[a], mesh.rest[b], mesh.rest[c]) <= 0) problems.add("inverted", name(mesh, t));
+  }
+}
+
+/// True where the half-edges may be used.
+bool check_manifold(const Mesh& mesh, const HalfEdges& edges, Problems& problems) {
+  for (int e : edges.repeated)
+    problems.add("non_manifold", "repeated edge " + std::to_string(e % 3) + " of " + name(mesh, e / 3));
+  if (!edges.repeated.empty()) return false;
+  for (int v : bow_ties(mesh, edges)) problems.add("non_manifold", "bow-tie at vertex " + std::to_string(v));
+  return true;
+}
+
+/// The input, its border and older incisions, and the size of its rounding errors.
+struct Input {
+  HalfEdges edges;
+  std::vector<Segment> border, incisions;
+  EdgeLengths lengths;
+  double rounding = 0;  ///< eight units in the last place of the largest coordinate
+  double on = 0;        ///< what lies so near to a segment lies on it
+};
+
+Input examine(const Request& request) {
+  const Mesh& mesh = request.before;
+  Judgement findings;
+  Problems problems(findings);
+  Input input;
+  if (mesh.triangles.empty()) problems.add("empty", "no triangles");
+  if (!(request.snap >= 0 && request.tolerance >= 0 && request.vertex_tolerance >= 0))
+    problems.add("request", "negative tolerance");
+  if (check_values(mesh, problems)) {
+    check_orientation(mesh, problems);
+    input.edges = half_edges(mesh);
+    check_manifold(mesh, input.edges, problems);
+  }
+  if (!findings.ok) throw std::invalid_argument("the input of a cut can't be judged: " + findings.problems.front());
+
+  const Borders borders = oracle::borders(mesh, input.edges);
+  for (int e : borders.single) input.border.push_back(segment(mesh, e));
+  for (int e : borders.ambiguous) input.border.push_back(segment(mesh, e));
+  for (const auto& lips : borders.lips) input.incisions.push_back(segment(mesh, lips[0]));
+  input.lengths = edge_lengths(mesh, input.edges);
+  double largest = 0;
+  for (const Point& p : mesh.rest) largest = std::max({largest, std::abs(p[0]), std::abs(p[1])});
+  input.rounding = 8 * std::numeric_limits<double>::epsilon() * largest;
+  input.on = request.snap + input.rounding;
+  return input;
+}
+
+/// The segments of each requested curve; curves no longer than `shortest` ask for nothing.
+std::vector<std::vector<Segment>> paths(const std::vector<Curve>& cuts, double tolerance, double shortest) {
+  std::vector<std::vector<Segment>> result;
+  for (const Curve& cut : cuts) {
+    std::vector<Segment> path;
+    double length = 0;
+    for (const PathSegment& s : flatten(cut, tolerance)) {
+      path.push_back(s.segment);
+      length += distance(s.segment[0], s.segment[1]);
+    }
+    if (length > shortest) result.push_back(std::move(path));
+  }
+  return result;
+}
+
+/// Judges a result whose values and edges can be used.
+class Judge {
+ public:
+  Judge(const Request& request, const Input& input, const Mesh& after, Judgement& judgement, Problems& problems)
+      : request_(request), input_(input), after_(after), judgement_(judgement), problems_(problems) {}
+
+  void run(const HalfEdges& edges) {
+    check_unused();
+    check_borders(borders(after_, edges));
+    check_area();
+    if (request_.keeps_vertices) check_vertices();
+    check_pieces(edges);
+    check_incision();
+  }
+
+ private:
+  void check_unused() {
+    const std::vector<int> before = unused_vertices(request_.before);
+    for (int v : unused_vertices(after_))
+      if (!std::binary_search(before.begin(), before.end(), v)) problems_.add("unused_vertex", std::to_string(v));
+  }
+
+  void check_borders(const Borders& borders) {
+    const SegmentGrid outline(input_.border), older(input_.incisions);
+    std::vector<Segment> lips;
+    for (int e : borders.ambiguous) problems_.add("leak", "not just two lips " + name(segment(after_, e)));
+    for (int e : borders.single) {
+      edges_.push_back(segment(after_, e));
+      if (!outline.covers(edges_.back(), input_.on)) problems_.add("leak", "border edge " + name(edges_.back()));
+    }
+    for (const auto& pair : borders.lips) {
+      lips.push_back(segment(after_, pair[0]));
+      if (!older.covers(lips.back(), input_.on)) added_.push_back(lips.back());
+    }
+    edges_.insert(edges_.end(), lips.begin(), lips.end());
+    const SegmentGrid open(std::move(lips));
+    for (const Segment& s : input_.incisions)
+      if (!open.covers(s, input_.on)) healed_.push_back(s);
+  }
+
+  void check_area() {
+    const long double before = area(request_.before), after = area(after_);
+    judgement_.area_change = static_cast<double>((after - before) / before);
+    double perimeter = 0;
+    for (const auto& [a, b] : input_.border) perimeter += distance(a, b);
+    const long double allowed = 1e-12L * before + input_.rounding * perimeter;
+    if (std::abs(after - before) > allowed) problems_.add("area", "relative change " + number(judgement_.area_change));
+  }
+
+  void check_vertices() {
+    const auto bits = [](const Point& p) { return std::bit_cast<std::array<std::uint64_t, 2>>(p); };
+    for (std::size_t v = 0; v < request_.before.rest.size(); ++v)
+      if (v >= after_.rest.size() || bits(after_.rest[v]) != bits(request_.before.rest[v]))
+        problems_.add("moved_vertex", std::to_string(v));
+  }
+
+  void check_pieces(const HalfEdges& edges) {
+    // A Bezier curve is requested up to flattening: 1e-3 mean edges by the code under test, less here.
+    const double h = input_.lengths.mean;
+    const ExpectedPieces expected =
+        expected_pieces(input_.border, input_.incisions, paths(request_.cuts, 1e-4 * h, input_.on), input_.on,
+                        input_.on + (curved() ? 2e-3 * h : 0));
+    judgement_.pieces = count_pieces(edges);
+    judgement_.expected_pieces = expected.expected;
+    if (judgement_.pieces < expected.least || judgement_.pieces > expected.most)
+      problems_.add("wrong_pieces",
+                    std::to_string(judgement_.pieces) + " instead of " + std::to_string(expected.expected));
+  }
+
+  void check_incision() {
+    const double flattening = 1e-5 * input_.lengths.mean;
+    std::vector<Segment> requested;
+    for (const auto& path : paths(request_.cuts, flattening, input_.on))
+      requested.insert(requested.end(), path.begin(), path.end());
+    const SegmentGrid path(std::move(requested));
+    const IncisionError error =
+        incision_error(path, SegmentGrid(edges_), added_, TriangleGrid(request_.before), 0.02 * input_.lengths.mean);
+    judgement_.incision_error = std::max(error.of_path, error.of_edges);
+    const double tolerance = request_.exact_incision ? request_.tolerance : std::numeric_limits<double>::infinity();
+    const double slack = input_.on + (curved() ? flattening : 0);
+    const double allowed = std::min(tolerance, input_.lengths.longest) + slack;
+    if (error.of_path > allowed) problems_.add("incision", "path not opened, off by " + number(error.of_path));
+    if (error.of_edges > allowed) problems_.add("incision", "edges off the path by " + number(error.of_edges));
+    for (const Segment& s : healed_) problems_.add("incision", "an older one has closed at " + name(s));
+    if (!request_.exact_incision) return;
+    for (const Segment& s : added_)
+      for (const Point& p : s)
+        if (path.distance(p) > request_.vertex_tolerance + slack)
+          problems_.add("incision", "a vertex is off the path at " + name(p));
+  }
+
+  bool curved() const {
+    return std::any_of(request_.cuts.begin(), request_.cuts.end(), [](const Curve& c) { return c.bezier; });
+  }
+
+  const Request& request_;
+  const Input& input_;
+  const Mesh& after_;
+  Judgement& judgement_;
+  Problems& problems_;
+  std::vector<Segment> edges_;   // all border edges of the result
+  std::vector<Segment> added_;   // new opened edges, one per pair of lips
+  std::vector<Segment> healed_;  // older incisions no longer open
+};
+
+}  // namespace
+
+Judgement judge(const Request& request, const Mesh& after) {
+  const Input input = examine(request);
+  Judgement judgement;
+  Problems problems(judgement);
+  if (!check_values(after, problems)) return judgement;
+  check_orientation(after, problems);
+  const HalfEdges edges = half_edges(after);
+  if (!check_manifold(after, edges, problems)) return judgement;
+  Judge(request, input, after, judgement, problems).run(edges);
+  return judgement;
+}
+
+}  // namespace cutbench::oracle
