@@ -1,0 +1,210 @@
+// The program: joins the harness with the table of methods.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "harness/mesh/mesh_io.h"
+#include "harness/run/report_json.h"
+#include "harness/run/run.h"
+#include "methods/registry.h"
+
+namespace {
+
+using namespace cutbench;
+
+enum Exit { done = 0, fell_short = 1, bad_input = 2 };
+
+// --- cutbench methods
+// ----------------------------------------------------------------------------------------------------
+
+int list_methods(bool as_json) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const MethodRow& m : all_methods()) {
+    const Promises& p = m.promises;
+    std::vector<std::string> promises;
+    for (const auto& [kept, name] : {std::pair{p.exact_incision, "exact_incision"},
+                                     {p.keeps_area, "keeps_area"},
+                                     {p.conforming, "conforming"},
+                                     {p.keeps_vertices, "keeps_vertices"}})
+      if (kept) promises.emplace_back(name);
+    if (as_json) {
+      nlohmann::ordered_json entry{{"name", m.name}, {"summary", m.summary}, {"knob", nullptr}, {"promises", promises}};
+      if (!m.knob.name.empty())
+        entry["knob"] = {{"name", m.knob.name}, {"default", m.knob.value}, {"meaning", m.knob.meaning}};
+      list.push_back(entry);
+      continue;
+    }
+    std::printf("%-20s %s\n", m.name.c_str(), m.summary.c_str());
+    if (!m.knob.name.empty())
+      std::printf("%20s   knob %s = %g: %s\n", "", m.knob.name.c_str(), m.knob.value, m.knob.meaning.c_str());
+    std::string text;
+    for (const auto& name : promises) text += (text.empty() ? "" : ", ") + name;
+    std::printf("%20s   promises %s\n", "", text.empty() ? "nothing" : text.c_str());
+  }
+  if (as_json) std::cout << list.dump(2) << '\n';
+  return done;
+}
+
+// --- cutbench cut
+// --------------------------------------------------------------------------------------------------------
+
+struct CutArguments {
+  std::string mesh, path, method, out, report;
+  std::vector<std::string> set;
+  std::string chord_tolerance = "0.05";
+};
+
+double number(const std::string& text, const std::string& what) {
+  std::size_t end = 0;
+  double value = 0;
+  try {
+    value = std::stod(text, &end);
+  } catch (const std::exception&) {
+    end = std::string::npos;
+  }
+  if (end != text.size() || std::isnan(value)) throw InputError(what + ": \"" + text + "\" is not a number");
+  return value;
+}
+
+double knob_value(const MethodRow& row, const std::vector<std::string>& settings) {
+  double value = row.knob.value;
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    const std::string name = setting.substr(0, equals);
+    if (row.knob.name.empty()) throw InputError("--set " + setting + ": method \"" + row.name + "\" has no knob");
+    if (equals == std::string::npos || name != row.knob.name)
+      throw InputError("--set " + setting + ": the knob of \"" + row.name + "\" is set as " + row.knob.name + "=VALUE");
+    value = number(setting.substr(equals + 1), "--set " + name);
+  }
+  return value;
+}
+
+int cut(const CutArguments& arguments) {
+  const MethodRow& row = find_method(arguments.method);
+  const auto method = row.make(knob_value(row, arguments.set));
+  CutOptions options;
+  options.chord_tolerance = number(arguments.chord_tolerance, "--chord-tolerance");
+  if (!(options.chord_tolerance > 0)) throw InputError("--chord-tolerance: must be positive, or inf");
+  const std::vector<Curve> cuts = read_path(arguments.path);
+  const MeshData data = read_mesh(arguments.mesh);
+  for (const auto& note : data.notes) std::cerr << "note: " << note << '\n';
+
+  const Sheet before(data);
+  Sheet sheet = before;
+  Locator locator(sheet);
+  Cutter cutter;
+  const CutRun run = cut_all(sheet, locator, cutter, cuts, *method, options);
+  if (run.status == Status::refused) throw InputError(row.name + " refuses this cut: " + run.reason);
+  if (run.status == Status::failed) {
+    std::cerr << "failed (" << run.verdict << "): " << run.reason << '\n';
+    return fell_short;
+  }
+  const Assessment a = assess(before, sheet, cuts, forced_corners_of(before, cuts), row.promises, options);
+  write_mesh(sheet.to_mesh_data(), arguments.out);
+  if (!arguments.report.empty()) write_report(arguments.report, row.name, run, a);
+  std::printf("%s: %zu triangles crossed, %td added, %d pieces, max aspect ratio of changed triangles %.3g, %.1f us\n",
+              name_of(run.status), run.crossed_triangles, a.triangles_added, a.judgement.pieces, a.cut.ar_max,
+              run.time_us.total());
+  if (a.judgement.ok) return done;
+  for (const auto& problem : a.judgement.problems)
+    std::cerr << "failed (" << a.judgement.verdict << "): " << problem << '\n';
+  return fell_short;
+}
+
+// --- cutbench run
+// --------------------------------------------------------------------------------------------------------
+
+struct RunArguments {
+  std::vector<std::string> experiments, methods;
+  std::vector<int> resolutions;
+  int repetitions = 0;
+  std::string seed, out = "results", shard = "1/1";
+};
+
+/// Keeps the entries of `all` that are named in `wanted`, unless that is empty.
+template <class Entry, class Wanted, class Name>
+void restrict_to(std::vector<Entry>& all, const std::vector<Wanted>& wanted, const std::string& what, Name name) {
+  for (const Wanted& w : wanted)
+    if (std::none_of(all.begin(), all.end(), [&](const Entry& e) { return name(e) == w; }))
+      throw InputError(what + " is not in the experiment");
+  if (!wanted.empty())
+    std::erase_if(all,
+                  [&](const Entry& e) { return std::find(wanted.begin(), wanted.end(), name(e)) == wanted.end(); });
+}
+
+int run(const RunArguments& arguments, const std::string& command) {
+  RunOptions options;
+  options.out = arguments.out, options.command = command;
+  if (std::sscanf(arguments.shard.c_str(), "%d/%d", &options.shard, &options.shards) != 2 || options.shard < 1 ||
+      options.shard > options.shards)
+    throw InputError("--shard " + arguments.shard + ": give i/N with 1 <= i <= N");
+  const Context context = gather_context();
+  std::vector<Experiment> experiments;
+  for (const auto& file : arguments.experiments) {  // all are read before any is run
+    Experiment& e = experiments.emplace_back(read_experiment(file));
+    restrict_to(e.methods, arguments.methods, "--methods: one of them", [](const auto& m) { return m.method; });
+    restrict_to(e.resolutions, arguments.resolutions, "--resolutions: one of them", [](int r) { return r; });
+    if (arguments.repetitions > 0) e.repetitions = arguments.repetitions;
+    if (arguments.seed == "commit")
+      e.seed = seed_of_commit(context);
+    else if (!arguments.seed.empty())
+      e.seed = static_cast<std::uint64_t>(number(arguments.seed, "--seed"));
+    variants_of(e, all_methods());
+  }
+  bool ok = true;
+  for (const Experiment& e : experiments) ok &= run_experiment(e, all_methods(), context, options);
+  return ok ? done : fell_short;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"cutbench: which way of cutting a deformable sheet to use"};
+  app.require_subcommand(1);
+
+  bool as_json = false;
+  auto* methods_command = app.add_subcommand("methods", "the methods, with what each promises");
+  methods_command->add_flag("--json", as_json);
+
+  CutArguments cut_arguments;
+  auto* cut_command = app.add_subcommand("cut", "cut a sheet along a path");
+  cut_command->add_option("--mesh", cut_arguments.mesh, "OBJ, OFF or PLY")->required();
+  cut_command->add_option("--path", cut_arguments.path, "JSON")->required();
+  cut_command->add_option("--method", cut_arguments.method, "see `cutbench methods`")->required();
+  cut_command->add_option("--set", cut_arguments.set, "knob=value");
+  cut_command->add_option("--chord-tolerance", cut_arguments.chord_tolerance,
+                          "in mean rest edges, or inf: edge crossings only");
+  cut_command->add_option("--out", cut_arguments.out, "OBJ, OFF or VTU")->required();
+  cut_command->add_option("--report", cut_arguments.report, "JSON");
+
+  RunArguments run_arguments;
+  auto* run_command = app.add_subcommand("run", "run experiments");
+  run_command->add_option("experiments", run_arguments.experiments, "experiment files (TOML)")->required();
+  run_command->add_option("--methods", run_arguments.methods, "only these")->delimiter(',');
+  run_command->add_option("--resolutions", run_arguments.resolutions, "only these (triangles)")->delimiter(',');
+  run_command->add_option("--repetitions", run_arguments.repetitions, "instead of the experiment's")
+      ->check(CLI::PositiveNumber);
+  run_command->add_option("--seed", run_arguments.seed, "a number, or `commit`: from the commit's hash");
+  run_command->add_option("--out", run_arguments.out, "results folder");
+  run_command->add_option("--shard", run_arguments.shard, "i/N: only every N-th case");
+
+  try {
+    app.parse(argc, argv);
+    std::string command = "cutbench";
+    for (int i = 1; i < argc; ++i) command += std::string(" ") + argv[i];
+    if (*methods_command) return list_methods(as_json);
+    if (*cut_command) return cut(cut_arguments);
+    return run(run_arguments, command);
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    std::cerr << error.what() << "; see cutbench --help\n";
+  } catch (const InputError& error) {
+    std::cerr << error.what() << '\n';
+  } catch (const std::exception& error) {
+    std::cerr << "internal error: " << error.what() << '\n';
+    return fell_short;
+  }
+  return bad_input;
+}

@@ -1,0 +1,113 @@
+// What a cut costs per crossed triangle: times (Google Benchmark), and instruction counts under valgrind, which are the
+// same whatever else the machine is doing. `experiments/micro` runs both and prints them side by side.
+#include <benchmark/benchmark.h>
+#include <valgrind/callgrind.h>
+
+#include <cstring>
+#include <iostream>
+#include <limits>
+
+#include "harness/cut/cut.h"
+#include "harness/mesh/families.h"
+#include "harness/run/cases.h"
+#include "harness/run/every_edge.h"
+#include "methods/registry.h"
+
+namespace {
+
+using namespace cutbench;
+
+constexpr std::size_t cases = 20;
+constexpr CutOptions crossings_only{.chord_tolerance = std::numeric_limits<double>::infinity()};
+
+/// The paper's grid and the same seeded curves at every resolution.
+struct Bench {
+  explicit Bench(int n) : base(make_sheet("grid", n)), base_locator(base) {
+    for (std::size_t i = 0; i < cases; ++i) curves.push_back(make_case("curved", 1, i, base).front());
+  }
+  /// Cuts a fresh copy of the sheet; the copy is made by before().
+  void before() {
+    sheet = base, locator = base_locator;
+    sheet.reserve(4 * base.triangle_slots(), 4 * base.vertex_slots(), 4 * base.deformed_slots());
+  }
+  std::size_t cut(std::size_t i, CuttingMethod& method) {
+    return cutter.cut(sheet, locator, curves[i], method, crossings_only).crossed_triangles;
+  }
+
+  Sheet base, sheet;
+  Locator base_locator, locator;
+  Cutter cutter;
+  std::vector<Curve> curves;
+};
+
+void time_method(benchmark::State& state, const MethodRow& row, double knob, int n) {
+  Bench bench(n);
+  const auto method = row.make(knob);
+  std::size_t crossed = 0, i = 0;
+  for (auto _ : state) {
+    bench.before();
+    const auto start = std::chrono::steady_clock::now();
+    crossed += bench.cut(i++ % cases, *method);
+    state.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  // Inverted rate: seconds per crossed triangle.
+  state.counters["per_crossed_triangle"] =
+      benchmark::Counter(static_cast<double>(crossed), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+void time_every_edge(benchmark::State& state, int n) {
+  Bench bench(n);
+  std::size_t i = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(count_crossings_by_every_edge(bench.base, bench.curves[i++ % cases]));
+}
+
+/// Under valgrind --tool=callgrind --instr-atstart=no: counts the instructions of warm cuts only.
+int count_instructions(const std::string& name, double knob, int n) {
+  Bench bench(n);
+  std::size_t crossed = 0;
+  if (name == "every_edge") {
+    CALLGRIND_START_INSTRUMENTATION;
+    for (const Curve& curve : bench.curves) benchmark::DoNotOptimize(count_crossings_by_every_edge(bench.base, curve));
+    CALLGRIND_STOP_INSTRUMENTATION;
+    const auto method = find_method("conventional_split").make(0);
+    for (std::size_t i = 0; i < cases; ++i) bench.before(), crossed += bench.cut(i, *method);
+  } else {
+    const auto method = find_method(name).make(knob);
+    for (std::size_t i = 0; i < cases; ++i) bench.before(), bench.cut(i, *method);
+    for (std::size_t i = 0; i < cases; ++i) {
+      bench.before();
+      CALLGRIND_START_INSTRUMENTATION;
+      crossed += bench.cut(i, *method);
+      CALLGRIND_STOP_INSTRUMENTATION;
+    }
+  }
+  std::cout << crossed << '\n';
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc == 5 && std::strcmp(argv[1], "count") == 0)
+    return count_instructions(argv[2], std::stod(argv[3]), std::stoi(argv[4]));
+  for (int n : {20, 80}) {
+    const std::string triangles = std::to_string(2 * n * n);
+    for (const MethodRow& row : all_methods())
+      for (double knob : {0.0, row.knob.value}) {
+        if (knob == 0.0 && row.knob.name.empty() && row.knob.value != 0.0) continue;
+        const std::string name =
+            row.name +
+            (row.knob.name.empty() ? "" : "(" + row.knob.name + "=" + std::to_string(static_cast<int>(knob)) + ")");
+        benchmark::RegisterBenchmark((name + "/" + triangles).c_str(), [&row, knob, n](benchmark::State& s) {
+          time_method(s, row, knob, n);
+        })->UseManualTime();
+        if (row.knob.name.empty()) break;
+      }
+    benchmark::RegisterBenchmark(("every_edge/" + triangles).c_str(),
+                                 [n](benchmark::State& s) { time_every_edge(s, n); });
+  }
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

@@ -1,0 +1,173 @@
+#include "harness/run/record.h"
+
+#include <algorithm>
+#include <charconv>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "harness/mesh/mesh_data.h"
+
+namespace cutbench {
+
+namespace {
+
+constexpr std::size_t key_columns = 10;  // suite_version ... cache
+
+std::string joined(const std::vector<std::string>& fields, std::size_t n) {
+  std::string line;
+  for (std::size_t i = 0; i < n; ++i) line += (i ? "," : "") + fields[i];
+  return line;
+}
+
+std::string key_of(const std::string& line) {
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < key_columns && end != std::string::npos; ++i) end = line.find(',', end + (i > 0));
+  return line.substr(0, end);
+}
+
+}  // namespace
+
+const std::vector<std::string>& column_names() {
+  static const std::vector<std::string> names{"suite_version",
+                                              "scene",
+                                              "sheet",
+                                              "method",
+                                              "knob",
+                                              "resolution",
+                                              "case",
+                                              "repetition",
+                                              "seed",
+                                              "cache",
+                                              "status",
+                                              "verdict",
+                                              "reason",
+                                              "crossed_triangles",
+                                              "pieces",
+                                              "vertices_added",
+                                              "deformed_vertices_added",
+                                              "triangles_added",
+                                              "recovered_segments",
+                                              "ar_max_all",
+                                              "ar_mean_all",
+                                              "ar_p99_all",
+                                              "angle_min_deg_all",
+                                              "angle_max_deg_all",
+                                              "altitude_min_h_all",
+                                              "over_3_all",
+                                              "ar_max_cut",
+                                              "ar_mean_cut",
+                                              "ar_p99_cut",
+                                              "angle_min_deg_cut",
+                                              "angle_max_deg_cut",
+                                              "altitude_min_h_cut",
+                                              "over_3_cut",
+                                              "forced_corners",
+                                              "forced_triangles",
+                                              "ar_max_cut_strict",
+                                              "wedge_triangles",
+                                              "wedge_area",
+                                              "ar_max_cut_outside_wedges",
+                                              "incision_error_h",
+                                              "area_change",
+                                              "locate_us",
+                                              "trace_us",
+                                              "embed_us",
+                                              "improve_us",
+                                              "open_us",
+                                              "geometry_us",
+                                              "cpu_us"};
+  return names;
+}
+
+Record::Record() : fields_(column_names().size()) {}
+
+void Record::set(const std::string& column, const std::string& value) {
+  const auto& names = column_names();
+  const auto i = static_cast<std::size_t>(std::find(names.begin(), names.end(), column) - names.begin());
+  fields_.at(i) = value;
+  // Free text must not break the line into more fields.
+  for (char& c : fields_[i])
+    if (c == ',' || c == '"' || c == '\n') c = ';';
+}
+
+void Record::set(const std::string& column, double value) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  set(column, std::string(buffer, end));
+}
+
+void Record::set(const std::string& column, std::int64_t value) { set(column, std::to_string(value)); }
+
+std::string Record::key() const { return joined(fields_, key_columns); }
+std::string Record::line() const { return joined(fields_, fields_.size()); }
+
+RecordFile::RecordFile(std::filesystem::path folder, const std::string& identity)
+    : folder_(std::move(folder)), part_(folder_ / "records.csv.part") {
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  const std::string head = "# run " + std::to_string(std::hash<std::string>{}(identity));
+  {
+    std::ifstream in(part_);
+    std::string text((std::istreambuf_iterator<char>(in)), {});
+    text.resize(text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1);  // a line cut short is done again
+    std::size_t begin = 0;
+    for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
+      const std::string line = text.substr(begin, end - begin);
+      if (begin == 0 && line != head) break;
+      if (begin == 0) continue;
+      lines_.push_back(line);
+      done_.insert(key_of(line));
+    }
+  }
+  out_.open(part_, std::ios::trunc);
+  out_ << head << '\n';
+  for (const auto& line : lines_) out_ << line << '\n';
+  check();
+}
+
+void RecordFile::check() {
+  out_.flush();
+  if (!out_) throw InputError(part_.string() + ": can't be written; check that the folder may be written and has room");
+}
+
+void RecordFile::append(const Record& record) {
+  lines_.push_back(record.line());
+  out_ << lines_.back() << '\n';
+  check();
+}
+
+void RecordFile::finish(const Context& context, const std::string& experiment, const std::string& claim,
+                        const std::string& command, std::uint64_t seed) {
+  const nlohmann::json document{{"commit", context.commit ? nlohmann::json(*context.commit) : nlohmann::json()},
+                                {"dirty", context.dirty ? nlohmann::json(*context.dirty) : nlohmann::json()},
+                                {"compiler", context.compiler},
+                                {"flags", context.flags},
+                                {"build_type", context.build_type},
+                                {"cpu", context.cpu},
+                                {"versions", context.versions},
+                                {"date", context.date},
+                                {"load", context.load},
+                                {"seed", seed},
+                                {"command", command},
+                                {"experiment", experiment},
+                                {"claim", claim}};
+  const auto write = [&](const std::filesystem::path& name, auto fill) {
+    const auto temporary = folder_ / (name.string() + ".tmp");
+    {
+      std::ofstream out(temporary);
+      fill(out);
+      out.flush();
+      if (!out) throw InputError(temporary.string() + ": can't be written; is the disk full?");
+    }
+    std::filesystem::rename(temporary, folder_ / name);
+  };
+  write("context.json", [&](std::ostream& out) { out << document.dump(2) << '\n'; });
+  write("records.csv", [&](std::ostream& out) {
+    out << joined(column_names(), column_names().size()) << '\n';
+    for (const auto& line : lines_) out << line << '\n';
+  });
+  out_.close();
+  std::filesystem::remove(part_);
+}
+
+}  // namespace cutbench

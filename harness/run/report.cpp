@@ -1,0 +1,121 @@
+#include "harness/run/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+namespace cutbench {
+
+namespace {
+
+double cpu_time_us() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return 1e6 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_nsec);
+}
+
+// The oracle knows none of our types.
+oracle::Mesh for_oracle(const Sheet& sheet, std::vector<TriangleIndex>* slots = nullptr) {
+  oracle::Mesh mesh;
+  std::vector<int> number(sheet.deformed_slots(), -1);
+  for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) {
+    const VertexIndex v = sheet.rest_vertex(DeformedIndex(d));
+    if (!v.valid()) continue;
+    number[d] = static_cast<int>(mesh.rest.size());
+    mesh.rest.push_back({sheet.rest(v).x, sheet.rest(v).y});
+  }
+  for (std::size_t t = 0; t < sheet.triangle_slots(); ++t) {
+    const Triangle& triangle = sheet.triangle(TriangleIndex(t));
+    if (!triangle.alive()) continue;
+    mesh.triangles.push_back(
+        {number[triangle.deformed[0]()], number[triangle.deformed[1]()], number[triangle.deformed[2]()]});
+    if (slots) slots->emplace_back(t);
+  }
+  return mesh;
+}
+
+std::vector<oracle::Curve> for_oracle(std::span<const Curve> cuts) {
+  std::vector<oracle::Curve> curves;
+  for (const Curve& cut : cuts) {
+    auto& curve = curves.emplace_back(oracle::Curve{cut.kind == Curve::Kind::bezier, cut.closed, {}});
+    for (Point2 p : cut.points) curve.points.push_back({p.x, p.y});
+  }
+  return curves;
+}
+
+/// The triangle in slot t is not the one that was there before.
+bool was_changed(const Sheet& before, const Sheet& after, TriangleIndex t) {
+  if (t() >= before.triangle_slots() || !before.triangle(t).alive()) return true;
+  return before.corners(t) != after.corners(t);
+}
+
+Quality quality_in_h(const std::vector<std::array<Point2, 3>>& triangles, double h) {
+  Quality q = quality(triangles);
+  q.altitude_min /= h;
+  return q;
+}
+
+}  // namespace
+
+CutRun cut_all(Sheet& sheet, Locator& locator, Cutter& cutter, std::span<const Curve> cuts, CuttingMethod& method,
+               const CutOptions& options) {
+  CutRun run;
+  run.status = Status::noop;
+  const double start = cpu_time_us();
+  for (const Curve& curve : cuts) {
+    const CutOutcome outcome = cutter.cut(sheet, locator, curve, method, options);
+    run.time_us += outcome.time_us;
+    run.crossed_triangles += outcome.crossed_triangles;
+    run.recovered_segments += outcome.recovered_segments;
+    run.verdict = outcome.verdict;
+    if (outcome.status != Status::noop || run.status == Status::noop) run.reason = outcome.reason;
+    if (outcome.status != Status::noop) run.status = outcome.status;
+    if (run.status == Status::failed || run.status == Status::refused) break;
+  }
+  run.cpu_us = cpu_time_us() - start;
+  return run;
+}
+
+std::vector<oracle::ForcedCorner> forced_corners_of(const Sheet& before, std::span<const Curve> cuts) {
+  return oracle::forced_corners(for_oracle(before), for_oracle(cuts), before.mean_edge());
+}
+
+Assessment assess(const Sheet& before, const Sheet& after, std::span<const Curve> cuts,
+                  std::span<const oracle::ForcedCorner> forced, const Promises& promises, const CutOptions& options) {
+  const double h = before.mean_edge();
+  Assessment result;
+  oracle::Request request;
+  request.before = for_oracle(before);
+  request.cuts = for_oracle(cuts);
+  request.tolerance = (options.chord_tolerance + options.flatten_tolerance) * h + before.snap();
+  request.snap = 4 * before.snap();  // a path may pass within twice the snap distance of what it goes through
+  request.keeps_vertices = promises.keeps_vertices;
+  request.exact_incision = promises.exact_incision;
+  std::vector<TriangleIndex> slots;
+  const oracle::Mesh mesh = for_oracle(after, &slots);
+  result.judgement = oracle::judge(request, mesh);
+
+  const auto zones = oracle::forced_zones({forced.begin(), forced.end()}, mesh, h);
+  result.forced_corners = forced.size();
+  result.corner_triangles = zones.corner_triangles, result.wedge_triangles = zones.zone_triangles;
+  result.wedge_area = zones.zone_area;
+  std::vector<std::array<Point2, 3>> all, cut;
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    const auto c = all.emplace_back(after.corners(slots[i]));
+    if (!was_changed(before, after, slots[i])) continue;
+    cut.push_back(c);
+    const double ar = aspect_ratio(c[0], c[1], c[2]);
+    if (!zones.in_corner[i]) result.ar_max_strict = std::max(result.ar_max_strict, ar);
+    if (!zones.in_zone[i]) result.ar_max_outside_wedges = std::max(result.ar_max_outside_wedges, ar);
+  }
+  result.all = quality_in_h(all, h), result.cut = quality_in_h(cut, h);
+  const auto difference = [](std::size_t a, std::size_t b) {
+    return static_cast<std::ptrdiff_t>(a) - static_cast<std::ptrdiff_t>(b);
+  };
+  result.vertices_added = difference(after.vertex_count(), before.vertex_count());
+  result.deformed_vertices_added = difference(after.deformed_count(), before.deformed_count());
+  result.triangles_added = difference(after.triangle_count(), before.triangle_count());
+  return result;
+}
+
+}  // namespace cutbench

@@ -1,0 +1,42 @@
+// One cut, or several in a row, carried out and measured: what `cutbench cut` reports and what every record holds.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "harness/cut/cut.h"
+#include "harness/measure/forced_zones.h"
+#include "harness/measure/oracle.h"
+#include "harness/mesh/quality.h"
+
+namespace cutbench {
+
+/// Several curves cut one after the other. A failure ends it; what came before stays.
+struct CutRun {
+  Status status = Status::ok;
+  std::string verdict = "ok", reason;
+  std::size_t crossed_triangles = 0;
+  int recovered_segments = 0;
+  PhaseTimes time_us;
+  double cpu_us = 0;  ///< process CPU time of the whole
+};
+CutRun cut_all(Sheet& sheet, Locator& locator, Cutter& cutter, std::span<const Curve> cuts, CuttingMethod& method,
+               const CutOptions& options);
+
+/// What the result is like. Lengths in h = mean rest edge of the uncut sheet, unless a name says otherwise.
+struct Assessment {
+  oracle::Judgement judgement;
+  Quality all, cut;  ///< over the whole sheet, and over the triangles the cut made or changed; altitude in h
+  std::size_t forced_corners = 0;
+  int corner_triangles = 0, wedge_triangles = 0;
+  double wedge_area = 0;                                ///< rest units squared
+  double ar_max_strict = 0, ar_max_outside_wedges = 0;  ///< over the cut's triangles without the exempted ones
+  std::ptrdiff_t vertices_added = 0, deformed_vertices_added = 0, triangles_added = 0;
+};
+/// Looks at everything, by the oracle and the audit: outside the clock. `forced`: forced_corners_of(before, cuts).
+Assessment assess(const Sheet& before, const Sheet& after, std::span<const Curve> cuts,
+                  std::span<const oracle::ForcedCorner> forced, const Promises& promises, const CutOptions& options);
+std::vector<oracle::ForcedCorner> forced_corners_of(const Sheet& before, std::span<const Curve> cuts);
+
+}  // namespace cutbench

@@ -1,0 +1,267 @@
+#include "harness/run/run.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <limits>
+
+#include "harness/mesh/families.h"
+#include "harness/run/cases.h"
+#include "harness/run/every_edge.h"
+#include "harness/run/record.h"
+#include "harness/run/report.h"
+#include "harness/run/summary.h"
+
+namespace cutbench {
+
+namespace {
+
+constexpr const char* suite_version = "1";
+
+/// A bar on a terminal, a line every ten percent otherwise.
+class Progress {
+ public:
+  Progress(std::string name, std::size_t total, bool quiet) : name_(std::move(name)), total_(total), quiet_(quiet) {}
+  void step() {
+    ++done_;
+    const std::size_t percent = 100 * done_ / total_;
+    if (quiet_ || percent == shown_ || (!terminal_ && percent % 10 != 0)) return;
+    shown_ = percent;
+    const auto seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    std::fprintf(stderr, "%s%s: %3zu %% of %zu cases, %.0f s%s", terminal_ ? "\r" : "", name_.c_str(), percent, total_,
+                 seconds, terminal_ && done_ < total_ ? "" : "\n");
+  }
+
+ private:
+  std::string name_;
+  std::size_t total_, done_ = 0, shown_ = 0;
+  bool quiet_, terminal_ = isatty(STDERR_FILENO) != 0;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Drives what the caches hold out of them.
+void chill_caches() {
+  static std::vector<unsigned char> ballast(std::size_t{64} << 20);
+  for (std::size_t i = 0; i < ballast.size(); i += 64) ++ballast[i];
+}
+
+/// One method at work, with its storage kept warm.
+struct Worker {
+  Variant variant;
+  std::unique_ptr<CuttingMethod> method;
+  Cutter cutter;
+  Sheet sheet;
+  Locator locator;
+};
+
+class Runner {
+ public:
+  Runner(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
+         const RunOptions& options)
+      : experiment_(experiment),
+        options_(options),
+        file_(std::filesystem::path(options.out) / experiment.stem, identity(experiment, context, options)) {
+    for (const Variant& v : variants_of(experiment, methods)) workers_.push_back({v, v.row->make(v.knob), {}, {}, {}});
+    cut_options_.chord_tolerance = experiment.chord_tolerance;
+  }
+
+  void run() {
+    const auto cases = static_cast<std::size_t>(experiment_.cases);
+    const std::size_t groups =
+        experiment_.sheets.size() * experiment_.resolutions.size() * experiment_.cut_families.size();
+    Progress progress(experiment_.stem, groups * cases, options_.quiet);
+    if (file_.resumed() > 0 && !options_.quiet)
+      std::fprintf(stderr, "%s: resumed, %zu rows were there\n", experiment_.stem.c_str(), file_.resumed());
+    for (const auto& sheet : experiment_.sheets)
+      for (int resolution : experiment_.resolutions) {
+        base_ = Sheet(make_sheet(sheet, squares_per_side(resolution)));
+        base_locator_ = Locator(base_);
+        for (const auto& family : experiment_.cut_families)
+          for (std::size_t i = 0; i < cases; ++i, progress.step())
+            if (static_cast<int>(i % static_cast<std::size_t>(options_.shards)) == options_.shard - 1)
+              run_case(sheet, resolution, family, i);
+      }
+  }
+
+  RecordFile& file() { return file_; }
+  const Summary& summary() const { return summary_; }
+
+ private:
+  static std::string identity(const Experiment& e, const Context& context, const RunOptions& options) {
+    return context.identity() + e.stem + std::to_string(e.seed) + std::to_string(e.chord_tolerance) +
+           std::to_string(options.shard) + "/" + std::to_string(options.shards);
+  }
+
+  void run_case(const std::string& sheet, int resolution, const std::string& family, std::size_t i) {
+    const std::vector<Curve> cuts = make_case(family, experiment_.seed, i, base_);
+    std::vector<oracle::ForcedCorner> forced;
+    const auto start_row = [&](const std::string& method, const std::string& knob, int repetition, const char* cache) {
+      Record row;
+      row.set("suite_version", std::string(suite_version)), row.set("scene", family), row.set("sheet", sheet);
+      row.set("method", method), row.set("knob", knob), row.set("resolution", std::int64_t{resolution});
+      row.set("case", static_cast<std::int64_t>(i)), row.set("repetition", std::int64_t{repetition});
+      row.set("seed", static_cast<std::int64_t>(experiment_.seed)), row.set("cache", std::string(cache));
+      return row;
+    };
+    // A first, unrecorded cut by each method, which is judged and warms up; then the repetitions with the methods in
+    // turn, so that a slow spell of the machine hits all alike.
+    std::vector<Record> judged;
+    std::vector<Summary::Cut> summaries(workers_.size());
+    for (std::size_t w = 0; w < workers_.size(); ++w) {
+      Record& row =
+          judged.emplace_back(start_row(workers_[w].variant.row->name, workers_[w].variant.knob_text(), 0, "warm"));
+      const CutRun run = cut(workers_[w], cuts);
+      if (file_.has(row.key())) continue;
+      if (forced.empty() && experiment_.quality) forced = forced_corners_of(base_, cuts);
+      judge_into(row, summaries[w], workers_[w], cuts, forced, run);
+    }
+    std::size_t crossed = 0;
+    for (int r = 0; r < experiment_.repetitions + (experiment_.cold ? 1 : 0); ++r) {
+      const bool cold = r == experiment_.repetitions;
+      const int repetition = cold ? 0 : r;
+      const char* cache = cold ? "cold" : "warm";
+      for (std::size_t w = 0; w < workers_.size(); ++w) {
+        Worker& worker = workers_[w];
+        Record row = start_row(worker.variant.row->name, worker.variant.knob_text(), repetition, cache);
+        if (file_.has(row.key())) continue;
+        const CutRun run = cut(worker, cuts, cold);
+        crossed = run.crossed_triangles;
+        if (r == 0)
+          row = judged[w];
+        else
+          row.set("status", std::string(name_of(run.status))), row.set("verdict", run.verdict),
+              row.set("reason", run.reason);
+        set_times(row, run);
+        file_.append(row);
+        if (!cold) summarize(resolution, worker.variant, summaries[w], run);
+      }
+      if (experiment_.every_edge)
+        time_every_edge(cuts, start_row("every_edge", "", repetition, cache), resolution, crossed, cold);
+    }
+  }
+
+  void summarize(int resolution, const Variant& variant, Summary::Cut cut, const CutRun& run) {
+    cut.geometry_us = run.time_us.total(), cut.crossed_triangles = static_cast<double>(run.crossed_triangles);
+    cut.ok = cut.ok && run.verdict == "ok";
+    summary_.add(resolution, variant.row->name, variant.knob_text(), cut);
+  }
+
+  CutRun cut(Worker& worker, const std::vector<Curve>& cuts, bool cold = false) {
+    worker.sheet = base_, worker.locator = base_locator_;  // outside the clock, like the warm-up
+    worker.sheet.reserve(4 * base_.triangle_slots(), 4 * base_.vertex_slots(), 4 * base_.deformed_slots());
+    if (cold) chill_caches();
+    return cut_all(worker.sheet, worker.locator, worker.cutter, cuts, *worker.method, cut_options_);
+  }
+
+  void judge_into(Record& row, Summary::Cut& summary, const Worker& worker, const std::vector<Curve>& cuts,
+                  const std::vector<oracle::ForcedCorner>& forced, const CutRun& run) {
+    row.set("status", std::string(name_of(run.status)));
+    row.set("verdict", run.verdict), row.set("reason", run.reason);
+    row.set("recovered_segments", std::int64_t{run.recovered_segments});
+    summary.ok = run.verdict == "ok";
+    if (run.status == Status::failed || run.status == Status::refused) return;
+    const Assessment a = assess(base_, worker.sheet, cuts, forced, worker.variant.row->promises, cut_options_);
+    row.set("verdict", a.judgement.verdict);
+    if (!a.judgement.ok) row.set("reason", a.judgement.problems.front());
+    summary.ok = a.judgement.ok, summary.vertices_added = static_cast<double>(a.vertices_added);
+    if (experiment_.quality) summary.ar_max_cut = a.cut.ar_max, summary.over_3_cut = static_cast<double>(a.cut.over_3);
+    set_assessment(row, a);
+  }
+
+  void set_assessment(Record& row, const Assessment& a) {
+    row.set("pieces", std::int64_t{a.judgement.pieces});
+    row.set("vertices_added", std::int64_t{a.vertices_added});
+    row.set("deformed_vertices_added", std::int64_t{a.deformed_vertices_added});
+    row.set("triangles_added", std::int64_t{a.triangles_added});
+    row.set("incision_error_h", a.judgement.incision_error / base_.mean_edge());
+    row.set("area_change", a.judgement.area_change);
+    if (!experiment_.quality) return;
+    for (const auto& [suffix, q] : {std::pair<std::string, const Quality&>{"_all", a.all}, {"_cut", a.cut}}) {
+      row.set("ar_max" + suffix, q.ar_max), row.set("ar_mean" + suffix, q.ar_mean),
+          row.set("ar_p99" + suffix, q.ar_p99);
+      row.set("angle_min_deg" + suffix, q.angle_min_deg), row.set("angle_max_deg" + suffix, q.angle_max_deg);
+      row.set("altitude_min_h" + suffix, q.altitude_min);
+      row.set("over_3" + suffix, static_cast<std::int64_t>(q.over_3));
+    }
+    row.set("forced_corners", static_cast<std::int64_t>(a.forced_corners));
+    row.set("forced_triangles", std::int64_t{a.corner_triangles}),
+        row.set("wedge_triangles", std::int64_t{a.wedge_triangles});
+    row.set("wedge_area", a.wedge_area);
+    row.set("ar_max_cut_strict", a.ar_max_strict), row.set("ar_max_cut_outside_wedges", a.ar_max_outside_wedges);
+  }
+
+  static void set_times(Record& row, const CutRun& run) {
+    row.set("crossed_triangles", static_cast<std::int64_t>(run.crossed_triangles));
+    const PhaseTimes& t = run.time_us;
+    row.set("locate_us", t.locate), row.set("trace_us", t.trace), row.set("embed_us", t.embed);
+    row.set("improve_us", t.improve), row.set("open_us", t.open), row.set("geometry_us", t.total());
+    row.set("cpu_us", run.cpu_us);
+  }
+
+  void time_every_edge(const std::vector<Curve>& cuts, Record row, int resolution, std::size_t crossed, bool cold) {
+    if (file_.has(row.key())) return;
+    if (cold) chill_caches();
+    const auto start = std::chrono::steady_clock::now();
+    std::size_t crossings = 0;
+    for (const Curve& curve : cuts)
+      if (curve.kind == Curve::Kind::bezier) crossings += count_crossings_by_every_edge(base_, curve);
+    const double us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+    row.set("geometry_us", us);
+    row.set("status", std::string("ok"));
+    row.set("verdict", std::string(crossings > 0 ? "ok" : "not_terminated"));
+    row.set("crossed_triangles", static_cast<std::int64_t>(crossed));  // the cut's, as a unit
+    file_.append(row);
+    Summary::Cut summary;
+    summary.geometry_us = us, summary.crossed_triangles = static_cast<double>(crossed);
+    if (!cold) summary_.add(resolution, "every_edge", "", summary);
+  }
+
+  const Experiment& experiment_;
+  const RunOptions& options_;
+  RecordFile file_;
+  std::vector<Worker> workers_;
+  CutOptions cut_options_;
+  Sheet base_;
+  Locator base_locator_;
+  Summary summary_;
+};
+
+}  // namespace
+
+std::string Variant::knob_text() const {
+  if (row->knob.name.empty()) return "";
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, "%s=%g", row->knob.name.c_str(), knob);
+  return buffer;
+}
+
+std::vector<Variant> variants_of(const Experiment& experiment, const std::vector<MethodRow>& methods) {
+  std::vector<Variant> variants;
+  for (const auto& entry : experiment.methods) {
+    const auto row =
+        std::find_if(methods.begin(), methods.end(), [&](const MethodRow& r) { return r.name == entry.method; });
+    if (row == methods.end()) {
+      std::string known;
+      for (const auto& r : methods) known += (known.empty() ? "" : ", ") + r.name;
+      throw InputError(experiment.stem + ": unknown method \"" + entry.method + "\"; known are " + known);
+    }
+    if (!entry.knob_values.empty() && row->knob.name.empty())
+      throw InputError(experiment.stem + ": method \"" + entry.method + "\" has no knob");
+    if (entry.knob_values.empty()) variants.push_back({&*row, row->knob.value});
+    for (double value : entry.knob_values) variants.push_back({&*row, value});
+  }
+  return variants;
+}
+
+bool run_experiment(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
+                    const RunOptions& options) {
+  Runner runner(experiment, methods, context, options);
+  runner.run();
+  runner.file().finish(context, experiment.stem, experiment.claim, options.command, experiment.seed);
+  if (!options.quiet) runner.summary().print(experiment.stem);
+  return runner.summary().all_ok();
+}
+
+}  // namespace cutbench

@@ -1,0 +1,35 @@
+// The run loop: sheets x resolutions x cases x methods x repetitions, a row each.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "harness/cut/cutting_method.h"
+#include "harness/run/context.h"
+#include "harness/run/experiment.h"
+
+namespace cutbench {
+
+struct RunOptions {
+  std::string out = "results";
+  std::string command;        ///< recorded
+  int shard = 1, shards = 1;  ///< case i is this shard's where i mod shards = shard - 1
+  bool quiet = false;         ///< no progress, no table
+};
+
+/// A method with a value of its knob, as it appears in records and figures.
+struct Variant {
+  const MethodRow* row;
+  double knob;
+  std::string knob_text() const;  ///< "rounds=1", or empty
+};
+/// Throws InputError for unknown methods.
+std::vector<Variant> variants_of(const Experiment& experiment, const std::vector<MethodRow>& methods);
+
+/// Runs it all and writes <out>/<stem>/records.csv and context.json; a killed run goes on where it stopped. Prints the
+/// results table. Returns false where a row's verdict is not ok.
+bool run_experiment(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
+                    const RunOptions& options);
+
+}  // namespace cutbench
