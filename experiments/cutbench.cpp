@@ -86,6 +86,11 @@ int cut(const CutArguments& arguments) {
   CutOptions options;
   options.chord_tolerance = number(arguments.chord_tolerance, "--chord-tolerance");
   if (!(options.chord_tolerance > 0)) throw InputError("--chord-tolerance: must be positive, or inf");
+  for (const std::string& file :
+       {arguments.out, arguments.report})  // before the work, so that nothing is written by halves
+    if (const auto folder = std::filesystem::path(file).parent_path();
+        !folder.empty() && !std::filesystem::is_directory(folder))
+      throw InputError(file + ": there is no folder " + folder.string() + "; make it first");
   const std::vector<Curve> cuts = read_path(arguments.path);
   const MeshData data = read_mesh(arguments.mesh);
   for (const auto& note : data.notes) std::cerr << "note: " << note << '\n';

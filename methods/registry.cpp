@@ -1,6 +1,7 @@
 #include "methods/registry.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "harness/mesh/mesh_data.h"
 #include "methods/bowyer_watson/bowyer_watson.h"
@@ -27,6 +28,8 @@ const std::vector<MethodRow>& all_methods() {
        {"rounds", 1, "rounds of the local split; 0: the best diagonal alone"},
        exact_split,
        [](double rounds) {
+         if (!(rounds >= 0 && rounds <= 20 && rounds == std::floor(rounds)))
+           throw InputError("bowyer_watson: rounds must be a whole number from 0 to 20");
          return std::make_unique<BowyerWatson>(BowyerWatson::Options{.rounds = static_cast<int>(rounds)});
        }},
       {"cgal_cdt",

@@ -56,7 +56,7 @@ struct MethodRow {
   std::string name, summary;
   Knob knob;
   Promises promises;
-  std::function<std::unique_ptr<CuttingMethod>(double knob)> make;
+  std::function<std::unique_ptr<CuttingMethod>(double knob)> make;  ///< throws InputError: a value out of range
 };
 
 }  // namespace cutbench

@@ -29,19 +29,20 @@ bool separate_fans(Sheet& sheet, HalfEdge first, std::vector<DeformedIndex>& see
   DeformedIndex mine;
   HalfEdge h = first;
   do {
-    const TriangleIndex t = triangle_of(h);
+    const Triangle& triangle = sheet.triangle(triangle_of(h));
     const auto k = static_cast<std::size_t>(corner_of(h));
-    if (separates(sheet, h)) {  // a fan begins
-      mine = sheet.triangle(t).deformed[k];
+    const HalfEdge left = triangle.opposite[k == 0 ? 2 : k - 1];
+    if (!triangle.opposite[k].valid() || triangle.mark[k] != EdgeMark::none) {  // a fan begins
+      mine = triangle.deformed[k];
       copied = std::find(seen.begin(), seen.end(), mine) != seen.end();
       if (copied)
         mine = sheet.copy_deformed(mine);
       else
         seen.push_back(mine);
-      if (sheet.mark(h) == EdgeMark::path) sheet.set_mark(h, EdgeMark::incision);
+      if (triangle.mark[k] == EdgeMark::path) sheet.set_mark(h, EdgeMark::incision);
     }
-    if (copied) sheet.set_deformed(t, static_cast<int>(k), mine);
-    h = sheet.turn_left(h);
+    if (copied) sheet.set_deformed(triangle_of(h), static_cast<int>(k), mine);
+    h = left;
   } while (h.valid() && h != first);
   return h.valid();
 }

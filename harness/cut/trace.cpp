@@ -11,7 +11,7 @@ Subdivision& Tracer::trace(const Sheet& sheet, const Polyline& path, Walk& walk,
   sheet_ = &sheet, path_ = &path, chord_tolerance_ = chord_tolerance;
   trace_.reset(sheet);
   links_.clear(), links_of_face_.clear();
-  from_ = walk.place();
+  from_ = walk.place(), from_node_ = -1;
   first_ = 1, count_ = 0;
   loop_ = head_open_ = path.closed && !path.kept[0] && from_.kind == Place::Kind::face;
   if (loop_) first_ = 0, count_ = 1;
@@ -29,12 +29,49 @@ Subdivision& Tracer::trace(const Sheet& sheet, const Polyline& path, Walk& walk,
   if (loop_) close_loop();
   for (int f = 0; f < static_cast<int>(trace_.faces.size()); ++f)
     if (!is_simple(f)) arrange(f);
+  if (trace_.nodes.size() == 2) split_lone_piece();
   return trace_;
+}
+
+/// Does neither the border nor an open incision pass through the place?
+bool Tracer::is_free(const Place& place) const {
+  if (place.kind == Place::Kind::face) return true;
+  const auto closed = [&](HalfEdge h) { return !sheet_->on_border(h) && sheet_->mark(h) == EdgeMark::none; };
+  if (place.kind == Place::Kind::edge) return closed(place.edge);
+  const HalfEdge first = sheet_->first_spoke(place.vertex);
+  HalfEdge h = first;
+  do {
+    if (!closed(h)) return false;
+    h = sheet_->turn_left(h);
+  } while (h != first);
+  return true;
+}
+
+/// One edge between two tips has nothing to open, since tips stay whole: it gets a node in between, on the path.
+void Tracer::split_lone_piece() {
+  const Place a = trace_.node(0).place, b = trace_.node(1).place;
+  if (!is_free(a) || !is_free(b)) return;
+  const Point2 middle = a.point + 0.5 * (b.point - a.point);
+  if (!trace_.along.empty()) {
+    const HalfEdge h = trace_.along[0].edge;
+    const Point2 from = sheet_->rest(sheet_->origin(h)), edge = sheet_->rest(sheet_->target(h)) - from;
+    Place place;
+    place.kind = Place::Kind::edge, place.edge = h;
+    place.lambda = dot(middle - from, edge) / dot(edge, edge), place.point = from + place.lambda * edge;
+    trace_.node_of(place);
+  } else if (!trace_.segments.empty()) {
+    const Link& only = links_.front();
+    const int face = trace_.face_of(face_);
+    const int node = trace_.node_of(place_in(face_, only.count > 0 ? point(only.first + only.count / 2) : middle));
+    trace_.face(face).segments = -1;
+    trace_.add_segment(face, 0, node), trace_.add_segment(face, node, 1);
+  }
 }
 
 /// Takes in one step of the walk; `point` is the polyline point it is on its way to, `tip`: the path ends with it.
 void Tracer::handle(const Step& step, std::size_t point, bool tip) {
   const Place& to = step.place;
+  int to_node = -1;
   switch (step.passage.kind) {
     case Passage::Kind::along:
       run_along(from_, to, step.passage.edge);
@@ -49,13 +86,13 @@ void Tracer::handle(const Step& step, std::size_t point, bool tip) {
         head_open_ = false;
         head_face_ = face_, head_to_ = to, head_count_ = count_;
       } else {
-        finish(trace_.face_of(face_), from_, first_, count_, to);
+        to_node = finish(trace_.face_of(face_), from_, first_, count_, to);
       }
       break;
     default:
       break;
   }
-  from_ = to;
+  from_ = to, from_node_ = to_node;
   // The next link's points start behind this place.
   first_ = step.arrived ? point + 1 : point;
   count_ = 0;
@@ -65,7 +102,8 @@ void Tracer::handle(const Step& step, std::size_t point, bool tip) {
 void Tracer::close_loop() {
   if (head_open_) {  // it never left that triangle: break the loop at its first point
     const Place start = place_in(face_, point(0));
-    return finish(trace_.face_of(face_), start, 1, count_ - 2, start);
+    finish(trace_.face_of(face_), start, 1, count_ - 2, start);
+    return;
   }
   if (face_ != head_face_) throw WalkLost();
   // The last link ends with the first point itself, with which the head begins.
@@ -78,15 +116,19 @@ void Tracer::run_along(const Place& from, const Place& to, HalfEdge edge) {
     trace_.add_along(trace_.node_of(from), trace_.node_of(to), edge);
 }
 
-/// Records one passage through one triangle.
-void Tracer::finish(int face, const Place& from, std::size_t first, std::size_t count, const Place& to) {
+/// Records one passage through one triangle; returns the node at its end, -1 where it came to nothing. The node at its
+/// start is from_node_ where that is known.
+int Tracer::finish(int face, const Place& from, std::size_t first, std::size_t count, const Place& to) {
   const TriangleIndex t = trace_.face(face).triangle;
   chosen_.assign(count, 0);
   const int common = common_edge(t, from, to);
   if (count > 0) choose(common >= 0, from, first, count, to);
-  if (common >= 0 && !any_chosen()) return run_along(from, to, half_edge(t, common));
+  if (common >= 0 && !any_chosen()) {
+    run_along(from, to, half_edge(t, common));
+    return -1;
+  }
 
-  const int start = trace_.node_of(from);
+  const int start = from_node_ >= 0 ? from_node_ : trace_.node_of(from);
   int node = start;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -102,6 +144,7 @@ void Tracer::finish(int face, const Place& from, std::size_t first, std::size_t 
   int& head = links_of_face_[static_cast<std::size_t>(face)];
   links_.push_back({start, end, first, count, kept < count, head});
   head = static_cast<int>(links_.size() - 1);
+  return end;
 }
 
 /// Which points of a link become nodes.

@@ -38,13 +38,15 @@ class Tracer {
   void handle(const Step& step, std::size_t point, bool tip);
   void close_loop();
   void run_along(const Place& from, const Place& to, HalfEdge edge);
-  void finish(int face, const Place& from, std::size_t first, std::size_t count, const Place& to);
+  int finish(int face, const Place& from, std::size_t first, std::size_t count, const Place& to);
   void choose(bool on_one_edge, const Place& from, std::size_t first, std::size_t count, const Place& to);
   void choose_by_chord(Point2 a, Point2 b, std::size_t first, std::size_t begin, std::size_t end);
   void choose_on_loop(Point2 start, std::size_t first, std::size_t count);
   bool any_chosen() const { return std::find(chosen_.begin(), chosen_.end(), 1) != chosen_.end(); }
   Point2 point(std::size_t i) const { return path_->points[i < path_->points.size() ? i : i - path_->points.size()]; }
 
+  bool is_free(const Place& place) const;
+  void split_lone_piece();
   int common_edge(TriangleIndex t, const Place& a, const Place& b) const;
   int edges_of(TriangleIndex t, const Place& place) const;
 
@@ -68,6 +70,7 @@ class Tracer {
 
   // The link under way: from a place, through the points [first_, first_ + count_) of the polyline.
   Place from_;
+  int from_node_ = -1;  // once it has one
   std::size_t first_ = 0, count_ = 0;
   // A closed path that starts inside a triangle: its first link, which ends at head_to_, is joined to the last one.
   bool loop_ = false, head_open_ = false;

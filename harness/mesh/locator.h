@@ -50,15 +50,15 @@ class Locator {
 template <class Visit, class Done>
 void Locator::visit_border(const Sheet& sheet, Point2 a, Point2 b, Visit visit, Done done) const {
   // Column by column in the direction of the segment; one cell more on every side absorbs rounding.
-  const int first = column(a.x), last = column(b.x), step = first <= last ? 1 : -1;
   const double dx = b.x - a.x;
-  auto fraction = [&](double x) { return dx == 0 ? 1 : std::min(1.0, std::max(0.0, (x - a.x) / dx)); };
+  const int first = column(a.x), last = column(b.x), step = dx >= 0 ? 1 : -1;
+  auto fraction = [&](double x) { return std::min(1.0, std::max(0.0, (x - a.x) / dx)); };
   for (int c = first - step; c != last + 2 * step; c += step) {
     if (c < 0 || c >= columns_) continue;
     const double left = low_.x + c / per_cell_.x, right = low_.x + (c + 1) / per_cell_.x;
     // The outermost columns stand for everything beyond them.
-    const double s0 = c == (step > 0 ? 0 : columns_ - 1) ? 0 : fraction(step > 0 ? left : right);
-    const double s1 = c == (step > 0 ? columns_ - 1 : 0) ? 1 : fraction(step > 0 ? right : left);
+    const double s0 = dx == 0 || c == (step > 0 ? 0 : columns_ - 1) ? 0 : fraction(step > 0 ? left : right);
+    const double s1 = dx == 0 || c == (step > 0 ? columns_ - 1 : 0) ? 1 : fraction(step > 0 ? right : left);
     const double y0 = a.y + s0 * (b.y - a.y), y1 = a.y + s1 * (b.y - a.y);
     const int bottom = std::max(0, row(std::min(y0, y1)) - 1), top = std::min(rows_ - 1, row(std::max(y0, y1)) + 1);
     for (int r = bottom; r <= top; ++r)

@@ -1,6 +1,7 @@
 #include "harness/mesh/sheet.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "harness/mesh/predicates.h"
@@ -12,6 +13,7 @@ namespace {
 /// Barycentric coordinates of p in the triangle c (Cramer's rule).
 std::array<double, 3> barycentric(const std::array<Point2, 3>& c, Point2 p) {
   const double area = cross(c[1] - c[0], c[2] - c[0]);
+  if (!(area > 0)) return {1, 0, 0};  // positive by the exact predicate, but not in doubles
   const double b = cross(p - c[0], c[2] - c[0]) / area, d = cross(c[1] - c[0], p - c[0]) / area;
   return {1 - b - d, b, d};
 }
@@ -63,13 +65,13 @@ void Sheet::rollback() {
   for (auto d = log_.displaced.rbegin(); d != log_.displaced.rend(); ++d) position_[d->vertex()] = d->from;
   for (std::size_t i = 0; i < freed_vertices_.size(); ++i)
     vertex_of_deformed_[freed_deformed_[i]()] = freed_vertices_[i];
-  for (auto d : log_.new_deformed) {
-    vertex_of_deformed_[d()] = {};
-    if (d() < log_.deformed_before) free_deformed_.push_back(d);
+  for (auto d = log_.new_deformed.rbegin(); d != log_.new_deformed.rend(); ++d) {
+    vertex_of_deformed_[(*d)()] = {};
+    if ((*d)() < log_.deformed_before) free_deformed_.push_back(*d);
   }
-  for (auto v : log_.new_vertices) {
-    triangle_of_vertex_[v()] = {};
-    if (v() < log_.vertices_before) free_vertices_.push_back(v);
+  for (auto v = log_.new_vertices.rbegin(); v != log_.new_vertices.rend(); ++v) {
+    triangle_of_vertex_[(*v)()] = {};
+    if ((*v)() < log_.vertices_before) free_vertices_.push_back(*v);
   }
   for (auto entry = log_.touched.rbegin(); entry != log_.touched.rend(); ++entry) {
     at(entry->slot) = entry->before;
@@ -77,13 +79,14 @@ void Sheet::rollback() {
       free_triangles_.push_back(entry->slot);
       continue;
     }
-    for (std::size_t k = 0; k < 3; ++k) triangle_of_vertex_[entry->before.vertex[k]()] = entry->vertex_triangle[k];
+    for (int k = 0; k < 3; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      triangle_of_vertex_[entry->before.vertex[i]()] = entry->vertex_triangle[i];
+      // Neighbours were re-linked without being touched themselves.
+      if (const HalfEdge o = entry->before.opposite[i]; o.valid())
+        at(triangle_of(o)).opposite[corner(o)] = half_edge(entry->slot, k);
+    }
   }
-  // Neighbours of touched triangles were re-linked without being touched themselves.
-  for (const auto& entry : log_.touched)
-    for (int k = 0; k < 3 && entry.before.alive(); ++k)
-      if (const HalfEdge o = entry.before.opposite[static_cast<std::size_t>(k)]; o.valid())
-        at(triangle_of(o)).opposite[corner(o)] = half_edge(entry.slot, k);
   triangles_.resize(log_.triangles_before);
   rest_.resize(log_.vertices_before), triangle_of_vertex_.resize(log_.vertices_before);
   position_.resize(log_.deformed_before), vertex_of_deformed_.resize(log_.deformed_before);
@@ -121,9 +124,11 @@ VertexIndex Sheet::new_rest_vertex(Point2 p) {
   return v;
 }
 
-DeformedIndex Sheet::new_deformed(VertexIndex v, const EditLog::Ancestry& from) {
-  Point3 x;
-  for (std::size_t i = 0; i < 3 && from.parents[i].valid(); ++i) x = x + from.weights[i] * position(from.parents[i]);
+DeformedIndex Sheet::new_deformed(VertexIndex v, const std::array<DeformedIndex, 3>& parents,
+                                  const std::array<double, 3>& weights) {
+  Point3 x = weights[0] * position(parents[0]);
+  if (parents[1].valid()) x = x + weights[1] * position(parents[1]);
+  if (parents[2].valid()) x = x + weights[2] * position(parents[2]);
   DeformedIndex d(position_.size());
   if (free_deformed_.empty()) {
     position_.push_back(x), vertex_of_deformed_.push_back(v);
@@ -133,13 +138,11 @@ DeformedIndex Sheet::new_deformed(VertexIndex v, const EditLog::Ancestry& from) 
     position_[d()] = x, vertex_of_deformed_[d()] = v;
   }
   log_.new_deformed.push_back(d);
-  log_.ancestry.push_back({d, from.parents, from.weights});
+  log_.ancestry.push_back({d, parents, weights});
   return d;
 }
 
-DeformedIndex Sheet::copy_deformed(DeformedIndex d) {
-  return new_deformed(rest_vertex(d), {{}, {d, {}, {}}, {1, 0, 0}});
-}
+DeformedIndex Sheet::copy_deformed(DeformedIndex d) { return new_deformed(rest_vertex(d), {d, {}, {}}, {1, 0, 0}); }
 
 void Sheet::reserve(std::size_t triangles, std::size_t vertices, std::size_t deformed) {
   triangles_.reserve(triangles);
@@ -154,7 +157,7 @@ VertexIndex Sheet::new_vertex(HalfEdge h, double lambda, Point2 p) {
   auto on_side = [&](HalfEdge side, double fraction, VertexIndex v) {
     const auto& d = triangle(triangle_of(side)).deformed;
     const auto k = corner(side);
-    return new_deformed(v, {{}, {d[k], d[k == 2 ? 0 : k + 1], {}}, {1 - fraction, fraction, 0}});
+    return new_deformed(v, {d[k], d[k == 2 ? 0 : k + 1], {}}, {1 - fraction, fraction, 0});
   };
   const VertexIndex v = new_rest_vertex(p);
   Work::Pending pending{v, triangle_of(h), {}, on_side(h, lambda, v), {}};
@@ -168,7 +171,8 @@ VertexIndex Sheet::new_vertex(HalfEdge h, double lambda, Point2 p) {
 
 VertexIndex Sheet::new_vertex(TriangleIndex t, Point2 p) {
   const VertexIndex v = new_rest_vertex(p);
-  work_.pending.push_back({v, t, {}, new_deformed(v, {{}, triangle(t).deformed, barycentric(corners(t), p)}), {}});
+  work_.pending.push_back(
+      {v, t, {}, new_deformed(v, std::array(triangle(t).deformed), barycentric(corners(t), p)), {}});
   return v;
 }
 
@@ -177,7 +181,7 @@ VertexIndex Sheet::new_vertex(TriangleIndex t, Point2 p) {
 
 /// The deformed vertex, on the side of triangle `parent`, of a vertex made since the last replace_cavity().
 DeformedIndex Sheet::pending_deformed(VertexIndex v, TriangleIndex parent) const {
-  const auto i = work_.pending_of[v()];
+  const auto i = v() < work_.pending_of.size() ? work_.pending_of[v()] : work_.pending.size();
   if (i >= work_.pending.size() || work_.pending[i].vertex != v) return {};
   const auto& made = work_.pending[i];
   if (!made.right.valid() || parent == made.left) return made.at_left;
@@ -217,10 +221,20 @@ void Sheet::inherit_round(HalfEdge spoke) {
     if (h == spoke) break;
     if (h.valid()) d = known(h);
   }
-  // All triangles at the vertex were replaced: it has one fan, and any of the old ones knows.
-  for (const Triangle& t : work_.old)
-    for (std::size_t k = 0; k < 3 && !d.valid(); ++k)
-      if (t.vertex[k] == origin(spoke)) d = t.deformed[k];
+  // All triangles of the fan were replaced: the old one in whose corner this one lies knows.
+  if (!d.valid()) {
+    const auto c = corners(triangle_of(spoke));
+    const Point2 v = rest(origin(spoke)), inward = c[0] + c[1] + c[2] - 3 * v;
+    double deepest = -1e300;
+    for (const Triangle& t : work_.old)
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (t.vertex[k] != origin(spoke)) continue;
+        const Point2 right = rest(t.vertex[k == 2 ? 0 : k + 1]) - v, left = rest(t.vertex[k == 0 ? 2 : k - 1]) - v;
+        const double depth = std::min(cross(right, inward) / std::sqrt(squared_length(right)),
+                                      cross(inward, left) / std::sqrt(squared_length(left)));
+        if (depth > deepest) deepest = depth, d = t.deformed[k];
+      }
+  }
   at(triangle_of(spoke)).deformed[corner(spoke)] = d;
 }
 
@@ -232,11 +246,12 @@ void Sheet::add_triangle(TriangleIndex slot, const NewTriangle& made, std::span<
   t.vertex = made.vertex, t.mark = made.mark, t.opposite = {};
   std::array<int, 3> corner_of_parent{-1, -1, -1};
   for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t j = 0; old && j < 3; ++j)
-      if (old->vertex[j] == t.vertex[k]) corner_of_parent[k] = static_cast<int>(j);
+    const VertexIndex v = t.vertex[k];
+    if (old) corner_of_parent[k] = old->vertex[0] == v ? 0 : old->vertex[1] == v ? 1 : old->vertex[2] == v ? 2 : -1;
     t.deformed[k] = corner_of_parent[k] >= 0 ? old->deformed[static_cast<std::size_t>(corner_of_parent[k])]
-                                             : pending_deformed(t.vertex[k], parent);
+                                             : pending_deformed(v, parent);
     if (!t.deformed[k].valid()) work_.unassigned.push_back(half_edge(slot, static_cast<int>(k)));
+    triangle_of_vertex_[v()] = slot;
   }
   for (int k = 0; k < 3; ++k) {
     const auto i = static_cast<std::size_t>(k);
@@ -296,10 +311,9 @@ void Sheet::replace_cavity(std::span<const TriangleIndex> removed, std::span<con
     if (!claimed[j]) freed_triangles_.push_back(removed[j]);
   for (const Triangle& t : old)
     for (const HalfEdge o : t.opposite)
-      if (o.valid() && !was_removed(o) && !opposite(o).valid()) link_by_vertices(o);
+      if (o.valid() && !was_removed(o) && !opposite(o).valid())
+        if (const HalfEdge inner = work_.edges.pair_or_insert(origin(o), target(o), o); inner.valid()) link(inner, o);
 
-  for (auto t : slot)
-    for (auto v : triangle(t).vertex) triangle_of_vertex_[v()] = t;
   for (auto spoke : work_.unassigned) inherit_round(spoke);
   work_.pending.clear();
 }
@@ -395,7 +409,7 @@ bool Sheet::collapse(HalfEdge h) {
   std::vector<NewTriangle> rest_of_star;
   HalfEdge spoke = h;
   do {
-    if (on_border(spoke) || mark(spoke) != EdgeMark::none) return false;
+    if (!spoke.valid() || on_border(spoke) || mark(spoke) != EdgeMark::none) return false;
     const VertexIndex c = target(spoke), d = origin(previous(spoke));
     if (c != b && d != b) {
       if (orientation(rest(b), rest(c), rest(d)) <= 0) return false;

@@ -116,7 +116,8 @@ class Sheet {
   void touch(TriangleIndex t);
   TriangleIndex new_triangle();
   VertexIndex new_rest_vertex(Point2 p);
-  DeformedIndex new_deformed(VertexIndex v, const EditLog::Ancestry& from);
+  DeformedIndex new_deformed(VertexIndex v, const std::array<DeformedIndex, 3>& parents,
+                             const std::array<double, 3>& weights);
   void link(HalfEdge h, HalfEdge o);
   void add_triangle(TriangleIndex slot, const NewTriangle& made, std::span<const TriangleIndex> removed);
   void link_by_vertices(HalfEdge h);

@@ -236,14 +236,16 @@ Curves Generator::tiny_loop() {
 
 Curves Generator::tiny_open() {
   const auto [centre, space] = inside_triangle();
-  const auto point = [&, middle = centre, r = space] {
-    const double distance = r * random_.between(0.1, 0.9);
-    return middle + distance * random_.direction();
+  const auto point = [this] {
+    const double distance = random_.between(0.1, 0.9);
+    return distance * random_.direction();
   };
-  if (i_ % 3 == 0) return {bezier({point(), point(), point(), point()})};
   Points points{point(), point()};
+  const bool curved = i_ % 3 == 0;  // and smooth: what flattening does to a cusp is anybody's guess
+  while (curved && (points.size() < 4 || !is_smooth(points, false))) points = {point(), point(), point(), point()};
   while (i_ % 3 == 2 && points.size() < 5) points.push_back(point());  // these may cross themselves
-  return {polyline(std::move(points))};
+  for (Point2& p : points) p = centre + space * p;
+  return {curved ? bezier(std::move(points)) : polyline(std::move(points))};
 }
 
 Curves Generator::u_turn() {
@@ -252,9 +254,10 @@ Curves Generator::u_turn() {
   const std::size_t k = random_.below(3);
   const Point2 along = c[(k + 1) % 3] - c[k], out = 1 / std::sqrt(squared_length(along)) * Point2{along.y, -along.x};
   Point2 turn = inside_triangle().first, d = random_.direction();
-  if (i_ % 2 == 1) {  // just behind an edge
+  const bool round = random_.below(3) == 0;
+  if (i_ % 2 == 1) {  // just behind an edge; a round turn by more than what flattening may take off it
     constexpr double depths[] = {0.3, 0.1, 1e-2, 1e-4, 1e-6, 1e-9};
-    const double depth = depths[random_.below(6)] * frame_.mean_edge;
+    const double depth = depths[random_.below(round ? 3 : 6)] * frame_.mean_edge;
     turn = c[k] + random_.between(0.2, 0.8) * along + depth * out;
     d = out + random_.between(-0.7, 0.7) * along;
     d = 1 / std::sqrt(squared_length(d)) * d;
@@ -262,14 +265,9 @@ Curves Generator::u_turn() {
   const double length = random_.coin(0.3) ? 2 * sheet_.size() : random_.between(0.2, 3) * frame_.mean_edge;
   const Point2 side = random_.between(0.02, 0.2) * std::min(length, 3 * frame_.mean_edge) * Point2{-d.y, d.x};
   const Point2 a = turn - length * d - side, b = turn - length * d + side;
-  switch (random_.below(3)) {
-    case 0:
-      return {polyline({a, turn, b})};
-    case 1:
-      return {polyline({a, turn - 0.3 * side, turn + 0.3 * side, b})};
-    default:
-      return {bezier({a, a + length / 0.75 * d, b + length / 0.75 * d, b})};
-  }
+  if (round) return {bezier({a, a + length / 0.75 * d, b + length / 0.75 * d, b})};
+  if (random_.coin()) return {polyline({a, turn, b})};
+  return {polyline({a, turn - 0.3 * side, turn + 0.3 * side, b})};
 }
 
 Curves Generator::through_vertices() {

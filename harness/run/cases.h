@@ -28,7 +28,8 @@ Frame frame_of(const Sheet& sheet);
 /// - `several`: four cuts of the kinds above.
 /// - `self_crossing`: a Bezier loop, a pentagram or a figure eight, in turns.
 /// - `tiny_loop`, `tiny_open`: wholly inside one triangle.
-/// - `u_turn`: hairpins, pointed, blunt or round, that turn inside a triangle or 1e-9 to 0.3 h behind an edge.
+/// - `u_turn`: hairpins, pointed, blunt or round, that turn inside a triangle or 1e-9 (round ones: 0.01) to 0.3 h
+///   behind an edge.
 /// - `through_vertices`: polylines and Beziers with ends and corners at vertices, and lines through two vertices.
 /// - `along_edges`: polylines along chains of edges, along the border too, some ending inside an edge or leaving it.
 std::span<const char* const> cut_families();

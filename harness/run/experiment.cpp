@@ -7,7 +7,8 @@
 #include <limits>
 #include <numeric>
 
-#include "harness/mesh/mesh_data.h"
+#include "harness/mesh/families.h"
+#include "harness/run/cases.h"
 
 namespace cutbench {
 
@@ -32,6 +33,15 @@ void check_keys(const toml::table& table, const std::vector<std::string>& known,
       return edit_distance(a, name) < edit_distance(b, name);
     });
     throw InputError(where + ": unknown key \"" + name + "\"; did you mean \"" + *nearest + "\"?");
+  }
+}
+
+void check_names(const std::vector<std::string>& names, std::span<const char* const> known, const std::string& what) {
+  for (const auto& name : names) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    std::string list;
+    for (const char* k : known) list += std::string(list.empty() ? "" : ", ") + k;
+    throw InputError(what + " \"" + name + "\" is not known; known are " + list);
   }
 }
 
@@ -106,6 +116,8 @@ Experiment read_experiment(const std::filesystem::path& file) {
   e.claim = reader.value<std::string>("claim");
   e.sheets = reader.list<std::string>("sheets");
   e.cut_families = reader.list<std::string>("cut_families");
+  check_names(e.sheets, sheet_families(), name + ": sheet");
+  check_names(e.cut_families, cut_families(), name + ": cut family");
   for (auto triangles : reader.list<std::int64_t>("resolutions")) {
     squares_per_side(static_cast<int>(triangles));
     e.resolutions.push_back(static_cast<int>(triangles));

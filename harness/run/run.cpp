@@ -112,8 +112,9 @@ class Runner {
     for (std::size_t w = 0; w < workers_.size(); ++w) {
       Record& row =
           judged.emplace_back(start_row(workers_[w].variant.row->name, workers_[w].variant.knob_text(), 0, "warm"));
-      const CutRun run = cut(workers_[w], cuts);
       if (file_.has(row.key())) continue;
+      restore(workers_[w]);
+      const CutRun run = cut(workers_[w], cuts);
       if (forced.empty() && experiment_.quality) forced = forced_corners_of(base_, cuts);
       judge_into(row, summaries[w], workers_[w], cuts, forced, run);
     }
@@ -126,7 +127,7 @@ class Runner {
         Worker& worker = workers_[w];
         Record row = start_row(worker.variant.row->name, worker.variant.knob_text(), repetition, cache);
         if (file_.has(row.key())) continue;
-        const CutRun run = cut(worker, cuts, cold);
+        const CutRun run = measure(worker, cuts, cold);
         crossed = run.crossed_triangles;
         if (r == 0)
           row = judged[w];
@@ -148,11 +149,29 @@ class Runner {
     summary_.add(resolution, variant.row->name, variant.knob_text(), cut);
   }
 
-  CutRun cut(Worker& worker, const std::vector<Curve>& cuts, bool cold = false) {
-    worker.sheet = base_, worker.locator = base_locator_;  // outside the clock, like the warm-up
+  void restore(Worker& worker) {
+    worker.sheet = base_, worker.locator = base_locator_;
     worker.sheet.reserve(4 * base_.triangle_slots(), 4 * base_.vertex_slots(), 4 * base_.deformed_slots());
-    if (cold) chill_caches();
+  }
+
+  CutRun cut(Worker& worker, const std::vector<Curve>& cuts) {
     return cut_all(worker.sheet, worker.locator, worker.cutter, cuts, *worker.method, cut_options_);
+  }
+
+  /// Cold: right after other work has driven everything out of the caches. Warm: the same cut, made and undone just
+  /// before.
+  CutRun measure(Worker& worker, const std::vector<Curve>& cuts, bool cold) {
+    restore(worker);
+    if (cold) {
+      chill_caches();
+    } else {
+      cut(worker, cuts);
+      if (cuts.size() == 1)
+        worker.sheet.rollback(), worker.locator = base_locator_;
+      else
+        restore(worker);
+    }
+    return cut(worker, cuts);
   }
 
   void judge_into(Record& row, Summary::Cut& summary, const Worker& worker, const std::vector<Curve>& cuts,

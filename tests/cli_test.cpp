@@ -1,0 +1,246 @@
+// The program as a user meets it: exit codes, one line on stderr, nothing half-written.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "harness/run/record.h"
+#include "methods/registry.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write(const fs::path& file, const std::string& text) { std::ofstream(file) << text; }
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+class Cli : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::temp_directory_path() / ("cutbench_" + std::string(info->name()) + std::to_string(getpid()));
+    fs::create_directories(folder_);
+    write(folder_ / "path.json", R"({"cuts":[{"bezier":[[-0.1,0.3],[0.3,0.9],[0.6,0.1],[1.1,0.7]]}]})");
+    write(folder_ / "sheet.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  struct Result {
+    int code;
+    std::string out, error;
+  };
+  Result run(const std::string& arguments) {
+    const fs::path out = folder_ / "stdout", error = folder_ / "stderr";
+    const std::string command =
+        "cd '" + folder_.string() + "' && { '" CUTBENCH_PROGRAM "' " + arguments + "; } >stdout 2>stderr";
+    const int status = std::system(command.c_str());
+    return {WEXITSTATUS(status), read(out), read(error)};
+  }
+  Result cut(const std::string& more = "", const std::string& method = "conventional_split") {
+    return run("cut --mesh sheet.off --path path.json --out out.obj --method " + method + " " + more);
+  }
+  /// Exit code 2, one line that says `what`, and no output.
+  void expect_refused(const Result& result, const std::string& what) {
+    EXPECT_EQ(result.code, 2) << result.error;
+    EXPECT_EQ(lines_of(result.error).size(), 1u) << result.error;
+    EXPECT_NE(result.error.find(what), std::string::npos) << result.error;
+    EXPECT_FALSE(fs::exists(folder_ / "out.obj"));
+  }
+  std::string small_experiment(const std::string& more = "") {
+    return "claim = \"c\"\nsheets = [\"grid\", \"delaunay\"]\nresolutions = [200]\ncut_families = [\"curved\", "
+           "\"recut\"]\n"
+           "cases = 3\nrepetitions = 2\nmethods = [\"conventional_split\", {name = \"bowyer_watson\", knob = [0, "
+           "1]}]\n" +
+           more;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Cli, MethodsListsEveryRow) {
+  const auto json = nlohmann::json::parse(run("methods --json").out);
+  ASSERT_EQ(json.size(), cutbench::all_methods().size());
+  for (std::size_t i = 0; i < json.size(); ++i) EXPECT_EQ(json[i]["name"], cutbench::all_methods()[i].name);
+  const auto text = run("methods");
+  EXPECT_EQ(text.code, 0);
+  for (const auto& row : cutbench::all_methods()) EXPECT_NE(text.out.find(row.summary), std::string::npos);
+}
+
+TEST_F(Cli, CutWritesMeshAndReport) {
+  for (const auto& row : cutbench::all_methods()) {
+    const auto result = cut("--report r.json", row.name);
+    ASSERT_EQ(result.code, 0) << result.error;
+    const auto report = nlohmann::json::parse(read(folder_ / "r.json"));
+    EXPECT_EQ(report["status"], "ok");
+    EXPECT_EQ(report["method"], row.name);
+    EXPECT_EQ(report["pieces"], 2);
+    EXPECT_EQ(report["crossed_triangles"], 2);
+    EXPECT_GT(report["aspect_ratio"]["cut"]["max"], 1.15);
+    EXPECT_LT(std::abs(report["area_change"].get<double>()), 1e-12);
+    for (const char* key : {"reason", "vertices_added", "deformed_vertices_added", "triangles_added", "angle_deg",
+                            "altitude_min", "forced", "incision_error", "time_us"})
+      EXPECT_TRUE(report.contains(key)) << key;
+    // What was written is a sheet again, with its incision, which a second cut crosses.
+    write(folder_ / "across.json", R"({"cuts":[{"polyline":[[0.45,-0.1],[0.55,1.1]]}]})");
+    const auto again =
+        run("cut --mesh out.obj --path across.json --method " + row.name + " --out again.obj --report r.json");
+    EXPECT_EQ(again.code, 0) << again.error;
+    EXPECT_EQ(nlohmann::json::parse(read(folder_ / "r.json"))["pieces"], 4);
+  }
+}
+
+TEST_F(Cli, RepeatedPolylineIsANoop) {
+  write(folder_ / "path.json", R"({"cuts":[{"polyline":[[-0.1,0.3],[0.4,0.45],[1.1,0.7]]}]})");
+  ASSERT_EQ(cut().code, 0);
+  const auto again = run("cut --mesh out.obj --path path.json --method bowyer_watson --out again.obj --report r.json");
+  EXPECT_EQ(again.code, 0);
+  EXPECT_EQ(nlohmann::json::parse(read(folder_ / "r.json"))["status"], "noop");
+  EXPECT_EQ(read(folder_ / "out.obj"), read(folder_ / "again.obj"));
+}
+
+TEST_F(Cli, BadOptionsAreRefused) {
+  expect_refused(cut("", "nonsense"), "known are conventional_split");
+  expect_refused(cut("--set rounds=1"), "has no knob");
+  expect_refused(cut("--set rounds=x", "bowyer_watson"), "not a number");
+  expect_refused(cut("--set depth=1", "bowyer_watson"), "rounds=VALUE");
+  expect_refused(cut("--set rounds=-1", "bowyer_watson"), "rounds");
+  expect_refused(cut("--set rounds=1.5", "bowyer_watson"), "rounds");
+  expect_refused(cut("--chord-tolerance nan"), "not a number");
+  expect_refused(cut("--chord-tolerance -1"), "positive");
+  expect_refused(cut("--nonsense 1"), "--nonsense");
+  expect_refused(run("cut --mesh none.off --path path.json --out out.obj --method cgal_cdt"), "none.off");
+  expect_refused(run("cut --mesh sheet.off --path none.json --out out.obj --method cgal_cdt"), "none.json");
+  expect_refused(run("cut --mesh sheet.off --path path.json --out nowhere/out.obj --method cgal_cdt"), "nowhere");
+  expect_refused(cut("--report nowhere/r.json"), "nowhere");
+}
+
+TEST_F(Cli, BadPathsAreRefused) {
+  for (const auto& [text, what] :
+       {std::pair<const char*, const char*>{"", "not a path file"},
+        {"{\"cuts\":[", "not a path file"},
+        {"{\"cuts\":[]}", "empty"},
+        {"{\"cut\":[]}", "unknown key \"cut\""},
+        {"{\"cuts\":[{\"bezier\":[[0,0],[1,1]]}]}", "4, 7, 10"},
+        {"{\"cuts\":[{\"polyline\":[[0,0]]}]}", "2 points"},
+        {"{\"cuts\":[{\"polyline\":[[0,0],[1,1e999]]}]}", "not a path file"},
+        {"{\"cuts\":[{\"polyline\":[[0,0],[1,1e70]]}]}", "finite"},
+        {"{\"cuts\":[{\"polyline\":[[0,0,0],[1,1,1]]}]}", "[x, y]"},
+        {"{\"cuts\":[{\"polyline\":[[0,0],[1,1]],\"colour\":1}]}", "unknown key \"colour\""},
+        {"{\"cuts\":[{\"polyline\":[[0,0],[1,1]],\"closed\":true}]}", "3 points"},
+        {"{\"cuts\":[{\"bezier\":[[0,0],[0,1],[1,1],[1,0]],\"closed\":true}]}", "end where it began"},
+        {"{\"cuts\":[{\"polyline\":[[0,0],\"x\"]}]}", "[x, y]"}}) {
+    write(folder_ / "path.json", text);
+    expect_refused(cut(), what);
+  }
+}
+
+TEST_F(Cli, RunWritesOneRowPerRepetition) {
+  write(folder_ / "e.toml", small_experiment("every_edge = true\ncold = true\n"));
+  const auto result = run("run e.toml --out r");
+  ASSERT_EQ(result.code, 0) << result.error;
+  const auto lines = lines_of(read(folder_ / "r/e/records.csv"));
+  EXPECT_EQ(lines.size(), 1u + 2 * 2 * 3 * (3 + 1) * (2 + 1));  // sheets x families x cases x methods x (warm + cold)
+  EXPECT_EQ(static_cast<std::size_t>(std::count(lines[0].begin(), lines[0].end(), ',') + 1),
+            cutbench::column_names().size());
+  for (const auto& line : lines)
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','), std::count(lines[0].begin(), lines[0].end(), ','));
+  EXPECT_FALSE(fs::exists(folder_ / "r/e/records.csv.part"));
+  const auto context = nlohmann::json::parse(read(folder_ / "r/e/context.json"));
+  for (const char* key : {"commit", "dirty", "compiler", "flags", "build_type", "cpu", "versions", "date", "load",
+                          "seed", "command", "claim"})
+    EXPECT_TRUE(context.contains(key)) << key;
+  EXPECT_NE(result.out.find("bowyer_watson"), std::string::npos);  // the table
+}
+
+/// Everything but the times.
+std::multiset<std::string> without_times(const std::string& csv) {
+  std::multiset<std::string> rows;
+  for (const auto& line : lines_of(csv)) {
+    std::string kept;
+    std::istringstream fields(line);
+    std::string field;
+    for (std::size_t i = 0; std::getline(fields, field, ','); ++i)
+      if (!std::regex_search(cutbench::column_names().at(i), std::regex("_us$"))) kept += field + ",";
+    rows.insert(kept);
+  }
+  return rows;
+}
+
+TEST_F(Cli, RunIsDeterministicAndResumes) {
+  write(folder_ / "e.toml", small_experiment());
+  ASSERT_EQ(run("run e.toml --out a").code, 0);
+  ASSERT_EQ(run("run e.toml --out b").code, 0);
+  const auto whole = without_times(read(folder_ / "a/e/records.csv"));
+  EXPECT_EQ(without_times(read(folder_ / "b/e/records.csv")), whole);
+  ASSERT_EQ(run("run e.toml --out c --seed 2").code, 0);
+  EXPECT_NE(without_times(read(folder_ / "c/e/records.csv")), whole);
+
+  // A run that is killed, and goes on where it stopped: the rows it had are there to the letter, times included.
+  const auto start = run("run e.toml --out d >/dev/null 2>&1 & sleep 0.3; kill -9 $!; true");
+  ASSERT_EQ(start.code, 0);
+  const auto part = folder_ / "d/e/records.csv.part";
+  std::vector<std::string> before;
+  if (fs::exists(part)) {  // else it was faster than the kill
+    before = lines_of(read(part));
+    write(part, read(part) + "1,curved,gr");  // a line cut short
+  }
+  ASSERT_EQ(run("run e.toml --out d").code, 0);
+  const std::string resumed = read(folder_ / "d/e/records.csv");
+  EXPECT_EQ(without_times(resumed), whole);
+  for (std::size_t i = 1; i + 1 < before.size(); ++i) EXPECT_NE(resumed.find(before[i]), std::string::npos);
+}
+
+TEST_F(Cli, ShardsPartTheCases) {
+  write(folder_ / "e.toml", small_experiment());
+  ASSERT_EQ(run("run e.toml --out whole").code, 0);
+  ASSERT_EQ(run("run e.toml --out s1 --shard 1/2").code, 0);
+  ASSERT_EQ(run("run e.toml --out s2 --shard 2/2").code, 0);
+  auto both = without_times(read(folder_ / "s1/e/records.csv")),
+       second = without_times(read(folder_ / "s2/e/records.csv"));
+  second.erase(second.find(*without_times(lines_of(read(folder_ / "s2/e/records.csv"))[0]).begin()));  // its head
+  both.merge(second);
+  EXPECT_EQ(both, without_times(read(folder_ / "whole/e/records.csv")));
+}
+
+TEST_F(Cli, BadExperimentsAreRefused) {
+  for (const auto& [text, what] : {std::pair<std::string, const char*>{"claim = ", "line 1"},
+                                   {small_experiment("case = 3\n"), "did you mean \"cases\""},
+                                   {small_experiment("chord_tolerance = 0\n"), "positive"},
+                                   {small_experiment("seed = \"x\"\n"), "seed"},
+                                   {"claim = \"c\"\n", "sheets"}}) {
+    write(folder_ / "e.toml", text);
+    expect_refused(run("run e.toml --out r"), what);
+    EXPECT_FALSE(fs::exists(folder_ / "r"));
+  }
+  write(folder_ / "e.toml", small_experiment());
+  expect_refused(run("run e.toml none.toml --out r"), "none.toml");
+  expect_refused(run("run e.toml --out r --methods nonsense"), "--methods");
+  expect_refused(run("run e.toml --out r --resolutions 801"), "--resolutions");
+  expect_refused(run("run e.toml --out r --shard 3/2"), "--shard");
+  expect_refused(run("run e.toml --out r --seed x"), "--seed");
+  write(folder_ / "e.toml", std::regex_replace(small_experiment(), std::regex("conventional_split"), "nonsense"));
+  expect_refused(run("run e.toml --out r"), "known are");
+  write(folder_ / "e.toml", std::regex_replace(small_experiment(), std::regex("delaunay"), "nonsense"));
+  expect_refused(run("run e.toml --out r"), "grid");
+  write(folder_ / "e.toml", std::regex_replace(small_experiment(), std::regex("recut"), "nonsense"));
+  expect_refused(run("run e.toml --out r"), "curved");
+}
+
+}  // namespace

@@ -1,0 +1,76 @@
+// The property test: every method of the table, over all families of cuts and sheets, judged by check() and the oracle.
+
+#include <gtest/gtest.h>
+
+#include <tuple>
+
+#include "harness/run/cases.h"
+#include "methods/registry.h"
+#include "tests/helpers.h"
+
+namespace cutbench {
+namespace {
+
+constexpr std::uint64_t seed = 20180507;
+
+struct Variant {
+  const MethodRow* row;
+  double knob;
+};
+
+std::string name_of_variant(const Variant& v) {
+  return v.row->name +
+         (v.row->knob.name.empty() ? "" : "_" + v.row->knob.name + "_" + std::to_string(static_cast<int>(v.knob)));
+}
+
+/// Every row at its default, and with its knob at zero.
+std::vector<Variant> all_variants() {
+  std::vector<Variant> variants;
+  for (const MethodRow& row : all_methods()) {
+    variants.push_back({&row, row.knob.value});
+    if (!row.knob.name.empty() && row.knob.value != 0) variants.push_back({&row, 0});
+  }
+  return variants;
+}
+
+class EveryMethod : public testing::TestWithParam<std::tuple<Variant, const char*>> {};
+
+TEST_P(EveryMethod, CutsWithoutFault) {
+  const auto& [variant, family] = GetParam();
+  static const std::vector<NamedMesh> small = test_meshes(6), large = test_meshes(13);
+  std::size_t cuts = 0, noops = 0, failures = 0;
+  for (std::size_t i = 0; i < scaled(20); ++i)
+    for (std::size_t m = 0; m < small.size(); ++m) {
+      Random random(1000 * i + m);
+      const auto& [name, mesh] = (i % 2 == 0 ? small : large)[m];
+      Table table(i % 4 < 2 ? mesh : lifted(mesh), *variant.row, variant.knob);
+      const double chord = random.coin() ? 0.05 : infinite;
+      const std::uint64_t case_seed = seed + m;
+      std::size_t k = 0;
+      for (const Curve& curve : make_case(family, case_seed, i, table.sheet)) {
+        const std::string what = table.cut(curve, chord);
+        ++cuts, noops += table.outcome.status == Status::noop;
+        if (!what.empty()) {
+          ADD_FAILURE() << what << "\nfamily " << family << ", seed " << case_seed << ", case " << i << ", cut " << k
+                        << ", sheet " << name << ", method " << name_of_variant(variant) << ", chord tolerance "
+                        << chord << "\n"
+                        << text_of(curve);
+          if (++failures == 5) FAIL() << "and so on";
+          break;
+        }
+        ++k;
+      }
+    }
+  RecordProperty("cuts", static_cast<int>(cuts));
+  RecordProperty("noops", static_cast<int>(noops));
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod,
+                         testing::Combine(testing::ValuesIn(all_variants()),
+                                          testing::ValuesIn(cut_families().begin(), cut_families().end())),
+                         [](const auto& parameters) {
+                           return name_of_variant(std::get<0>(parameters.param)) + "_" + std::get<1>(parameters.param);
+                         });
+
+}  // namespace
+}  // namespace cutbench
