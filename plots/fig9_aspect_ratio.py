@@ -1,0 +1,146 @@
+#!/usr/bin/env python3
+"""Figure 9 of the paper: the maximum aspect ratio after a cut over the resolution of the sheet, and, in a second figure,
+the mean and the 99th percentile over the sheet, because the paper's text speaks of the average."""
+
+from matplotlib.lines import Line2D
+
+import load
+import style
+
+STEM = "fig9_aspect_ratio"
+LIMIT = 3
+LIMIT_LINE = dict(color="#c00000", linewidth=0.9, linestyle=(0, (4, 2)), zorder=2, label="limit 3: the paper's claim")
+MEASURES = ["vertices_added", "ar_max_all", "ar_mean_all", "ar_p99_all", "ar_max_cut", "over_3_cut", "ar_max_cut_strict",
+            "ar_max_cut_outside_wedges"]
+LIMIT_TESTS = {"strict": "ar_max_cut_strict", "outside wedges": "ar_max_cut_outside_wedges"}
+
+
+def draw_panel(ax, run, column, looks):
+    """One sheet: a curve per method, the limit, the failures."""
+    for (method, knob), look in looks.items():
+        table = load.quartiles(run.select(method=method, knob=knob).rows, "resolution", column)
+        style.curve(ax, look, table)
+    ax.axhline(LIMIT, **LIMIT_LINE)
+
+
+def maximum_figure(run):
+    sheets = style.sheet_order(run.everything()["sheet"])
+    looks = style.looks(run.variants("ar_max_cut"))
+    figure, axes = style.sheet_panels(sheets, run.everything()["resolution"], "sqrt", "maximum aspect ratio")
+    for sheet, ax in zip(sheets, axes):
+        draw_panel(ax, run.select(sheet=sheet), "ar_max_cut", looks)
+    axes[0].set_ylim(bottom=1)
+    style.plain_numbers(axes[0])
+    style.failures(axes, [run.select(sheet=s) for s in sheets], looks)
+    style.finish(figure, looks.values(), " ".join([
+        "Maximum aspect ratio over the triangles that a cut made or changed: median of the cuts, band: quartiles.",
+        claim_sentence(run), style.AR_DEFINITION, style.provenance(run, run.rows)]), [Line2D([], [], **LIMIT_LINE)])
+    return figure
+
+
+def average_figure(run):
+    """A row per sheet: mean on the left, 99th percentile on the right."""
+    sheets = style.sheet_order(run.everything()["sheet"])
+    looks = style.looks(run.variants("ar_mean_all"))
+    figure, axes = style.panels(len(sheets), 2, 3.4, sharey="col", subplot_kw={"yscale": "log"})
+    resolutions = run.everything()["resolution"]
+    for sheet, row in zip(sheets, axes):
+        for ax, column, label in zip(row, ("ar_mean_all", "ar_p99_all"), ("mean AR", "p99 of AR")):
+            draw_panel(ax, run.select(sheet=sheet), column, looks)
+            ax.set_ylabel(label)
+            ax.set_title(style.sheet_title(sheet))
+            style.resolution_axis(ax, resolutions, labelled=sheet == sheets[-1])
+    for ax in axes[0]:
+        ax.set_ylim(bottom=1)
+        style.plain_numbers(ax)
+    for ax_column in axes.T:
+        style.failures(list(ax_column), [run.select(sheet=s) for s in sheets], looks)
+    style.finish(figure, looks.values(), " ".join([
+        "Aspect ratio over the whole sheet after a cut, mean and 99th percentile (p99): median of the cuts, band: "
+        "quartiles.",
+        average_sentence(run), style.AR_DEFINITION, style.provenance(run, run.rows)]), [Line2D([], [], **LIMIT_LINE)])
+    return figure
+
+
+def held(run, column):
+    """How many cuts stayed below the limit, and of how many; a failed cut did not."""
+    values = run.rows[column].dropna()
+    return int((values < LIMIT).sum()), len(values) + load.count(run.failed)
+
+
+def paper_method(run):
+    """{knob: run} of the paper's method."""
+    everything = run.everything()
+    knobs = sorted(set(everything[everything["method"] == "bowyer_watson"]["knob"]), key=style.natural)
+    return {knob: run.select(method="bowyer_watson", knob=knob) for knob in knobs}
+
+
+def claim_sentence(run):
+    counts = {knob: {name: held(cuts, column) for name, column in LIMIT_TESTS.items()}
+              for knob, cuts in paper_method(run).items()}
+    counts = {knob: tests for knob, tests in counts.items() if tests["strict"][1]}
+    if not counts:
+        return f"The claim 'maximum AR < {LIMIT}' of the paper's method was not tested: no cuts by bowyer_watson."
+    shares = "; ".join(f"{knob or 'no knob'}: " + ", ".join(f"{good}/{n} {name}" for name, (good, n) in tests.items())
+                       for knob, tests in counts.items())
+    missed = any(good < n for tests in counts.values() for good, n in tests.values())
+    return (f"The paper's claim 'maximum AR < {LIMIT}' {'did not hold' if missed else 'held in every cut'}. Cuts below "
+            f"{LIMIT} by its method (strict: outside forced corners; then also outside forced wedges): {shares}.")
+
+
+def average_sentence(run):
+    shares = [f"{knob or 'no knob'}: {good}/{n}" for knob, cuts in paper_method(run).items()
+              for good, n in [held(cuts, "ar_mean_all")] if n]
+    if not shares:
+        return "The paper's text, 'average aspect ratio less than 3', was not tested: no cuts by bowyer_watson."
+    return f"Cuts with a mean below {LIMIT}, as the paper's text says, by its method: {'; '.join(shares)}."
+
+
+def print_numbers(run):
+    columns = ["sheet", "triangles", "method", "cuts", "failed", "max AR q1", "median", "q3", "whole sheet", "mean AR",
+               "p99 AR", "<3 strict", "<3 outside wedges"]
+    rows = []
+    for sheet in style.sheet_order(run.everything()["sheet"]):
+        on_sheet = run.select(sheet=sheet)
+        for resolution in sorted(set(on_sheet.everything()["resolution"])):
+            for (method, knob), look in style.looks(on_sheet.variants("ar_max_cut")).items():
+                cuts = on_sheet.select(resolution=resolution, method=method, knob=knob)
+                if len(cuts.everything()):
+                    rows.append([sheet, str(resolution), look.label, *numbers(cuts)])
+    load.print_table("Aspect ratio after the cut, medians over the cuts (max AR: triangles the cut made or changed)",
+                     columns, rows)
+
+
+def numbers(cuts):
+    """The right part of a line of print_numbers."""
+    shares = ["{}/{}".format(*held(cuts, column)) for column in LIMIT_TESTS.values()]
+    medians = [cuts.rows[c].median() for c in ("ar_max_all", "ar_mean_all", "ar_p99_all")]
+    return [str(load.count(cuts.rows)), str(load.count(cuts.failed)),
+            *cuts.rows["ar_max_cut"].quantile([0.25, 0.5, 0.75]), *medians, *shares]
+
+
+def print_rounds(run):
+    """How the local split grows from round to round, at the lowest resolution of the paper's grid."""
+    everything = run.everything()
+    sheet = style.sheet_order(everything["sheet"])[0]
+    resolution = everything[everything["sheet"] == sheet]["resolution"].min()
+    rows = []
+    for knob, cuts in paper_method(run.select(sheet=sheet, resolution=resolution)).items():
+        medians = cuts.rows[["over_3_cut", "vertices_added", "ar_max_cut"]].median()
+        rows.append([knob or "no knob", str(load.count(cuts.rows)), *medians])
+    if rows:
+        load.print_table(f"Round by round: bowyer_watson, {sheet}, {resolution} triangles, medians over the cuts",
+                         ["local split", "cuts", "triangles AR>3", "vertices added", "max AR"], rows)
+
+
+def main():
+    folder = load.results_folder(STEM, __doc__)
+    run = load.read(folder, MEASURES).first_repetition()
+    style.save(maximum_figure(run), folder, STEM)
+    style.save(average_figure(run), folder, f"{STEM}_mean")
+    print_numbers(run)
+    print_rounds(run)
+
+
+if __name__ == "__main__":
+    main()

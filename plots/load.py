@@ -1,0 +1,154 @@
+"""Records of a run, read-only: results/<stem>/records.csv and context.json (columns: results/README.md), and the few
+statistics that the figures share. Whatever can't be read ends the program with one line and exit code 2."""
+
+import argparse
+import json
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+REPOSITORY = Path(__file__).resolve().parent.parent
+TEXT = ["suite_version", "scene", "sheet", "method", "knob", "seed", "cache", "status", "verdict", "reason"]
+COUNTS = ["resolution", "case", "repetition"]
+VARIANT = ["method", "knob"]
+CUT = ["suite_version", "scene", "sheet", "resolution", "case"]  # names one cut, whatever the method
+
+
+def stop(message):
+    print(f"{Path(sys.argv[0]).name}: {message}", file=sys.stderr)
+    sys.exit(2)
+
+
+def results_folder(stem, description):
+    """The folder named by --results, else results/<stem> of the repository."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("--results", type=Path, metavar="DIR", default=REPOSITORY / "results" / stem,
+                        help=f"holds records.csv and context.json, receives the figures (default: results/{stem})")
+    return parser.parse_args().results
+
+
+@dataclass
+class Run:
+    """`rows` are of the cuts that were made, `failed` of those that failed or were refused in any repetition (the oracle
+    judges only the first); a measure that a row lacks is NaN."""
+    rows: pd.DataFrame
+    failed: pd.DataFrame
+    context: dict
+
+    def everything(self):
+        return pd.concat([self.rows, self.failed])
+
+    def select(self, **values):
+        """The run with only the rows whose columns have the given values."""
+        def chosen(table):
+            for column, value in values.items():
+                table = table[table[column] == value]
+            return table
+        return Run(chosen(self.rows), chosen(self.failed), self.context)
+
+    def first_repetition(self):
+        """For measures that no repetition changes: each cut once."""
+        return Run(*(t.drop_duplicates(VARIANT + CUT) for t in (self.rows, self.failed)), self.context)
+
+    def variants(self, column):
+        """(method, knob) of the rows that have `column`, and of those with nothing but failures."""
+        def found(table):
+            return set(zip(table["method"], table["knob"]))
+        measured = found(self.rows[self.rows[column].notna()])
+        return measured | (found(self.failed) - found(self.rows))
+
+
+def read(folder, measures):
+    """The run in `folder`; `measures` are the numeric columns the figure needs, beside the identifying ones."""
+    table = read_records(folder / "records.csv", TEXT + COUNTS + measures)
+    row_made = (table["verdict"] == "ok") & ~table["status"].isin(["failed", "refused"])
+    made = row_made.groupby([table[c] for c in VARIANT + CUT]).transform("all")
+    return Run(table[made], table[~made], read_context(folder / "context.json"))
+
+
+def read_records(path, columns):
+    if not path.is_file():
+        unfinished = path.with_name(path.name + ".part")
+        stop(f"{unfinished} is of a run that has not ended; the same command goes on with it" if unfinished.is_file()
+             else f"{path} is missing; `cutbench run experiments/{path.parent.name}.toml --out results` makes it")
+    try:
+        with open(path, encoding="utf-8", newline="") as file:
+            start = 0
+            while (line := file.readline()).startswith("#"):
+                start = file.tell()
+            missing = [c for c in columns if c not in line.strip().split(",")]
+            if missing:
+                stop(f"{path} lacks the column{'s' * (len(missing) > 1)} {', '.join(missing)}")
+            file.seek(start)
+            table = pd.read_csv(file, usecols=columns, dtype=str, keep_default_na=False)
+        for column in table.columns.difference(TEXT):
+            table[column] = table[column].replace("", "nan").astype(float)
+        table = table.astype({column: int for column in COUNTS})
+    except (OSError, ValueError) as error:
+        stop(f"{path} can't be read: {' '.join(str(error).split())}")
+    if table.empty:
+        stop(f"{path} has no rows")
+    return table
+
+
+def read_context(path):
+    try:
+        context = json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        stop(f"{path} is missing; a figure without its commit, seed and machine is not drawn")
+    except (OSError, ValueError) as error:
+        stop(f"{path} can't be read: {error}")
+    if not isinstance(context, dict):
+        stop(f"{path} is not an object of keys and values")
+    return context
+
+
+def quartiles(table, by, column):
+    """A row per value of `by`: q1, median, q3 and n of `column`; NaN is left out."""
+    groups = table.dropna(subset=[column]).groupby(by)[column]
+    return pd.DataFrame({"q1": groups.quantile(0.25), "median": groups.median(), "q3": groups.quantile(0.75),
+                         "n": groups.size()})
+
+
+def median_repetition(table, columns):
+    """A row per method, knob and cut: the medians over its repetitions."""
+    return table.groupby(VARIANT + CUT)[columns].median().reset_index()
+
+
+def ratio(numerator, denominator, draws=10000):
+    """Geometric mean of the paired ratios, its bootstrap 95 % interval over the pairs, and their number."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        logs = np.log(np.asarray(numerator, float) / np.asarray(denominator, float))
+    logs = logs[np.isfinite(logs)]
+    if not len(logs):
+        return np.nan, np.nan, np.nan, 0
+    samples = np.random.default_rng(1).choice(logs, (draws, len(logs))).mean(axis=1)
+    low, high = np.exp(np.percentile(samples, [2.5, 97.5]))
+    return np.exp(logs.mean()), low, high, len(logs)
+
+
+def count(table):
+    """Cuts in the table, each counted once however often it was repeated."""
+    return len(table[VARIANT + CUT].drop_duplicates())
+
+
+def number(value, digits=3):
+    """`digits` significant ones without exponent; a dash for NaN."""
+    if value is None or np.isnan(value):
+        return "-"
+    if np.isinf(value) or value == 0:
+        return f"{value:g}"
+    return f"{value:.{max(0, digits - 1 - int(np.floor(np.log10(abs(value)))))}f}"
+
+
+def print_table(title, columns, rows):
+    """Text to the left, numbers to the right."""
+    cells = [[c if isinstance(c, str) else number(c, 4) for c in row] for row in rows]
+    widths = [max(map(len, column)) for column in zip(columns, *cells)]
+    is_text = [all(isinstance(row[i], str) for row in rows) for i in range(len(columns))]
+    print(f"\n{title}")
+    for line in [columns] + cells:
+        print("  ".join(c.ljust(w) if t else c.rjust(w) for c, w, t in zip(line, widths, is_text)).rstrip())

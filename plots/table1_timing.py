@@ -1,0 +1,264 @@
+#!/usr/bin/env python3
+"""Table 1 of the paper, its geometry column: what a cut costs over the resolution of the sheet, in all and per crossed
+triangle, beside the paper's wording taken literally (every edge of the mesh tested against the path)."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.patches import Patch
+
+import load
+import style
+
+STEM = "table1_timing"
+PHASES = {"locate_us": "#bdbdbd", "trace_us": "#737373", "embed_us": "#0072b2", "improve_us": "#e69f00",
+          "open_us": "#009e73"}
+MEASURES = ["crossed_triangles", "geometry_us", *PHASES]
+BASELINE = ("every_edge", "")
+REAL_TIME_US = 6000  # "less than six milliseconds", section 5.3
+
+
+class Timings:
+    """The cuts of one sheet family, one row each: medians of the repetitions in microseconds, ns_per_crossed."""
+
+    def __init__(self, run, sheet):
+        self.run, self.sheet = run.select(sheet=sheet), sheet
+        caches = set(self.run.rows["cache"])
+        self.cache = "warm" if "warm" in caches or not caches else sorted(caches)[0]
+        self.cuts = self.medians(self.cache)
+        self.variants = self.run.variants("geometry_us")
+        self.resolutions = sorted(set(self.run.everything()["resolution"]))
+
+    def medians(self, cache):
+        cuts = load.median_repetition(self.run.select(cache=cache).rows, MEASURES)
+        crossed = cuts["crossed_triangles"].where(cuts["crossed_triangles"] > 0)
+        return cuts.assign(ns_per_crossed=1000 * cuts["geometry_us"] / crossed)
+
+    def of(self, variant, resolution=None, cuts=None):
+        cuts = self.cuts if cuts is None else cuts
+        chosen = (cuts["method"] == variant[0]) & (cuts["knob"] == variant[1])
+        return cuts[chosen if resolution is None else chosen & (cuts["resolution"] == resolution)]
+
+    def ratio(self, upper, lower, resolution):
+        """load.ratio of the times of two variants, cut by cut."""
+        pairs = self.of(upper, resolution).merge(self.of(lower, resolution), on=load.CUT)
+        return load.ratio(pairs["geometry_us_x"], pairs["geometry_us_y"])
+
+    def growth(self, variant):
+        """Median time at the highest resolution over that at the lowest; None unless there are two."""
+        medians = load.quartiles(self.of(variant), "resolution", "geometry_us")["median"]
+        return (medians.index[0], medians.index[-1], medians.iloc[-1] / medians.iloc[0]) if len(medians) > 1 else None
+
+    def papers_method(self):
+        """The paper's method with its local split: one round, else whatever was run."""
+        knobs = sorted((k for m, k in self.variants if m == "bowyer_watson"), key=lambda k: (k != "rounds=1", k))
+        return ("bowyer_watson", knobs[0]) if knobs else None
+
+
+def published():
+    path = load.REPOSITORY / "results" / "published" / "table1.csv"
+    try:
+        return pd.read_csv(path).set_index("triangles")["geometry_ms"] * 1000
+    except (OSError, ValueError, KeyError) as error:
+        load.stop(f"{path}, the paper's own numbers, can't be read: {error}")
+
+
+def time_figure(timings, paper, others):
+    looks = style.looks(timings.variants)
+    figure, (upper, lower) = style.panels(2, 1, 5.2, subplot_kw={"yscale": "log"})
+    upper, lower = upper[0], lower[0]
+    for variant, look in looks.items():
+        for ax, column in ((upper, "geometry_us"), (lower, "ns_per_crossed")):
+            table = load.quartiles(timings.of(variant), "resolution", column)
+            style.curve(ax, look, table)
+    style.resolution_axis(upper, timings.resolutions, "log", labelled=False)
+    style.resolution_axis(lower, timings.resolutions, "log")
+    draw_paper(upper, paper)
+    upper.set_ylabel("geometry of a cut, µs")
+    lower.set_ylabel("per crossed triangle, ns")
+    for ax in (upper, lower):
+        style.plain_numbers(ax)
+    style.failures([upper], [timings.run], looks)
+    repetitions = timings.run.rows["repetition"].nunique()
+    style.finish(figure, looks.values(), " ".join([
+        f"Geometry cost of a cut ({', '.join(PHASES).replace('_us', '')}) on {style.sheet_title(timings.sheet)}, "
+        f"{timings.cache}: median of {repetitions} repetitions, then median of the cuts; band: quartiles. "
+        f"'Every edge tested' finds the crossings and cuts nothing.",
+        *statements(timings, paper), *others, style.provenance(timings.run, timings.cuts, with_machine=True)]))
+    return figure
+
+
+def draw_paper(ax, paper):
+    low, high = ax.get_xlim()
+    shown = paper[(paper.index >= low) & (paper.index <= high)]
+    if len(shown):
+        ax.plot(shown.index, shown, color="#b07aa1", marker="*", linestyle="-.", markersize=4.5, linewidth=0.8)
+        ax.annotate("the paper's Table 1: other CPU (i7-4790S),\nunknown cut length, local split included",
+                    (low, 1.5 * shown.max()), (3, 0), textcoords="offset points", va="bottom", fontsize=6,
+                    color="#8c4f7c")
+        ax.set_ylim(top=6 * shown.max())
+
+
+def sheets_figure(run, timings):
+    """The cost per crossed triangle, a panel per sheet."""
+    variants = set().union(*(t.variants for t in timings))
+    looks = style.looks(variants)
+    figure, axes = style.sheet_panels([t.sheet for t in timings], run.everything()["resolution"], "sqrt",
+                                      "ns per crossed triangle")
+    for ax, t in zip(axes, timings):
+        for variant, look in looks.items():
+            style.curve(ax, look, load.quartiles(t.of(variant), "resolution", "ns_per_crossed"))
+    style.plain_numbers(axes[0])
+    style.failures(axes, [t.run for t in timings], looks)
+    style.finish(figure, looks.values(), " ".join([
+        "Geometry cost of a cut per crossed triangle on every sheet: median of the repetitions, then median of the "
+        "cuts; band: quartiles.", style.provenance(run, pd.concat([t.cuts for t in timings]), with_machine=True)]))
+    return figure
+
+
+def phases_figure(timings):
+    """Stacked phases per crossed triangle at the lowest and the highest resolution; None if no method has phases."""
+    cuts = timings.cuts.dropna(subset=list(PHASES), how="all")
+    looks = style.looks(set(zip(cuts["method"], cuts["knob"])))
+    resolutions = sorted({cuts["resolution"].min(), cuts["resolution"].max()}) if len(cuts) else []
+    if not resolutions:
+        return None
+    figure, axes = style.panels(len(resolutions), 1, 0.55 * len(looks) + 1.4, sharex=True)
+    for ax, resolution in zip(axes.flat, resolutions):
+        for y, variant in enumerate(looks):
+            draw_phases(ax, y, timings.of(variant, resolution, cuts))
+        ax.set_title(f"{resolution} triangles", loc="left")
+        ax.set_yticks(range(len(looks)), [look.label for look in looks.values()])
+        ax.set_ylim(len(looks) - 0.4, -0.6)
+        ax.grid(visible=False, axis="y")
+    axes.flat[-1].set_xlabel("ns per crossed triangle")
+    patches = [Patch(color=colour, label=phase[:-3]) for phase, colour in PHASES.items()]
+    style.finish(figure, [], " ".join([
+        f"Where the time of a cut goes on {style.sheet_title(timings.sheet)}, {timings.cache}: bars, median of the "
+        "cuts for each phase; black: median and quartiles of the whole.",
+        style.provenance(timings.run, cuts, with_machine=True, with_crosses=False)]), patches)
+    return figure
+
+
+def draw_phases(ax, y, cuts):
+    """One stacked bar and the whole's median and quartiles."""
+    if cuts.empty:
+        ax.annotate("no cut succeeded", (0, y), (3, 0), textcoords="offset points", va="center", fontsize=6)
+        return
+    per_crossed = 1000 * cuts[list(PHASES)].div(cuts["crossed_triangles"], axis=0)
+    left = 0.0
+    for phase, width in per_crossed.median().fillna(0).items():
+        ax.barh(y, width, left=left, height=0.62, color=PHASES[phase], linewidth=0)
+        left += width
+    q1, median, q3 = cuts["ns_per_crossed"].quantile([0.25, 0.5, 0.75])
+    ax.errorbar(median, y, xerr=[[median - q1], [q3 - median]], color="black", marker="|", markersize=6, capsize=1.5,
+                linewidth=0.8)
+
+
+def statements(timings, paper):
+    """Which statements of the paper held, one sentence each."""
+    method = timings.papers_method()
+    if method is None or timings.of(method).empty:
+        return ["The paper's statements were not tested: no successful cut by bowyer_watson."]
+    return [s for s in (growth_statement(timings, paper, method), real_time_statement(timings, method),
+                        baseline_statement(timings, method), overhead_statement(timings)) if s]
+
+
+def interval(ratio):
+    """load.ratio() as text."""
+    mean, low, high, n = ratio
+    return f"{load.number(mean)} [{load.number(low)}, {load.number(high)}]" if n else "-"
+
+
+def label(variant):
+    return style.looks([variant])[variant].label
+
+
+def growth_statement(timings, paper, method):
+    """Held where the exponent is below 0.75: nearer to that of a cut's length, 0.5, than to the sheet's, 1."""
+    growth = timings.growth(method)
+    if growth is None:
+        return None
+    low, high, factor = growth
+    held = factor < (high / low) ** 0.75
+    beside = [f"root: {np.sqrt(high / low):.1f}"]
+    if low in paper.index and high in paper.index:
+        beside.append(f"the paper: {paper[high] / paper[low]:.1f}")
+    edges = timings.growth(BASELINE)
+    if edges and edges[:2] == (low, high):
+        beside.append(f"testing every edge: {edges[2]:.1f}")
+    return (f"{'Held' if held else 'Not held'} (exponent below 0.75): the cost grows like the cut, not like the sheet: "
+            f"{high / low:.3g} times the triangles take {factor:.1f} times as long by {label(method)} "
+            f"({'; '.join(beside)}).")
+
+
+def real_time_statement(timings, method):
+    slowest = load.quartiles(timings.of(method), "resolution", "geometry_us")["median"]
+    return (f"{'Held' if slowest.max() < REAL_TIME_US else 'Not held'}: below 6 ms (here the geometry alone, and not on "
+            f"the paper's CPU): {load.number(slowest.max() / 1000, 2)} ms at {slowest.idxmax()} triangles.")
+
+
+def baseline_statement(timings, method):
+    resolution = timings.of(method)["resolution"].max()
+    ratio = timings.ratio(BASELINE, method, resolution)
+    return ratio[3] and (f"At {resolution} triangles testing every edge takes {interval(ratio)} times as long as the whole "
+                         "cut (geometric mean of the pairs, 95 % interval).")
+
+
+def overhead_statement(timings):
+    """The first contribution: Bowyer-Watson generation costs less than existing algorithms."""
+    generation, resolution = ("bowyer_watson", "rounds=0"), max(timings.resolutions)
+    parts = []
+    for other in [v for v in style.looks(timings.variants) if v[0] in ("conventional_split", "cgal_cdt")]:
+        ratio = timings.ratio(other, generation, resolution)
+        if ratio[3]:
+            parts.append(f"{'held' if ratio[1] > 1 else 'not held'} against {label(other)} (which takes {interval(ratio)} "
+                         "times as long)")
+    return f"'Lower overhead than existing algorithms', {label(generation)}: {', '.join(parts)}." if parts else None
+
+
+def print_numbers(timings, paper):
+    cold = timings.medians("cold")
+    rows = []
+    for resolution in timings.resolutions:
+        for variant, look in style.looks(timings.variants).items():
+            here = timings.of(variant, resolution)
+            q1, median, q3 = here["geometry_us"].quantile([0.25, 0.5, 0.75])
+            cold_median = timings.of(variant, resolution, cold)["geometry_us"].median()
+            slower = cold_median / median if timings.cache == "warm" else np.nan
+            against = "-" if variant == BASELINE else interval(timings.ratio(BASELINE, variant, resolution))
+            failed = timings.run.select(resolution=resolution, method=variant[0], knob=variant[1]).failed
+            rows.append([str(resolution), look.label, str(load.count(here)), str(load.count(failed)),
+                         here["crossed_triangles"].median(), q1, median, q3, cold_median, slower,
+                         here["ns_per_crossed"].median(), against, paper.get(resolution, np.nan)])
+    load.print_table(
+        f"Geometry of a cut, {timings.sheet}, medians over the cuts; every edge / method: geometric mean over the pairs and "
+        "bootstrap 95 % interval",
+        ["triangles", "method", "cuts", "failed", "crossed", f"{timings.cache} us q1", "median", "q3", "cold us",
+         "cold/warm", "ns/crossed", "every edge / method", "paper us"], rows)
+    for statement in statements(timings, paper):
+        print(statement)
+
+
+def main():
+    folder = load.results_folder(STEM, __doc__)
+    run, paper = load.read(folder, MEASURES), published()
+    timings = [Timings(run, sheet) for sheet in style.sheet_order(run.everything()["sheet"])]
+    style.save(time_figure(timings[0], paper, other_sheets(timings[1:])), folder, STEM)
+    if len(timings) > 1:
+        style.save(sheets_figure(run, timings), folder, f"{STEM}_sheets")
+    phases = phases_figure(timings[0])
+    if phases:
+        style.save(phases, folder, f"{STEM}_phases")
+    for t in timings:
+        print_numbers(t, paper)
+
+
+def other_sheets(timings):
+    """The growth on the sheets the figure does not show."""
+    grown = [(t.sheet, t.growth(t.papers_method())) for t in timings if t.papers_method()]
+    grown = [f"{style.sheet_title(sheet)} {growth[2]:.1f}" for sheet, growth in grown if growth]
+    return [f"The same on other sheets: {', '.join(grown)} times as long."] if grown else []
+
+
+if __name__ == "__main__":
+    main()
