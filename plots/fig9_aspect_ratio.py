@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Figure 9 of the paper: the maximum aspect ratio after a cut over the resolution of the sheet, and, in a second figure,
-the mean and the 99th percentile over the sheet, because the paper's text speaks of the average."""
+"""Figure 9 of the paper: the maximum aspect ratio after a cut over the resolution of the sheet, and, in a second
+figure, the mean and the 99th percentile over the sheet, because the paper's text speaks of the average."""
 
 from matplotlib.lines import Line2D
 
@@ -10,8 +10,8 @@ import style
 STEM = "fig9_aspect_ratio"
 LIMIT = 3
 LIMIT_LINE = dict(color="#c00000", linewidth=0.9, linestyle=(0, (4, 2)), zorder=2, label="limit 3: the paper's claim")
-MEASURES = ["vertices_added", "ar_max_all", "ar_mean_all", "ar_p99_all", "ar_max_cut", "over_3_cut", "ar_max_cut_strict",
-            "ar_max_cut_outside_wedges"]
+MEASURES = ["vertices_added", "ar_max_all", "ar_mean_all", "ar_p99_all", "ar_max_cut", "over_3_cut",
+            "ar_max_cut_strict", "ar_max_cut_outside_wedges"]
 LIMIT_TESTS = {"strict": "ar_max_cut_strict", "outside wedges": "ar_max_cut_outside_wedges"}
 
 

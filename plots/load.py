@@ -32,8 +32,8 @@ def results_folder(stem, description):
 
 @dataclass
 class Run:
-    """`rows` are of the cuts that were made, `failed` of those that failed or were refused in any repetition (the oracle
-    judges only the first); a measure that a row lacks is NaN."""
+    """`rows` are of the cuts that were made, `failed` of those that failed or were refused in any repetition (the
+    oracle judges only the first); a measure that a row lacks is NaN."""
     rows: pd.DataFrame
     failed: pd.DataFrame
     context: dict

@@ -2,7 +2,7 @@
 caption under the axes, and files that are the same bytes for the same data."""
 
 import zlib
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import matplotlib
 
@@ -20,7 +20,8 @@ CAPTION_SIZE = 6.2
 matplotlib.rcParams.update({
     "font.family": "DejaVu Sans", "font.size": 7, "axes.titlesize": 7, "axes.labelsize": 7, "legend.fontsize": 6.5,
     "xtick.labelsize": 6.5, "ytick.labelsize": 6.5, "axes.linewidth": 0.6, "lines.linewidth": 1.1,
-    "lines.markersize": 3.2, "axes.grid": True, "grid.color": "#e3e3e3", "grid.linewidth": 0.5, "axes.axisbelow": True, "legend.frameon": False,
+    "lines.markersize": 3.2, "axes.grid": True, "grid.color": "#e3e3e3", "grid.linewidth": 0.5,
+    "axes.axisbelow": True, "legend.frameon": False,
     "xtick.major.width": 0.6, "ytick.major.width": 0.6, "xtick.minor.width": 0.4, "ytick.minor.width": 0.4,
     "xtick.major.size": 2.5, "ytick.major.size": 2.5, "xtick.minor.size": 1.5, "ytick.minor.size": 1.5,
     "axes.spines.top": False, "axes.spines.right": False, "pdf.fonttype": 42,
@@ -101,7 +102,7 @@ def panels(rows, columns, height, **shared):
 
 
 def sheet_panels(sheets, resolutions, scale, label):
-    """A panel per sheet family, two beside each other, all on one y axis: the figure, its axes in the order of `sheets`."""
+    """A panel per sheet family, two beside each other, on one y axis: the figure, its axes in the order of `sheets`."""
     columns = min(2, len(sheets))
     rows = -(-len(sheets) // columns)
     figure, axes = panels(rows, columns, 4.1 if columns > 1 else 5.5, sharey=True, subplot_kw={"yscale": "log"})
@@ -127,8 +128,8 @@ def curve(ax, look, table):
 
 
 def failures(axes, runs, looks):
-    """At the top of each panel, a row per method that failed in any: a cross at the resolution, beside it how many cuts.
-    Call it last; it makes room above the curves of logarithmic panels that share their y axis, or of a single one."""
+    """At the top of each panel, a row per method that failed in any: a cross at the resolution, beside it how many
+    cuts. Call it last; it makes room above the curves of logarithmic panels that share their y axis, or of a single one."""
     failed = {(method, knob): look for (method, knob), look in looks.items()
               if any(len(run.select(method=method, knob=knob).failed) for run in runs)}
     if not failed:
@@ -146,8 +147,8 @@ def failures(axes, runs, looks):
 
 
 def resolution_axis(ax, resolutions, scale="sqrt", labelled=True):
-    """A tick at every resolution, numbers at as many as have room. On the "sqrt" scale sheets of n x n squares, and with
-    them the triangles that a cut crosses, are evenly spaced; "log" makes powers straight."""
+    """A tick at every resolution, numbers at as many as have room. On the "sqrt" scale sheets of n x n squares, and
+    with them the triangles that a cut crosses, are evenly spaced; "log" makes powers straight."""
     to_axis, back = {"sqrt": (np.sqrt, np.square), "log": (np.log, np.exp)}[scale]
     ax.set_xscale("function", functions=(lambda x: to_axis(np.maximum(x, 1e-9)), back))
     resolutions = sorted(set(resolutions))
@@ -169,7 +170,7 @@ def resolution_axis(ax, resolutions, scale="sqrt", labelled=True):
 
 
 def plain_numbers(ax):
-    """On a logarithmic y axis whose limits are set: no exponents, and 1, 2, 5 of each decade where the range is short."""
+    """On a logarithmic y axis whose limits are set: no exponents; 1, 2, 5 of each decade where the range is short."""
     low, high = ax.get_ylim()
     ax.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 150 * low else (1,), numticks=12))
     ax.yaxis.set_major_formatter(FuncFormatter(lambda y, _: f"{y:g}"))

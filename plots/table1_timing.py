@@ -193,15 +193,15 @@ def growth_statement(timings, paper, method):
 
 def real_time_statement(timings, method):
     slowest = load.quartiles(timings.of(method), "resolution", "geometry_us")["median"]
-    return (f"{'Held' if slowest.max() < REAL_TIME_US else 'Not held'}: below 6 ms (here the geometry alone, and not on "
-            f"the paper's CPU): {load.number(slowest.max() / 1000, 2)} ms at {slowest.idxmax()} triangles.")
+    return (f"{'Held' if slowest.max() < REAL_TIME_US else 'Not held'}: below 6 ms (here the geometry alone, and not "
+            f"on the paper's CPU): {load.number(slowest.max() / 1000, 2)} ms at {slowest.idxmax()} triangles.")
 
 
 def baseline_statement(timings, method):
     resolution = timings.of(method)["resolution"].max()
     ratio = timings.ratio(BASELINE, method, resolution)
-    return ratio[3] and (f"At {resolution} triangles testing every edge takes {interval(ratio)} times as long as the whole "
-                         "cut (geometric mean of the pairs, 95 % interval).")
+    return ratio[3] and (f"At {resolution} triangles testing every edge takes {interval(ratio)} times as long as the "
+                         "whole cut (geometric mean of the pairs, 95 % interval).")
 
 
 def overhead_statement(timings):
@@ -211,8 +211,8 @@ def overhead_statement(timings):
     for other in [v for v in style.looks(timings.variants) if v[0] in ("conventional_split", "cgal_cdt")]:
         ratio = timings.ratio(other, generation, resolution)
         if ratio[3]:
-            parts.append(f"{'held' if ratio[1] > 1 else 'not held'} against {label(other)} (which takes {interval(ratio)} "
-                         "times as long)")
+            parts.append(f"{'held' if ratio[1] > 1 else 'not held'} against {label(other)} (which takes "
+                         f"{interval(ratio)} times as long)")
     return f"'Lower overhead than existing algorithms', {label(generation)}: {', '.join(parts)}." if parts else None
 
 
@@ -231,8 +231,8 @@ def print_numbers(timings, paper):
                          here["crossed_triangles"].median(), q1, median, q3, cold_median, slower,
                          here["ns_per_crossed"].median(), against, paper.get(resolution, np.nan)])
     load.print_table(
-        f"Geometry of a cut, {timings.sheet}, medians over the cuts; every edge / method: geometric mean over the pairs and "
-        "bootstrap 95 % interval",
+        f"Geometry of a cut, {timings.sheet}, medians over the cuts; every edge / method: geometric mean over the pairs "
+        "and bootstrap 95 % interval",
         ["triangles", "method", "cuts", "failed", "crossed", f"{timings.cache} us q1", "median", "q3", "cold us",
          "cold/warm", "ns/crossed", "every edge / method", "paper us"], rows)
     for statement in statements(timings, paper):
