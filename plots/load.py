@@ -80,7 +80,7 @@ def read_records(path, columns):
             while (line := file.readline()).startswith("#"):
                 start = file.tell()
             missing = [c for c in columns if c not in line.strip().split(",")]
-            if missing:
+            if missing and line:
                 stop(f"{path} lacks the column{'s' * (len(missing) > 1)} {', '.join(missing)}")
             file.seek(start)
             table = pd.read_csv(file, usecols=columns, dtype=str, keep_default_na=False)

@@ -19,8 +19,8 @@ WIDTH = 8.5 / 2.54  # inches
 CAPTION_SIZE = 6.2
 matplotlib.rcParams.update({
     "font.family": "DejaVu Sans", "font.size": 7, "axes.titlesize": 7, "axes.labelsize": 7, "legend.fontsize": 6.5,
-    "xtick.labelsize": 6.5, "ytick.labelsize": 6.5, "axes.linewidth": 0.6, "lines.linewidth": 1.1,
-    "lines.markersize": 3.2, "axes.grid": True, "grid.color": "#e3e3e3", "grid.linewidth": 0.5,
+    "xtick.labelsize": 6.5, "ytick.labelsize": 6.5, "axes.linewidth": 0.6,
+    "axes.grid": True, "grid.color": "#e3e3e3", "grid.linewidth": 0.5,
     "axes.axisbelow": True, "legend.frameon": False,
     "xtick.major.width": 0.6, "ytick.major.width": 0.6, "xtick.minor.width": 0.4, "ytick.minor.width": 0.4,
     "xtick.major.size": 2.5, "ytick.major.size": 2.5, "xtick.minor.size": 1.5, "ytick.minor.size": 1.5,
@@ -37,18 +37,24 @@ class Look:
     colour: str
     marker: str
     line: str = "-"
+    width: float = 1.0  # points; what is drawn first is wider, so that curves that coincide are all seen
+
+    def drawn(self):
+        """Keywords for plot()."""
+        return dict(color=self.colour, marker=self.marker, linestyle=self.line, linewidth=self.width,
+                    markersize=2.2 + self.width, markeredgewidth=0.3, markeredgecolor="white")
 
 
 KNOWN = {  # in the order of the legend
-    ("conventional_split", ""): Look("conventional split", "#444444", "s"),
-    ("bowyer_watson", "rounds=0"): Look("Bowyer-Watson, rounds=0", "#56b4e9", "o"),
+    ("conventional_split", ""): Look("conventional split", "#444444", "s", width=2.4),
+    ("bowyer_watson", "rounds=0"): Look("Bowyer-Watson, rounds=0", "#56b4e9", "o", width=2.1),
     ("bowyer_watson", "rounds=1"): Look("Bowyer-Watson, rounds=1", "#0072b2", "^"),
     ("bowyer_watson", "rounds=3"): Look("Bowyer-Watson, rounds=3", "#0b2f66", "v"),
     ("cgal_cdt", ""): Look("CGAL CDT", "#d55e00", "D"),
     ("every_edge", ""): Look("every edge tested", "#8a8a8a", "h", ":"),
 }
 FREE_COLOURS = ["#009e73", "#cc79a7", "#e69f00", "#7b3294", "#8c564b", "#b2182b", "#66a61e", "#01665e"]
-FREE_MARKERS = ["P", "X", "<", ">", "p", "*", "d", "8"]
+FREE_MARKERS = ["P", "X", "<", ">", "p", "H", "d", "8"]
 SHEETS = {"grid": "the paper's grid", "alternating": "alternating", "delaunay": "Delaunay", "graded": "graded"}
 
 
@@ -58,15 +64,16 @@ def looks(variants):
     chosen = {v: look for v, look in KNOWN.items() if v in variants}
     unknown = sorted(set(variants) - set(KNOWN), key=lambda v: (v[0], natural(v[1])))
     colours = {method: look.colour for (method, _), look in reversed(KNOWN.items())}
+    names = {method: look.label.partition(",")[0] for (method, _), look in KNOWN.items()}
     for method in dict.fromkeys(method for method, _ in unknown):
         if method not in colours:
             slot = zlib.crc32(method.encode())
-            taken = sum(c in colours.values() for c in FREE_COLOURS) < len(FREE_COLOURS)
-            while taken and FREE_COLOURS[slot % len(FREE_COLOURS)] in colours.values():
+            some_free = not set(FREE_COLOURS) <= set(colours.values())
+            while some_free and FREE_COLOURS[slot % len(FREE_COLOURS)] in colours.values():
                 slot += 1
             colours[method] = FREE_COLOURS[slot % len(FREE_COLOURS)]
         for i, (_, knob) in enumerate(v for v in unknown if v[0] == method):
-            label = method.replace("_", " ") + (f", {knob}" if knob else "")
+            label = names.get(method, method.replace("_", " ")) + (f", {knob}" if knob else "")
             marker = FREE_MARKERS[(zlib.crc32(method.encode()) + i) % len(FREE_MARKERS)]
             line = ("-", "--", "-.", ":")[(i + any(m == method for m, _ in KNOWN)) % 4]
             chosen[method, knob] = Look(label, lighter(colours[method], min(0.25 * i, 0.6)), marker, line)
@@ -119,8 +126,7 @@ def curve(ax, look, table):
     """Median line and quartile band of load.quartiles(), which may be empty; a single point gets a bar."""
     if table.empty:
         return
-    ax.plot(table.index, table["median"], color=look.colour, marker=look.marker, linestyle=look.line, zorder=3,
-            markeredgewidth=0.3, markeredgecolor="white")
+    ax.plot(table.index, table["median"], zorder=3, **look.drawn())
     if len(table) > 1:
         ax.fill_between(table.index, table["q1"], table["q3"], color=look.colour, alpha=0.15, linewidth=0, zorder=1)
     else:
@@ -129,7 +135,7 @@ def curve(ax, look, table):
 
 def failures(axes, runs, looks):
     """At the top of each panel, a row per method that failed in any: a cross at the resolution, beside it how many
-    cuts. Call it last; it makes room above the curves of logarithmic panels that share their y axis, or of a single one."""
+    cuts. Call it last; it makes room above the curves of logarithmic panels that share their y axis, or of one."""
     failed = {(method, knob): look for (method, knob), look in looks.items()
               if any(len(run.select(method=method, knob=knob).failed) for run in runs)}
     if not failed:
@@ -178,8 +184,7 @@ def plain_numbers(ax):
 
 
 def legend_entry(look):
-    return Line2D([], [], color=look.colour, marker=look.marker, linestyle=look.line, label=look.label,
-                  markeredgewidth=0.3, markeredgecolor="white")
+    return Line2D([], [], label=look.label, **look.drawn())
 
 
 def provenance(run, cases, with_machine=False, with_crosses=True):

@@ -211,8 +211,8 @@ def overhead_statement(timings):
     for other in [v for v in style.looks(timings.variants) if v[0] in ("conventional_split", "cgal_cdt")]:
         ratio = timings.ratio(other, generation, resolution)
         if ratio[3]:
-            parts.append(f"{'held' if ratio[1] > 1 else 'not held'} against {label(other)} (which takes "
-                         f"{interval(ratio)} times as long)")
+            verdict = "held" if ratio[1] > 1 else "not held" if ratio[2] < 1 else "undecided"
+            parts.append(f"{verdict} against {label(other)} (which takes {interval(ratio)} times as long)")
     return f"'Lower overhead than existing algorithms', {label(generation)}: {', '.join(parts)}." if parts else None
 
 
@@ -257,7 +257,7 @@ def other_sheets(timings):
     """The growth on the sheets the figure does not show."""
     grown = [(t.sheet, t.growth(t.papers_method())) for t in timings if t.papers_method()]
     grown = [f"{style.sheet_title(sheet)} {growth[2]:.1f}" for sheet, growth in grown if growth]
-    return [f"The same on other sheets: {', '.join(grown)} times as long."] if grown else []
+    return [f"Growth of the paper's method on other sheets: {', '.join(grown)} times."] if grown else []
 
 
 if __name__ == "__main__":

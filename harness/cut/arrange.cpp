@@ -141,9 +141,9 @@ void Tracer::resolve_crossings(int f) {
       split = true;
     }
     if (split) continue;
-    const bool known = std::any_of(done.begin(), done.end(), [&](const auto& s) {
-      return (s.first == a && s.second == b) || (s.first == b && s.second == a);
-    });
+    const std::pair forward{a, b}, backward{b, a};
+    const bool known =
+        std::any_of(done.begin(), done.end(), [&](const auto& s) { return s == forward || s == backward; });
     if (!known) done.emplace_back(a, b);
   }
 

@@ -128,7 +128,7 @@ class Runner {
         Record row = start_row(worker.variant.row->name, worker.variant.knob_text(), repetition, cache);
         if (file_.has(row.key())) continue;
         const CutRun run = measure(worker, cuts, cold);
-        crossed = run.crossed_triangles;
+        if (run.crossed_triangles > 0) crossed = run.crossed_triangles;
         if (r == 0)
           row = judged[w];
         else
