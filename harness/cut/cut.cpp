@@ -64,7 +64,6 @@ CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, Cutti
     outcome.time_us.locate += watch.lap();
 
     outcome.crossed_triangles = trace.crossed_triangles();
-    outcome.path_nodes = trace.nodes.size();
     outcome.recovered_segments = method.recovered_segments();
   } catch (const CutFailed& failure) {
     sheet.rollback();

@@ -41,7 +41,6 @@ struct CutOutcome {
   Status status = Status::ok;
   std::string verdict = "ok", reason;  ///< of a failure; the reason of a refusal or a noop
   std::size_t crossed_triangles = 0;   ///< of the mesh before the cut, whose interior the path meets
-  std::size_t path_nodes = 0;          ///< vertices on the path, made or met
   int recovered_segments = 0;
   PhaseTimes time_us;
 };

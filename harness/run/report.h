@@ -1,7 +1,6 @@
 // One cut, or several in a row, carried out and measured: what `cutbench cut` reports and what every record holds.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 

@@ -1,7 +1,6 @@
 // The run loop: sheets x resolutions x cases x methods x repetitions, a row each.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
