@@ -10,6 +10,7 @@
 #include "harness/cut/cut.h"
 #include "harness/mesh/families.h"
 #include "harness/run/cases.h"
+#include "harness/run/chill_caches.h"
 #include "harness/run/every_edge.h"
 #include "methods/registry.h"
 
@@ -23,13 +24,12 @@ constexpr CutOptions crossings_only{.chord_tolerance = std::numeric_limits<doubl
 /// The paper's grid and the same seeded curves at every resolution.
 struct Bench {
   explicit Bench(int n) : base(make_sheet("grid", n)), base_locator(base) {
-    for (std::size_t i = 0; i < cases; ++i) curves.push_back(make_case("curved", 1, i, base).front());
-  }
-  /// Cuts a fresh copy of the sheet; the copy is made by before().
-  void before() {
     sheet = base, locator = base_locator;
     sheet.reserve(4 * base.triangle_slots(), 4 * base.vertex_slots(), 4 * base.deformed_slots());
+    for (std::size_t i = 0; i < cases; ++i) curves.push_back(make_case("curved", 1, i, base).front());
   }
+  /// The sheet as it was before the cut.
+  void undo() { sheet.rollback(), locator = base_locator; }
   std::size_t cut(std::size_t i, CuttingMethod& method) {
     return cutter.cut(sheet, locator, curves[i], method, crossings_only).crossed_triangles;
   }
@@ -40,15 +40,19 @@ struct Bench {
   std::vector<Curve> curves;
 };
 
-void time_method(benchmark::State& state, const MethodRow& row, double knob, int n) {
+/// Warm: the same cut, made and undone just before. Cold: after other work has driven everything out of the caches.
+void time_method(benchmark::State& state, const MethodRow& row, double knob, int n, bool cold) {
   Bench bench(n);
   const auto method = row.make(knob);
   std::size_t crossed = 0, i = 0;
   for (auto _ : state) {
-    bench.before();
+    const std::size_t curve = i++ % cases;
+    bench.cut(curve, *method), bench.undo();
+    if (cold) chill_caches();
     const auto start = std::chrono::steady_clock::now();
-    crossed += bench.cut(i++ % cases, *method);
+    crossed += bench.cut(curve, *method);
     state.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    bench.undo();
   }
   // Inverted rate: seconds per crossed triangle.
   state.counters["per_crossed_triangle"] =
@@ -70,15 +74,15 @@ int count_instructions(const std::string& name, double knob, int n) {
     for (const Curve& curve : bench.curves) benchmark::DoNotOptimize(count_crossings_by_every_edge(bench.base, curve));
     CALLGRIND_STOP_INSTRUMENTATION;
     const auto method = find_method("conventional_split").make(0);
-    for (std::size_t i = 0; i < cases; ++i) bench.before(), crossed += bench.cut(i, *method);
+    for (std::size_t i = 0; i < cases; ++i) crossed += bench.cut(i, *method), bench.undo();
   } else {
     const auto method = find_method(name).make(knob);
-    for (std::size_t i = 0; i < cases; ++i) bench.before(), bench.cut(i, *method);
     for (std::size_t i = 0; i < cases; ++i) {
-      bench.before();
+      bench.cut(i, *method), bench.undo();
       CALLGRIND_START_INSTRUMENTATION;
       crossed += bench.cut(i, *method);
       CALLGRIND_STOP_INSTRUMENTATION;
+      bench.undo();
     }
   }
   std::cout << crossed << '\n';
@@ -98,9 +102,11 @@ int main(int argc, char** argv) {
         const std::string name =
             row.name +
             (row.knob.name.empty() ? "" : "(" + row.knob.name + "=" + std::to_string(static_cast<int>(knob)) + ")");
-        benchmark::RegisterBenchmark((name + "/" + triangles).c_str(), [&row, knob, n](benchmark::State& s) {
-          time_method(s, row, knob, n);
-        })->UseManualTime();
+        for (bool cold : {false, true})
+          benchmark::RegisterBenchmark(
+              (name + "/" + triangles + (cold ? "/cold" : "/warm")).c_str(),
+              [&row, knob, n, cold](benchmark::State& s) { time_method(s, row, knob, n, cold); })
+              ->UseManualTime();
         if (row.knob.name.empty()) break;
       }
     benchmark::RegisterBenchmark(("every_edge/" + triangles).c_str(),

@@ -119,56 +119,39 @@ bool find_crossing(const Sheet& sheet, const Subdivision& subdivision, int f, Cr
   const auto node = [&](int n) {
     return Crossing::Corner{subdivision.node(n).vertex, subdivision.node(n).place.point};
   };
-  crossing = {corner(edge_q),
+  crossing = {half_edge(face.triangle, edge_q),
+              corner(edge_q),
               node(q),
               corner(free),
               corner(edge_p),
               node(p),
               p < q,
-              face.segments >= 0 ? EdgeMark::path : EdgeMark::none,
-              t.mark[static_cast<std::size_t>(edge_p)],
-              t.mark[static_cast<std::size_t>(edge_q)],
-              t.mark[static_cast<std::size_t>(free)]};
+              face.segments >= 0 ? EdgeMark::path : EdgeMark::none};
   return true;
 }
 
 namespace {
 
-Sheet::NewTriangle positive(const Crossing::Corner& x, const Crossing::Corner& y, const Crossing::Corner& z, int parent,
-                            const std::array<EdgeMark, 3>& marks) {
-  if (cutbench::orientation(x.point, y.point, z.point) <= 0)
-    throw CutFailed("inverted", "a new triangle is not positive, its corners are too close for doubles");
-  return {{x.vertex, y.vertex, z.vertex}, parent, marks, {}};
+[[noreturn]] void fail_inverted() {
+  throw CutFailed("inverted", "a new triangle is not positive, its corners are too close for doubles");
 }
 
 }  // namespace
 
-void append_crossing(const Crossing& crossing, bool diagonal_from_p, int parent,
-                     std::vector<Sheet::NewTriangle>& added) {
-  const auto& [apex, q, c, a, p, p_first, path, mark_p, mark_q, mark_ca] = crossing;
-  const auto none = EdgeMark::none;
-  const std::size_t i = added.size();
-  const auto half = [&](std::size_t triangle, int k) { return half_edge(TriangleIndex(i + triangle), k); };
-  added.push_back(positive(apex, q, p, parent, {mark_q, path, mark_p}));
-  added[i].across[1] = half(1, 0);
-  if (diagonal_from_p) {
-    added.push_back(positive(p, q, c, parent, {path, mark_q, none}));
-    added.push_back(positive(p, c, a, parent, {none, mark_ca, mark_p}));
-    added[i + 1].across = {half(0, 1), {}, half(2, 0)};
-    added[i + 2].across[0] = half(1, 2);
-  } else {
-    added.push_back(positive(p, q, a, parent, {path, none, mark_p}));
-    added.push_back(positive(q, c, a, parent, {mark_q, mark_ca, none}));
-    added[i + 1].across = {half(0, 1), half(2, 2), {}};
-    added[i + 2].across[2] = half(1, 1);
-  }
+void split_crossing(Sheet& sheet, const Crossing& crossing, bool diagonal_from_p) {
+  const Point2 apex = crossing.apex.point, p = crossing.p.point, q = crossing.q.point;
+  const Point2 c = crossing.c.point, a = crossing.a.point;
+  const bool positive = cutbench::orientation(apex, q, p) > 0 &&
+                        cutbench::orientation(p, q, diagonal_from_p ? c : a) > 0 &&
+                        cutbench::orientation(diagonal_from_p ? p : q, c, a) > 0;
+  if (!positive) fail_inverted();
+  sheet.cut_off_corner(crossing.edge, crossing.q.vertex, crossing.p.vertex, diagonal_from_p, crossing.path);
 }
 
 void append_answer(const Patch& patch, int parent, std::vector<Sheet::NewTriangle>& added) {
   std::size_t found = 0;  // half-edges that are segments
   for (const auto& t : patch.triangles) {
-    if (orientation(patch, t[0], t[1], t[2]) <= 0)
-      throw CutFailed("inverted", "a new triangle is not positive, its corners are too close for doubles");
+    if (orientation(patch, t[0], t[1], t[2]) <= 0) fail_inverted();
     Sheet::NewTriangle made;
     made.parent = parent;
     for (std::size_t k = 0; k < 3; ++k) {

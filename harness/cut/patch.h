@@ -47,16 +47,16 @@ struct Crossing {
     VertexIndex vertex;
     Point2 point;
   };
+  HalfEdge edge;  ///< from the apex to c
   Corner apex, q, c, a, p;
-  bool p_first;                      ///< the path met p before q
-  EdgeMark path;                     ///< of the edge p - q: none where no segment joins them
-  EdgeMark mark_p, mark_q, mark_ca;  ///< of the edges they lie on, and of the third
+  bool p_first;   ///< the path met p before q
+  EdgeMark path;  ///< of the edge p - q: none where no segment joins them
 };
 /// False where face f is not such a patch. \pre make_vertices().
 bool find_crossing(const Sheet& sheet, const Subdivision& subdivision, int f, Crossing& crossing);
-/// The three triangles, with the diagonal from p to c or from q to a. Throws CutFailed where one is not positive.
-void append_crossing(const Crossing& crossing, bool diagonal_from_p, int parent,
-                     std::vector<Sheet::NewTriangle>& added);
+/// Puts three triangles in its place, with the diagonal from p to c or from q to a. Throws CutFailed where one is not
+/// positive.
+void split_crossing(Sheet& sheet, const Crossing& crossing, bool diagonal_from_p);
 
 /// Working storage of embed_patches().
 struct PatchWork {
@@ -74,15 +74,15 @@ void embed_patches(Sheet& sheet, Subdivision& subdivision, PatchWork& work, Diag
   make_vertices(sheet, subdivision);
   work.removed.clear(), work.added.clear();
   for (int f = 0; f < static_cast<int>(subdivision.faces.size()); ++f) {
-    work.removed.push_back(subdivision.face(f).triangle);
     if (find_crossing(sheet, subdivision, f, work.crossing)) {
-      append_crossing(work.crossing, diagonal_from_p(work.crossing), f, work.added);
+      split_crossing(sheet, work.crossing, diagonal_from_p(work.crossing));
       continue;
     }
     make_patch(sheet, subdivision, f, work.patch);
     work.patch.triangles.clear();
     solve(work.patch);
-    append_answer(work.patch, f, work.added);
+    append_answer(work.patch, static_cast<int>(work.removed.size()), work.added);
+    work.removed.push_back(subdivision.face(f).triangle);
   }
   sheet.replace_cavity(work.removed, work.added);
 }

@@ -160,7 +160,7 @@ VertexIndex Sheet::new_vertex(HalfEdge h, double lambda, Point2 p) {
     return new_deformed(v, {d[k], d[k == 2 ? 0 : k + 1], {}}, {1 - fraction, fraction, 0});
   };
   const VertexIndex v = new_rest_vertex(p);
-  Work::Pending pending{v, triangle_of(h), {}, on_side(h, lambda, v), {}};
+  Work::Pending pending{v, triangle_of(h), {}, on_side(h, lambda, v), {}, {}};
   if (mark(h) == EdgeMark::incision) {
     pending.right = triangle_of(opposite(h));
     pending.at_right = on_side(opposite(h), 1 - lambda, v);
@@ -172,7 +172,7 @@ VertexIndex Sheet::new_vertex(HalfEdge h, double lambda, Point2 p) {
 VertexIndex Sheet::new_vertex(TriangleIndex t, Point2 p) {
   const VertexIndex v = new_rest_vertex(p);
   work_.pending.push_back(
-      {v, t, {}, new_deformed(v, std::array(triangle(t).deformed), barycentric(corners(t), p)), {}});
+      {v, t, {}, new_deformed(v, std::array(triangle(t).deformed), barycentric(corners(t), p)), {}, {}});
   return v;
 }
 
@@ -203,6 +203,54 @@ void Sheet::link_by_vertices(HalfEdge h) {
 void Sheet::put_on_path(VertexIndex v) {
   if (v() >= work_.on_path_in.size()) work_.on_path_in.resize(std::max(rest_.capacity(), v() + 1));
   if (std::exchange(work_.on_path_in[v()], work_.epoch) != work_.epoch) log_.path_vertices.push_back(v);
+}
+
+/// The edge that the pending vertex v lies on became the half-edges `first` and `second`, in this order, on one side.
+/// The side that comes second finds those of the first waiting.
+void Sheet::join_halves(VertexIndex v, HalfEdge first, HalfEdge second) {
+  auto& waiting = work_.pending[work_.pending_of[v()]].waiting;
+  const auto connect = [&](HalfEdge h, HalfEdge o) {
+    at(triangle_of(h)).opposite[corner(h)] = o, at(triangle_of(o)).opposite[corner(o)] = h;
+  };
+  if (!waiting[0].valid()) {
+    waiting = {first, second};
+  } else {
+    connect(waiting[0], second), connect(waiting[1], first);
+    waiting = {};
+  }
+}
+
+void Sheet::cut_off_corner(HalfEdge apex, VertexIndex q, VertexIndex p, bool diagonal_from_p, EdgeMark mark) {
+  const TriangleIndex corner_slot = triangle_of(apex);
+  touch(corner_slot);
+  const TriangleIndex middle = new_triangle(), last = new_triangle();
+  const Triangle old = triangle(corner_slot);
+  const std::size_t k = corner(apex), k_c = k == 2 ? 0 : k + 1, k_a = k == 0 ? 2 : k - 1;
+  const VertexIndex o = old.vertex[k], c = old.vertex[k_c], a = old.vertex[k_a];
+  const DeformedIndex d_c = old.deformed[k_c], d_a = old.deformed[k_a];
+  const DeformedIndex d_q = pending_deformed(q, corner_slot), d_p = pending_deformed(p, corner_slot);
+  const EdgeMark mark_q = old.mark[k], mark_ca = old.mark[k_c], mark_p = old.mark[k_a], none = EdgeMark::none;
+  const HalfEdge outer = old.opposite[k_c];
+
+  const HalfEdge later;  // the halves of split edges find their other sides below
+  at(corner_slot) =
+      Triangle{{o, q, p}, {later, half_edge(middle, 0), later}, {old.deformed[k], d_q, d_p}, {mark_q, mark, mark_p}};
+  if (diagonal_from_p) {
+    at(middle) = Triangle{
+        {p, q, c}, {half_edge(corner_slot, 1), later, half_edge(last, 0)}, {d_p, d_q, d_c}, {mark, mark_q, none}};
+    at(last) = Triangle{{p, c, a}, {half_edge(middle, 2), outer, later}, {d_p, d_c, d_a}, {none, mark_ca, mark_p}};
+  } else {
+    at(middle) = Triangle{
+        {p, q, a}, {half_edge(corner_slot, 1), half_edge(last, 2), later}, {d_p, d_q, d_a}, {mark, none, mark_p}};
+    at(last) = Triangle{{q, c, a}, {later, outer, half_edge(middle, 1)}, {d_q, d_c, d_a}, {mark_q, mark_ca, none}};
+  }
+  join_halves(q, half_edge(corner_slot, 0), diagonal_from_p ? half_edge(middle, 1) : half_edge(last, 0));
+  join_halves(p, diagonal_from_p ? half_edge(last, 2) : half_edge(middle, 2), half_edge(corner_slot, 2));
+  if (outer.valid()) at(triangle_of(outer)).opposite[corner(outer)] = half_edge(last, 1);
+  triangle_of_vertex_[p()] = triangle_of_vertex_[q()] = corner_slot;
+  triangle_of_vertex_[c()] = triangle_of_vertex_[a()] = last;
+  if (mark == EdgeMark::path || mark_q == EdgeMark::path) put_on_path(q);
+  if (mark == EdgeMark::path || mark_p == EdgeMark::path) put_on_path(p);
 }
 
 /// Gives the corner at the origin of `spoke` the deformed vertex that others of its fan have.
@@ -279,7 +327,7 @@ void Sheet::replace_cavity(std::span<const TriangleIndex> removed, std::span<con
   auto& slot = work_.slot;
   auto& claimed = work_.claimed;
   old.clear(), slot.resize(added.size()), work_.unassigned.clear(), claimed.assign(removed.size(), 0);
-  work_.edges.reset(3 * (removed.size() + added.size()));
+  work_.edges.reset(3 * (removed.size() + added.size()) + 2 * work_.pending.size());
   work_.added = 0;
   if (work_.removed_in.size() < triangles_.size()) work_.removed_in.resize(triangles_.capacity());
   ++work_.call;
@@ -289,9 +337,21 @@ void Sheet::replace_cavity(std::span<const TriangleIndex> removed, std::span<con
     at(t).vertex[0] = {};
     work_.removed_in[t()] = work_.call;
   }
-  for (const Triangle& t : old)  // neighbours outside lose their opposite; those that stay unlinked are looked up below
-    for (const HalfEdge o : t.opposite)
-      if (o.valid() && !was_removed(o)) at(triangle_of(o)).opposite[corner(o)] = {};
+  // Neighbours outside lose their opposite; those that stay unlinked are looked up below. What cut_off_corner() made of
+  // a neighbour does not point back: its halves wait to be found.
+  for (std::size_t i = 0; i < old.size(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      HalfEdge& o = old[i].opposite[static_cast<std::size_t>(k)];
+      if (!o.valid() || was_removed(o)) continue;
+      if (opposite(o) == half_edge(removed[i], k))
+        at(triangle_of(o)).opposite[corner(o)] = {};
+      else
+        o = {};
+    }
+  if (!removed.empty())
+    for (const auto& made : work_.pending)
+      for (const HalfEdge half : made.waiting)
+        if (half.valid()) link_by_vertices(half);
 
   // First children take their parents' slots, others what is left of the removed ones, then new ones.
   std::size_t unclaimed = 0;

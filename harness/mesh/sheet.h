@@ -86,7 +86,15 @@ class Sheet {
   };
   /// Replaces `removed` by `added`, which fill the same region. The first child of a parent keeps its slot.
   /// \pre every edge that bounds the region, or its parts where it lies on the border, is an edge of `added`.
+  /// Completes the cut_off_corner() calls before it.
   void replace_cavity(std::span<const TriangleIndex> removed, std::span<const NewTriangle> added);
+
+  /// The usual subdivision, without any search: cuts the corner at the origin of `apex` off along p - q, and splits the
+  /// quadrilateral that is left by the diagonal from p or the one from q. The corner keeps the slot.
+  /// \pre q is a new_vertex() on the edge of `apex`, p one on the edge before it, each the only one on its edge. Until
+  /// the triangles across these edges are subdivided too, by this call or by the replace_cavity() that must follow, the
+  /// mesh is not conforming.
+  void cut_off_corner(HalfEdge apex, VertexIndex q, VertexIndex p, bool diagonal_from_p, EdgeMark mark);
 
   VertexIndex split_edge(HalfEdge h, double lambda, Point2 p);  ///< two triangles (one on the border) become four (two)
   VertexIndex split_triangle(TriangleIndex t, Point2 p);        ///< \pre p strictly inside t
@@ -119,6 +127,7 @@ class Sheet {
   DeformedIndex new_deformed(VertexIndex v, const std::array<DeformedIndex, 3>& parents,
                              const std::array<double, 3>& weights);
   void link(HalfEdge h, HalfEdge o);
+  void join_halves(VertexIndex v, HalfEdge first, HalfEdge second);
   void add_triangle(TriangleIndex slot, const NewTriangle& made, std::span<const TriangleIndex> removed);
   void link_by_vertices(HalfEdge h);
   bool was_removed(HalfEdge h) const { return work_.removed_in[triangle_of(h)()] == work_.call; }
@@ -150,6 +159,7 @@ class Sheet {
       VertexIndex vertex;
       TriangleIndex left, right;  ///< right: invalid unless the vertex lies on an opened incision
       DeformedIndex at_left, at_right;
+      std::array<HalfEdge, 2> waiting{};  ///< halves of its edge, in order, whose other sides are still whole
     };
     std::vector<Pending> pending;
     std::vector<std::uint32_t> pending_of;  ///< per vertex: where in `pending` it would be

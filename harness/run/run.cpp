@@ -9,6 +9,7 @@
 
 #include "harness/mesh/families.h"
 #include "harness/run/cases.h"
+#include "harness/run/chill_caches.h"
 #include "harness/run/every_edge.h"
 #include "harness/run/record.h"
 #include "harness/run/report.h"
@@ -40,12 +41,6 @@ class Progress {
   bool quiet_, terminal_ = isatty(STDERR_FILENO) != 0;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
-
-/// Drives what the caches hold out of them.
-void chill_caches() {
-  static std::vector<unsigned char> ballast(std::size_t{64} << 20);
-  for (std::size_t i = 0; i < ballast.size(); i += 64) ++ballast[i];
-}
 
 /// One method at work, with its storage kept warm.
 struct Worker {
