@@ -170,7 +170,16 @@ void Tracer::choose(bool on_one_edge, const Place& from, std::size_t first, std:
       if (const double d = std::abs(cross(chord, point(first + i) - from.point)); d > farthest) farthest = d, best = i;
     if (best < count) chosen_[best] = 1;
   }
-  if (count < 2) return;
+  // Pieces that all go the way of the chord can't meet.
+  const Point2 chord = to.point - from.point;
+  bool monotone = dot(to.point - point(first + count - 1), chord) > 0;
+  Point2 before = from.point;
+  for (std::size_t i = 0; i < count && monotone; ++i) {
+    const Point2 p = point(first + i);
+    monotone = dot(p - before, chord) > 0;
+    before = p;
+  }
+  if (count < 2 || monotone) return;
   all_points_.assign(1, from.point), chosen_points_ = all_points_;
   for (std::size_t i = 0; i < count; ++i) {
     all_points_.push_back(point(first + i));
