@@ -49,6 +49,7 @@ struct Worker {
   Cutter cutter;
   Sheet sheet;
   Locator locator;
+  bool undoable = false;  // at most one cut away from the base sheet
 };
 
 class Runner {
@@ -58,7 +59,8 @@ class Runner {
       : experiment_(experiment),
         options_(options),
         file_(std::filesystem::path(options.out) / experiment.stem, identity(experiment, context, options)) {
-    for (const Variant& v : variants_of(experiment, methods)) workers_.push_back({v, v.row->make(v.knob), {}, {}, {}});
+    for (const Variant& v : variants_of(experiment, methods))
+      workers_.push_back({v, v.row->make(v.knob), {}, {}, {}, false});
     cut_options_.chord_tolerance = experiment.chord_tolerance;
   }
 
@@ -73,6 +75,7 @@ class Runner {
       for (int resolution : experiment_.resolutions) {
         base_ = Sheet(make_sheet(sheet, squares_per_side(resolution)));
         base_locator_ = Locator(base_);
+        for (Worker& worker : workers_) worker.undoable = false;
         for (const auto& family : experiment_.cut_families)
           for (std::size_t i = 0; i < cases; ++i, progress.step())
             if (static_cast<int>(i % static_cast<std::size_t>(options_.shards)) == options_.shard - 1)
@@ -108,7 +111,6 @@ class Runner {
       Record& row =
           judged.emplace_back(start_row(workers_[w].variant.row->name, workers_[w].variant.knob_text(), 0, "warm"));
       if (file_.has(row.key())) continue;
-      restore(workers_[w]);
       const CutRun run = cut(workers_[w], cuts);
       if (forced.empty() && experiment_.quality) forced = forced_corners_of(base_, cuts);
       judge_into(row, summaries[w], workers_[w], cuts, forced, run);
@@ -144,29 +146,32 @@ class Runner {
     summary_.add(resolution, variant.row->name, variant.knob_text(), cut);
   }
 
-  void restore(Worker& worker) {
-    worker.sheet = base_, worker.locator = base_locator_;
-    worker.sheet.reserve(4 * base_.triangle_slots(), 4 * base_.vertex_slots(), 4 * base_.deformed_slots());
+  /// Makes the worker's sheet the base sheet again: by undoing a single cut, so that the caches stay as they are.
+  void restore(Worker& worker, const std::vector<Curve>& cuts) {
+    if (worker.undoable) {
+      worker.sheet.rollback();
+    } else {
+      worker.sheet = base_;
+      worker.sheet.reserve(4 * base_.triangle_slots(), 4 * base_.vertex_slots(), 4 * base_.deformed_slots());
+      worker.sheet.begin_cut();  // so that a cut that is refused can be undone, too
+    }
+    worker.locator = base_locator_;
+    worker.undoable = cuts.size() == 1;
   }
 
+  /// Cuts the base sheet.
   CutRun cut(Worker& worker, const std::vector<Curve>& cuts) {
+    restore(worker, cuts);
     return cut_all(worker.sheet, worker.locator, worker.cutter, cuts, *worker.method, cut_options_);
   }
 
-  /// Cold: right after other work has driven everything out of the caches. Warm: the same cut, made and undone just
-  /// before.
+  /// Cold: right after other work has driven everything out of the caches. Warm: the same cut, made and undone twice
+  /// just before.
   CutRun measure(Worker& worker, const std::vector<Curve>& cuts, bool cold) {
-    restore(worker);
-    if (cold) {
-      chill_caches();
-    } else {
-      cut(worker, cuts);
-      if (cuts.size() == 1)
-        worker.sheet.rollback(), worker.locator = base_locator_;
-      else
-        restore(worker);
-    }
-    return cut(worker, cuts);
+    for (int i = 0; i < (cold ? 1 : 2); ++i) cut(worker, cuts);
+    restore(worker, cuts);
+    if (cold) chill_caches();
+    return cut_all(worker.sheet, worker.locator, worker.cutter, cuts, *worker.method, cut_options_);
   }
 
   void judge_into(Record& row, Summary::Cut& summary, const Worker& worker, const std::vector<Curve>& cuts,
