@@ -4,6 +4,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "experiments/simulate.h"
 #include "harness/mesh/mesh_io.h"
 #include "harness/run/report_json.h"
 #include "harness/run/run.h"
@@ -80,12 +81,17 @@ double knob_value(const MethodRow& row, const std::vector<std::string>& settings
   return value;
 }
 
+CutOptions options_with(const std::string& chord_tolerance) {
+  CutOptions options;
+  options.chord_tolerance = number(chord_tolerance, "--chord-tolerance");
+  if (!(options.chord_tolerance > 0)) throw InputError("--chord-tolerance: must be positive, or inf");
+  return options;
+}
+
 int cut(const CutArguments& arguments) {
   const MethodRow& row = find_method(arguments.method);
   const auto method = row.make(knob_value(row, arguments.set));
-  CutOptions options;
-  options.chord_tolerance = number(arguments.chord_tolerance, "--chord-tolerance");
-  if (!(options.chord_tolerance > 0)) throw InputError("--chord-tolerance: must be positive, or inf");
+  const CutOptions options = options_with(arguments.chord_tolerance);
   for (const std::string& file :
        {arguments.out, arguments.report})  // before the work, so that nothing is written by halves
     if (const auto folder = std::filesystem::path(file).parent_path();
@@ -115,6 +121,27 @@ int cut(const CutArguments& arguments) {
   for (const auto& problem : a.judgement.problems)
     std::cerr << "failed (" << a.judgement.verdict << "): " << problem << '\n';
   return fell_short;
+}
+
+// --- cutbench simulate
+// ----------------------------------------------------------------------------------------------------
+
+struct SimulateArguments {
+  std::string scene, method = "conventional_split", out;
+  std::vector<std::string> set;
+  std::string chord_tolerance = "0.05";
+  int resolution = 0;
+};
+
+int simulate(const SimulateArguments& arguments) {
+  Scene scene = read_scene(arguments.scene);
+  const MethodRow& row = find_method(arguments.method);
+  const auto method = row.make(knob_value(row, arguments.set));
+  if (arguments.resolution > 0) {
+    squares_per_side(arguments.resolution);
+    scene.resolution = arguments.resolution;
+  }
+  return cutbench::simulate(scene, *method, options_with(arguments.chord_tolerance), arguments.out) ? done : fell_short;
 }
 
 // --- cutbench run
@@ -183,6 +210,16 @@ int main(int argc, char** argv) {
   cut_command->add_option("--out", cut_arguments.out, "OBJ, OFF or VTU")->required();
   cut_command->add_option("--report", cut_arguments.report, "JSON");
 
+  SimulateArguments simulate_arguments;
+  auto* simulate_command = app.add_subcommand("simulate", "run a scene with its cuts");
+  simulate_command->add_option("scene", simulate_arguments.scene, "scene file (TOML)")->required();
+  simulate_command->add_option("--method", simulate_arguments.method, "see `cutbench methods`");
+  simulate_command->add_option("--set", simulate_arguments.set, "knob=value");
+  simulate_command->add_option("--chord-tolerance", simulate_arguments.chord_tolerance,
+                               "in mean rest edges, or inf: edge crossings only");
+  simulate_command->add_option("--resolution", simulate_arguments.resolution, "triangles, instead of the scene's");
+  simulate_command->add_option("--out", simulate_arguments.out, "the sheet in the end: OBJ, OFF or VTU");
+
   RunArguments run_arguments;
   auto* run_command = app.add_subcommand("run", "run experiments");
   run_command->add_option("experiments", run_arguments.experiments, "experiment files (TOML)")->required();
@@ -200,6 +237,7 @@ int main(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) command += std::string(" ") + argv[i];
     if (*methods_command) return list_methods(as_json);
     if (*cut_command) return cut(cut_arguments);
+    if (*simulate_command) return simulate(simulate_arguments);
     return run(run_arguments, command);
   } catch (const CLI::CallForHelp& help) {
     return app.exit(help);

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Table 1 of the paper, its geometry column: what a cut costs over the resolution of the sheet, in all and per crossed
-triangle, beside the paper's wording taken literally (every edge of the mesh tested against the path)."""
+"""Table 1 of the paper. Its geometry column: what a cut costs over the resolution of the sheet, in all and per crossed
+triangle, beside the paper's wording taken literally (every edge of the mesh tested against the path). Its solver and
+total columns: the same inside a running simulation, with the update and the first step after the cut."""
 
 import numpy as np
 import pandas as pd
@@ -13,6 +14,9 @@ STEM = "table1_timing"
 PHASES = {"locate_us": "#bdbdbd", "trace_us": "#737373", "embed_us": "#0072b2", "improve_us": "#e69f00",
           "open_us": "#009e73"}
 MEASURES = ["crossed_triangles", "geometry_us", *PHASES]
+STEP = ["rotate_us", "assemble_us", "setup_us", "solve_us"]
+IN_MOTION = ["transfer_us", "pattern_us", "bending_us", "rebuild_us", "bending_rebuild_us", "triplets_us",
+             "solver_iterations", *STEP]
 BASELINE = ("every_edge", "")
 REAL_TIME_US = 6000  # "less than six milliseconds", section 5.3
 
@@ -22,7 +26,7 @@ class Timings:
 
     def __init__(self, run, sheet):
         self.run, self.sheet = run.select(sheet=sheet), sheet
-        caches = set(self.run.rows["cache"])
+        caches = set(self.run.rows["cache"]) - {"simulation"}
         self.cache = "warm" if "warm" in caches or not caches else sorted(caches)[0]
         self.cuts = self.medians(self.cache)
         self.variants = self.run.variants("geometry_us")
@@ -54,10 +58,10 @@ class Timings:
         return ("bowyer_watson", knobs[0]) if knobs else None
 
 
-def published():
+def published(column="geometry_ms"):
     path = load.REPOSITORY / "results" / "published" / "table1.csv"
     try:
-        return pd.read_csv(path).set_index("triangles")["geometry_ms"] * 1000
+        return pd.read_csv(path).set_index("triangles")[column] * 1000
     except (OSError, ValueError, KeyError) as error:
         load.stop(f"{path}, the paper's own numbers, can't be read: {error}")
 
@@ -216,6 +220,91 @@ def overhead_statement(timings):
     return f"'Lower overhead than existing algorithms', {label(generation)}: {', '.join(parts)}." if parts else None
 
 
+def in_motion(run, sheet):
+    """The cuts of one sheet made inside the running simulation, one row each, with sums."""
+    cuts = run.select(sheet=sheet, cache="simulation").rows
+    return cuts.assign(update_us=cuts["transfer_us"] + cuts["pattern_us"], step_us=cuts[STEP].sum(axis=1, skipna=False),
+                       total_us=cuts["geometry_us"] + cuts[["transfer_us", "pattern_us", "bending_us"]].sum(axis=1)
+                       + cuts[STEP].sum(axis=1, skipna=False))
+
+
+CURVES = {  # of the figure in motion: label, colour, marker, the paper's column beside it
+    "geometry_us": ("geometry", "#0072b2", "o", "geometry_ms"),
+    "update_us": ("update: transfer, pattern", "#009e73", "s", "solver_ms"),
+    "bending_us": ("update: bending", "#8fcfb5", "D", None),
+    "step_us": ("first step: rotate, assemble, setup, solve", "#d55e00", "^", None),
+    "total_us": ("all of it", "#222222", "P", "total_ms"),
+}
+
+
+def motion_figure(run, sheet):
+    """What a cut costs inside the running simulation, beside all three columns of the paper's table."""
+    cuts = in_motion(run, sheet)
+    variants = [v for v in style.looks(set(zip(cuts["method"], cuts["knob"])))
+                if v in (("bowyer_watson", "rounds=0"), ("bowyer_watson", "rounds=1"))]
+    if cuts.empty or not variants:
+        return None
+    figure, axes = style.panels(len(variants), 1, 5.0, subplot_kw={"yscale": "log"}, sharey=True)
+    legend = []
+    for ax, variant in zip(axes.flat, variants):
+        here = cuts[(cuts["method"] == variant[0]) & (cuts["knob"] == variant[1])]
+        for column, (name, colour, marker, beside) in CURVES.items():
+            look = style.Look(name, colour, marker)
+            style.curve(ax, look, load.quartiles(here, "resolution", column))
+            if ax is axes.flat[0]:
+                legend.append(look)
+            if beside:
+                paper = published(beside)
+                ax.plot(paper.index, paper, color=colour, marker=marker, markerfacecolor="white", linestyle="-.",
+                        markersize=3, linewidth=0.7, zorder=2)
+        ax.set_title(label(variant), loc="left")
+        ax.set_ylabel("µs")
+        style.resolution_axis(ax, cuts["resolution"], "log", labelled=ax is axes.flat[-1])
+    for ax in axes.flat:
+        style.plain_numbers(ax)
+    style.finish(figure, legend, " ".join([
+        f"A cut inside the running simulation on {style.sheet_title(sheet)}, cold: median of the cuts, band: quartiles. "
+        "Hollow, dash-dotted: the paper's Table 1 (other CPU, unknown cut, material and solver tolerance); its 'solver' "
+        "column is drawn as the update, which it grows like. The first step is one backward Euler step by conjugate "
+        "gradients to 1e-2, of experiments/scenes/paper_table1.toml.",
+        *motion_statements(cuts), style.provenance(run, cuts, with_machine=True, with_crosses=False)]))
+    return figure
+
+
+def motion_statements(cuts):
+    """The ratios that justify an incremental update, at the highest resolution."""
+    top = cuts[cuts["resolution"] == cuts["resolution"].max()]
+    def ratio(upper, lower):
+        return interval(load.ratio(top[upper], top[lower]))
+    return [f"At {top['resolution'].max()} triangles the incremental update is {ratio('rebuild_us', 'pattern_us')} times "
+            f"faster than making the pattern anew and {ratio('triplets_us', 'update_us')} times faster than Eigen's "
+            f"setFromTriplets; the bending update {ratio('bending_rebuild_us', 'bending_us')} times faster than anew; "
+            f"assembly {ratio('triplets_us', 'assemble_us')} times faster than setFromTriplets (geometric means, 95 % "
+            "intervals)."]
+
+
+def print_motion(run, sheet):
+    cuts = in_motion(run, sheet)
+    rows = []
+    for resolution in sorted(set(cuts["resolution"])):
+        for variant, look in style.looks(set(zip(cuts["method"], cuts["knob"]))).items():
+            here = cuts[(cuts["resolution"] == resolution) & (cuts["method"] == variant[0]) &
+                        (cuts["knob"] == variant[1])]
+            medians = here[["geometry_us", "update_us", "bending_us", *STEP, "solver_iterations"]].median()
+            rows.append([str(resolution), look.label, str(load.count(here)), *medians,
+                         load.ratio(here["rebuild_us"], here["pattern_us"])[0],
+                         load.ratio(here["triplets_us"], here["update_us"])[0],
+                         load.ratio(here["triplets_us"], here["assemble_us"])[0],
+                         load.ratio(here["bending_rebuild_us"], here["bending_us"])[0]])
+    if rows:
+        load.print_table(f"A cut inside the running simulation, {sheet}, medians over the cuts, us; ratios: geometric means",
+                         ["triangles", "method", "cuts", "geometry", "update", "bending", "rotate", "assemble", "setup",
+                          "solve", "iterations", "anew/pattern", "triplets/update", "triplets/assemble",
+                          "bending anew/update"], rows)
+        for statement in motion_statements(cuts):
+            print(statement)
+
+
 def print_numbers(timings, paper):
     cold = timings.medians("cold")
     rows = []
@@ -241,7 +330,7 @@ def print_numbers(timings, paper):
 
 def main():
     folder = load.results_folder(STEM, __doc__)
-    run, paper = load.read(folder, MEASURES), published()
+    run, paper = load.read(folder, MEASURES + IN_MOTION), published()
     timings = [Timings(run, sheet) for sheet in style.sheet_order(run.everything()["sheet"])]
     style.save(time_figure(timings[0], paper, other_sheets(timings[1:])), folder, STEM)
     if len(timings) > 1:
@@ -249,8 +338,12 @@ def main():
     phases = phases_figure(timings[0])
     if phases:
         style.save(phases, folder, f"{STEM}_phases")
+    motion = motion_figure(run, timings[0].sheet)
+    if motion:
+        style.save(motion, folder, f"{STEM}_in_motion")
     for t in timings:
         print_numbers(t, paper)
+        print_motion(run, t.sheet)
 
 
 def other_sheets(timings):

@@ -1,13 +1,17 @@
 #include "harness/run/context.h"
 
 #include <CGAL/version.h>
+#include <cholmod.h>
+#include <dlfcn.h>
 #include <gmp.h>
 #include <mpfr.h>
 
+#include <Eigen/Core>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -35,6 +39,19 @@ std::string cpu_model() {
   return "unknown";
 }
 
+std::string dotted(int major, int minor, int patch) {
+  return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch);
+}
+
+/// The file of the BLAS that CHOLMOD calls: Debian's alternatives decide which one that is when the program starts.
+std::string blas_in_use() {
+  Dl_info info{};
+  std::error_code error;
+  if (void* gemm = dlsym(RTLD_DEFAULT, "dgemm_"); !gemm || !dladdr(gemm, &info)) return "unknown";
+  const std::filesystem::path file = std::filesystem::canonical(info.dli_fname, error);
+  return error ? "unknown" : (file.parent_path().filename() / file.filename()).string();
+}
+
 }  // namespace
 
 std::string Context::identity() const {
@@ -58,7 +75,14 @@ Context gather_context() {
   }
   context.compiler = CUTBENCH_COMPILER, context.flags = CUTBENCH_FLAGS, context.build_type = CUTBENCH_BUILD_TYPE;
   context.cpu = cpu_model();
-  context.versions = {{"CGAL", CGAL_VERSION_STR}, {"GMP", gmp_version}, {"MPFR", mpfr_get_version()}};
+  context.versions = {
+      {"CGAL", CGAL_VERSION_STR},
+      {"GMP", gmp_version},
+      {"MPFR", mpfr_get_version()},
+      {"Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+      {"CHOLMOD", dotted(CHOLMOD_MAIN_VERSION, CHOLMOD_SUB_VERSION, CHOLMOD_SUBSUB_VERSION)},
+      {"BLAS", blas_in_use()},
+  };
   std::array<char, 32> date{};
   const std::time_t now = std::time(nullptr);
   std::strftime(date.data(), date.size(), "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));

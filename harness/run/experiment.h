@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/run/scene.h"
+
 namespace cutbench {
 
 struct Experiment {
@@ -28,6 +30,11 @@ struct Experiment {
   bool quality = true;            ///< shapes, forced zones; the oracle judges every case either way
   bool every_edge = false;        ///< time the paper's wording taken literally, too
   double chord_tolerance = 0.05;  ///< in mean rest edges
+  /// Each cut is made once more inside this running scene, after its first step that ends at `cut_time` or later. Sheet
+  /// and resolution are the experiment's.
+  std::optional<Scene> scene;
+  double cut_time = 0;  ///< s
+  int scene_cases = 0;  ///< so many of the cuts only
 };
 
 /// Throws InputError: unreadable, not TOML, unknown or missing keys (with the nearest known one), values out of range.

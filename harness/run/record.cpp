@@ -75,7 +75,30 @@ const std::vector<std::string>& column_names() {
                                               "improve_us",
                                               "open_us",
                                               "geometry_us",
-                                              "cpu_us"};
+                                              "cpu_us",
+                                              "transfer_us",
+                                              "pattern_us",
+                                              "bending_us",
+                                              "rotate_us",
+                                              "assemble_us",
+                                              "setup_us",
+                                              "solve_us",
+                                              "rebuild_us",
+                                              "bending_rebuild_us",
+                                              "triplets_us",
+                                              "solver_iterations",
+                                              "solver_residual",
+                                              "membrane_j",
+                                              "membrane_jump_j",
+                                              "bending_j",
+                                              "bending_jump_j",
+                                              "kinetic_j",
+                                              "kinetic_jump_j",
+                                              "momentum_jump_kg_m_s",
+                                              "angular_momentum_jump_kg_m2_s",
+                                              "residual_n",
+                                              "residual_jump_n",
+                                              "max_rss_mb"};
   return names;
 }
 

@@ -1,9 +1,11 @@
 #include "harness/run/run.h"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 
@@ -11,6 +13,7 @@
 #include "harness/run/cases.h"
 #include "harness/run/chill_caches.h"
 #include "harness/run/every_edge.h"
+#include "harness/run/in_motion.h"
 #include "harness/run/record.h"
 #include "harness/run/report.h"
 #include "harness/run/summary.h"
@@ -19,7 +22,9 @@ namespace cutbench {
 
 namespace {
 
-constexpr const char* suite_version = "1";
+constexpr const char* suite_version = "2";
+
+double length(Point3 p) { return std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z); }
 
 /// A bar on a terminal, a line every ten percent otherwise.
 class Progress {
@@ -73,7 +78,8 @@ class Runner {
       std::fprintf(stderr, "%s: resumed, %zu rows were there\n", experiment_.stem.c_str(), file_.resumed());
     for (const auto& sheet : experiment_.sheets)
       for (int resolution : experiment_.resolutions) {
-        base_ = Sheet(make_sheet(sheet, squares_per_side(resolution)));
+        start_scene(sheet, resolution);
+        base_ = motion_ ? motion_->sheet() : Sheet(make_sheet(sheet, squares_per_side(resolution)));
         base_locator_ = Locator(base_);
         for (Worker& worker : workers_) worker.undoable = false;
         for (const auto& family : experiment_.cut_families)
@@ -138,6 +144,57 @@ class Runner {
       if (experiment_.every_edge)
         time_every_edge(cuts, start_row("every_edge", "", repetition, cache), resolution, crossed, cold);
     }
+    if (!motion_ || i >= static_cast<std::size_t>(experiment_.scene_cases)) return;
+    for (Worker& worker : workers_)
+      run_in_motion(cuts, worker, start_row(worker.variant.row->name, worker.variant.knob_text(), 0, "simulation"));
+  }
+
+  /// The experiment's scene on this sheet, brought to the last step before the cut.
+  void start_scene(const std::string& sheet, int resolution) {
+    if (!experiment_.scene) return;
+    Scene scene = *experiment_.scene;
+    scene.family = sheet, scene.resolution = resolution;
+    motion_ = InMotion::start(scene);
+    const StepReport report =
+        motion_->advance(experiment_.cut_time - scene.step, *workers_.front().method, cut_options_);
+    if (report.verdict != "ok")
+      throw InputError(scene.stem + ": the scene fails before its cut (" + report.verdict + "; " + report.reason +
+                       "); mend its step or its solver");
+  }
+
+  /// The cut made in the running scene, where nothing is warmed up for it.
+  void run_in_motion(const std::vector<Curve>& cuts, Worker& worker, Record row) {
+    if (file_.has(row.key())) return;
+    const MotionCut m = motion_->try_cut(cuts, worker.cutter, *worker.method, cut_options_);
+    row.set("status", std::string(name_of(m.cut.status)));
+    row.set("verdict", m.verdict), row.set("reason", m.reason);
+    set_times(row, m.cut);
+    if (m.verdict == "ok") set_motion(row, m);
+    file_.append(row);
+    if (m.verdict != "ok") summary_.add_failure();
+  }
+
+  static void set_motion(Record& row, const MotionCut& m) {
+    row.set("transfer_us", m.transfer_us), row.set("pattern_us", m.pattern_us);
+    row.set("bending_us", m.bending_us), row.set("bending_rebuild_us", m.bending_rebuild_us);
+    const StepTimes& t = m.first_step.time_us;
+    row.set("rotate_us", t.rotate), row.set("assemble_us", t.assemble);
+    row.set("setup_us", t.setup), row.set("solve_us", t.solve);
+    row.set("rebuild_us", m.rebuild_us), row.set("triplets_us", m.triplets_us);
+    row.set("solver_iterations", std::int64_t{m.first_step.iterations});
+    row.set("solver_residual", m.first_step.residual);
+    const auto jump = [&](const std::string& name, const std::string& unit, double before, double after) {
+      row.set(name + "_" + unit, before), row.set(name + "_jump_" + unit, after - before);
+    };
+    jump("membrane", "j", m.before.energy.membrane, m.after.energy.membrane);
+    jump("bending", "j", m.before.energy.bending, m.after.energy.bending);
+    jump("kinetic", "j", m.before.energy.kinetic, m.after.energy.kinetic);
+    jump("residual", "n", m.before.residual, m.after.residual);
+    row.set("momentum_jump_kg_m_s", length(m.after.momentum + -1 * m.before.momentum));
+    row.set("angular_momentum_jump_kg_m2_s", length(m.after.angular_momentum + -1 * m.before.angular_momentum));
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    row.set("max_rss_mb", static_cast<double>(usage.ru_maxrss) / 1024);
   }
 
   void summarize(int resolution, const Variant& variant, Summary::Cut cut, const CutRun& run) {
@@ -244,6 +301,7 @@ class Runner {
   CutOptions cut_options_;
   Sheet base_;
   Locator base_locator_;
+  std::unique_ptr<InMotion> motion_;
   Summary summary_;
 };
 

@@ -1,0 +1,167 @@
+#include "harness/fem/bending.h"
+
+namespace cutbench {
+
+Bending::Bending(const Sheet& sheet, BendingKind kind, double rigidity, double poisson)
+    : kind_(kind), rigidity_(rigidity), poisson_(poisson) {
+  resize(sheet);
+  ++work_.call;
+  for (std::size_t t = 0; t < sheet.triangle_slots(); ++t) mark_stale(TriangleIndex(t), 0);
+  rebuild(sheet);
+  slopes_.reserve_spare(), stencils_.reserve_spare(), stencils_of_.reserve_spare();
+}
+
+void Bending::update(const Sheet& sheet) {
+  resize(sheet);
+  ++work_.call;
+  find_stale(sheet);
+  rebuild(sheet);
+}
+
+double Bending::energy(const Field& x, int dimension) const {
+  double sum = 0;
+  for (std::size_t t = 0; t < stencils_.size(); ++t)
+    for (int axis = 0; axis < dimension; ++axis) {
+      std::array<double, 3> row{};
+      for (const auto& [vertex, factor] : stencils_[t])
+        for (std::size_t k = 0; k < 3; ++k) row[k] += factor[k] * x[dimension * vertex + axis];
+      sum += row[0] * row[0] + row[1] * row[1] + row[2] * row[2];
+    }
+  return sum / 2;
+}
+
+void Bending::resize(const Sheet& sheet) {
+  const std::size_t triangles = sheet.triangle_slots(), vertices = sheet.deformed_slots();
+  slopes_.resize(triangles), reach_.resize(triangles), stencils_.resize(triangles);
+  work_.stale_in.resize(triangles), work_.refitted_in.resize(triangles);
+  stencils_of_.resize(vertices), matrix_.resize(vertices);
+  work_.listed_in.resize(vertices), work_.place.resize(vertices, -1);
+  work_.stale.clear();
+}
+
+// --- what a cut makes stale
+// ----------------------------------------------------------------------------------------------
+
+void Bending::mark_stale(TriangleIndex t, int distance) {
+  if (work_.stale_in[t()] == work_.call) return;
+  work_.stale_in[t()] = work_.call;
+  work_.stale.push_back({t, distance});
+}
+
+/// Breadth first from the triangles that changed. A patch that reached a changed triangle over r edges, the first one
+/// on its way, still finds a changed one behind the same edges: neighbours of what changed are linked anew, but not
+/// logged.
+void Bending::find_stale(const Sheet& sheet) {
+  for (const auto& touched : sheet.log().touched) mark_stale(touched.slot, 0);
+  for (std::size_t t = sheet.log().triangles_before; t < sheet.triangle_slots(); ++t) mark_stale(TriangleIndex(t), 0);
+  for (std::size_t i = 0; i < work_.stale.size(); ++i) {
+    const auto [t, distance] = work_.stale[i];
+    if (!sheet.triangle(t).alive() || distance > longest_reach_) continue;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const HalfEdge o = sheet.triangle(t).opposite[k];
+          o.valid() && sheet.triangle(t).mark[k] != EdgeMark::incision)
+        mark_stale(triangle_of(o), distance + 1);
+  }
+}
+
+bool Bending::stencil_is_stale(const Sheet& sheet, TriangleIndex t) const {
+  if (work_.refitted_in[t()] == work_.call) return true;
+  for (const HalfEdge o : sheet.triangle(t).opposite)
+    if (o.valid() && work_.refitted_in[triangle_of(o)()] == work_.call) return true;
+  return false;
+}
+
+void Bending::rebuild(const Sheet& sheet) {
+  for (const auto& [t, distance] : work_.stale)
+    if (distance <= reach_[t()]) fit_patch(sheet, t);
+  work_.rows.clear();
+  for (const auto& [t, distance] : work_.stale) {
+    if (!stencil_is_stale(sheet, t)) continue;
+    work_.terms.clear();
+    if (!sheet.triangle(t).alive()) {
+    } else if (kind_ == BendingKind::patches) {
+      patch_rows(sheet, t);
+    } else {
+      hinge_rows(sheet, t);
+    }
+    replace_stencil(t());
+  }
+  for (const std::int32_t vertex : work_.rows) write_row(static_cast<std::size_t>(vertex));
+}
+
+void Bending::fit_patch(const Sheet& sheet, TriangleIndex t) {
+  work_.refitted_in[t()] = work_.call;
+  if (kind_ != BendingKind::patches) return;
+  if (!sheet.triangle(t).alive()) return slopes_.set(t(), {});
+  reach_[t()] = work_.patch.fit(sheet, t);
+  longest_reach_ = std::max(longest_reach_, reach_[t()]);
+  slopes_.set(t(), work_.patch.terms());
+}
+
+// --- matrix
+// --------------------------------------------------------------------------------------------------------------
+
+void Bending::put_on_list(std::int32_t vertex) {
+  auto& listed = work_.listed_in[static_cast<std::size_t>(vertex)];
+  if (listed == work_.call) return;
+  listed = work_.call;
+  work_.rows.push_back(vertex);
+}
+
+/// The sum that begins at zero, for this vertex, in the terms under way.
+std::array<double, 3>& Bending::term_of(std::int32_t vertex) {
+  std::int32_t& place = work_.place[static_cast<std::size_t>(vertex)];
+  if (place < 0) {
+    place = static_cast<std::int32_t>(work_.terms.size());
+    work_.terms.push_back({vertex, {}});
+  }
+  return work_.terms[static_cast<std::size_t>(place)].factor;
+}
+
+void Bending::replace_stencil(std::size_t t) {
+  const auto slot = static_cast<std::int32_t>(t);
+  for (const StencilTerm& term : stencils_[t]) {
+    put_on_list(term.vertex);
+    stencils_of_.erase(static_cast<std::size_t>(term.vertex), slot);
+  }
+  stencils_.set(t, work_.terms);
+  for (const StencilTerm& term : work_.terms) {
+    put_on_list(term.vertex);
+    stencils_of_.insert(static_cast<std::size_t>(term.vertex), slot);
+    work_.place[static_cast<std::size_t>(term.vertex)] = -1;
+  }
+}
+
+/// Sums a row of the matrix from the stencils that hold its vertex, in the order of their triangles, so that the sums
+/// don't depend on the cuts that led here.
+void Bending::write_row(std::size_t vertex) {
+  auto& columns = work_.columns;
+  auto& values = work_.values;
+  columns.clear(), values.clear();
+  const auto place_of = [&](std::int32_t column) -> std::size_t {
+    std::int32_t& place = work_.place[static_cast<std::size_t>(column)];
+    if (place < 0) {
+      place = static_cast<std::int32_t>(columns.size());
+      columns.push_back(column), values.push_back(0);
+    }
+    return static_cast<std::size_t>(place);
+  };
+  const auto row = static_cast<std::int32_t>(vertex);
+  const auto stencils = stencils_of_[vertex];
+  if (!stencils.empty()) place_of(row);
+  for (const std::int32_t t : stencils) {
+    const auto terms = stencils_[static_cast<std::size_t>(t)];
+    std::size_t mine = 0;
+    while (terms[mine].vertex != row) ++mine;
+    const auto& f = terms[mine].factor;
+    for (const auto& [column, g] : terms) values[place_of(column)] += f[0] * g[0] + f[1] * g[1] + f[2] * g[2];
+  }
+  matrix_.set_row(vertex, columns);
+  std::int32_t slot = columns.empty() ? 0 : matrix_.first_slot(vertex);
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    matrix_.block(slot++)(0) = values[k];
+    work_.place[static_cast<std::size_t>(columns[k])] = -1;
+  }
+}
+
+}  // namespace cutbench

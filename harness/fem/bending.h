@@ -1,0 +1,83 @@
+// Bending of a sheet that is flat at rest: one constant, positive semi-definite scalar matrix for x, y and z, whose
+// null space is what is linear in rest coordinates, so rigid motions of any size cost nothing and nothing is rotated.
+//
+//   patches  The enhanced rotation-free shell triangle (Flores and Onate, CMAME 194, 2005, EBST), for a flat rest
+//   sheet:
+//            slopes from the quadratic through a triangle and its three neighbours, averaged on the sides; Hessian from
+//            them by the divergence theorem. Does not depend on the mesh: passes the bending patch test on any.
+//   hinges   The quadratic hinge (Bergou et al. 2006, A quadratic bending model for inextensible surfaces), as the row
+//            that shows how an energy depends on the mesh.
+//
+// Each triangle's energy is half the sum of the squares of three linear rows over the vertices near it. What lies
+// across an incision is not near.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "harness/fem/block_matrix.h"
+#include "harness/fem/physics.h"
+#include "harness/fem/slope_patch.h"
+#include "harness/fem/stencil_lists.h"
+#include "harness/mesh/sheet.h"
+
+namespace cutbench {
+
+class Bending {
+ public:
+  Bending() = default;
+  /// \pre kind is not `none`; rigidity D in N m.
+  Bending(const Sheet& sheet, BendingKind kind, double rigidity, double poisson);
+  /// After a cut: rebuilds the stencils near the slots in the sheet's log and the rows of the vertices in them. Equal
+  /// to a new one but for the order of the columns within a row.
+  void update(const Sheet& sheet);
+
+  /// N/m. Force = -K x, energy = x K x / 2, for each coordinate. Rows of freed vertices are empty.
+  const BlockMatrix<1>& matrix() const { return matrix_; }
+  double energy(const Field& x, int dimension) const;
+
+ private:
+  struct Stale {
+    TriangleIndex triangle;
+    int distance;  ///< in unseparated edges, from the nearest triangle that changed
+  };
+  void resize(const Sheet& sheet);
+  void mark_stale(TriangleIndex t, int distance);
+  void find_stale(const Sheet& sheet);
+  void rebuild(const Sheet& sheet);
+  void fit_patch(const Sheet& sheet, TriangleIndex t);
+  bool stencil_is_stale(const Sheet& sheet, TriangleIndex t) const;
+  void replace_stencil(std::size_t t);
+  void put_on_list(std::int32_t vertex);
+  void write_row(std::size_t vertex);
+
+  // Terms of t's stencil, summed up in work_.
+  std::array<double, 3>& term_of(std::int32_t vertex);
+  void patch_rows(const Sheet& sheet, TriangleIndex t);
+  void hinge_rows(const Sheet& sheet, TriangleIndex t);
+
+  BendingKind kind_ = BendingKind::none;
+  double rigidity_ = 0, poisson_ = 0;
+  Lists<StencilTerm> slopes_;  ///< per triangle slot: SlopePatch::terms(); unused by hinges
+  std::vector<int> reach_;     ///< per triangle slot: of its patch; 0 for hinges
+  int longest_reach_ = 0;
+  Lists<StencilTerm> stencils_;      ///< per triangle slot: its three rows, in sqrt(N/m)
+  Lists<std::int32_t> stencils_of_;  ///< per deformed vertex: triangle slots whose stencils hold it, in order
+  BlockMatrix<1> matrix_;
+
+  /// Working storage, kept between calls so that they don't allocate.
+  struct Work {
+    SlopePatch patch;
+    std::vector<Stale> stale;                          ///< nearest first
+    std::vector<std::uint32_t> stale_in, refitted_in;  ///< per triangle slot: the call that listed it, fitted its patch
+    std::vector<std::uint32_t> listed_in;              ///< per deformed vertex: the call that put it in `rows`
+    std::uint32_t call = 0;
+    std::vector<std::int32_t> rows;   ///< to be written
+    std::vector<std::int32_t> place;  ///< per deformed vertex: in `terms` or `columns`; -1: none
+    std::vector<StencilTerm> terms;
+    std::vector<std::int32_t> columns;
+    std::vector<double> values;
+  } work_;
+};
+
+}  // namespace cutbench

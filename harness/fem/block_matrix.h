@@ -1,0 +1,74 @@
+// Square sparse matrix of D x D blocks whose rows can be changed one by one: what a cut touches is rewritten, the rest
+// stays where it is. D = 1 is an ordinary sparse matrix; it can be applied to each coordinate of a vertex alike.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace cutbench {
+
+/// D values per vertex, those of one vertex together.
+using Field = Eigen::VectorXd;
+
+template <int D>
+class BlockMatrix {
+ public:
+  using Block = Eigen::Matrix<double, D, D>;
+
+  std::size_t rows() const { return rows_.size(); }
+  void resize(std::size_t rows) { rows_.resize(rows); }
+  /// Room for half as many blocks again, before they have to be copied.
+  void reserve_spare() {
+    columns_.reserve(columns_.size() + columns_.size() / 2), blocks_.reserve(columns_.capacity() + 1);
+    rows_.reserve(rows_.size() + rows_.size() / 2);
+  }
+  /// Gives row i these columns, the diagonal first; its values become zero. Where the row has outgrown its room it
+  /// moves to the end, so slots of this row change, of others not. \pre `columns` is empty (a row of zeros), or begins
+  /// with i and holds no column twice.
+  void set_row(std::size_t i, std::span<const std::int32_t> columns);
+  /// The slot that keeps block (i, j); -1 where there is none.
+  std::int32_t find(std::size_t i, std::int32_t j) const;
+
+  std::span<const std::int32_t> columns(std::size_t i) const {
+    return {columns_.data() + rows_[i].begin, rows_[i].size};
+  }
+  /// Slot of the first block in row i, the diagonal one; the others follow in the order of columns().
+  std::int32_t first_slot(std::size_t i) const { return static_cast<std::int32_t>(rows_[i].begin); }
+  /// Adds to column c of the block in a slot; where D = 3 the fourth value must be zero, and nothing becomes of it.
+  template <class Column>
+  void add_to_column(std::int32_t slot, Eigen::Index c, const Column& column) {
+    Eigen::Map<Column>(blocks_[static_cast<std::size_t>(slot)].data() + D * c) += column;
+  }
+  Block& block(std::int32_t slot) { return blocks_[static_cast<std::size_t>(slot)]; }
+  const Block& block(std::int32_t slot) const { return blocks_[static_cast<std::size_t>(slot)]; }
+
+  void set_zero();
+  void set_row_zero(std::size_t i);
+  std::size_t block_count() const;                            ///< in use
+  std::size_t slot_count() const { return columns_.size(); }  ///< with those that rows have moved out of
+
+  /// y += factor A x.
+  void add_product(double factor, const Field& x, Field& y) const;
+
+ private:
+  struct Row {
+    std::uint32_t begin = 0, size = 0, capacity = 0;
+  };
+  std::vector<Row> rows_;
+  std::vector<std::int32_t> columns_;
+  std::vector<Block> blocks_;  // and one more, so that four values can be read where the last three are
+};
+
+/// y += factor (A (x) I) x, for `dimension` values per vertex.
+void add_product_per_coordinate(const BlockMatrix<1>& a, int dimension, double factor, const Field& x, Field& y);
+
+/// Largest |entry|, and largest |entry| of the difference of two matrices with rows in any order of columns. They look
+/// at everything: for tests, and outside the clock.
+template <int D>
+double max_entry(const BlockMatrix<D>& a);
+template <int D>
+double max_difference(const BlockMatrix<D>& a, const BlockMatrix<D>& b);
+
+}  // namespace cutbench

@@ -1,0 +1,46 @@
+// Solvers of the symmetric positive definite system of one step, behind one interface. Each reports what it reached; a
+// solve that did not converge is never published as a time.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "harness/fem/system_matrix.h"
+
+namespace cutbench {
+
+struct SolverOptions {
+  std::string name = "cg";  ///< of solver_names()
+  double tolerance = 1e-2;  ///< of |b - A x| / |b|; a direct solver ignores it
+  int max_iterations = 10000;
+};
+
+struct SolveReport {
+  int iterations = 0;   ///< 0 for a direct solver
+  double residual = 0;  ///< |b - A x| / |b| with the true residual, computed anew from x; 0 where b is 0
+  /// residual <= tolerance, also as preconditioned, and finite; direct: residual <= 1e-8, or a backward error at the
+  /// level of rounding.
+  bool converged = false;
+};
+
+template <int D>
+class LinearSolver {
+ public:
+  virtual ~LinearSolver() = default;
+  /// Preconditioner or factorisation. `a` must outlive the solves.
+  virtual void setup(const SystemMatrix<D>& a) = 0;
+  /// Solves A x = b from x = 0. Held unknowns of x come out zero, whatever b says of them.
+  virtual SolveReport solve(const Field& b, Field& x) = 0;
+};
+
+/// "cg": conjugate gradients, preconditioned by the inverse diagonal blocks. "cg_sliver_blocks": the vertices joined by
+/// slivers share a block. "cholmod": supernodal Cholesky factorisation with METIS ordering.
+const std::vector<std::string>& solver_names();
+/// Throws InputError for an unknown name.
+template <int D>
+std::unique_ptr<LinearSolver<D>> make_solver(const SolverOptions& options);
+
+/// For solvers: b with zeros where unknowns are held.
+void project(const std::vector<std::uint8_t>& held, const Eigen::Ref<const Field>& b, Field& projected);
+
+}  // namespace cutbench

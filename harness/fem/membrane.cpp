@@ -1,0 +1,146 @@
+#include "harness/fem/membrane.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cutbench {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+Lame lame_of(const Material& material, Plane plane) {
+  const double e = material.stiffness, nu = material.poisson;
+  return {e / (2 * (1 + nu)), plane == Plane::stress ? e * nu / (1 - nu * nu) : e * nu / ((1 + nu) * (1 - 2 * nu))};
+}
+
+namespace {
+
+Vector2d gradient(const Element& element, std::size_t k) { return {element.gradient[k].x, element.gradient[k].y}; }
+
+/// The rotation nearest to f: never a reflection, the identity where none is nearest.
+Matrix2d nearest_rotation(const Matrix2d& f) {
+  const double c = f(0, 0) + f(1, 1), s = f(1, 0) - f(0, 1), r = std::hypot(c, s);
+  if (!(r > 0)) return Matrix2d::Identity();
+  return (Matrix2d() << c / r, -s / r, s / r, c / r).finished();
+}
+
+Vector3d any_orthogonal(const Vector3d& v) {
+  Eigen::Index smallest = 0;
+  v.cwiseAbs().minCoeff(&smallest);
+  return v.cross(Vector3d::Unit(smallest)).normalized();
+}
+
+/// Orthonormal vectors that span the plane of f's columns; any plane through them where they span none.
+Eigen::Matrix<double, 3, 2> tangent_frame(const Eigen::Matrix<double, 3, 2>& f) {
+  const double a = f.col(0).norm(), b = f.col(1).norm();
+  const Vector3d normal = f.col(0).cross(f.col(1));
+  Eigen::Matrix<double, 3, 2> frame;
+  if (normal.norm() > 1e-14 * a * b) {
+    frame.col(0) = f.col(0) / a;
+    frame.col(1) = normal.normalized().cross(frame.col(0));
+  } else if (std::max(a, b) > 0) {
+    frame.col(0) = a >= b ? f.col(0) / a : f.col(1) / b;
+    frame.col(1) = any_orthogonal(frame.col(0));
+  } else {
+    frame = Eigen::Matrix<double, 3, 2>::Identity();
+  }
+  return frame;
+}
+
+/// s's negative part along its principal directions left out, divided by S there (s and S share them).
+Matrix2d tension_over_stretch(const Matrix2d& stress, const Matrix2d& stretch) {
+  const double mean = (stretch(0, 0) + stretch(1, 1)) / 2, half = (stretch(0, 0) - stretch(1, 1)) / 2;
+  const double radius = std::hypot(half, stretch(0, 1));
+  // Direction of the larger principal stretch; any where both are equal.
+  Vector2d v(1, 0);
+  if (radius > 0) {
+    const double c = std::sqrt(std::max(0.0, (1 + half / radius) / 2));
+    const double s = std::sqrt(std::max(0.0, (1 - half / radius) / 2));
+    v = {c, stretch(0, 1) < 0 ? -s : s};
+  }
+  const Vector2d w(-v.y(), v.x());
+  const auto ratio = [&](const Vector2d& direction, double principal) {
+    const double tension = direction.dot(stress * direction);
+    return tension > 0 && principal > 0 ? tension / principal : 0;
+  };
+  return ratio(v, mean + radius) * v * v.transpose() + ratio(w, mean - radius) * w * w.transpose();
+}
+
+}  // namespace
+
+template <int D>
+Deformation<D> deformation_of(const Element& element, const Field& x, Strain strain, const Lame& lame) {
+  // Differences of positions, so that a sheet far from the origin loses nothing.
+  const auto at = [&](std::size_t k) {
+    return Eigen::Map<const Eigen::Matrix<double, D, 1>>(x.data() + D * element.vertex[k].value);
+  };
+  const Eigen::Matrix<double, D, 2> f =
+      (at(1) - at(0)) * gradient(element, 1).transpose() + (at(2) - at(0)) * gradient(element, 2).transpose();
+  Deformation<D> d;
+  if (strain == Strain::linear) {
+    d.rotation = Eigen::Matrix<double, D, 2>::Identity();
+    const Matrix2d in_plane = f.template topRows<2>();
+    d.stretch = (in_plane + in_plane.transpose()) / 2;
+  } else if constexpr (D == 2) {
+    d.rotation = nearest_rotation(f);
+    d.stretch = d.rotation.transpose() * f;
+  } else {
+    const Eigen::Matrix<double, 3, 2> frame = tangent_frame(f);
+    const Matrix2d in_plane = frame.transpose() * f, turn = nearest_rotation(in_plane);
+    d.rotation = frame * turn;
+    d.stretch = turn.transpose() * in_plane;
+  }
+  d.stretch(0, 1) = d.stretch(1, 0) = (d.stretch(0, 1) + d.stretch(1, 0)) / 2;
+  const Matrix2d e = d.stretch - Matrix2d::Identity();
+  const double trace = e.trace();
+  d.stress = 2 * lame.mu * e + lame.lambda * trace * Matrix2d::Identity();
+  d.energy = lame.mu * e.squaredNorm() + lame.lambda / 2 * trace * trace;
+  return d;
+}
+
+template <int D>
+ElementStiffness<D>::ElementStiffness(const Element& element, const Deformation<D>& d, Strain strain, const Lame& lame,
+                                      double factor) {
+  const auto padded = [](const Eigen::Matrix<double, D, 1>& v) {
+    Column column = Column::Zero();
+    column.template head<D>() = v;
+    return column;
+  };
+  const double area = factor * element.material_area();
+  double twist = 0;
+  Matrix2d tension = Matrix2d::Zero();
+  if (strain == Strain::corotational) {
+    const double trace = d.stretch.trace();
+    twist = trace > 0 ? area / 2 * std::max(0.0, d.stress.trace() / trace) : 0;
+    if (D == 3) tension = tension_over_stretch(d.stress, d.stretch);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector2d g = gradient(element, i);
+    along_[i] = padded(d.rotation * g);
+    lambda_along_[i] = area * lame.lambda * along_[i], mu_along_[i] = area * lame.mu * along_[i];
+    across_[i] = padded(d.rotation * Vector2d(-g.y(), g.x()));
+    twist_across_[i] = twist * across_[i];
+    const Vector2d pulled = tension * g;
+    for (std::size_t j = 0; j < 3; ++j) {
+      product_[i][j] = g.dot(gradient(element, j));
+      tension_[i][j] = pulled.dot(gradient(element, j));
+    }
+  }
+  Eigen::Matrix<double, D, 1> normal = Eigen::Matrix<double, D, 1>::Zero();
+  if constexpr (D == 3) normal = d.rotation.col(0).cross(d.rotation.col(1));
+  for (std::size_t c = 0; c < D; ++c) {
+    const auto k = static_cast<Eigen::Index>(c);
+    projector_[c] = padded(area * lame.mu * (d.rotation * d.rotation.row(k).transpose()));
+    tilt_[c] = padded(area * normal[k] * normal);
+  }
+}
+
+template struct Deformation<2>;
+template struct Deformation<3>;
+template Deformation<2> deformation_of<2>(const Element&, const Field&, Strain, const Lame&);
+template Deformation<3> deformation_of<3>(const Element&, const Field&, Strain, const Lame&);
+template class ElementStiffness<2>;
+template class ElementStiffness<3>;
+
+}  // namespace cutbench

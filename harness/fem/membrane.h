@@ -1,0 +1,73 @@
+// The constant-strain membrane triangle, linear or co-rotational, in the plane or in space.
+//
+// With F = sum x_k (x) g_k (D x 2), F = R S its polar decomposition (S symmetric 2 x 2) and e = S - I, the energy per
+// rest area is mu e:e + lambda/2 (tr e)^2, isotropic in the singular values of F. Its first Piola stress is P = R s
+// with s = 2 mu e + lambda (tr e) I, exactly: the change of R does no work. Its second derivative splits into modes
+// (Smith, de Goes and Kim, Analytic eigensystems for isotropic distortion energies, TOG 38, 2019): stretch and shear,
+// where it is that of linear elasticity turned by R; the in-plane twist, with (s1 + s2) / (S1 + S2); and, in space,
+// tilting out of the plane, with s_k / S_k along each principal direction (Baraff and Witkin's geometric stiffness).
+// The last three can be negative under compression and are then left out, so the matrix is positive semi-definite.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+
+#include "harness/fem/block_matrix.h"
+#include "harness/fem/element_table.h"
+#include "harness/fem/physics.h"
+
+namespace cutbench {
+
+/// Lame parameters per thickness, N/m.
+struct Lame {
+  double mu, lambda;
+};
+/// Plane stress: lambda = E nu / (1 - nu^2); plane strain: E nu / ((1 + nu)(1 - 2 nu)).
+Lame lame_of(const Material& material, Plane plane);
+
+/// How one triangle is deformed.
+template <int D>
+struct Deformation {
+  Eigen::Matrix<double, D, 2> rotation;  ///< R: orthonormal columns, also where the triangle has collapsed
+  Eigen::Matrix2d stretch;               ///< S, symmetric
+  Eigen::Matrix2d stress;                ///< s, N/m
+  double energy;                         ///< N/m: per rest area
+};
+
+/// \pre x has the vertices of `element`.
+template <int D>
+Deformation<D> deformation_of(const Element& element, const Field& x, Strain strain, const Lame& lame);
+
+/// Force on corner k, N: -A P g_k.
+template <int D>
+Eigen::Matrix<double, D, 1> membrane_force(const Element& element, const Deformation<D>& deformation, int k) {
+  const Eigen::Vector2d g(element.gradient[static_cast<std::size_t>(k)].x,
+                          element.gradient[static_cast<std::size_t>(k)].y);
+  return -element.material_area() * (deformation.rotation * (deformation.stress * g));
+}
+
+/// The element's stiffness times a factor, N/m: 3 x 3 blocks of D x D, symmetric, positive semi-definite.
+template <int D>
+class ElementStiffness {
+ public:
+  /// D values, and for D = 3 a zero, so that four can be added at once.
+  using Column = Eigen::Matrix<double, D == 3 ? 4 : D, 1>;
+
+  ElementStiffness(const Element& element, const Deformation<D>& deformation, Strain strain, const Lame& lame,
+                   double factor);
+  /// Column c of block (i, j).
+  Column column(std::size_t i, std::size_t j, Eigen::Index c) const {
+    Column sum = along_[j][c] * lambda_along_[i] + along_[i][c] * mu_along_[j] + across_[j][c] * twist_across_[i];
+    sum += product_[i][j] * projector_[static_cast<std::size_t>(c)];
+    if constexpr (D == 3) sum += tension_[i][j] * tilt_[static_cast<std::size_t>(c)];
+    return sum;
+  }
+
+ private:
+  std::array<Column, 3> along_, lambda_along_, mu_along_;   // R g, and times factor area lambda or mu
+  std::array<Column, 3> across_, twist_across_;             // R J g, and times the twist's share
+  std::array<std::array<double, 3>, 3> product_, tension_;  // g.g, and g.Q g
+  std::array<Column, D> projector_, tilt_;                  // columns of factor area mu R R', factor area n n'
+};
+
+}  // namespace cutbench

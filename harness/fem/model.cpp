@@ -1,0 +1,269 @@
+#include "harness/fem/model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace cutbench {
+
+namespace {
+
+std::array<double, 3> coordinates(Point3 p) { return {p.x, p.y, p.z}; }
+
+}  // namespace
+
+template <int D>
+Model<D>::Model(const Sheet& sheet, const Material& material, const Physics& physics, std::vector<Pin> pins,
+                std::vector<Traction> tractions)
+    : material_(material),
+      physics_(physics),
+      lame_(lame_of(material, physics.plane)),
+      pins_(std::move(pins)),
+      tractions_(std::move(tractions)),
+      elements_(sheet) {
+  if (physics.mass == Mass::consistent) consistent_mass_.emplace();
+  resize(sheet);
+  ++round_;
+  for (std::size_t e = 0; e < elements_.size(); ++e)
+    if (elements_[e].alive()) incidence_.add(elements_[e], e);
+  for (std::size_t v = 0; v < vertices(); ++v) marked_.push_back(v);
+  refresh_vertices(sheet);
+  // Room to grow, so that the first cut of a running simulation does not copy it all.
+  blocks_.reserve_spare(), incidence_.reserve_spare();
+  slots_.reserve(slots_.size() + slots_.size() / 2), deformations_.reserve(slots_.capacity());
+  if (consistent_mass_) consistent_mass_->reserve_spare();
+  if (physics.bending != BendingKind::none)
+    bending_.emplace(sheet, physics.bending, material.bending, material.poisson);
+}
+
+template <int D>
+void Model<D>::update(const Sheet& sheet) {
+  const EditLog& log = sheet.log();
+  ++round_;
+  marked_.clear();
+  for (const auto& touched : log.touched) {
+    if (!touched.before.alive()) continue;
+    incidence_.remove(touched.before.deformed, touched.slot());
+    mark(touched.before.deformed);
+  }
+  elements_.update(sheet);
+  resize(sheet);
+  const auto enter = [&](std::size_t e) {
+    if (!elements_[e].alive()) return;
+    incidence_.add(elements_[e], e);
+    mark(elements_[e].vertex);
+  };
+  for (const auto& touched : log.touched) enter(touched.slot());
+  for (std::size_t e = log.triangles_before; e < elements_.size(); ++e) enter(e);
+  refresh_vertices(sheet);
+}
+
+template <int D>
+void Model<D>::update_bending(const Sheet& sheet) {
+  if (bending_) bending_->update(sheet);
+}
+
+template <int D>
+void Model<D>::mark(const std::array<DeformedIndex, 3>& vertices) {
+  for (const auto d : vertices) {
+    if (d() >= marked_in_.size()) marked_in_.resize(d() + 1);
+    if (std::exchange(marked_in_[d()], round_) != round_) marked_.push_back(d());
+  }
+}
+
+template <int D>
+void Model<D>::resize(const Sheet& sheet) {
+  const std::size_t n = sheet.deformed_slots();
+  const auto old = static_cast<std::size_t>(mass_.size());
+  incidence_.resize(n), blocks_.resize(n), marked_in_.resize(std::max(n, marked_in_.size()));
+  if (consistent_mass_) consistent_mass_->resize(n);
+  held_.resize(D * n, 1), pin_of_.resize(D * n, -1);
+  slots_.resize(elements_.size()), deformations_.resize(elements_.size());
+  mass_.conservativeResize(static_cast<Eigen::Index>(n));
+  external_.conservativeResize(static_cast<Eigen::Index>(D * n));
+  for (std::size_t v = old; v < n; ++v) mass_[static_cast<Eigen::Index>(v)] = 0;
+  external_.tail(static_cast<Eigen::Index>(D * (n - old))).setZero();
+}
+
+template <int D>
+void Model<D>::refresh_vertices(const Sheet& sheet) {
+  for (const std::size_t v : marked_) refresh_row(v), refresh_mass(v), refresh_loads(sheet, v);
+  ++pattern_;
+}
+
+/// The pattern of row v, and where the elements round v find their blocks in it.
+template <int D>
+void Model<D>::refresh_row(std::size_t v) {
+  const auto corners = incidence_.at(v);
+  columns_.clear();
+  if (!corners.empty()) columns_.push_back(static_cast<std::int32_t>(v));
+  for (const auto c : corners)
+    for (const auto d : elements_[triangle_of(c)()].vertex)
+      if (std::find(columns_.begin(), columns_.end(), d.value) == columns_.end()) columns_.push_back(d.value);
+  blocks_.set_row(v, columns_);
+  for (const auto c : corners) {
+    const std::size_t e = triangle_of(c)();
+    for (std::size_t j = 0; j < 3; ++j)
+      slots_[e][static_cast<std::size_t>(corner_of(c))][j] = blocks_.find(v, elements_[e].vertex[j].value);
+  }
+}
+
+template <int D>
+void Model<D>::refresh_mass(std::size_t v) {
+  double third = 0;
+  for (const auto c : incidence_.at(v)) third += elements_[triangle_of(c)()].material_area();
+  mass_[static_cast<Eigen::Index>(v)] = material_.density * third / 3;
+  if (!consistent_mass_) return;
+  consistent_mass_->set_row(v, columns_);
+  for (const auto c : incidence_.at(v)) {
+    const Element& e = elements_[triangle_of(c)()];
+    for (const auto d : e.vertex)
+      consistent_mass_->block(consistent_mass_->find(v, d.value))(0) +=
+          material_.density * e.material_area() / (d() == v ? 6 : 12);
+  }
+}
+
+template <int D>
+void Model<D>::refresh_loads(const Sheet& sheet, std::size_t v) {
+  const auto i = static_cast<Eigen::Index>(v);
+  const VertexIndex rest_vertex = sheet.rest_vertex(DeformedIndex(v));
+  const auto gravity = coordinates(physics_.gravity);
+  for (std::size_t k = 0; k < D; ++k) {
+    external_[D * i + static_cast<Eigen::Index>(k)] = mass_[i] * gravity[k];
+    held_[D * v + k] = 1, pin_of_[D * v + k] = -1;
+  }
+  if (!rest_vertex.valid()) return;
+  const Point2 rest = sheet.rest(rest_vertex);
+  for (std::size_t k = 0; k < D; ++k) {
+    for (std::size_t p = 0; p < pins_.size() && pin_of_[D * v + k] < 0; ++p)
+      if (pins_[p].axes[k] && pins_[p].where.contains(rest)) pin_of_[D * v + k] = static_cast<std::int16_t>(p);
+    held_[D * v + k] = pin_of_[D * v + k] >= 0;
+  }
+  if (tractions_.empty()) return;
+  for (const auto c : incidence_.at(v))
+    for (const HalfEdge h : {c, Sheet::previous(c)}) {
+      if (!sheet.on_border(h)) continue;
+      const Point2 a = sheet.rest(sheet.origin(h)), b = sheet.rest(sheet.target(h));
+      for (const Traction& traction : tractions_) {
+        if (!traction.where.contains(a) || !traction.where.contains(b)) continue;
+        const auto force = coordinates(traction.force);
+        for (std::size_t k = 0; k < D; ++k)
+          external_[D * i + static_cast<Eigen::Index>(k)] += force[k] * std::sqrt(squared_length(b - a)) / 2;
+      }
+    }
+}
+
+template <int D>
+Field Model<D>::positions(const Sheet& sheet) const {
+  Field x = Field::Zero(static_cast<Eigen::Index>(D * sheet.deformed_slots()));
+  for (std::size_t v = 0; v < sheet.deformed_slots(); ++v) {
+    const auto p = coordinates(sheet.position(DeformedIndex(v)));
+    for (std::size_t k = 0; k < D; ++k) x[static_cast<Eigen::Index>(D * v + k)] = p[k];
+  }
+  return x;
+}
+
+template <int D>
+double Model<D>::held_displacement(std::size_t unknown, double time) const {
+  const Pin& pin = pins_[static_cast<std::size_t>(pin_of_[unknown])];
+  return coordinates(pin.displacement)[unknown % D] + held_velocity(unknown) * time;
+}
+
+template <int D>
+double Model<D>::held_velocity(std::size_t unknown) const {
+  return coordinates(pins_[static_cast<std::size_t>(pin_of_[unknown])].velocity)[unknown % D];
+}
+
+template <int D>
+std::size_t Model<D>::unheld_pieces() const {
+  std::vector<std::uint8_t> seen(vertices());
+  std::vector<std::size_t> front;
+  std::size_t unheld = 0;
+  for (std::size_t start = 0; start < vertices(); ++start) {
+    if (seen[start] || blocks_.columns(start).empty()) continue;
+    bool held = false;
+    front.assign(1, start);
+    seen[start] = 1;
+    while (!front.empty()) {
+      const std::size_t v = front.back();
+      front.pop_back();
+      for (std::size_t k = 0; k < D; ++k) held |= held_[D * v + k] != 0;
+      for (const auto j : blocks_.columns(v))
+        if (!std::exchange(seen[static_cast<std::size_t>(j)], 1)) front.push_back(static_cast<std::size_t>(j));
+    }
+    unheld += !held;
+  }
+  return unheld;
+}
+
+// --- of a state
+// --------------------------------------------------------------------------------------------------------
+
+template <int D>
+void Model<D>::rotate(const Field& x) {
+  for (std::size_t e = 0; e < elements_.size(); ++e)
+    if (elements_[e].alive()) deformations_[e] = deformation_of<D>(elements_[e], x, physics_.strain, lame_);
+}
+
+template <int D>
+void Model<D>::add_internal_force(const Field& x, Field& f) const {
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    const Element& element = elements_[e];
+    if (!element.alive()) continue;
+    for (int k = 0; k < 3; ++k)
+      Eigen::Map<Eigen::Matrix<double, D, 1>>(f.data() + D * element.vertex[static_cast<std::size_t>(k)].value) +=
+          membrane_force<D>(element, deformations_[e], k);
+  }
+  if (bending_) add_product_per_coordinate(bending_->matrix(), D, -1, x, f);
+}
+
+template <int D>
+void Model<D>::assemble(double mass_factor, double stiffness_factor) {
+  mass_factor_ = mass_factor, stiffness_factor_ = stiffness_factor;
+  blocks_.set_zero();
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    if (!elements_[e].alive()) continue;
+    const ElementStiffness<D> k(elements_[e], deformations_[e], physics_.strain, lame_, stiffness_factor);
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j)
+        for (Eigen::Index c = 0; c < D; ++c) blocks_.add_to_column(slots_[e][i][j], c, k.column(i, j, c));
+  }
+  if (consistent_mass_) return;
+  for (std::size_t v = 0; v < vertices(); ++v)
+    if (!blocks_.columns(v).empty())
+      blocks_.block(blocks_.first_slot(v)).diagonal().array() += mass_factor * mass_[static_cast<Eigen::Index>(v)];
+}
+
+template <int D>
+SystemMatrix<D> Model<D>::system() const {
+  SystemMatrix<D> a;
+  a.blocks = &blocks_, a.held = &held_, a.elements = &elements_, a.pattern = pattern_;
+  if (bending_) a.scalar.push_back({stiffness_factor_, &bending_->matrix()});
+  if (consistent_mass_) a.scalar.push_back({mass_factor_, &*consistent_mass_});
+  return a;
+}
+
+template <int D>
+void Model<D>::add_mass_product(double factor, const Field& x, Field& y) const {
+  if (consistent_mass_) return add_product_per_coordinate(*consistent_mass_, D, factor, x, y);
+  for (Eigen::Index v = 0; v < mass_.size(); ++v)
+    y.template segment<D>(D * v) += factor * mass_[v] * x.template segment<D>(D * v);
+}
+
+template <int D>
+Energy Model<D>::energy(const Field& x, const Field& v) const {
+  Energy energy;
+  for (std::size_t e = 0; e < elements_.size(); ++e)
+    if (elements_[e].alive()) energy.membrane += elements_[e].material_area() * deformations_[e].energy;
+  if (bending_) energy.bending = bending_->energy(x, D);
+  Field momentum = Field::Zero(v.size());
+  add_mass_product(1, v, momentum);
+  energy.kinetic = v.dot(momentum) / 2;
+  energy.potential = -external_.dot(x);
+  return energy;
+}
+
+template class Model<2>;
+template class Model<3>;
+
+}  // namespace cutbench

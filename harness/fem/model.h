@@ -1,0 +1,100 @@
+// The discrete sheet: elements, mass, bending, loads, what is held, and the system matrix, all kept up to date cut by
+// cut: what a cut did not touch is neither looked at nor computed again, and the result is that of a new model.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "harness/fem/bending.h"
+#include "harness/fem/incidence.h"
+#include "harness/fem/membrane.h"
+#include "harness/fem/system_matrix.h"
+
+namespace cutbench {
+
+/// Joules.
+struct Energy {
+  double membrane = 0, bending = 0, kinetic = 0;
+  double potential = 0;  ///< of gravity and tractions, zero at the origin
+  double total() const { return membrane + bending + kinetic + potential; }
+};
+
+template <int D>
+class Model {
+ public:
+  Model(const Sheet& sheet, const Material& material, const Physics& physics, std::vector<Pin> pins,
+        std::vector<Traction> tractions);
+
+  /// After a cut: replaces indices and adds elements (the paper's 4.2) where the sheet's log says so. Both must follow.
+  void update(const Sheet& sheet);
+  void update_bending(const Sheet& sheet);  ///< nothing without bending
+
+  std::size_t vertices() const { return static_cast<std::size_t>(mass_.size()); }  ///< slots of the opened sheet
+  /// Positions of the sheet's vertices, m.
+  Field positions(const Sheet& sheet) const;
+
+  // --- of a state ----------------------------------------------------------------------------------------------------
+  void rotate(const Field& x);  ///< the deformation of every element; what follows is of this x
+  /// f += internal forces, of membrane and bending, N. \pre rotate(x).
+  void add_internal_force(const Field& x, Field& f) const;
+  void add_external_force(Field& f) const { f += external_; }
+  /// A = mass_factor M + stiffness_factor K, with K the tangent at the rotated state. \pre rotate().
+  void assemble(double mass_factor, double stiffness_factor);
+  /// Of the last assemble(). Refers to this model.
+  SystemMatrix<D> system() const;
+  /// y += factor M x.
+  void add_mass_product(double factor, const Field& x, Field& y) const;
+  Energy energy(const Field& x, const Field& v) const;  ///< \pre rotate(x)
+
+  // --- of the model --------------------------------------------------------------------------------------------------
+  const ElementTable& elements() const { return elements_; }
+  const Incidence& incidence() const { return incidence_; }
+  const BlockMatrix<D>& blocks() const { return blocks_; }
+  const Bending* bending() const { return bending_ ? &*bending_ : nullptr; }
+  const Deformation<D>& deformation(std::size_t element) const { return deformations_[element]; }
+  const Field& lumped_mass() const { return mass_; }               ///< kg, per vertex
+  const Field& external_force() const { return external_; }        ///< N
+  const std::vector<std::uint8_t>& held() const { return held_; }  ///< per unknown; those of freed slots are, too
+  /// Pieces no unknown of which is held: they have no equilibrium. Looks at everything.
+  std::size_t unheld_pieces() const;
+  bool pinned(std::size_t unknown) const { return pin_of_[unknown] >= 0; }
+  /// How far from its initial place a held unknown is to be at a time, m. \pre pinned(unknown).
+  double held_displacement(std::size_t unknown, double time) const;
+  double held_velocity(std::size_t unknown) const;  ///< m/s
+  const Material& material() const { return material_; }
+  const Physics& physics() const { return physics_; }
+
+ private:
+  void resize(const Sheet& sheet);
+  void refresh_vertices(const Sheet& sheet);
+  void refresh_row(std::size_t v);
+  void refresh_mass(std::size_t v);
+  void refresh_loads(const Sheet& sheet, std::size_t v);
+  void mark(const std::array<DeformedIndex, 3>& vertices);
+
+  Material material_;
+  Physics physics_;
+  Lame lame_;
+  std::vector<Pin> pins_;
+  std::vector<Traction> tractions_;
+
+  ElementTable elements_;
+  Incidence incidence_;
+  BlockMatrix<D> blocks_;
+  std::vector<std::array<std::array<std::int32_t, 3>, 3>> slots_;  // per element: of its nine blocks
+  std::optional<Bending> bending_;
+  std::optional<BlockMatrix<1>> consistent_mass_;
+  double mass_factor_ = 0, stiffness_factor_ = 0;  // of the last assemble()
+  Field mass_, external_;
+  std::vector<std::uint8_t> held_;
+  std::vector<std::int16_t> pin_of_;  // per unknown: the first pin that holds it, -1 where there is none
+  std::vector<Deformation<D>> deformations_;
+  std::uint64_t pattern_ = 0;
+  // Working storage of update().
+  std::vector<std::uint32_t> marked_in_;
+  std::uint32_t round_ = 0;
+  std::vector<std::size_t> marked_;  // vertices whose rows change
+  std::vector<std::int32_t> columns_;
+};
+
+}  // namespace cutbench

@@ -1,0 +1,61 @@
+// What a scene says of the physics: material, which terms there are, what is held and what pulls. SI units; the sheet's
+// thickness is in the numbers per area and per length.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "harness/mesh/types.h"
+
+namespace cutbench {
+
+struct Material {
+  double density = 1;            ///< kg/m2
+  double stiffness = 1000;       ///< Young's modulus x thickness, N/m
+  double poisson = 0.3;          ///< plane stress: (-1, 1); plane strain: (-1, 0.5)
+  double bending = 0;            ///< flexural rigidity D, N m
+  double mass_damping = 0;       ///< Rayleigh alpha, 1/s
+  double stiffness_damping = 0;  ///< Rayleigh beta, s
+};
+
+enum class Plane : std::uint8_t { stress, strain };
+enum class Strain : std::uint8_t { linear, corotational };
+enum class BendingKind : std::uint8_t { none, patches, hinges };
+enum class Mass : std::uint8_t { lumped, consistent };
+enum class Integrator : std::uint8_t { backward_euler, midpoint, symplectic_euler, equilibrium };
+
+/// A scene builds only what it names.
+struct Physics {
+  int dimension = 3;  ///< unknowns per vertex: 2 (in the plane) or 3
+  Plane plane = Plane::stress;
+  Strain strain = Strain::corotational;
+  BendingKind bending = BendingKind::none;  ///< none in 2D
+  Mass mass = Mass::lumped;
+  Point3 gravity{};  ///< m/s2
+};
+
+/// Part of rest space, borders included. A point is a box without extent, so that every copy of a vertex lies in it.
+struct Box {
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  Point2 low{-infinity, -infinity}, high{infinity, infinity};
+  bool contains(Point2 p) const { return p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y; }
+};
+
+/// Vertices whose rest position lies in the box are held on some axes: at their initial position plus the displacement
+/// plus velocity x time.
+struct Pin {
+  Box where;
+  std::array<bool, 3> axes{true, true, true};
+  Point3 displacement{};  ///< m
+  Point3 velocity{};      ///< m/s
+};
+
+/// Force per length on the border edges both of whose ends lie in the box.
+struct Traction {
+  Box where;
+  Point3 force;  ///< N/m
+};
+
+}  // namespace cutbench

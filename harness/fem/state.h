@@ -1,0 +1,34 @@
+// What moves: positions and velocities of the opened sheet's vertices, and what a cut makes of them.
+#pragma once
+
+#include "harness/fem/model.h"
+
+namespace cutbench {
+
+struct State {
+  Field x;          ///< m
+  Field v;          ///< m/s
+  Field anchor;     ///< m: the initial place of each vertex, from which pins count
+  double time = 0;  ///< s
+};
+
+/// At rest where the sheet is, held vertices where they are to be at time 0.
+template <int D>
+State initial_state(const Model<D>& model, const Sheet& sheet);
+
+/// Gives the vertices that the cut made or moved their positions and velocities: weighted means of those they came
+/// from, in the order of the log, so that parents come before children.
+void transfer(const EditLog& log, std::size_t deformed_slots, int dimension, State& state);
+
+/// Conserved, or lost and gained, at a cut: recorded before and after it.
+struct Balance {
+  Energy energy;
+  Point3 momentum;          ///< kg m/s
+  Point3 angular_momentum;  ///< kg m2/s, about the origin
+  double residual = 0;      ///< N: norm of internal and external force on what is not held
+};
+/// Rotates the model's elements to the state.
+template <int D>
+Balance balance_of(Model<D>& model, const State& state);
+
+}  // namespace cutbench

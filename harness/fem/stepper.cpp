@@ -1,0 +1,228 @@
+#include "harness/fem/stepper.h"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "harness/mesh/mesh_data.h"
+
+namespace cutbench {
+
+namespace {
+
+/// Adds the microseconds of its life to a phase.
+class Clock {
+ public:
+  explicit Clock(double& phase) : phase_(phase) {}
+  Clock(const Clock&) = delete;
+  Clock& operator=(const Clock&) = delete;
+  ~Clock() { phase_ += std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  double& phase_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+std::string text(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.1e", value);
+  return buffer;
+}
+
+template <int D>
+void project(const Model<D>& model, Field& f) {
+  for (std::size_t i = 0; i < model.held().size(); ++i)
+    if (model.held()[i]) f[static_cast<Eigen::Index>(i)] = 0;
+}
+
+}  // namespace
+
+template <int D>
+Stepper<D>::Stepper(const StepOptions& options) : options_(options) {
+  if (options.integrator != Integrator::symplectic_euler) solver_ = make_solver<D>(options.solver);
+}
+
+template <int D>
+StepReport Stepper<D>::step(Model<D>& model, State& state) {
+  StepReport report;
+  switch (options_.integrator) {
+    case Integrator::backward_euler:
+      implicit_step(model, state, options_.step, report);
+      if (report.verdict != "ok") return report;
+      state.x += options_.step * v_;
+      state.v = v_;
+      break;
+    case Integrator::midpoint:
+      implicit_step(model, state, options_.step / 2, report);
+      if (report.verdict != "ok") return report;
+      state.x += options_.step * v_;
+      state.v = 2 * v_ - state.v;
+      break;
+    case Integrator::symplectic_euler:
+      explicit_step(model, state, report);
+      break;
+    case Integrator::equilibrium:
+      equilibrium(model, state, report);
+      break;
+  }
+  state.time += options_.step;
+  for (std::size_t i = 0; i < model.held().size(); ++i) {
+    if (!model.pinned(i)) continue;
+    const auto k = static_cast<Eigen::Index>(i);
+    state.x[k] = state.anchor[k] + model.held_displacement(i, state.time);  // exactly, so that rounding can't add up
+    state.v[k] = options_.integrator == Integrator::equilibrium ? 0 : model.held_velocity(i);
+  }
+  if (!state.x.allFinite() || !state.v.allFinite()) report.verdict = "not_finite", report.reason = "the state";
+  return report;
+}
+
+/// Deformations at x, and internal and external forces.
+template <int D>
+void Stepper<D>::forces(Model<D>& model, const Field& x, StepReport& report) {
+  Clock clock(report.time_us.rotate);
+  model.rotate(x);
+  force_.setZero(x.size());
+  model.add_internal_force(x, force_);
+  model.add_external_force(force_);
+}
+
+/// Solves A dv = rhs.
+template <int D>
+void Stepper<D>::solve(Model<D>& model, StepReport& report) {
+  const SystemMatrix<D> a = model.system();
+  project(model, rhs_);
+  {
+    Clock clock(report.time_us.setup);
+    solver_->setup(a);
+  }
+  Clock clock(report.time_us.solve);
+  const SolveReport solved = solver_->solve(rhs_, dv_);
+  ++report.newton;
+  report.iterations += solved.iterations;
+  report.residual = std::max(report.residual, solved.residual);
+  if (!solved.converged)
+    report.verdict = "solver_stalled",
+    report.reason = options_.solver.name + " left a relative residual of " + text(solved.residual);
+}
+
+/// Velocities of held unknowns: what brings them where they are to be after h.
+template <int D>
+void Stepper<D>::hold(const Model<D>& model, const State& state, double h) {
+  for (std::size_t i = 0; i < model.held().size(); ++i) {
+    if (!model.held()[i]) continue;
+    const auto k = static_cast<Eigen::Index>(i);
+    v_[k] = model.pinned(i) ? (state.anchor[k] + model.held_displacement(i, state.time + h) - state.x[k]) / h : 0;
+  }
+}
+
+/// Leaves the velocity after (backward Euler), or half way through (midpoint), in v_.
+template <int D>
+void Stepper<D>::implicit_step(Model<D>& model, State& state, double h, StepReport& report) {
+  const double alpha = model.material().mass_damping, beta = model.material().stiffness_damping;
+  const double mass_factor = 1 + h * alpha, stiffness_factor = h * beta + h * h;
+  v_ = state.v;
+  hold(model, state, h);
+  for (int iteration = 0; iteration < options_.newton && report.verdict == "ok"; ++iteration) {
+    const bool first = iteration == 0;
+    x_ = state.x;
+    if (!first) x_ += h * v_;
+    forces(model, x_, report);
+    {
+      Clock clock(report.time_us.assemble);
+      model.assemble(mass_factor, stiffness_factor);
+      // A v, held unknowns included.
+      product_.setZero(v_.size());
+      model.system().add_product(v_, product_);
+      rhs_ = h * force_;
+      if (first) {
+        rhs_ -= product_;
+        model.add_mass_product(1, state.v, rhs_);
+      } else {
+        // beta K v from A v: K v = (A v - mass_factor M v) / stiffness_factor
+        const double damped = h * beta / stiffness_factor;
+        rhs_ -= damped * product_;
+        model.add_mass_product(damped * mass_factor - h * alpha - 1, v_, rhs_);
+        model.add_mass_product(1, state.v, rhs_);
+      }
+    }
+    solve(model, report);
+    v_ += dv_;
+  }
+}
+
+template <int D>
+void Stepper<D>::explicit_step(Model<D>& model, State& state, StepReport& report) {
+  const double h = options_.step, alpha = model.material().mass_damping, beta = model.material().stiffness_damping;
+  forces(model, state.x, report);
+  if (beta > 0) {
+    Clock clock(report.time_us.assemble);
+    model.assemble(0, beta);
+    product_.setZero(state.v.size());
+    model.system().add_product(state.v, product_);
+    force_ -= product_;
+  }
+  Clock clock(report.time_us.solve);
+  v_ = state.v;
+  for (Eigen::Index i = 0; i < v_.size(); ++i) {
+    const double mass = model.lumped_mass()[i / D];
+    if (mass > 0) v_[i] += h * (force_[i] / mass - alpha * v_[i]);
+  }
+  hold(model, state, h);
+  state.v = v_;
+  state.x += h * v_;
+}
+
+template <int D>
+void Stepper<D>::equilibrium(Model<D>& model, State& state, StepReport& report) {
+  if (const std::size_t pieces = model.unheld_pieces(); pieces > 0) {
+    report.verdict = "solver_stalled";
+    report.reason = std::to_string(pieces) + " pieces are held nowhere, so they have no equilibrium";
+    return;
+  }
+  const Field still = Field::Zero(state.v.size());
+  for (std::size_t i = 0; i < model.held().size(); ++i)
+    if (model.pinned(i))
+      state.x[static_cast<Eigen::Index>(i)] =
+          state.anchor[static_cast<Eigen::Index>(i)] + model.held_displacement(i, state.time + options_.step);
+  state.v.setZero();
+  double last_step = 1e300;
+  for (int iteration = 0; iteration <= options_.newton; ++iteration) {
+    forces(model, state.x, report);
+    // The scale of the forces: what the elements and the loads pull with, before they cancel.
+    double scale = model.external_force().norm();
+    for (std::size_t i = 0; i < model.held().size(); ++i)
+      if (model.held()[i]) scale += std::abs(force_[static_cast<Eigen::Index>(i)]);
+    rhs_ = force_;
+    project(model, rhs_);
+    report.newton_residual = scale > 0 ? rhs_.norm() / scale : rhs_.norm();
+    // Settled: the forces cancel, or rounding is all that the last step was.
+    if (report.newton_residual <= 1e-10 || last_step <= 1e-13 * state.x.cwiseAbs().maxCoeff()) return;
+    if (iteration == options_.newton) break;
+    {
+      Clock clock(report.time_us.assemble);
+      model.assemble(0, 1);
+    }
+    solve(model, report);
+    if (report.verdict != "ok") return;
+    // Backtracking (Nocedal and Wright, Numerical Optimization, 3.1): the direction goes downhill, since A is positive.
+    const double energy = model.energy(state.x, still).total(), slope = -rhs_.dot(dv_);
+    double fraction = 1;
+    for (;; fraction /= 2) {
+      x_ = state.x + fraction * dv_;
+      model.rotate(x_);
+      const double reached = model.energy(x_, still).total();
+      // Near the minimum rounding hides what is gained.
+      if (reached <= energy + 1e-4 * fraction * slope + 1e-14 * std::abs(energy) || fraction < 1e-10) break;
+    }
+    state.x = x_;
+    last_step = fraction < 1e-9 ? 1e300 : dv_.cwiseAbs().maxCoeff();
+  }
+  report.verdict = "solver_stalled";
+  report.reason = "no equilibrium after " + std::to_string(options_.newton) + " Newton iterations, relative residual " +
+                  text(report.newton_residual);
+}
+
+template class Stepper<2>;
+template class Stepper<3>;
+
+}  // namespace cutbench

@@ -1,0 +1,71 @@
+// Time integration, and equilibrium. Every implicit step is written as a residual in the new velocity v:
+//
+//   r(v) = M (v - v0) - h (f(x0 + h v) + f_ext - alpha M v - beta K v)
+//
+// and solved by Newton's method with the positive semi-definite tangent K, A = (1 + h alpha) M + (h beta + h^2) K. The
+// first iteration is linearised at x0 (Baraff and Witkin, Large steps in cloth simulation, 1998): A dv = h (f(x0) +
+// f_ext) + M v0 - A v0. Further ones are at x0 + h v.
+//
+//   backward_euler    as above; x = x0 + h v. First order; damps.
+//   midpoint          the same with h / 2 gives the velocity at the middle of the step, vm; v = 2 vm - v0, x = x0 + h
+//   vm.
+//                     Second order; damps nothing that is linear, and can gain energy where large rotations are stiff
+//                     (slivers, few Newton iterations).
+//   symplectic_euler  v = v0 + h M^-1 f(x0, v0); x = x0 + h v. Explicit: stable below 2 / omega_max.
+//   equilibrium       f(x) + f_ext = 0 by Newton with a line search on the energy.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "harness/fem/linear_solver.h"
+#include "harness/fem/state.h"
+
+namespace cutbench {
+
+struct StepOptions {
+  Integrator integrator = Integrator::backward_euler;
+  double step = 1.0 / 240;  ///< s
+  int newton = 1;           ///< linear solves per step; equilibrium: at most
+  SolverOptions solver;
+};
+
+/// Microseconds (steady clock), summed over the Newton iterations.
+struct StepTimes {
+  double rotate = 0;    ///< deformations and forces
+  double assemble = 0;  ///< element matrices into the system
+  double setup = 0;     ///< preconditioner or factorisation
+  double solve = 0;
+  double total() const { return rotate + assemble + setup + solve; }
+};
+
+struct StepReport {
+  std::string verdict = "ok", reason;  ///< "solver_stalled", "not_finite"
+  int newton = 0;                      ///< linear solves
+  int iterations = 0;                  ///< of the linear solver, summed
+  double residual = 0;                 ///< the largest that a linear solve left
+  double newton_residual = 0;          ///< equilibrium: |f| over the scale of the forces
+  StepTimes time_us;
+};
+
+template <int D>
+class Stepper {
+ public:
+  /// Throws InputError for an unknown solver, or symplectic Euler with a consistent mass.
+  explicit Stepper(const StepOptions& options);
+  StepReport step(Model<D>& model, State& state);
+
+ private:
+  void implicit_step(Model<D>& model, State& state, double h, StepReport& report);
+  void explicit_step(Model<D>& model, State& state, StepReport& report);
+  void equilibrium(Model<D>& model, State& state, StepReport& report);
+  void solve(Model<D>& model, StepReport& report);
+  void hold(const Model<D>& model, const State& state, double h);
+  void forces(Model<D>& model, const Field& x, StepReport& report);
+
+  StepOptions options_;
+  std::unique_ptr<LinearSolver<D>> solver_;
+  Field v_, x_, force_, rhs_, dv_, product_;  // kept between steps
+};
+
+}  // namespace cutbench

@@ -1,0 +1,166 @@
+#include "harness/run/in_motion.h"
+
+#include <Eigen/SparseCore>
+#include <chrono>
+
+namespace cutbench {
+
+namespace {
+
+class StopWatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double, std::micro>(now - std::exchange(last_, now)).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// The membrane's stiffness as most codes assemble it: a list of scalar entries, sorted and summed by the library.
+template <int D>
+double time_triplets(const Model<D>& model) {
+  StopWatch watch;
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<std::size_t>(9 * D * D) * model.elements().size());
+  const Lame lame = lame_of(model.material(), model.physics().plane);
+  for (std::size_t e = 0; e < model.elements().size(); ++e) {
+    const Element& element = model.elements()[e];
+    if (!element.alive()) continue;
+    const ElementStiffness<D> k(element, model.deformation(e), model.physics().strain, lame, 1);
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j)
+        for (int c = 0; c < D; ++c) {
+          const auto column = k.column(i, j, c);
+          for (int r = 0; r < D; ++r)
+            entries.emplace_back(D * element.vertex[i].value + r, D * element.vertex[j].value + c, column[r]);
+        }
+  }
+  const auto n = static_cast<Eigen::Index>(D * model.vertices());
+  Eigen::SparseMatrix<double> matrix(n, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return watch.lap();
+}
+
+template <int D>
+class SceneInMotion : public InMotion {
+ public:
+  explicit SceneInMotion(const Scene& scene) : scene_(scene), now_(scene), trial_(now_), stepper_(options_of(scene)) {
+    for (const auto& cut : scene.cuts) cuts_.push_back({cut.time, curves_of(cut, now_.sheet)});
+  }
+
+  const Sheet& sheet() const override { return now_.sheet; }
+  Sheet posed_sheet() const override {
+    Sheet posed = now_.sheet;
+    for (std::size_t v = 0; v < posed.deformed_slots(); ++v) {
+      const auto x = now_.state.x.template segment<D>(static_cast<Eigen::Index>(D * v));
+      posed.set_position(DeformedIndex(v), {x[0], x[1], D == 3 ? x[D - 1] : 0});
+    }
+    return posed;
+  }
+  double time() const override { return now_.state.time; }
+  Balance balance() override { return balance_of(now_.model, now_.state); }
+
+  StepReport advance(double time, CuttingMethod& method, const CutOptions& options) override {
+    StepReport report;
+    const double almost = time - 1e-9 * scene_.step;
+    while (now_.state.time < almost && report.verdict == "ok") {
+      while (next_cut_ < cuts_.size() && cuts_[next_cut_].time < now_.state.time + scene_.step)
+        if (const CutRun run = cut(now_, cuts_[next_cut_++].curves, cutter_, method, options).cut; run.verdict != "ok")
+          report.verdict = run.verdict, report.reason = run.reason;
+      if (report.verdict == "ok") report = stepper_.step(now_.model, now_.state);
+    }
+    return report;
+  }
+
+  MotionCut try_cut(const std::vector<Curve>& cuts, Cutter& cutter, CuttingMethod& method,
+                    const CutOptions& options) override {
+    trial_ = now_;  // keeps the room it has grown to, as a simulation that runs on would
+    const StepReport last = stepper_.step(trial_.model, trial_.state);
+    const State at_last = trial_.state;
+    MotionCut result = cut(trial_, cuts, cutter, method, options);
+    if (result.verdict != "ok") return result;
+    const State at_cut = trial_.state;
+    result.first_step = stepper_.step(trial_.model, trial_.state);
+    for (const StepReport& step : {last, result.first_step})
+      if (step.verdict != "ok") result.verdict = step.verdict, result.reason = step.reason;
+    result.triplets_us = time_triplets(trial_.model);
+    StopWatch watch;
+    Physics without_bending = scene_.physics;
+    without_bending.bending = BendingKind::none;
+    const Model<D> anew(trial_.sheet, scene_.material, without_bending, trial_.pins, scene_.tractions);
+    result.rebuild_us = watch.lap();
+    if (scene_.physics.bending != BendingKind::none) {
+      const Bending bending(trial_.sheet, scene_.physics.bending, scene_.material.bending, scene_.material.poisson);
+      result.bending_rebuild_us = watch.lap();
+    }
+    // The balances come last: looking at the model before would have warmed it up.
+    result.before = balance_of(now_.model, at_last);
+    result.after = balance_of(trial_.model, at_cut);
+    return result;
+  }
+
+ private:
+  /// Everything that a step or a cut changes.
+  struct Now {
+    explicit Now(const Scene& scene)
+        : sheet(mesh_of(scene)),
+          locator(sheet),
+          pins(pins_of(scene, sheet)),
+          model(sheet, scene.material, scene.physics, pins, scene.tractions),
+          state(initial_state(model, sheet)) {}
+    Sheet sheet;
+    Locator locator;
+    std::vector<Pin> pins;
+    Model<D> model;
+    State state;
+  };
+  struct DueCuts {
+    double time;
+    std::vector<Curve> curves;
+  };
+
+  static StepOptions options_of(const Scene& scene) {
+    return {scene.integrator, scene.step, scene.newton, scene.solver};
+  }
+
+  /// Cuts, and carries state and model over.
+  MotionCut cut(Now& now, const std::vector<Curve>& cuts, Cutter& cutter, CuttingMethod& method,
+                const CutOptions& options) {
+    MotionCut result;
+    for (const Curve& curve : cuts) {
+      const CutRun run = cut_all(now.sheet, now.locator, cutter, {&curve, 1}, method, options);
+      result.cut.status = run.status, result.cut.verdict = run.verdict, result.cut.reason = run.reason;
+      result.cut.crossed_triangles += run.crossed_triangles;
+      result.cut.time_us += run.time_us, result.cut.cpu_us += run.cpu_us;
+      result.verdict = run.verdict, result.reason = run.reason;
+      if (run.status == Status::noop || run.status == Status::refused) continue;
+      if (run.verdict != "ok") return result;
+      StopWatch watch;
+      transfer(now.sheet.log(), now.sheet.deformed_slots(), D, now.state);
+      result.transfer_us += watch.lap();
+      now.model.update(now.sheet);
+      result.pattern_us += watch.lap();
+      now.model.update_bending(now.sheet);
+      result.bending_us += watch.lap();
+    }
+    return result;
+  }
+
+  Scene scene_;
+  Now now_, trial_;
+  Stepper<D> stepper_;
+  Cutter cutter_;
+  std::vector<DueCuts> cuts_;
+  std::size_t next_cut_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<InMotion> InMotion::start(const Scene& scene) {
+  if (scene.physics.dimension == 2) return std::make_unique<SceneInMotion<2>>(scene);
+  return std::make_unique<SceneInMotion<3>>(scene);
+}
+
+}  // namespace cutbench

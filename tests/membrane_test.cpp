@@ -1,0 +1,215 @@
+// One membrane triangle: what must hold for any shape and any deformation, by finite differences and by hand.
+
+#include "harness/fem/membrane.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include "harness/run/random.h"
+
+namespace cutbench {
+namespace {
+
+Element element_with(std::array<Point2, 3> c) {
+  Element e;
+  e.vertex = {DeformedIndex(0), DeformedIndex(1), DeformedIndex(2)};
+  const double twice = cross(c[1] - c[0], c[2] - c[0]);
+  e.area = twice / 2;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Point2 edge = c[(k + 2) % 3] - c[(k + 1) % 3];
+    e.gradient[k] = {-edge.y / twice, edge.x / twice};
+  }
+  return e;
+}
+
+std::array<Point2, 3> random_triangle(Random& random) {
+  for (;;) {
+    std::array<Point2, 3> c;
+    for (auto& p : c) p = {random.between(-1, 1), random.between(-1, 1)};
+    const double area = cross(c[1] - c[0], c[2] - c[0]);
+    if (area > 0.01) return c;
+    if (area < -0.01) return {c[0], c[2], c[1]};
+  }
+}
+
+template <int D>
+Field place(const std::array<Point2, 3>& c) {
+  Field x = Field::Zero(3 * D);
+  for (int k = 0; k < 3; ++k)
+    x[D * k] = c[static_cast<std::size_t>(k)].x, x[D * k + 1] = c[static_cast<std::size_t>(k)].y;
+  return x;
+}
+
+template <int D>
+Eigen::Matrix<double, D, D> random_rotation(Random& random) {
+  Eigen::Matrix<double, D, D> m;
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j) m(i, j) = random.between(-1, 1);
+  Eigen::Matrix<double, D, D> q = Eigen::HouseholderQR<Eigen::Matrix<double, D, D>>(m).householderQ();
+  if (q.determinant() < 0) q.col(0) *= -1;
+  return q;
+}
+
+template <int D>
+Field forces(const Element& e, const Field& x, Strain strain, const Lame& lame) {
+  const auto d = deformation_of<D>(e, x, strain, lame);
+  Field f(3 * D);
+  for (int k = 0; k < 3; ++k) f.segment<D>(D * k) = membrane_force<D>(e, d, k);
+  return f;
+}
+
+template <int D>
+Eigen::MatrixXd stiffness(const Element& e, const Field& x, Strain strain, const Lame& lame) {
+  const ElementStiffness<D> blocks(e, deformation_of<D>(e, x, strain, lame), strain, lame, 1);
+  Eigen::MatrixXd k(3 * D, 3 * D);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      for (int c = 0; c < D; ++c)
+        k.block<D, 1>(D * static_cast<int>(i), D * static_cast<int>(j) + c) = blocks.column(i, j, c).template head<D>();
+  return k;
+}
+
+const Material skin{.stiffness = 1000, .poisson = 0.45};
+
+template <class Dimension>
+class Membrane : public testing::Test {
+ public:
+  static constexpr int dimension = Dimension::value;
+};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(Membrane, Dimensions, );
+
+TYPED_TEST(Membrane, RigidMotionGivesNoForce) {
+  constexpr int D = TestFixture::dimension;
+  Random random(1);
+  const Lame lame = lame_of(skin, Plane::stress);
+  for (int i = 0; i < 200; ++i) {
+    const auto c = random_triangle(random);
+    const Element e = element_with(c);
+    Field x = place<D>(c);
+    const auto turn = random_rotation<D>(random);
+    for (int k = 0; k < 3; ++k) x.segment<D>(D * k) = turn * x.segment<D>(D * k);
+    for (int k = 0; k < 3; ++k) x[D * k] += 3;
+    EXPECT_LT(forces<D>(e, x, Strain::corotational, lame).cwiseAbs().maxCoeff(), 1e-12 * skin.stiffness);
+    EXPECT_LT(deformation_of<D>(e, x, Strain::corotational, lame).energy, 1e-24 * skin.stiffness);
+  }
+}
+
+TYPED_TEST(Membrane, ForceIsTheDerivativeOfTheEnergy) {
+  constexpr int D = TestFixture::dimension;
+  Random random(2);
+  for (const Plane plane : {Plane::stress, Plane::strain})
+    for (const Strain strain : {Strain::linear, Strain::corotational}) {
+      const Lame lame = lame_of(skin, plane);
+      for (int i = 0; i < 100; ++i) {
+        const auto c = random_triangle(random);
+        const Element e = element_with(c);
+        Field x = place<D>(c);
+        for (auto& value : x) value += random.between(-0.3, 0.3);
+        const Field f = forces<D>(e, x, strain, lame);
+        for (Eigen::Index k = 0; k < x.size(); ++k) {
+          const double h = 1e-6;
+          const auto energy = [&](double d) {
+            Field y = x;
+            y[k] += d;
+            return e.area * deformation_of<D>(e, y, strain, lame).energy;
+          };
+          EXPECT_NEAR(-(energy(h) - energy(-h)) / (2 * h), f[k], 1e-6 * (f.norm() + skin.stiffness));
+        }
+      }
+    }
+}
+
+TYPED_TEST(Membrane, StiffnessIsTheDerivativeOfTheForceUnderTension) {
+  constexpr int D = TestFixture::dimension;
+  Random random(3);
+  const Lame lame = lame_of(skin, Plane::stress);
+  int tensed = 0;
+  for (int i = 0; i < 300; ++i) {
+    const auto c = random_triangle(random);
+    const Element e = element_with(c);
+    Field x = 1.3 * place<D>(c);
+    for (auto& value : x) value += random.between(-0.02, 0.02);
+    const auto turn = random_rotation<D>(random);
+    for (int k = 0; k < 3; ++k) x.segment<D>(D * k) = turn * x.segment<D>(D * k);
+    const Eigen::Matrix2d stress = deformation_of<D>(e, x, Strain::corotational, lame).stress;
+    if (Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(stress).eigenvalues()[0] <= 0) continue;
+    ++tensed;
+    const Eigen::MatrixXd k = stiffness<D>(e, x, Strain::corotational, lame);
+    EXPECT_LT((k - k.transpose()).norm(), 1e-12 * k.norm());
+    for (Eigen::Index j = 0; j < x.size(); ++j) {
+      const double h = 1e-6;
+      Field right = x, left = x;
+      right[j] += h, left[j] -= h;
+      const Field column =
+          -(forces<D>(e, right, Strain::corotational, lame) - forces<D>(e, left, Strain::corotational, lame)) / (2 * h);
+      EXPECT_LT((column - k.col(j)).norm(), 1e-6 * k.norm());
+    }
+  }
+  EXPECT_GT(tensed, 100);
+}
+
+TYPED_TEST(Membrane, StiffnessIsPositiveSemiDefiniteHoweverCompressed) {
+  constexpr int D = TestFixture::dimension;
+  Random random(4);
+  const Lame lame = lame_of(skin, Plane::stress);
+  for (int i = 0; i < 300; ++i) {
+    const Element e = element_with(random_triangle(random));
+    Field x(3 * D);
+    for (auto& value : x) value = random.between(-1, 1);
+    const Eigen::MatrixXd k = stiffness<D>(e, x, Strain::corotational, lame);
+    const auto eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k).eigenvalues();
+    EXPECT_GE(eigenvalues[0], -1e-12 * eigenvalues[eigenvalues.size() - 1]);
+  }
+}
+
+/// Collapsed and inverted triangles.
+TYPED_TEST(Membrane, P6CollapsedTrianglesHaveAProperRotation) {
+  constexpr int D = TestFixture::dimension;
+  const std::array<Point2, 3> c{{{0, 0}, {1, 0}, {0, 1}}};
+  const Element e = element_with(c);
+  const Lame lame = lame_of(skin, Plane::stress);
+  std::vector<Field> collapsed;
+  collapsed.push_back(Field::Zero(3 * D));  // to a point
+  Field x = place<D>(c);
+  x.segment<D>(2 * D) = x.segment<D>(0);  // onto an edge
+  collapsed.push_back(x);
+  x = place<D>(c), x.segment<D>(2 * D) = (x.segment<D>(0) + x.segment<D>(D)) / 2;  // a vertex on the opposite edge
+  collapsed.push_back(x);
+  if (D == 2) {  // inverted; in space it would be turned over
+    x = place<D>(c), x[2 * D + 1] = -1;
+    collapsed.push_back(x);
+  }
+  x = place<D>(c), x[2 * D + 1] = 1e-300;
+  collapsed.push_back(x);
+  for (const Field& place : collapsed) {
+    const auto d = deformation_of<D>(e, place, Strain::corotational, lame);
+    EXPECT_LT((d.rotation.transpose() * d.rotation - Eigen::Matrix2d::Identity()).norm(), 1e-12);
+    if constexpr (D == 2) {
+      EXPECT_NEAR(d.rotation.determinant(), 1, 1e-12);
+    }
+    EXPECT_TRUE(std::isfinite(d.energy));
+    EXPECT_TRUE(forces<D>(e, place, Strain::corotational, lame).allFinite());
+    EXPECT_TRUE(stiffness<D>(e, place, Strain::corotational, lame).allFinite());
+    EXPECT_GT(forces<D>(e, place, Strain::corotational, lame).norm(), 0) << "nothing pulls it back";
+  }
+}
+
+/// MacNeal and Harder 1985: sigma = 1333.33, tau = 400 for E = 1e6, nu = 1/4 and the strain below.
+TEST(Membrane2, StressOfTheStandardPatch) {
+  const Lame lame = lame_of({.stiffness = 1e6, .poisson = 0.25}, Plane::stress);
+  const std::array<Point2, 3> c{{{0.1, 0.2}, {0.9, 0.3}, {0.4, 0.8}}};
+  Field x = place<2>(c);
+  for (int k = 0; k < 3; ++k) {
+    const auto p = c[static_cast<std::size_t>(k)];
+    x[2 * k] += 1e-3 * (p.x + p.y / 2), x[2 * k + 1] += 1e-3 * (p.y + p.x / 2);
+  }
+  const auto d = deformation_of<2>(element_with(c), x, Strain::linear, lame);
+  EXPECT_NEAR(d.stress(0, 0), 4000.0 / 3, 1e-8);
+  EXPECT_NEAR(d.stress(1, 1), 4000.0 / 3, 1e-8);
+  EXPECT_NEAR(d.stress(0, 1), 400, 1e-8);
+}
+
+}  // namespace
+}  // namespace cutbench

@@ -1,0 +1,216 @@
+// The model after cuts: equal to a new one, and the invariants of the instant of a cut.
+
+#include "harness/fem/model.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <map>
+
+#include "harness/run/cases.h"
+#include "tests/fem_helpers.h"
+#include "tests/helpers.h"
+
+namespace cutbench {
+namespace {
+
+const Material skin{.density = 2.2, .stiffness = 1000, .poisson = 0.45, .bending = 4.2e-4};
+const std::vector<Pin> corner_pins{{{{0, 0}, {0, 0}}}, {{{1, 0}, {1, 0}}}};
+const std::vector<Traction> pull{{{{1, 0}, {1, 1}}, {3, 1, 0}}};
+
+Physics physics_with(int dimension, Mass mass) {
+  Physics physics;
+  physics.dimension = dimension, physics.mass = mass;
+  physics.bending = dimension == 3 ? BendingKind::patches : BendingKind::none;
+  physics.gravity = dimension == 3 ? Point3{0, 0, -9.81} : Point3{0, -9.81, 0};
+  return physics;
+}
+
+template <int D>
+void expect_fresh(Specimen<D>& specimen) {
+  Model<D> fresh = specimen.fresh_model();
+  Model<D>& kept = specimen.model;
+  const Field x = bent(kept, specimen.sheet);
+  ASSERT_EQ(kept.vertices(), fresh.vertices());
+  for (Model<D>* model : {&kept, &fresh}) model->rotate(x), model->assemble(1.1, 0.01);
+  EXPECT_LE(max_difference(kept.blocks(), fresh.blocks()), 1e-12 * max_entry(fresh.blocks()));
+  if (kept.bending()) {
+    EXPECT_LE(max_difference(kept.bending()->matrix(), fresh.bending()->matrix()),
+              1e-12 * max_entry(fresh.bending()->matrix()));
+  }
+  EXPECT_EQ(kept.held(), fresh.held());
+  EXPECT_LE((kept.lumped_mass() - fresh.lumped_mass()).cwiseAbs().maxCoeff(), 1e-14);
+  EXPECT_LE((kept.external_force() - fresh.external_force()).cwiseAbs().maxCoeff(), 1e-13);
+  Field a = Field::Zero(x.size()), b = a, c = a, d = a;
+  kept.add_internal_force(x, a), fresh.add_internal_force(x, b);
+  EXPECT_LE((a - b).norm(), 1e-12 * b.norm());
+  kept.add_mass_product(1, x, c), fresh.add_mass_product(1, x, d);
+  EXPECT_LE((c - d).norm(), 1e-12 * d.norm());
+}
+
+template <int D>
+void cut_and_compare(const std::string& method, double knob, Mass mass) {
+  for (const std::string sheet : sheet_families())
+    for (const std::string family : cut_families())
+      for (std::size_t i = 0; i < scaled(10); i += 5) {
+        SCOPED_TRACE(sheet + ", " + family + " " + std::to_string(i));
+        Specimen<D> specimen(make_sheet(sheet, 8), skin, physics_with(D, mass), corner_pins, pull);
+        for (int again = 0; again < 3; ++again)  // the whole history of cuts
+          for (const Curve& curve : make_case(family, 20, i + static_cast<std::size_t>(again), specimen.sheet)) {
+            if (specimen.cut(curve, method, knob) != Status::ok) continue;
+            expect_fresh(specimen);
+            if (testing::Test::HasFailure()) return;
+          }
+      }
+}
+
+/// Stale element data after a change of topology.
+TEST(Model, P3UpdatesToWhatANewOneWouldBe) {
+  cut_and_compare<3>("conventional_split", 0, Mass::lumped);
+  cut_and_compare<3>("bowyer_watson", 1, Mass::lumped);
+  cut_and_compare<2>("cgal_cdt", 0, Mass::consistent);
+}
+
+/// No vertex without mass, and what is held stays held, whatever the numbers.
+TEST(Model, P2P4EveryVertexHasMassAndPinsStay) {
+  for (const std::string sheet : sheet_families()) {
+    Specimen<3> specimen(make_sheet(sheet, 10), skin, physics_with(3, Mass::lumped), corner_pins);
+    const double before = specimen.model.lumped_mass().sum();
+    for (std::size_t i = 0; i < 5; ++i)
+      for (const Curve& curve : make_case("several", 3, i, specimen.sheet)) specimen.cut(curve);
+    EXPECT_NEAR(specimen.model.lumped_mass().sum(), before, 1e-12 * before);
+    for (std::size_t v = 0; v < specimen.model.vertices(); ++v) {
+      const bool used = specimen.sheet.rest_vertex(DeformedIndex(v)).valid();
+      EXPECT_EQ(specimen.model.lumped_mass()[static_cast<Eigen::Index>(v)] > 0, used);
+    }
+    // A cut through the pinned corner: every copy of it is held.
+    ASSERT_EQ(specimen.cut(line({0, 0}, {0.4, 0.5})), Status::ok);
+    std::size_t copies = 0;
+    for (std::size_t v = 0; v < specimen.model.vertices(); ++v) {
+      const VertexIndex rest = specimen.sheet.rest_vertex(DeformedIndex(v));
+      if (!rest.valid() || !(specimen.sheet.rest(rest) == Point2{0, 0})) continue;
+      ++copies;
+      EXPECT_TRUE(specimen.model.held()[3 * v] && specimen.model.held()[3 * v + 1] && specimen.model.held()[3 * v + 2]);
+    }
+    EXPECT_EQ(copies, 2u);
+  }
+}
+
+/// Linear momentum and membrane energy do not change where vertices neither move nor edges flip.
+TEST(Model, NothingJumpsInThePlaneAtASplit) {
+  for (const Mass mass : {Mass::lumped, Mass::consistent})
+    for (const std::string sheet : sheet_families())
+      for (const std::string family : cut_families()) {
+        SCOPED_TRACE(sheet + ", " + family);
+        Specimen<3> specimen(make_sheet(sheet, 10), skin, physics_with(3, mass));
+        specimen.state.x = bent(specimen.model, specimen.sheet);
+        specimen.state.v = (2 * specimen.state.x.array()).sin();
+        const Balance before = balance_of(specimen.model, specimen.state);
+        for (const Curve& curve : make_case(family, 4, 1, specimen.sheet)) specimen.cut(curve, "conventional_split");
+        const Balance after = balance_of(specimen.model, specimen.state);
+        EXPECT_NEAR(after.energy.membrane, before.energy.membrane, 1e-12 * before.energy.membrane);
+        const double scale = specimen.model.lumped_mass().sum();
+        EXPECT_NEAR(after.momentum.x, before.momentum.x, 1e-12 * scale);
+        EXPECT_NEAR(after.momentum.y, before.momentum.y, 1e-12 * scale);
+        EXPECT_NEAR(after.momentum.z, before.momentum.z, 1e-12 * scale);
+        if (mass == Mass::consistent) {
+          EXPECT_NEAR(after.energy.kinetic, before.energy.kinetic, 1e-12 * before.energy.kinetic);
+        }
+      }
+}
+
+/// A linear field in the plane leaves no force inside, on any mesh of any shapes, cut or not.
+TEST(Model, PatchTestOnCutSheets) {
+  double worst_ratio = 0;
+  for (const auto& row : all_methods())
+    for (const std::string sheet : sheet_families())
+      for (std::size_t i = 0; i < scaled(10); ++i) {
+        Specimen<2> specimen(make_sheet(sheet, 10), {.stiffness = 1e6, .poisson = 0.25},
+                             {.dimension = 2, .strain = Strain::linear});
+        const auto tool = row.make(row.knob.value);
+        specimen.cut(make_case("straight", 5, i, specimen.sheet).front(), row.name, row.knob.value);
+        Model<2>& model = specimen.model;
+        Field u = Field::Zero(specimen.state.x.size());
+        for (std::size_t v = 0; v < model.vertices(); ++v) {
+          const auto p = specimen.sheet.rest(specimen.sheet.rest_vertex(DeformedIndex(v)));
+          u[2 * static_cast<Eigen::Index>(v)] = 1e-3 * (p.x + p.y / 2);
+          u[2 * static_cast<Eigen::Index>(v) + 1] = 1e-3 * (p.y + p.x / 2);
+        }
+        model.rotate(model.positions(specimen.sheet) + u), model.assemble(0, 1);
+        Field residual = Field::Zero(u.size());
+        model.blocks().add_product(1, u, residual);
+        const double scale = max_entry(model.blocks()) * u.cwiseAbs().maxCoeff();
+        // Vertices that neither the border nor an incision touches.
+        for (std::size_t v = 0; v < model.vertices(); ++v) {
+          bool inner = true;
+          for (const auto c : model.incidence().at(v))
+            for (const HalfEdge h : {c, Sheet::previous(c)})
+              inner &= !specimen.sheet.on_border(h) && specimen.sheet.mark(h) == EdgeMark::none;
+          if (!inner) continue;
+          for (int k = 0; k < 2; ++k)
+            worst_ratio = std::max(worst_ratio, std::abs(residual[2 * static_cast<Eigen::Index>(v) + k]) / scale);
+        }
+      }
+  EXPECT_LE(worst_ratio, 1e-12);
+  std::cout << "largest interior residual of the exact field: " << worst_ratio << " |K||u|\n";
+}
+
+/// Three in-plane rigid motions for every piece.
+TEST(Model, NullModesArePiecesTimesThree) {
+  for (const auto& row : all_methods())
+    for (const std::string sheet : sheet_families()) {
+      SCOPED_TRACE(row.name + ", " + sheet);
+      Specimen<2> specimen(make_sheet(sheet, 5), {.stiffness = 1000, .poisson = 0.3},
+                           {.dimension = 2, .strain = Strain::linear});
+      specimen.cut(line({-0.1, 0.43}, {1.1, 0.57}), row.name, row.knob.value);
+      specimen.cut(polygon({{0.22, 0.71}, {0.55, 0.73}, {0.41, 0.93}}), row.name, row.knob.value);
+      ASSERT_EQ(count_pieces(specimen.sheet), 3u);
+      specimen.model.rotate(specimen.state.x), specimen.model.assemble(0, 1);
+      const Eigen::VectorXd modes = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense(specimen.model)).eigenvalues();
+      const double zero = 1e-12 * modes[modes.size() - 1];
+      EXPECT_EQ((modes.array() < zero).count(), 9);
+      EXPECT_GT(modes[9], 0);
+    }
+}
+
+/// The order of vertices and triangles does not matter.
+TEST(Model, P8NumberingDoesNotMatter) {
+  MeshData mesh = make_sheet("delaunay", 8), shuffled = mesh;
+  Random random(6);
+  std::vector<std::size_t> to(mesh.rest.size());
+  for (std::size_t i = 0; i < to.size(); ++i) to[i] = i;
+  for (std::size_t i = to.size(); i > 1; --i) std::swap(to[i - 1], to[random.below(i)]);
+  for (std::size_t i = 0; i < to.size(); ++i)
+    shuffled.rest[to[i]] = mesh.rest[i], shuffled.deformed[to[i]] = mesh.deformed[i];
+  for (auto& t : shuffled.triangles) {
+    for (auto& v : t) v = static_cast<int>(to[static_cast<std::size_t>(v)]);
+    std::rotate(t.begin(), t.begin() + static_cast<std::ptrdiff_t>(random.below(3)), t.end());
+  }
+  for (std::size_t i = shuffled.triangles.size(); i > 1; --i)
+    std::swap(shuffled.triangles[i - 1], shuffled.triangles[random.below(i)]);
+  std::vector<std::map<std::pair<double, double>, Eigen::Vector3d>> forces;
+  for (const MeshData& data : {mesh, shuffled}) {
+    Specimen<3> specimen(data, skin, physics_with(3, Mass::consistent));
+    specimen.cut(line({0.2, 0.3}, {0.7, 0.61}));
+    const Field x = bent(specimen.model, specimen.sheet);
+    specimen.model.rotate(x), specimen.model.assemble(1, 1);
+    Field f = Field::Zero(x.size()), y = f;
+    specimen.model.add_internal_force(x, f);
+    specimen.model.system().add_product(x, y);
+    auto& all = forces.emplace_back();
+    for (std::size_t v = 0; v < specimen.model.vertices(); ++v) {
+      const Point2 p = specimen.sheet.rest(specimen.sheet.rest_vertex(DeformedIndex(v)));
+      const auto entry = all.try_emplace({p.x, p.y}, Eigen::Vector3d::Zero()).first;
+      entry->second += (f + y).segment<3>(3 * static_cast<Eigen::Index>(v));  // both lips together
+    }
+  }
+  ASSERT_EQ(forces[0].size(), forces[1].size());
+  for (const auto& [p, f] : forces[0]) {
+    const auto other = forces[1].find(p);
+    ASSERT_NE(other, forces[1].end());
+    EXPECT_LE((f - other->second).norm(), 1e-9 * (1 + f.norm()));
+  }
+}
+
+}  // namespace
+}  // namespace cutbench
