@@ -61,12 +61,13 @@ Field forces(const Element& e, const Field& x, Strain strain, const Lame& lame) 
 
 template <int D>
 Eigen::MatrixXd stiffness(const Element& e, const Field& x, Strain strain, const Lame& lame) {
-  const ElementStiffness<D> blocks(e, deformation_of<D>(e, x, strain, lame), strain, lame, 1);
+  const ElementStiffness<D> stiffness(e, deformation_of<D>(e, x, strain, lame), strain, lame, 1);
   Eigen::MatrixXd k(3 * D, 3 * D);
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
-      for (int c = 0; c < D; ++c)
-        k.block<D, 1>(D * static_cast<int>(i), D * static_cast<int>(j) + c) = blocks.column(i, j, c).template head<D>();
+      for (std::size_t c = 0; c < D; ++c)
+        k.block<D, 1>(D * static_cast<int>(i), D * static_cast<int>(j) + static_cast<int>(c)) =
+            stiffness.block(i, j)[c].template head<D>();
   return k;
 }
 

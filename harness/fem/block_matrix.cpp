@@ -11,8 +11,7 @@ void BlockMatrix<D>::set_row(std::size_t i, std::span<const std::int32_t> column
     row.begin = static_cast<std::uint32_t>(columns_.size());
     row.capacity = static_cast<std::uint32_t>(columns.size());
     columns_.resize(columns_.size() + columns.size());
-    blocks_.resize(columns_.size() + 1);
-    blocks_.back().setZero();
+    blocks_.resize(columns_.size());
   }
   row.size = static_cast<std::uint32_t>(columns.size());
   std::copy(columns.begin(), columns.end(), columns_.begin() + row.begin);

@@ -21,7 +21,7 @@ class BlockMatrix {
   void resize(std::size_t rows) { rows_.resize(rows); }
   /// Room for half as many blocks again, before they have to be copied.
   void reserve_spare() {
-    columns_.reserve(columns_.size() + columns_.size() / 2), blocks_.reserve(columns_.capacity() + 1);
+    columns_.reserve(columns_.size() + columns_.size() / 2), blocks_.reserve(columns_.capacity());
     rows_.reserve(rows_.size() + rows_.size() / 2);
   }
   /// Gives row i these columns, the diagonal first; its values become zero. Where the row has outgrown its room it
@@ -36,10 +36,16 @@ class BlockMatrix {
   }
   /// Slot of the first block in row i, the diagonal one; the others follow in the order of columns().
   std::int32_t first_slot(std::size_t i) const { return static_cast<std::int32_t>(rows_[i].begin); }
-  /// Adds to column c of the block in a slot; where D = 3 the fourth value must be zero, and nothing becomes of it.
+  /// Adds the first D values of each column to those of the block in a slot. In two pieces for D = 3, because four at a
+  /// time would read what was just written.
   template <class Column>
-  void add_to_column(std::int32_t slot, Eigen::Index c, const Column& column) {
-    Eigen::Map<Column>(blocks_[static_cast<std::size_t>(slot)].data() + D * c) += column;
+  void add(std::int32_t slot, const std::array<Column, D>& columns) {
+    double* to = blocks_[static_cast<std::size_t>(slot)].data();
+    for (const Column& column : columns) {
+      if constexpr (D >= 2) Eigen::Map<Eigen::Vector2d>(to) += column.template head<2>();
+      if constexpr (D != 2) to[D - 1] += column[D - 1];
+      to += D;
+    }
   }
   Block& block(std::int32_t slot) { return blocks_[static_cast<std::size_t>(slot)]; }
   const Block& block(std::int32_t slot) const { return blocks_[static_cast<std::size_t>(slot)]; }
@@ -58,7 +64,7 @@ class BlockMatrix {
   };
   std::vector<Row> rows_;
   std::vector<std::int32_t> columns_;
-  std::vector<Block> blocks_;  // and one more, so that four values can be read where the last three are
+  std::vector<Block> blocks_;
 };
 
 /// y += factor (A (x) I) x, for `dimension` values per vertex.

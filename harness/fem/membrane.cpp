@@ -101,38 +101,22 @@ Deformation<D> deformation_of(const Element& element, const Field& x, Strain str
 
 template <int D>
 ElementStiffness<D>::ElementStiffness(const Element& element, const Deformation<D>& d, Strain strain, const Lame& lame,
-                                      double factor) {
-  const auto padded = [](const Eigen::Matrix<double, D, 1>& v) {
-    Column column = Column::Zero();
-    column.template head<D>() = v;
-    return column;
-  };
+                                      double factor)
+    : gradient_(element.gradient) {
   const double area = factor * element.material_area();
-  double twist = 0;
-  Matrix2d tension = Matrix2d::Zero();
-  if (strain == Strain::corotational) {
-    const double trace = d.stretch.trace();
-    twist = trace > 0 ? area / 2 * std::max(0.0, d.stress.trace() / trace) : 0;
-    if (D == 3) tension = tension_over_stretch(d.stress, d.stretch);
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vector2d g = gradient(element, i);
-    along_[i] = padded(d.rotation * g);
-    lambda_along_[i] = area * lame.lambda * along_[i], mu_along_[i] = area * lame.mu * along_[i];
-    across_[i] = padded(d.rotation * Vector2d(-g.y(), g.x()));
-    twist_across_[i] = twist * across_[i];
-    const Vector2d pulled = tension * g;
-    for (std::size_t j = 0; j < 3; ++j) {
-      product_[i][j] = g.dot(gradient(element, j));
-      tension_[i][j] = pulled.dot(gradient(element, j));
+  lambda_ = area * lame.lambda, mu_ = area * lame.mu, twist_ = 0;
+  for (auto& column : frame_) column.setZero();
+  for (std::size_t k = 0; k < 2; ++k) frame_[k].template head<D>() = d.rotation.col(static_cast<Eigen::Index>(k));
+  if constexpr (D == 3) frame_[2].template head<3>() = d.rotation.col(0).cross(d.rotation.col(1));
+  if (strain == Strain::linear) return;
+  const double trace = d.stretch.trace();
+  if (trace > 0) twist_ = area / 2 * std::max(0.0, d.stress.trace() / trace);
+  if constexpr (D == 3) {
+    const Matrix2d tension = area * tension_over_stretch(d.stress, d.stretch);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vector2d pulled = tension * gradient(element, i);
+      pulled_[i] = {pulled.x(), pulled.y()};
     }
-  }
-  Eigen::Matrix<double, D, 1> normal = Eigen::Matrix<double, D, 1>::Zero();
-  if constexpr (D == 3) normal = d.rotation.col(0).cross(d.rotation.col(1));
-  for (std::size_t c = 0; c < D; ++c) {
-    const auto k = static_cast<Eigen::Index>(c);
-    projector_[c] = padded(area * lame.mu * (d.rotation * d.rotation.row(k).transpose()));
-    tilt_[c] = padded(area * normal[k] * normal);
   }
 }
 

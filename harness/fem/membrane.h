@@ -46,28 +46,37 @@ Eigen::Matrix<double, D, 1> membrane_force(const Element& element, const Deforma
   return -element.material_area() * (deformation.rotation * (deformation.stress * g));
 }
 
-/// The element's stiffness times a factor, N/m: 3 x 3 blocks of D x D, symmetric, positive semi-definite.
+/// The element's stiffness times a factor, N/m: 3 x 3 blocks of D x D, symmetric, positive semi-definite. Each block is
+/// known in the element's own frame (the columns of R, and the normal) and turned from there.
 template <int D>
 class ElementStiffness {
  public:
-  /// D values, and for D = 3 a zero, so that four can be added at once.
+  /// D values, and for D = 3 a zero, so that one operation does for four.
   using Column = Eigen::Matrix<double, D == 3 ? 4 : D, 1>;
 
   ElementStiffness(const Element& element, const Deformation<D>& deformation, Strain strain, const Lame& lame,
                    double factor);
-  /// Column c of block (i, j).
-  Column column(std::size_t i, std::size_t j, Eigen::Index c) const {
-    Column sum = along_[j][c] * lambda_along_[i] + along_[i][c] * mu_along_[j] + across_[j][c] * twist_across_[i];
-    sum += product_[i][j] * projector_[static_cast<std::size_t>(c)];
-    if constexpr (D == 3) sum += tension_[i][j] * tilt_[static_cast<std::size_t>(c)];
-    return sum;
+  /// The columns of block (i, j).
+  std::array<Column, D> block(std::size_t i, std::size_t j) const {
+    const auto [a, b] = gradient_[i];
+    const auto [c, d] = gradient_[j];
+    const double both = mu_ * (a * c + b * d);
+    const double xx = (lambda_ + mu_) * a * c + twist_ * b * d + both, xy = lambda_ * a * d + (mu_ - twist_) * b * c;
+    const double yx = lambda_ * b * c + (mu_ - twist_) * a * d, yy = (lambda_ + mu_) * b * d + twist_ * a * c + both;
+    const Column x = xx * frame_[0] + yx * frame_[1], y = xy * frame_[0] + yy * frame_[1];
+    std::array<Column, D> columns;
+    for (std::size_t k = 0; k < D; ++k) {
+      const auto row = static_cast<Eigen::Index>(k);
+      columns[k] = frame_[0][row] * x + frame_[1][row] * y;
+      if constexpr (D == 3) columns[k] += (pulled_[i].x * c + pulled_[i].y * d) * frame_[2][row] * frame_[2];
+    }
+    return columns;
   }
 
  private:
-  std::array<Column, 3> along_, lambda_along_, mu_along_;   // R g, and times factor area lambda or mu
-  std::array<Column, 3> across_, twist_across_;             // R J g, and times the twist's share
-  std::array<std::array<double, 3>, 3> product_, tension_;  // g.g, and g.Q g
-  std::array<Column, D> projector_, tilt_;                  // columns of factor area mu R R', factor area n n'
+  std::array<Column, D> frame_;              // the columns of R, the normal
+  std::array<Point2, 3> gradient_, pulled_;  // g; factor area Q g
+  double lambda_, mu_, twist_;               // times factor area
 };
 
 }  // namespace cutbench

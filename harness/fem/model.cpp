@@ -225,8 +225,7 @@ void Model<D>::assemble(double mass_factor, double stiffness_factor) {
     if (!elements_[e].alive()) continue;
     const ElementStiffness<D> k(elements_[e], deformations_[e], physics_.strain, lame_, stiffness_factor);
     for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j)
-        for (Eigen::Index c = 0; c < D; ++c) blocks_.add_to_column(slots_[e][i][j], c, k.column(i, j, c));
+      for (std::size_t j = 0; j < 3; ++j) blocks_.add(slots_[e][i][j], k.block(i, j));
   }
   if (consistent_mass_) return;
   for (std::size_t v = 0; v < vertices(); ++v)

@@ -130,23 +130,29 @@ void Stepper<D>::implicit_step(Model<D>& model, State& state, double h, StepRepo
     {
       Clock clock(report.time_us.assemble);
       model.assemble(mass_factor, stiffness_factor);
-      // A v, held unknowns included.
-      product_.setZero(v_.size());
-      model.system().add_product(v_, product_);
-      rhs_ = h * force_;
-      if (first) {
-        rhs_ -= product_;
-        model.add_mass_product(1, state.v, rhs_);
-      } else {
-        // beta K v from A v: K v = (A v - mass_factor M v) / stiffness_factor
-        const double damped = h * beta / stiffness_factor;
-        rhs_ -= damped * product_;
-        model.add_mass_product(damped * mass_factor - h * alpha - 1, v_, rhs_);
-        model.add_mass_product(1, state.v, rhs_);
-      }
     }
+    right_hand_side(model, state, h, first, report);
     solve(model, report);
     v_ += dv_;
+  }
+}
+
+/// \pre forces and matrix are of this iteration.
+template <int D>
+void Stepper<D>::right_hand_side(const Model<D>& model, const State& state, double h, bool first, StepReport& report) {
+  Clock clock(report.time_us.rotate);
+  const double alpha = model.material().mass_damping, beta = model.material().stiffness_damping;
+  product_.setZero(v_.size());
+  model.system().add_product(v_, product_);  // A v, held unknowns included
+  rhs_ = h * force_;
+  model.add_mass_product(1, state.v, rhs_);
+  if (first) {
+    rhs_ -= product_;
+  } else {
+    // beta K v from A v: K v = (A v - (1 + h alpha) M v) / (h beta + h^2)
+    const double damped = beta / (beta + h);
+    rhs_ -= damped * product_;
+    model.add_mass_product((damped - 1) * (1 + h * alpha), v_, rhs_);
   }
 }
 

@@ -32,7 +32,7 @@ struct StepOptions {
 
 /// Microseconds (steady clock), summed over the Newton iterations.
 struct StepTimes {
-  double rotate = 0;    ///< deformations and forces
+  double rotate = 0;    ///< deformations, forces and right-hand side
   double assemble = 0;  ///< element matrices into the system
   double setup = 0;     ///< preconditioner or factorisation
   double solve = 0;
@@ -57,6 +57,7 @@ class Stepper {
 
  private:
   void implicit_step(Model<D>& model, State& state, double h, StepReport& report);
+  void right_hand_side(const Model<D>& model, const State& state, double h, bool first, StepReport& report);
   void explicit_step(Model<D>& model, State& state, StepReport& report);
   void equilibrium(Model<D>& model, State& state, StepReport& report);
   void solve(Model<D>& model, StepReport& report);

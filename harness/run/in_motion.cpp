@@ -30,12 +30,13 @@ double time_triplets(const Model<D>& model) {
     if (!element.alive()) continue;
     const ElementStiffness<D> k(element, model.deformation(e), model.physics().strain, lame, 1);
     for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j)
-        for (int c = 0; c < D; ++c) {
-          const auto column = k.column(i, j, c);
+      for (std::size_t j = 0; j < 3; ++j) {
+        const auto columns = k.block(i, j);
+        for (std::size_t c = 0; c < D; ++c)
           for (int r = 0; r < D; ++r)
-            entries.emplace_back(D * element.vertex[i].value + r, D * element.vertex[j].value + c, column[r]);
-        }
+            entries.emplace_back(D * element.vertex[i].value + r, D * element.vertex[j].value + static_cast<int>(c),
+                                 columns[c][r]);
+      }
   }
   const auto n = static_cast<Eigen::Index>(D * model.vertices());
   Eigen::SparseMatrix<double> matrix(n, n);
