@@ -169,7 +169,7 @@ TEST_F(Cli, RunWritesOneRowPerRepetition) {
   EXPECT_NE(result.out.find("bowyer_watson"), std::string::npos);  // the table
 }
 
-/// Everything but the times.
+/// Everything but the times, and the memory.
 std::multiset<std::string> without_times(const std::string& csv) {
   std::multiset<std::string> rows;
   for (const auto& line : lines_of(csv)) {
@@ -177,7 +177,7 @@ std::multiset<std::string> without_times(const std::string& csv) {
     std::istringstream fields(line);
     std::string field;
     for (std::size_t i = 0; std::getline(fields, field, ','); ++i)
-      if (!std::regex_search(cutbench::column_names().at(i), std::regex("_us$"))) kept += field + ",";
+      if (!std::regex_search(cutbench::column_names().at(i), std::regex("_us$|_mb$"))) kept += field + ",";
     rows.insert(kept);
   }
   return rows;
@@ -205,6 +205,39 @@ TEST_F(Cli, RunIsDeterministicAndResumes) {
   const std::string resumed = read(folder_ / "d/e/records.csv");
   EXPECT_EQ(without_times(resumed), whole);
   for (std::size_t i = 1; i + 1 < before.size(); ++i) EXPECT_NE(resumed.find(before[i]), std::string::npos);
+}
+
+/// Cuts inside a running scene, stepped by CHOLMOD, which would take threads if it were let.
+TEST_F(Cli, ScenesGiveTheSameOnAnyThreadCount) {
+  std::string scene = read(CUTBENCH_TEST_CASES "/../../experiments/scenes/paper_table1.toml");
+  scene.replace(scene.find("\"cg\""), 4, "\"cholmod\"");
+  write(folder_ / "scene.toml", scene);
+  write(folder_ / "e.toml", small_experiment("scene = \"scene.toml\"\ncut_time = 0.05\nscene_cases = 2\n"));
+  std::vector<std::multiset<std::string>> rows;
+  for (const char* threads : {"1", "4"}) {
+    setenv("OMP_NUM_THREADS", threads, 1);
+    const std::string out = std::string("r") + threads;
+    const auto result = run("run e.toml --out " + out);
+    EXPECT_EQ(result.code, 0) << result.error;
+    rows.push_back(without_times(read(folder_ / out / "e/records.csv")));
+  }
+  unsetenv("OMP_NUM_THREADS");
+  EXPECT_EQ(rows[0], rows[1]);
+  const auto in_scene = std::count_if(rows[0].begin(), rows[0].end(), [](const std::string& row) {
+    return row.find(",simulation,ok,ok,") != std::string::npos;
+  });
+  EXPECT_EQ(in_scene, 2 * 2 * 2 * 3);  // sheets x families x cases x methods
+}
+
+TEST_F(Cli, SimulateRunsAScene) {
+  const std::string scene = CUTBENCH_TEST_CASES "/../../experiments/scenes/falling_piece.toml";
+  const auto result = run("simulate '" + scene + "' --method bowyer_watson --set rounds=1 --out out.obj");
+  EXPECT_EQ(result.code, 0) << result.error;
+  EXPECT_NE(result.out.find("2 pieces"), std::string::npos) << result.out;
+  EXPECT_TRUE(fs::exists(folder_ / "out.obj"));
+  fs::remove(folder_ / "out.obj");
+  expect_refused(run("simulate '" + scene + "' --resolution 801 --out out.obj"), "resolution 801");
+  expect_refused(run("simulate missing.toml"), "missing.toml");
 }
 
 TEST_F(Cli, ShardsPartTheCases) {
