@@ -250,15 +250,16 @@ def motion_figure(run, sheet):
         here = cuts[(cuts["method"] == variant[0]) & (cuts["knob"] == variant[1])]
         for column, (name, colour, marker, beside) in CURVES.items():
             look = style.Look(name, colour, marker)
-            style.curve(ax, look, load.quartiles(here, "resolution", column))
+            table = load.quartiles(here, "resolution", column)
+            style.curve(ax, look, table.assign(**table[["q1", "median", "q3"]] / 1000))
             if ax is axes.flat[0]:
                 legend.append(look)
             if beside:
-                paper = published(beside)
+                paper = published(beside) / 1000
                 ax.plot(paper.index, paper, color=colour, marker=marker, markerfacecolor="white", linestyle="-.",
                         markersize=3, linewidth=0.7, zorder=2)
         ax.set_title(label(variant), loc="left")
-        ax.set_ylabel("µs")
+        ax.set_ylabel("ms")
         style.resolution_axis(ax, cuts["resolution"], "log", labelled=ax is axes.flat[-1])
     for ax in axes.flat:
         style.plain_numbers(ax)
@@ -276,9 +277,9 @@ def motion_statements(cuts):
     top = cuts[cuts["resolution"] == cuts["resolution"].max()]
     def ratio(upper, lower):
         return interval(load.ratio(top[upper], top[lower]))
-    return [f"At {top['resolution'].max()} triangles the incremental update is {ratio('rebuild_us', 'pattern_us')} times "
-            f"faster than making the pattern anew and {ratio('triplets_us', 'update_us')} times faster than Eigen's "
-            f"setFromTriplets; the bending update {ratio('bending_rebuild_us', 'bending_us')} times faster than anew; "
+    return [f"At {top['resolution'].max()} triangles the incremental update of the pattern is "
+            f"{ratio('rebuild_us', 'pattern_us')} times faster than making it anew and "
+            f"{ratio('triplets_us', 'pattern_us')} times faster than Eigen's setFromTriplets; the bending update {ratio('bending_rebuild_us', 'bending_us')} times faster than anew; "
             f"assembly {ratio('triplets_us', 'assemble_us')} times faster than setFromTriplets (geometric means, 95 % "
             "intervals)."]
 
@@ -293,13 +294,13 @@ def print_motion(run, sheet):
             medians = here[["geometry_us", "update_us", "bending_us", *STEP, "solver_iterations"]].median()
             rows.append([str(resolution), look.label, str(load.count(here)), *medians,
                          load.ratio(here["rebuild_us"], here["pattern_us"])[0],
-                         load.ratio(here["triplets_us"], here["update_us"])[0],
+                         load.ratio(here["triplets_us"], here["pattern_us"])[0],
                          load.ratio(here["triplets_us"], here["assemble_us"])[0],
                          load.ratio(here["bending_rebuild_us"], here["bending_us"])[0]])
     if rows:
         load.print_table(f"A cut inside the running simulation, {sheet}, medians over the cuts, us; ratios: geometric means",
                          ["triangles", "method", "cuts", "geometry", "update", "bending", "rotate", "assemble", "setup",
-                          "solve", "iterations", "anew/pattern", "triplets/update", "triplets/assemble",
+                          "solve", "iterations", "anew/pattern", "triplets/pattern", "triplets/assemble",
                           "bending anew/update"], rows)
         for statement in motion_statements(cuts):
             print(statement)
