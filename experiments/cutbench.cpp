@@ -139,6 +139,8 @@ int simulate(const SimulateArguments& arguments) {
   const auto method = row.make(knob_value(row, arguments.set));
   if (arguments.resolution > 0) {
     squares_per_side(arguments.resolution);
+    if (!scene.mesh_file.empty())
+      throw InputError("--resolution: this scene's sheet is a file, whose triangles are what they are");
     scene.resolution = arguments.resolution;
   }
   return cutbench::simulate(scene, *method, options_with(arguments.chord_tolerance), arguments.out) ? done : fell_short;

@@ -26,6 +26,13 @@ bool simulate(const Scene& scene, CuttingMethod& method, const CutOptions& optio
     report = motion->advance(static_solve ? scene.step : scene.duration * part / 10, method, options);
     print();
   }
+  for (const MotionCut& cut : motion->made_cuts()) {
+    const Energy &a = cut.before.energy, &b = cut.after.energy;
+    std::printf(
+        "cut: %s, %zu triangles crossed; jumps: membrane %.3g J, bending %.3g J, kinetic %.3g J, residual %.3g N\n",
+        name_of(cut.cut.status), cut.cut.crossed_triangles, b.membrane - a.membrane, b.bending - a.bending,
+        b.kinetic - a.kinetic, cut.after.residual - cut.before.residual);
+  }
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   const Sheet sheet = motion->posed_sheet();

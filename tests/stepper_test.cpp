@@ -51,9 +51,9 @@ TEST(Stepper, FreeFallIsExact) {
       v = (v - g * h) / (1 + material.mass_damping * h);
       z += h * v;
       for (const auto i : falling) {
-        EXPECT_NEAR(specimen.state.v[i + 2], v, 1e-12 * std::max(1.0, stiffness / 1e4));
-        EXPECT_NEAR(specimen.state.v[i], 0, 1e-12 * std::max(1.0, stiffness / 1e4));
-        EXPECT_NEAR(specimen.state.x[i + 2], z, 1e-12 * std::max(1.0, stiffness / 1e4));
+        EXPECT_NEAR(specimen.state.v[i + 2], v, 1e-12);
+        EXPECT_NEAR(specimen.state.v[i], 0, 1e-12);
+        EXPECT_NEAR(specimen.state.x[i + 2], z, 1e-12);
       }
     }
   }
@@ -238,6 +238,7 @@ Specimen<3> with_slivers(const Material& material, Point3 gravity) {
 
 /// Slivers, any step, stiffness and Poisson's ratio, no load: finite, and no energy out of nothing.
 TEST(Stepper, P5NothingBlowsUpOnSlivers) {
+  int steps = 0;
   for (const double step : {1e-6, 1.0 / 60, 1e3})
     for (const double stiffness : {1e3, 1e9})
       for (const double poisson : {0.0, 0.45, 0.4999})
@@ -253,11 +254,13 @@ TEST(Stepper, P5NothingBlowsUpOnSlivers) {
           const double initial = balance_of(specimen.model, specimen.state).energy.total();
           for (int n = 0; n < 10; ++n) {
             const StepReport report = stepper.step(specimen.model, specimen.state);
-            if (report.verdict == "solver_stalled") break;  // said, and no state made of it
+            if (report.verdict == "solver_stalled" && solver != "cholmod") break;  // said, and no state made of it
+            ++steps;
             ASSERT_EQ(report.verdict, "ok") << report.reason;
             ASSERT_LE(balance_of(specimen.model, specimen.state).energy.total(), 1.01 * initial);
           }
         }
+  EXPECT_GT(steps, 300) << "of 420";
 }
 
 /// A load out of the plane on a cut sheet.

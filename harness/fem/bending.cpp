@@ -8,7 +8,10 @@ Bending::Bending(const Sheet& sheet, BendingKind kind, double rigidity, double p
   ++work_.call;
   for (std::size_t t = 0; t < sheet.triangle_slots(); ++t) mark_stale(TriangleIndex(t), 0);
   rebuild(sheet);
-  slopes_.reserve_spare(), stencils_.reserve_spare(), stencils_of_.reserve_spare();
+}
+
+void Bending::reserve_spare() {
+  slopes_.reserve_spare(), stencils_.reserve_spare(), stencils_of_.reserve_spare(), matrix_.reserve_spare();
 }
 
 void Bending::update(const Sheet& sheet) {

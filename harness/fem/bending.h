@@ -35,6 +35,7 @@ class Bending {
   /// N/m. Force = -K x, energy = x K x / 2, for each coordinate. Rows of freed vertices are empty.
   const BlockMatrix<1>& matrix() const { return matrix_; }
   double energy(const Field& x, int dimension) const;
+  void reserve_spare();  ///< room to grow by half, before anything has to be copied
 
  private:
   struct Stale {

@@ -64,7 +64,7 @@ SolveReport ConjugateGradients<D>::solve(const Field& b, Field& x) {
   // The residual must be small as preconditioned, too: where |b| is all a sliver's huge forces, the rest of the sheet
   // could be anything.
   const double enough = options_.tolerance * options_.tolerance * bb;
-  double enough_z = 0;
+  double enough_z = 0, last_z = 0;
   for (int restart = 0;; ++restart) {
     Products now = advance(0, x);  // p = q = 0, or what the last round left, times 0
     if (restart == 0) enough_z = options_.tolerance * options_.tolerance * now.rz;
@@ -81,11 +81,12 @@ SolveReport ConjugateGradients<D>::solve(const Field& b, Field& x) {
       p_ = z_ + (next.rz / now.rz) * p_;
       now = next;
     }
+    last_z = now.rz;
     a.multiply(x, q_);
     r_ = b_ - q_;
     const double rr = r_.squaredNorm();
     report.residual = std::sqrt(rr / bb);
-    report.converged = !broken && report.residual <= options_.tolerance && std::isfinite(bb);
+    report.converged = !broken && report.residual <= options_.tolerance && last_z <= enough_z && std::isfinite(bb);
     if (report.converged || broken || !std::isfinite(rr) || restart == max_restarts ||
         report.iterations >= options_.max_iterations)
       return report;

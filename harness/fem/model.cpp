@@ -28,12 +28,16 @@ Model<D>::Model(const Sheet& sheet, const Material& material, const Physics& phy
     if (elements_[e].alive()) incidence_.add(elements_[e], e);
   for (std::size_t v = 0; v < vertices(); ++v) marked_.push_back(v);
   refresh_vertices(sheet);
-  // Room to grow, so that the first cut of a running simulation does not copy it all.
+  if (physics.bending != BendingKind::none)
+    bending_.emplace(sheet, physics.bending, material.bending, material.poisson);
+}
+
+template <int D>
+void Model<D>::reserve_spare() {
   blocks_.reserve_spare(), incidence_.reserve_spare();
   slots_.reserve(slots_.size() + slots_.size() / 2), deformations_.reserve(slots_.capacity());
   if (consistent_mass_) consistent_mass_->reserve_spare();
-  if (physics.bending != BendingKind::none)
-    bending_.emplace(sheet, physics.bending, material.bending, material.poisson);
+  if (bending_) bending_->reserve_spare();
 }
 
 template <int D>

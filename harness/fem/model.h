@@ -25,7 +25,10 @@ class Model {
   Model(const Sheet& sheet, const Material& material, const Physics& physics, std::vector<Pin> pins,
         std::vector<Traction> tractions);
 
-  /// After a cut: replaces indices and adds elements (the paper's 4.2) where the sheet's log says so. Both must follow.
+  /// Room to grow by half, so that the first cut of a running simulation does not copy it all. Copies start without.
+  void reserve_spare();
+  /// After each single cut, before the next begin_cut() forgets the log (and beside transfer() of the state): replaces
+  /// indices and adds elements (the paper's 4.2) where the sheet's log says so. Both must be called.
   void update(const Sheet& sheet);
   void update_bending(const Sheet& sheet);  ///< nothing without bending
 

@@ -51,7 +51,7 @@ struct StepReport {
 template <int D>
 class Stepper {
  public:
-  /// Throws InputError for an unknown solver, or symplectic Euler with a consistent mass.
+  /// Throws InputError for an unknown solver. Symplectic Euler uses the lumped mass (scenes refuse another).
   explicit Stepper(const StepOptions& options);
   StepReport step(Model<D>& model, State& state);
 

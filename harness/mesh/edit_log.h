@@ -48,7 +48,9 @@ struct EditLog {
   };
 
   std::size_t triangles_before = 0, vertices_before = 0, deformed_before = 0;  ///< slots; later ones were appended
-  std::vector<Touched> touched;             ///< slots that existed before the cut (freed ones included), in order
+  /// Slots that existed before the cut (freed ones included), in order. Those appended by it, from triangles_before on,
+  /// are not among them: readers look at both.
+  std::vector<Touched> touched;
   std::vector<VertexIndex> new_vertices;    ///< rest vertices made, in order
   std::vector<DeformedIndex> new_deformed;  ///< deformed vertices made, in order
   std::vector<Ancestry> ancestry;           ///< deformed vertices made or moved, in order; parents come before children

@@ -1,6 +1,8 @@
 #include "harness/run/experiment.h"
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include "harness/mesh/families.h"
 #include "harness/run/cases.h"
@@ -56,7 +58,12 @@ Experiment read_experiment(const std::filesystem::path& file) {
   e.chord_tolerance = reader.value<double>("chord_tolerance", 0.05);  // TOML has inf
   if (!(e.chord_tolerance > 0)) throw InputError(name + ": \"chord_tolerance\" must be positive, or inf");
   if (table.contains("scene")) {
-    e.scene = read_scene(file.parent_path() / reader.value<std::string>("scene"));
+    const auto scene_file = file.parent_path() / reader.value<std::string>("scene");
+    e.scene = read_scene(scene_file);
+    if (!e.scene->mesh_file.empty())
+      throw InputError(name + ": \"scene\" has a sheet from a file, but the sheets are the experiment's; use a family");
+    std::ifstream in(scene_file);
+    e.scene_text.assign(std::istreambuf_iterator<char>(in), {});
     e.scene_cases = reader.count("scene_cases", e.cases);
     e.cut_time = reader.value<double>("cut_time");
     if (!(e.cut_time >= 0 && e.cut_time < e.scene->duration))

@@ -33,8 +33,9 @@ struct Experiment {
   /// Each cut is made once more inside this running scene, after its first step that ends at `cut_time` or later. Sheet
   /// and resolution are the experiment's.
   std::optional<Scene> scene;
-  double cut_time = 0;  ///< s
-  int scene_cases = 0;  ///< so many of the cuts only
+  std::string scene_text;  ///< of its file
+  double cut_time = 0;     ///< s
+  int scene_cases = 0;     ///< so many of the cuts only
 };
 
 /// Throws InputError: unreadable, not TOML, unknown or missing keys (with the nearest known one), values out of range.

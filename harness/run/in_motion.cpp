@@ -48,9 +48,11 @@ template <int D>
 class SceneInMotion : public InMotion {
  public:
   explicit SceneInMotion(const Scene& scene) : scene_(scene), now_(scene), trial_(now_), stepper_(options_of(scene)) {
+    now_.model.reserve_spare(), trial_.model.reserve_spare();
     for (const auto& cut : scene.cuts) cuts_.push_back({cut.time, curves_of(cut, now_.sheet)});
   }
 
+  const std::vector<MotionCut>& made_cuts() const override { return made_; }
   const Sheet& sheet() const override { return now_.sheet; }
   Sheet posed_sheet() const override {
     Sheet posed = now_.sheet;
@@ -67,9 +69,10 @@ class SceneInMotion : public InMotion {
     StepReport report;
     const double almost = time - 1e-9 * scene_.step;
     while (now_.state.time < almost && report.verdict == "ok") {
-      while (next_cut_ < cuts_.size() && cuts_[next_cut_].time < now_.state.time + scene_.step)
-        if (const CutRun run = cut(now_, cuts_[next_cut_++].curves, cutter_, method, options).cut; run.verdict != "ok")
-          report.verdict = run.verdict, report.reason = run.reason;
+      while (next_cut_ < cuts_.size() && cuts_[next_cut_].time < now_.state.time + (1 - 1e-9) * scene_.step)
+        if (const MotionCut& made = made_.emplace_back(cut_with_balances(cuts_[next_cut_++].curves, method, options));
+            made.verdict != "ok")
+          report.verdict = made.verdict, report.reason = made.reason;
       if (report.verdict == "ok") report = stepper_.step(now_.model, now_.state);
     }
     return report;
@@ -77,7 +80,7 @@ class SceneInMotion : public InMotion {
 
   MotionCut try_cut(const std::vector<Curve>& cuts, Cutter& cutter, CuttingMethod& method,
                     const CutOptions& options) override {
-    trial_ = now_;  // keeps the room it has grown to, as a simulation that runs on would
+    trial_ = now_;  // into the room that is there
     const StepReport last = stepper_.step(trial_.model, trial_.state);
     const State at_last = trial_.state;
     MotionCut result = cut(trial_, cuts, cutter, method, options);
@@ -126,6 +129,13 @@ class SceneInMotion : public InMotion {
     return {scene.integrator, scene.step, scene.newton, scene.solver};
   }
 
+  MotionCut cut_with_balances(const std::vector<Curve>& curves, CuttingMethod& method, const CutOptions& options) {
+    const Balance before = balance();
+    MotionCut made = cut(now_, curves, cutter_, method, options);
+    made.before = before, made.after = balance();
+    return made;
+  }
+
   /// Cuts, and carries state and model over.
   MotionCut cut(Now& now, const std::vector<Curve>& cuts, Cutter& cutter, CuttingMethod& method,
                 const CutOptions& options) {
@@ -154,6 +164,7 @@ class SceneInMotion : public InMotion {
   Stepper<D> stepper_;
   Cutter cutter_;
   std::vector<DueCuts> cuts_;
+  std::vector<MotionCut> made_;
   std::size_t next_cut_ = 0;
 };
 

@@ -40,6 +40,7 @@ class InMotion {
   virtual MotionCut try_cut(const std::vector<Curve>& cuts, Cutter& cutter, CuttingMethod& method,
                             const CutOptions& options) = 0;
   virtual Balance balance() = 0;
+  virtual const std::vector<MotionCut>& made_cuts() const = 0;  ///< by advance(), with what jumped
   virtual double time() const = 0;
 };
 

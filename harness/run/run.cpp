@@ -94,8 +94,8 @@ class Runner {
 
  private:
   static std::string identity(const Experiment& e, const Context& context, const RunOptions& options) {
-    return context.identity() + e.stem + std::to_string(e.seed) + std::to_string(e.chord_tolerance) +
-           std::to_string(options.shard) + "/" + std::to_string(options.shards);
+    return context.identity() + e.scene_text + std::to_string(e.cut_time) + e.stem + std::to_string(e.seed) +
+           std::to_string(e.chord_tolerance) + std::to_string(options.shard) + "/" + std::to_string(options.shards);
   }
 
   void run_case(const std::string& sheet, int resolution, const std::string& family, std::size_t i) {
@@ -169,7 +169,7 @@ class Runner {
     row.set("status", std::string(name_of(m.cut.status)));
     row.set("verdict", m.verdict), row.set("reason", m.reason);
     set_times(row, m.cut);
-    if (m.verdict == "ok") set_motion(row, m);
+    if (m.verdict == "ok" && m.cut.status != Status::noop && m.cut.status != Status::refused) set_motion(row, m);
     file_.append(row);
     if (m.verdict != "ok") summary_.add_failure();
   }
