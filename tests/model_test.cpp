@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <map>
 
 #include "harness/run/cases.h"
@@ -97,6 +98,51 @@ TEST(Model, P2P4EveryVertexHasMassAndPinsStay) {
     }
     EXPECT_EQ(copies, 2u);
   }
+}
+
+/// Of a cut sheet, membrane and bending together: each piece turned and moved on its own feels nothing, and the force
+/// is the derivative of the energy.
+TEST(Model, RigidMotionOfAnyPieceGivesNoForceAndForceIsTheDerivativeOfTheEnergy) {
+  for (const auto& row : all_methods())
+    for (const std::string sheet : sheet_families()) {
+      SCOPED_TRACE(row.name + ", " + sheet);
+      Specimen<3> specimen(make_sheet(sheet, 6), skin, {.bending = BendingKind::patches});
+      ASSERT_EQ(specimen.cut(line({-0.1, 0.43}, {1.1, 0.57}), row.name, 0), Status::ok);
+      Model<3>& model = specimen.model;
+      Field x = specimen.state.x;
+      for (std::size_t e = 0; e < model.elements().size(); ++e) {
+        const Element& element = model.elements()[e];
+        const auto c = specimen.sheet.corners(TriangleIndex(e));
+        const bool upper = c[0].y + c[1].y + c[2].y > 3 * 0.43 + 0.14 * (c[0].x + c[1].x + c[2].x + 0.3) / 1.2;
+        const Eigen::AngleAxisd turn(upper ? 2.1 : -0.7, Eigen::Vector3d(1, upper ? 2 : -1, 3).normalized());
+        for (const auto d : element.vertex) {
+          const Point2 rest = specimen.sheet.rest(specimen.sheet.rest_vertex(d));
+          x.segment<3>(3 * d.value) = turn * Eigen::Vector3d(rest.x, rest.y, 0) + Eigen::Vector3d(upper ? 5 : -2, 1, 0);
+        }
+      }
+      model.rotate(x);
+      Field force = Field::Zero(x.size());
+      model.add_internal_force(x, force);
+      EXPECT_LE(force.cwiseAbs().maxCoeff(), 1e-12 * skin.stiffness);
+
+      const Field still = Field::Zero(x.size());
+      x = bent(model, specimen.sheet);
+      model.rotate(x);
+      force.setZero();
+      model.add_internal_force(x, force);
+      Random random(8);
+      for (int i = 0; i < 10; ++i) {
+        Field direction(x.size());
+        for (auto& value : direction) value = random.between(-1, 1);
+        const double h = 1e-7;
+        const auto energy = [&](double step) {
+          const Field moved = x + step * direction;
+          model.rotate(moved);
+          return model.energy(moved, still).total();
+        };
+        EXPECT_NEAR((energy(h) - energy(-h)) / (2 * h), -force.dot(direction), 1e-5 * force.norm() * direction.norm());
+      }
+    }
 }
 
 /// Linear momentum and membrane energy do not change where vertices neither move nor edges flip.
