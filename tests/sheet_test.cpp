@@ -264,7 +264,7 @@ TEST(Sheet, ReplacedCavityKeepsTheMarksRoundIt) {
       const HalfEdge h = find(sheet, [&](HalfEdge e) { return sheet.mark(e) == EdgeMark::incision; });
       auto v = sheet.triangle(triangle_of(h)).vertex;
       std::rotate(v.begin(), v.begin() + turn, v.end());
-      const NewTriangle same[] = {{v, parent, {}, {}}};
+      const NewTriangle same[] = {{v, parent, {}}};
       sheet.replace_cavity(std::array{triangle_of(h)}, same);
       EXPECT_EQ(faults(sheet), "") << parent << " " << turn;
     }
@@ -284,8 +284,7 @@ TEST(Sheet, ReplacedFansFindTheirDeformedVertices) {
     all.emplace_back(t);
     same.push_back({{triangle.vertex[1], triangle.vertex[2], triangle.vertex[0]},
                     -1,
-                    {triangle.mark[1], triangle.mark[2], triangle.mark[0]},
-                    {}});
+                    {triangle.mark[1], triangle.mark[2], triangle.mark[0]}});
   }
   sheet.replace_cavity(all, same);
   ASSERT_EQ(faults(sheet), "");

@@ -1,25 +1,12 @@
 #include "harness/cut/cut.h"
 
-#include <chrono>
-
 #include "harness/cut/open.h"
 #include "harness/cut/patch.h"
+#include "harness/measure/stop_watch.h"
 
 namespace cutbench {
 
 namespace {
-
-/// Microseconds since the last lap.
-class StopWatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double, std::micro>(now - std::exchange(last_, now)).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 CutOutcome nothing_done(Status status, const std::string& reason) {
   CutOutcome outcome;

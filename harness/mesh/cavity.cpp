@@ -131,12 +131,9 @@ void Sheet::add_triangle(TriangleIndex slot, const NewTriangle& made, std::span<
   }
   for (int k = 0; k < 3; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    const HalfEdge h = half_edge(slot, k), across = made.across[i];
+    const HalfEdge h = half_edge(slot, k);
     const int from = corner_of_parent[i], to = corner_of_parent[static_cast<std::size_t>(next_corner(k))];
-    if (across.valid()) {  // linked by whichever of the two comes second
-      const TriangleIndex other = work_.slot[triangle_of(across)()];
-      if (triangle_of(across)() < work_.added) link(h, half_edge(other, corner_of(across)));
-    } else if (from >= 0 && to == next_corner(from)) {
+    if (from >= 0 && to == next_corner(from)) {
       const HalfEdge o = old->opposite[static_cast<std::size_t>(from)];
       if (!o.valid()) continue;
       if (was_removed(o))
@@ -147,7 +144,6 @@ void Sheet::add_triangle(TriangleIndex slot, const NewTriangle& made, std::span<
       link_by_vertices(h);
     }
   }
-  ++work_.added;
 }
 
 void Sheet::replace_cavity(std::span<const TriangleIndex> removed, std::span<const NewTriangle> added) {
@@ -156,7 +152,6 @@ void Sheet::replace_cavity(std::span<const TriangleIndex> removed, std::span<con
   auto& claimed = work_.claimed;
   old.clear(), slot.resize(added.size()), work_.unassigned.clear(), claimed.assign(removed.size(), 0);
   work_.edges.reset(3 * (removed.size() + added.size()) + 2 * work_.pending.size());
-  work_.added = 0;
   if (work_.removed_in.size() < triangles_.size()) work_.removed_in.resize(triangles_.capacity());
   ++work_.call;
   for (auto t : removed) {

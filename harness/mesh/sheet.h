@@ -80,9 +80,6 @@ class Sheet {
     int parent = -1;                 ///< position in `removed` of a triangle on the same side of every opened incision,
                                      ///< whose slot and corners are inherited; -1: none
     std::array<EdgeMark, 3> mark{};  ///< of edge k; ignored where the edge bounds the cavity
-    /// The half-edge across edge k where the caller knows it, with positions in `added` for triangle numbers. What is
-    /// not told is found by its vertices, which takes longer.
-    std::array<HalfEdge, 3> across{};
   };
   /// Replaces `removed` by `added`, which fill the same region. The first child of a parent keeps its slot.
   /// \pre every edge that bounds the region, or its parts where it lies on the border, is an edge of `added`.
@@ -166,7 +163,6 @@ class Sheet {
     std::vector<Triangle> old;              ///< the removed triangles
     std::vector<std::uint8_t> claimed;      ///< per removed triangle: its slot is used again
     std::vector<TriangleIndex> slot;        ///< per added triangle
-    std::size_t added = 0;                  ///< triangles added so far
     std::vector<std::uint32_t> removed_in;  ///< per slot: the call that removed it last
     std::uint32_t call = 0;
     std::vector<HalfEdge> unassigned;  ///< corners (as spokes) whose deformed vertex is still to be found

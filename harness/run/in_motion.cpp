@@ -1,22 +1,12 @@
 #include "harness/run/in_motion.h"
 
 #include <Eigen/SparseCore>
-#include <chrono>
+
+#include "harness/measure/stop_watch.h"
 
 namespace cutbench {
 
 namespace {
-
-class StopWatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double, std::micro>(now - std::exchange(last_, now)).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 /// The membrane's stiffness as most codes assemble it: a list of scalar entries, sorted and summed by the library.
 template <int D>
