@@ -10,6 +10,9 @@
 #include <limits>
 #include <numeric>
 #include <set>
+#include <utility>
+
+#include "harness/measure/grids.h"
 
 namespace cutbench::oracle {
 namespace {
@@ -34,6 +37,25 @@ void add_extension(const Point& end, const Point& before, double length, double 
   const Point d = direction(before, end);
   const Point beyond{end[0] + length * d[0], end[1] + length * d[1]};
   if (beyond != end) curves.push_back(curve({end, beyond}, scale, extension));
+}
+
+/// From each end of a segment that lies within `tolerance` of another segment across that one, where one of the two is
+/// of a path (those from `first_of_path` on): what nearly touches does.
+void add_near_touches(const std::vector<Segment>& segments, std::size_t first_of_path, double tolerance, double scale,
+                      std::vector<Traits::Curve_2>& curves) {
+  const SegmentGrid grid(segments);
+  std::set<std::pair<Point, int>> done;
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    for (const Point& p : segments[i])
+      grid.for_each_in({{p[0] - tolerance, p[1] - tolerance}, {p[0] + tolerance, p[1] + tolerance}}, [&](int j) {
+        const Segment& s = segments[static_cast<std::size_t>(j)];
+        if (std::max(i, static_cast<std::size_t>(j)) < first_of_path || p == s[0] || p == s[1]) return;
+        if (distance(p, s) > tolerance || !done.insert({p, j}).second) return;
+        const Point d = direction(s[0], s[1]);
+        const Point across{-2 * tolerance * d[1], 2 * tolerance * d[0]};
+        curves.push_back(curve({Point{p[0] - across[0], p[1] - across[1]}, Point{p[0] + across[0], p[1] + across[1]}},
+                               scale, extension));
+      });
 }
 
 /// The power of two that brings the largest coordinate to about one. Without it CGAL 5.5's lazy kernel fails an
@@ -134,6 +156,13 @@ ExpectedPieces expected_pieces(const std::vector<Segment>& border, const std::ve
     if (path.empty() || path.front()[0] == path.back()[1] || tip_tolerance == 0) continue;
     add_extension(path.front()[0], path.front()[1], tip_tolerance, scale, curves);
     add_extension(path.back()[1], path.back()[0], tip_tolerance, scale, curves);
+  }
+  if (thin_tolerance > 0) {
+    std::vector<Segment> all = border;
+    all.insert(all.end(), incisions.begin(), incisions.end());
+    const std::size_t first_of_path = all.size();
+    for (const auto& path : paths) all.insert(all.end(), path.begin(), path.end());
+    add_near_touches(all, first_of_path, thin_tolerance, scale, curves);
   }
   Arrangement arrangement;
   CGAL::insert(arrangement, curves.begin(), curves.end());

@@ -12,7 +12,8 @@ namespace cutbench::oracle {
 struct ExpectedPieces {
   int expected = 0;  ///< open ends as they are, pieces thinner than tip_tolerance left out
   int least = 0;     ///< pieces thinner than thin_tolerance left out too
-  int most = 0;      ///< open ends lengthened by tip_tolerance, however thin the pieces
+  int most = 0;      ///< open ends lengthened by tip_tolerance, what passes within thin_tolerance of the path joined
+                     ///< to it, however thin the pieces
 };
 
 /// Counts the faces inside the sheet of the exact planar arrangement of all given segments (CGAL, Arrangement_2).

@@ -125,17 +125,20 @@ Input examine(const Request& request) {
   return input;
 }
 
-/// The segments of each requested curve; curves no longer than `shortest` ask for nothing.
-std::vector<std::vector<Segment>> paths(const std::vector<Curve>& cuts, double tolerance, double shortest) {
+/// The segments of each requested curve; curves no larger than `smallest` ask for nothing.
+std::vector<std::vector<Segment>> paths(const std::vector<Curve>& cuts, double tolerance, double smallest) {
   std::vector<std::vector<Segment>> result;
   for (const Curve& cut : cuts) {
     std::vector<Segment> path;
-    double length = 0;
+    Point low = cut.points.front(), high = low;
     for (const PathSegment& s : flatten(cut, tolerance)) {
       path.push_back(s.segment);
-      length += distance(s.segment[0], s.segment[1]);
+      for (std::size_t i = 0; i < 2; ++i) {
+        low[i] = std::min({low[i], s.segment[0][i], s.segment[1][i]});
+        high[i] = std::max({high[i], s.segment[0][i], s.segment[1][i]});
+      }
     }
-    if (length > shortest) result.push_back(std::move(path));
+    if (std::max(high[0] - low[0], high[1] - low[1]) > smallest) result.push_back(std::move(path));
   }
   return result;
 }
@@ -200,7 +203,7 @@ class Judge {
     // A Bezier curve is requested up to flattening: 1e-3 mean edges by the code under test, less here.
     const double h = input_.lengths.mean;
     const ExpectedPieces expected =
-        expected_pieces(input_.border, input_.incisions, paths(request_.cuts, 1e-4 * h, input_.on), input_.on,
+        expected_pieces(input_.border, input_.incisions, paths(request_.cuts, 1e-4 * h, 2 * input_.on), input_.on,
                         input_.on + (curved() ? 2e-3 * h : 0));
     judgement_.pieces = count_pieces(edges);
     judgement_.expected_pieces = expected.expected;
@@ -212,7 +215,7 @@ class Judge {
   void check_incision() {
     const double flattening = 1e-5 * input_.lengths.mean;
     std::vector<Segment> requested;
-    for (const auto& path : paths(request_.cuts, flattening, input_.on))
+    for (const auto& path : paths(request_.cuts, flattening, 2 * input_.on))
       requested.insert(requested.end(), path.begin(), path.end());
     const SegmentGrid path(std::move(requested));
     const IncisionError error =

@@ -18,7 +18,8 @@ struct Request {
   std::vector<Curve> cuts;
   /// Allowed incision error. Whatever it is (infinity: crossings only), more than the longest edge of the input fails.
   double tolerance = std::numeric_limits<double>::infinity();
-  /// Points nearer than this may have been merged; also the slack of every "lies on" below.
+  /// Points nearer than this may have been merged, so that a cut smaller than twice this asks for nothing; also the
+  /// slack of every "lies on" below.
   double snap = 0;
   bool keeps_vertices = true;  ///< the input's rest vertices are bit-equal at the same index
   bool exact_incision = true;  ///< `tolerance` binds; else only the longest edge does
