@@ -1,5 +1,8 @@
 #include "harness/cut/cut.h"
 
+#include <algorithm>
+
+#include "harness/cut/embed_carefully.h"
 #include "harness/cut/open.h"
 #include "harness/cut/patch.h"
 #include "harness/measure/stop_watch.h"
@@ -7,6 +10,22 @@
 namespace cutbench {
 
 namespace {
+
+// Farther away a point's own rounding is as large as the snap distance.
+constexpr double farthest = 1000;
+
+struct Box {
+  Point2 low, high;
+};
+
+Box box_of(const std::vector<Point2>& points) {
+  Box box{points.front(), points.front()};
+  for (Point2 p : points) {
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+  }
+  return box;
+}
 
 CutOutcome nothing_done(Status status, const std::string& reason) {
   CutOutcome outcome;
@@ -29,7 +48,11 @@ CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, Cutti
   sheet.begin_cut();
   try {
     flatten(curve, options.flatten_tolerance * sheet.mean_edge(), sheet.snap(), polyline_);
-    if (polyline_.points.size() < 2) return nothing_done(Status::noop, "the path has no length");
+    const Box box = box_of(polyline_.points);
+    if (std::max(box.high.x - box.low.x, box.high.y - box.low.y) <= 4 * sheet.snap())
+      return nothing_done(Status::noop, "the path has no length");
+    if (std::max(box.high.x - box.low.x, box.high.y - box.low.y) > farthest * sheet.size())
+      return nothing_done(Status::refused, "the path reaches over 1000 times the sheet's size; cut it off nearer");
     outcome.time_us.trace = watch.lap();
     Walk walk(sheet, locator);
     walk.locate(polyline_.points.front());
@@ -40,8 +63,15 @@ CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, Cutti
     if (trace.segments.empty() && trace.along.empty())
       return nothing_done(Status::noop, "the path lies outside the sheet, or where it is open already");
 
-    method.embed(sheet, trace);
-    mark_along(sheet, trace);
+    try {
+      method.embed(sheet, trace);
+      mark_along(sheet, trace);
+    } catch (const CutFailed&) {
+      sheet.rollback();
+      sheet.begin_cut();
+      outcome.carefully = true;
+      outcome.deviation = embed_carefully(sheet, trace);
+    }
     outcome.time_us.embed = watch.lap();
     method.improve(sheet);
     outcome.time_us.improve = watch.lap();
@@ -50,6 +80,10 @@ CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, Cutti
     locator.update(sheet);
     outcome.time_us.locate += watch.lap();
 
+    if (outcome.deviation > 2 * sheet.snap()) {
+      outcome.status = Status::deviated;
+      outcome.reason = "a crossing was moved out of a wedge between older cuts that is too thin for doubles";
+    }
     outcome.crossed_triangles = trace.crossed_triangles();
     outcome.recovered_segments = method.recovered_segments();
   } catch (const CutFailed& failure) {

@@ -42,6 +42,8 @@ struct CutOutcome {
   std::string verdict = "ok", reason;  ///< of a failure; the reason of a refusal or a noop
   std::size_t crossed_triangles = 0;   ///< of the mesh before the cut, whose interior the path meets
   int recovered_segments = 0;
+  bool carefully = false;  ///< the method's own way failed, and embed_carefully() took its place
+  double deviation = 0;    ///< how far it moved a crossing at most, rest units; deviated beyond twice the snap distance
   PhaseTimes time_us;
 };
 

@@ -62,7 +62,8 @@ void Tracer::split_lone_piece() {
   } else if (!trace_.segments.empty()) {
     const Link& only = links_.front();
     const int face = trace_.face_of(face_);
-    const int node = trace_.node_of(place_in(face_, only.count > 0 ? point(only.first + only.count / 2) : middle));
+    int node = only.count > 0 ? trace_.node_of(place_in(face_, point(only.first + only.count / 2))) : 0;
+    if (node < 2) node = trace_.node_of(place_in(face_, middle));  // a path that goes to and fro
     trace_.face(face).segments = -1;
     trace_.add_segment(face, 0, node), trace_.add_segment(face, node, 1);
   }

@@ -14,6 +14,14 @@ constexpr Passage through_face(TriangleIndex t) { return {Passage::Kind::face, t
 constexpr Passage along_edge(HalfEdge h) { return {Passage::Kind::along, {}, h}; }
 constexpr Passage outside{Passage::Kind::outside, {}, {}};
 
+/// The point that divides a b as `from_a` to `from_b`, reckoned from the nearer end: that rounds less, and alike
+/// whichever of the two comes first. Sets lambda, the fraction from a.
+Point2 divide(Point2 a, Point2 b, double from_a, double from_b, double& lambda) {
+  lambda = from_a / (from_a + from_b);
+  if (from_a == from_b) return 0.5 * a + 0.5 * b;
+  return from_a < from_b ? a + lambda * (b - a) : b + from_b / (from_a + from_b) * (a - b);
+}
+
 }  // namespace
 
 /// Side of p on the line a -> b. The snap distance is at least 8 ulp of the largest coordinate and thousands of times
@@ -40,8 +48,8 @@ Place Walk::place_on(HalfEdge h, Point2 p) const {
   const Point2 a = rest(sheet_.origin(h)), ab = rest(sheet_.target(h)) - a;
   Place place;
   place.kind = Place::Kind::edge, place.edge = h;
-  place.lambda = std::clamp(dot(p - a, ab) / dot(ab, ab), 0.0, 1.0);
-  place.point = a + place.lambda * ab;
+  const double from_a = std::max(0.0, dot(p - a, ab)), from_b = std::max(0.0, dot(rest(sheet_.target(h)) - p, ab));
+  place.point = divide(a, rest(sheet_.target(h)), from_a, from_b, place.lambda);
   return place;
 }
 
@@ -74,10 +82,13 @@ Step Walk::arrive_behind(HalfEdge third, Point2 target) {
   return arrive(t, target);
 }
 
-/// Vertex v lies on the line, before the target or at it.
+/// Vertex v lies on the line, before the target or at it. The line stays what it was, so that deviations don't add up,
+/// and the way back is the way there.
 Step Walk::pass_vertex(Passage passage, VertexIndex v, Point2 target) {
+  const Point2 origin = origin_;
   Step step = reach(passage, place_at(v));
   step.arrived = near(rest(v), target);
+  if (!step.arrived) origin_ = origin;
   return step;
 }
 
@@ -93,8 +104,7 @@ Step Walk::leave(HalfEdge exit, double right, double left, Passage passage) {
   const Point2 a = rest(sheet_.origin(exit)), b = rest(sheet_.target(exit));
   Place place;
   place.kind = Place::Kind::edge, place.edge = exit;
-  place.lambda = std::abs(right) / (std::abs(right) + std::abs(left));
-  place.point = a + place.lambda * (b - a);
+  place.point = divide(a, b, std::abs(right), std::abs(left), place.lambda);
   at_ = place;
   crossing_ = true, entry_ = sheet_.opposite(exit);
   left_ = left, right_ = right;
@@ -163,9 +173,13 @@ Step Walk::from_edge(Place at, Point2 target) {
 Step Walk::from_vertex(VertexIndex v, Point2 target) {
   if (near(rest(v), target)) return reach({}, place_at(v));
   const HalfEdge first = sheet_.first_spoke(v);
-  // Along a spoke? At a border vertex the last one has no half-edge out of v, but its triangle's edge into v.
+  // Along a spoke? At a border vertex the last one has no half-edge out of v, but its triangle's edge into v. A vertex
+  // that is nearly here tells nothing of the way, unless it lies on it exactly.
   const auto lies_on_line = [&](VertexIndex x) {
-    return side(origin_, target, rest(x)).sign == 0 && ahead(rest(x), target);
+    const Point2 spoke = rest(x) - rest(v);
+    if (dot(spoke, target - origin_) <= 0) return false;
+    return squared_length(spoke) > 64 * snap_ * snap_ ? side(origin_, target, rest(x)).sign == 0
+                                                      : orientation(rest(v), target, rest(x)) == 0;
   };
   HalfEdge h = first;
   do {
@@ -179,14 +193,16 @@ Step Walk::from_vertex(VertexIndex v, Point2 target) {
   do {
     const HalfEdge exit = Sheet::next(h);
     const Point2 a = rest(sheet_.origin(exit)), b = rest(sheet_.target(exit));
-    const Side right = side(origin_, target, a), left = side(origin_, target, b);
-    if (right.sign < 0 && left.sign > 0) {
+    if (orientation(origin_, target, a) < 0 && orientation(origin_, target, b) > 0) {
       if (side(a, b, target).sign >= 0) return arrive(triangle_of(h), target);
-      return leave(exit, right.distance, left.distance, through_face(triangle_of(h)));
+      return leave(exit, side(origin_, target, a).distance, side(origin_, target, b).distance,
+                   through_face(triangle_of(h)));
     }
     h = sheet_.turn_left(h);
   } while (h.valid() && h != first);
-  return outside_from_ = 0, from_outside(target);
+  const Point2 line = target - origin_;
+  outside_from_ = dot(rest(v) - origin_, line) / squared_length(line);
+  return from_outside(target);
 }
 
 /// The first border edge or vertex on the line after `outside_from_`.
@@ -225,8 +241,7 @@ Step Walk::from_outside(Point2 target) {
   const double left = side(origin_, target, rest(u)).distance, right = side(origin_, target, rest(v)).distance;
   Place place;
   place.kind = Place::Kind::edge, place.edge = best_edge;
-  place.lambda = std::abs(left) / (std::abs(left) + std::abs(right));
-  place.point = rest(u) + place.lambda * (rest(v) - rest(u));
+  place.point = divide(rest(u), rest(v), std::abs(left), std::abs(right), place.lambda);
   at_ = place;
   crossing_ = true, entry_ = best_edge;
   left_ = left, right_ = right;

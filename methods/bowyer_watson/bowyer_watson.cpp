@@ -143,6 +143,20 @@ void BowyerWatson::embed(Sheet& sheet, Subdivision& trace) {
                 [&](Patch& patch) { recovered_ += triangulate_delaunay(patch); });
 }
 
+namespace {
+
+/// Points p and q on the two edges before and behind corner `shortest` + 2 leave three positive triangles, whichever
+/// diagonal is chosen.
+bool leaves_room(const std::array<Point2, 3>& corner, int shortest, Point2 p, Point2 q) {
+  const Point2 a = corner[static_cast<std::size_t>(shortest)];
+  const Point2 b = corner[static_cast<std::size_t>(next_corner(shortest))];
+  const Point2 apex = corner[static_cast<std::size_t>(previous_corner(shortest))];
+  return orientation(apex, q, p) > 0 && orientation(a, b, p) > 0 && orientation(a, p, q) > 0 &&
+         orientation(a, b, q) > 0 && orientation(b, p, q) > 0;
+}
+
+}  // namespace
+
 /// Puts midpoints on the two longest edges of t, where that is possible in doubles.
 void BowyerWatson::split_long_edges(const Sheet& sheet, TriangleIndex t) {
   const auto corner = sheet.corners(t);
@@ -158,14 +172,16 @@ void BowyerWatson::split_long_edges(const Sheet& sheet, TriangleIndex t) {
     Place place;
     place.kind = Place::Kind::edge, place.edge = first_half_edge(sheet, half_edge(t, k)), place.lambda = 0.5;
     const Point2 a = sheet.rest(sheet.origin(place.edge)), b = sheet.rest(sheet.target(place.edge));
-    place.point = a + 0.5 * (b - a);
+    place.point = 0.5 * a + 0.5 * b;
     const auto halves_stay_positive = [&](HalfEdge h) {
       if (!h.valid()) return true;
       const Point2 apex = sheet.rest(sheet.origin(Sheet::previous(h)));
       return orientation(sheet.rest(sheet.origin(h)), place.point, apex) > 0 &&
              orientation(place.point, sheet.rest(sheet.target(h)), apex) > 0;
     };
-    if (halves_stay_positive(place.edge) && halves_stay_positive(sheet.opposite(place.edge))) midpoints_.node_of(place);
+    if (!halves_stay_positive(place.edge) || !halves_stay_positive(sheet.opposite(place.edge))) continue;
+    if (midpoints_.nodes.empty() || leaves_room(corner, shortest, midpoints_.node(0).place.point, place.point))
+      midpoints_.node_of(place);
   }
 }
 
@@ -181,6 +197,8 @@ void BowyerWatson::improve(Sheet& sheet) {
     for (std::size_t t = sheet.log().triangles_before; t < sheet.triangle_slots(); ++t)
       if (is_ill_shaped(TriangleIndex(t))) ill_shaped_.emplace_back(t);
     for (auto t : ill_shaped_) {
+      if (sheet.log().new_vertices.size() > options_.most_vertices)
+        throw CutFailed("not_terminated", "the local split has made a million vertices and goes on");
       if (!is_ill_shaped(t)) continue;  // a neighbour's split has mended it
       midpoints_.reset(sheet);
       split_long_edges(sheet, t);

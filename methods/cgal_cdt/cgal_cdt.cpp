@@ -42,6 +42,7 @@ struct CgalCdt::Work {
 
   Patch patch;
   std::vector<Constraint> constraints;
+  std::size_t expected = 0;  // triangles, by Euler's formula
   std::vector<std::pair<VertexIndex, Point2>> points;
   std::vector<Triangulation::Vertex_handle> handle_of;  // per vertex of the sheet; unset ones are stale
   std::vector<std::uint32_t> met_in;                    // per vertex: the round in which it was met last
@@ -55,12 +56,14 @@ struct CgalCdt::Work {
 /// The strip's points, border, incisions and path.
 void CgalCdt::Work::collect(const Sheet& sheet, const Subdivision& trace) {
   constraints.clear(), points.clear(), removed.clear();
+  expected = 0;
   ++round;
   handle_of.resize(std::max(handle_of.size(), sheet.vertex_slots()));
   met_in.resize(handle_of.size());
   for (int f = 0; f < static_cast<int>(trace.faces.size()); ++f) {
     make_patch(sheet, trace, f, patch);
     removed.push_back(patch.triangle);
+    expected += patch.ring.size() - 2 + 2 * patch.inside_count();
     for (std::size_t i = 0; i < patch.points.size(); ++i)
       if (std::exchange(met_in[patch.vertices[i]()], round) != round)
         points.emplace_back(patch.vertices[i], patch.points[i]);
@@ -84,8 +87,11 @@ void CgalCdt::Work::collect(const Sheet& sheet, const Subdivision& trace) {
 void CgalCdt::Work::triangulate() {
   triangulation.clear();
   Triangulation::Face_handle hint;
+  std::size_t distinct = 0;
   for (const auto& [v, p] : points) {
     const auto handle = triangulation.insert(to_cgal(p), hint);
+    if (triangulation.number_of_vertices() != ++distinct)
+      throw CutFailed("inverted", "CGAL: two points of the path became one, coordinates too close for doubles");
     handle->info() = v;
     handle_of[v()] = handle;
     hint = handle->face();
@@ -141,6 +147,8 @@ void CgalCdt::Work::add_inside() {
     }
     added.push_back(made);
   }
+  if (added.size() != expected)
+    throw CutFailed("inverted", "CGAL: the strip lost its shape, coordinates too close for doubles");
 }
 
 CgalCdt::CgalCdt() : work_(std::make_unique<Work>()) {}
