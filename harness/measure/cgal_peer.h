@@ -21,7 +21,8 @@ struct PeerResult {
 /// Cuts by a constrained Delaunay triangulation of all of `before`: CGAL::Constrained_triangulation_plus_2, kernel
 /// Epick, intersections under Exact_predicates_tag, as CGAL's manual suggests for double coordinates. The input's
 /// vertices are its points; border, older incisions and the flattened path, in this order, its constraints. Triangles
-/// outside the border are dropped, and what is left is opened along all constraints.
+/// outside the border are dropped, and what is left is opened along all constraints. A slit of a single edge, whose
+/// tips could not part, gets a vertex in its middle.
 ///
 /// Promises
 /// - input vertex i keeps its index and the bits of its rest point; where several have bit-equal rest points (lips),
