@@ -202,7 +202,7 @@ class Table {
     }
     if (const std::string what = faults(sheet); !what.empty()) return "check: " + what;
     const oracle::Judgement judgement = oracle::judge(request, for_oracle(sheet.to_mesh_data()));
-    pieces = judgement.pieces;
+    pieces = judgement.pieces, incision_error = judgement.incision_error;
     if (judgement.ok) return {};
     return (outcome.status == Status::noop ? "noop, but " : "oracle: ") + judgement.problems.front();
   }
@@ -210,7 +210,8 @@ class Table {
   Sheet sheet;
   double flatten_tolerance = CutOptions().flatten_tolerance;
   CutOutcome outcome;
-  int pieces = 0;
+  int pieces = 0;             // of the last cut that was judged
+  double incision_error = 0;  // likewise
 
  private:
   Locator locator_;
