@@ -179,6 +179,8 @@ int run(const RunArguments& arguments, const std::string& command) {
     Experiment& e = experiments.emplace_back(read_experiment(file));
     restrict_to(e.methods, arguments.methods, "--methods: one of them", [](const auto& m) { return m.method; });
     restrict_to(e.resolutions, arguments.resolutions, "--resolutions: one of them", [](int r) { return r; });
+    if (e.campaign && !arguments.methods.empty()) e.campaign->peer = false;
+    if (e.campaign && !arguments.resolutions.empty()) e.campaign->mesh_files.clear();
     if (arguments.repetitions > 0) e.repetitions = arguments.repetitions;
     if (arguments.seed == "commit")
       e.seed = seed_of_commit(context);

@@ -15,11 +15,13 @@
 #include <vector>
 
 #include "harness/cut/cut.h"
-#include "harness/measure/oracle.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/mesh_io.h"
 #include "harness/mesh/sheet.h"
+#include "harness/run/judged_sheet.h"
 #include "harness/run/random.h"
+#include "harness/run/report.h"
+#include "harness/run/same_sheet.h"
 
 namespace cutbench {
 
@@ -95,40 +97,6 @@ inline HalfEdge any_half_edge(const Sheet& sheet, Random& random) {
 // --- comparison
 // --------------------------------------------------------------------------------------------------------
 
-template <class T>
-bool same_bits(const T& a, const T& b) {
-  return std::bit_cast<std::array<std::uint64_t, sizeof(T) / 8>>(a) ==
-         std::bit_cast<std::array<std::uint64_t, sizeof(T) / 8>>(b);
-}
-
-/// The first difference between two sheets, looked at through all that the public interface shows; empty: none.
-inline std::string difference(const Sheet& a, const Sheet& b) {
-  if (a.triangle_slots() != b.triangle_slots() || a.triangle_count() != b.triangle_count()) return "triangle count";
-  if (a.vertex_slots() != b.vertex_slots() || a.vertex_count() != b.vertex_count()) return "vertex count";
-  if (a.deformed_slots() != b.deformed_slots() || a.deformed_count() != b.deformed_count()) return "deformed count";
-  for (std::size_t i = 0; i < a.triangle_slots(); ++i) {
-    const Triangle &t = a.triangle(TriangleIndex(i)), &u = b.triangle(TriangleIndex(i));
-    const std::string name = " of triangle " + std::to_string(i);
-    if (t.alive() != u.alive()) return "life" + name;
-    if (!t.alive()) continue;
-    if (t.vertex != u.vertex) return "vertices" + name;
-    if (t.opposite != u.opposite) return "neighbours" + name;
-    if (t.deformed != u.deformed) return "deformed vertices" + name;
-    if (t.mark != u.mark) return "marks" + name;
-  }
-  for (std::size_t i = 0; i < a.vertex_slots(); ++i) {
-    const VertexIndex v(i);
-    if (a.triangle_of_vertex(v) != b.triangle_of_vertex(v)) return "triangle of vertex " + std::to_string(i);
-    if (a.triangle_of_vertex(v).valid() && !same_bits(a.rest(v), b.rest(v))) return "rest vertex " + std::to_string(i);
-  }
-  for (std::size_t i = 0; i < a.deformed_slots(); ++i) {
-    const DeformedIndex d(i);
-    if (a.rest_vertex(d) != b.rest_vertex(d)) return "rest vertex of deformed vertex " + std::to_string(i);
-    if (a.rest_vertex(d).valid() && !same_bits(a.position(d), b.position(d))) return "position " + std::to_string(i);
-  }
-  return a.mean_edge() == b.mean_edge() && a.size() == b.size() && a.snap() == b.snap() ? "" : "size";
-}
-
 /// What check() found, in one line; empty: nothing.
 inline std::string faults(const Sheet& sheet, bool opened = true) {
   std::string all;
@@ -146,78 +114,22 @@ inline oracle::Mesh for_oracle(const MeshData& mesh) {
   return result;
 }
 
-inline oracle::Curve for_oracle(const Curve& curve) {
-  oracle::Curve result{curve.kind == Curve::Kind::bezier, curve.closed, {}};
-  for (Point2 p : curve.points) result.points.push_back({p.x, p.y});
-  return result;
-}
-
-/// Passes everything on to a method, and notes whether improve() made vertices.
-class Watched : public CuttingMethod {
- public:
-  explicit Watched(std::unique_ptr<CuttingMethod> method) : method_(std::move(method)) {}
-  std::optional<std::string> why_unsupported(const Sheet& sheet) const override {
-    return method_->why_unsupported(sheet);
-  }
-  void embed(Sheet& sheet, Subdivision& trace) override { method_->embed(sheet, trace); }
-  void improve(Sheet& sheet) override {
-    const std::size_t before = sheet.log().new_vertices.size();
-    method_->improve(sheet);
-    improved = sheet.log().new_vertices.size() > before;
-  }
-  int recovered_segments() const override { return method_->recovered_segments(); }
-
-  bool improved = false;
-
- private:
-  std::unique_ptr<CuttingMethod> method_;
-};
-
-/// A sheet under the knife of one method.
-class Table {
+/// A sheet under the knife of one method, which is expected to make every cut.
+class Table : public JudgedSheet {
  public:
   Table(const MeshData& mesh, const MethodRow& row, double knob)
-      : sheet(mesh), locator_(sheet), promises_(row.promises), method_(row.make(knob)) {}
+      : JudgedSheet(Sheet(mesh), row.promises, row.make(knob)) {}
 
-  /// Cuts, and returns what is wrong with the outcome, by the sheet's own check and by the oracle; empty: nothing.
+  /// Cuts, and returns what is wrong with the outcome; empty: nothing.
   std::string cut(const Curve& curve, double chord_tolerance) {
-    const Sheet before = sheet;
-    const CutOptions options{.flatten_tolerance = flatten_tolerance, .chord_tolerance = chord_tolerance};
-    outcome = cutter_.cut(sheet, locator_, curve, method_, options);
-    const double snap = std::max(2 * sheet.snap(), 2 * outcome.deviation);
-    const double flattening = curve.kind == Curve::Kind::bezier ? options.flatten_tolerance * sheet.mean_edge() : 0;
-    oracle::Request request{.before = for_oracle(before.to_mesh_data()),
-                            .cuts = {for_oracle(curve)},
-                            .tolerance = chord_tolerance * sheet.mean_edge() + flattening + snap,
-                            .snap = snap,
-                            .keeps_vertices = promises_.keeps_vertices,
-                            .exact_incision = promises_.exact_incision,
-                            .vertex_tolerance = flattening + snap};
-    if (method_.improved) request.vertex_tolerance = request.tolerance;  // it may split chords of the path
-    if (outcome.status == Status::noop) {                                // justified where the path opens nothing
-      if (const std::string what = difference(before, sheet); !what.empty()) return "noop, but changed: " + what;
-      request.tolerance = flattening + 2 * snap;
-    } else if (outcome.status != Status::ok && outcome.status != Status::deviated) {
-      return std::string(name_of(outcome.status)) + ", " + outcome.verdict + ": " + outcome.reason;
-    }
-    if (const std::string what = faults(sheet); !what.empty()) return "check: " + what;
-    const oracle::Judgement judgement = oracle::judge(request, for_oracle(sheet.to_mesh_data()));
-    pieces = judgement.pieces, incision_error = judgement.incision_error;
-    if (judgement.ok) return {};
-    return (outcome.status == Status::noop ? "noop, but " : "oracle: ") + judgement.problems.front();
+    const Finding finding =
+        JudgedSheet::cut(curve, CutOptions{.flatten_tolerance = flatten_tolerance, .chord_tolerance = chord_tolerance});
+    if (!finding.ok()) return finding.verdict + ": " + finding.reason;
+    if (outcome.status == Status::ok || outcome.status == Status::noop) return {};
+    return std::string(name_of(outcome.status)) + ", " + outcome.verdict + ": " + outcome.reason;
   }
 
-  Sheet sheet;
   double flatten_tolerance = CutOptions().flatten_tolerance;
-  CutOutcome outcome;
-  int pieces = 0;             // of the last cut that was judged
-  double incision_error = 0;  // likewise
-
- private:
-  Locator locator_;
-  Promises promises_;
-  Watched method_;
-  Cutter cutter_;
 };
 
 inline std::string text_of(const Curve& curve) {

@@ -22,6 +22,20 @@ Experiment::Entry read_entry(const toml::node& node, const std::string& where) {
           table->contains("knob") ? reader.list<double>("knob") : std::vector<double>{}};
 }
 
+Experiment::Campaign read_campaign(const TomlReader& reader, const std::filesystem::path& folder) {
+  Experiment::Campaign campaign;
+  if (reader.has("mesh_files"))
+    for (const auto& file : reader.list<std::string>("mesh_files")) {
+      campaign.mesh_files.push_back(folder / file);
+      if (std::error_code ignored; !std::filesystem::is_regular_file(folder / file, ignored))
+        reader.refuse("there is no file " + (folder / file).string() +
+                      "; \"mesh_files\" are relative to the experiment's folder");
+    }
+  campaign.time_limit_s = reader.positive("time_limit_s", campaign.time_limit_s);
+  campaign.peer = reader.value<bool>("peer", campaign.peer);
+  return campaign;
+}
+
 }  // namespace
 
 int squares_per_side(int triangles) {
@@ -34,16 +48,23 @@ int squares_per_side(int triangles) {
 Experiment read_experiment(const std::filesystem::path& file) {
   const std::string name = file.string();
   const toml::table table = parse_toml(file);
-  check_keys(table,
-             {"claim", "sheets", "cut_families", "resolutions", "methods", "seed", "cases", "repetitions", "cold",
-              "quality", "every_edge", "chord_tolerance", "scene", "cut_time", "scene_cases"},
-             name);
+  const bool is_campaign = table.contains("campaign");
+  std::vector<std::string> known{"claim", "sheets", "resolutions", "methods", "seed", "cases", "chord_tolerance"};
+  if (is_campaign)
+    known.emplace_back("campaign");
+  else
+    known.insert(known.end(),
+                 {"cut_families", "repetitions", "cold", "quality", "every_edge", "scene", "cut_time", "scene_cases"});
+  check_keys(table, known, name);
   const TomlReader reader{table, name};
   Experiment e;
   e.stem = file.stem().string();
   e.claim = reader.value<std::string>("claim");
   e.sheets = reader.list<std::string>("sheets");
-  e.cut_families = reader.list<std::string>("cut_families");
+  if (is_campaign)
+    e.campaign = read_campaign(reader.section("campaign", {"mesh_files", "time_limit_s", "peer"}), file.parent_path());
+  else
+    e.cut_families = reader.list<std::string>("cut_families");
   check_names(e.sheets, sheet_families(), name + ": sheet");
   check_names(e.cut_families, cut_families(), name + ": cut family");
   for (auto triangles : reader.list<std::int64_t>("resolutions")) {

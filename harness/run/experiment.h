@@ -11,11 +11,21 @@
 
 namespace cutbench {
 
+/// The version of meshes, cuts and definitions that records bear.
+constexpr const char* suite_version = "2";
+
 struct Experiment {
   /// A method and the values of its knob to run it with; none: its default.
   struct Entry {
     std::string method;
     std::vector<double> knob_values;
+  };
+
+  /// Cuts of the mixture (harness/run/mixture.h) instead of families, counted instead of measured.
+  struct Campaign {
+    std::vector<std::filesystem::path> mesh_files;  ///< sheets besides the families
+    double time_limit_s = 10;                       ///< processor time of a case, its judgement included
+    bool peer = false;                              ///< CGAL's triangulation of the whole sheet cuts, too
   };
 
   std::string stem;   ///< of the file: names the results folder and the plot
@@ -24,7 +34,7 @@ struct Experiment {
   std::vector<int> resolutions;  ///< triangles of the uncut sheet, 2 n^2
   std::vector<Entry> methods;
   std::uint64_t seed = 1;         ///< for development; published figures use --seed commit
-  int cases = 1;                  ///< per sheet, resolution and cut family
+  int cases = 1;                  ///< per sheet, resolution and cut family; of a campaign per sheet and resolution
   int repetitions = 1;            ///< of each cut, warm
   bool cold = false;              ///< and once more with cold caches
   bool quality = true;            ///< shapes, forced zones; the oracle judges every case either way
@@ -36,6 +46,7 @@ struct Experiment {
   std::string scene_text;  ///< of its file
   double cut_time = 0;     ///< s
   int scene_cases = 0;     ///< so many of the cuts only
+  std::optional<Campaign> campaign;
 };
 
 /// Throws InputError: unreadable, not TOML, unknown or missing keys (with the nearest known one), values out of range.

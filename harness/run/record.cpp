@@ -102,11 +102,29 @@ const std::vector<std::string>& column_names() {
   return names;
 }
 
-Record::Record() : fields_(column_names().size()) {}
+std::vector<std::string> key_column_names() {
+  return {column_names().begin(), column_names().begin() + std::ptrdiff_t{key_columns}};
+}
+
+Record::Record(const std::vector<std::string>& columns) : columns_(&columns), fields_(columns.size()) {}
+
+Record::Record(const std::vector<std::string>& columns, const std::string& line) : Record(columns) {
+  std::size_t begin = 0;
+  for (std::string& field : fields_) {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    field = line.substr(begin, end - begin);
+    begin = std::min(end + 1, line.size());
+  }
+}
+
+std::size_t Record::index(const std::string& column) const {
+  return static_cast<std::size_t>(std::find(columns_->begin(), columns_->end(), column) - columns_->begin());
+}
+
+const std::string& Record::get(const std::string& column) const { return fields_.at(index(column)); }
 
 void Record::set(const std::string& column, const std::string& value) {
-  const auto& names = column_names();
-  const auto i = static_cast<std::size_t>(std::find(names.begin(), names.end(), column) - names.begin());
+  const std::size_t i = index(column);
   fields_.at(i) = value;
   // Free text must not break the line into more fields.
   for (char& c : fields_[i])
@@ -124,8 +142,9 @@ void Record::set(const std::string& column, std::int64_t value) { set(column, st
 std::string Record::key() const { return joined(fields_, key_columns); }
 std::string Record::line() const { return joined(fields_, fields_.size()); }
 
-RecordFile::RecordFile(std::filesystem::path folder, const std::string& identity)
-    : folder_(std::move(folder)), part_(folder_ / "records.csv.part") {
+RecordFile::RecordFile(std::filesystem::path folder, const std::string& identity,
+                       const std::vector<std::string>& columns)
+    : folder_(std::move(folder)), part_(folder_ / "records.csv.part"), columns_(columns) {
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   const std::string head = "# run " + std::to_string(std::hash<std::string>{}(identity));
@@ -186,7 +205,7 @@ void RecordFile::finish(const Context& context, const std::string& experiment, c
   };
   write("context.json", [&](std::ostream& out) { out << document.dump(2) << '\n'; });
   write("records.csv", [&](std::ostream& out) {
-    out << joined(column_names(), column_names().size()) << '\n';
+    out << joined(columns_, columns_.size()) << '\n';
     for (const auto& line : lines_) out << line << '\n';
   });
   out_.close();

@@ -11,32 +11,41 @@
 
 namespace cutbench {
 
-/// A row: the fields in the order of column_names(). The first ones, up to `cache`, say what was measured.
+/// Of a measured cut; the first ones, key_column_names(), up to `cache`, are those of every record.
+const std::vector<std::string>& column_names();
+std::vector<std::string> key_column_names();
+
+/// A row: the fields in the order of the columns. The first ones, up to `cache`, say what was measured.
 class Record {
  public:
-  Record();
-  /// \pre `column` is one of column_names().
+  /// \param columns  must outlive the record
+  explicit Record(const std::vector<std::string>& columns = column_names());
+  Record(const std::vector<std::string>& columns, const std::string& line);
+  /// \pre `column` is one of the columns.
   void set(const std::string& column, const std::string& value);
   void set(const std::string& column, double value);
   void set(const std::string& column, std::int64_t value);
+  const std::string& get(const std::string& column) const;
   std::string key() const;   ///< the fields that say what was measured
   std::string line() const;  ///< CSV, without the newline
 
  private:
+  std::size_t index(const std::string& column) const;
+  const std::vector<std::string>* columns_;
   std::vector<std::string> fields_;
 };
-
-const std::vector<std::string>& column_names();
 
 /// Appends rows to records.csv.part, headed by a line that says which run they belong to, and renames it at the end. A
 /// killed run of the same identity resumes there.
 class RecordFile {
  public:
   /// Throws InputError where the folder can't be written.
-  RecordFile(std::filesystem::path folder, const std::string& identity);
+  RecordFile(std::filesystem::path folder, const std::string& identity,
+             const std::vector<std::string>& columns = column_names());
   bool has(const std::string& key) const { return done_.contains(key); }
   std::size_t resumed() const { return done_.size(); }
   void append(const Record& record);
+  const std::vector<std::string>& lines() const { return lines_; }
   /// Writes records.csv and context.json (temporary file, then rename). Throws InputError on a full disk.
   void finish(const Context& context, const std::string& experiment, const std::string& claim,
               const std::string& command, std::uint64_t seed);
@@ -44,6 +53,7 @@ class RecordFile {
  private:
   void check();
   std::filesystem::path folder_, part_;
+  const std::vector<std::string>& columns_;
   std::set<std::string> done_;
   std::vector<std::string> lines_;
   std::ofstream out_;

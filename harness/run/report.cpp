@@ -14,32 +14,9 @@ double cpu_time_us() {
   return 1e6 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_nsec);
 }
 
-// The oracle knows none of our types.
-oracle::Mesh for_oracle(const Sheet& sheet, std::vector<TriangleIndex>* slots = nullptr) {
-  oracle::Mesh mesh;
-  std::vector<int> number(sheet.deformed_slots(), -1);
-  for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) {
-    const VertexIndex v = sheet.rest_vertex(DeformedIndex(d));
-    if (!v.valid()) continue;
-    number[d] = static_cast<int>(mesh.rest.size());
-    mesh.rest.push_back({sheet.rest(v).x, sheet.rest(v).y});
-  }
-  for (std::size_t t = 0; t < sheet.triangle_slots(); ++t) {
-    const Triangle& triangle = sheet.triangle(TriangleIndex(t));
-    if (!triangle.alive()) continue;
-    mesh.triangles.push_back(
-        {number[triangle.deformed[0]()], number[triangle.deformed[1]()], number[triangle.deformed[2]()]});
-    if (slots) slots->emplace_back(t);
-  }
-  return mesh;
-}
-
 std::vector<oracle::Curve> for_oracle(std::span<const Curve> cuts) {
   std::vector<oracle::Curve> curves;
-  for (const Curve& cut : cuts) {
-    auto& curve = curves.emplace_back(oracle::Curve{cut.kind == Curve::Kind::bezier, cut.closed, {}});
-    for (Point2 p : cut.points) curve.points.push_back({p.x, p.y});
-  }
+  for (const Curve& cut : cuts) curves.push_back(for_oracle(cut));
   return curves;
 }
 
@@ -76,6 +53,49 @@ CutRun cut_all(Sheet& sheet, Locator& locator, Cutter& cutter, std::span<const C
   return run;
 }
 
+oracle::Mesh for_oracle(const Sheet& sheet, std::vector<TriangleIndex>* slots) {
+  oracle::Mesh mesh;
+  std::vector<int> number(sheet.deformed_slots(), -1);
+  for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) {
+    const VertexIndex v = sheet.rest_vertex(DeformedIndex(d));
+    if (!v.valid()) continue;
+    number[d] = static_cast<int>(mesh.rest.size());
+    mesh.rest.push_back({sheet.rest(v).x, sheet.rest(v).y});
+  }
+  for (std::size_t t = 0; t < sheet.triangle_slots(); ++t) {
+    const Triangle& triangle = sheet.triangle(TriangleIndex(t));
+    if (!triangle.alive()) continue;
+    mesh.triangles.push_back(
+        {number[triangle.deformed[0]()], number[triangle.deformed[1]()], number[triangle.deformed[2]()]});
+    if (slots) slots->emplace_back(t);
+  }
+  return mesh;
+}
+
+oracle::Curve for_oracle(const Curve& cut) {
+  oracle::Curve curve{cut.kind == Curve::Kind::bezier, cut.closed, {}};
+  for (Point2 p : cut.points) curve.points.push_back({p.x, p.y});
+  return curve;
+}
+
+oracle::Request request_for(const Sheet& before, std::span<const Curve> cuts, const Promises& promises,
+                            const CutOptions& options, bool improved) {
+  const double h = before.mean_edge();
+  const bool curved =
+      std::any_of(cuts.begin(), cuts.end(), [](const Curve& c) { return c.kind == Curve::Kind::bezier; });
+  const double flattening = curved ? options.flatten_tolerance * h : 0;
+  oracle::Request request;
+  request.before = for_oracle(before);
+  request.cuts = for_oracle(cuts);
+  // A path may pass within twice the snap distance of what it goes through, and so may the one it meets.
+  request.snap = (cuts.size() > 1 ? 4 : 2) * before.snap();
+  request.tolerance = options.chord_tolerance * h + flattening + request.snap;
+  request.keeps_vertices = promises.keeps_vertices;
+  request.exact_incision = promises.exact_incision;
+  request.vertex_tolerance = improved ? request.tolerance : flattening + request.snap;
+  return request;
+}
+
 std::vector<oracle::ForcedCorner> forced_corners_of(const Sheet& before, std::span<const Curve> cuts) {
   return oracle::forced_corners(for_oracle(before), for_oracle(cuts), before.mean_edge());
 }
@@ -84,16 +104,9 @@ Assessment assess(const Sheet& before, const Sheet& after, std::span<const Curve
                   std::span<const oracle::ForcedCorner> forced, const Promises& promises, const CutOptions& options) {
   const double h = before.mean_edge();
   Assessment result;
-  oracle::Request request;
-  request.before = for_oracle(before);
-  request.cuts = for_oracle(cuts);
-  request.tolerance = (options.chord_tolerance + options.flatten_tolerance) * h + before.snap();
-  request.snap = 4 * before.snap();  // a path may pass within twice the snap distance of what it goes through
-  request.keeps_vertices = promises.keeps_vertices;
-  request.exact_incision = promises.exact_incision;
   std::vector<TriangleIndex> slots;
   const oracle::Mesh mesh = for_oracle(after, &slots);
-  result.judgement = oracle::judge(request, mesh);
+  result.judgement = oracle::judge(request_for(before, cuts, promises, options, true), mesh);
 
   const auto zones = oracle::forced_zones({forced.begin(), forced.end()}, mesh, h);
   result.forced_corners = forced.size();

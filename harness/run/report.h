@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "harness/cut/cut.h"
 #include "harness/measure/forced_zones.h"
@@ -22,6 +23,16 @@ struct CutRun {
 };
 CutRun cut_all(Sheet& sheet, Locator& locator, Cutter& cutter, std::span<const Curve> cuts, CuttingMethod& method,
                const CutOptions& options);
+
+// The oracle knows none of our types.
+/// \param slots  gets the slot of each triangle
+oracle::Mesh for_oracle(const Sheet& sheet, std::vector<TriangleIndex>* slots = nullptr);
+oracle::Curve for_oracle(const Curve& cut);
+
+/// What the oracle is to hold a cut to, or several made one after the other.
+/// \param improved  the method may have divided edges of the incision after embedding it
+oracle::Request request_for(const Sheet& before, std::span<const Curve> cuts, const Promises& promises,
+                            const CutOptions& options, bool improved);
 
 /// What the result is like. Lengths in h = mean rest edge of the uncut sheet, unless a name says otherwise.
 struct Assessment {

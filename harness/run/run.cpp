@@ -1,7 +1,6 @@
 #include "harness/run/run.h"
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -10,10 +9,12 @@
 #include <limits>
 
 #include "harness/mesh/families.h"
+#include "harness/run/campaign.h"
 #include "harness/run/cases.h"
 #include "harness/run/chill_caches.h"
 #include "harness/run/every_edge.h"
 #include "harness/run/in_motion.h"
+#include "harness/run/progress.h"
 #include "harness/run/record.h"
 #include "harness/run/report.h"
 #include "harness/run/summary.h"
@@ -22,30 +23,7 @@ namespace cutbench {
 
 namespace {
 
-constexpr const char* suite_version = "2";
-
 double length(Point3 p) { return std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z); }
-
-/// A bar on a terminal, a line every ten percent otherwise.
-class Progress {
- public:
-  Progress(std::string name, std::size_t total, bool quiet) : name_(std::move(name)), total_(total), quiet_(quiet) {}
-  void step() {
-    ++done_;
-    const std::size_t percent = 100 * done_ / total_;
-    if (quiet_ || percent == shown_ || (!terminal_ && percent % 10 != 0)) return;
-    shown_ = percent;
-    const auto seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    std::fprintf(stderr, "%s%s: %3zu %% of %zu cases, %.0f s%s", terminal_ ? "\r" : "", name_.c_str(), percent, total_,
-                 seconds, terminal_ && done_ < total_ ? "" : "\n");
-  }
-
- private:
-  std::string name_;
-  std::size_t total_, done_ = 0, shown_ = 0;
-  bool quiet_, terminal_ = isatty(STDERR_FILENO) != 0;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// One method at work, with its storage kept warm.
 struct Worker {
@@ -334,6 +312,7 @@ std::vector<Variant> variants_of(const Experiment& experiment, const std::vector
 
 bool run_experiment(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
                     const RunOptions& options) {
+  if (experiment.campaign) return run_campaign(experiment, methods, context, options);
   Runner runner(experiment, methods, context, options);
   runner.run();
   runner.file().finish(context, experiment.stem, experiment.claim, options.command, experiment.seed);

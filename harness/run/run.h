@@ -15,6 +15,7 @@ struct RunOptions {
   std::string command;        ///< recorded
   int shard = 1, shards = 1;  ///< case i is this shard's where i mod shards = shard - 1
   bool quiet = false;         ///< no progress, no table
+  int workers = 0;            ///< processes of a campaign; 0: one per core
 };
 
 /// A method with a value of its knob, as it appears in records and figures.

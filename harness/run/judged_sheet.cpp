@@ -1,0 +1,42 @@
+#include "harness/run/judged_sheet.h"
+
+#include <algorithm>
+
+#include "harness/run/report.h"
+#include "harness/run/same_sheet.h"
+
+namespace cutbench {
+
+JudgedSheet::JudgedSheet(Sheet start, const Promises& promises, std::unique_ptr<CuttingMethod> method)
+    : sheet(std::move(start)), locator_(sheet), promises_(promises), method_(std::move(method)) {}
+
+JudgedSheet::Finding JudgedSheet::cut(const Curve& curve, const CutOptions& options) {
+  const Sheet before = sheet;
+  outcome = cutter_.cut(sheet, locator_, curve, method_, options);
+  const Status status = outcome.status;
+  if (status != Status::ok && status != Status::deviated)
+    if (const std::string what = difference(before, sheet); !what.empty())
+      return {"changed", std::string(name_of(status)) + ", but changed: " + what};
+  if (status == Status::refused || status == Status::failed) return {};
+  if (const auto faults = check(sheet); !faults.empty()) return {"check", faults.front()};
+
+  oracle::Request request;
+  if (status == Status::noop) {  // justified where the path opens nothing
+    CutOptions exact = options;
+    exact.chord_tolerance = 0;
+    request = request_for(before, {&curve, 1}, promises_, exact, false);
+    request.tolerance += request.snap;
+  } else {
+    request = request_for(before, {&curve, 1}, promises_, options, method_.improved);
+  }
+  const oracle::Judgement judgement = oracle::judge(request, for_oracle(sheet));
+  pieces = judgement.pieces;
+  const auto counts = [status](const std::string& problem) {
+    return status != Status::deviated || !problem.starts_with("wrong_pieces");
+  };
+  const auto problem = std::find_if(judgement.problems.begin(), judgement.problems.end(), counts);
+  if (problem == judgement.problems.end()) return {};
+  return {problem->substr(0, problem->find(':')), std::string(name_of(status)) + ", but " + *problem};
+}
+
+}  // namespace cutbench

@@ -1,0 +1,62 @@
+// A sheet under the knife of one method, every cut of which is judged: what the tests and the campaign are made of.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "harness/cut/cut.h"
+#include "harness/measure/oracle.h"
+
+namespace cutbench {
+
+/// Passes everything on to a method, and notes whether improve() made vertices.
+class Watched : public CuttingMethod {
+ public:
+  explicit Watched(std::unique_ptr<CuttingMethod> method) : method_(std::move(method)) {}
+  std::optional<std::string> why_unsupported(const Sheet& sheet) const override {
+    return method_->why_unsupported(sheet);
+  }
+  void embed(Sheet& sheet, Subdivision& trace) override {
+    improved = false;
+    method_->embed(sheet, trace);
+  }
+  void improve(Sheet& sheet) override {
+    const std::size_t before = sheet.log().new_vertices.size();
+    method_->improve(sheet);
+    improved = sheet.log().new_vertices.size() > before;
+  }
+  int recovered_segments() const override { return method_->recovered_segments(); }
+
+  bool improved = false;
+
+ private:
+  std::unique_ptr<CuttingMethod> method_;
+};
+
+class JudgedSheet {
+ public:
+  JudgedSheet(Sheet start, const Promises& promises, std::unique_ptr<CuttingMethod> method);
+
+  struct Finding {
+    std::string verdict = "ok", reason;  ///< `changed`, `check`, or the oracle's
+    bool ok() const { return verdict == "ok"; }
+  };
+  /// Cuts, and judges what came out whatever the status says: after noop, refused and failed the sheet must be
+  /// bit-unchanged, and a noop must be justified; after ok it must pass check() and the oracle, and after deviated all
+  /// of it but the number of pieces.
+  Finding cut(const Curve& curve, const CutOptions& options);
+
+  Sheet sheet;
+  CutOutcome outcome;  ///< of the last cut
+  int pieces = 0;      ///< after the last cut that was judged by the oracle
+
+ private:
+  Locator locator_;
+  Promises promises_;
+  Watched method_;
+  Cutter cutter_;
+};
+
+}  // namespace cutbench

@@ -1,0 +1,289 @@
+// The campaign counts, saves and makes small what goes wrong, and a crash or a hang costs one case: tried on methods
+// that do wrong on purpose.
+
+#include "harness/run/campaign.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "harness/run/campaign_case.h"
+#include "harness/run/failing_case.h"
+#include "harness/run/isolated.h"
+#include "harness/run/mixture.h"
+#include "harness/run/record.h"
+#include "harness/run/shrink.h"
+#include "methods/registry.h"
+#include "tests/helpers.h"
+
+namespace cutbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Does its work well, but on every fifth number of crossed triangles what its name says.
+class Saboteur : public CuttingMethod {
+ public:
+  enum class Deed { crash, hang, fail, leave_closed };
+  explicit Saboteur(Deed deed) : deed_(deed), method_(find_method("conventional_split").make(0)) {}
+
+  void embed(Sheet& sheet, Subdivision& trace) override {
+    const bool strike = trace.crossed_triangles() % 5 == 0;
+    if (strike && deed_ == Deed::crash) std::raise(SIGKILL);  // nobody, a sanitizer neither, can catch it
+    if (strike && deed_ == Deed::hang)
+      for (volatile bool forever = true; forever;) {
+      }
+    method_->embed(sheet, trace);
+    if (strike && deed_ == Deed::fail) throw CutFailed("inverted", "on purpose");
+    if (strike && deed_ == Deed::leave_closed && !sheet.log().new_vertices.empty()) un_mark(sheet);
+  }
+
+ private:
+  /// One edge of the incision stays closed.
+  static void un_mark(Sheet& sheet) {
+    for (std::size_t t = 0; t < sheet.triangle_slots(); ++t)
+      for (int k = 0; k < 3; ++k)
+        if (const HalfEdge h = half_edge(TriangleIndex(t), k);
+            sheet.triangle(TriangleIndex(t)).alive() && sheet.mark(h) == EdgeMark::path)
+          return sheet.set_mark(h, EdgeMark::none);
+  }
+
+  Deed deed_;
+  std::unique_ptr<CuttingMethod> method_;
+};
+
+MethodRow row_of(const std::string& name, Saboteur::Deed deed) {
+  MethodRow row = find_method("conventional_split");
+  row.name = name;
+  row.make = [deed](double) { return std::make_unique<Saboteur>(deed); };
+  return row;
+}
+
+const std::vector<MethodRow>& rows() {
+  static const std::vector<MethodRow> all{find_method("conventional_split"), row_of("crashing", Saboteur::Deed::crash),
+                                          row_of("hanging", Saboteur::Deed::hang),
+                                          row_of("failing", Saboteur::Deed::fail),
+                                          row_of("wrong", Saboteur::Deed::leave_closed)};
+  return all;
+}
+
+class CampaignRun : public testing::Test {
+ protected:
+  void SetUp() override { folder_ = fs::temp_directory_path() / ("cutbench_campaign_" + std::to_string(getpid())); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  static Experiment experiment(const std::vector<std::string>& methods, int cases) {
+    Experiment e;
+    e.stem = "small", e.claim = "c", e.seed = 3, e.cases = cases;
+    e.sheets = {"grid", "delaunay"}, e.resolutions = {32};
+    for (const auto& method : methods) e.methods.push_back({method, {}});
+    e.campaign.emplace();
+    e.campaign->mesh_files = {CUTBENCH_TEST_CASES "/meshes/mfem_beam-tri.off"};
+    e.campaign->time_limit_s = 0.5;
+    return e;
+  }
+  /// Runs, and returns the records without the times.
+  std::vector<Record> run(const Experiment& e, const std::string& out, int workers = 2, int shard = 1, int shards = 1) {
+    RunOptions options;
+    options.out = folder_ / out, options.quiet = true;
+    options.workers = workers, options.shard = shard, options.shards = shards;
+    all_ok_ = run_campaign(e, rows(), gather_context(), options);
+    std::ifstream in(folder_ / out / "small" / "records.csv");
+    std::vector<Record> records;
+    std::string line;
+    for (std::getline(in, line); std::getline(in, line);) {
+      records.emplace_back(campaign_columns(), line).set("slowest_us", std::string());
+    }
+    return records;
+  }
+  static std::vector<std::string> lines_of(const std::vector<Record>& records) {
+    std::vector<std::string> lines;
+    for (const Record& record : records) lines.push_back(record.line());
+    return lines;
+  }
+  static std::int64_t count(const Record& record, Count c) { return std::stoll(record.get(count_names[c])); }
+  static std::int64_t sum(const std::vector<Record>& records, Count c) {
+    std::int64_t n = 0;
+    for (const Record& record : records) n += count(record, c);
+    return n;
+  }
+
+  fs::path folder_;
+  bool all_ok_ = false;
+};
+
+TEST_F(CampaignRun, RowsAddUpAndDoNotDependOnTheWorkers) {
+  Experiment e = experiment({"conventional_split", "failing"}, 30);
+  e.campaign->peer = true;
+  const auto one = run(e, "one", 1), two = run(e, "two", 2);
+  EXPECT_EQ(lines_of(one), lines_of(two));
+  EXPECT_EQ(one.size(), 3 * 3 * mixture_families().size());  // sheets x contenders x families
+  for (const Record& row : one) {
+    std::int64_t outcomes = 0;
+    for (int c = ok; c <= timed_out; ++c) outcomes += count(row, static_cast<Count>(c));
+    EXPECT_EQ(outcomes, count(row, tried)) << row.line();
+    EXPECT_GE(count(row, tried), count(row, cases)) << row.line();
+    EXPECT_LE(count(row, near_event_cases), count(row, cases)) << row.line();
+  }
+  EXPECT_EQ(sum(one, cases), 3 * 3 * 30);
+  // Each contender has had the same cases.
+  for (const auto& family : mixture_families()) {
+    std::set<std::int64_t> numbers;
+    for (const Record& row : one)
+      if (row.get("scene") == family && row.get("sheet") == "grid") numbers.insert(count(row, cases));
+    EXPECT_EQ(numbers.size(), 1u) << family;
+  }
+}
+
+TEST_F(CampaignRun, ShardsPartTheCases) {
+  const Experiment e = experiment({"failing"}, 31);
+  const auto whole = run(e, "whole");
+  const auto first = run(e, "first", 2, 1, 2), second = run(e, "second", 2, 2, 2);
+  ASSERT_EQ(first.size(), whole.size());
+  ASSERT_EQ(second.size(), whole.size());
+  for (std::size_t r = 0; r < whole.size(); ++r)
+    for (int c = tried; c <= near_event_cases; ++c)
+      EXPECT_EQ(count(first[r], static_cast<Count>(c)) + count(second[r], static_cast<Count>(c)),
+                count(whole[r], static_cast<Count>(c)));
+}
+
+/// The deed of each, how it is counted, and with which verdict it is saved.
+TEST_F(CampaignRun, AFaultCostsOneCaseAndIsSavedAndMadeSmall) {
+  struct Row {
+    const char* method;
+    Count kind;
+    const char* verdict;
+  };
+  for (const Row& expected : {Row{"crashing", crashed, "signal"}, Row{"failing", failed, "inverted"},
+                              Row{"wrong", wrong, ""}, Row{"hanging", timed_out, ""}}) {
+    SCOPED_TRACE(expected.method);
+    const Experiment e = experiment({expected.method}, expected.kind == timed_out ? 4 : 14);
+    const auto records = run(e, expected.method);
+    EXPECT_FALSE(all_ok_);
+    EXPECT_GT(sum(records, expected.kind), 0);
+    EXPECT_GT(sum(records, ok), 0);  // and the others went on
+    for (Count other : {failed, wrong, crashed, timed_out})
+      if (other != expected.kind) EXPECT_EQ(sum(records, other), 0) << count_names[other];
+    std::size_t saved = 0;
+    for (const auto& file : fs::directory_iterator(folder_ / expected.method / "small" / "failing")) {
+      if (file.path().extension() != ".txt") continue;
+      ++saved;
+      std::ifstream in(file.path());
+      const std::string text((std::istreambuf_iterator<char>(in)), {});
+      SCOPED_TRACE(text);
+      EXPECT_EQ(text.find("NOT the same"), std::string::npos);
+      EXPECT_NE(text.find("cutbench cut --mesh"), std::string::npos);
+      EXPECT_NE(text.find(count_names[expected.kind]), std::string::npos);
+      EXPECT_NE(text.find(expected.verdict), std::string::npos);
+      // What was saved, and its small part, do it again.
+      const std::string stem = fs::path(file.path()).replace_extension().string();
+      const auto row =
+          std::find_if(rows().begin(), rows().end(), [&](const auto& r) { return r.name == expected.method; });
+      std::size_t triangles = 0;
+      for (const std::string kind : {"", ".small"}) {
+        const Specimen again{read_mesh(stem + kind + ".obj"), read_path(stem + kind + ".json")};
+        EXPECT_EQ(try_in_isolation(contender_of({&*row, 0}), again, {}, 0.5).kind, expected.kind);
+        if (kind.empty())
+          triangles = again.mesh.triangles.size();
+        else if (expected.kind != timed_out)  // there each trial takes its time
+          EXPECT_LT(again.mesh.triangles.size(), triangles);
+      }
+    }
+    EXPECT_GT(saved, 0u);
+    EXPECT_LE(saved, static_cast<std::size_t>(sum(records, expected.kind)));
+  }
+}
+
+TEST_F(CampaignRun, AllOfTheMethodsPass) {
+  run(experiment({"conventional_split"}, 20), "out");
+  EXPECT_TRUE(all_ok_);
+  EXPECT_FALSE(fs::exists(folder_ / "out" / "small" / "failing"));
+}
+
+/// As a kill leaves it: rows of a whole group, rows of half of one, and a line cut short.
+TEST_F(CampaignRun, AKilledCampaignGoesOn) {
+  const Experiment e = experiment({"conventional_split", "failing"}, 20);
+  const auto whole = run(e, "whole");
+  std::ifstream in(folder_ / "whole" / "small" / "records.csv");
+  std::string head, line, rest;
+  std::getline(in, head);
+  const std::size_t kept = mixture_families().size() + 2;
+  std::vector<std::string> rows;
+  while (std::getline(in, line)) rows.push_back(line);
+
+  // The head of a .part says which run it is of: taken from one that finds its folder's failing/ blocked.
+  fs::create_directories(folder_ / "killed" / "small");
+  std::ofstream(folder_ / "killed" / "small" / "failing") << "not a folder";
+  EXPECT_THROW(run(e, "killed"), InputError);
+  fs::remove(folder_ / "killed" / "small" / "failing");
+  const fs::path part = folder_ / "killed" / "small" / "records.csv.part";
+  {
+    std::ifstream part_in(part);
+    std::getline(part_in, head);
+  }
+  std::ofstream out(part);
+  out << head << '\n';
+  for (std::size_t r = 0; r < kept; ++r) {
+    Record record(campaign_columns(), rows[r]);
+    record.set("slowest_us", std::string("12345"));  // to know it again
+    out << record.line() << '\n';
+  }
+  out << "2,straight,gr";
+  out.close();
+  EXPECT_EQ(lines_of(run(e, "killed")), lines_of(whole));
+  std::ifstream again(folder_ / "killed" / "small" / "records.csv");
+  const std::string text((std::istreambuf_iterator<char>(again)), {});
+  std::size_t known = 0;
+  for (std::size_t at = 0; (at = text.find("12345\n", at)) != std::string::npos; ++at) ++known;
+  EXPECT_EQ(known, kept);
+}
+
+TEST(Isolated, EveryPieceHasItsFate) {
+  const SharedArray<int> done(40);
+  const auto fates = run_isolated(done.size(), {3, 0.2}, [&](std::size_t i) {
+    if (i % 10 == 3) std::_Exit(0);  // ends early, as if well
+    if (i % 10 == 5) std::raise(SIGKILL);
+    if (i == 7)
+      for (volatile bool forever = true; forever;) {
+      }
+    ++done[i];
+  });
+  for (std::size_t i = 0; i < done.size(); ++i) {
+    const bool dies = i % 10 == 3 || i % 10 == 5;
+    EXPECT_EQ(fates[i], dies ? Fate::crashed : i == 7 ? Fate::timed_out : Fate::done) << i;
+    EXPECT_EQ(done[i], dies || i == 7 ? 0 : 1) << i;
+  }
+  EXPECT_TRUE(run_isolated(0, {}, [](std::size_t) {}).empty());
+}
+
+/// Of three cuts, of a path with many points and of a whole sheet, what it takes is left.
+TEST(Shrink, LeavesOutAllThatIsNotNeeded) {
+  const auto needs = [](const Specimen& s) {
+    const bool path = std::any_of(s.cuts.begin(), s.cuts.end(), [](const Curve& c) {
+      return std::count(c.points.begin(), c.points.end(), Point2{0.5, 0.5}) == 1;
+    });
+    const bool sheet = std::any_of(s.mesh.triangles.begin(), s.mesh.triangles.end(), [&](const auto& t) {
+      return s.mesh.rest[static_cast<std::size_t>(t[0])] == Point2{0.5, 0.5};
+    });
+    return path && sheet;
+  };
+  Specimen specimen{make_sheet("grid", 6), {}};
+  const Curve line{Curve::Kind::polyline, false, {{0, 0}, {1, 1}}};
+  const Curve loop{Curve::Kind::polyline, true, {{0, 0}, {0.3, 0.1}, {0.5, 0.5}, {0.2, 0.4}, {0.1, 0.3}, {0, 0.2}}};
+  specimen.cuts = {line, loop, line};
+  ASSERT_TRUE(needs(specimen));
+  const Specimen small = shrunk(specimen, needs);
+  EXPECT_TRUE(needs(small));
+  EXPECT_EQ(small.mesh.triangles.size(), 1u);
+  EXPECT_EQ(small.mesh.rest.size(), 3u);
+  ASSERT_EQ(small.cuts.size(), 1u);
+  EXPECT_EQ(small.cuts[0].points.size(), 3u);
+}
+
+}  // namespace
+}  // namespace cutbench
