@@ -46,11 +46,14 @@ inline Point direction(const Point& a, const Point& b) {
   return {(b[0] - a[0]) / l, (b[1] - a[1]) / l};
 }
 
-inline double distance(const Point& p, const Segment& s) {
+/// The point of s nearest to p.
+inline Point nearest(const Point& p, const Segment& s) {
   const Point along = minus(s[1], s[0]);
   const double squared = dot(along, along);
   const double t = squared > 0 ? std::clamp(dot(minus(p, s[0]), along) / squared, 0.0, 1.0) : 0.0;
-  return distance(p, between(s[0], s[1], t));
+  return between(s[0], s[1], t);
 }
+
+inline double distance(const Point& p, const Segment& s) { return distance(p, nearest(p, s)); }
 
 }  // namespace cutbench::oracle

@@ -10,18 +10,22 @@ int previous(int half_edge) { return half_edge % 3 == 0 ? half_edge + 2 : half_e
 int origin(const Mesh& mesh, int half_edge) { return mesh.triangles[half_edge / 3][half_edge % 3]; }
 int target(const Mesh& mesh, int half_edge) { return origin(mesh, next(half_edge)); }
 
-/// Half-edges by origin: those of vertex v are list[first[v]] .. list[first[v + 1] - 1].
+/// Half-edges by origin: those of vertex v are list[first[v]] .. list[first[v + 1] - 1]. Their targets lie side by side,
+/// too, because they are looked through for every half-edge.
 struct Outgoing {
-  std::vector<int> first, list;
+  std::vector<int> first, list, target;
 };
 
 Outgoing outgoing(const Mesh& mesh) {
   const int count = static_cast<int>(3 * mesh.triangles.size());
-  Outgoing out{std::vector<int>(mesh.rest.size() + 1, 0), std::vector<int>(count)};
+  Outgoing out{std::vector<int>(mesh.rest.size() + 1, 0), std::vector<int>(count), std::vector<int>(count)};
   for (int e = 0; e < count; ++e) ++out.first[origin(mesh, e) + 1];
   std::partial_sum(out.first.begin(), out.first.end(), out.first.begin());
   std::vector<int> end(out.first);
-  for (int e = 0; e < count; ++e) out.list[end[origin(mesh, e)]++] = e;
+  for (int e = 0; e < count; ++e) {
+    const int i = end[origin(mesh, e)]++;
+    out.list[i] = e, out.target[i] = target(mesh, e);
+  }
   return out;
 }
 
@@ -49,9 +53,9 @@ HalfEdges half_edges(const Mesh& mesh) {
   for (int e = 0; e < count; ++e) {
     const int from = origin(mesh, e), to = target(mesh, e);
     for (int i = out.first[to]; i < out.first[to + 1]; ++i)
-      if (target(mesh, out.list[i]) == from) edges.opposite[e] = out.list[i];
+      if (out.target[i] == from) edges.opposite[e] = out.list[i];
     for (int i = out.first[from]; i < out.first[from + 1]; ++i)
-      if (out.list[i] != e && target(mesh, out.list[i]) == to) {
+      if (out.target[i] == to && out.list[i] != e) {
         edges.repeated.push_back(e);
         break;
       }
