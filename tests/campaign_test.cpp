@@ -248,13 +248,14 @@ TEST(Isolated, EveryPieceHasItsFate) {
   const auto fates = run_isolated(done.size(), {3, 0.2}, [&](std::size_t i) {
     if (i % 10 == 3) std::_Exit(0);  // ends early, as if well
     if (i % 10 == 5) std::raise(SIGKILL);
+    if (i % 10 == 9) throw std::runtime_error("that somebody may catch further up");
     if (i == 7)
       for (volatile bool forever = true; forever;) {
       }
     ++done[i];
   });
   for (std::size_t i = 0; i < done.size(); ++i) {
-    const bool dies = i % 10 == 3 || i % 10 == 5;
+    const bool dies = i % 10 == 3 || i % 10 == 5 || i % 10 == 9;
     EXPECT_EQ(fates[i], dies ? Fate::crashed : i == 7 ? Fate::timed_out : Fate::done) << i;
     EXPECT_EQ(done[i], dies || i == 7 ? 0 : 1) << i;
   }

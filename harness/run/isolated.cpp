@@ -58,6 +58,8 @@ std::vector<Fate> run_isolated(std::size_t n, const Isolation& isolation, const 
   const SharedArray<std::atomic<std::size_t>> next(1);
   static_assert(std::atomic<std::size_t>::is_always_lock_free);
 
+  // noexcept: else an exception would be caught further up, and two processes go on as the parent.
+  const auto do_piece = [&work](std::size_t i) noexcept { work(i); };
   const auto begin = [&](std::size_t worker) {
     const pid_t parent = getpid(), child = fork();
     if (child < 0) throw std::runtime_error(std::string("can't start a process: ") + std::strerror(errno));
@@ -66,7 +68,7 @@ std::vector<Fate> run_isolated(std::size_t n, const Isolation& isolation, const 
     for (std::size_t i; (i = next[0].fetch_add(1)) < n;) {
       piece[worker] = i, fates[i] = Fate::under_way;
       set_timers(isolation.time_limit_s);
-      work(i);
+      do_piece(i);
       set_timers(0);
       fates[i] = Fate::done;
     }
