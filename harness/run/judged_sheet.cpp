@@ -29,8 +29,10 @@ JudgedSheet::Finding JudgedSheet::cut(const Curve& curve, const CutOptions& opti
   } else {
     request = request_for(before, {&curve, 1}, promises_, options, method_.improved);
   }
+  request.snap = std::max(request.snap, 2 * outcome.deviation);
+  request.vertex_tolerance += outcome.deviation, request.tolerance += outcome.deviation;
   const oracle::Judgement judgement = oracle::judge(request, for_oracle(sheet));
-  pieces = judgement.pieces;
+  pieces = judgement.pieces, incision_error = judgement.incision_error;
   const auto counts = [status](const std::string& problem) {
     return status != Status::deviated || !problem.starts_with("wrong_pieces");
   };

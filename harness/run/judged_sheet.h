@@ -51,6 +51,7 @@ class JudgedSheet {
   Sheet sheet;
   CutOutcome outcome;  ///< of the last cut
   int pieces = 0;      ///< after the last cut that was judged by the oracle
+  double incision_error = 0;  ///< of that cut, rest units
 
  private:
   Locator locator_;
