@@ -11,7 +11,7 @@
 
 namespace cutbench {
 
-/// Passes everything on to a method, and notes whether improve() made vertices.
+/// Passes everything on to a method, and notes which of the two steps made vertices.
 class Watched : public CuttingMethod {
  public:
   explicit Watched(std::unique_ptr<CuttingMethod> method) : method_(std::move(method)) {}
@@ -21,6 +21,7 @@ class Watched : public CuttingMethod {
   void embed(Sheet& sheet, Subdivision& trace) override {
     improved = false;
     method_->embed(sheet, trace);
+    embedded_vertices += sheet.log().new_vertices.size();
   }
   void improve(Sheet& sheet) override {
     const std::size_t before = sheet.log().new_vertices.size();
@@ -29,7 +30,8 @@ class Watched : public CuttingMethod {
   }
   int recovered_segments() const override { return method_->recovered_segments(); }
 
-  bool improved = false;
+  bool improved = false;              ///< in the last cut
+  std::size_t embedded_vertices = 0;  ///< by embed(), of all cuts
 
  private:
   std::unique_ptr<CuttingMethod> method_;
@@ -47,6 +49,8 @@ class JudgedSheet {
   /// bit-unchanged, and a noop must be justified; after ok it must pass check() and the oracle, and after deviated all
   /// of it but the number of pieces.
   Finding cut(const Curve& curve, const CutOptions& options);
+
+  std::size_t embedded_vertices() const { return method_.embedded_vertices; }
 
   Sheet sheet;
   CutOutcome outcome;  ///< of the last cut

@@ -1,0 +1,218 @@
+// The catalogue of adversarial cases: each file of tests/cases/catalogue, cut by every method, comes out as it says.
+
+#include "tests/catalogue.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "harness/run/report.h"
+#include "methods/registry.h"
+#include "tests/helpers.h"
+
+namespace cutbench {
+namespace {
+
+using nlohmann::json;
+
+/// Cases that don't come out as their files say they should, as "case" or "case, method", and why.
+const std::map<std::string, std::string> known_failures{
+    {"G05_cgal_degenerate_case, conventional_split", "fails: a new triangle is not positive"},
+    {"G05_three_through_a_row, bowyer_watson_1", "wrong pieces at 1e-11"},
+    {"G06_cdt174_tiny_box", "too few doubles between the vertices, not yet refused when read"},
+    {"G06_vertices_nearer_than_the_snap_distance", "half of the path is not opened, and the status is ok"},
+    {"G09_turned, bowyer_watson_3", "2.9 snap distances off at 1e-11, where 2 are declared"},
+    {"G15_very_far_outside", "the oracle's distance to a segment 1e9 long is not exact enough"},
+    {"G18_read_bow_tie, cgal_cdt", "two vertices at one rest position are taken for one"},
+    {"G22_offsets_too_large", "too few doubles between the vertices, not yet refused when read"},
+    {"G22_path_at_1e59", "the oracle's distance to a segment 1e59 long is not exact enough"},
+    {"G22_too_small", "a sheet below 1e-60, not yet refused when read"},
+    {"G30_needle_that_cannot_be_mended, bowyer_watson_20",
+     "the local split has no cap: 3.8 times the triangles a round"},
+    {"G30_sharp_corner, bowyer_watson_20", "the local split has no cap: 3.8 times the triangles a round"},
+};
+
+struct Trial {
+  CatalogueCase file;
+  const MethodRow* row;
+  double knob;
+  std::string method;  ///< with its knob
+};
+
+void PrintTo(const Trial& trial, std::ostream* out) { *out << trial.file.name << ", " << trial.method; }
+
+std::vector<Trial> all_trials() {
+  std::vector<Trial> trials;
+  for (const CatalogueCase& file : read_catalogue())
+    for (const MethodRow& row : all_methods()) {
+      if (row.knob.name != "rounds") {
+        trials.push_back({file, &row, row.knob.value, row.name});
+        continue;
+      }
+      for (int k : file.rounds)
+        trials.push_back({file, &row, static_cast<double>(k), row.name + "_" + std::to_string(k)});
+    }
+  return trials;
+}
+
+/// `status` for all cuts, or a list with one for each.
+std::string status_of(const json& expect, std::size_t cut) {
+  const json& status = expect.at("status");
+  return status.is_string() ? status : status.at(cut);
+}
+
+/// The error that reading must give is thrown; true where the case ends there.
+template <class Read>
+bool is_refused(const json& expect, const char* key, Read read) {
+  try {
+    read();
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    if (!expect.contains(key)) {
+      ADD_FAILURE() << "refused when read: " << what;
+    } else {
+      EXPECT_NE(what.find(expect[key].get<std::string>()), std::string::npos) << what;
+    }
+    EXPECT_EQ(what.find('\n'), std::string::npos) << "one line: " << what;
+    return true;
+  }
+  EXPECT_FALSE(expect.contains(key)) << "read without an error";
+  return expect.contains(key);
+}
+
+/// The audit excuses what the input forces, and says so.
+void check_forced(const json& expect, const Trial& trial, const Sheet& before, const Sheet& after,
+                  const std::vector<Curve>& cuts, double chord) {
+  const std::vector<oracle::ForcedCorner> corners = forced_corners_of(before, cuts);
+  const Assessment found = assess(before, after, cuts, corners, trial.row->promises, {.chord_tolerance = chord});
+  EXPECT_EQ(found.forced_corners, expect.at("forced_corners").get<std::size_t>());
+  EXPECT_EQ(found.ar_max_strict < found.cut.ar_max, expect.at("worst_is_forced").get<bool>())
+      << found.ar_max_strict << " without forced corners, " << found.cut.ar_max << " with them";
+}
+
+void run_member(const CatalogueMember& member, const Trial& trial, double chord) {
+  const json expect = trial.file.expect_of(trial.method);
+  MeshData mesh;
+  if (is_refused(expect, "sheet_error", [&] { mesh = sheet_of(member); })) return;
+  std::vector<Curve> cuts;
+  if (is_refused(expect, "path_error", [&] { cuts = cuts_of(member); })) return;
+  std::string notes;
+  for (const std::string& note : mesh.notes) notes += note + "\n";
+  EXPECT_NE(notes.find(expect.value("note", "")), std::string::npos) << notes;
+  EXPECT_EQ(notes.empty(), !expect.contains("note")) << notes;
+
+  Table table(mesh, *trial.row, trial.knob);
+  const Sheet uncut = table.sheet;
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    SCOPED_TRACE("cut " + std::to_string(i) + ": " + text_of(cuts[i]));
+    const Sheet before = table.sheet;
+    const std::string wrong = table.cut(cuts[i], chord), status = status_of(expect, i);
+    EXPECT_STREQ(name_of(table.outcome.status), status.c_str()) << wrong << table.outcome.reason;
+    if (status == "refused" || status == "failed") {
+      EXPECT_EQ(difference(before, table.sheet), "");
+      EXPECT_NE(table.outcome.reason, "");
+      continue;
+    }
+    EXPECT_EQ(wrong, "");
+    // What is nearer than twice the snap distance to an edge goes along it. A Bezier's error is the oracle's affair.
+    const bool declared = cuts[i].kind == Curve::Kind::polyline && table.outcome.status == Status::ok;
+    if (expect.contains("incision_error") || declared) {
+      EXPECT_LE(table.incision_error, expect.value("incision_error", 2 * table.sheet.snap()));
+    }
+  }
+  EXPECT_EQ(table.pieces, expect.at("pieces").get<int>());
+  EXPECT_EQ(table.embedded_vertices(), expect.value("new_vertices", table.embedded_vertices()));
+  if (expect.contains("forced_corners")) check_forced(expect, trial, uncut, table.sheet, cuts, chord);
+}
+
+class Catalogue : public testing::TestWithParam<Trial> {};
+
+TEST_P(Catalogue, ComesOutAsStated) {
+  const Trial& trial = GetParam();
+  for (const std::string& name : {trial.file.name, trial.file.name + ", " + trial.method})
+    if (const auto known = known_failures.find(name); known != known_failures.end())
+      GTEST_SKIP() << "known failure: " << known->second;
+  std::vector<double> chords{trial.file.chord_tolerance};
+  if (std::isnan(chords[0])) chords = {0.05, infinite};
+  for (const CatalogueMember& member : trial.file.members)
+    for (double chord : chords) {
+      SCOPED_TRACE(member.label + ", chord tolerance " + std::to_string(chord));
+      run_member(member, trial, chord);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, Catalogue, testing::ValuesIn(all_trials()),
+                         [](const auto& trial) { return trial.param.file.name + "_by_" + trial.param.method; });
+
+/// The outcome that a file states, in words.
+std::string outcome_in_words(const json& expect) {
+  if (expect.contains("sheet_error")) return "sheet refused: " + expect["sheet_error"].get<std::string>();
+  if (expect.contains("path_error")) return "path refused: " + expect["path_error"].get<std::string>();
+  std::string words;
+  const json& status = expect.at("status");
+  if (status.is_string()) words = status;
+  for (const json& s : status.is_string() ? json::array() : status)
+    words += (words.empty() ? "" : ", ") + s.get<std::string>();
+  if (expect.contains("pieces")) words += "; pieces " + expect["pieces"].dump();
+  if (expect.contains("new_vertices")) words += "; new vertices " + expect["new_vertices"].dump();
+  if (expect.contains("incision_error")) words += "; incision error <= " + expect["incision_error"].dump();
+  if (expect.contains("forced_corners")) words += "; forced corners " + expect["forced_corners"].dump();
+  if (expect.contains("worst_is_forced"))
+    words += expect["worst_is_forced"] ? "; worst triangle excused" : "; worst triangle not excused";
+  if (expect.contains("note")) words += "; note: " + expect["note"].get<std::string>();
+  return words;
+}
+
+std::string table_of(const std::vector<CatalogueCase>& cases) {
+  std::string table;
+  for (const CatalogueCase& file : cases) {
+    table += "| " + file.name.substr(0, 3) + " | " + file.name.substr(4) + " | " + file.about + " | " + file.source +
+             " | " + std::to_string(file.members.size()) + " | " + outcome_in_words(file.expect_of(""));
+    if (file.expect.contains("methods"))
+      for (const auto& [method, differs] : file.expect["methods"].items())
+        table += "; **" + method + "**: " + outcome_in_words(file.expect_of(method));
+    table += " |\n";
+  }
+  return table;
+}
+
+TEST(CatalogueTable, HasEveryRow) {
+  const std::vector<CatalogueCase> cases = read_catalogue();
+  for (int row = 1; row <= 31; ++row) {
+    char prefix[8];
+    std::snprintf(prefix, sizeof prefix, "G%02d_", row);
+    EXPECT_TRUE(std::any_of(cases.begin(), cases.end(), [&](const auto& c) { return c.name.starts_with(prefix); }))
+        << "no case file for row " << prefix;
+  }
+}
+
+/// CUTBENCH_WRITE_CATALOGUE=1 writes the table into the README instead.
+TEST(CatalogueTable, IsInTheReadme) {
+  const std::string readme = CUTBENCH_TEST_CASES "/catalogue/README.md", head = "|---|---|---|---|---|---|\n";
+  std::ifstream in(readme);
+  std::ostringstream text;
+  text << in.rdbuf();
+  const std::string shown = text.str();
+  const std::size_t begin = shown.find(head) + head.size();
+  ASSERT_NE(shown.find(head), std::string::npos);
+  const std::string table = table_of(read_catalogue());
+  if (std::getenv("CUTBENCH_WRITE_CATALOGUE")) {
+    std::ofstream(readme) << shown.substr(0, begin) << table;
+  } else {
+    EXPECT_EQ(shown.substr(begin), table) << "write it anew: CUTBENCH_WRITE_CATALOGUE=1";
+  }
+}
+
+/// A list of failures that nobody looks at must not grow stale.
+TEST(CatalogueTable, KnownFailuresAreOfCasesThereAre) {
+  const std::vector<Trial> trials = all_trials();
+  for (const auto& [name, bug] : known_failures)
+    EXPECT_TRUE(std::any_of(trials.begin(), trials.end(), [&, &name = name](const Trial& trial) {
+      return name == trial.file.name || name == trial.file.name + ", " + trial.method;
+    })) << name;
+}
+
+}  // namespace
+}  // namespace cutbench
