@@ -131,18 +131,21 @@ json CatalogueCase::expect_of(const std::string& method) const {
   return result;
 }
 
-std::vector<CatalogueCase> read_catalogue() {
-  std::vector<fs::path> files;
+std::vector<std::string> catalogue_names() {
+  std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.path().extension() == ".json") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  std::vector<CatalogueCase> cases;
-  for (const fs::path& file : files) try {
-      cases.push_back(read_case(file));
-    } catch (const std::exception& error) {
-      throw InputError(file.string() + ": " + error.what());
-    }
-  return cases;
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+CatalogueCase read_catalogue_case(const std::string& name) {
+  const fs::path file = folder / (name + ".json");
+  try {
+    return read_case(file);
+  } catch (const std::exception& error) {
+    throw InputError(file.string() + ": " + error.what());
+  }
 }
 
 MeshData sheet_of(const CatalogueMember& member) {

@@ -30,8 +30,11 @@ struct CatalogueCase {
   nlohmann::json expect_of(const std::string& method) const;
 };
 
-/// All of them, in order of their names. Throws InputError that names the file: unknown keys, no `about`, ...
-std::vector<CatalogueCase> read_catalogue();
+/// The names of all files, without the extension, in order. Opens none: every test program asks for them when it
+/// starts.
+std::vector<std::string> catalogue_names();
+/// Throws InputError that names the file: unknown keys, no `about`, ...
+CatalogueCase read_catalogue_case(const std::string& name);
 
 /// As read_mesh() and read_path() read them. Throw InputError.
 MeshData sheet_of(const CatalogueMember& member);
