@@ -4,6 +4,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "experiments/score.h"
 #include "experiments/simulate.h"
 #include "harness/mesh/mesh_io.h"
 #include "harness/run/report_json.h"
@@ -88,15 +89,18 @@ CutOptions options_with(const std::string& chord_tolerance) {
   return options;
 }
 
+/// Before the work, so that nothing is written by halves.
+void check_folder_of(const std::string& file) {
+  if (const auto folder = std::filesystem::path(file).parent_path();
+      !folder.empty() && !std::filesystem::is_directory(folder))
+    throw InputError(file + ": there is no folder " + folder.string() + "; make it first");
+}
+
 int cut(const CutArguments& arguments) {
   const MethodRow& row = find_method(arguments.method);
   const auto method = row.make(knob_value(row, arguments.set));
   const CutOptions options = options_with(arguments.chord_tolerance);
-  for (const std::string& file :
-       {arguments.out, arguments.report})  // before the work, so that nothing is written by halves
-    if (const auto folder = std::filesystem::path(file).parent_path();
-        !folder.empty() && !std::filesystem::is_directory(folder))
-      throw InputError(file + ": there is no folder " + folder.string() + "; make it first");
+  check_folder_of(arguments.out), check_folder_of(arguments.report);
   const std::vector<Curve> cuts = read_path(arguments.path);
   const MeshData data = read_mesh(arguments.mesh);
   for (const auto& note : data.notes) std::cerr << "note: " << note << '\n';
@@ -214,6 +218,18 @@ int main(int argc, char** argv) {
   cut_command->add_option("--out", cut_arguments.out, "OBJ, OFF or VTU")->required();
   cut_command->add_option("--report", cut_arguments.report, "JSON");
 
+  ScoreArguments score_arguments;
+  std::string score_tolerance = "0.05";
+  auto* score_command = app.add_subcommand("score", "judge a cut that any program made");
+  score_command->add_option("--mesh", score_arguments.mesh, "the sheet before: OBJ, OFF or PLY")->required();
+  score_command->add_option("--path", score_arguments.path, "JSON")->required();
+  score_command->add_option("--result", score_arguments.result, "the sheet after: OBJ, OFF or PLY")->required();
+  score_command->add_option("--report", score_arguments.report, "JSON");
+  score_command->add_option("--chord-tolerance", score_tolerance,
+                            "allowed incision error in mean rest edges, or inf: the longest edge");
+  score_command->add_flag("--keeps-vertices", score_arguments.keeps_vertices,
+                          "the sheet's vertices must be there with the same numbers and rest positions");
+
   SimulateArguments simulate_arguments;
   auto* simulate_command = app.add_subcommand("simulate", "run a scene with its cuts");
   simulate_command->add_option("scene", simulate_arguments.scene, "scene file (TOML)")->required();
@@ -241,6 +257,10 @@ int main(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) command += std::string(" ") + argv[i];
     if (*methods_command) return list_methods(as_json);
     if (*cut_command) return cut(cut_arguments);
+    if (*score_command) {
+      check_folder_of(score_arguments.report);
+      return score(score_arguments, options_with(score_tolerance)) ? done : fell_short;
+    }
     if (*simulate_command) return simulate(simulate_arguments);
     return run(run_arguments, command);
   } catch (const CLI::CallForHelp& help) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <sstream>
 
 #include "harness/mesh/mesh_io.h"
@@ -49,7 +50,7 @@ class Repair {
     // Vertices are dropped last, so that the numbers in messages are those of the file.
     check_indices();
     check_coordinates();
-    if (mesh_.rest.empty()) take_rest_from_plane();
+    if (mesh_.rest.empty()) take_rest_from_plane(mesh_, name_);
     orient();
     weld_by_rest();
     check_duplicates();
@@ -98,27 +99,6 @@ class Repair {
         fail("vertex " + std::to_string(v + 1) + " of " + std::to_string(mesh_.deformed.size()) +
              " has a coordinate that is not finite or beyond 1e60; mend or rescale it");
     }
-  }
-
-  bool constant(double Point3::*axis) const {
-    const Point3 first = mesh_.deformed[at(mesh_.triangles.front().front())];
-    for (std::size_t v = 0; v < mesh_.deformed.size(); ++v)
-      if (used_[v] && mesh_.deformed[v].*axis != first.*axis) return false;
-    return true;
-  }
-
-  void take_rest_from_plane() {
-    using Axis = double Point3::*;
-    constexpr Axis x = &Point3::x, y = &Point3::y, z = &Point3::z;
-    auto take = [this](Axis u, Axis v) {
-      for (const Point3& p : mesh_.deformed) mesh_.rest.push_back({p.*u, p.*v});
-    };
-    if (constant(z)) return take(x, y);
-    if (constant(y)) return take(z, x);
-    if (constant(x)) return take(y, z);
-    fail(
-        "no rest positions: neither x, y nor z is exactly constant; use an OBJ with vt (rest positions), or flatten "
-        "it");
   }
 
   /// Every triangle on its own: in the plane, a mesh that is not folded is then consistent too.
@@ -248,6 +228,31 @@ class Repair {
 };
 
 }  // namespace
+
+void take_rest_from_plane(MeshData& mesh, const std::string& name) {
+  using Axis = double Point3::*;
+  constexpr Axis x = &Point3::x, y = &Point3::y, z = &Point3::z;
+  auto constant = [&mesh](Axis axis) {
+    std::optional<double> first;
+    for (const auto& triangle : mesh.triangles)
+      for (std::int32_t v : triangle) {
+        if (v < 0 || v >= std::ssize(mesh.deformed)) continue;
+        const double c = mesh.deformed[static_cast<std::size_t>(v)].*axis;
+        if (std::isfinite(c) && c != first.value_or(c)) return false;
+        if (std::isfinite(c)) first = c;
+      }
+    return true;
+  };
+  auto take = [&mesh](Axis u, Axis v) {
+    for (const Point3& p : mesh.deformed) mesh.rest.push_back({p.*u, p.*v});
+  };
+  if (constant(z)) return take(x, y);
+  if (constant(y)) return take(z, x);
+  if (constant(x)) return take(y, z);
+  throw InputError(name +
+                   ": no rest positions: neither x, y nor z is exactly constant; use an OBJ with vt (rest "
+                   "positions), or flatten it");
+}
 
 void check_and_repair(MeshData& mesh, const std::string& name) { Repair(mesh, name).run(); }
 

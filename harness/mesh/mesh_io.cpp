@@ -106,7 +106,7 @@ std::string lower_case_extension(const std::filesystem::path& path) {
   return extension;
 }
 
-MeshData read_unchecked(const std::filesystem::path& path) {
+MeshData read_unchecked(const std::filesystem::path& path, bool as_is) {
   const std::string name = path.filename().string();
   const std::string extension = lower_case_extension(path);
   if (extension != ".obj" && extension != ".off" && extension != ".ply")
@@ -118,14 +118,22 @@ MeshData read_unchecked(const std::filesystem::path& path) {
   if (!in || !is_file) throw InputError(path.string() + ": no such file, or it can't be read; check the path");
   if (extension == ".off") return read_off(in, name, std::filesystem::file_size(path));
   if (extension == ".ply") return read_ply(in, name);
-  return read_obj(std::string(std::istreambuf_iterator<char>(in), {}), name);
+  return read_obj(std::string(std::istreambuf_iterator<char>(in), {}), name, as_is);
 }
 
 }  // namespace
 
 MeshData read_mesh(const std::filesystem::path& path) {
-  MeshData mesh = read_unchecked(path);
+  MeshData mesh = read_unchecked(path, false);
   check_and_repair(mesh, path.filename().string());
+  return mesh;
+}
+
+MeshData read_mesh_as_is(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  MeshData mesh = read_unchecked(path, true);
+  if (mesh.triangles.empty()) throw InputError(name + ": no triangles; the file is empty, cut short or holds no mesh");
+  if (mesh.rest.empty()) take_rest_from_plane(mesh, name);
   return mesh;
 }
 

@@ -19,6 +19,13 @@ namespace cutbench {
 /// extension, cut short or not of its format, faces that aren't triangles, and all that check_and_repair refuses.
 MeshData read_mesh(const std::filesystem::path& path);
 
+/// Reads a mesh that somebody is to judge: nothing is repaired, refused or merged that a list of triangles can hold, so
+/// indices may be out of range and coordinates NaN (in an OBJ; CGAL's readers refuse such files themselves). Rest
+/// positions as above, from the vertices that triangles have and that are finite.
+/// \throw InputError as above for what can't be read as triangles at all, for no triangles, and a curved mesh without
+/// rest positions.
+MeshData read_mesh_as_is(const std::filesystem::path& path);
+
 /// Makes `mesh` fit for a sheet, or says why it can't be. `name` (the file's) begins every note and error.
 /// \pre `rest` and `deformed` have one entry per vertex, or `rest` is empty: then it is taken from `deformed`, which
 /// must lie exactly in a plane z, y or x = constant (tried in this order), as the other two axes in cyclic order:
@@ -34,6 +41,8 @@ MeshData read_mesh(const std::filesystem::path& path);
 /// corners, more than two triangles on an edge or two on the same side of it (folded, overlapping or not orientable in
 /// rest space). `mesh` is then half-way: discard it. Overlaps of triangles that share no edge are not looked for.
 void check_and_repair(MeshData& mesh, const std::string& name);
+/// Its part that takes `rest` from the plane the mesh lies in. Corners may be out of range and coordinates not finite.
+void take_rest_from_plane(MeshData& mesh, const std::string& name);
 
 /// Writes by extension (lower case), numbers with the fewest digits that read back bit for bit (17 at most):
 /// - .obj: `v` deformed, `vt` rest, one per vertex, `f v/vt`; read_mesh gives it back unchanged.

@@ -21,7 +21,7 @@ std::string_view next_token(std::string_view& line) {
 
 class ObjReader {
  public:
-  explicit ObjReader(const std::string& name) : name_(name) {}
+  ObjReader(const std::string& name, bool as_is) : name_(name), as_is_(as_is) {}
 
   MeshData read(std::string_view text) {
     if (text.find('\0') != std::string_view::npos)
@@ -36,10 +36,11 @@ class ObjReader {
   }
 
  private:
-  /// One corner of a face: numbers counted from 1, 0 for a `vt` that is not given.
+  /// One corner of a face: numbers counted from 1, 0 for a `vt` that is not given; as is, `none` for nonsense.
   struct Corner {
     std::int64_t v = 0, vt = 0;
   };
+  static constexpr std::int64_t none = -1;
   struct Face {
     std::array<Corner, 3> corners;
     std::size_t line = 0;
@@ -70,7 +71,7 @@ class ObjReader {
     if (token.front() == '+') token.remove_prefix(1);
     double value = 0;
     const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
-    if (error != std::errc() || end != token.data() + token.size() || !std::isfinite(value))
+    if (error != std::errc() || end != token.data() + token.size() || !(as_is_ || std::isfinite(value)))
       fail(line_, "'" + shown + "' is not a finite number; mend it");
     return value;
   }
@@ -102,6 +103,7 @@ class ObjReader {
     std::int32_t value = 0;
     const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
     const std::int64_t resolved = value < 0 ? static_cast<std::int64_t>(count) + value + 1 : value;
+    if (as_is_ && error == std::errc() && resolved < 1) return none;
     if (error != std::errc() || end != token.data() + token.size() || resolved < 1)
       fail(line_, "'" + std::string(shown) + "' is not a face corner; write v, v/vt, v//vn or v/vt/vn, counted from 1");
     return resolved;
@@ -112,7 +114,7 @@ class ObjReader {
     for (const Face& face : faces_)
       for (const Corner& c : face.corners) {
         any_vt = any_vt || c.vt != 0;
-        if (c.v > std::ssize(positions_) || c.vt > std::ssize(textures_))
+        if (!as_is_ && (c.v > std::ssize(positions_) || c.vt > std::ssize(textures_)))
           fail(face.line, "a corner beyond the " + std::to_string(positions_.size()) + " v and " +
                               std::to_string(textures_.size()) + " vt of the file, which may be cut short");
       }
@@ -138,9 +140,13 @@ class ObjReader {
     std::vector<bool> has_rest(positions_.size(), false);
     std::map<std::tuple<std::size_t, double, double>, std::int32_t> copies;
     auto vertex_of = [&](const Corner& corner) {
+      if (!exists(corner.v, positions_.size())) return static_cast<std::int32_t>(corner.v - 1);
+      if (!exists(corner.vt, textures_.size())) return static_cast<std::int32_t>(none);
       const auto v = static_cast<std::size_t>(corner.v - 1);
       const Point2 rest = textures_[static_cast<std::size_t>(corner.vt - 1)];
-      if (!has_rest[v]) mesh.rest[v] = rest, has_rest[v] = true;
+      const bool broken = !std::isfinite(rest.x) || !std::isfinite(rest.y);  // equal to nothing: marks the whole vertex
+      if (!has_rest[v] || broken) mesh.rest[v] = rest, has_rest[v] = true;
+      if (broken) return static_cast<std::int32_t>(v);
       if (mesh.rest[v] == rest) return static_cast<std::int32_t>(v);
       const auto next = static_cast<std::int32_t>(mesh.rest.size());
       const auto [copy, is_new] = copies.try_emplace({v, rest.x, rest.y}, next);
@@ -160,7 +166,12 @@ class ObjReader {
     return mesh;
   }
 
+  static bool exists(std::int64_t number, std::size_t count) {
+    return number >= 1 && number <= static_cast<std::int64_t>(count);
+  }
+
   const std::string& name_;
+  bool as_is_;
   std::size_t line_ = 0;  ///< of the line being read, from 1
   std::vector<Point3> positions_;
   std::vector<Point2> textures_;
@@ -169,6 +180,8 @@ class ObjReader {
 
 }  // namespace
 
-MeshData read_obj(std::string_view text, const std::string& name) { return ObjReader(name).read(text); }
+MeshData read_obj(std::string_view text, const std::string& name, bool as_is) {
+  return ObjReader(name, as_is).read(text);
+}
 
 }  // namespace cutbench

@@ -37,7 +37,8 @@ oracle::Request request_for(const Sheet& before, std::span<const Curve> cuts, co
 /// What the result is like. Lengths in h = mean rest edge of the uncut sheet, unless a name says otherwise.
 struct Assessment {
   oracle::Judgement judgement;
-  Quality all, cut;  ///< over the whole sheet, and over the triangles the cut made or changed; altitude in h
+  bool measured = true;  ///< false: the result is too broken for the numbers below, which stay 0
+  Quality all, cut;      ///< over the whole sheet, and over the triangles the cut made or changed; altitude in h
   std::size_t forced_corners = 0;
   int corner_triangles = 0, wedge_triangles = 0;
   double wedge_area = 0;                                ///< rest units squared
@@ -47,6 +48,12 @@ struct Assessment {
 /// Looks at everything, by the oracle and the audit: outside the clock. `forced`: forced_corners_of(before, cuts).
 Assessment assess(const Sheet& before, const Sheet& after, std::span<const Curve> cuts,
                   std::span<const oracle::ForcedCorner> forced, const Promises& promises, const CutOptions& options);
+/// The same for a result that anybody made, broken as it may be: a triangle of the cut is one whose corners, in their
+/// order round it, are not exactly those of a triangle before; rest vertices are counted by their places. Whether the
+/// old vertices must stay what they are (`keeps_vertices`) is the caller's to say.
+/// \throw InputError: the oracle can't use the sheet before.
+Assessment assess_result(const Sheet& before, const MeshData& result, std::span<const Curve> cuts, bool keeps_vertices,
+                         const CutOptions& options);
 std::vector<oracle::ForcedCorner> forced_corners_of(const Sheet& before, std::span<const Curve> cuts);
 
 }  // namespace cutbench

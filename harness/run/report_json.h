@@ -10,4 +10,7 @@ namespace cutbench {
 void write_report(const std::filesystem::path& file, const std::string& method, const CutRun& run,
                   const Assessment& assessment);
 
+/// R.json of `cutbench score`: the same names where they mean the same, null where the result is too broken to measure.
+void write_score(const std::filesystem::path& file, const Assessment& assessment);
+
 }  // namespace cutbench
