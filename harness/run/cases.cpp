@@ -395,4 +395,24 @@ std::vector<Curve> make_case(const std::string& family, std::uint64_t seed, std:
   throw InputError("cut family '" + family + "' is unknown; choose one of " + known);
 }
 
+Curve make_small_cut(std::uint64_t seed, std::size_t i, const Sheet& sheet) {
+  constexpr const char* kinds[] = {"straight", "curved", "partial", "border_inward", "cut_out", "self_crossing"};
+  Random random(Random(seed).bits() + i * 0xD1342543DE82EF95u);
+  Curve curve = make_case(kinds[random.below(std::size(kinds))], seed, i, sheet).front();
+  const auto [low, high, h] = frame_of(sheet);
+  Point2 least = curve.points.front(), most = least;
+  for (Point2 p : curve.points) {
+    least = {std::min(least.x, p.x), std::min(least.y, p.y)};
+    most = {std::max(most.x, p.x), std::max(most.y, p.y)};
+  }
+  const double side = std::max(high.x - low.x, high.y - low.y);
+  const double factor = random.between(0.1, 0.3) * side / std::max(most.x - least.x, most.y - least.y);
+  const double u = random.unit(), v = random.unit();
+  const Point2 centre{low.x + u * (high.x - low.x), low.y + v * (high.y - low.y)};
+  const Point2 middle = 0.5 * (least + most);
+  for (Point2& p : curve.points) p = centre + factor * (p - middle);
+  if (curve.closed && curve.kind == Curve::Kind::bezier) curve.points.back() = curve.points.front();
+  return curve;
+}
+
 }  // namespace cutbench

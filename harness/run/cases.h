@@ -39,4 +39,8 @@ std::span<const char* const> cut_families();
 /// unknown family, listing the known ones.
 std::vector<Curve> make_case(const std::string& family, std::uint64_t seed, std::size_t i, const Sheet& sheet);
 
+/// Cut i of a row that one sheet is to bear, as in surgery: of the kinds of `several`, or crossing itself, but only 0.1
+/// to 0.3 S long or wide, anywhere, over the border too. Depends on seed, i and the frame alone.
+Curve make_small_cut(std::uint64_t seed, std::size_t i, const Sheet& sheet);
+
 }  // namespace cutbench

@@ -1,0 +1,100 @@
+// A thousand small cuts in a row on one sheet, by every method: failures, what a crossed triangle costs at the start
+// and at the end, and whether the memory is the mesh's. usage: cutbench_in_a_row [TRIANGLES [CUTS [FOLDER]]]   failing
+// cuts are saved in FOLDER, with the sheet before them
+#include <malloc.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+#include <span>
+
+#include "harness/mesh/families.h"
+#include "harness/mesh/mesh_io.h"
+#include "harness/run/cases.h"
+#include "harness/run/experiment.h"
+#include "harness/run/report.h"
+#include "methods/registry.h"
+
+namespace {
+
+using namespace cutbench;
+
+constexpr std::uint64_t seed = 1;
+constexpr CutOptions options;
+
+double heap_bytes() { return static_cast<double>(mallinfo2().uordblks); }
+
+double median(std::span<const double> values) {
+  std::vector<double> sorted(values.begin(), values.end());
+  const auto middle = sorted.begin() + std::ssize(sorted) / 2;
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  return *middle;
+}
+
+bool is_sound(const Sheet& before, const Sheet& sheet, const Curve& curve, const Promises& promises) {
+  return check(sheet).empty() && assess(before, sheet, {&curve, 1}, {}, promises, options).judgement.ok;
+}
+
+void save(const Sheet& sheet, const Curve& curve, const std::filesystem::path& stem) {
+  write_mesh(sheet.to_mesh_data(), stem.string() + ".obj");
+  write_path({curve}, stem.string() + ".json");
+}
+
+/// Prints the method's row; false where a cut failed or a result was wrong.
+bool cut_in_a_row(const MethodRow& row, int n, std::size_t cuts, const std::string& folder) {
+  const double heap_before = heap_bytes();
+  Sheet sheet(make_sheet("grid", n));
+  Locator locator(sheet);
+  Cutter cutter;
+  const auto method = row.make(0);  // Bowyer-Watson without local split: each round would multiply the triangles
+  std::size_t failed = 0, wrong = 0, crossed = 0;
+  std::vector<double> cost, bytes;  // us per crossed triangle; heap bytes per triangle
+  for (std::size_t i = 0; i < cuts; ++i) {
+    const Curve curve = make_small_cut(seed, i, sheet);
+    const bool judged = i % 250 == 249;
+    const Sheet before = judged ? sheet : Sheet();
+    const CutOutcome outcome = cutter.cut(sheet, locator, curve, *method, options);
+    if (outcome.status == Status::failed) {
+      ++failed;
+      std::cerr << row.name << ", cut " << i << ": " << outcome.verdict << ": " << outcome.reason << '\n';
+      if (!folder.empty()) save(sheet, curve, std::filesystem::path(folder) / (row.name + std::to_string(i)));
+    } else if (judged && !is_sound(before, sheet, curve, row.promises)) {
+      ++wrong;
+      std::cerr << row.name << ", cut " << i << ": wrong\n";
+      if (!folder.empty()) save(before, curve, std::filesystem::path(folder) / (row.name + std::to_string(i)));
+    }
+    crossed += outcome.crossed_triangles;
+    // A cut that meets next to nothing costs what it costs to be called.
+    if (outcome.status == Status::ok && outcome.crossed_triangles >= 20)
+      cost.push_back(outcome.time_us.total() / static_cast<double>(outcome.crossed_triangles));
+    bytes.push_back((heap_bytes() - heap_before) / static_cast<double>(sheet.triangle_count()));
+  }
+  const std::size_t sample = std::min<std::size_t>(50, cost.size());
+  const double first = median({cost.data(), sample}), last = median({cost.data() + cost.size() - sample, sample});
+  std::printf("%-20s %7zu %6zu %10zu %10zu %10.3f %10.3f %6.2f %12.0f %12.0f\n", row.name.c_str(), failed, wrong,
+              crossed, sheet.triangle_count(), first, last, last / first, bytes.front(), bytes.back());
+  std::fflush(stdout);
+  return failed == 0 && wrong == 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const int n = squares_per_side(argc > 1 ? std::stoi(argv[1]) : 12800);
+    const std::size_t cuts = argc > 2 ? std::stoul(argv[2]) : 1000;
+    std::printf("%zu cuts in a row on the grid of %d, chord tolerance %g h, seed %lu; every 250th judged\n", cuts,
+                2 * n * n, options.chord_tolerance, seed);
+    std::printf("%-20s %7s %6s %10s %10s %10s %10s %6s %12s %12s\n", "method", "failed", "wrong", "crossed",
+                "triangles", "us first", "us last", "ratio", "bytes first", "bytes last");
+    bool ok = true;
+    for (const MethodRow& row : all_methods()) ok &= cut_in_a_row(row, n, cuts, argc > 3 ? argv[3] : "");
+    std::printf(
+        "us: geometry per crossed triangle, median of the first and last 50 cuts that cross 20 or more; bytes: "
+        "heap per triangle\n");
+    return ok ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 2;
+  }
+}

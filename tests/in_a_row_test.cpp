@@ -1,0 +1,103 @@
+// Many cuts on one sheet, without a rest between them: no failure, and no memory but the mesh's.
+
+#include <gtest/gtest.h>
+#include <malloc.h>
+
+#include "harness/run/cases.h"
+#include "harness/run/report.h"
+#include "methods/registry.h"
+#include "tests/helpers.h"
+
+namespace cutbench {
+namespace {
+
+/// Of the heap, in use; 0 under sanitizers, which have their own.
+std::size_t heap_bytes() { return mallinfo2().uordblks; }
+
+class InARow : public testing::TestWithParam<std::size_t> {
+ protected:
+  const MethodRow& row() const { return all_methods()[GetParam()]; }
+};
+
+TEST_P(InARow, ThousandCutsWithoutFailure) {
+  for (const std::string family : {"grid", "graded"}) {
+    Sheet sheet(make_sheet(family, 10));
+    Locator locator(sheet);
+    Cutter cutter;
+    const auto method = row().make(0);
+    const CutOptions options;
+    std::size_t changed = 0, failures = 0;
+    for (std::size_t i = 0; i < scaled(500); ++i) {
+      const Curve curve = make_small_cut(11, i, sheet);
+      const bool judged = i % 50 == 49;
+      const Sheet before = judged ? sheet : Sheet();
+      const CutOutcome outcome = cutter.cut(sheet, locator, curve, *method, options);
+      std::string what = outcome.status == Status::failed ? outcome.verdict + ": " + outcome.reason : "";
+      if (judged && what.empty()) what = faults(sheet);
+      if (judged && what.empty())
+        for (const auto& problem : assess(before, sheet, {&curve, 1}, {}, row().promises, options).judgement.problems)
+          what += problem + "; ";
+      changed += outcome.status == Status::ok;
+      if (what.empty()) continue;
+      ADD_FAILURE() << what << "\ncut " << i << " on " << family << ": " << text_of(curve);
+      if (++failures == 5) FAIL() << "and so on";
+    }
+    EXPECT_GT(changed, scaled(500) * 9 / 10);
+  }
+}
+
+/// What is held after many cuts, against a sheet, locator and cutter that begin with the mesh as it is then.
+TEST_P(InARow, HoldsNoMemoryButTheMeshs) {
+  const auto hold = [this](const MeshData& mesh, std::size_t from, std::size_t to, MeshData& end) {
+    const std::size_t before = heap_bytes();
+    Sheet sheet(mesh);
+    Locator locator(sheet);
+    Cutter cutter;
+    const auto method = row().make(0);
+    for (std::size_t i = from; i < to; ++i)
+      cutter.cut(sheet, locator, make_small_cut(11, i, sheet), *method, CutOptions());
+    const std::size_t held = heap_bytes() - before;
+    end = sheet.to_mesh_data();
+    return static_cast<double>(held);
+  };
+  if (heap_bytes() == 0) GTEST_SKIP() << "the heap can't be asked";
+  const std::size_t cuts = scaled(500);
+  MeshData end, ignored;
+  const double after_all = hold(make_sheet("grid", 10), 0, cuts, end);
+  const double after_one = hold(end, cuts, cuts + 1, ignored);
+  RecordProperty("ratio_percent", static_cast<int>(100 * after_all / after_one));
+  // Vectors that grew may hold twice what they need.
+  EXPECT_LT(after_all, 2 * after_one) << end.triangles.size() << " triangles";
+}
+
+/// Nor for cuts that find nothing to do, and those that are undone.
+TEST_P(InARow, CutsWithoutEffectTakeNoMemory) {
+  if (heap_bytes() == 0) GTEST_SKIP() << "the heap can't be asked";
+  Sheet sheet(make_sheet("delaunay", 10));
+  Locator locator(sheet);
+  Cutter cutter;
+  const auto method = row().make(0);
+  const auto& [low, high, h] = frame_of(sheet);
+  const Curve line{Curve::Kind::polyline, false, {{low.x - h, low.y + 0.3 * (high.y - low.y)}, {high.x, high.y}}};
+  cutter.cut(sheet, locator, line, *method, CutOptions());
+  std::size_t held = 0;
+  for (std::size_t i = 0; i < 200; ++i) {
+    ASSERT_EQ(cutter.cut(sheet, locator, line, *method, CutOptions()).status, Status::noop);
+    if (i == 10) held = heap_bytes();
+  }
+  EXPECT_EQ(heap_bytes(), held);
+  const Locator kept = locator;
+  for (std::size_t i = 0; i < 200; ++i) {
+    const Curve curve = make_case("recut", 3, i % 5, sheet).front();
+    ASSERT_EQ(cutter.cut(sheet, locator, curve, *method, CutOptions()).status, Status::ok);
+    sheet.rollback(), locator = kept;
+    if (i == 10) held = heap_bytes();
+  }
+  EXPECT_EQ(heap_bytes(), held);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, InARow, testing::Range(std::size_t{0}, all_methods().size()),
+                         [](const auto& parameter) { return all_methods()[parameter.param].name; });
+
+}  // namespace
+}  // namespace cutbench
