@@ -29,7 +29,7 @@ TEST_P(InARow, ThousandCutsWithoutFailure) {
     std::size_t changed = 0, failures = 0;
     for (std::size_t i = 0; i < scaled(500); ++i) {
       const Curve curve = make_small_cut(11, i, sheet);
-      const bool judged = i % 50 == 49;
+      const bool judged = i % 125 == 49;  // the oracle takes far longer than the cuts
       const Sheet before = judged ? sheet : Sheet();
       const CutOutcome outcome = cutter.cut(sheet, locator, curve, *method, options);
       std::string what = outcome.status == Status::failed ? outcome.verdict + ": " + outcome.reason : "";
