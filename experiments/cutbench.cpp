@@ -1,5 +1,6 @@
 // The program: joins the harness with the table of methods.
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -7,6 +8,7 @@
 #include "experiments/score.h"
 #include "experiments/simulate.h"
 #include "harness/mesh/mesh_io.h"
+#include "harness/run/interrupt.h"
 #include "harness/run/report_json.h"
 #include "harness/run/run.h"
 #include "methods/registry.h"
@@ -89,21 +91,28 @@ CutOptions options_with(const std::string& chord_tolerance) {
   return options;
 }
 
-/// Before the work, so that nothing is written by halves.
-void check_folder_of(const std::string& file) {
-  if (const auto folder = std::filesystem::path(file).parent_path();
-      !folder.empty() && !std::filesystem::is_directory(folder))
-    throw InputError(file + ": there is no folder " + folder.string() + "; make it first");
+void print_notes(const MeshData& mesh) {
+  for (const auto& note : mesh.notes) std::cerr << "note: " << note << '\n';
+}
+
+/// OUT may be the mesh that was read, which is a wish one can have; a report in place of a mesh or path is a slip.
+void check_report_place(const CutArguments& arguments) {
+  check_writable(arguments.report, "--report");
+  const auto place = [](const std::string& file) { return std::filesystem::weakly_canonical(file); };
+  for (const std::string& other : {arguments.mesh, arguments.path, arguments.out})
+    if (place(other) == place(arguments.report))
+      throw InputError("--report " + arguments.report + ": would take the place of " + other + "; give another name");
 }
 
 int cut(const CutArguments& arguments) {
   const MethodRow& row = find_method(arguments.method);
   const auto method = row.make(knob_value(row, arguments.set));
   const CutOptions options = options_with(arguments.chord_tolerance);
-  check_folder_of(arguments.out), check_folder_of(arguments.report);
+  check_mesh_place(arguments.out, "--out");
+  if (!arguments.report.empty()) check_report_place(arguments);
   const std::vector<Curve> cuts = read_path(arguments.path);
   const MeshData data = read_mesh(arguments.mesh);
-  for (const auto& note : data.notes) std::cerr << "note: " << note << '\n';
+  print_notes(data);
 
   const Sheet before(data);
   Sheet sheet = before;
@@ -116,8 +125,9 @@ int cut(const CutArguments& arguments) {
     return fell_short;
   }
   const Assessment a = assess(before, sheet, cuts, forced_corners_of(before, cuts), row.promises, options);
-  write_mesh(sheet.to_mesh_data(), arguments.out);
-  if (!arguments.report.empty()) write_report(arguments.report, row.name, run, a);
+  WholeFile out = mesh_file(sheet.to_mesh_data(), arguments.out);
+  if (!arguments.report.empty()) report_file(arguments.report, row.name, run, a).place();  // both, or neither
+  out.place();
   std::printf("%s: %zu triangles crossed, %td added, %d pieces, max aspect ratio of changed triangles %.3g, %.1f us\n",
               name_of(run.status), run.crossed_triangles, a.triangles_added, a.judgement.pieces, a.cut.ar_max,
               run.time_us.total());
@@ -138,6 +148,7 @@ struct SimulateArguments {
 };
 
 int simulate(const SimulateArguments& arguments) {
+  if (!arguments.out.empty()) check_mesh_place(arguments.out, "--out");
   Scene scene = read_scene(arguments.scene);
   const MethodRow& row = find_method(arguments.method);
   const auto method = row.make(knob_value(row, arguments.set));
@@ -147,6 +158,7 @@ int simulate(const SimulateArguments& arguments) {
       throw InputError("--resolution: this scene's sheet is a file, whose triangles are what they are");
     scene.resolution = arguments.resolution;
   }
+  if (!scene.mesh_file.empty()) print_notes(mesh_of(scene));
   return cutbench::simulate(scene, *method, options_with(arguments.chord_tolerance), arguments.out) ? done : fell_short;
 }
 
@@ -171,11 +183,20 @@ void restrict_to(std::vector<Entry>& all, const std::vector<Wanted>& wanted, con
                   [&](const Entry& e) { return std::find(wanted.begin(), wanted.end(), name(e)) == wanted.end(); });
 }
 
+std::uint64_t seed(const std::string& text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && end == text.data() + text.size() && value <= INT64_MAX) return value;
+  throw InputError("--seed " + text + ": give a whole number from 0, or `commit`");
+}
+
 int run(const RunArguments& arguments, const std::string& command) {
+  explain_interruption();
   RunOptions options;
   options.out = arguments.out, options.command = command;
-  if (std::sscanf(arguments.shard.c_str(), "%d/%d", &options.shard, &options.shards) != 2 || options.shard < 1 ||
-      options.shard > options.shards)
+  char more = 0;
+  if (std::sscanf(arguments.shard.c_str(), "%d/%d%c", &options.shard, &options.shards, &more) != 2 ||
+      options.shard < 1 || options.shard > options.shards)
     throw InputError("--shard " + arguments.shard + ": give i/N with 1 <= i <= N");
   const Context context = gather_context();
   std::vector<Experiment> experiments;
@@ -189,7 +210,7 @@ int run(const RunArguments& arguments, const std::string& command) {
     if (arguments.seed == "commit")
       e.seed = seed_of_commit(context);
     else if (!arguments.seed.empty())
-      e.seed = static_cast<std::uint64_t>(number(arguments.seed, "--seed"));
+      e.seed = seed(arguments.seed);
     variants_of(e, all_methods());
   }
   bool ok = true;
@@ -237,7 +258,8 @@ int main(int argc, char** argv) {
   simulate_command->add_option("--set", simulate_arguments.set, "knob=value");
   simulate_command->add_option("--chord-tolerance", simulate_arguments.chord_tolerance,
                                "in mean rest edges, or inf: edge crossings only");
-  simulate_command->add_option("--resolution", simulate_arguments.resolution, "triangles, instead of the scene's");
+  simulate_command->add_option("--resolution", simulate_arguments.resolution, "triangles, instead of the scene's")
+      ->check(CLI::PositiveNumber);
   simulate_command->add_option("--out", simulate_arguments.out, "the sheet in the end: OBJ, OFF or VTU");
 
   RunArguments run_arguments;
@@ -255,20 +277,27 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     std::string command = "cutbench";
     for (int i = 1; i < argc; ++i) command += std::string(" ") + argv[i];
-    if (*methods_command) return list_methods(as_json);
-    if (*cut_command) return cut(cut_arguments);
-    if (*score_command) {
-      check_folder_of(score_arguments.report);
+    const auto run_score = [&] {
+      if (!score_arguments.report.empty()) check_writable(score_arguments.report, "--report");
       return score(score_arguments, options_with(score_tolerance)) ? done : fell_short;
-    }
-    if (*simulate_command) return simulate(simulate_arguments);
-    return run(run_arguments, command);
+    };
+    const int code = *methods_command    ? list_methods(as_json)
+                     : *cut_command      ? cut(cut_arguments)
+                     : *score_command    ? run_score()
+                     : *simulate_command ? simulate(simulate_arguments)
+                                         : run(run_arguments, command);
+    if (std::fflush(stdout) != 0 || !std::cout.flush())
+      throw OutputError("standard output: can't be written; check where it goes");
+    return code;
   } catch (const CLI::CallForHelp& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
     std::cerr << error.what() << "; see cutbench --help\n";
   } catch (const InputError& error) {
     std::cerr << error.what() << '\n';
+  } catch (const OutputError& error) {
+    std::cerr << error.what() << '\n';
+    return fell_short;
   } catch (const std::exception& error) {
     std::cerr << "internal error: " << error.what() << '\n';
     return fell_short;

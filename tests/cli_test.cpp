@@ -1,61 +1,16 @@
 // The program as a user meets it: exit codes, one line on stderr, nothing half-written.
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
-#include <set>
-#include <sstream>
 
 #include "harness/run/record.h"
 #include "methods/registry.h"
+#include "tests/program.h"
 
+namespace cutbench {
 namespace {
 
-namespace fs = std::filesystem;
-
-std::string read(const fs::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void write(const fs::path& file, const std::string& text) { std::ofstream(file) << text; }
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
-}
-
-class Cli : public testing::Test {
+class Cli : public Program {
  protected:
-  void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / ("cutbench_" + std::string(info->name()) + std::to_string(getpid()));
-    fs::create_directories(folder_);
-    write(folder_ / "path.json", R"({"cuts":[{"bezier":[[-0.1,0.3],[0.3,0.9],[0.6,0.1],[1.1,0.7]]}]})");
-    write(folder_ / "sheet.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  struct Result {
-    int code;
-    std::string out, error;
-  };
-  Result run(const std::string& arguments) {
-    const fs::path out = folder_ / "stdout", error = folder_ / "stderr";
-    const std::string command =
-        "cd '" + folder_.string() + "' && { '" CUTBENCH_PROGRAM "' " + arguments + "; } >stdout 2>stderr";
-    const int status = std::system(command.c_str());
-    return {WEXITSTATUS(status), read(out), read(error)};
-  }
-  Result cut(const std::string& more = "", const std::string& method = "conventional_split") {
-    return run("cut --mesh sheet.off --path path.json --out out.obj --method " + method + " " + more);
-  }
   /// Exit code 2, one line that says `what`, and no output.
   void expect_refused(const Result& result, const std::string& what) {
     EXPECT_EQ(result.code, 2) << result.error;
@@ -63,28 +18,19 @@ class Cli : public testing::Test {
     EXPECT_NE(result.error.find(what), std::string::npos) << result.error;
     EXPECT_FALSE(fs::exists(folder_ / "out.obj"));
   }
-  std::string small_experiment(const std::string& more = "") {
-    return "claim = \"c\"\nsheets = [\"grid\", \"delaunay\"]\nresolutions = [200]\ncut_families = [\"curved\", "
-           "\"recut\"]\n"
-           "cases = 3\nrepetitions = 2\nmethods = [\"conventional_split\", {name = \"bowyer_watson\", knob = [0, "
-           "1]}]\n" +
-           more;
-  }
-
-  fs::path folder_;
 };
 
 TEST_F(Cli, MethodsListsEveryRow) {
   const auto json = nlohmann::json::parse(run("methods --json").out);
-  ASSERT_EQ(json.size(), cutbench::all_methods().size());
-  for (std::size_t i = 0; i < json.size(); ++i) EXPECT_EQ(json[i]["name"], cutbench::all_methods()[i].name);
+  ASSERT_EQ(json.size(), all_methods().size());
+  for (std::size_t i = 0; i < json.size(); ++i) EXPECT_EQ(json[i]["name"], all_methods()[i].name);
   const auto text = run("methods");
   EXPECT_EQ(text.code, 0);
-  for (const auto& row : cutbench::all_methods()) EXPECT_NE(text.out.find(row.summary), std::string::npos);
+  for (const auto& row : all_methods()) EXPECT_NE(text.out.find(row.summary), std::string::npos);
 }
 
 TEST_F(Cli, CutWritesMeshAndReport) {
-  for (const auto& row : cutbench::all_methods()) {
+  for (const auto& row : all_methods()) {
     const auto result = cut("--report r.json", row.name);
     ASSERT_EQ(result.code, 0) << result.error;
     const auto report = nlohmann::json::parse(read(folder_ / "r.json"));
@@ -157,8 +103,7 @@ TEST_F(Cli, RunWritesOneRowPerRepetition) {
   ASSERT_EQ(result.code, 0) << result.error;
   const auto lines = lines_of(read(folder_ / "r/e/records.csv"));
   EXPECT_EQ(lines.size(), 1u + 2 * 2 * 3 * (3 + 1) * (2 + 1));  // sheets x families x cases x methods x (warm + cold)
-  EXPECT_EQ(static_cast<std::size_t>(std::count(lines[0].begin(), lines[0].end(), ',') + 1),
-            cutbench::column_names().size());
+  EXPECT_EQ(static_cast<std::size_t>(std::count(lines[0].begin(), lines[0].end(), ',') + 1), column_names().size());
   for (const auto& line : lines)
     EXPECT_EQ(std::count(line.begin(), line.end(), ','), std::count(lines[0].begin(), lines[0].end(), ','));
   EXPECT_FALSE(fs::exists(folder_ / "r/e/records.csv.part"));
@@ -169,21 +114,7 @@ TEST_F(Cli, RunWritesOneRowPerRepetition) {
   EXPECT_NE(result.out.find("bowyer_watson"), std::string::npos);  // the table
 }
 
-/// Everything but the times, and the memory.
-std::multiset<std::string> without_times(const std::string& csv) {
-  std::multiset<std::string> rows;
-  for (const auto& line : lines_of(csv)) {
-    std::string kept;
-    std::istringstream fields(line);
-    std::string field;
-    for (std::size_t i = 0; std::getline(fields, field, ','); ++i)
-      if (!std::regex_search(cutbench::column_names().at(i), std::regex("_us$|_mb$"))) kept += field + ",";
-    rows.insert(kept);
-  }
-  return rows;
-}
-
-TEST_F(Cli, RunIsDeterministicAndResumes) {
+TEST_F(Cli, RunIsDeterministic) {
   write(folder_ / "e.toml", small_experiment());
   ASSERT_EQ(run("run e.toml --out a").code, 0);
   ASSERT_EQ(run("run e.toml --out b").code, 0);
@@ -191,20 +122,6 @@ TEST_F(Cli, RunIsDeterministicAndResumes) {
   EXPECT_EQ(without_times(read(folder_ / "b/e/records.csv")), whole);
   ASSERT_EQ(run("run e.toml --out c --seed 2").code, 0);
   EXPECT_NE(without_times(read(folder_ / "c/e/records.csv")), whole);
-
-  // A run that is killed, and goes on where it stopped: the rows it had are there to the letter, times included.
-  const auto start = run("run e.toml --out d >/dev/null 2>&1 & sleep 0.3; kill -9 $!; true");
-  ASSERT_EQ(start.code, 0);
-  const auto part = folder_ / "d/e/records.csv.part";
-  std::vector<std::string> before;
-  if (fs::exists(part)) {  // else it was faster than the kill
-    before = lines_of(read(part));
-    write(part, read(part) + "1,curved,gr");  // a line cut short
-  }
-  ASSERT_EQ(run("run e.toml --out d").code, 0);
-  const std::string resumed = read(folder_ / "d/e/records.csv");
-  EXPECT_EQ(without_times(resumed), whole);
-  for (std::size_t i = 1; i + 1 < before.size(); ++i) EXPECT_NE(resumed.find(before[i]), std::string::npos);
 }
 
 /// Cuts inside a running scene, stepped by CHOLMOD, which would take threads if it were let.
@@ -277,3 +194,4 @@ TEST_F(Cli, BadExperimentsAreRefused) {
 }
 
 }  // namespace
+}  // namespace cutbench

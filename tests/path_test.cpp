@@ -180,7 +180,7 @@ TEST_F(PathFile, ReadsWhatWasWritten) {
     EXPECT_EQ(read[i].closed, cuts[i].closed);
     EXPECT_EQ(read[i].points, cuts[i].points);
   }
-  expect_refused([&] { write_path(cuts, "no_such_folder/path.json"); }, "no_such_folder/path.json: can't be written");
+  EXPECT_THROW(write_path(cuts, "no_such_folder/path.json"), OutputError);
 }
 
 }  // namespace

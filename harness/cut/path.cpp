@@ -4,8 +4,10 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
-#include "harness/mesh/mesh_data.h"
+#include "harness/mesh/errors.h"
+#include "harness/mesh/whole_file.h"
 
 namespace cutbench {
 
@@ -49,6 +51,52 @@ void flatten_bezier(const Curve& curve, double tolerance, double snap, Polyline&
   if (!curve.closed) add(out, c.back(), true, snap);
 }
 
+using nlohmann::json;
+
+/// The library keeps the last of several equal keys; which of them was meant, nobody knows.
+json parse_without_repeated_keys(const std::string& text, const std::string& name) {
+  std::vector<std::set<std::string>> keys;  // of the objects that are open
+  return json::parse(text, [&](int, json::parse_event_t event, json& value) {
+    if (event == json::parse_event_t::object_start) keys.emplace_back();
+    if (event == json::parse_event_t::object_end) keys.pop_back();
+    if (event == json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
+      throw InputError(name + ": the key " + value.dump() + " is there twice in one place; delete one");
+    return true;
+  });
+}
+
+void check_keys(const json& object, std::initializer_list<const char*> known, const std::string& where) {
+  if (!object.is_object()) throw InputError(where + ": must be an object, {...}, not " + object.type_name());
+  for (const auto& [key, value] : object.items()) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    std::string list;
+    for (const char* k : known) list += std::string(list.empty() ? "\"" : ", \"") + k + "\"";
+    throw InputError(where + ": unknown key \"" + key + "\"; " +
+                     (known.size() == 1 ? "the only one is " : "known are ") + list);
+  }
+}
+
+Curve read_curve(const json& entry, const std::string& where) {
+  check_keys(entry, {"bezier", "polyline", "closed"}, where);
+  Curve curve;
+  const bool bezier = entry.contains("bezier");
+  if (bezier == entry.contains("polyline")) throw InputError(where + ": give either \"bezier\" or \"polyline\"");
+  curve.kind = bezier ? Curve::Kind::bezier : Curve::Kind::polyline;
+  if (entry.contains("closed")) {
+    if (!entry["closed"].is_boolean()) throw InputError(where + ": \"closed\" must be true or false");
+    curve.closed = entry["closed"].get<bool>();
+  }
+  const json& points = entry[bezier ? "bezier" : "polyline"];
+  if (!points.is_array()) throw InputError(where + ": must be a list of points, [[x, y], ...]");
+  for (const json& p : points) {
+    if (!p.is_array() || p.size() != 2 || !p[0].is_number() || !p[1].is_number())
+      throw InputError(where + ", point " + std::to_string(curve.points.size()) + ": a point is [x, y], two numbers");
+    curve.points.push_back({p[0].get<double>(), p[1].get<double>()});
+  }
+  check_curve(curve, where);
+  return curve;
+}
+
 }  // namespace
 
 void flatten(const Curve& curve, double tolerance, double snap, Polyline& out) {
@@ -81,52 +129,38 @@ void check_curve(const Curve& curve, const std::string& name) {
 }
 
 std::vector<Curve> read_path(const std::filesystem::path& file) {
-  using nlohmann::json;
   const std::string name = file.string();
-  std::ifstream in(file);
-  if (!in) throw InputError(name + ": can't be read; check the name and its permissions");
-  std::vector<Curve> cuts;
+  std::error_code ignored;
+  std::ifstream in(file, std::ios::binary);
+  if (!in || std::filesystem::is_directory(file, ignored))
+    throw InputError(name + ": can't be read; check the name and its permissions");
+  json document;
   try {
-    const json document = json::parse(in);
-    for (const auto& [key, value] : document.items())
-      if (key != "cuts") throw InputError(name + ": unknown key \"" + key + "\"; the only one is \"cuts\"");
-    for (const json& entry : document.at("cuts")) {
-      const std::string where = name + ", cut " + std::to_string(cuts.size());
-      Curve curve;
-      for (const auto& [key, value] : entry.items())
-        if (key != "bezier" && key != "polyline" && key != "closed")
-          throw InputError(where + ": unknown key \"" + key + "\"; known are \"bezier\", \"polyline\", \"closed\"");
-      if (entry.contains("bezier") == entry.contains("polyline"))
-        throw InputError(where + ": give either \"bezier\" or \"polyline\"");
-      curve.kind = entry.contains("bezier") ? Curve::Kind::bezier : Curve::Kind::polyline;
-      curve.closed = entry.value("closed", false);
-      for (const json& p : entry.at(entry.contains("bezier") ? "bezier" : "polyline")) {
-        if (!p.is_array() || p.size() != 2) throw InputError(where + ": a point is [x, y]");
-        curve.points.push_back({p[0].get<double>(), p[1].get<double>()});
-      }
-      check_curve(curve, where);
-      cuts.push_back(std::move(curve));
-    }
+    document = parse_without_repeated_keys(std::string(std::istreambuf_iterator<char>(in), {}), name);
   } catch (const json::exception& error) {
     throw InputError(name + ": not a path file (" + error.what() +
                      "); expected {\"cuts\": [{\"bezier\": [[x,y], ...]}]}");
   }
+  check_keys(document, {"cuts"}, name);
+  if (!document.contains("cuts") || !document["cuts"].is_array())
+    throw InputError(name + ": \"cuts\" must be a list, [{\"bezier\": [[x,y], ...]}]");
+  std::vector<Curve> cuts;
+  for (const json& entry : document["cuts"])
+    cuts.push_back(read_curve(entry, name + ", cut " + std::to_string(cuts.size())));
   if (cuts.empty()) throw InputError(name + ": \"cuts\" is empty; give at least one");
   return cuts;
 }
 
 void write_path(const std::vector<Curve>& cuts, const std::filesystem::path& file) {
-  nlohmann::json document{{"cuts", nlohmann::json::array()}};
+  json document{{"cuts", json::array()}};
   for (const Curve& curve : cuts) {
-    nlohmann::json points = nlohmann::json::array();
+    json points = json::array();
     for (Point2 p : curve.points) points.push_back({p.x, p.y});
-    nlohmann::json entry{{curve.kind == Curve::Kind::bezier ? "bezier" : "polyline", points}};
+    json entry{{curve.kind == Curve::Kind::bezier ? "bezier" : "polyline", points}};
     if (curve.closed) entry["closed"] = true;
     document["cuts"].push_back(entry);
   }
-  std::ofstream out(file);
-  out << document.dump() << '\n';
-  if (!out) throw InputError(file.string() + ": can't be written; check that the folder exists and has room");
+  WholeFile(file, document.dump() + '\n').place();
 }
 
 }  // namespace cutbench

@@ -33,6 +33,7 @@ void check_curve(const Curve& curve, const std::string& name);
 
 /// Reads `{"cuts": [{"bezier": [[x,y], ...]}, {"polyline": [[x,y], ...], "closed": true}]}`. Throws InputError.
 std::vector<Curve> read_path(const std::filesystem::path& file);
+/// Whole or not at all. Throws OutputError.
 void write_path(const std::vector<Curve>& cuts, const std::filesystem::path& file);
 
 }  // namespace cutbench

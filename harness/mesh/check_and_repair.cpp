@@ -11,7 +11,9 @@ namespace cutbench {
 
 namespace {
 
-constexpr double largest_coordinate = 1e60;  // far enough from the overflow of a product of three
+constexpr double largest_coordinate = 1e60;   // far enough from the overflow of a product of four
+constexpr double smallest_mean_side = 1e-60;  // and from its underflow
+constexpr double ulps_in_mean_side = 1e6;     // a cut rounds to the doubles there are: enough of them must be left
 
 /// A half-edge, 3 t + k, filed under the two vertices it joins.
 struct EdgeUse {
@@ -51,6 +53,7 @@ class Repair {
     check_indices();
     check_coordinates();
     if (mesh_.rest.empty()) take_rest_from_plane(mesh_, name_);
+    check_size();
     orient();
     weld_by_rest();
     check_duplicates();
@@ -99,6 +102,24 @@ class Repair {
         fail("vertex " + std::to_string(v + 1) + " of " + std::to_string(mesh_.deformed.size()) +
              " has a coordinate that is not finite or beyond 1e60; mend or rescale it");
     }
+  }
+
+  void check_size() {
+    double sum = 0, largest = 0;
+    for (std::size_t h = 0; h < corners(); ++h) {
+      const Point2 a = mesh_.rest[at(vertex(h))], b = mesh_.rest[at(vertex(next_half_edge(h)))];
+      sum += std::hypot(b.x - a.x, b.y - a.y);
+      largest = std::max({largest, std::abs(a.x), std::abs(a.y)});
+    }
+    const double mean = sum / static_cast<double>(corners());
+    const double ulp = std::nextafter(largest, 2 * largest_coordinate) - largest;
+    std::ostringstream sizes;
+    sizes << "the mean side of its triangles is " << mean << ", its largest rest coordinate " << largest;
+    if (mean == 0) return;  // orient() says what is wrong
+    if (mean < ulps_in_mean_side * ulp)
+      fail("the sheet lies too far from the origin for its size (" + sizes.str() +
+           "), so that too few doubles are left between its vertices; move it nearer");
+    if (mean < smallest_mean_side) fail("the sheet is too small (" + sizes.str() + "); rescale it to above 1e-60");
   }
 
   /// Every triangle on its own: in the plane, a mesh that is not folded is then consistent too.
@@ -162,6 +183,7 @@ class Repair {
 
   void check_edges() {
     const std::vector<EdgeUse> uses = edges([this](std::int32_t v) { return welded_[at(v)]; });
+    std::size_t inner_edges = 0, together = 0;
     for (std::size_t i = 1; i < uses.size(); ++i) {
       if (!uses[i].same_edge(uses[i - 1])) continue;
       if (i >= 2 && uses[i].same_edge(uses[i - 2]))
@@ -172,7 +194,11 @@ class Repair {
       if (!third_follows && uses[i].forward == uses[i - 1].forward)
         fail(triangle_name(uses[i].triangle()) + " overlaps triangle " + std::to_string(uses[i - 1].triangle() + 1) +
              " in rest space, on the same side of the edge " + edge_name(uses[i]) + "; unfold the rest positions");
+      ++inner_edges, together += vertex(uses[i].half_edge) == vertex(next_half_edge(uses[i - 1].half_edge));
     }
+    if (inner_edges > 0 && together == 0)
+      note("no two neighbouring triangles share vertices, so the sheet is read as cut open along all its " +
+           std::to_string(inner_edges) + " inner edges; merge equal vertices if that isn't meant");
   }
 
   std::string edge_name(const EdgeUse& e) const {

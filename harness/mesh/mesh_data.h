@@ -3,18 +3,13 @@
 
 #include <array>
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "harness/mesh/errors.h"
 #include "harness/mesh/types.h"
 
 namespace cutbench {
-
-/// What is wrong with a file, option or number the user gave: what, where and the mend, in one line.
-struct InputError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// An opened sheet. One entry of `rest` and `deformed` per deformed vertex: the two lips of an incision are
 /// different vertices with bit-equal rest positions.

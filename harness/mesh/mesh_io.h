@@ -5,14 +5,15 @@
 #include <string>
 
 #include "harness/mesh/mesh_data.h"
+#include "harness/mesh/whole_file.h"
 
 namespace cutbench {
 
 /// Reads a triangle mesh by its extension (.obj, .off, .ply; upper case too) and passes it through check_and_repair.
 ///
-/// OBJ: `v`, `vt` and `f` (v, v/vt, v//vn, v/vt/vn, negative indices); other keywords are ignored. A `v` used with
-/// several different `vt` becomes as many vertices, the first keeping its number. OFF, PLY: CGAL's readers, text or
-/// binary; colours, normals and texture coordinates are ignored.
+/// OBJ: `v`, `vt` and `f` (v, v/vt, v//vn, v/vt/vn, negative indices), continued lines; other keywords are ignored. A
+/// `v` used with several different `vt` becomes as many vertices, the first keeping its number. OFF, PLY: CGAL's
+/// readers, text or binary; colours, normals and texture coordinates are ignored.
 ///
 /// Rest positions are the `vt` of the OBJ, else see check_and_repair. Positions are taken as written, without a unit.
 /// \throw InputError naming the file, the element (counted from 1; lines in an OBJ) and the mend: no such file, unknown
@@ -37,9 +38,13 @@ MeshData read_mesh_as_is(const std::filesystem::path& path);
 /// bit-equal rest positions, has at most one triangle on each side; the triangles round every vertex are one fan. What
 /// passed once passes again unchanged.
 /// \throw InputError for no triangles, an index out of range or repeated in a triangle, a coordinate that is not finite
-/// or beyond 1e60, a curved mesh without rest positions, a triangle of zero rest area, two triangles with the same
-/// corners, more than two triangles on an edge or two on the same side of it (folded, overlapping or not orientable in
-/// rest space). `mesh` is then half-way: discard it. Overlaps of triangles that share no edge are not looked for.
+/// or beyond 1e60, a mean triangle side (rest) below 1e-60 or below 1e6 ulp of the largest rest coordinate, a curved
+/// mesh without rest positions, a triangle of zero rest area, two triangles with the same corners, more than two
+/// triangles on an edge or two on the same side of it (folded, overlapping or not orientable in rest space). `mesh` is
+/// then half-way: discard it. Overlaps of triangles that share no edge are not looked for.
+///
+/// Vertices are never merged: two borders at bit-equal rest positions are an incision. A note says so where that leaves
+/// no two triangles of the mesh together, as in a file that gives each triangle its own vertices.
 void check_and_repair(MeshData& mesh, const std::string& name);
 /// Its part that takes `rest` from the plane the mesh lies in. Corners may be out of range and coordinates not finite.
 void take_rest_from_plane(MeshData& mesh, const std::string& name);
@@ -50,8 +55,15 @@ void take_rest_from_plane(MeshData& mesh, const std::string& name);
 /// - .vtu: text; points deformed, point data `rest` (z = 0), cell data `piece` (connected component, from 0 in order of
 ///   the first triangle) and `aspect_ratio` (of the rest triangle).
 ///
-/// The file appears whole or not at all: it is written beside `path`, `.part` added to its name, and then renamed.
-/// \throw InputError for an unknown extension or a place that can't be written.
+/// The file appears whole or not at all, see whole_file.h.
+/// \throw InputError for an unknown extension, OutputError for a place that can't be written.
 void write_mesh(const MeshData& mesh, const std::filesystem::path& path);
+
+/// The same in two steps: the file is in its place after place().
+[[nodiscard]] WholeFile mesh_file(const MeshData& mesh, const std::filesystem::path& path);
+
+/// Says before the work what is wrong with a place to write a mesh to. `what` begins the error.
+/// \throw InputError
+void check_mesh_place(const std::filesystem::path& path, const std::string& what);
 
 }  // namespace cutbench

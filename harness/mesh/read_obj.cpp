@@ -26,11 +26,12 @@ class ObjReader {
   MeshData read(std::string_view text) {
     if (text.find('\0') != std::string_view::npos)
       throw InputError(name_ + ": not a text file, so not an OBJ; check the extension");
+    if (constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF"; text.starts_with(byte_order_mark))
+      text.remove_prefix(byte_order_mark.size());
+    std::string line;
     while (!text.empty()) {
-      ++line_;
-      const std::size_t end = std::min(text.find('\n'), text.size());
-      read_line(text.substr(0, end));
-      text.remove_prefix(std::min(end + 1, text.size()));
+      take_line(text, line);
+      read_line(line);
     }
     return build();
   }
@@ -50,8 +51,22 @@ class ObjReader {
     throw InputError(name_ + ": line " + std::to_string(line) + ": " + what);
   }
 
+  /// Off the front of `text`, without its comment; a line that ends in a backslash goes on in the one below.
+  void take_line(std::string_view& text, std::string& line) {
+    line.clear();
+    for (bool goes_on = true; goes_on && !text.empty(); ++line_) {
+      const std::size_t end = std::min(text.find('\n'), text.size());
+      std::string_view part = text.substr(0, end);
+      text.remove_prefix(std::min(end + 1, text.size()));
+      if (part.ends_with('\r')) part.remove_suffix(1);
+      part = part.substr(0, part.find('#'));
+      goes_on = part.ends_with('\\');
+      if (goes_on) part.remove_suffix(1);
+      line.append(part) += ' ';
+    }
+  }
+
   void read_line(std::string_view line) {
-    line = line.substr(0, line.find('#'));
     const std::string_view keyword = next_token(line);
     if (keyword == "v") {
       const double x = number(line), y = number(line), z = number(line);
@@ -95,6 +110,8 @@ class ObjReader {
     token.remove_prefix(std::min(slash + 1, token.size()));
     const std::string_view vt = token.substr(0, token.find('/'));
     if (!vt.empty()) corner.vt = index(vt, textures_.size(), shown);
+    token.remove_prefix(std::min(vt.size() + 1, token.size()));
+    if (token.find_first_not_of("-0123456789") != std::string_view::npos) fail_corner(shown);  // vn, else unused
     return corner;
   }
 
@@ -104,9 +121,12 @@ class ObjReader {
     const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
     const std::int64_t resolved = value < 0 ? static_cast<std::int64_t>(count) + value + 1 : value;
     if (as_is_ && error == std::errc() && resolved < 1) return none;
-    if (error != std::errc() || end != token.data() + token.size() || resolved < 1)
-      fail(line_, "'" + std::string(shown) + "' is not a face corner; write v, v/vt, v//vn or v/vt/vn, counted from 1");
+    if (error != std::errc() || end != token.data() + token.size() || resolved < 1) fail_corner(shown);
     return resolved;
+  }
+
+  [[noreturn]] void fail_corner(std::string_view shown) const {
+    fail(line_, "'" + std::string(shown) + "' is not a face corner; write v, v/vt, v//vn or v/vt/vn, counted from 1");
   }
 
   MeshData build() const {
@@ -172,7 +192,7 @@ class ObjReader {
 
   const std::string& name_;
   bool as_is_;
-  std::size_t line_ = 0;  ///< of the line being read, from 1
+  std::size_t line_ = 0;  ///< of the line being read, from 1; where it was continued, its last
   std::vector<Point3> positions_;
   std::vector<Point2> textures_;
   std::vector<Face> faces_;

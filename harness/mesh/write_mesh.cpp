@@ -1,5 +1,4 @@
 #include <charconv>
-#include <fstream>
 #include <map>
 #include <numeric>
 #include <string_view>
@@ -109,28 +108,25 @@ std::string vtu(const MeshData& mesh) {
   return text.str();
 }
 
-void write_whole(const std::string& text, const std::filesystem::path& path) {
-  std::filesystem::path part = path;
-  part += ".part";
-  std::ofstream out(part, std::ios::binary);
-  out << text;
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(part, path, error);
-  if (out && !error) return;
-  std::error_code ignored;
-  std::filesystem::remove(part, ignored);
-  throw InputError(path.string() + ": can't be written; check that the folder exists, is writable and has room");
+using Format = std::string (*)(const MeshData&);
+
+Format format_of(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  if (extension == ".obj") return obj;
+  if (extension == ".off") return off;
+  if (extension == ".vtu") return vtu;
+  throw InputError(path.string() + ": unknown mesh format; use .obj, .off or .vtu");
 }
 
 }  // namespace
 
-void write_mesh(const MeshData& mesh, const std::filesystem::path& path) {
-  const std::string extension = path.extension().string();
-  if (extension == ".obj") return write_whole(obj(mesh), path);
-  if (extension == ".off") return write_whole(off(mesh), path);
-  if (extension == ".vtu") return write_whole(vtu(mesh), path);
-  throw InputError(path.string() + ": unknown mesh format; use .obj, .off or .vtu");
+void check_mesh_place(const std::filesystem::path& path, const std::string& what) {
+  format_of(path);
+  check_writable(path, what);
 }
+
+WholeFile mesh_file(const MeshData& mesh, const std::filesystem::path& path) { return {path, format_of(path)(mesh)}; }
+
+void write_mesh(const MeshData& mesh, const std::filesystem::path& path) { mesh_file(mesh, path).place(); }
 
 }  // namespace cutbench

@@ -59,6 +59,8 @@ std::string Context::identity() const {
       {"compiler", compiler}, {"flags", flags}, {"build_type", build_type}, {"cpu", cpu}, {"versions", versions}};
   j["commit"] = commit.value_or("unknown");
   j["dirty"] = dirty ? nlohmann::json(*dirty) : nlohmann::json();
+  std::error_code ignored;  // a commit says nothing of changes that were built but never committed
+  j["built"] = std::filesystem::last_write_time("/proc/self/exe", ignored).time_since_epoch().count();
   return j.dump();
 }
 

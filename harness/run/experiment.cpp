@@ -1,5 +1,6 @@
 #include "harness/run/experiment.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -36,13 +37,22 @@ Experiment::Campaign read_campaign(const TomlReader& reader, const std::filesyst
   return campaign;
 }
 
+/// Rows that say the same of what was measured can't be told apart.
+template <class T>
+void refuse_repeated(std::vector<T> entries, const std::string& what) {
+  std::sort(entries.begin(), entries.end());
+  if (std::adjacent_find(entries.begin(), entries.end()) != entries.end())
+    throw InputError(what + " names something twice; delete one");
+}
+
 }  // namespace
 
-int squares_per_side(int triangles) {
-  const int n = static_cast<int>(std::lround(std::sqrt(triangles / 2.0)));
-  if (n >= 1 && 2 * n * n == triangles) return n;
+int squares_per_side(std::int64_t triangles) {
+  constexpr std::int64_t most = 1000000;
+  const auto n = triangles < 0 ? 0 : std::lround(std::sqrt(static_cast<double>(std::min(triangles, most)) / 2));
+  if (n >= 1 && 2 * n * n == triangles) return static_cast<int>(n);
   throw InputError("resolution " + std::to_string(triangles) +
-                   ": a sheet has 2 n^2 triangles, such as 800, 1800, 3200, " + "5000, 7200, 9800, 12800");
+                   ": a sheet has 2 n^2 triangles, at most 1000000, such as 800, 1800, 3200, 5000, 7200, 9800, 12800");
 }
 
 Experiment read_experiment(const std::filesystem::path& file) {
@@ -68,9 +78,12 @@ Experiment read_experiment(const std::filesystem::path& file) {
   check_names(e.sheets, sheet_families(), name + ": sheet");
   check_names(e.cut_families, cut_families(), name + ": cut family");
   for (auto triangles : reader.list<std::int64_t>("resolutions")) {
-    squares_per_side(static_cast<int>(triangles));
+    squares_per_side(triangles);
     e.resolutions.push_back(static_cast<int>(triangles));
   }
+  refuse_repeated(e.sheets, name + ": \"sheets\"");
+  refuse_repeated(e.cut_families, name + ": \"cut_families\"");
+  refuse_repeated(e.resolutions, name + ": \"resolutions\"");
   for (const auto& node : reader.array("methods")) e.methods.push_back(read_entry(node, name));
   e.seed = static_cast<std::uint64_t>(reader.value<std::int64_t>("seed", 1));
   e.cases = reader.count("cases", 1), e.repetitions = reader.count("repetitions", 1);

@@ -52,7 +52,7 @@ struct Experiment {
 /// Throws InputError: unreadable, not TOML, unknown or missing keys (with the nearest known one), values out of range.
 Experiment read_experiment(const std::filesystem::path& file);
 
-/// n of the n x n squares that make `triangles`; throws InputError unless there is one.
-int squares_per_side(int triangles);
+/// n of the n x n squares that make `triangles`; throws InputError unless there is one, and not too large.
+int squares_per_side(std::int64_t triangles);
 
 }  // namespace cutbench

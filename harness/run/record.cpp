@@ -1,11 +1,14 @@
 #include "harness/run/record.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
+#include <cstring>
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "harness/mesh/mesh_data.h"
+#include "harness/mesh/errors.h"
+#include "harness/mesh/whole_file.h"
 
 namespace cutbench {
 
@@ -142,34 +145,52 @@ void Record::set(const std::string& column, std::int64_t value) { set(column, st
 std::string Record::key() const { return joined(fields_, key_columns); }
 std::string Record::line() const { return joined(fields_, fields_.size()); }
 
-RecordFile::RecordFile(std::filesystem::path folder, const std::string& identity,
+RecordFile::RecordFile(const std::filesystem::path& folder, const std::string& identity,
                        const std::vector<std::string>& columns)
-    : folder_(std::move(folder)), part_(folder_ / "records.csv.part"), columns_(columns) {
+    : folder_(folder), part_(folder_ / "records.csv.part"), columns_(columns) {
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
-  const std::string head = "# run " + std::to_string(std::hash<std::string>{}(identity));
-  {
-    std::ifstream in(part_);
-    std::string text((std::istreambuf_iterator<char>(in)), {});
-    text.resize(text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1);  // a line cut short is done again
-    std::size_t begin = 0;
-    for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
-      const std::string line = text.substr(begin, end - begin);
-      if (begin == 0 && line != head) break;
-      if (begin == 0) continue;
-      lines_.push_back(line);
-      done_.insert(key_of(line));
-    }
+  if (error) throw InputError(folder_.string() + ": can't be made (" + error.message() + "); choose another --out");
+  check_writable(part_, "--out");
+  const std::string head = "# run " + std::to_string(std::hash<std::string>{}(identity)) + '\n';
+  const bool another_run = resume(head);
+  if (done_.empty()) {
+    out_.open(part_, std::ios::trunc);
+    out_ << head;
+  } else {
+    out_.open(part_, std::ios::app);
+    note_ = "resumed, " + std::to_string(done_.size()) + " rows were there";
   }
-  out_.open(part_, std::ios::trunc);
-  out_ << head << '\n';
-  for (const auto& line : lines_) out_ << line << '\n';
+  if (another_run) note_ = part_.string() + " is of another program, experiment or shard: started anew";
   check();
 }
 
+/// Takes what a run with this head left, and cuts off what was being written when it was killed. True where the rows
+/// there are of another run.
+bool RecordFile::resume(const std::string& head) {
+  std::ifstream in(part_, std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(in)), {});
+  in.close();
+  if (!text.starts_with(head)) return text.find('\n') != std::string::npos;
+  std::size_t begin = head.size();
+  for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
+    const std::string line = text.substr(begin, end - begin);
+    if (static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1 != column_names().size()) break;
+    lines_.push_back(line);
+    done_.insert(key_of(line));
+  }
+  std::error_code ignored;  // if it can't be cut, nor can it be appended to
+  std::filesystem::resize_file(part_, begin, ignored);
+  return false;
+}
+
 void RecordFile::check() {
+  errno = 0;
   out_.flush();
-  if (!out_) throw InputError(part_.string() + ": can't be written; check that the folder may be written and has room");
+  if (!out_)
+    throw OutputError(part_.string() + ": can't be written" +
+                      (errno ? std::string(" (") + std::strerror(errno) + ")" : "") +
+                      "; make room and run the same command again to go on");
 }
 
 void RecordFile::append(const Record& record) {
@@ -193,21 +214,11 @@ void RecordFile::finish(const Context& context, const std::string& experiment, c
                                 {"command", command},
                                 {"experiment", experiment},
                                 {"claim", claim}};
-  const auto write = [&](const std::filesystem::path& name, auto fill) {
-    const auto temporary = folder_ / (name.string() + ".tmp");
-    {
-      std::ofstream out(temporary);
-      fill(out);
-      out.flush();
-      if (!out) throw InputError(temporary.string() + ": can't be written; is the disk full?");
-    }
-    std::filesystem::rename(temporary, folder_ / name);
-  };
-  write("context.json", [&](std::ostream& out) { out << document.dump(2) << '\n'; });
-  write("records.csv", [&](std::ostream& out) {
-    out << joined(columns_, columns_.size()) << '\n';
-    for (const auto& line : lines_) out << line << '\n';
-  });
+  std::string csv = joined(columns_, columns_.size()) + '\n';
+  for (const auto& line : lines_) csv += line + '\n';
+  WholeFile context_file(folder_ / "context.json", document.dump(2) + '\n');
+  WholeFile records(folder_ / "records.csv", csv);
+  context_file.place(), records.place();
   out_.close();
   std::filesystem::remove(part_);
 }

@@ -35,25 +35,29 @@ class Record {
   std::vector<std::string> fields_;
 };
 
-/// Appends rows to records.csv.part, headed by a line that says which run they belong to, and renames it at the end. A
-/// killed run of the same identity resumes there.
+/// Appends rows to records.csv.part, headed by a line that says which run they belong to, until records.csv takes its
+/// place. A killed run of the same identity resumes there: rows it finished are kept to the letter, a last one cut
+/// short is dropped. Rows of another identity are thrown away, and note() says so.
 class RecordFile {
  public:
   /// Throws InputError where the folder can't be written.
-  RecordFile(std::filesystem::path folder, const std::string& identity,
+  RecordFile(const std::filesystem::path& folder, const std::string& identity,
              const std::vector<std::string>& columns = column_names());
   bool has(const std::string& key) const { return done_.contains(key); }
-  std::size_t resumed() const { return done_.size(); }
+  const std::string& note() const { return note_; }  ///< what became of an earlier run's rows; empty without any
+  /// Throws OutputError on a full disk.
   void append(const Record& record);
   const std::vector<std::string>& lines() const { return lines_; }
-  /// Writes records.csv and context.json (temporary file, then rename). Throws InputError on a full disk.
+  /// Writes records.csv and context.json, whole or not at all. Throws OutputError on a full disk.
   void finish(const Context& context, const std::string& experiment, const std::string& claim,
               const std::string& command, std::uint64_t seed);
 
  private:
+  bool resume(const std::string& head);
   void check();
   std::filesystem::path folder_, part_;
   const std::vector<std::string>& columns_;
+  std::string note_;
   std::set<std::string> done_;
   std::vector<std::string> lines_;
   std::ofstream out_;

@@ -1,9 +1,6 @@
 #include "harness/run/report_json.h"
 
-#include <fstream>
 #include <nlohmann/json.hpp>
-
-#include "harness/mesh/mesh_data.h"
 
 namespace cutbench {
 
@@ -29,22 +26,10 @@ void add_shapes(ordered_json& document, const Assessment& a) {
       {"corners", a.forced_corners}, {"wedge_triangles", a.wedge_triangles}, {"wedge_area", a.wedge_area}};
 }
 
-void write_whole(const std::filesystem::path& file, const ordered_json& document) {
-  const std::filesystem::path temporary = file.string() + ".tmp";
-  {
-    std::ofstream out(temporary);
-    out << document.dump(2) << '\n';
-    out.flush();
-    if (!out)
-      throw InputError(file.string() + ": can't be written; check that the folder exists, may be written and has room");
-  }
-  std::filesystem::rename(temporary, file);
-}
-
 }  // namespace
 
-void write_report(const std::filesystem::path& file, const std::string& method, const CutRun& run,
-                  const Assessment& a) {
+WholeFile report_file(const std::filesystem::path& file, const std::string& method, const CutRun& run,
+                      const Assessment& a) {
   const PhaseTimes& t = run.time_us;
   ordered_json document{{"status", name_of(run.status)},
                         {"verdict", a.judgement.verdict},
@@ -59,7 +44,7 @@ void write_report(const std::filesystem::path& file, const std::string& method, 
   document["time_us"] = {{"pick", 0},        {"locate", t.locate},   {"trace", t.trace},
                          {"embed", t.embed}, {"improve", t.improve}, {"open", t.open}};
   document["area_change"] = a.judgement.area_change;
-  write_whole(file, document);
+  return {file, document.dump(2) + "\n"};
 }
 
 void write_score(const std::filesystem::path& file, const Assessment& a) {
@@ -73,7 +58,7 @@ void write_score(const std::filesystem::path& file, const Assessment& a) {
   if (!a.measured)
     for (auto& [key, value] : document.items())
       if (key != "verdict" && key != "problems") value = nullptr;
-  write_whole(file, document);
+  WholeFile(file, document.dump(2) + "\n").place();
 }
 
 }  // namespace cutbench

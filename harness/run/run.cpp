@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "harness/mesh/families.h"
 #include "harness/run/campaign.h"
@@ -52,8 +53,8 @@ class Runner {
     const std::size_t groups =
         experiment_.sheets.size() * experiment_.resolutions.size() * experiment_.cut_families.size();
     Progress progress(experiment_.stem, groups * cases, options_.quiet);
-    if (file_.resumed() > 0 && !options_.quiet)
-      std::fprintf(stderr, "%s: resumed, %zu rows were there\n", experiment_.stem.c_str(), file_.resumed());
+    if (!file_.note().empty() && !options_.quiet)
+      std::fprintf(stderr, "%s: %s\n", experiment_.stem.c_str(), file_.note().c_str());
     for (const auto& sheet : experiment_.sheets)
       for (int resolution : experiment_.resolutions) {
         start_scene(sheet, resolution);
@@ -71,9 +72,16 @@ class Runner {
   const Summary& summary() const { return summary_; }
 
  private:
+  /// All that rows depend on, and which rows there are.
   static std::string identity(const Experiment& e, const Context& context, const RunOptions& options) {
-    return context.identity() + e.scene_text + std::to_string(e.cut_time) + e.stem + std::to_string(e.seed) +
-           std::to_string(e.chord_tolerance) + std::to_string(options.shard) + "/" + std::to_string(options.shards);
+    nlohmann::json methods;
+    for (const auto& entry : e.methods) methods.push_back({entry.method, entry.knob_values});
+    return nlohmann::json{context.identity(), e.stem,        e.sheets,   e.cut_families,
+                          e.resolutions,      methods,       e.seed,     e.cases,
+                          e.repetitions,      e.cold,        e.quality,  e.every_edge,
+                          e.chord_tolerance,  e.scene_text,  e.cut_time, e.scene_cases,
+                          options.shard,      options.shards}
+        .dump();
   }
 
   void run_case(const std::string& sheet, int resolution, const std::string& family, std::size_t i) {
@@ -119,6 +127,8 @@ class Runner {
         file_.append(row);
         if (!cold) summarize(resolution, worker.variant, summaries[w], run);
       }
+      if (experiment_.every_edge && crossed == 0)  // all rows but this one were there
+        for (Worker& worker : workers_) crossed = std::max(crossed, cut(worker, cuts).crossed_triangles);
       if (experiment_.every_edge)
         time_every_edge(cuts, start_row("every_edge", "", repetition, cache), resolution, crossed, cold);
     }
@@ -306,6 +316,14 @@ std::vector<Variant> variants_of(const Experiment& experiment, const std::vector
       throw InputError(experiment.stem + ": method \"" + entry.method + "\" has no knob");
     if (entry.knob_values.empty()) variants.push_back({&*row, row->knob.value});
     for (double value : entry.knob_values) variants.push_back({&*row, value});
+  }
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    variants[i].row->make(variants[i].knob);  // refuses a value out of range
+    for (std::size_t j = 0; j < i; ++j)
+      if (variants[i].row == variants[j].row && variants[i].knob_text() == variants[j].knob_text())
+        throw InputError(experiment.stem + ": method \"" + variants[i].row->name + "\" is there twice" +
+                         (variants[i].row->knob.name.empty() ? "" : " with " + variants[i].knob_text()) +
+                         "; delete one");
   }
   return variants;
 }

@@ -24,7 +24,7 @@ struct Variant {
   double knob;
   std::string knob_text() const;  ///< "rounds=1", or empty
 };
-/// Throws InputError for unknown methods.
+/// Throws InputError for unknown methods, values of a knob out of range, and anything named twice.
 std::vector<Variant> variants_of(const Experiment& experiment, const std::vector<MethodRow>& methods);
 
 /// Runs it all and writes <out>/<stem>/records.csv and context.json; a killed run goes on where it stopped. Prints the
