@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <regex>
 #include <thread>
 
 #include "harness/mesh/families.h"
@@ -60,7 +61,7 @@ std::vector<std::string> rows_of(const fs::path& part) {
 
 TEST_F(Interrupt, SweepGoesOnWhereItStopped) {
   write(folder_ / "e.toml",
-        std::regex_replace(small_experiment("every_edge = true\n"), std::regex("cases = 3"), "cases = 12"));
+        std::regex_replace(small_experiment("every_edge = true\n"), std::regex("cases = 3"), "cases = 8"));
   const std::string whole = uninterrupted();
   for (int signal : {SIGINT, SIGTERM, SIGKILL}) {
     SCOPED_TRACE(signal);

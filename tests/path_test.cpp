@@ -147,8 +147,8 @@ TEST_F(PathFile, SaysWhatIsWrong) {
   expect_refused([] { read_path("no_such_folder/path.json"); }, "no_such_folder/path.json: can't be read");
   expect_refused(reading(""), "not a path file");
   expect_refused(reading("[1, 2"), "not a path file");
-  expect_refused(reading("[]"), "not a path file");
-  expect_refused(reading("{}"), "not a path file");
+  expect_refused(reading("[]"), "must be an object");
+  expect_refused(reading("{}"), "\"cuts\" must be a list");
   expect_refused(reading(R"({"cuts": []})"), "\"cuts\" is empty");
   expect_refused(reading(R"({"cuts": 3})"), "path_test.json");
   expect_refused(reading(R"({"cuts": [3]})"), "path_test.json");
@@ -158,11 +158,11 @@ TEST_F(PathFile, SaysWhatIsWrong) {
   expect_refused(reading(R"({"cuts": [{"polyline": [[0,0],[1,1]], "bezier": [[0,0],[1,1],[1,2],[2,2]]}]})"),
                  "give either");
   expect_refused(reading(R"({"cuts": [{"polyline": [[0,0],[1,1]]}, {"polyline": [[0,0],[1,1,2]]}]})"),
-                 "cut 1: a point is [x, y]");
+                 "cut 1, point 1: a point is [x, y]");
   expect_refused(reading(R"({"cuts": [{"polyline": [0,0,1,1]}]})"), "a point is [x, y]");
-  expect_refused(reading(R"({"cuts": [{"polyline": [["0","0"],[1,1]]}]})"), "not a path file");
-  expect_refused(reading(R"({"cuts": [{"polyline": [[null,0],[1,1]]}]})"), "not a path file");
-  expect_refused(reading(R"({"cuts": [{"polyline": [[0,0],[1,1]], "closed": 1}]})"), "not a path file");
+  expect_refused(reading(R"({"cuts": [{"polyline": [["0","0"],[1,1]]}]})"), "point 0: a point is [x, y], two numbers");
+  expect_refused(reading(R"({"cuts": [{"polyline": [[null,0],[1,1]]}]})"), "two numbers");
+  expect_refused(reading(R"({"cuts": [{"polyline": [[0,0],[1,1]], "closed": 1}]})"), "\"closed\" must be true or false");
   expect_refused(reading(R"({"cuts": [{"polyline": [[0,0]]}]})"), "at least 2 points");
   expect_refused(reading(R"({"cuts": [{"polyline": [[0,0],[1e70,0]]}]})"), "below 1e60");
   expect_refused(reading(R"({"cuts": [{"polyline": [[0,0],[1e700,0]]}]})"), "path_test.json");

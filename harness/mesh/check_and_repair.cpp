@@ -116,10 +116,10 @@ class Repair {
     std::ostringstream sizes;
     sizes << "the mean side of its triangles is " << mean << ", its largest rest coordinate " << largest;
     if (mean == 0) return;  // orient() says what is wrong
+    if (mean < smallest_mean_side) fail("the sheet is too small (" + sizes.str() + "); rescale it to above 1e-60");
     if (mean < ulps_in_mean_side * ulp)
       fail("the sheet lies too far from the origin for its size (" + sizes.str() +
            "), so that too few doubles are left between its vertices; move it nearer");
-    if (mean < smallest_mean_side) fail("the sheet is too small (" + sizes.str() + "); rescale it to above 1e-60");
   }
 
   /// Every triangle on its own: in the plane, a mesh that is not folded is then consistent too.
