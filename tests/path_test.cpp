@@ -162,7 +162,8 @@ TEST_F(PathFile, SaysWhatIsWrong) {
   expect_refused(reading(R"({"cuts": [{"polyline": [0,0,1,1]}]})"), "a point is [x, y]");
   expect_refused(reading(R"({"cuts": [{"polyline": [["0","0"],[1,1]]}]})"), "point 0: a point is [x, y], two numbers");
   expect_refused(reading(R"({"cuts": [{"polyline": [[null,0],[1,1]]}]})"), "two numbers");
-  expect_refused(reading(R"({"cuts": [{"polyline": [[0,0],[1,1]], "closed": 1}]})"), "\"closed\" must be true or false");
+  expect_refused(reading(R"({"cuts": [{"polyline": [[0,0],[1,1]], "closed": 1}]})"),
+                 "\"closed\" must be true or false");
   expect_refused(reading(R"({"cuts": [{"polyline": [[0,0]]}]})"), "at least 2 points");
   expect_refused(reading(R"({"cuts": [{"polyline": [[0,0],[1e70,0]]}]})"), "below 1e60");
   expect_refused(reading(R"({"cuts": [{"polyline": [[0,0],[1e700,0]]}]})"), "path_test.json");
