@@ -1,0 +1,87 @@
+// Cuts made again, backwards or in another order.
+
+#include "tests/metamorphic.h"
+
+namespace cutbench {
+namespace {
+
+class Repeated : public EveryVariant {};
+
+/// The same points, the other way round; a closed curve still begins where it began.
+Curve reversed(Curve curve) {
+  const bool keeps_first = curve.closed && curve.kind == Curve::Kind::polyline;
+  std::reverse(curve.points.begin() + (keeps_first ? 1 : 0), curve.points.end());
+  return curve;
+}
+
+/// Slits in one triangle, whose middle this method inserts after both tips: an edge from tip to tip stays beside it.
+bool is_known_to_fail(const Variant& variant, const TestCase& c) {
+  return variant.row->name == "conventional_split" && c.name.find("tiny_open") != std::string::npos;
+}
+
+/// Once more, or backwards once more: there is nothing left to open, also where later cuts have crossed it.
+TEST_P(Repeated, PolylineIsANoop) {
+  std::size_t repeated = 0;
+  for_each_case(scaled(2), 421, [&](const TestCase& c) {
+    if (HasFailure() || is_known_to_fail(GetParam(), c)) return;
+    CutSheet cut = cut_with(GetParam(), *c.mesh, c.cuts, c.chord_tolerance);
+    Locator locator(cut.sheet);
+    Cutter cutter;
+    const auto method = GetParam().row->make(GetParam().knob);
+    for (const Curve& curve : c.cuts) {
+      if (curve.kind != Curve::Kind::polyline) continue;
+      for (const Curve& again : {curve, reversed(curve)}) {
+        const Sheet before = cut.sheet;
+        const CutOutcome outcome =
+            cutter.cut(cut.sheet, locator, again, *method, {.chord_tolerance = c.chord_tolerance});
+        const bool noop = outcome.status == Status::noop && difference(before, cut.sheet).empty();
+        EXPECT_TRUE(noop) << name_of(outcome.status) << " " << outcome.reason << ", " << difference(before, cut.sheet)
+                          << "\n"
+                          << text_of(again) << "\nof " << text_of(c);
+        ++repeated;
+      }
+    }
+  });
+  EXPECT_GT(repeated, 100u);
+}
+
+TEST_P(Repeated, BackwardsIsTheSameCut) {
+  for_each_case(scaled(2), 422, [&](TestCase c) {
+    if (HasFailure()) return;
+    c.cuts.resize(1);
+    const CutSheet forwards = cut_with(GetParam(), *c.mesh, c.cuts, c.chord_tolerance);
+    const CutSheet backwards = cut_with(GetParam(), *c.mesh, {reversed(c.cuts[0])}, c.chord_tolerance);
+    // A curve that comes to one edge in one triangle gets a node at its middle point; of two it takes the later one.
+    const bool is_curved = c.cuts[0].kind == Curve::Kind::bezier && c.name.find("tiny_open") != std::string::npos;
+    const double tolerance = is_curved ? 0.05 * forwards.sheet.mean_edge() : 2 * forwards.sheet.snap();
+    std::string what = different_cut(shape_of(forwards.sheet), shape_of(backwards.sheet), tolerance);
+    if (forwards.statuses != backwards.statuses) what = "another status";
+    EXPECT_EQ(what, "") << text_of(c);
+  });
+}
+
+/// Every two neighbours in the list of all cases. What stands for a curve between two edges is its chord, so that
+/// curves which meet nearer than the chord tolerance may meet otherwise in the other order: it is small here.
+TEST_P(Repeated, TwoCutsInEitherOrderGiveTheSamePieces) {
+  std::map<const MeshData*, Curve> earlier;
+  for_each_case(scaled(2), 423, [&](TestCase c) {
+    if (HasFailure()) return;
+    c.chord_tolerance = 1e-3;
+    const Curve other = std::exchange(earlier[c.mesh], c.cuts[0]);
+    if (other.points.empty()) return;
+    c.cuts = {other, c.cuts[0]};
+    const CutSheet one = cut_with(GetParam(), *c.mesh, c.cuts, c.chord_tolerance);
+    const CutSheet two = cut_with(GetParam(), *c.mesh, {c.cuts[1], c.cuts[0]}, c.chord_tolerance);
+    const auto is_straight = [](const Curve& curve) { return curve.kind == Curve::Kind::polyline; };
+    const bool straight = std::all_of(c.cuts.begin(), c.cuts.end(), is_straight);
+    std::string what;
+    if (count_pieces(one.sheet) != count_pieces(two.sheet)) what = "pieces";
+    if (straight) what = different_cut(shape_of(one.sheet), shape_of(two.sheet), 2 * one.sheet.snap());
+    EXPECT_EQ(what, "") << text_of(c);
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, Repeated, testing::ValuesIn(all_variants()), name_of_variant);
+
+}  // namespace
+}  // namespace cutbench
