@@ -3,6 +3,8 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstddef>
+#include <initializer_list>
 
 namespace cutbench {
 
@@ -13,7 +15,7 @@ pid_t explaining_process = 0;
 /// Installed to act once: the signal raised again does what it always did.
 void explain(int signal) {
   constexpr char text[] = "\ninterrupted; run the same command again to go on\n";
-  const int skipped = isatty(STDERR_FILENO) ? 0 : 1;  // a terminal shows ^C, perhaps on a line of progress
+  const std::size_t skipped = isatty(STDERR_FILENO) ? 0 : 1;  // a terminal shows ^C, perhaps on a line of progress
   if (getpid() == explaining_process && write(STDERR_FILENO, text + skipped, sizeof text - 1 - skipped) < 0) {
     // nobody to tell
   }
