@@ -55,8 +55,8 @@ class Campaign {
   }
 
   void run() {
-    if (file_.resumed() > 0 && !options_.quiet)
-      std::fprintf(stderr, "%s: resumed, %zu rows were there\n", experiment_.stem.c_str(), file_.resumed());
+    if (!file_.note().empty() && !options_.quiet)
+      std::fprintf(stderr, "%s: %s\n", experiment_.stem.c_str(), file_.note().c_str());
     const std::size_t sheets = experiment_.sheets.size() * experiment_.resolutions.size() + plan_.mesh_files.size();
     Progress progress(experiment_.stem, sheets * contenders_.size() * numbers_.size(), options_.quiet);
     for (const auto& sheet : experiment_.sheets)
