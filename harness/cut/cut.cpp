@@ -66,7 +66,7 @@ CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, Cutti
     try {
       method.embed(sheet, trace);
       mark_along(sheet, trace);
-    } catch (const CutFailed&) {
+    } catch (const TooClose&) {
       sheet.rollback();
       sheet.begin_cut();
       outcome.carefully = true;
@@ -86,6 +86,9 @@ CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, Cutti
     }
     outcome.crossed_triangles = trace.crossed_triangles();
     outcome.recovered_segments = method.recovered_segments();
+  } catch (const TooClose& reason) {
+    sheet.rollback();
+    outcome = nothing_done(Status::refused, reason.what());
   } catch (const CutFailed& failure) {
     sheet.rollback();
     outcome = nothing_done(Status::failed, failure.what());

@@ -13,4 +13,11 @@ struct CutFailed : std::runtime_error {
   std::string verdict;
 };
 
+/// Points are too close together for doubles: one that was rounded fell out of its triangle, or a path became two edges
+/// that cross. The sheet is rolled back, and the path embedded in another way (embed_carefully.h) before anything
+/// fails.
+struct TooClose : CutFailed {
+  explicit TooClose(const std::string& why) : CutFailed("inverted", why) {}
+};
+
 }  // namespace cutbench

@@ -14,7 +14,8 @@ namespace {
 constexpr double farthest = 1e-4;
 
 [[noreturn]] void give_up() {
-  throw CutFailed("not_terminated", "older cuts or the path itself leave strips here that are too thin for doubles");
+  throw TooClose(
+      "older cuts, or the path itself, leave strips here that are too thin for doubles; cut a little beside");
 }
 
 /// A chain of edges from `from` to `to`, given by its ends.

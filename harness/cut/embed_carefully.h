@@ -13,7 +13,7 @@ namespace cutbench {
 /// triangle that holds its stored point, a piece is brought in by flips (Sloan, Computers & Structures 47, 1993), and
 /// where it crosses a border, an incision or an earlier piece the crossing becomes a vertex there. Where two incisions
 /// are closer than doubles can tell apart, in the tip of a thin wedge, the crossing is moved along one of them to the
-/// nearest vertex. Returns how far at most (rest units). \pre the sheet is as it was traced. Throws CutFailed where
+/// nearest vertex. Returns how far at most (rest units). \pre the sheet is as it was traced. Throws TooClose where
 /// that would be over 1e-4 mean rest edges.
 double embed_carefully(Sheet& sheet, const Subdivision& trace);
 

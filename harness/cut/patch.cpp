@@ -133,7 +133,7 @@ bool find_crossing(const Sheet& sheet, const Subdivision& subdivision, int f, Cr
 namespace {
 
 [[noreturn]] void fail_inverted() {
-  throw CutFailed("inverted", "a new triangle is not positive, its corners are too close for doubles");
+  throw TooClose("a new triangle is not positive, its corners are too close for doubles");
 }
 
 }  // namespace
@@ -163,7 +163,7 @@ void append_answer(const Patch& patch, int parent, std::vector<Sheet::NewTriangl
     added.push_back(made);
   }
   if (patch.triangles.size() != patch.ring.size() - 2 + 2 * patch.inside_count() || found < 2 * patch.segments.size())
-    throw CutFailed("not_terminated", "a triangle could not be subdivided along the path");
+    throw TooClose("a triangle could not be subdivided along the path");
 }
 
 void mark_along(Sheet& sheet, const Subdivision& subdivision) {
@@ -185,7 +185,7 @@ void mark_along(Sheet& sheet, const Subdivision& subdivision) {
       const HalfEdge h = find_spoke(sheet, stops[i], stops[i + 1]);
       if (h.valid() && sheet.mark(h) == EdgeMark::none) sheet.set_mark(h, EdgeMark::path);
       if (!h.valid() && !find_spoke(sheet, stops[i + 1], stops[i]).valid())  // a border edge has one half-edge only
-        throw CutFailed("not_terminated", "the path along an edge is not an edge of the result");
+        throw TooClose("the path along an edge is not an edge of the result");
     }
   }
 }
@@ -248,7 +248,7 @@ void insert_inside(Patch& patch, int p) {
     patch.triangles.push_back({b, c, p}), patch.triangles.push_back({c, a, p});
     return;
   }
-  throw CutFailed("inverted", "a point of the path fell out of its triangle, coordinates too close for doubles");
+  throw TooClose("a point of the path fell out of its triangle, coordinates too close for doubles");
 }
 
 namespace {
@@ -292,7 +292,7 @@ int recover_segments(Patch& patch) {
     std::vector<std::array<int, 2>> queue = crossed_edges(patch, a, b);
     const std::size_t budget = 100 + 10 * queue.size() * queue.size();
     for (std::size_t i = 0; i < queue.size(); ++i) {
-      if (i > budget) throw CutFailed("not_terminated", "a path segment could not be recovered by flips");
+      if (i > budget) throw TooClose("a path segment could not be recovered by flips");
       const auto diagonal = flip(patch, queue[i][0], queue[i][1]);
       if (!diagonal)
         queue.push_back(queue[i]);

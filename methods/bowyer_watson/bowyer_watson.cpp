@@ -107,8 +107,7 @@ class Insertion {
         } else if (beyond >= 0 && in_cavity_[static_cast<std::size_t>(beyond)] == outside) {
           in_cavity_[static_cast<std::size_t>(beyond)] = holds_point;
         } else {
-          throw CutFailed("inverted",
-                          "a point of the path fell out of its triangle: coordinates too close for doubles");
+          throw TooClose("a point of the path fell out of its triangle: coordinates too close for doubles");
         }
         return false;
       }

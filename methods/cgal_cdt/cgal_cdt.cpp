@@ -32,6 +32,7 @@ struct CgalCdt::Work {
     VertexIndex a, b;
     int parent;      // the strip's triangle to the left of a -> b; -1: inside one
     bool two_sided;  // the strip goes on beyond it
+    bool bounds;     // the strip ends there
     EdgeMark mark;
   };
 
@@ -75,12 +76,12 @@ void CgalCdt::Work::collect(const Sheet& sheet, const Subdivision& trace) {
       if (strip_goes_on && patch.ring_marks[i] == EdgeMark::none) continue;
       const auto a = static_cast<std::size_t>(patch.ring[i]);
       const auto b = static_cast<std::size_t>(patch.ring[i + 1 == patch.ring.size() ? 0 : i + 1]);
-      constraints.push_back(
-          {patch.vertices[a], patch.vertices[b], f, false, strip_goes_on ? patch.ring_marks[i] : EdgeMark::none});
+      constraints.push_back({patch.vertices[a], patch.vertices[b], f, false, !strip_goes_on,
+                             strip_goes_on ? patch.ring_marks[i] : EdgeMark::none});
     }
     for (const auto& s : patch.segments)
       constraints.push_back({patch.vertices[static_cast<std::size_t>(s[0])],
-                             patch.vertices[static_cast<std::size_t>(s[1])], -1, true, EdgeMark::path});
+                             patch.vertices[static_cast<std::size_t>(s[1])], -1, true, false, EdgeMark::path});
   }
 }
 
@@ -91,7 +92,7 @@ void CgalCdt::Work::triangulate() {
   for (const auto& [v, p] : points) {
     const auto handle = triangulation.insert(to_cgal(p), hint);
     if (triangulation.number_of_vertices() != ++distinct)
-      throw CutFailed("inverted", "CGAL: two points of the path became one, coordinates too close for doubles");
+      throw TooClose("CGAL: two points of the path became one, coordinates too close for doubles");
     handle->info() = v;
     handle_of[v()] = handle;
     hint = handle->face();
@@ -99,7 +100,7 @@ void CgalCdt::Work::triangulate() {
   try {
     for (const auto& c : constraints) triangulation.insert_constraint(handle_of[c.a()], handle_of[c.b()]);
   } catch (const Triangulation::Intersection_of_constraints_exception&) {
-    throw CutFailed("inverted", "CGAL: constraints cross after rounding, coordinates too close for doubles");
+    throw TooClose("CGAL: constraints cross after rounding, coordinates too close for doubles");
   }
 }
 
@@ -110,7 +111,7 @@ void CgalCdt::Work::mark_faces() {
     Triangulation::Face_handle face;  // is_edge gives the one with a -> b counter-clockwise
     int i = 0;
     if (!triangulation.is_edge(handle_of[a()], handle_of[b()], face, i))
-      throw CutFailed("not_terminated", "CGAL: a constraint is not an edge, coordinates too close for doubles");
+      throw TooClose("CGAL: a constraint is not an edge, coordinates too close for doubles");
     if (face->vertex(Triangulation::ccw(i)) != handle_of[a()]) {
       const auto other = face->neighbor(i);
       i = triangulation.mirror_index(face, i);
@@ -133,6 +134,13 @@ void CgalCdt::Work::mark_faces() {
       front.push_back(neighbour);
     }
   }
+  for (const auto& c : constraints) {
+    Triangulation::Face_handle face;
+    int i = 0;
+    if (!c.bounds || !triangulation.is_edge(handle_of[c.b()], handle_of[c.a()], face, i)) continue;
+    if (face->vertex(Triangulation::ccw(i)) != handle_of[c.b()]) face = face->neighbor(i);
+    if (face->info().inside) throw TooClose("CGAL: the strip lost its shape, coordinates too close for doubles");
+  }
 }
 
 void CgalCdt::Work::add_inside() {
@@ -147,8 +155,7 @@ void CgalCdt::Work::add_inside() {
     }
     added.push_back(made);
   }
-  if (added.size() != expected)
-    throw CutFailed("inverted", "CGAL: the strip lost its shape, coordinates too close for doubles");
+  if (added.size() != expected) throw TooClose("CGAL: the strip lost its shape, coordinates too close for doubles");
 }
 
 CgalCdt::CgalCdt() : work_(std::make_unique<Work>()) {}
