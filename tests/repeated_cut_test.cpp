@@ -45,6 +45,24 @@ TEST_P(Repeated, PolylineIsANoop) {
   EXPECT_GT(repeated, 100u);
 }
 
+/// It follows the chords that stand for it, both ways, also round a loop.
+TEST_P(Repeated, BezierIsANoop) {
+  for_each_case(scaled(2), 424, [&](TestCase c) {
+    c.cuts.resize(1);
+    if (HasFailure() || c.cuts[0].kind != Curve::Kind::bezier || is_known_to_fail(GetParam(), c)) return;
+    CutSheet cut = cut_with(GetParam(), *c.mesh, c.cuts, 0.05);
+    Locator locator(cut.sheet);
+    Cutter cutter;
+    const auto method = GetParam().row->make(GetParam().knob);
+    for (const Curve& again : {c.cuts[0], reversed(c.cuts[0])}) {
+      const Sheet before = cut.sheet;
+      const CutOutcome outcome = cutter.cut(cut.sheet, locator, again, *method, {.chord_tolerance = 0.05});
+      EXPECT_STREQ(name_of(outcome.status), "noop") << text_of(c);
+      EXPECT_EQ(difference(before, cut.sheet), "") << text_of(c);
+    }
+  });
+}
+
 TEST_P(Repeated, BackwardsIsTheSameCut) {
   for_each_case(scaled(2), 422, [&](TestCase c) {
     if (HasFailure()) return;

@@ -101,7 +101,7 @@ Curve read_curve(const json& entry, const std::string& where) {
 
 void flatten(const Curve& curve, double tolerance, double snap, Polyline& out) {
   out.points.clear(), out.kept.clear();
-  out.closed = curve.closed;
+  out.closed = curve.closed, out.curved = curve.kind == Curve::Kind::bezier;
   if (curve.kind == Curve::Kind::bezier)
     flatten_bezier(curve, tolerance, snap, out);
   else

@@ -20,6 +20,7 @@ struct Polyline {
   std::vector<Point2> points;
   std::vector<std::uint8_t> kept;  ///< per point: it must become a vertex (tip, corner of the curve)
   bool closed = false;             ///< goes on from the last point to the first, which it doesn't repeat
+  bool curved = false;             ///< it stands for a Bezier: what lies within the tolerances of it will do
 };
 
 /// The curve as a polyline no farther from it than `tolerance` (rest units): each Bezier in equal steps of its

@@ -16,16 +16,35 @@ Subdivision& Tracer::trace(const Sheet& sheet, const Polyline& path, Walk& walk,
   loop_ = head_open_ = path.closed && !path.kept[0] && from_.kind == Place::Kind::face;
   if (loop_) first_ = 0, count_ = 1;
   face_ = from_.face;
+  excursion_.clear();
+  departed_ = path.curved && std::isfinite(chord_tolerance) && is_on_incision(from_);
+  departure_ = from_;
 
-  const std::size_t n = path.points.size(), last = path.closed ? n : n - 1;
+  const std::size_t n = path.points.size();
+  std::size_t last = path.closed ? n : n - 1;
+  bool begun = !(loop_ && path.curved && std::isfinite(chord_tolerance));
   std::size_t steps_left = 8 * (sheet.triangle_slots() + n) + 1000;
+  Place start;
+  const auto is_same = [](const Place& a, const Place& b) { return a.kind == b.kind && a.point == b.point; };
   for (std::size_t i = 1; i <= last; ++i)
     for (bool arrived = false; !arrived;) {
       const Step step = walk.advance(point(i));
       arrived = step.arrived;
-      handle(step, i, arrived && i == last && !loop_);
+      if (begun) {
+        take(step, i, arrived && i == last && !loop_);
+        if (i == last && i > n && is_same(step.place, start)) arrived = true;
+      } else if (begun = is_on_incision(step.place); begun) {
+        // A loop that may follow an incision is traced from where it meets one first, once round to there.
+        excursion_.clear();
+        loop_ = head_open_ = false, last = n + i;
+        start = departure_ = from_ = step.place, departed_ = true;
+        first_ = arrived ? i + 1 : i, count_ = 0;
+      } else {
+        excursion_.push_back({step, i, false});
+      }
       if (--steps_left == 0) throw WalkLost();
     }
+  flush();
   if (loop_) close_loop();
   for (int f = 0; f < static_cast<int>(trace_.faces.size()); ++f)
     if (!is_simple(f)) arrange(f);

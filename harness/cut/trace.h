@@ -23,8 +23,9 @@ class Tracer {
   /// Follows the polyline from where `walk` stands (its first point), and sorts out the triangles that the path passes
   /// through more than once. Inside triangles, points farther than `chord_tolerance` (rest units; infinity: none) from
   /// the chord become nodes, and always: tips, kept points, crossings of the path with itself, and whatever keeps a
-  /// loop or a U-turn from collapsing. The result stays valid until the next call. \pre the polyline has two points or
-  /// more. Throws WalkLost.
+  /// loop or a U-turn from collapsing. A curved path that leaves an older incision and comes back to it, never farther
+  /// from it than `chord_tolerance`, follows it in between: there is nothing to do. The result stays valid until the
+  /// next call. \pre the polyline has two points or more. Throws WalkLost.
   Subdivision& trace(const Sheet& sheet, const Polyline& path, Walk& walk, double chord_tolerance);
 
  private:
@@ -35,6 +36,7 @@ class Tracer {
     bool simplified;           // some of them did not become nodes
     int next;                  // next link of the same triangle
   };
+  void take(const Step& step, std::size_t point, bool tip);
   void handle(const Step& step, std::size_t point, bool tip);
   void close_loop();
   void run_along(const Place& from, const Place& to, HalfEdge edge);
@@ -44,6 +46,17 @@ class Tracer {
   void choose_on_loop(Point2 start, std::size_t first, std::size_t count);
   bool any_chosen() const { return std::find(chosen_.begin(), chosen_.end(), 1) != chosen_.end(); }
   Point2 point(std::size_t i) const { return path_->points[i < path_->points.size() ? i : i - path_->points.size()]; }
+
+  // follow.cpp
+  struct Taken {
+    Step step;
+    std::size_t point;
+    bool tip;
+  };
+  bool is_on_incision(const Place& place) const;
+  bool follows_incision();
+  bool find_chain(const Place& to, VertexIndex before, VertexIndex v);
+  void flush();
 
   bool is_free(const Place& place) const;
   void split_lone_piece();
@@ -67,6 +80,13 @@ class Tracer {
   const Sheet* sheet_ = nullptr;
   const Polyline* path_ = nullptr;
   double chord_tolerance_ = std::numeric_limits<double>::infinity();
+
+  // Steps of a curved path since it left an incision at departure_, not handled yet, and where they and that incision
+  // go.
+  bool departed_ = false;
+  Place departure_;
+  std::vector<Taken> excursion_;
+  std::vector<Point2> way_, chain_;
 
   // The link under way: from a place, through the points [first_, first_ + count_) of the polyline.
   Place from_;
