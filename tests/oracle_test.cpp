@@ -681,7 +681,7 @@ TEST(ExpectedPieces, HandCounted) {
   const std::vector<Segment> square = chain({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}});
   const auto count = [&](const std::vector<Segment>& border, const std::vector<Segment>& incisions,
                          const std::vector<std::vector<Segment>>& paths) {
-    const ExpectedPieces p = expected_pieces(border, incisions, paths, 1e-12, 1e-12);
+    const ExpectedPieces p = expected_pieces(border, incisions, paths, {1e-12, 1e-12, 1e-12});
     EXPECT_EQ(p.least, p.expected);
     EXPECT_EQ(p.most, p.expected);
     return p.expected;
@@ -707,7 +707,7 @@ TEST(ExpectedPieces, HandCounted) {
 
 TEST(ExpectedPieces, ThinPiecesAreUndecided) {
   const std::vector<Segment> square = chain({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}});
-  const ExpectedPieces p = expected_pieces(square, {}, {chain({{0, 1e-14}, {1, 1e-14}})}, 1e-12, 1e-12);
+  const ExpectedPieces p = expected_pieces(square, {}, {chain({{0, 1e-14}, {1, 1e-14}})}, {1e-12, 1e-12, 1e-12});
   EXPECT_EQ(p.expected, 1);
   EXPECT_EQ(p.least, 1);
   EXPECT_EQ(p.most, 2);

@@ -145,24 +145,23 @@ std::vector<int> faces_without_extensions(const Arrangement& arrangement) {
 }  // namespace
 
 ExpectedPieces expected_pieces(const std::vector<Segment>& border, const std::vector<Segment>& incisions,
-                               const std::vector<std::vector<Segment>>& paths, double tip_tolerance,
-                               double thin_tolerance) {
+                               const std::vector<std::vector<Segment>>& paths, const PieceTolerances& tolerances) {
   const double scale = unit_scale(border);
   std::vector<Traits::Curve_2> curves;
   for (const Segment& s : border) curves.push_back(curve(s, scale, static_cast<int>(curves.size())));
   for (const Segment& s : incisions) curves.push_back(curve(s, scale, incision));
   for (const auto& path : paths) {
     for (const Segment& s : path) curves.push_back(curve(s, scale, incision));
-    if (path.empty() || path.front()[0] == path.back()[1] || tip_tolerance == 0) continue;
-    add_extension(path.front()[0], path.front()[1], tip_tolerance, scale, curves);
-    add_extension(path.back()[1], path.back()[0], tip_tolerance, scale, curves);
+    if (path.empty() || path.front()[0] == path.back()[1] || tolerances.tip == 0) continue;
+    add_extension(path.front()[0], path.front()[1], tolerances.tip, scale, curves);
+    add_extension(path.back()[1], path.back()[0], tolerances.tip, scale, curves);
   }
-  if (thin_tolerance > 0) {
+  if (tolerances.touch > 0) {
     std::vector<Segment> all = border;
     all.insert(all.end(), incisions.begin(), incisions.end());
     const std::size_t first_of_path = all.size();
     for (const auto& path : paths) all.insert(all.end(), path.begin(), path.end());
-    add_near_touches(all, first_of_path, thin_tolerance, scale, curves);
+    add_near_touches(all, first_of_path, tolerances.touch, scale, curves);
   }
   Arrangement arrangement;
   CGAL::insert(arrangement, curves.begin(), curves.end());
@@ -177,8 +176,8 @@ ExpectedPieces expected_pieces(const std::vector<Segment>& border, const std::ve
     if (!inside[face->data()]) continue;
     const double width = thickness(face) / scale;
     ++result.most;
-    if (width >= tip_tolerance) expected.insert(joined[face->data()]);
-    if (width >= thin_tolerance) thick.insert(joined[face->data()]);
+    if (width >= tolerances.tip) expected.insert(joined[face->data()]);
+    if (width >= tolerances.thin) thick.insert(joined[face->data()]);
   }
   result.expected = static_cast<int>(expected.size());
   result.least = static_cast<int>(thick.size());

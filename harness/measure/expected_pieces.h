@@ -10,10 +10,15 @@ namespace cutbench::oracle {
 /// Numbers of pieces. They differ only where the answer hangs on something smaller than the tolerances: a path that
 /// ends that near to something, or a piece that thin.
 struct ExpectedPieces {
-  int expected = 0;  ///< open ends as they are, pieces thinner than tip_tolerance left out
-  int least = 0;     ///< pieces thinner than thin_tolerance left out too
-  int most = 0;      ///< open ends lengthened by tip_tolerance, what passes within thin_tolerance of the path joined
+  int expected = 0;  ///< open ends as they are, pieces thinner than `tip` left out
+  int least = 0;     ///< pieces thinner than `thin` left out too
+  int most = 0;      ///< open ends lengthened by `tip`, what passes within `touch` of the path joined
                      ///< to it, however thin the pieces
+};
+
+/// Rest units.
+struct PieceTolerances {
+  double tip = 0, touch = 0, thin = 0;  ///< 0 <= tip <= touch <= thin
 };
 
 /// Counts the faces inside the sheet of the exact planar arrangement of all given segments (CGAL, Arrangement_2).
@@ -22,9 +27,8 @@ struct ExpectedPieces {
 /// @param border     border edges of the sheet, each once
 /// @param incisions  older incisions, each pair of lips once: both sides are inside
 /// @param paths      flattened requested curves, each a chain, closed where its last point is its first
-/// Tolerances are in rest units, 0 <= tip_tolerance <= thin_tolerance. Precondition: no segment has zero length.
+/// Precondition: no segment has zero length.
 ExpectedPieces expected_pieces(const std::vector<Segment>& border, const std::vector<Segment>& incisions,
-                               const std::vector<std::vector<Segment>>& paths, double tip_tolerance,
-                               double thin_tolerance);
+                               const std::vector<std::vector<Segment>>& paths, const PieceTolerances& tolerances);
 
 }  // namespace cutbench::oracle

@@ -100,9 +100,8 @@ double SegmentGrid::distance(const Point& p) const {
 
 bool SegmentGrid::covers(const Segment& s, double tolerance) const {
   bool same = false;  // as most are: where a cut did not come, edges stay what they are
-  grid_.for_each_in({s[0], s[0]}, [&](int i) {
-    same |= segments_[i] == s || (segments_[i][0] == s[1] && segments_[i][1] == s[0]);
-  });
+  grid_.for_each_in({s[0], s[0]},
+                    [&](int i) { same |= segments_[i] == s || (segments_[i][0] == s[1] && segments_[i][1] == s[0]); });
   if (same) return true;
   for (double t : {0.0, 0.25, 0.5, 0.75, 1.0})
     if (!(distance(between(s[0], s[1], t)) <= tolerance)) return false;

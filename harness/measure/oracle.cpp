@@ -201,10 +201,10 @@ class Judge {
 
   void check_pieces(const HalfEdges& edges) {
     // A Bezier curve is requested up to flattening: 1e-3 mean edges by the code under test, less here.
-    const double h = input_.lengths.mean;
+    const double h = input_.lengths.mean, flattening = input_.on + (curved() ? 2e-3 * h : 0);
     const ExpectedPieces expected =
-        expected_pieces(input_.border, input_.incisions, paths(request_.cuts, 1e-4 * h, 2 * input_.on), input_.on,
-                        input_.on + (curved() ? 2e-3 * h : 0));
+        expected_pieces(input_.border, input_.incisions, paths(request_.cuts, 1e-4 * h, 2 * input_.on),
+                        {.tip = input_.on, .touch = flattening, .thin = std::max(flattening, request_.thin)});
     judgement_.pieces = count_pieces(edges);
     judgement_.expected_pieces = expected.expected;
     if (judgement_.pieces < expected.least || judgement_.pieces > expected.most)

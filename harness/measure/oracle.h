@@ -21,6 +21,8 @@ struct Request {
   /// Points nearer than this may have been merged, so that a cut smaller than twice this asks for nothing; also the
   /// slack of every "lies on" below.
   double snap = 0;
+  /// Pieces thinner than this may be missing: a curve may follow an older incision instead of running beside it.
+  double thin = 0;
   bool keeps_vertices = true;  ///< the input's rest vertices are bit-equal at the same index
   bool exact_incision = true;  ///< `tolerance` binds; else only the longest edge does
   /// Allowed distance of the vertices of new opened edges from the path, where the incision is exact. Must leave room

@@ -10,8 +10,8 @@ int previous(int half_edge) { return half_edge % 3 == 0 ? half_edge + 2 : half_e
 int origin(const Mesh& mesh, int half_edge) { return mesh.triangles[half_edge / 3][half_edge % 3]; }
 int target(const Mesh& mesh, int half_edge) { return origin(mesh, next(half_edge)); }
 
-/// Half-edges by origin: those of vertex v are list[first[v]] .. list[first[v + 1] - 1]. Their targets lie side by side,
-/// too, because they are looked through for every half-edge.
+/// Half-edges by origin: those of vertex v are list[first[v]] .. list[first[v + 1] - 1]. Their targets lie side by
+/// side, too, because they are looked through for every half-edge.
 struct Outgoing {
   std::vector<int> first, list, target;
 };

@@ -1,6 +1,7 @@
 #include "harness/run/judged_sheet.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "harness/run/report.h"
 #include "harness/run/same_sheet.h"
@@ -22,8 +23,8 @@ JudgedSheet::Finding JudgedSheet::cut(const Curve& curve, const CutOptions& opti
 
   oracle::Request request;
   if (status == Status::noop) {  // justified where the path opens nothing
-    CutOptions exact = options;
-    exact.chord_tolerance = 0;
+    CutOptions exact = options;  // a curve may follow an older incision, a polyline may not
+    if (curve.kind == Curve::Kind::polyline || !std::isfinite(options.chord_tolerance)) exact.chord_tolerance = 0;
     request = request_for(before, {&curve, 1}, promises_, exact, false);
     request.tolerance += request.snap;
   } else {

@@ -169,6 +169,7 @@ oracle::Request request_for(const Sheet& before, std::span<const Curve> cuts, co
   // A path may pass within twice the snap distance of what it goes through, and so may the one it meets.
   request.snap = (cuts.size() > 1 ? 4 : 2) * before.snap();
   request.tolerance = options.chord_tolerance * h + flattening + request.snap;
+  if (curved && std::isfinite(options.chord_tolerance)) request.thin = request.tolerance;
   request.keeps_vertices = promises.keeps_vertices;
   request.exact_incision = promises.exact_incision;
   request.vertex_tolerance = improved ? request.tolerance : flattening + request.snap;
