@@ -249,6 +249,12 @@ Step Walk::from_outside(Point2 target) {
 }
 
 Step Walk::advance(Point2 target) {
+  const Step step = go_on(target);
+  if (step.arrived) origin_ = target;  // not where it was snapped to, so that the way back is the way there
+  return step;
+}
+
+Step Walk::go_on(Point2 target) {
   switch (at_.kind) {
     case Place::Kind::face:
       return from_face(at_.face, target);

@@ -69,6 +69,7 @@ class Walk {
   bool near(Point2 a, Point2 b) const;
   bool ahead(Point2 p, Point2 target) const { return dot(p - origin_, target - origin_) > 0; }
 
+  Step go_on(Point2 target);
   Step from_face(TriangleIndex t, Point2 target);
   Step from_vertex(VertexIndex v, Point2 target);
   Step from_edge(Place at, Point2 target);
