@@ -45,7 +45,12 @@ class Tracer {
   void choose_by_chord(Point2 a, Point2 b, std::size_t first, std::size_t begin, std::size_t end);
   void choose_on_loop(Point2 start, std::size_t first, std::size_t count);
   bool any_chosen() const { return std::find(chosen_.begin(), chosen_.end(), 1) != chosen_.end(); }
-  Point2 point(std::size_t i) const { return path_->points[i < path_->points.size() ? i : i - path_->points.size()]; }
+  /// Points are counted on past the end of a closed path, twice round at most.
+  std::size_t wrapped(std::size_t i) const {
+    for (const std::size_t n = path_->points.size(); i >= n;) i -= n;
+    return i;
+  }
+  Point2 point(std::size_t i) const { return path_->points[wrapped(i)]; }
 
   // follow.cpp
   struct Taken {
