@@ -297,6 +297,20 @@ TEST(Accepts, FarFromTheOrigin) {
 }
 
 /// Scaling by a power of two changes nothing but the unit; an offset only costs digits.
+/// The path's ends decide nothing, and don't blur it.
+TEST(Accepts, PathFromFarOutside) {
+  const std::vector<Point> row{{0, 0.25}, {1, 0.25}};
+  for (double far : {2.0, 1e9, 1e59}) {
+    SCOPED_TRACE(far);
+    expect_ok({request(grid(4), {polyline({{-far, 0.25}, {far, 0.25}})}), open(grid(4), on({row}))}, 2);
+    const Case away{request(grid(4), {polyline({{-far, 1.25}, {far, 1.25}})}), grid(4)};
+    expect_ok(away, 1);
+  }
+  const double x = 1e9 + 0.5;  // and (0.5 +- x, 0.5 +- x / 1024) are doubles
+  const Point p{0.5 - x, 0.5 - x / 1024}, q{0.5 + x, 0.5 + x / 1024}, near_p{-511.5, 0}, near_q{512.5, 1};
+  expect_ok({request(grid(4), {polyline({p, q})}), open(split(grid(4), near_p, near_q), on({{near_p, near_q}}))}, 2);
+}
+
 TEST(Accepts, AnyScale) {
   for (const double scale : {0x1p-400, 0x1p-30, 0x1p30, 0x1p400}) {
     Case c = crossing();
@@ -482,6 +496,15 @@ TEST(Rejects, EdgesNotOpened) {
   const Point tip = c.request.cuts[0].points[1];
   c.after = open(split(grid(8), {0, 0.3}, {1, 0.8}), on({{{0.125, 0.3625}, tip}}));
   expect_verdict("incision", c);
+}
+
+TEST(Rejects, PathFromFarOutsideNotOpened) {
+  for (double far : {1e9, 1e59}) {
+    Case c{request(grid(4), {polyline({{-far, 0.25}, {0.75, 0.25}})}), grid(4)};
+    expect_verdict("incision", c);
+    c.after = open(grid(4), on({{{0, 0.25}, {0.5, 0.25}}}));
+    expect_verdict("incision", c);
+  }
 }
 
 TEST(Rejects, CutThatStopsShort) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "harness/measure/clip.h"
 #include "harness/measure/exact.h"
 #include "harness/measure/expected_pieces.h"
 #include "harness/measure/flatten.h"
@@ -217,7 +218,7 @@ class Judge {
     std::vector<Segment> requested;
     for (const auto& path : paths(request_.cuts, flattening, 2 * input_.on))
       requested.insert(requested.end(), path.begin(), path.end());
-    const SegmentGrid path(std::move(requested));
+    const SegmentGrid path(near_mesh(requested, request_.before));
     const IncisionError error =
         incision_error(path, SegmentGrid(edges_), added_, TriangleGrid(request_.before), 0.02 * input_.lengths.mean);
     judgement_.incision_error = std::max(error.of_path, error.of_edges);

@@ -4,6 +4,8 @@
 // An input is the text of a mesh (OFF, PLY or OBJ) and after it that of a path; the first '{' begins the path.
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -78,7 +80,8 @@ void end_unless(bool right, const std::string& what) {
   std::abort();
 }
 
-void cut_unjudged(Sheet sheet, const std::vector<Curve>& cuts, const MethodRow& row) {
+void cut_unjudged(const Sheet& uncut, const std::vector<Curve>& cuts, const MethodRow& row) {
+  Sheet sheet = uncut;
   Locator locator(sheet);
   Cutter cutter;
   const auto method = row.make(row.knob.value);
