@@ -58,11 +58,13 @@ Place Walk::classify(TriangleIndex t, Point2 p) const {
   const Triangle& triangle = sheet_.triangle(t);
   for (auto v : triangle.vertex)
     if (near(rest(v), p)) return place_at(v);
+  HalfEdge on;  // in a corner so thin that two edges are that near: the border or an incision, else the second
   for (int k = 0; k < 3; ++k) {
     const HalfEdge h = half_edge(t, k);
-    if (side(rest(sheet_.origin(h)), rest(sheet_.target(h)), p).sign == 0) return place_on(h, p);
+    if (side(rest(sheet_.origin(h)), rest(sheet_.target(h)), p).sign != 0) continue;
+    if (!on.valid() || (!sheet_.on_border(on) && sheet_.mark(on) == EdgeMark::none)) on = h;
   }
-  return place_in(t, p);
+  return on.valid() ? place_on(on, p) : place_in(t, p);
 }
 
 Step Walk::reach(Passage passage, Place place) {
@@ -189,8 +191,9 @@ Step Walk::from_vertex(VertexIndex v, Point2 target) {
     if (!h.valid() && lies_on_line(sheet_.origin(into))) return along(into, sheet_.origin(into), target);
   } while (h.valid() && h != first);
   // Into the triangle whose spokes have the target between them.
-  h = first;
+  HalfEdge last_spoke = h = first;
   do {
+    last_spoke = h;
     const HalfEdge exit = Sheet::next(h);
     const Point2 a = rest(sheet_.origin(exit)), b = rest(sheet_.target(exit));
     if (orientation(origin_, target, a) < 0 && orientation(origin_, target, b) > 0) {
@@ -200,6 +203,14 @@ Step Walk::from_vertex(VertexIndex v, Point2 target) {
     }
     h = sheet_.turn_left(h);
   } while (h.valid() && h != first);
+  // Out of the sheet, by no more than what still lies on the border?
+  for (const HalfEdge border : {first, Sheet::previous(last_spoke)}) {
+    const VertexIndex end = sheet_.origin(border) == v ? sheet_.target(border) : sheet_.origin(border);
+    const Point2 edge = rest(end) - rest(v);
+    const double along_edge_by = dot(target - rest(v), edge);
+    if (side(rest(v), rest(end), target).sign == 0 && along_edge_by > 0 && along_edge_by < squared_length(edge))
+      return along(border, end, target);
+  }
   const Point2 line = target - origin_;
   outside_from_ = dot(rest(v) - origin_, line) / squared_length(line);
   return from_outside(target);

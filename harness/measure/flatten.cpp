@@ -53,7 +53,11 @@ std::vector<PathSegment> flatten(const Curve& curve, double tolerance) {
   if (curve.bezier) {
     constexpr int deepest = 24;  // each halving divides the error by four: 4^24 is beyond double
     for (std::size_t i = 0; i + 3 < p.size(); i += 3)
-      flatten(Cubic{p[i], p[i + 1], p[i + 2], p[i + 3]}, tolerance, deepest, out);
+      // A curve that is small itself keeps its shape.
+      flatten(Cubic{p[i], p[i + 1], p[i + 2], p[i + 3]},
+              std::min(tolerance,
+                       1e-3 * std::max({distance(p[i], p[i + 1]), distance(p[i], p[i + 2]), distance(p[i], p[i + 3])})),
+              deepest, out);
     return out;
   }
   const std::size_t count = curve.closed ? p.size() : p.size() - 1;

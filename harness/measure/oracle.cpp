@@ -126,20 +126,28 @@ Input examine(const Request& request) {
   return input;
 }
 
+/// The longer side of the points' bounding box.
+double extent(const std::vector<Point>& points) {
+  Point low{0, 0}, high{0, 0};
+  for (const Point& p : points)
+    for (std::size_t i = 0; i < 2; ++i) {
+      low[i] = &p == &points.front() ? p[i] : std::min(low[i], p[i]);
+      high[i] = &p == &points.front() ? p[i] : std::max(high[i], p[i]);
+    }
+  return std::max(high[0] - low[0], high[1] - low[1]);
+}
+
 /// The segments of each requested curve; curves no larger than `smallest` ask for nothing.
 std::vector<std::vector<Segment>> paths(const std::vector<Curve>& cuts, double tolerance, double smallest) {
   std::vector<std::vector<Segment>> result;
   for (const Curve& cut : cuts) {
     std::vector<Segment> path;
-    Point low = cut.points.front(), high = low;
+    std::vector<Point> points;
     for (const PathSegment& s : flatten(cut, tolerance)) {
       path.push_back(s.segment);
-      for (std::size_t i = 0; i < 2; ++i) {
-        low[i] = std::min({low[i], s.segment[0][i], s.segment[1][i]});
-        high[i] = std::max({high[i], s.segment[0][i], s.segment[1][i]});
-      }
+      points.insert(points.end(), {s.segment[0], s.segment[1]});
     }
-    if (std::max(high[0] - low[0], high[1] - low[1]) > smallest) result.push_back(std::move(path));
+    if (extent(points) > smallest) result.push_back(std::move(path));
   }
   return result;
 }
@@ -202,7 +210,8 @@ class Judge {
 
   void check_pieces(const HalfEdges& edges) {
     // A Bezier curve is requested up to flattening: 1e-3 mean edges by the code under test, less here.
-    const double h = input_.lengths.mean, flattening = input_.on + (curved() ? 2e-3 * h : 0);
+    const double h = input_.lengths.mean;
+    const double flattening = input_.on + (curved() ? std::min(2e-3 * h, 0.02 * smallest_extent()) : 0);
     const ExpectedPieces expected =
         expected_pieces(input_.border, input_.incisions, paths(request_.cuts, 1e-4 * h, 2 * input_.on),
                         {.tip = input_.on, .touch = flattening, .thin = std::max(flattening, request_.thin)});
@@ -233,6 +242,12 @@ class Judge {
       for (const Point& p : s)
         if (path.distance(p) > request_.vertex_tolerance + slack)
           problems_.add("incision", "a vertex is off the path at " + name(p));
+  }
+
+  double smallest_extent() const {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const Curve& cut : request_.cuts) smallest = std::min(smallest, extent(cut.points));
+    return smallest;
   }
 
   bool curved() const {
