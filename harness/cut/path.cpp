@@ -43,7 +43,9 @@ void flatten_bezier(const Curve& curve, double tolerance, double snap, Polyline&
     const Point2* p = &c[i];
     const double bend = std::max(squared_length(p[0] - 2 * p[1] + p[2]), squared_length(p[1] - 2 * p[2] + p[3]));
     // A curve that is small itself keeps its shape.
-    const double finest = std::min(tolerance, 0.01 * std::sqrt(bend));
+    const double size2 =
+        std::max({squared_length(p[1] - p[0]), squared_length(p[2] - p[0]), squared_length(p[3] - p[0])});
+    const double finest = std::min(tolerance, 0.01 * std::sqrt(size2));
     const double steps = bend > 0 ? std::clamp(std::ceil(std::sqrt(0.75 * std::sqrt(bend) / finest)), 1.0, 1e6) : 1;
     const bool tip = i == 0 && !curve.closed;
     const bool kink = i == 0 ? is_kink(c[n - 2], c[0], c[1]) : is_kink(c[i - 1], c[i], c[i + 1]);

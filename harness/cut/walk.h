@@ -44,9 +44,10 @@ struct Step {
   bool arrived = false;  ///< at the target; else the walk goes on from `place`
 };
 
-/// A walk that can't go on: the mesh is broken, or the coordinates are too close together for doubles.
-struct WalkLost : CutFailed {
-  WalkLost() : CutFailed("not_terminated", "the path could not be followed through the mesh") {}
+/// A walk that can't go on: the coordinates are too close together for doubles (or the mesh is broken).
+struct WalkLost : TooClose {
+  WalkLost()
+      : TooClose("the path can't be followed through the mesh: points of it, or older cuts, are too close together") {}
 };
 
 class Walk {

@@ -52,9 +52,8 @@ void add_near_touches(const std::vector<Segment>& segments, std::size_t first_of
         if (std::max(i, static_cast<std::size_t>(j)) < first_of_path || p == s[0] || p == s[1]) return;
         if (distance(p, s) > tolerance || !done.insert({p, j}).second) return;
         const Point d = direction(s[0], s[1]);
-        const Point across{-2 * tolerance * d[1], 2 * tolerance * d[0]};
-        curves.push_back(curve({Point{p[0] - across[0], p[1] - across[1]}, Point{p[0] + across[0], p[1] + across[1]}},
-                               scale, extension));
+        for (const double way : {-2 * tolerance, 2 * tolerance})  // two, so that p itself is an end of both
+          curves.push_back(curve({p, Point{p[0] - way * d[1], p[1] + way * d[0]}}, scale, extension));
       });
 }
 

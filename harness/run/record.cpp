@@ -175,7 +175,7 @@ bool RecordFile::resume(const std::string& head) {
   std::size_t begin = head.size();
   for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
     const std::string line = text.substr(begin, end - begin);
-    if (static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1 != column_names().size()) break;
+    if (static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1 != columns_.size()) break;
     lines_.push_back(line);
     done_.insert(key_of(line));
   }

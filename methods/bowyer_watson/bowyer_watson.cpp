@@ -197,7 +197,7 @@ void BowyerWatson::improve(Sheet& sheet) {
       if (is_ill_shaped(TriangleIndex(t))) ill_shaped_.emplace_back(t);
     for (auto t : ill_shaped_) {
       if (sheet.log().new_vertices.size() > options_.most_vertices)
-        throw CutFailed("not_terminated", "the local split has made a million vertices and goes on");
+        throw CutFailed("not_terminated", "the local split has made 200,000 vertices and goes on");
       if (!is_ill_shaped(t)) continue;  // a neighbour's split has mended it
       midpoints_.reset(sheet);
       split_long_edges(sheet, t);
