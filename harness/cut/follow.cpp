@@ -94,7 +94,7 @@ bool Tracer::follows_incision() {
 /// chain_. Of several edges it takes the one that comes nearest to the end.
 bool Tracer::find_chain(const Place& to, VertexIndex before, VertexIndex v) {
   if (to.kind == Place::Kind::vertex && to.vertex == departure_.vertex) return false;
-  for (std::size_t budget = 4 * way_.size() + 16; budget > 0; --budget) {
+  for (std::size_t budget = 32 * way_.size() + 64; budget > 0; --budget) {
     if (to.kind == Place::Kind::vertex && to.vertex == v) return true;
     if (to.kind == Place::Kind::edge && (sheet_->origin(to.edge) == v || sheet_->target(to.edge) == v)) {
       chain_.push_back(to.point);
