@@ -15,8 +15,6 @@ Curve reversed(Curve curve) {
 }
 
 /// Slits in one triangle, whose middle this method inserts after both tips: an edge from tip to tip stays beside it.
-/// And three rounds of local split on a sheet of a few triangles: they divide the chords into more edges than are
-/// followed.
 bool is_known_to_fail(const Variant& variant, const TestCase& c) {
   return variant.row->name == "conventional_split" && c.name.find("tiny_open") != std::string::npos;
 }
