@@ -53,8 +53,8 @@ class JudgedSheet {
   std::size_t embedded_vertices() const { return method_.embedded_vertices; }
 
   Sheet sheet;
-  CutOutcome outcome;  ///< of the last cut
-  int pieces = 0;      ///< after the last cut that was judged by the oracle
+  CutOutcome outcome;         ///< of the last cut
+  int pieces = 0;             ///< after the last cut that was judged by the oracle
   double incision_error = 0;  ///< of that cut, rest units
 
  private:

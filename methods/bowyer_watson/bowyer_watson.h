@@ -25,9 +25,9 @@ namespace cutbench {
 class BowyerWatson : public CuttingMethod {
  public:
   struct Options {
-    int rounds = 0;                         ///< of the local split
-    double max_aspect = 3;                  ///< a triangle beyond it is ill-shaped
-    double min_edge = 1e-6;                 ///< no edge is made shorter than this, in mean rest edges
+    int rounds = 0;                       ///< of the local split
+    double max_aspect = 3;                ///< a triangle beyond it is ill-shaped
+    double min_edge = 1e-6;               ///< no edge is made shorter than this, in mean rest edges
     std::size_t most_vertices = 200'000;  ///< made by one cut; then it has failed
   };
   explicit BowyerWatson(const Options& options) : options_(options) {}
