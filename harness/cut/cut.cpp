@@ -12,19 +12,16 @@ namespace cutbench {
 namespace {
 
 // Farther away a point's own rounding is as large as the snap distance.
-constexpr double farthest = 1000;
+constexpr double longest_reach = 1000;
 
-struct Box {
-  Point2 low, high;
-};
-
-Box box_of(const std::vector<Point2>& points) {
-  Box box{points.front(), points.front()};
+/// The longer side of the points' bounding box.
+double reach_of(const std::vector<Point2>& points) {
+  Point2 low = points.front(), high = low;
   for (Point2 p : points) {
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
-  return box;
+  return std::max(high.x - low.x, high.y - low.y);
 }
 
 CutOutcome nothing_done(Status status, const std::string& reason) {
@@ -48,10 +45,9 @@ CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, Cutti
   sheet.begin_cut();
   try {
     flatten(curve, options.flatten_tolerance * sheet.mean_edge(), sheet.snap(), polyline_);
-    const Box box = box_of(polyline_.points);
-    if (std::max(box.high.x - box.low.x, box.high.y - box.low.y) <= 4 * sheet.snap())
-      return nothing_done(Status::noop, "the path has no length");
-    if (std::max(box.high.x - box.low.x, box.high.y - box.low.y) > farthest * sheet.size())
+    const double reach = reach_of(polyline_.points);
+    if (reach <= 4 * sheet.snap()) return nothing_done(Status::noop, "the path has no length");
+    if (reach > longest_reach * sheet.size())
       return nothing_done(Status::refused, "the path reaches over 1000 times the sheet's size; cut it off nearer");
     outcome.time_us.trace = watch.lap();
     Walk walk(sheet, locator);

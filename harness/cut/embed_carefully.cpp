@@ -11,7 +11,7 @@ namespace cutbench {
 namespace {
 
 // How far a crossing may be moved at most, in mean rest edges.
-constexpr double farthest = 1e-4;
+constexpr double farthest_move = 1e-4;
 
 [[noreturn]] void give_up() {
   throw TooClose(
@@ -93,7 +93,7 @@ class CarefulEmbedding {
       return sheet_.split_edge(h, std::clamp(dot(p - from, along) / squared_length(along), 0.0, 1.0), p);
     }
     const double moved = std::sqrt(squared_length(p - rest(nearest)));
-    if (moved > farthest * sheet_.mean_edge()) give_up();
+    if (moved > farthest_move * sheet_.mean_edge()) give_up();
     moved_ = std::max(moved_, moved);
     return nearest;
   }
