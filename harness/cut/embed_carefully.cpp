@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
+#include "harness/cut/patch.h"
 #include "harness/mesh/predicates.h"
 
 namespace cutbench {
@@ -47,15 +47,8 @@ class CarefulEmbedding {
 
   /// The half-edge from a to b, or from b to a where that is the only one; none where they are no neighbours.
   HalfEdge find_edge(VertexIndex a, VertexIndex b) const {
-    for (const auto& [from, to] : {Chain{a, b}, Chain{b, a}}) {
-      const HalfEdge first = sheet_.first_spoke(from);
-      HalfEdge h = first;
-      do {
-        if (sheet_.target(h) == to) return h;
-        h = sheet_.turn_left(h);
-      } while (h.valid() && h != first);
-    }
-    return {};
+    const HalfEdge h = find_spoke(sheet_, a, b);
+    return h.valid() ? h : find_spoke(sheet_, b, a);
   }
 
   /// The faces and edges of the trace are those of the sheet before: what is needed of them is noted first.
@@ -209,8 +202,8 @@ class CarefulEmbedding {
     const Point2 line = rest(target) - rest(a), u = rest(sheet_.origin(h)), v = rest(sheet_.target(h));
     const double from_u = std::abs(cutbench::cross(line, u - rest(a)));
     const double from_v = std::abs(cutbench::cross(line, v - rest(a)));
-    if (from_u + from_v == 0) return 0.5 * u + 0.5 * v;
-    return from_u < from_v ? u + from_u / (from_u + from_v) * (v - u) : v + from_v / (from_u + from_v) * (u - v);
+    double lambda = 0;
+    return divide(u, v, from_u, from_v, lambda);
   }
 
   /// Flips the crossed edges until none of them crosses a - b, which then is an edge.

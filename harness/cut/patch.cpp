@@ -29,6 +29,8 @@ EdgeMark mark_of(const Patch& patch, int a, int b) {
   return is_segment(patch, a, b) ? EdgeMark::path : EdgeMark::none;
 }
 
+}  // namespace
+
 HalfEdge find_spoke(const Sheet& sheet, VertexIndex from, VertexIndex to) {
   const HalfEdge first = sheet.first_spoke(from);
   HalfEdge h = first;
@@ -38,8 +40,6 @@ HalfEdge find_spoke(const Sheet& sheet, VertexIndex from, VertexIndex to) {
   } while (h.valid() && h != first);
   return {};
 }
-
-}  // namespace
 
 int Patch::edge_of(int point) const {
   int edge = -1;

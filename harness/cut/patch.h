@@ -29,6 +29,9 @@ struct Patch {
   int edge_of(int point) const;  ///< the corner after which `point` comes in the ring: which edge it lies on
 };
 
+/// The half-edge from one vertex to another; none where there is no such edge, or only the other half of one on the
+/// border.
+HalfEdge find_spoke(const Sheet& sheet, VertexIndex from, VertexIndex to);
 /// Makes sheet vertices of the nodes that aren't yet.
 void make_vertices(Sheet& sheet, Subdivision& subdivision);
 /// Fills `patch` for face f. \pre make_vertices().

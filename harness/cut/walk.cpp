@@ -14,15 +14,13 @@ constexpr Passage through_face(TriangleIndex t) { return {Passage::Kind::face, t
 constexpr Passage along_edge(HalfEdge h) { return {Passage::Kind::along, {}, h}; }
 constexpr Passage outside{Passage::Kind::outside, {}, {}};
 
-/// The point that divides a b as `from_a` to `from_b`, reckoned from the nearer end: that rounds less, and alike
-/// whichever of the two comes first. Sets lambda, the fraction from a.
+}  // namespace
+
 Point2 divide(Point2 a, Point2 b, double from_a, double from_b, double& lambda) {
   lambda = from_a / (from_a + from_b);
   if (from_a == from_b) return 0.5 * a + 0.5 * b;
   return from_a < from_b ? a + lambda * (b - a) : b + from_b / (from_a + from_b) * (a - b);
 }
-
-}  // namespace
 
 /// Side of p on the line a -> b. The snap distance is at least 8 ulp of the largest coordinate and thousands of times
 /// the rounding error of the determinant, so the sign of what is not snapped is the exact one; builds with assertions

@@ -50,6 +50,10 @@ struct WalkLost : TooClose {
       : TooClose("the path can't be followed through the mesh: points of it, or older cuts, are too close together") {}
 };
 
+/// The point that divides a b as `from_a` to `from_b`, reckoned from the nearer end: that rounds less, and alike
+/// whichever of the two comes first. Sets lambda, the fraction from a.
+Point2 divide(Point2 a, Point2 b, double from_a, double from_b, double& lambda);
+
 class Walk {
  public:
   Walk(const Sheet& sheet, const Locator& locator) : sheet_(sheet), locator_(locator), snap_(sheet.snap()) {}
