@@ -168,7 +168,7 @@ int simulate(const SimulateArguments& arguments) {
 struct RunArguments {
   std::vector<std::string> experiments, methods;
   std::vector<int> resolutions;
-  int repetitions = 0;
+  int cases = 0, repetitions = 0;
   std::string seed, out = "results", shard = "1/1";
 };
 
@@ -206,6 +206,7 @@ int run(const RunArguments& arguments, const std::string& command) {
     restrict_to(e.resolutions, arguments.resolutions, "--resolutions: one of them", [](int r) { return r; });
     if (e.campaign && !arguments.methods.empty()) e.campaign->peer = false;
     if (e.campaign && !arguments.resolutions.empty()) e.campaign->mesh_files.clear();
+    if (arguments.cases > 0) e.cases = arguments.cases;
     if (arguments.repetitions > 0) e.repetitions = arguments.repetitions;
     if (arguments.seed == "commit")
       e.seed = seed_of_commit(context);
@@ -267,6 +268,7 @@ int main(int argc, char** argv) {
   run_command->add_option("experiments", run_arguments.experiments, "experiment files (TOML)")->required();
   run_command->add_option("--methods", run_arguments.methods, "only these")->delimiter(',');
   run_command->add_option("--resolutions", run_arguments.resolutions, "only these (triangles)")->delimiter(',');
+  run_command->add_option("--cases", run_arguments.cases, "instead of the experiment's")->check(CLI::PositiveNumber);
   run_command->add_option("--repetitions", run_arguments.repetitions, "instead of the experiment's")
       ->check(CLI::PositiveNumber);
   run_command->add_option("--seed", run_arguments.seed, "a number, or `commit`: from the commit's hash");

@@ -431,6 +431,7 @@ TEST_F(BadInput, Experiments) {
               {"run e.toml --out r --shard 1/2x", 2, "--shard 1/2x"},
               {"run e.toml --out r --seed -1", 2, "--seed -1: give a whole number"},
               {"run e.toml --out r --seed 1e30", 2, "--seed 1e30: give a whole number"},
+              {"run e.toml --out r --cases 0", 2, "--cases"},
               {"run e.toml --out r --repetitions 0", 2, "--repetitions"}});
 }
 
