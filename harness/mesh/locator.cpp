@@ -57,14 +57,20 @@ void Locator::add_border(const Sheet& sheet, HalfEdge h) {
 
 void Locator::update(const Sheet& sheet) {
   // A cell's triangle needs no update: the first child of a triangle keeps its slot, so what is there is still near.
-  const auto add = [&](TriangleIndex t) {
+  // Nor does a border edge that stayed the same half-edge; entries of others remain, as few as border edges ever made.
+  const bool in_place = sheet.log().moved.empty();
+  const auto add = [&](TriangleIndex t, const Triangle& before) {
     const Triangle& triangle = sheet.triangle(t);
     if (!triangle.alive()) return;
-    for (int k = 0; k < 3; ++k)
-      if (!triangle.opposite[static_cast<std::size_t>(k)].valid()) add_border(sheet, half_edge(t, k));
+    for (int k = 0; k < 3; ++k) {
+      const auto i = static_cast<std::size_t>(k), j = static_cast<std::size_t>(next_corner(k));
+      const bool same = in_place && before.alive() && !before.opposite[i].valid() &&
+                        before.vertex[i] == triangle.vertex[i] && before.vertex[j] == triangle.vertex[j];
+      if (!triangle.opposite[i].valid() && !same) add_border(sheet, half_edge(t, k));
+    }
   };
-  for (const auto& entry : sheet.log().touched) add(entry.slot);
-  for (std::size_t t = sheet.log().triangles_before; t < sheet.triangle_slots(); ++t) add(TriangleIndex(t));
+  for (const auto& entry : sheet.log().touched) add(entry.slot, entry.before);
+  for (std::size_t t = sheet.log().triangles_before; t < sheet.triangle_slots(); ++t) add(TriangleIndex(t), Triangle());
 }
 
 TriangleIndex Locator::near(const Sheet& sheet, Point2 p) const {
