@@ -40,6 +40,16 @@ void save(const Sheet& sheet, const Curve& curve, const std::filesystem::path& s
   write_path({curve}, stem.string() + ".json");
 }
 
+/// Of a sheet, locator and cutter that begin with `mesh` and make one cut.
+double bytes_anew(const MeshData& mesh, const Curve& curve, CuttingMethod& method) {
+  const double before = heap_bytes();
+  Sheet sheet(mesh);
+  Locator locator(sheet);
+  Cutter cutter;
+  cutter.cut(sheet, locator, curve, method, options);
+  return heap_bytes() - before;
+}
+
 /// Prints the method's row; false where a cut failed or a result was wrong.
 bool cut_in_a_row(const MethodRow& row, int n, std::size_t cuts, const std::string& folder) {
   const double heap_before = heap_bytes();
@@ -48,7 +58,7 @@ bool cut_in_a_row(const MethodRow& row, int n, std::size_t cuts, const std::stri
   Cutter cutter;
   const auto method = row.make(0);  // Bowyer-Watson without local split: each round would multiply the triangles
   std::size_t failed = 0, wrong = 0, crossed = 0;
-  std::vector<double> cost, bytes;  // us per crossed triangle; heap bytes per triangle
+  std::vector<double> cost;  // us per crossed triangle
   for (std::size_t i = 0; i < cuts; ++i) {
     const Curve curve = make_small_cut(seed, i, sheet);
     const bool judged = i % 250 == 249;
@@ -67,12 +77,14 @@ bool cut_in_a_row(const MethodRow& row, int n, std::size_t cuts, const std::stri
     // A cut that meets next to nothing costs what it costs to be called.
     if (outcome.status == Status::ok && outcome.crossed_triangles >= 20)
       cost.push_back(outcome.time_us.total() / static_cast<double>(outcome.crossed_triangles));
-    bytes.push_back((heap_bytes() - heap_before) / static_cast<double>(sheet.triangle_count()));
   }
   const std::size_t sample = std::min<std::size_t>(50, cost.size());
   const double first = median({cost.data(), sample}), last = median({cost.data() + cost.size() - sample, sample});
-  std::printf("%-20s %7zu %6zu %10zu %10zu %10.3f %10.3f %6.2f %12.0f %12.0f\n", row.name.c_str(), failed, wrong,
-              crossed, sheet.triangle_count(), first, last, last / first, bytes.front(), bytes.back());
+  const auto triangles = static_cast<double>(sheet.triangle_count());
+  const double held = heap_bytes() - heap_before;
+  const double anew = bytes_anew(sheet.to_mesh_data(), make_small_cut(seed, cuts, sheet), *method);
+  std::printf("%-20s %7zu %6zu %10zu %10zu %10.3f %10.3f %6.2f %10.0f %10.0f\n", row.name.c_str(), failed, wrong,
+              crossed, sheet.triangle_count(), first, last, last / first, held / triangles, anew / triangles);
   std::fflush(stdout);
   return failed == 0 && wrong == 0;
 }
@@ -85,13 +97,13 @@ int main(int argc, char** argv) {
     const std::size_t cuts = argc > 2 ? std::stoul(argv[2]) : 1000;
     std::printf("%zu cuts in a row on the grid of %d, chord tolerance %g h, seed %lu; every 250th judged\n", cuts,
                 2 * n * n, options.chord_tolerance, seed);
-    std::printf("%-20s %7s %6s %10s %10s %10s %10s %6s %12s %12s\n", "method", "failed", "wrong", "crossed",
-                "triangles", "us first", "us last", "ratio", "bytes first", "bytes last");
+    std::printf("%-20s %7s %6s %10s %10s %10s %10s %6s %10s %10s\n", "method", "failed", "wrong", "crossed",
+                "triangles", "us first", "us last", "ratio", "bytes", "anew");
     bool ok = true;
     for (const MethodRow& row : all_methods()) ok &= cut_in_a_row(row, n, cuts, argc > 3 ? argv[3] : "");
     std::printf(
         "us: geometry per crossed triangle, median of the first and last 50 cuts that cross 20 or more; bytes: "
-        "heap per triangle\n");
+        "heap per triangle in the end, and of one cut on that sheet begun anew\n");
     return ok ? 0 : 1;
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
