@@ -186,7 +186,7 @@ TEST_F(CampaignRun, AFaultCostsOneCaseAndIsSavedAndMadeSmall) {
           std::find_if(rows().begin(), rows().end(), [&](const auto& r) { return r.name == expected.method; });
       std::vector<std::size_t> triangles;
       for (const std::string kind : {"", ".small"}) {
-        const Specimen again{read_mesh(stem + kind + ".obj"), read_path(stem + kind + ".json")};
+        const CutCase again{read_mesh(stem + kind + ".obj"), read_path(stem + kind + ".json")};
         EXPECT_EQ(try_in_isolation(contender_of({&*row, 0}), again, {}, 0.5).kind, expected.kind);
         triangles.push_back(again.mesh.triangles.size());
       }
@@ -264,7 +264,7 @@ TEST(Isolated, EveryPieceHasItsFate) {
 
 /// Of three cuts, of a path with many points and of a whole sheet, what it takes is left.
 TEST(Shrink, LeavesOutAllThatIsNotNeeded) {
-  const auto needs = [](const Specimen& s) {
+  const auto needs = [](const CutCase& s) {
     const bool path = std::any_of(s.cuts.begin(), s.cuts.end(), [](const Curve& c) {
       return std::count(c.points.begin(), c.points.end(), Point2{0.5, 0.5}) == 1;
     });
@@ -273,12 +273,12 @@ TEST(Shrink, LeavesOutAllThatIsNotNeeded) {
     });
     return path && sheet;
   };
-  Specimen specimen{make_sheet("grid", 6), {}};
+  CutCase cut_case{make_sheet("grid", 6), {}};
   const Curve line{Curve::Kind::polyline, false, {{0, 0}, {1, 1}}};
   const Curve loop{Curve::Kind::polyline, true, {{0, 0}, {0.3, 0.1}, {0.5, 0.5}, {0.2, 0.4}, {0.1, 0.3}, {0, 0.2}}};
-  specimen.cuts = {line, loop, line};
-  ASSERT_TRUE(needs(specimen));
-  const Specimen small = shrunk(specimen, needs);
+  cut_case.cuts = {line, loop, line};
+  ASSERT_TRUE(needs(cut_case));
+  const CutCase small = shrunk(cut_case, needs);
   EXPECT_TRUE(needs(small));
   EXPECT_EQ(small.mesh.triangles.size(), 1u);
   EXPECT_EQ(small.mesh.rest.size(), 3u);

@@ -63,11 +63,11 @@ Fault fault_of(const CaseResult& result, Fate fate) {
   return {result.fault, result.verdict.data(), result.reason.data(), result.cut};
 }
 
-Fault try_in_isolation(const Contender& contender, const Specimen& specimen, const CutOptions& options,
+Fault try_in_isolation(const Contender& contender, const CutCase& cut_case, const CutOptions& options,
                        double time_limit_s) {
   const SharedArray<CaseResult> result(1);
   const auto fate = run_isolated(1, {1, time_limit_s}, [&](std::size_t) {
-    try_case(contender, Sheet(specimen.mesh), specimen.cuts, options, result[0]);
+    try_case(contender, Sheet(cut_case.mesh), cut_case.cuts, options, result[0]);
   });
   return fault_of(result[0], fate.front());
 }
@@ -75,14 +75,14 @@ Fault try_in_isolation(const Contender& contender, const Specimen& specimen, con
 void save(const FailingCase& failing, const std::filesystem::path& folder, const Contender& contender,
           const CutOptions& options, double time_limit_s, double shrinking_s) {
   std::string text = failing.title + "\n" + failing.fault.text() + "\n";
-  const auto write = [&](const std::string& name, const Specimen& specimen) {
+  const auto write = [&](const std::string& name, const CutCase& cut_case) {
     const std::filesystem::path stem = folder / name, mesh = stem.string() + ".obj", path = stem.string() + ".json";
-    write_mesh(specimen.mesh, mesh);
-    write_path(specimen.cuts, path);
-    const Specimen again{read_mesh(mesh), read_path(path)};
+    write_mesh(cut_case.mesh, mesh);
+    write_path(cut_case.cuts, path);
+    const CutCase again{read_mesh(mesh), read_path(path)};
     const Fault fault = try_in_isolation(contender, again, options, time_limit_s);
-    text += "\n" + name + ": " + std::to_string(specimen.mesh.triangles.size()) + " triangles, " +
-            std::to_string(specimen.cuts.size()) +
+    text += "\n" + name + ": " + std::to_string(cut_case.mesh.triangles.size()) + " triangles, " +
+            std::to_string(cut_case.cuts.size()) +
             " cuts\nread back: " + (fault.same_as(failing.fault) ? "the same, " : "NOT the same, ") + fault.text() +
             "\n";
     if (contender.variant)
@@ -91,15 +91,15 @@ void save(const FailingCase& failing, const std::filesystem::path& folder, const
     else
       text += "made by the peer: no command makes it\n";
   };
-  write(failing.name, failing.specimen);
+  write(failing.name, failing.cut_case);
 
   const double trial_s = std::min(time_limit_s, shrinking_s / 10);
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(shrinking_s);
-  const auto still_fails = [&](const Specimen& part) {
+  const auto still_fails = [&](const CutCase& part) {
     return std::chrono::steady_clock::now() < deadline &&
            try_in_isolation(contender, part, options, trial_s).same_as(failing.fault);
   };
-  write(failing.name + ".small", shrunk(failing.specimen, still_fails));
+  write(failing.name + ".small", shrunk(failing.cut_case, still_fails));
 
   const std::filesystem::path file = folder / (failing.name + ".txt");
   std::ofstream out(file);

@@ -21,13 +21,13 @@ struct Fault {
 Fault fault_of(const CaseResult& result, Fate fate);
 
 /// The case made anew, in a process of its own.
-Fault try_in_isolation(const Contender& contender, const Specimen& specimen, const CutOptions& options,
+Fault try_in_isolation(const Contender& contender, const CutCase& cut_case, const CutOptions& options,
                        double time_limit_s);
 
 struct FailingCase {
   std::string name;   ///< of its files
   std::string title;  ///< says which case it is, one line
-  Specimen specimen;
+  CutCase cut_case;
   Fault fault;
 };
 /// Writes <name>.obj, .json and .txt, and <name>.small.obj and .small.json, the smallest part that was found in about

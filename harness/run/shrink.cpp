@@ -24,25 +24,25 @@ void leave_out(std::vector<Item>& items, std::size_t step, std::size_t least, St
 
 }  // namespace
 
-Specimen shrunk(Specimen specimen, const std::function<bool(const Specimen&)>& still_fails) {
-  leave_out(specimen.cuts, 1, 1, [&] { return still_fails(specimen); });
-  for (Curve& curve : specimen.cuts) {
+CutCase shrunk(CutCase cut_case, const std::function<bool(const CutCase&)>& still_fails) {
+  leave_out(cut_case.cuts, 1, 1, [&] { return still_fails(cut_case); });
+  for (Curve& curve : cut_case.cuts) {
     const bool bezier = curve.kind == Curve::Kind::bezier;
     if (bezier && curve.closed) continue;
-    leave_out(curve.points, bezier ? 3 : 1, bezier ? 4 : curve.closed ? 3 : 2, [&] { return still_fails(specimen); });
+    leave_out(curve.points, bezier ? 3 : 1, bezier ? 4 : curve.closed ? 3 : 2, [&] { return still_fails(cut_case); });
   }
   // What is tried is what reading the file would give: unused vertices dropped, fans parted.
-  const std::vector<std::array<std::int32_t, 3>> all = specimen.mesh.triangles;
-  MeshData whole = specimen.mesh;
+  const std::vector<std::array<std::int32_t, 3>> all = cut_case.mesh.triangles;
+  MeshData whole = cut_case.mesh;
   const auto mended = [&] {
     MeshData mesh = whole;
     mesh.notes.clear();
     check_and_repair(mesh, "a part of the sheet");
     return mesh;
   };
-  leave_out(whole.triangles, 1, 1, [&] { return still_fails({mended(), specimen.cuts}); });
-  if (whole.triangles != all) specimen.mesh = mended();
-  return specimen;
+  leave_out(whole.triangles, 1, 1, [&] { return still_fails({mended(), cut_case.cuts}); });
+  if (whole.triangles != all) cut_case.mesh = mended();
+  return cut_case;
 }
 
 }  // namespace cutbench
