@@ -150,9 +150,6 @@ class Plane {
   std::map<std::pair<int, int>, Lines> lines_;
 };
 
-int next(int half_edge) { return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1; }
-int previous(int half_edge) { return half_edge % 3 == 0 ? half_edge + 2 : half_edge - 1; }
-
 /// Opens a mesh along the half-edges without an opposite one: one vertex per fan of triangles. The input's vertices
 /// keep their indices; new ones come behind them.
 Mesh opened(const Mesh& closed, const std::vector<int>& opposite, const Mesh& before,

@@ -13,7 +13,8 @@ struct ExpectedPieces {
   int expected = 0;  ///< open ends as they are, pieces thinner than `tip` left out
   int least = 0;     ///< pieces thinner than `thin` left out too
   int most = 0;      ///< open ends lengthened by `tip`, what passes within `touch` of the path joined
-                     ///< to it, however thin the pieces
+                     ///< to it, however thin the pieces; and one more for each segment of a path
+                     ///< so small (8 `touch`) that it nearly touches itself everywhere
 };
 
 /// Rest units.
@@ -21,7 +22,7 @@ struct PieceTolerances {
   double tip = 0, touch = 0, thin = 0;  ///< 0 <= tip <= touch <= thin
 };
 
-/// Counts the faces inside the sheet of the exact planar arrangement of all given segments (CGAL, Arrangement_2).
+/// Counts the faces inside the sheet of the exact planar arrangement of all given segments (planar_map.h).
 /// Inside is where a walk from the unbounded face has crossed an odd number of border edges. The thickness of a face is
 /// 2 area / perimeter.
 /// @param border     border edges of the sheet, each once

@@ -5,8 +5,6 @@
 namespace cutbench::oracle {
 namespace {
 
-int next(int half_edge) { return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1; }
-int previous(int half_edge) { return half_edge % 3 == 0 ? half_edge + 2 : half_edge - 1; }
 int origin(const Mesh& mesh, int half_edge) { return mesh.triangles[half_edge / 3][half_edge % 3]; }
 int target(const Mesh& mesh, int half_edge) { return origin(mesh, next(half_edge)); }
 

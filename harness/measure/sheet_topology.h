@@ -9,6 +9,10 @@
 
 namespace cutbench::oracle {
 
+/// Round the triangle.
+inline int next(int half_edge) { return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1; }
+inline int previous(int half_edge) { return half_edge % 3 == 0 ? half_edge + 2 : half_edge - 1; }
+
 struct HalfEdges {
   std::vector<int> opposite;  ///< #3T; -1 on a border
   std::vector<int> repeated;  ///< half-edges whose directed edge some other triangle has too: not a manifold
