@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 /// Does its work well, but on every fifth number of crossed triangles what its name says.
 class Saboteur : public CuttingMethod {
  public:
-  enum class Deed { crash, hang, fail, leave_closed };
+  enum class Deed { crash, hang, fail, leave_closed, give_up };
   explicit Saboteur(Deed deed) : deed_(deed), method_(find_method("conventional_split").make(0)) {}
 
   void embed(Sheet& sheet, Subdivision& trace) override {
@@ -39,6 +39,7 @@ class Saboteur : public CuttingMethod {
       for (volatile bool forever = true; forever;) {
       }
     method_->embed(sheet, trace);
+    if (strike && deed_ == Deed::give_up) throw TooClose("on purpose");
     if (strike && deed_ == Deed::fail) throw CutFailed("inverted", "on purpose");
     if (strike && deed_ == Deed::leave_closed && !sheet.log().new_vertices.empty()) un_mark(sheet);
   }
@@ -65,9 +66,11 @@ MethodRow row_of(const std::string& name, Saboteur::Deed deed) {
 }
 
 const std::vector<MethodRow>& rows() {
-  static const std::vector<MethodRow> all{find_method("conventional_split"), row_of("crashing", Saboteur::Deed::crash),
+  static const std::vector<MethodRow> all{find_method("conventional_split"),
+                                          row_of("crashing", Saboteur::Deed::crash),
                                           row_of("hanging", Saboteur::Deed::hang),
                                           row_of("failing", Saboteur::Deed::fail),
+                                          row_of("giving_up", Saboteur::Deed::give_up),
                                           row_of("wrong", Saboteur::Deed::leave_closed)};
   return all;
 }
@@ -197,6 +200,14 @@ TEST_F(CampaignRun, AFaultCostsOneCaseAndIsSavedAndMadeSmall) {
     EXPECT_GT(saved, 0u);
     EXPECT_LE(saved, static_cast<std::size_t>(sum(records, expected.kind)));
   }
+}
+
+TEST_F(CampaignRun, CountsWhereTheHarnessHadToEmbed) {
+  const auto own_way = run(experiment({"conventional_split"}, 20), "own"),
+             helped = run(experiment({"giving_up"}, 20), "helped");
+  EXPECT_TRUE(all_ok_);
+  EXPECT_GT(sum(helped, carefully), sum(own_way, carefully));
+  EXPECT_LE(sum(helped, carefully), sum(helped, tried));
 }
 
 TEST_F(CampaignRun, AllOfTheMethodsPass) {

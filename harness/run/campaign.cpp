@@ -19,7 +19,7 @@ namespace cutbench {
 
 namespace {
 
-constexpr std::size_t saved_per_row = 20;
+constexpr std::size_t saved_per_row = 20, saved_per_row_of_peer = 1;
 constexpr double shrinking_s = 10;
 constexpr double near = 1e-9;  // mean edges: nearer than this, an event is near
 
@@ -151,7 +151,8 @@ class Campaign {
       count[cases] = 1, count[near_event_cases] = drawn_[k].near_event;
       std::transform(count.begin(), count.end(), sums[family].begin(), sums[family].begin(), std::plus<>());
       slowest[family] = std::max(slowest[family], results[k].slowest_us);
-      if (fault.kind != ok && family > 0 && saved[family]++ < saved_per_row)
+      if (fault.kind != ok && family > 0 &&
+          saved[family]++ < (contender.variant ? saved_per_row : saved_per_row_of_peer))
         failing.push_back(failing_case(contender, k, fault));
     }
     save_all(contender, failing);

@@ -26,8 +26,9 @@ class MethodAtWork : public Subject {
   Result cut(const Curve& curve) override {
     const JudgedSheet::Finding finding = sheet_.cut(curve, options_);
     const CutOutcome& outcome = sheet_.outcome;
-    if (!finding.ok()) return {wrong, finding.verdict, finding.reason, outcome.time_us.total()};
-    return {count_of(outcome.status), outcome.verdict, outcome.reason, outcome.time_us.total()};
+    const double us = outcome.time_us.total();
+    if (!finding.ok()) return {wrong, finding.verdict, finding.reason, us, outcome.carefully};
+    return {count_of(outcome.status), outcome.verdict, outcome.reason, us, outcome.carefully};
   }
 
  private:
@@ -96,6 +97,7 @@ void try_case(const Contender& contender, const Sheet& sheet, const std::vector<
     try {
       const Subject::Result made = subject->cut(cuts[k]);
       ++result.count[made.outcome];
+      result.count[carefully] += made.carefully;
       result.slowest_us = std::max(result.slowest_us, made.us);
       if (made.outcome == failed || made.outcome == wrong)
         note_fault(result, number, made.outcome, made.verdict, made.reason);

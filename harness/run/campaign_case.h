@@ -14,10 +14,24 @@
 namespace cutbench {
 
 /// What is counted, in the order of the record's columns: `tried` is the sum of those from `ok` to `timed_out`.
-enum Count { tried, ok, noop, deviated, refused, failed, wrong, crashed, timed_out, cases, near_event_cases };
-constexpr std::array<const char*, 11> count_names{"tried",           "ok",    "noop",    "deviated",  "refused",
-                                                  "failed",          "wrong", "crashed", "timed_out", "cases",
-                                                  "near_event_cases"};
+/// Of those, `carefully` is how many were not embedded in the method's own way.
+enum Count {
+  tried,
+  ok,
+  noop,
+  deviated,
+  refused,
+  failed,
+  wrong,
+  crashed,
+  timed_out,
+  carefully,
+  cases,
+  near_event_cases
+};
+constexpr std::array<const char*, 12> count_names{"tried",     "ok",        "noop",  "deviated",
+                                                  "refused",   "failed",    "wrong", "crashed",
+                                                  "timed_out", "carefully", "cases", "near_event_cases"};
 using Counts = std::array<std::int64_t, count_names.size()>;
 /// Those that nobody may have.
 inline std::int64_t faults_in(const Counts& c) { return c[failed] + c[wrong] + c[crashed] + c[timed_out]; }
@@ -30,6 +44,7 @@ class Subject {
     Count outcome = ok;           ///< ok ... wrong
     std::string verdict, reason;  ///< of failed and wrong
     double us = 0;                ///< the cut's own time
+    bool carefully = false;       ///< CutOutcome::carefully
   };
   virtual Result cut(const Curve& curve) = 0;
 };

@@ -24,11 +24,11 @@ Counts& sum_of(Sums& sums, const std::string& name) {
 
 void print_sums(const char* by, const Sums& sums) {
   std::printf("%-28s", by);
-  for (int c = tried; c <= timed_out; ++c) std::printf(" %9s", count_names[static_cast<std::size_t>(c)]);
+  for (int c = tried; c <= carefully; ++c) std::printf(" %9s", count_names[static_cast<std::size_t>(c)]);
   std::printf("  near cases\n");
   for (const auto& [name, count] : sums) {
     std::printf("%-28s", name.c_str());
-    for (int c = tried; c <= timed_out; ++c)
+    for (int c = tried; c <= carefully; ++c)
       std::printf(" %9lld", static_cast<long long>(count[static_cast<std::size_t>(c)]));
     std::printf(" %9.1f %%\n", percent(count[near_event_cases], count[cases]));
   }

@@ -94,7 +94,7 @@ Point2 bezier_point(const Points& p, double t) {
   return s * s * s * p[0] + 3 * s * s * t * p[1] + 3 * s * t * t * p[2] + t * t * t * p[3];
 }
 
-bool crosses_itself(const Points& p) {
+bool has_crossing(const Points& p) {
   for (std::size_t i = 0; i + 1 < p.size(); ++i)
     for (std::size_t j = i + 2; j + 1 < p.size(); ++j) {
       const Point2 a = p[i], b = p[i + 1], c = p[j], d = p[j + 1];
@@ -118,7 +118,7 @@ bool is_smooth(const Points& p, bool stays_inside) {
     const Point2 q = points.back();
     if (stays_inside && k > 0 && k < n && std::min({q.x, q.y, 1 - q.x, 1 - q.y}) <= 0) return false;
   }
-  return !crosses_itself(points);
+  return !has_crossing(points);
 }
 
 Curve Generator::smooth(Ends ends, bool stays_inside) {
@@ -350,7 +350,7 @@ struct Family {
   const char* name;
   Curves (Generator::*make)();
 };
-constexpr Family families[] = {
+constexpr Family family_table[] = {
     {"straight", &Generator::straight},       {"curved", &Generator::curved},
     {"partial", &Generator::partial},         {"border_inward", &Generator::border_inward},
     {"cut_out", &Generator::cut_out},         {"recut", &Generator::recut},
@@ -375,8 +375,9 @@ Frame frame_of(const Sheet& sheet) {
 
 std::span<const char* const> cut_families() {
   static const auto names = [] {
-    std::array<const char*, std::size(families)> result{};
-    std::transform(std::begin(families), std::end(families), result.begin(), [](const Family& f) { return f.name; });
+    std::array<const char*, std::size(family_table)> result{};
+    std::transform(std::begin(family_table), std::end(family_table), result.begin(),
+                   [](const Family& f) { return f.name; });
     return result;
   }();
   return names;
@@ -384,7 +385,7 @@ std::span<const char* const> cut_families() {
 
 std::vector<Curve> make_case(const std::string& family, std::uint64_t seed, std::size_t i, const Sheet& sheet) {
   std::string known;
-  for (const Family& f : families) {
+  for (const Family& f : family_table) {
     known += (known.empty() ? "" : ", ") + std::string(f.name);
     if (f.name != family) continue;
     std::uint64_t key = Random(seed).bits();
