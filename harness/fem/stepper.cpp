@@ -211,17 +211,21 @@ void Stepper<D>::equilibrium(Model<D>& model, State& state, StepReport& report) 
     solve(model, report);
     if (report.verdict != "ok") return;
     // Backtracking (Nocedal and Wright, Numerical Optimization, 3.1): the direction goes downhill, since A is positive.
-    const double energy = model.energy(state.x, still).total(), slope = -rhs_.dot(dv_);
+    const Energy energy = model.energy(state.x, still);
+    const double size = energy.membrane + energy.bending + std::abs(energy.potential), slope = -rhs_.dot(dv_);
     double fraction = 1;
     for (;; fraction /= 2) {
       x_ = state.x + fraction * dv_;
       model.rotate(x_);
       const double reached = model.energy(x_, still).total();
-      // Near the minimum rounding hides what is gained.
-      if (reached <= energy + 1e-4 * fraction * slope + 1e-14 * std::abs(energy) || fraction < 1e-10) break;
+      // Near the minimum rounding hides what is gained: above all in bending, which is a small difference of positions.
+      if (reached <= energy.total() + 1e-4 * fraction * slope + 1e-10 * size || fraction < 1e-10) break;
     }
     state.x = x_;
     last_step = fraction < 1e-9 ? 1e300 : dv_.cwiseAbs().maxCoeff();
+    // Settled, too: Newton's decrement, twice what is left to gain (Boyd and Vandenberghe, Convex Optimization, 9.5.1).
+    // Slivers round off forces far above 1e-10 of all, which do next to no work.
+    if (fraction == 1 && -slope <= 1e-12 * size) return;
   }
   report.verdict = "solver_stalled";
   report.reason = "no equilibrium after " + std::to_string(options_.newton) + " Newton iterations, relative residual " +
