@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "harness/mesh/predicates.h"
 
@@ -48,6 +49,8 @@ Place Walk::place_on(HalfEdge h, Point2 p) const {
   place.kind = Place::Kind::edge, place.edge = h;
   const double from_a = std::max(0.0, dot(p - a, ab)), from_b = std::max(0.0, dot(rest(sheet_.target(h)) - p, ab));
   place.point = divide(a, rest(sheet_.target(h)), from_a, from_b, place.lambda);
+  if (near(place.point, a)) return place_at(sheet_.origin(h));
+  if (near(place.point, rest(sheet_.target(h)))) return place_at(sheet_.target(h));
   return place;
 }
 
@@ -59,8 +62,7 @@ Place Walk::classify(TriangleIndex t, Point2 p) const {
   HalfEdge on;  // in a corner so thin that two edges are that near: the border or an incision, else the second
   for (int k = 0; k < 3; ++k) {
     const HalfEdge h = half_edge(t, k);
-    if (side(rest(sheet_.origin(h)), rest(sheet_.target(h)), p).sign != 0) continue;
-    if (!on.valid() || (!sheet_.on_border(on) && sheet_.mark(on) == EdgeMark::none)) on = h;
+    if (lies_on(h, p) && (!on.valid() || !separates(on))) on = h;
   }
   return on.valid() ? place_on(on, p) : place_in(t, p);
 }
@@ -72,7 +74,65 @@ Step Walk::reach(Passage passage, Place place) {
   return {passage, place, true};
 }
 
-Step Walk::arrive(TriangleIndex t, Point2 target) { return reach(through_face(t), classify(t, target)); }
+/// \pre the target lies to the left of the edges of t, or within twice the snap distance of their lines.
+Step Walk::arrive(TriangleIndex t, Point2 target) {
+  // Past the tip of a thin corner it does so, too: then the tip lies that near to the way.
+  const auto is_past = [&](VertexIndex from, VertexIndex end) {
+    const Point2 edge = rest(end) - rest(from);
+    return dot(target - rest(end), edge) > 2 * snap_ * std::max(std::abs(edge.x), std::abs(edge.y)) &&
+           side(rest(from), rest(end), target).sign == 0 && !(at_.kind == Place::Kind::vertex && at_.vertex == end);
+  };
+  const auto edge = [t](int k) { return half_edge(t, k); };
+  if (!lies_on(edge(0), target) && !lies_on(edge(1), target) && !lies_on(edge(2), target))
+    for (int k = 0; k < 3; ++k) {
+      const VertexIndex a = sheet_.origin(edge(k)), b = sheet_.target(edge(k));
+      if (is_past(a, b)) return pass_vertex(through_face(t), b, target);
+      if (is_past(b, a)) return pass_vertex(through_face(t), a, target);
+    }
+  const Place place = classify(t, target);
+  if (place.kind == Place::Kind::edge && !separates(place.edge))
+    for (int k = 0; k < 3; ++k)
+      if (lies_on(edge(k), target) && is_better_beyond(sheet_.opposite(edge(k)), target, 8))
+        return arrive_on(through_face(t), edge(k), target);
+  return reach(through_face(t), place);
+}
+
+/// Whether p lies on the edge, and no farther than twice the snap distance on its continuation.
+bool Walk::lies_on(HalfEdge h, Point2 p) const {
+  const Point2 a = rest(sheet_.origin(h)), b = rest(sheet_.target(h)), ab = b - a;
+  const double slack = 2 * snap_ * std::max(std::abs(ab.x), std::abs(ab.y));
+  return side(a, b, p).sign == 0 && dot(p - a, ab) >= -slack && dot(b - p, ab) >= -slack;
+}
+
+/// Is there a vertex or a separating edge where p lies on the other side of an edge that it lies on, too? There the
+/// slivers of earlier cuts may lie upon each other.
+bool Walk::is_better_beyond(HalfEdge entry, Point2 p, int depth) const {
+  if (near(rest(sheet_.origin(Sheet::previous(entry))), p)) return true;
+  for (HalfEdge h : {Sheet::next(entry), Sheet::previous(entry)})
+    if (lies_on(h, p) && (separates(h) || (depth > 0 && is_better_beyond(sheet_.opposite(h), p, depth - 1))))
+      return true;
+  return false;
+}
+
+/// At the target, on an edge, but the walk goes on to the better place beyond it.
+Step Walk::arrive_on(Passage passage, HalfEdge h, Point2 target) {
+  Step step = reach(passage, place_on(h, target));
+  if (step.place.kind != Place::Kind::edge) return step;
+  beyond_ = sheet_.opposite(h);
+  step.arrived = false;
+  return step;
+}
+
+Step Walk::arrive_beyond(HalfEdge entry, Point2 target) {
+  const Passage passage = through_face(triangle_of(entry));
+  if (const VertexIndex apex = sheet_.origin(Sheet::previous(entry)); near(rest(apex), target))
+    return reach(passage, place_at(apex));
+  for (HalfEdge h : {Sheet::next(entry), Sheet::previous(entry)})
+    if (lies_on(h, target) && separates(h)) return reach(passage, place_on(h, target));
+  for (HalfEdge h : {Sheet::next(entry), Sheet::previous(entry)})
+    if (lies_on(h, target) && is_better_beyond(sheet_.opposite(h), target, 8)) return arrive_on(passage, h, target);
+  throw WalkLost();
+}
 
 /// Like arrive(), where the target is known to lie clearly on the left of two of the edges, and `third` is the other.
 Step Walk::arrive_behind(HalfEdge third, Point2 target) {
@@ -94,8 +154,13 @@ Step Walk::pass_vertex(Passage passage, VertexIndex v, Point2 target) {
 
 /// The path runs along the edge of h towards its end v.
 Step Walk::along(HalfEdge h, VertexIndex v, Point2 target) {
-  if (near(rest(v), target) || dot(target - rest(v), rest(v) - origin_) > 0)
+  const Point2 from = rest(sheet_.origin(h) == v ? sheet_.target(h) : sheet_.origin(h));
+  const bool on_line = side(from, rest(v), target).sign == 0;
+  if (near(rest(v), target) || dot(target - rest(v), on_line ? rest(v) - from : target - origin_) > 0)
     return pass_vertex(along_edge(h), v, target);
+  for (HalfEdge entry : {h, sheet_.opposite(h)})
+    if (!separates(h) && is_better_beyond(entry, target, 8))
+      return arrive_on(along_edge(h), sheet_.opposite(entry), target);
   return reach(along_edge(h), place_on(h, target));
 }
 
@@ -189,18 +254,34 @@ Step Walk::from_vertex(VertexIndex v, Point2 target) {
     if (!h.valid() && lies_on_line(sheet_.origin(into))) return along(into, sheet_.origin(into), target);
   } while (h.valid() && h != first);
   // Into the triangle whose spokes have the target between them.
+  const auto leads_through = [&](HalfEdge exit) {
+    return orientation(origin_, target, rest(sheet_.origin(exit))) < 0 &&
+           orientation(origin_, target, rest(sheet_.target(exit))) > 0;
+  };
+  const auto enter = [&](HalfEdge exit) {
+    const TriangleIndex t = triangle_of(exit);
+    const Point2 a = rest(sheet_.origin(exit)), b = rest(sheet_.target(exit));
+    if (side(a, b, target).sign >= 0) return arrive(t, target);
+    return leave(exit, side(origin_, target, a).distance, side(origin_, target, b).distance, through_face(t));
+  };
   HalfEdge last_spoke = h = first;
   do {
     last_spoke = h;
-    const HalfEdge exit = Sheet::next(h);
-    const Point2 a = rest(sheet_.origin(exit)), b = rest(sheet_.target(exit));
-    if (orientation(origin_, target, a) < 0 && orientation(origin_, target, b) > 0) {
-      if (side(a, b, target).sign >= 0) return arrive(triangle_of(h), target);
-      return leave(exit, side(origin_, target, a).distance, side(origin_, target, b).distance,
-                   through_face(triangle_of(h)));
-    }
+    if (leads_through(Sheet::next(h))) return enter(Sheet::next(h));
     h = sheet_.turn_left(h);
   } while (h.valid() && h != first);
+  if (h.valid()) {
+    // Inside the sheet, but the line misses all triangles here: they are narrower than the snap distance. Then the rest
+    // of the line starts here.
+    origin_ = rest(v);
+    do {
+      const Point2 a = rest(sheet_.target(h));
+      if (orientation(origin_, target, a) == 0 && ahead(a, target)) return along(h, sheet_.target(h), target);
+      if (leads_through(Sheet::next(h))) return enter(Sheet::next(h));
+      h = sheet_.turn_left(h);
+    } while (h != first);
+    throw WalkLost();
+  }
   // Out of the sheet, by no more than what still lies on the border?
   for (const HalfEdge border : {first, Sheet::previous(last_spoke)}) {
     const VertexIndex end = sheet_.origin(border) == v ? sheet_.target(border) : sheet_.origin(border);
@@ -274,6 +355,7 @@ Step Walk::go_on(Point2 target) {
     case Place::Kind::edge:
       break;
   }
+  if (beyond_.valid()) return arrive_beyond(std::exchange(beyond_, {}), target);
   if (!crossing_) return from_edge(at_, target);
   crossing_ = false;
   if (entry_.valid()) return through(entry_, left_, right_, target);

@@ -3,8 +3,8 @@
 //
 // Decisions are exact signs on stored doubles. Where a vertex lies within twice the sheet's snap distance of the path
 // the path goes through that vertex, and where a corner of the path lies that near to an edge, or within the snap
-// distance of a vertex, it lies on it. So every crossing that is left is clear of the ends of its edge, and its rounded
-// position can't fall behind them.
+// distance of a vertex, it lies on it; of several edges on the border or an incision rather than on any other. So every
+// crossing that is left is clear of the ends of its edge, and its rounded position can't fall behind them.
 #pragma once
 
 #include "harness/cut/cut_failed.h"
@@ -83,6 +83,11 @@ class Walk {
   Step leave(HalfEdge exit, double right, double left, Passage passage);
   Step arrive(TriangleIndex t, Point2 target);
   Step arrive_behind(HalfEdge third, Point2 target);
+  Step arrive_on(Passage passage, HalfEdge h, Point2 target);
+  Step arrive_beyond(HalfEdge entry, Point2 target);
+  bool separates(HalfEdge h) const { return sheet_.on_border(h) || sheet_.mark(h) != EdgeMark::none; }
+  bool lies_on(HalfEdge h, Point2 p) const;
+  bool is_better_beyond(HalfEdge entry, Point2 p, int depth) const;
   Step reach(Passage passage, Place place);
   Step pass_vertex(Passage passage, VertexIndex v, Point2 target);
   Step along(HalfEdge h, VertexIndex end, Point2 target);
@@ -101,6 +106,7 @@ class Walk {
   HalfEdge entry_;
   double left_ = 0, right_ = 0;
   double outside_from_ = 0;  // fraction of the line at which it left the sheet
+  HalfEdge beyond_;          // that the target was found on, and the walk goes on through to a better place
 };
 
 }  // namespace cutbench
