@@ -81,25 +81,24 @@ std::vector<int> unused_vertices(const Mesh& mesh) {
   return result;
 }
 
-int count_pieces(const HalfEdges& edges) {
-  std::vector<char> seen(edges.opposite.size() / 3, 0);
-  std::vector<int> open;
+std::vector<int> pieces_of_triangles(const HalfEdges& edges) {
+  std::vector<int> piece(edges.opposite.size() / 3, -1), open;
   int pieces = 0;
-  for (int seed = 0; seed < static_cast<int>(seen.size()); ++seed) {
-    if (seen[seed]) continue;
-    ++pieces;
-    seen[seed] = 1;
+  for (int seed = 0; seed < static_cast<int>(piece.size()); ++seed) {
+    if (piece[seed] >= 0) continue;
+    piece[seed] = pieces;
     open.push_back(seed);
     while (!open.empty()) {
       const int t = open.back();
       open.pop_back();
       for (int e = 3 * t; e < 3 * t + 3; ++e) {
         const int other = edges.opposite[e] < 0 ? t : edges.opposite[e] / 3;
-        if (!seen[other]) seen[other] = 1, open.push_back(other);
+        if (piece[other] < 0) piece[other] = pieces, open.push_back(other);
       }
     }
+    ++pieces;
   }
-  return pieces;
+  return piece;
 }
 
 Borders borders(const Mesh& mesh, const HalfEdges& edges) {

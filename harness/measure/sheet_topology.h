@@ -34,8 +34,8 @@ std::vector<int> bow_ties(const Mesh& mesh, const HalfEdges& edges);
 /// Vertices that no triangle has.
 std::vector<int> unused_vertices(const Mesh& mesh);
 
-/// Number of sets of triangles connected through shared edges.
-int count_pieces(const HalfEdges& edges);
+/// For each triangle the number of its piece, a set connected through shared edges; from 0 on without gaps.
+std::vector<int> pieces_of_triangles(const HalfEdges& edges);
 
 Borders borders(const Mesh& mesh, const HalfEdges& edges);
 
