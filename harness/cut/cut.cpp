@@ -56,7 +56,8 @@ CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, Cutti
 
     Subdivision& trace = tracer_.trace(sheet, polyline_, walk, options.chord_tolerance * sheet.mean_edge());
     outcome.time_us.trace += watch.lap();
-    if (trace.segments.empty() && trace.along.empty())
+    outcome.crossed_triangles = trace.crossed_triangles();
+    if (outcome.crossed_triangles == 0 && trace.along.empty())
       return nothing_done(Status::noop, "the path lies outside the sheet, or where it is open already");
 
     try {
@@ -76,11 +77,11 @@ CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, Cutti
     locator.update(sheet);
     outcome.time_us.locate += watch.lap();
 
+    if (method.stopped_early()) outcome.reason = "the triangles were improved in part only, up to the method's limit";
     if (outcome.deviation > 2 * sheet.snap()) {
       outcome.status = Status::deviated;
       outcome.reason = "a crossing was moved out of a wedge between older cuts that is too thin for doubles";
     }
-    outcome.crossed_triangles = trace.crossed_triangles();
     outcome.recovered_segments = method.recovered_segments();
   } catch (const TooClose& reason) {
     sheet.rollback();

@@ -39,7 +39,7 @@ struct PhaseTimes {
 
 struct CutOutcome {
   Status status = Status::ok;
-  std::string verdict = "ok", reason;  ///< of a failure; the reason of a refusal or a noop
+  std::string verdict = "ok", reason;  ///< of a failure; the reason of a refusal or a noop, a note on what was done
   std::size_t crossed_triangles = 0;   ///< of the mesh before the cut, whose interior the path meets
   int recovered_segments = 0;
   bool carefully = false;  ///< the method's own way failed, and embed_carefully() took its place

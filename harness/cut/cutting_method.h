@@ -34,6 +34,9 @@ class CuttingMethod {
 
   /// Path segments that embed() had to recover because its triangulation did not contain them, in the last cut.
   virtual int recovered_segments() const { return 0; }
+
+  /// improve() met a limit of its own in the last cut, and left the rest as it was.
+  virtual bool stopped_early() const { return false; }
 };
 
 /// The one number of a method that may be swept.

@@ -33,7 +33,9 @@ class CarefulEmbedding {
     for (std::size_t i = 0; i < vertex_.size(); ++i)
       if (!vertex_[i].valid()) vertex_[i] = insert(trace_.nodes[i].place.point, triangle_of_node_[i]);
     const auto vertex_of = [&](int node) { return vertex_[static_cast<std::size_t>(node)]; };
-    for (const auto& s : trace_.segments) connect(vertex_of(s.from), vertex_of(s.to));
+    for (const auto& face : trace_.faces)  // the list of all segments has those that were replaced, too
+      for (int s = face.segments; s >= 0; s = trace_.segment(s).next)
+        connect(vertex_of(trace_.segment(s).from), vertex_of(trace_.segment(s).to));
     for (const auto& a : trace_.along) connect(vertex_of(a.from), vertex_of(a.to));
     return moved_;
   }

@@ -45,7 +45,7 @@ class Subdivision {
   };
 
   std::vector<Node> nodes;
-  std::vector<Segment> segments;
+  std::vector<Segment> segments;  ///< those that count are in the faces' lists; others were replaced
   std::vector<Along> along;
   std::vector<Face> faces;
 

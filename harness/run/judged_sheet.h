@@ -29,6 +29,7 @@ class Watched : public CuttingMethod {
     improved = sheet.log().new_vertices.size() > before;
   }
   int recovered_segments() const override { return method_->recovered_segments(); }
+  bool stopped_early() const override { return method_->stopped_early(); }
 
   bool improved = false;              ///< in the last cut
   std::size_t embedded_vertices = 0;  ///< by embed(), of all cuts

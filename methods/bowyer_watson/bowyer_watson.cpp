@@ -189,6 +189,7 @@ void BowyerWatson::improve(Sheet& sheet) {
     const auto c = sheet.corners(t);
     return sheet.triangle(t).alive() && aspect_ratio(c[0], c[1], c[2]) > options_.max_aspect;
   };
+  stopped_early_ = false;
   for (int round = 0; round < options_.rounds; ++round) {
     ill_shaped_.clear();
     for (const auto& touched : sheet.log().touched)
@@ -196,8 +197,10 @@ void BowyerWatson::improve(Sheet& sheet) {
     for (std::size_t t = sheet.log().triangles_before; t < sheet.triangle_slots(); ++t)
       if (is_ill_shaped(TriangleIndex(t))) ill_shaped_.emplace_back(t);
     for (auto t : ill_shaped_) {
-      if (sheet.log().new_vertices.size() > options_.most_vertices)
-        throw CutFailed("not_terminated", "the local split has made 200,000 vertices and goes on");
+      if (sheet.log().new_vertices.size() > options_.most_vertices) {
+        stopped_early_ = true;
+        return;
+      }
       if (!is_ill_shaped(t)) continue;  // a neighbour's split has mended it
       midpoints_.reset(sheet);
       split_long_edges(sheet, t);

@@ -28,13 +28,14 @@ class BowyerWatson : public CuttingMethod {
     int rounds = 0;                       ///< of the local split
     double max_aspect = 3;                ///< a triangle beyond it is ill-shaped
     double min_edge = 1e-6;               ///< no edge is made shorter than this, in mean rest edges
-    std::size_t most_vertices = 200'000;  ///< made by one cut; then it has failed
+    std::size_t most_vertices = 200'000;  ///< made by one cut; then the local split stops where it is
   };
   explicit BowyerWatson(const Options& options) : options_(options) {}
 
   void embed(Sheet& sheet, Subdivision& trace) override;
   void improve(Sheet& sheet) override;
   int recovered_segments() const override { return recovered_; }
+  bool stopped_early() const override { return stopped_early_; }
 
  private:
   void split_long_edges(const Sheet& sheet, TriangleIndex t);
@@ -44,6 +45,7 @@ class BowyerWatson : public CuttingMethod {
   Subdivision midpoints_;
   std::vector<TriangleIndex> ill_shaped_;
   int recovered_ = 0;
+  bool stopped_early_ = false;
 };
 
 /// Fills patch.triangles with a Delaunay triangulation of the patch's points; returns the number of segments recovered.
