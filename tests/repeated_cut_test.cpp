@@ -14,16 +14,11 @@ Curve reversed(Curve curve) {
   return curve;
 }
 
-/// Slits in one triangle, whose middle this method inserts after both tips: an edge from tip to tip stays beside it.
-bool is_known_to_fail(const Variant& variant, const TestCase& c) {
-  return variant.row->name == "conventional_split" && c.name.find("tiny_open") != std::string::npos;
-}
-
 /// Once more, or backwards once more: there is nothing left to open, also where later cuts have crossed it.
 TEST_P(Repeated, PolylineIsANoop) {
   std::size_t repeated = 0;
   for_each_case(scaled(2), 421, [&](const TestCase& c) {
-    if (HasFailure() || is_known_to_fail(GetParam(), c)) return;
+    if (HasFailure()) return;
     CutSheet cut = cut_with(GetParam(), *c.mesh, c.cuts, c.chord_tolerance);
     Locator locator(cut.sheet);
     Cutter cutter;
@@ -51,7 +46,7 @@ TEST_P(Repeated, BezierIsANoop) {
     GTEST_SKIP() << "three rounds of local split leave more edges along a chord than are followed";
   for_each_case(scaled(2), 424, [&](TestCase c) {
     c.cuts.resize(1);
-    if (HasFailure() || c.cuts[0].kind != Curve::Kind::bezier || is_known_to_fail(GetParam(), c)) return;
+    if (HasFailure() || c.cuts[0].kind != Curve::Kind::bezier) return;
     CutSheet cut = cut_with(GetParam(), *c.mesh, c.cuts, 0.05);
     Locator locator(cut.sheet);
     Cutter cutter;

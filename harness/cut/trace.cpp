@@ -80,11 +80,14 @@ void Tracer::split_lone_piece() {
     trace_.node_of(place);
   } else if (!trace_.segments.empty()) {
     const Link& only = links_.front();
-    const int face = trace_.face_of(face_);
     int node = only.count > 0 ? trace_.node_of(place_in(face_, point(only.first + only.count / 2))) : 0;
     if (node < 2) node = trace_.node_of(place_in(face_, middle));  // a path that goes to and fro
-    trace_.face(face).segments = -1;
-    trace_.add_segment(face, 0, node), trace_.add_segment(face, node, 1);
+    // Once more in the order of the path, in which methods insert them: else an edge from tip to tip might come first.
+    const Place between = trace_.node(node).place;
+    trace_.reset(*sheet_);
+    const int face = trace_.face_of(face_), from = trace_.node_of(a), at = trace_.node_of(between),
+              to = trace_.node_of(b);
+    trace_.add_segment(face, from, at), trace_.add_segment(face, at, to);
   }
 }
 
