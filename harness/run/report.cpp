@@ -123,6 +123,7 @@ CutRun cut_all(Sheet& sheet, Locator& locator, Cutter& cutter, std::span<const C
     run.time_us += outcome.time_us;
     run.crossed_triangles += outcome.crossed_triangles;
     run.recovered_segments += outcome.recovered_segments;
+    run.carefully |= outcome.carefully;
     run.verdict = outcome.verdict;
     if (outcome.status != Status::noop || run.status == Status::noop) run.reason = outcome.reason;
     if (outcome.status != Status::noop) run.status = outcome.status;

@@ -18,6 +18,7 @@ struct CutRun {
   std::string verdict = "ok", reason;
   std::size_t crossed_triangles = 0;
   int recovered_segments = 0;
+  bool carefully = false;  ///< one of them, at least: see CutOutcome
   PhaseTimes time_us;
   double cpu_us = 0;  ///< process CPU time of the whole
 };

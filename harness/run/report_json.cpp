@@ -39,6 +39,7 @@ WholeFile report_file(const std::filesystem::path& file, const std::string& meth
                         {"crossed_triangles", run.crossed_triangles}};
   add_counts(document, a);
   document["recovered_segments"] = run.recovered_segments;
+  document["embedded_carefully"] = run.carefully;
   add_shapes(document, a);
   document["incision_error"] = a.judgement.incision_error;
   document["time_us"] = {{"pick", 0},        {"locate", t.locate},   {"trace", t.trace},
