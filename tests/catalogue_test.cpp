@@ -20,9 +20,7 @@ namespace {
 using nlohmann::json;
 
 /// Cases that don't come out as their files say they should, as "case" or "case, method", and why.
-const std::map<std::string, std::string> known_failures{
-    {"G05_three_through_a_row, bowyer_watson_1", "at 1e-11 the local split loses one of six slivers"},
-};
+const std::map<std::string, std::string> known_failures{};
 
 /// A case by one method with one value of its knob.
 struct Trial {

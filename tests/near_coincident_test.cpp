@@ -116,8 +116,8 @@ TEST(NearCoincident, ACutItsShadowAndAThirdAcross) {
   if (path) std::fclose(out);
 }
 
-/// Found with more cases than the test above has, each by another method. To be enabled once it passes.
-TEST(NearCoincident, DISABLED_TenTimesTheSnapDistanceApart) {
+/// Found with more cases than the test above has, each by another method.
+TEST(NearCoincident, TenTimesTheSnapDistanceApart) {
   const auto families = sheet_families();
   for (std::size_t i : {21, 26, 208})
     for (const MethodRow& method : all_methods()) {
