@@ -13,9 +13,10 @@ namespace fs = std::filesystem;
 using namespace cutbench;
 
 void add_catalogue(const fs::path& folder) {
-  for (const CatalogueCase& c : read_catalogue())
+  for (const std::string& name : catalogue_names()) {
+    const CatalogueCase c = read_catalogue_case(name);
     for (const CatalogueMember& member : c.members) {
-      const fs::path file = folder / (c.name + " " + member.label + ".off");
+      const fs::path file = folder / (name + " " + member.label + ".off");
       try {
         write_mesh(sheet_of(member), file);
       } catch (const InputError&) {  // its sheet is a bad one
@@ -23,6 +24,7 @@ void add_catalogue(const fs::path& folder) {
       }
       std::ofstream(file, std::ios::app) << member.path_text;
     }
+  }
 }
 
 void add_bad_meshes(const fs::path& folder) {
