@@ -191,7 +191,7 @@ void Stepper<D>::equilibrium(Model<D>& model, State& state, StepReport& report) 
       state.x[static_cast<Eigen::Index>(i)] =
           state.anchor[static_cast<Eigen::Index>(i)] + model.held_displacement(i, state.time + options_.step);
   state.v.setZero();
-  double last_step = 1e300;
+  double last_step = 1e300, last_slope = 1e300;
   for (int iteration = 0; iteration <= options_.newton; ++iteration) {
     forces(model, state.x, report);
     // The scale of the forces: what the elements and the loads pull with, before they cancel.
@@ -223,9 +223,12 @@ void Stepper<D>::equilibrium(Model<D>& model, State& state, StepReport& report) 
     }
     state.x = x_;
     last_step = fraction < 1e-9 ? 1e300 : dv_.cwiseAbs().maxCoeff();
-    // Settled, too: Newton's decrement, twice what is left to gain (Boyd and Vandenberghe, Convex Optimization, 9.5.1).
-    // Slivers round off forces far above 1e-10 of all, which do next to no work.
-    if (fraction == 1 && -slope <= 1e-12 * size) return;
+    // Settled, too: by Newton's decrement, twice what is left to gain (Boyd and Vandenberghe, Convex Optimization,
+    // 9.5.1), when it is small or, by rounding, falls no more. Slivers leave forces far above 1e-10 of all, which do
+    // next to no work.
+    const double falls = -slope / last_slope;
+    if ((fraction == 1 && -slope <= 1e-12 * size) || (-slope <= 1e-8 * size && falls > 0.5)) return;
+    last_slope = -slope;
   }
   report.verdict = "solver_stalled";
   report.reason = "no equilibrium after " + std::to_string(options_.newton) + " Newton iterations, relative residual " +
