@@ -1,0 +1,24 @@
+// The lips of a cut as a method opened them, and how far they gape.
+#pragma once
+
+#include <vector>
+
+#include "harness/truth/elastic_field.h"
+#include "harness/truth/stress_intensity.h"
+
+namespace cutbench {
+
+/// A place on the requested curve, and the length of the curve that it stands for.
+struct LipSample {
+  Point2 at, normal;
+  double length;
+};
+
+/// Of each sample, m along its normal: that of the nearest opened edge, there; 0 where none is within `reach`, which is
+/// how a curve that was not opened looks.
+std::vector<double> opening(const Sheet& sheet, const Field& displacement, const std::vector<LipSample>& samples,
+                            double reach);
+/// The same of an exact field.
+std::vector<double> opening(const ElasticField& field, const std::vector<LipSample>& samples);
+
+}  // namespace cutbench

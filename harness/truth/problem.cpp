@@ -1,0 +1,28 @@
+#include "harness/truth/problem.h"
+
+#include <algorithm>
+
+#include "harness/mesh/errors.h"
+#include "harness/truth/window_problem.h"
+
+namespace cutbench {
+
+const std::vector<std::unique_ptr<const Problem>>& all_problems() {
+  static const auto problems = [] {
+    std::vector<std::unique_ptr<const Problem>> all;
+    append_window_problems(all);
+    return all;
+  }();
+  return problems;
+}
+
+const Problem& find_problem(const std::string& name) {
+  const auto& all = all_problems();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& problem) { return problem->name() == name; });
+  if (found != all.end()) return **found;
+  std::string known;
+  for (const auto& problem : all) known += (known.empty() ? "" : ", ") + problem->name();
+  throw InputError("unknown problem \"" + name + "\"; known are " + known);
+}
+
+}  // namespace cutbench

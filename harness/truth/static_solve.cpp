@@ -1,0 +1,121 @@
+#include "harness/truth/static_solve.h"
+
+#include <cmath>
+#include <utility>
+
+#include "harness/measure/stop_watch.h"
+
+namespace cutbench {
+
+namespace {
+
+const Physics in_the_plane{.dimension = 2, .strain = Strain::linear, .bending = BendingKind::none};
+
+template <class Visit>
+void for_each_border_edge(const Sheet& sheet, Visit visit) {
+  for (std::size_t t = 0; t < sheet.triangle_slots(); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (const TriangleIndex slot(t); sheet.triangle(slot).alive() && sheet.on_border(half_edge(slot, k)))
+        visit(half_edge(slot, k));
+}
+
+/// The deformed vertices of the ends of a half-edge.
+std::array<DeformedIndex, 2> ends(const Sheet& sheet, HalfEdge h) {
+  const auto& deformed = sheet.triangle(triangle_of(h)).deformed;
+  return {deformed[static_cast<std::size_t>(corner_of(h))],
+          deformed[static_cast<std::size_t>(next_corner(corner_of(h)))]};
+}
+
+}  // namespace
+
+StaticSolve::StaticSolve(const Sheet& sheet, const Elastic& elastic)
+    : sheet_(sheet),
+      model_(sheet, {.stiffness = elastic.young, .poisson = elastic.poisson}, in_the_plane, {}, {}),
+      held_(model_.held()),
+      given_(Field::Zero(static_cast<Eigen::Index>(held_.size()))),
+      force_(given_) {}
+
+void StaticSolve::hold_border(const std::function<Eigen::Vector2d(Point2, Point2)>& value) {
+  for_each_border_edge(sheet_, [&](HalfEdge h) {
+    const auto corners = sheet_.corners(triangle_of(h));
+    const Point2 inside = 1.0 / 3 * (corners[0] + corners[1] + corners[2]);
+    for (const DeformedIndex d : ends(sheet_, h)) {
+      if (std::exchange(held_[2 * d()], 1)) continue;
+      held_[2 * d() + 1] = 1;
+      given_.segment<2>(2 * d.value) = value(sheet_.rest(sheet_.rest_vertex(d)), inside);
+    }
+  });
+}
+
+void StaticSolve::hold(Point2 p, int axis, double value) {
+  for (std::size_t d = 0; d < sheet_.deformed_slots(); ++d) {
+    const VertexIndex v = sheet_.rest_vertex(DeformedIndex(d));
+    if (!v.valid() || !(sheet_.rest(v) == p)) continue;
+    const std::size_t unknown = 2 * d + static_cast<std::size_t>(axis);
+    held_[unknown] = 1, given_[static_cast<Eigen::Index>(unknown)] = value;
+  }
+}
+
+void StaticSolve::pull_border(const std::function<bool(Point2, Point2)>& where, const Eigen::Vector2d& force) {
+  for_each_border_edge(sheet_, [&](HalfEdge h) {
+    const Point2 a = sheet_.rest(sheet_.origin(h)), b = sheet_.rest(sheet_.target(h));
+    if (!where(a, b)) return;
+    for (const DeformedIndex d : ends(sheet_, h))
+      force_.segment<2>(2 * d.value) += std::sqrt(squared_length(b - a)) / 2 * force;
+  });
+}
+
+void StaticSolve::hold_loose_pieces() {
+  const BlockMatrix<2>& blocks = model_.blocks();
+  std::vector<std::uint8_t> seen(model_.vertices());
+  std::vector<std::size_t> piece;
+  loose_.assign(model_.vertices(), 0);
+  for (std::size_t start = 0; start < seen.size(); ++start) {
+    if (seen[start] || blocks.columns(start).empty()) continue;
+    bool held = false;
+    piece.assign(1, start), seen[start] = 1;
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      held = held || held_[2 * piece[i]] || held_[2 * piece[i] + 1];
+      for (const auto j : blocks.columns(piece[i]))
+        if (!std::exchange(seen[static_cast<std::size_t>(j)], 1)) piece.push_back(static_cast<std::size_t>(j));
+    }
+    if (held) continue;
+    for (const std::size_t v : piece) loose_[v] = held_[2 * v] = held_[2 * v + 1] = 1;
+  }
+}
+
+StaticSolve::Solution StaticSolve::solve(const Budget& budget) {
+  StopWatch watch;
+  if (!std::exchange(assembled_, true)) {
+    model_.rotate(Field::Zero(given_.size()));
+    model_.assemble(0, 1);
+    right_ = Field::Zero(given_.size());
+    model_.system().add_product(given_, right_);
+    right_ = force_ - right_;
+    assemble_us_ = watch.lap();
+  }
+  SystemMatrix<2> system = model_.system();
+  system.held = &held_;
+  SolverOptions options = budget.solver;
+  if (budget.iterations > 0) options.tolerance = 0, options.max_iterations = budget.iterations;
+  const auto solver = make_solver<2>(options);
+  Solution solution;
+  Answer& answer = solution.answer;
+  watch.lap();
+  solver->setup(system);
+  answer.setup_us = watch.lap();
+  const SolveReport report = solver->solve(right_, solution.displacement);
+  answer.solve_us = watch.lap();
+  solution.displacement += given_;
+
+  answer.assemble_us = assemble_us_;
+  answer.iterations = report.iterations, answer.residual = report.residual;
+  for (const auto h : held_) answer.unknowns += !h;
+  if (!solution.displacement.allFinite())
+    answer.verdict = "not_finite", answer.reason = "the displacement is not finite";
+  else if (budget.iterations == 0 && !report.converged)
+    answer.verdict = "solver_stalled", answer.reason = options.name + " reached " + std::to_string(report.residual);
+  return solution;
+}
+
+}  // namespace cutbench

@@ -1,0 +1,50 @@
+// Equilibrium of an opened sheet in its plane, linear, with given displacements and forces: assembled once, solved once
+// per budget.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "harness/fem/model.h"
+#include "harness/truth/elastic_field.h"
+#include "harness/truth/problem.h"
+
+namespace cutbench {
+
+class StaticSolve {
+ public:
+  StaticSolve(const Sheet& sheet, const Elastic& elastic);
+
+  /// Gives every vertex of the sheet's border its displacement: `value` of its rest position, and of a point inside a
+  /// triangle there, which says on which lip it is.
+  void hold_border(const std::function<Eigen::Vector2d(Point2, Point2)>& value);
+  /// Gives one coordinate (0 or 1) of all vertices at p its displacement.
+  void hold(Point2 p, int axis, double value);
+  /// Force per length on the border edges that `where` says yes to (by their ends), N/m.
+  void pull_border(const std::function<bool(Point2, Point2)>& where, const Eigen::Vector2d& force);
+  /// Holds at zero all of every piece that nothing holds yet: what was cut out has no equilibrium of its own.
+  void hold_loose_pieces();
+
+  struct Solution {
+    Field displacement;  ///< two values per slot of a deformed vertex, m
+    Answer answer;       ///< all but the measures
+  };
+  /// After all that holds and pulls; the first call assembles, and the time of that is in every answer.
+  Solution solve(const Budget& budget);
+
+  const ElementTable& elements() const { return model_.elements(); }
+  /// Whether hold_loose_pieces() found this vertex in one.
+  bool loose(DeformedIndex d) const { return !loose_.empty() && loose_[d()]; }
+  const Field& force() const { return force_; }  ///< N
+
+ private:
+  const Sheet& sheet_;
+  Model<2> model_;
+  std::vector<std::uint8_t> held_, loose_;
+  Field given_, force_;
+  Field right_;  // of the assembled system
+  double assemble_us_ = 0;
+  bool assembled_ = false;
+};
+
+}  // namespace cutbench
