@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "harness/mesh/errors.h"
+#include "harness/truth/edge_crack.h"
 #include "harness/truth/window_problem.h"
 
 namespace cutbench {
@@ -11,6 +12,7 @@ const std::vector<std::unique_ptr<const Problem>>& all_problems() {
   static const auto problems = [] {
     std::vector<std::unique_ptr<const Problem>> all;
     append_window_problems(all);
+    append_edge_cracks(all);
     return all;
   }();
   return problems;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "harness/mesh/families.h"
-#include "harness/run/random.h"
+#include "harness/truth/members.h"
 #include "harness/truth/quadrature.h"
 #include "harness/truth/static_solve.h"
 
@@ -18,12 +18,11 @@ constexpr Elastic sheet_material{.young = 1000, .poisson = 0.3};
 
 /// The same frame for a member of every size: only its distance from the mesh's cells is in units of them.
 Frame member_frame(Point2 middle, int n, std::uint64_t seed, std::size_t index) {
-  Random random(seed + 0x9E3779B97F4A7C15u * (index + 1));
+  Random random = member_random(seed, index);
   Frame frame;
   Point2 place{0.5 + random.between(-0.5, 0.5) / n, 0.5 + random.between(-0.5, 0.5) / n};
   if (index % 2 == 0) {
-    const double distance = 0.5 * std::pow(10, random.between(-6, 0));
-    place.y = (n / 2 + (random.coin() ? distance : -distance)) / n;
+    place.y = (n / 2 + distance_from_mesh_line(random)) / n;
   } else {
     frame.angle = random.between(0, 2 * std::numbers::pi);
   }
