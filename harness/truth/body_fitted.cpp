@@ -24,60 +24,86 @@ using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
 using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::Exact_predicates_tag>;
 using Criteria = CGAL::Delaunay_mesh_size_criteria_2<Triangulation>;
 
-struct Constraints {
-  std::vector<std::array<Point2, 2>> segments;
-  double h = 0;
-};
+using Chain = std::vector<Point2>;
 
-/// The ends of the border's straight parts, and places on the cuts at about every h.
-Constraints constraints_of(const Specimen& specimen, const Sheet& sheet) {
-  Constraints all;
-  all.h = sheet.mean_edge();
+/// The straight parts of the border, from corner to corner.
+std::vector<Chain> border_of(const Sheet& sheet) {
+  const auto direction = [&](HalfEdge h) { return sheet.rest(sheet.target(h)) - sheet.rest(sheet.origin(h)); };
+  const auto next_on_border = [&](HalfEdge h) { return sheet.first_spoke(sheet.target(h)); };
+  const auto before_on_border = [&](HalfEdge h) {
+    do h = Sheet::previous(h);
+    while (!sheet.on_border(h) && (h = sheet.opposite(h), true));
+    return h;
+  };
+  std::vector<Chain> sides;
   for (std::size_t t = 0; t < sheet.triangle_slots(); ++t)
     for (int k = 0; k < 3; ++k) {
       HalfEdge h = half_edge(TriangleIndex(t), k);
-      if (!sheet.on_border(h)) continue;
-      // The border edge before it, and on from a corner to the next.
-      const auto turns = [&](HalfEdge before, HalfEdge after) {
-        return cross(sheet.rest(sheet.target(before)) - sheet.rest(sheet.origin(before)),
-                     sheet.rest(sheet.target(after)) - sheet.rest(sheet.origin(after))) != 0;
-      };
-      const auto next_on_border = [&](HalfEdge edge) { return sheet.first_spoke(sheet.target(edge)); };
-      HalfEdge before = Sheet::previous(h);
-      while (!sheet.on_border(before)) before = Sheet::previous(sheet.opposite(before));
-      if (!turns(before, h)) continue;
+      if (!sheet.on_border(h) || cross(direction(before_on_border(h)), direction(h)) == 0) continue;
       const Point2 from = sheet.rest(sheet.origin(h));
-      while (!turns(h, next_on_border(h))) h = next_on_border(h);
-      all.segments.push_back({from, sheet.rest(sheet.target(h))});
+      while (cross(direction(h), direction(next_on_border(h))) == 0) h = next_on_border(h);
+      sides.push_back({from, sheet.rest(sheet.target(h))});
     }
-  Polyline fine;
-  for (const Curve& cut : specimen.cuts) {
-    flatten(cut, 1e-4 * all.h, sheet.snap(), fine);
-    std::vector<Point2> points = fine.points;
-    if (fine.closed) points.push_back(points.front());
-    double length = 0;
-    for (std::size_t i = 1; i < points.size(); ++i) length += std::sqrt(squared_length(points[i] - points[i - 1]));
-    const double step = length / std::max(1.0, std::round(length / all.h));
-    // A straight cut is one constraint, which the refinement divides; a curve is entered at every step.
-    double wanted = step, run = 0;
-    Point2 last = points.front();
-    for (std::size_t i = 1; i < points.size(); ++i) {
-      const double piece = std::sqrt(squared_length(points[i] - points[i - 1]));
-      for (; fine.curved && wanted < length - step / 2 && wanted <= run + piece; wanted += step) {
-        const Point2 p = points[i - 1] + (wanted - run) / piece * (points[i] - points[i - 1]);
-        all.segments.push_back({last, p});
-        last = p;
-      }
-      run += piece;
-      if (!fine.curved || i + 1 == points.size()) all.segments.push_back({last, points[i]}), last = points[i];
-    }
-  }
-  return all;
+  return sides;
 }
 
-Triangulation mesh_of(const Constraints& constraints, double size) {
+/// The cuts, from corner to corner.
+std::vector<Chain> cuts_of(const Specimen& specimen, double tolerance, double snap) {
+  std::vector<Chain> chains;
+  Polyline fine;
+  for (const Curve& cut : specimen.cuts) {
+    flatten(cut, tolerance, snap, fine);
+    if (fine.closed) fine.points.push_back(fine.points.front()), fine.kept.push_back(1);
+    chains.push_back({fine.points.front()});
+    for (std::size_t i = 1; i < fine.points.size(); ++i) {
+      chains.back().push_back(fine.points[i]);
+      if (fine.kept[i] && i + 1 < fine.points.size()) chains.push_back({fine.points[i]});
+    }
+  }
+  return chains;
+}
+
+/// Ends both chains where they meet: a vertex of both, not one of each close to the other.
+void end_where_they_meet(std::vector<Chain>& sides, std::vector<Chain>& cuts) {
+  for (std::size_t c = 0; c < cuts.size(); ++c)
+    for (std::size_t i = 0; i + 1 < cuts[c].size(); ++i)
+      for (std::size_t k = 0; k < sides.size(); ++k) {
+        const Point2 a = sides[k][0], along = sides[k][1] - a, p = cuts[c][i], step = cuts[c][i + 1] - p;
+        const double det = cross(along, step);
+        if (det == 0) continue;
+        const double s = cross(p - a, step) / det, t = cross(p - a, along) / det;
+        if (!(s > 0 && s < 1 && t > 0 && t < 1)) continue;
+        const Point2 mouth = a + s * along;
+        Chain rest(cuts[c].begin() + static_cast<std::ptrdiff_t>(i), cuts[c].end());
+        rest.front() = mouth;
+        cuts[c].resize(i + 1), cuts[c].push_back(mouth);
+        cuts.push_back(std::move(rest));
+        sides.push_back({mouth, sides[k][1]}), sides[k][1] = mouth;
+      }
+}
+
+/// Divides a chain into pieces of equal length, about `step`.
+void divide(const Chain& chain, double step, std::vector<std::array<Point2, 2>>& segments) {
+  double length = 0;
+  for (std::size_t i = 1; i < chain.size(); ++i) length += std::sqrt(squared_length(chain[i] - chain[i - 1]));
+  step = length / std::max(1.0, std::round(length / step));
+  double run = 0, wanted = step;
+  Point2 last = chain.front();
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    const double piece = std::sqrt(squared_length(chain[i] - chain[i - 1]));
+    for (; wanted < length - step / 2 && wanted <= run + piece; wanted += step) {
+      const Point2 p = chain[i - 1] + (wanted - run) / piece * (chain[i] - chain[i - 1]);
+      segments.push_back({last, p});
+      last = p;
+    }
+    run += piece;
+  }
+  segments.push_back({last, chain.back()});
+}
+
+Triangulation mesh_of(const std::vector<std::array<Point2, 2>>& constraints, double size) {
   Triangulation mesh;
-  for (const auto& [a, b] : constraints.segments) mesh.insert_constraint(to_cgal(a), to_cgal(b));
+  for (const auto& [a, b] : constraints) mesh.insert_constraint(to_cgal(a), to_cgal(b));
   CGAL::refine_Delaunay_mesh_2(mesh, Criteria(0.125, size));
   return mesh;
 }
@@ -91,17 +117,29 @@ std::size_t triangles_in(const Triangulation& mesh) {
 }  // namespace
 
 Sheet body_fitted(const Specimen& specimen) {
-  const Constraints constraints = constraints_of(specimen, Sheet(specimen.mesh));
+  const Sheet uncut(specimen.mesh);
   const auto wanted = static_cast<double>(specimen.mesh.triangles.size());
-  // The number goes with 1 / size^2, roughly: a few steps come as near as it can be told.
-  double size = 1.3 * constraints.h, best_size = size, best = 1e300;
+  double area = 0;
+  for (std::size_t t = 0; t < uncut.triangle_slots(); ++t) {
+    const auto [a, b, c] = uncut.corners(TriangleIndex(t));
+    area += cross(b - a, c - a) / 2;
+  }
+  const double edge = std::sqrt(4 / std::sqrt(3) * area / wanted);  // of as many equilateral triangles
+  auto sides = border_of(uncut), cuts = cuts_of(specimen, 1e-3 * edge, uncut.snap());
+  end_where_they_meet(sides, cuts);
+  std::vector<std::array<Point2, 2>> constraints;
+  for (const auto* chains : {&sides, &cuts})
+    for (const Chain& chain : *chains) divide(chain, edge, constraints);
+  // The number goes with 1 / size^2, roughly: a few steps come as near as can be told beforehand.
+  double size = 1.2 * edge, best_size = size, best = 1e300;
   for (int step = 0; step < 8; ++step) {
     const auto count = static_cast<double>(triangles_in(mesh_of(constraints, size)));
     if (std::abs(count - wanted) < best) best = std::abs(count - wanted), best_size = size;
     if (best <= 0.01 * wanted) break;
     size *= std::sqrt(count / wanted);
   }
-  const Triangulation mesh = mesh_of(constraints, best_size);
+  Triangulation mesh = mesh_of(constraints, best_size);
+  CGAL::lloyd_optimize_mesh_2(mesh, CGAL::parameters::max_iteration_number = 10);
 
   MeshData data;
   std::map<Triangulation::Vertex_handle, std::int32_t> number;
