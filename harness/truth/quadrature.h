@@ -21,16 +21,25 @@ void integrate_smooth(const std::array<Point2, 3>& c, Add&& add) {
     for (std::size_t k = 0; k < 3; ++k) add(a * (c[0] + c[1] + c[2]) + (1 - 3 * a) * c[k], weight * area);
 }
 
-/// For what grows like 1/r towards corner 0: Duffy's transformation (SIAM J. Numer. Anal. 19, 1982), 5 x 5 points.
+/// For what grows like 1/r towards corner 0: Duffy's transformation (SIAM J. Numer. Anal. 19, 1982), 5 x 5 points, of
+/// triangles that are seen from there at a moderate angle.
 template <class Add>
-void integrate_at_tip(const std::array<Point2, 3>& c, Add&& add) {
+void integrate_at_tip(const std::array<Point2, 3>& c, Add&& add, int depth = 0) {
+  constexpr int deepest = 40;
+  const Point2 u = c[1] - c[0], v = c[2] - c[0], across = c[2] - c[1];
+  const double foot = std::clamp(-dot(u, across) / squared_length(across), 0.0, 1.0);
+  if (depth < deepest && squared_length(across) > squared_length(u + foot * across)) {
+    const Point2 middle = 0.5 * (c[1] + c[2]);
+    integrate_at_tip({c[0], c[1], middle}, add, depth + 1);
+    integrate_at_tip({c[0], middle, c[2]}, add, depth + 1);
+    return;
+  }
   constexpr double far = 0.906179845938664, near = 0.538469310105683;
   constexpr std::array<std::array<double, 2>, 5> gauss{{{(1 - far) / 2, 0.118463442528095},
                                                         {(1 - near) / 2, 0.239314335249683},
                                                         {0.5, 0.284444444444444},
                                                         {(1 + near) / 2, 0.239314335249683},
                                                         {(1 + far) / 2, 0.118463442528095}}};
-  const Point2 u = c[1] - c[0], v = c[2] - c[0];
   for (const auto& [s, ws] : gauss)
     for (const auto& [t, wt] : gauss) add(c[0] + s * ((1 - t) * u + t * v), cross(u, v) * s * ws * wt);
 }

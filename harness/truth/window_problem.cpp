@@ -272,7 +272,7 @@ std::vector<LipSample> straight_lips() {
 /// A straight cut across the middle, pulled with xx, yy, xy.
 WindowCase straight(double xx, double yy, double xy) {
   WindowCase window;
-  window.measures = {"released_energy", "opening", "energy_norm", "displacement_l2", "k1", "k2"};
+  window.measures = {"released_energy", "opening", "energy_norm", "displacement_l2", "strain_energy", "k1", "k2"};
   window.field = [=](const Frame& frame) {
     return std::make_unique<StraightCrackField>(sheet_material, frame, half_length, xx, yy, xy);
   };
@@ -343,7 +343,7 @@ WindowCase arc_crack(int degrees) {
   window.name = "arc_crack_" + std::to_string(degrees);
   window.effect = "a curved cut, an arc of twice " + std::to_string(degrees) + " degrees, pulled in all directions";
   window.truth = "infinite plate: Muskhelishvili's potentials; K left out, since straight auxiliary fields don't fit";
-  window.measures = {"released_energy", "opening", "energy_norm"};
+  window.measures = {"released_energy", "opening", "energy_norm", "strain_energy"};
   window.field = [=](const Frame& frame) {
     return std::make_unique<ArcCrackField>(sheet_material, frame, radius, half, pull);
   };

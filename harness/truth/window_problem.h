@@ -18,10 +18,10 @@ namespace cutbench {
 /// to t, which feeds in W = 1/2 integral (t0 + t)(u - u0). What the lips give off is U0 + W - U(after), exactly
 /// 1/2 integral (t0 u - t u0) over the border; pi s^2 a^2 / E for a straight cut across the stress s. U(after) alone is
 /// computed, and never below the exact one but for the border's interpolation, so no lucky sign hides an error.
-/// opening: gape along the requested curve, relative L2. energy_norm, displacement_l2: of the error, relative.
-/// k1, k2: mean over the tips, by the interaction integral; straight cuts only. rim_stress: hoop stress in the
-/// triangles at the rim, at the middle of their edges, relative L2. stress: largest error of any component in any
-/// triangle.
+/// strain_energy: U(after) alone. opening: gape along the requested curve, relative L2. energy_norm, displacement_l2:
+/// of the error, relative. k1, k2: mean over the tips, by the interaction integral; straight cuts only. rim_stress:
+/// hoop stress in the triangles at the rim, at the middle of their edges, relative L2. stress: largest error of any
+/// component in any triangle.
 struct WindowCase {
   std::string name, effect, truth;
   std::vector<std::string> measures;
