@@ -13,10 +13,6 @@ constexpr double on_the_cut = 1e-9;
 
 Eigen::Vector2d vector(Complex z) { return {z.real(), z.imag()}; }
 
-Eigen::Matrix2d rotation(double angle) {
-  return (Eigen::Matrix2d() << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle)).finished();
-}
-
 /// A point on the x axis, moved to the side of it where `side` is by less than anything else can feel.
 Complex beside_the_axis(Complex z, Complex side) {
   return std::abs(z.imag()) < on_the_cut ? Complex(z.real(), std::copysign(1e-300, side.imag())) : z;
@@ -40,31 +36,27 @@ Point2 Frame::to_rest(Complex z) const {
   return {origin.x + p.real(), origin.y + p.imag()};
 }
 
-ElasticField::Potentials ElasticField::at(Point2 p, Point2 side) const {
-  return potentials(on_side(frame_.to_local(p), frame_.to_local(side)));
+ElasticField::ElasticField(const Elastic& elastic, const Frame& frame)
+    : elastic_(elastic), frame_(frame), axis_(std::polar(1.0, frame.angle)) {
+  rotation_ << axis_.real(), -axis_.imag(), axis_.imag(), axis_.real();
 }
 
-Eigen::Vector2d ElasticField::displacement(Point2 p, Point2 side) const {
-  const Potentials f = at(p, side);
-  const Complex z = frame_.to_local(p);
-  return rotation(frame_.angle) * vector(elastic_.kappa() * f.phi - z * std::conj(f.phi_1) - std::conj(f.psi)) /
-         (2 * elastic_.mu());
+Complex ElasticField::to_local(Point2 p) const {
+  return Complex(p.x - frame_.origin.x, p.y - frame_.origin.y) * std::conj(axis_);
 }
 
-Eigen::Matrix2d ElasticField::gradient(Point2 p) const {
-  const Potentials f = at(p, p);
-  const Complex z = frame_.to_local(p);
-  const Complex even = elastic_.kappa() * f.phi_1 - std::conj(f.phi_1);
-  const Complex odd = z * std::conj(f.phi_2) + std::conj(f.psi_1);
-  Eigen::Matrix2d local;
-  local << vector(even - odd), vector(Complex(0, 1) * (even + odd));
-  const Eigen::Matrix2d r = rotation(frame_.angle);
-  return r * local * r.transpose() / (2 * elastic_.mu());
-}
-
-Eigen::Matrix2d ElasticField::stress(Point2 p) const {
-  const Eigen::Matrix2d g = gradient(p);
-  return elastic_.stress((g + g.transpose()) / 2);
+ElasticField::State ElasticField::state(Point2 p, Point2 side) const {
+  const Complex z = to_local(p);
+  const Potentials f = potentials(on_side(z, to_local(side)));
+  const double kappa = elastic_.kappa(), half = 1 / (2 * elastic_.mu());
+  const Complex even = kappa * f.phi_1 - std::conj(f.phi_1), odd = z * std::conj(f.phi_2) + std::conj(f.psi_1);
+  Eigen::Matrix2d gradient;
+  gradient << vector(even - odd), vector(Complex(0, 1) * (even + odd));
+  State state;
+  state.displacement = half * (rotation_ * vector(kappa * f.phi - z * std::conj(f.phi_1) - std::conj(f.psi)));
+  state.gradient = half * (rotation_ * gradient * rotation_.transpose());
+  state.stress = elastic_.stress((state.gradient + state.gradient.transpose()) / 2);
+  return state;
 }
 
 ElasticField::Potentials UniformField::potentials(Complex z) const {
@@ -107,21 +99,33 @@ ElasticField::Potentials StraightCrackField::potentials(Complex z) const {
 
 Complex StraightCrackField::on_side(Complex z, Complex side) const { return beside_the_axis(z, side); }
 
+ArcCrackField::ArcCrackField(const Elastic& elastic, const Frame& frame, double radius, double half_angle,
+                             double stress)
+    : ElasticField(elastic, frame),
+      radius_(radius),
+      half_angle_(half_angle),
+      c_(stress / (1 + std::pow(std::sin(half_angle / 2), 2))),
+      d_(stress - c_),
+      end_(std::polar(1.0, half_angle)),
+      turn_(std::polar(1.0, half_angle / 2)) {}
+
+Complex ArcCrackField::root(Complex z) const {
+  // The branch that is z at infinity and jumps on the arc: (z - a) / (z - b), of its ends, maps the arc to a ray.
+  const Complex to_other = z - std::conj(end_);
+  return to_other * turn_ * std::sqrt((z - end_) / (to_other * end_));
+}
+
 ElasticField::Potentials ArcCrackField::potentials(Complex z) const {
-  const double half = half_angle_, c = stress_ / (1 + std::pow(std::sin(half / 2), 2)), d = stress_ - c;
-  // The branch that is z at infinity and jumps on the arc: (z - a) / (z - b) maps the arc to a ray.
-  const auto root = [&](Complex w) {
-    const Complex a = std::polar(1.0, half), b = std::conj(a), turn = std::polar(1.0, -half / 2);
-    return (w - b) * std::conj(turn) * std::sqrt((w - a) / (w - b) * turn * turn);
-  };
   z /= radius_;
-  const Complex x = root(z), slope = (z - std::cos(half)) / x, inverse = 1.0 / z;
-  const Complex phi = (c * x + d * z) / 2.0, phi_1 = (c * slope + d) / 2.0, phi_2 = c * (1.0 - slope * slope) / x / 2.0;
-  // omega and its derivative at 1 / conj z, conjugated: X is real on the real axis. The root of a reflected point is on
-  // the other side of the arc.
+  const double middle = end_.real();
+  const Complex x = root(z), slope = (z - middle) / x, inverse = 1.0 / z;
+  const Complex phi = (c_ * x + d_ * z) / 2.0, phi_1 = (c_ * slope + d_) / 2.0;
+  const Complex phi_2 = c_ * (1.0 - slope * slope) / x / 2.0;
+  // omega and its derivative at 1 / conj z, conjugated: X is real on the real axis. A reflected point is on the other
+  // side of the arc.
   const Complex reflected = std::conj(root(1.0 / std::conj(z)));
-  const Complex omega = (c * reflected - d * inverse) / 2.0;
-  const Complex omega_1 = (c * (inverse - std::cos(half)) / reflected - d) / 2.0;
+  const Complex omega = (c_ * reflected - d_ * inverse) / 2.0;
+  const Complex omega_1 = (c_ * (inverse - middle) / reflected - d_) / 2.0;
   return {radius_ * phi, phi_1, phi_2 / radius_, radius_ * (omega - phi_1 * inverse),
           (phi_1 - z * phi_2 - omega_1) * inverse * inverse};
 }

@@ -44,16 +44,21 @@ struct Tip {
 
 class ElasticField {
  public:
-  ElasticField(const Elastic& elastic, const Frame& frame) : elastic_(elastic), frame_(frame) {}
+  ElasticField(const Elastic& elastic, const Frame& frame);
   virtual ~ElasticField() = default;
 
-  /// m. On the cut itself there are two: `side` is any point of the side meant, near p.
-  Eigen::Vector2d displacement(Point2 p, Point2 side) const;
-  Eigen::Vector2d displacement(Point2 p) const { return displacement(p, p); }
-  /// d u_i / d x_j.
-  Eigen::Matrix2d gradient(Point2 p) const;
-  /// N/m.
-  Eigen::Matrix2d stress(Point2 p) const;
+  struct State {
+    Eigen::Vector2d displacement;  ///< m
+    Eigen::Matrix2d gradient;      ///< d u_i / d x_j
+    Eigen::Matrix2d stress;        ///< N/m
+  };
+  /// On the cut itself there are two: `side` is any point of the side meant, near p.
+  State state(Point2 p, Point2 side) const;
+  State state(Point2 p) const { return state(p, p); }
+  Eigen::Vector2d displacement(Point2 p, Point2 side) const { return state(p, side).displacement; }
+  Eigen::Vector2d displacement(Point2 p) const { return state(p).displacement; }
+  Eigen::Matrix2d gradient(Point2 p) const { return state(p).gradient; }
+  Eigen::Matrix2d stress(Point2 p) const { return state(p).stress; }
 
   const Elastic& elastic() const { return elastic_; }
   const Frame& frame() const { return frame_; }
@@ -69,10 +74,12 @@ class ElasticField {
   virtual Complex on_side(Complex z, Complex) const { return z; }
 
  private:
-  Potentials at(Point2 p, Point2 side) const;
+  Complex to_local(Point2 p) const;
 
   Elastic elastic_;
   Frame frame_;
+  Complex axis_;  // of the frame
+  Eigen::Matrix2d rotation_;
 };
 
 /// The same stress everywhere; in the frame's axes.
@@ -123,15 +130,17 @@ class StraightCrackField final : public ElasticField {
 /// psi = conj(omega(1 / conj z)) - phi' / z, omega = (C X - (s - C) z) / 2.
 class ArcCrackField final : public ElasticField {
  public:
-  ArcCrackField(const Elastic& elastic, const Frame& frame, double radius, double half_angle, double stress)
-      : ElasticField(elastic, frame), radius_(radius), half_angle_(half_angle), stress_(stress) {}
+  ArcCrackField(const Elastic& elastic, const Frame& frame, double radius, double half_angle, double stress);
 
  protected:
   Potentials potentials(Complex z) const override;
   Complex on_side(Complex z, Complex side) const override;
 
  private:
-  double radius_, half_angle_, stress_;
+  Complex root(Complex z) const;  ///< X, in units of R
+
+  double radius_, half_angle_, c_, d_;
+  Complex end_, turn_;  // exp(i A), exp(i A / 2)
 };
 
 /// A round hole in an infinite plate pulled by s along the x axis (Kirsch 1898).

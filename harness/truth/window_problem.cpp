@@ -73,10 +73,183 @@ BorderWork border_work(const ElasticField& field, const ElasticField& before, co
   return work;
 }
 
-/// What the elements say of a displacement, beside the exact field; the loose pieces left out.
+/// What a norm of an error is made of.
 struct ElementSums {
   double energy = 0, error_energy = 0, error_squared = 0, exact_squared = 0, worst_stress = 0;
 };
+
+/// The exact side of all measures, worked out once for all solutions on a cut sheet.
+class Comparison {
+ public:
+  Comparison(const WindowCase& window, const Specimen& specimen, const Sheet& sheet, const StaticSolve& solve,
+             const ElasticField& field);
+  std::vector<Measure> measures(const Field& displacement) const;
+
+ private:
+  /// A point of a quadrature rule.
+  struct Sample {
+    Point2 from_corner;  ///< from the element's corner 0
+    double weight;
+    Eigen::Matrix2d stress;
+    Eigen::Vector2d displacement;
+  };
+  struct SampledElement {
+    std::size_t element, end;  ///< of its samples; they begin where those of the element before end
+  };
+  struct RimEdge {
+    std::size_t element;
+    double length, hoop;  ///< exact hoop stress in its middle
+    Eigen::Vector2d tangent;
+  };
+  bool looked_at(std::size_t element) const;
+  void sample_elements();
+  void find_rim();
+  ElementSums sum(const Field& displacement) const;
+  double opening_error(const Field& displacement) const;
+  double rim_error(const Field& displacement) const;
+  StressIntensity mean_intensity(const Field& displacement) const;
+  Eigen::Matrix2d stress(std::size_t element, const Field& displacement) const;
+  Point2 in_rest(Point2 local) const { return field_.frame().to_rest({local.x, local.y}); }
+  Point2 turned(Point2 local) const { return Frame{{0, 0}, field_.frame().angle}.to_rest({local.x, local.y}); }
+
+  const WindowCase& window_;
+  const Sheet& sheet_;
+  const StaticSolve& solve_;
+  const ElasticField& field_;
+  BorderWork border_;
+  std::vector<SampledElement> elements_;
+  std::vector<Sample> samples_;
+  std::vector<LipSample> lips_;
+  std::vector<double> opening_;
+  std::vector<RimEdge> rim_;
+  std::vector<InteractionIntegral> intensities_;  ///< per tip
+};
+
+Comparison::Comparison(const WindowCase& window, const Specimen& specimen, const Sheet& sheet, const StaticSolve& solve,
+                       const ElasticField& field)
+    : window_(window), sheet_(sheet), solve_(solve), field_(field) {
+  const auto [xx, yy, xy] = window.before;
+  border_ = border_work(field, UniformField(field.elastic(), field.frame(), xx, yy, xy), specimen);
+  sample_elements();
+  for (const LipSample& lip : window.lips) lips_.push_back({in_rest(lip.at), turned(lip.normal), lip.length});
+  opening_ = opening(field, lips_);
+  if (window.rim > 0) find_rim();
+  if (std::find(window.measures.begin(), window.measures.end(), "k1") != window.measures.end())
+    for (const Tip& tip : window.tips)
+      intensities_.emplace_back(sheet, solve.elements(), field.elastic(),
+                                Tip{in_rest(tip.at), field.frame().angle + tip.angle});
+}
+
+bool Comparison::looked_at(std::size_t element) const {
+  const Element& e = solve_.elements()[element];
+  return e.alive() && !solve_.loose(e.vertex[0]);
+}
+
+void Comparison::sample_elements() {
+  std::vector<Point2> tips;
+  for (const Tip& tip : window_.tips) tips.push_back(in_rest(tip.at));
+  for (std::size_t e = 0; e < solve_.elements().size(); ++e) {
+    if (!looked_at(e)) continue;
+    const auto corners = sheet_.corners(TriangleIndex(e));
+    integrate(corners, tips, 1, [&](Point2 p, double weight) {
+      samples_.push_back(
+          {p - corners[0], weight * solve_.elements()[e].fraction, field_.stress(p), field_.displacement(p)});
+    });
+    elements_.push_back({e, samples_.size()});
+  }
+}
+
+void Comparison::find_rim() {
+  for (const auto& [e, end] : elements_)
+    for (int k = 0; k < 3; ++k) {
+      const HalfEdge h = half_edge(TriangleIndex(e), k);
+      if (sheet_.mark(h) != EdgeMark::incision) continue;
+      const Point2 a = sheet_.rest(sheet_.origin(h)), b = sheet_.rest(sheet_.target(h));
+      const Complex middle = field_.frame().to_local(0.5 * (a + b)), out = middle / std::abs(middle);
+      const Point2 tangent = turned({-out.imag(), out.real()});
+      const Eigen::Vector2d along(tangent.x, tangent.y);
+      const Eigen::Matrix2d exact = field_.stress(field_.frame().to_rest(window_.rim * out));
+      rim_.push_back({e, std::sqrt(squared_length(b - a)), along.dot(exact * along), along});
+    }
+}
+
+Eigen::Matrix2d Comparison::stress(std::size_t element, const Field& displacement) const {
+  const Eigen::Matrix2d gradient = displacement_gradient(solve_.elements()[element], displacement);
+  return field_.elastic().stress((gradient + gradient.transpose()) / 2);
+}
+
+ElementSums Comparison::sum(const Field& displacement) const {
+  const Elastic& elastic = field_.elastic();
+  ElementSums sums;
+  std::size_t next = 0;
+  for (const auto& [e, end] : elements_) {
+    const Element& element = solve_.elements()[e];
+    const Eigen::Matrix2d gradient = displacement_gradient(element, displacement), here = stress(e, displacement);
+    sums.energy += element.material_area() / 2 * here.cwiseProduct(gradient).sum();
+    const Eigen::Vector2d first = displacement.segment<2>(2 * element.vertex[0].value);
+    for (; next < end; ++next) {
+      const auto& [from_corner, weight, exact, moved] = samples_[next];
+      const Eigen::Matrix2d off = exact - here;
+      sums.error_energy += weight * off.cwiseProduct(elastic.strain(off)).sum();
+      sums.worst_stress = std::max(sums.worst_stress, off.cwiseAbs().maxCoeff());
+      sums.error_squared +=
+          weight * (first + gradient * Eigen::Vector2d(from_corner.x, from_corner.y) - moved).squaredNorm();
+      sums.exact_squared += weight * moved.squaredNorm();
+    }
+  }
+  return sums;
+}
+
+double Comparison::opening_error(const Field& displacement) const {
+  const auto found = opening(sheet_, displacement, lips_, sheet_.mean_edge());
+  double off = 0, scale = 0;
+  for (std::size_t i = 0; i < lips_.size(); ++i)
+    off += lips_[i].length * std::pow(found[i] - opening_[i], 2), scale += lips_[i].length * std::pow(opening_[i], 2);
+  return std::sqrt(off / scale);
+}
+
+double Comparison::rim_error(const Field& displacement) const {
+  double off = 0, scale = 0;
+  for (const auto& [e, length, hoop, tangent] : rim_) {
+    off += length * std::pow(tangent.dot(stress(e, displacement) * tangent) - hoop, 2);
+    scale += length * hoop * hoop;
+  }
+  return scale > 0 ? std::sqrt(off / scale) : 1;
+}
+
+StressIntensity Comparison::mean_intensity(const Field& displacement) const {
+  StressIntensity mean;
+  const auto tips = static_cast<double>(intensities_.size());
+  for (const InteractionIntegral& intensity : intensities_) {
+    const auto [k1, k2] = intensity.of(solve_.elements(), displacement);
+    mean.k1 += k1 / tips, mean.k2 += k2 / tips;
+  }
+  return mean;
+}
+
+std::vector<Measure> Comparison::measures(const Field& displacement) const {
+  const double released = border_.released / 2, after = border_.after / 2;
+  const ElementSums sums = sum(displacement);
+  const StressIntensity k = mean_intensity(displacement);
+  const double pull = std::hypot(window_.before[0], window_.before[1], window_.before[2]);
+  const double intensity = std::hypot(window_.k.k1, window_.k.k2);
+  std::vector<Measure> measures;
+  for (const std::string& name : window_.measures) {
+    const auto compared = [&](double value, double exact, double scale) {
+      measures.push_back({name, value, exact, std::abs(value - exact) / scale});
+    };
+    if (name == "released_energy") compared(released + after - sums.energy, released, released);
+    if (name == "strain_energy") compared(sums.energy, after, after);
+    if (name == "opening") compared(opening_error(displacement), 0, 1);
+    if (name == "energy_norm") compared(std::sqrt(sums.error_energy / (2 * after)), 0, 1);
+    if (name == "displacement_l2") compared(std::sqrt(sums.error_squared / sums.exact_squared), 0, 1);
+    if (name == "rim_stress") compared(rim_error(displacement), 0, 1);
+    if (name == "stress") compared(sums.worst_stress / pull, 0, 1);
+    if (name == "k1") compared(k.k1, window_.k.k1, intensity);
+    if (name == "k2") compared(k.k2, window_.k.k2, intensity);
+  }
+  return measures;
+}
 
 class WindowProblem final : public Problem {
  public:
@@ -96,144 +269,23 @@ class WindowProblem final : public Problem {
 
   std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet,
                              std::span<const Budget> budgets) const override {
-    const Frame frame{specimen.origin, specimen.angle};
-    const auto field = window_.field(frame);
+    const auto field = window_.field({specimen.origin, specimen.angle});
     StaticSolve solve(sheet, sheet_material);
     solve.hold_border([&](Point2 p, Point2 inside) { return field->displacement(p, inside); });
     solve.hold_loose_pieces();
+    const Comparison comparison(window_, specimen, sheet, solve, *field);
     std::vector<Answer> answers;
     for (const Budget& budget : budgets) {
       auto [displacement, answer] = solve.solve(budget);
-      if (answer.verdict != "not_finite") answer.measures = compare(specimen, sheet, solve, displacement, *field);
+      if (answer.verdict != "not_finite") answer.measures = comparison.measures(displacement);
       answers.push_back(std::move(answer));
     }
     return answers;
   }
 
  private:
-  std::vector<Measure> compare(const Specimen& specimen, const Sheet& sheet, const StaticSolve& solve,
-                               const Field& displacement, const ElasticField& field) const;
-  ElementSums sum(const Sheet& sheet, const StaticSolve& solve, const Field& displacement,
-                  const ElasticField& field) const;
-  double opening_error(const Sheet& sheet, const Field& displacement, const ElasticField& field) const;
-  double rim_error(const Sheet& sheet, const StaticSolve& solve, const Field& displacement,
-                   const ElasticField& field) const;
-  StressIntensity mean_intensity(const Sheet& sheet, const StaticSolve& solve, const Field& displacement,
-                                 const Frame& frame) const;
-
   WindowCase window_;
 };
-
-Point2 turned(const Frame& frame, Point2 direction) {
-  return Frame{{0, 0}, frame.angle}.to_rest({direction.x, direction.y});
-}
-
-ElementSums WindowProblem::sum(const Sheet& sheet, const StaticSolve& solve, const Field& displacement,
-                               const ElasticField& field) const {
-  std::vector<Point2> tips;
-  for (const Tip& tip : window_.tips) tips.push_back(field.frame().to_rest({tip.at.x, tip.at.y}));
-  const Elastic& elastic = field.elastic();
-  ElementSums sums;
-  for (std::size_t e = 0; e < solve.elements().size(); ++e) {
-    const Element& element = solve.elements()[e];
-    if (!element.alive() || solve.loose(element.vertex[0])) continue;
-    const auto corners = sheet.corners(TriangleIndex(e));
-    const Eigen::Matrix2d gradient = displacement_gradient(element, displacement);
-    const Eigen::Matrix2d strain = (gradient + gradient.transpose()) / 2, stress = elastic.stress(strain);
-    sums.energy += element.material_area() / 2 * stress.cwiseProduct(strain).sum();
-    const Eigen::Vector2d first = displacement.segment<2>(2 * element.vertex[0].value);
-    integrate(corners, tips, 1, [&](Point2 p, double weight) {
-      const Eigen::Matrix2d off = field.stress(p) - stress;
-      sums.error_energy += weight * element.fraction * off.cwiseProduct(elastic.strain(off)).sum();
-      sums.worst_stress = std::max(sums.worst_stress, off.cwiseAbs().maxCoeff());
-      const Eigen::Vector2d exact = field.displacement(p);
-      const Eigen::Vector2d here = first + gradient * Eigen::Vector2d(p.x - corners[0].x, p.y - corners[0].y);
-      sums.error_squared += weight * element.fraction * (here - exact).squaredNorm();
-      sums.exact_squared += weight * element.fraction * exact.squaredNorm();
-    });
-  }
-  return sums;
-}
-
-double WindowProblem::opening_error(const Sheet& sheet, const Field& displacement, const ElasticField& field) const {
-  std::vector<LipSample> samples;
-  for (const LipSample& lip : window_.lips)
-    samples.push_back({field.frame().to_rest({lip.at.x, lip.at.y}), turned(field.frame(), lip.normal), lip.length});
-  const auto exact = opening(field, samples), found = opening(sheet, displacement, samples, sheet.mean_edge());
-  double off = 0, scale = 0;
-  for (std::size_t i = 0; i < samples.size(); ++i)
-    off += samples[i].length * std::pow(found[i] - exact[i], 2), scale += samples[i].length * std::pow(exact[i], 2);
-  return std::sqrt(off / scale);
-}
-
-double WindowProblem::rim_error(const Sheet& sheet, const StaticSolve& solve, const Field& displacement,
-                                const ElasticField& field) const {
-  double off = 0, scale = 0;
-  for (std::size_t e = 0; e < solve.elements().size(); ++e) {
-    const Element& element = solve.elements()[e];
-    if (!element.alive() || solve.loose(element.vertex[0])) continue;
-    const Eigen::Matrix2d gradient = displacement_gradient(element, displacement);
-    const Eigen::Matrix2d stress = field.elastic().stress((gradient + gradient.transpose()) / 2);
-    for (int k = 0; k < 3; ++k) {
-      const HalfEdge h = half_edge(TriangleIndex(e), k);
-      if (sheet.mark(h) != EdgeMark::incision) continue;
-      const Point2 a = sheet.rest(sheet.origin(h)), b = sheet.rest(sheet.target(h));
-      const Complex out = field.frame().to_local(0.5 * (a + b));
-      const Point2 on_rim = field.frame().to_rest(window_.rim / std::abs(out) * out);
-      const Point2 radial = turned(field.frame(), {out.real() / std::abs(out), out.imag() / std::abs(out)});
-      const Eigen::Vector2d tangent(-radial.y, radial.x);
-      const double exact = tangent.dot(field.stress(on_rim) * tangent), length = std::sqrt(squared_length(b - a));
-      off += length * std::pow(tangent.dot(stress * tangent) - exact, 2), scale += length * exact * exact;
-    }
-  }
-  return scale > 0 ? std::sqrt(off / scale) : 1;
-}
-
-StressIntensity WindowProblem::mean_intensity(const Sheet& sheet, const StaticSolve& solve, const Field& displacement,
-                                              const Frame& frame) const {
-  StressIntensity mean;
-  for (const Tip& tip : window_.tips) {
-    const Tip in_rest{frame.to_rest({tip.at.x, tip.at.y}), frame.angle + tip.angle};
-    const auto [k1, k2] = stress_intensity(sheet, solve.elements(), displacement, sheet_material, in_rest);
-    mean.k1 += k1 / static_cast<double>(window_.tips.size()), mean.k2 += k2 / static_cast<double>(window_.tips.size());
-  }
-  return mean;
-}
-
-std::vector<Measure> WindowProblem::compare(const Specimen& specimen, const Sheet& sheet, const StaticSolve& solve,
-                                            const Field& displacement, const ElasticField& field) const {
-  const auto [xx, yy, xy] = window_.before;
-  const UniformField before(sheet_material, field.frame(), xx, yy, xy);
-  const BorderWork exact = border_work(field, before, specimen);
-  const ElementSums sums = sum(sheet, solve, displacement, field);
-  std::vector<Measure> measures;
-  for (const std::string& name : window_.measures) {
-    const auto compared = [&](double value, double truth, double scale) {
-      measures.push_back({name, value, truth, std::abs(value - truth) / scale});
-    };
-    if (name == "released_energy")
-      compared(exact.released / 2 + exact.after / 2 - sums.energy, exact.released / 2, exact.released / 2);
-    else if (name == "strain_energy")
-      compared(sums.energy, exact.after / 2, exact.after / 2);
-    else if (name == "opening")
-      compared(opening_error(sheet, displacement, field), 0, 1);
-    else if (name == "energy_norm")
-      compared(std::sqrt(sums.error_energy / exact.after), 0, 1);
-    else if (name == "displacement_l2")
-      compared(std::sqrt(sums.error_squared / sums.exact_squared), 0, 1);
-    else if (name == "rim_stress")
-      compared(rim_error(sheet, solve, displacement, field), 0, 1);
-    else if (name == "stress")
-      compared(sums.worst_stress / (std::abs(xx) + std::abs(yy) + std::abs(xy)), 0, 1);
-    else if (name == "k1")
-      compared(mean_intensity(sheet, solve, displacement, field.frame()).k1, window_.k.k1,
-               std::hypot(window_.k.k1, window_.k.k2));
-    else if (name == "k2")
-      compared(mean_intensity(sheet, solve, displacement, field.frame()).k2, window_.k.k2,
-               std::hypot(window_.k.k1, window_.k.k2));
-  }
-  return measures;
-}
 
 // --- the problems
 // ----------------------------------------------------------------------------------------------------------
