@@ -12,10 +12,10 @@ namespace cutbench {
 
 /// Cuts a sheet and keeps a model and a state in step with it.
 template <int D>
-class Specimen {
+class Body {
  public:
-  Specimen(const MeshData& mesh, const Material& material, const Physics& physics, std::vector<Pin> pins = {},
-           std::vector<Traction> tractions = {})
+  Body(const MeshData& mesh, const Material& material, const Physics& physics, std::vector<Pin> pins = {},
+       std::vector<Traction> tractions = {})
       : sheet(mesh),
         model(sheet, material, physics, pins, tractions),
         state(initial_state(model, sheet)),

@@ -28,10 +28,10 @@ Physics physics_with(int dimension, Mass mass) {
 }
 
 template <int D>
-void expect_fresh(Specimen<D>& specimen) {
-  Model<D> fresh = specimen.fresh_model();
-  Model<D>& kept = specimen.model;
-  const Field x = bent(kept, specimen.sheet);
+void expect_fresh(Body<D>& body) {
+  Model<D> fresh = body.fresh_model();
+  Model<D>& kept = body.model;
+  const Field x = bent(kept, body.sheet);
   ASSERT_EQ(kept.vertices(), fresh.vertices());
   for (Model<D>* model : {&kept, &fresh}) model->rotate(x), model->assemble(1.1, 0.01);
   EXPECT_LE(max_difference(kept.blocks(), fresh.blocks()), 1e-12 * max_entry(fresh.blocks()));
@@ -56,12 +56,12 @@ void cut_and_compare(const std::string& method, double knob, Mass mass) {
     for (const std::string family : cut_families())
       for (std::size_t i = 0; i < scaled(10); i += 5) {
         SCOPED_TRACE(sheet + ", " + family + " " + std::to_string(i));
-        Specimen<D> specimen(make_sheet(sheet, 8), skin, physics_with(D, mass), corner_pins, pull);
+        Body<D> body(make_sheet(sheet, 8), skin, physics_with(D, mass), corner_pins, pull);
         for (int again = 0; again < 3; ++again)  // the whole history of cuts
-          for (const Curve& curve : make_case(family, 20, i + static_cast<std::size_t>(again), specimen.sheet)) {
-            if (specimen.cut(curve, method, knob) != Status::ok) continue;
+          for (const Curve& curve : make_case(family, 20, i + static_cast<std::size_t>(again), body.sheet)) {
+            if (body.cut(curve, method, knob) != Status::ok) continue;
             ++made;
-            expect_fresh(specimen);
+            expect_fresh(body);
             if (testing::Test::HasFailure()) return;
           }
       }
@@ -78,23 +78,23 @@ TEST(Model, P3UpdatesToWhatANewOneWouldBe) {
 /// No vertex without mass, and what is held stays held, whatever the numbers.
 TEST(Model, P2P4EveryVertexHasMassAndPinsStay) {
   for (const std::string sheet : sheet_families()) {
-    Specimen<3> specimen(make_sheet(sheet, 10), skin, physics_with(3, Mass::lumped), corner_pins);
-    const double before = specimen.model.lumped_mass().sum();
+    Body<3> body(make_sheet(sheet, 10), skin, physics_with(3, Mass::lumped), corner_pins);
+    const double before = body.model.lumped_mass().sum();
     for (std::size_t i = 0; i < 5; ++i)
-      for (const Curve& curve : make_case("several", 3, i, specimen.sheet)) specimen.cut(curve);
-    EXPECT_NEAR(specimen.model.lumped_mass().sum(), before, 1e-12 * before);
-    for (std::size_t v = 0; v < specimen.model.vertices(); ++v) {
-      const bool used = specimen.sheet.rest_vertex(DeformedIndex(v)).valid();
-      EXPECT_EQ(specimen.model.lumped_mass()[static_cast<Eigen::Index>(v)] > 0, used);
+      for (const Curve& curve : make_case("several", 3, i, body.sheet)) body.cut(curve);
+    EXPECT_NEAR(body.model.lumped_mass().sum(), before, 1e-12 * before);
+    for (std::size_t v = 0; v < body.model.vertices(); ++v) {
+      const bool used = body.sheet.rest_vertex(DeformedIndex(v)).valid();
+      EXPECT_EQ(body.model.lumped_mass()[static_cast<Eigen::Index>(v)] > 0, used);
     }
     // A cut through the pinned corner: every copy of it is held.
-    ASSERT_EQ(specimen.cut(line({0, 0}, {0.4, 0.5})), Status::ok);
+    ASSERT_EQ(body.cut(line({0, 0}, {0.4, 0.5})), Status::ok);
     std::size_t copies = 0;
-    for (std::size_t v = 0; v < specimen.model.vertices(); ++v) {
-      const VertexIndex rest = specimen.sheet.rest_vertex(DeformedIndex(v));
-      if (!rest.valid() || !(specimen.sheet.rest(rest) == Point2{0, 0})) continue;
+    for (std::size_t v = 0; v < body.model.vertices(); ++v) {
+      const VertexIndex rest = body.sheet.rest_vertex(DeformedIndex(v));
+      if (!rest.valid() || !(body.sheet.rest(rest) == Point2{0, 0})) continue;
       ++copies;
-      EXPECT_TRUE(specimen.model.held()[3 * v] && specimen.model.held()[3 * v + 1] && specimen.model.held()[3 * v + 2]);
+      EXPECT_TRUE(body.model.held()[3 * v] && body.model.held()[3 * v + 1] && body.model.held()[3 * v + 2]);
     }
     EXPECT_EQ(copies, 2u);
   }
@@ -106,17 +106,17 @@ TEST(Model, RigidMotionOfAnyPieceGivesNoForceAndForceIsTheDerivativeOfTheEnergy)
   for (const auto& row : all_methods())
     for (const std::string sheet : sheet_families()) {
       SCOPED_TRACE(row.name + ", " + sheet);
-      Specimen<3> specimen(make_sheet(sheet, 6), skin, {.bending = BendingKind::patches});
-      ASSERT_EQ(specimen.cut(line({-0.1, 0.43}, {1.1, 0.57}), row.name, 0), Status::ok);
-      Model<3>& model = specimen.model;
-      Field x = specimen.state.x;
+      Body<3> body(make_sheet(sheet, 6), skin, {.bending = BendingKind::patches});
+      ASSERT_EQ(body.cut(line({-0.1, 0.43}, {1.1, 0.57}), row.name, 0), Status::ok);
+      Model<3>& model = body.model;
+      Field x = body.state.x;
       for (std::size_t e = 0; e < model.elements().size(); ++e) {
         const Element& element = model.elements()[e];
-        const auto c = specimen.sheet.corners(TriangleIndex(e));
+        const auto c = body.sheet.corners(TriangleIndex(e));
         const bool upper = c[0].y + c[1].y + c[2].y > 3 * 0.43 + 0.14 * (c[0].x + c[1].x + c[2].x + 0.3) / 1.2;
         const Eigen::AngleAxisd turn(upper ? 2.1 : -0.7, Eigen::Vector3d(1, upper ? 2 : -1, 3).normalized());
         for (const auto d : element.vertex) {
-          const Point2 rest = specimen.sheet.rest(specimen.sheet.rest_vertex(d));
+          const Point2 rest = body.sheet.rest(body.sheet.rest_vertex(d));
           x.segment<3>(3 * d.value) = turn * Eigen::Vector3d(rest.x, rest.y, 0) + Eigen::Vector3d(upper ? 5 : -2, 1, 0);
         }
       }
@@ -126,7 +126,7 @@ TEST(Model, RigidMotionOfAnyPieceGivesNoForceAndForceIsTheDerivativeOfTheEnergy)
       EXPECT_LE(force.cwiseAbs().maxCoeff(), 1e-12 * skin.stiffness);
 
       const Field still = Field::Zero(x.size());
-      x = bent(model, specimen.sheet);
+      x = bent(model, body.sheet);
       model.rotate(x);
       force.setZero();
       model.add_internal_force(x, force);
@@ -151,14 +151,14 @@ TEST(Model, NothingJumpsInThePlaneAtASplit) {
     for (const std::string sheet : sheet_families())
       for (const std::string family : cut_families()) {
         SCOPED_TRACE(sheet + ", " + family);
-        Specimen<3> specimen(make_sheet(sheet, 10), skin, physics_with(3, mass));
-        specimen.state.x = bent(specimen.model, specimen.sheet);
-        specimen.state.v = (2 * specimen.state.x.array()).sin();
-        const Balance before = balance_of(specimen.model, specimen.state);
-        for (const Curve& curve : make_case(family, 4, 1, specimen.sheet)) specimen.cut(curve, "conventional_split");
-        const Balance after = balance_of(specimen.model, specimen.state);
+        Body<3> body(make_sheet(sheet, 10), skin, physics_with(3, mass));
+        body.state.x = bent(body.model, body.sheet);
+        body.state.v = (2 * body.state.x.array()).sin();
+        const Balance before = balance_of(body.model, body.state);
+        for (const Curve& curve : make_case(family, 4, 1, body.sheet)) body.cut(curve, "conventional_split");
+        const Balance after = balance_of(body.model, body.state);
         EXPECT_NEAR(after.energy.membrane, before.energy.membrane, 1e-12 * before.energy.membrane);
-        const double scale = specimen.model.lumped_mass().sum();
+        const double scale = body.model.lumped_mass().sum();
         EXPECT_NEAR(after.momentum.x, before.momentum.x, 1e-12 * scale);
         EXPECT_NEAR(after.momentum.y, before.momentum.y, 1e-12 * scale);
         EXPECT_NEAR(after.momentum.z, before.momentum.z, 1e-12 * scale);
@@ -174,18 +174,17 @@ TEST(Model, PatchTestOnCutSheets) {
   for (const auto& row : all_methods())
     for (const std::string sheet : sheet_families())
       for (std::size_t i = 0; i < scaled(10); ++i) {
-        Specimen<2> specimen(make_sheet(sheet, 10), {.stiffness = 1e6, .poisson = 0.25},
-                             {.dimension = 2, .strain = Strain::linear});
-        ASSERT_EQ(specimen.cut(make_case("straight", 5, i, specimen.sheet).front(), row.name, row.knob.value),
-                  Status::ok);
-        Model<2>& model = specimen.model;
-        Field u = Field::Zero(specimen.state.x.size());
+        Body<2> body(make_sheet(sheet, 10), {.stiffness = 1e6, .poisson = 0.25},
+                     {.dimension = 2, .strain = Strain::linear});
+        ASSERT_EQ(body.cut(make_case("straight", 5, i, body.sheet).front(), row.name, row.knob.value), Status::ok);
+        Model<2>& model = body.model;
+        Field u = Field::Zero(body.state.x.size());
         for (std::size_t v = 0; v < model.vertices(); ++v) {
-          const auto p = specimen.sheet.rest(specimen.sheet.rest_vertex(DeformedIndex(v)));
+          const auto p = body.sheet.rest(body.sheet.rest_vertex(DeformedIndex(v)));
           u[2 * static_cast<Eigen::Index>(v)] = 1e-3 * (p.x + p.y / 2);
           u[2 * static_cast<Eigen::Index>(v) + 1] = 1e-3 * (p.y + p.x / 2);
         }
-        model.rotate(model.positions(specimen.sheet) + u), model.assemble(0, 1);
+        model.rotate(model.positions(body.sheet) + u), model.assemble(0, 1);
         Field residual = Field::Zero(u.size());
         model.blocks().add_product(1, u, residual);
         const double scale = max_entry(model.blocks()) * u.cwiseAbs().maxCoeff();
@@ -194,7 +193,7 @@ TEST(Model, PatchTestOnCutSheets) {
           bool inner = true;
           for (const auto c : model.incidence().at(v))
             for (const HalfEdge h : {c, Sheet::previous(c)})
-              inner &= !specimen.sheet.on_border(h) && specimen.sheet.mark(h) == EdgeMark::none;
+              inner &= !body.sheet.on_border(h) && body.sheet.mark(h) == EdgeMark::none;
           if (!inner) continue;
           for (int k = 0; k < 2; ++k)
             worst_ratio = std::max(worst_ratio, std::abs(residual[2 * static_cast<Eigen::Index>(v) + k]) / scale);
@@ -209,13 +208,13 @@ TEST(Model, NullModesArePiecesTimesThree) {
   for (const auto& row : all_methods())
     for (const std::string sheet : sheet_families()) {
       SCOPED_TRACE(row.name + ", " + sheet);
-      Specimen<2> specimen(make_sheet(sheet, 5), {.stiffness = 1000, .poisson = 0.3},
-                           {.dimension = 2, .strain = Strain::linear});
-      specimen.cut(line({-0.1, 0.43}, {1.1, 0.57}), row.name, row.knob.value);
-      specimen.cut(polygon({{0.22, 0.71}, {0.55, 0.73}, {0.41, 0.93}}), row.name, row.knob.value);
-      ASSERT_EQ(count_pieces(specimen.sheet), 3u);
-      specimen.model.rotate(specimen.state.x), specimen.model.assemble(0, 1);
-      const Eigen::VectorXd modes = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense(specimen.model)).eigenvalues();
+      Body<2> body(make_sheet(sheet, 5), {.stiffness = 1000, .poisson = 0.3},
+                   {.dimension = 2, .strain = Strain::linear});
+      body.cut(line({-0.1, 0.43}, {1.1, 0.57}), row.name, row.knob.value);
+      body.cut(polygon({{0.22, 0.71}, {0.55, 0.73}, {0.41, 0.93}}), row.name, row.knob.value);
+      ASSERT_EQ(count_pieces(body.sheet), 3u);
+      body.model.rotate(body.state.x), body.model.assemble(0, 1);
+      const Eigen::VectorXd modes = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense(body.model)).eigenvalues();
       const double zero = 1e-12 * modes[modes.size() - 1];
       EXPECT_EQ((modes.array() < zero).count(), 9);
       EXPECT_GT(modes[9], 1e3 * zero) << "a gap";
@@ -239,16 +238,16 @@ TEST(Model, P8NumberingDoesNotMatter) {
     std::swap(shuffled.triangles[i - 1], shuffled.triangles[random.below(i)]);
   std::vector<std::map<std::pair<double, double>, Eigen::Vector3d>> forces;
   for (const MeshData& data : {mesh, shuffled}) {
-    Specimen<3> specimen(data, skin, physics_with(3, Mass::consistent));
-    specimen.cut(line({0.2, 0.3}, {0.7, 0.61}));
-    const Field x = bent(specimen.model, specimen.sheet);
-    specimen.model.rotate(x), specimen.model.assemble(1, 1);
+    Body<3> body(data, skin, physics_with(3, Mass::consistent));
+    body.cut(line({0.2, 0.3}, {0.7, 0.61}));
+    const Field x = bent(body.model, body.sheet);
+    body.model.rotate(x), body.model.assemble(1, 1);
     Field f = Field::Zero(x.size()), y = f;
-    specimen.model.add_internal_force(x, f);
-    specimen.model.system().add_product(x, y);
+    body.model.add_internal_force(x, f);
+    body.model.system().add_product(x, y);
     auto& all = forces.emplace_back();
-    for (std::size_t v = 0; v < specimen.model.vertices(); ++v) {
-      const Point2 p = specimen.sheet.rest(specimen.sheet.rest_vertex(DeformedIndex(v)));
+    for (std::size_t v = 0; v < body.model.vertices(); ++v) {
+      const Point2 p = body.sheet.rest(body.sheet.rest_vertex(DeformedIndex(v)));
       const auto entry = all.try_emplace({p.x, p.y}, Eigen::Vector3d::Zero()).first;
       entry->second += (f + y).segment<3>(3 * static_cast<Eigen::Index>(v));  // both lips together
     }

@@ -34,26 +34,26 @@ TEST(Stepper, FreeFallIsExact) {
     Material material = skin;
     material.stiffness = stiffness;
     const double g = 9.81, h = 1.0 / 60;
-    Specimen<3> specimen(make_sheet("delaunay", 8), material, {.bending = BendingKind::patches, .gravity = {0, 0, -g}},
-                         held_in({0, 0}, {0, 1}));
-    ASSERT_EQ(specimen.cut(polygon({{0.31, 0.32}, {0.72, 0.29}, {0.68, 0.75}, {0.3, 0.7}})), Status::ok);
-    ASSERT_EQ(specimen.cut(line({0.5, 0.1}, {0.5, 0.9}), "bowyer_watson", 1), Status::ok);  // slivers, too
+    Body<3> body(make_sheet("delaunay", 8), material, {.bending = BendingKind::patches, .gravity = {0, 0, -g}},
+                 held_in({0, 0}, {0, 1}));
+    ASSERT_EQ(body.cut(polygon({{0.31, 0.32}, {0.72, 0.29}, {0.68, 0.75}, {0.3, 0.7}})), Status::ok);
+    ASSERT_EQ(body.cut(line({0.5, 0.1}, {0.5, 0.9}), "bowyer_watson", 1), Status::ok);  // slivers, too
     std::vector<Eigen::Index> falling;  // unknowns of vertices well inside the cut-out
-    for (std::size_t v = 0; v < specimen.model.vertices(); ++v) {
-      const Point2 p = specimen.sheet.rest(specimen.sheet.rest_vertex(DeformedIndex(v)));
+    for (std::size_t v = 0; v < body.model.vertices(); ++v) {
+      const Point2 p = body.sheet.rest(body.sheet.rest_vertex(DeformedIndex(v)));
       if (p.x > 0.36 && p.x < 0.64 && p.y > 0.36 && p.y < 0.66) falling.push_back(3 * static_cast<Eigen::Index>(v));
     }
     ASSERT_GT(falling.size(), 4u);
     Stepper<3> stepper(with(Integrator::backward_euler, h));
     double v = 0, z = 0;
     for (int n = 0; n < 20; ++n) {
-      ASSERT_EQ(stepper.step(specimen.model, specimen.state).verdict, "ok");
+      ASSERT_EQ(stepper.step(body.model, body.state).verdict, "ok");
       v = (v - g * h) / (1 + material.mass_damping * h);
       z += h * v;
       for (const auto i : falling) {
-        EXPECT_NEAR(specimen.state.v[i + 2], v, 1e-12);
-        EXPECT_NEAR(specimen.state.v[i], 0, 1e-12);
-        EXPECT_NEAR(specimen.state.x[i + 2], z, 1e-12);
+        EXPECT_NEAR(body.state.v[i + 2], v, 1e-12);
+        EXPECT_NEAR(body.state.v[i], 0, 1e-12);
+        EXPECT_NEAR(body.state.x[i + 2], z, 1e-12);
       }
     }
   }
@@ -62,10 +62,10 @@ TEST(Stepper, FreeFallIsExact) {
 /// One mode of a linear sheet: backward Euler multiplies its amplitude by 1 / sqrt(1 + w^2 h^2) and turns it by atan(w
 /// h); the midpoint rule keeps its energy.
 TEST(Stepper, OneModeIsDampedAsTheoryHasIt) {
-  Specimen<2> specimen(make_sheet("alternating", 4), {.density = 1, .stiffness = 100, .poisson = 0.3},
-                       {.dimension = 2, .strain = Strain::linear});
-  auto& model = specimen.model;
-  const Field rest = specimen.state.x;
+  Body<2> body(make_sheet("alternating", 4), {.density = 1, .stiffness = 100, .poisson = 0.3},
+               {.dimension = 2, .strain = Strain::linear});
+  auto& model = body.model;
+  const Field rest = body.state.x;
   model.rotate(rest), model.assemble(0, 1);
   const Eigen::MatrixXd k = dense(model);
   model.assemble(1, 0);
@@ -77,7 +77,7 @@ TEST(Stepper, OneModeIsDampedAsTheoryHasIt) {
     const Field u = s.x - rest;
     return (u.dot(k * u) + s.v.dot(m * s.v)) / 2;
   };
-  State start = specimen.state;
+  State start = body.state;
   start.x = rest + 0.01 * mode;
   const double initial = energy(start);
   State state = start;
@@ -131,13 +131,13 @@ TEST(Equilibrium, ElasticaInThePlane) {
   std::vector<std::array<double, 2>> tip;
   for (const int ny : {4, 8}) {
     const std::vector<Traction> shear{{{{length, 0}, {length, thickness}}, {0, load / thickness, 0}}};
-    Specimen<2> specimen(beam(40 * ny, ny, length, thickness), {.stiffness = stiffness, .poisson = 0}, {.dimension = 2},
-                         held_in({0, 0}, {0, thickness}), shear);
+    Body<2> body(beam(40 * ny, ny, length, thickness), {.stiffness = stiffness, .poisson = 0}, {.dimension = 2},
+                 held_in({0, 0}, {0, thickness}), shear);
     Stepper<2> stepper(with(Integrator::equilibrium, 1, "cholmod", 200));
-    const StepReport report = stepper.step(specimen.model, specimen.state);
+    const StepReport report = stepper.step(body.model, body.state);
     ASSERT_EQ(report.verdict, "ok") << report.reason;
     const auto end = static_cast<Eigen::Index>(2 * ((ny / 2) * (40 * ny + 1) + 40 * ny));
-    tip.push_back({length - specimen.state.x[end], specimen.state.x[end + 1] - thickness / 2});
+    tip.push_back({length - body.state.x[end], body.state.x[end + 1] - thickness / 2});
   }
   const double u = tip[1][0] + (tip[1][0] - tip[0][0]) / 3, w = tip[1][1] + (tip[1][1] - tip[0][1]) / 3;
   EXPECT_NEAR(w, 0.669964, 0.005 * 0.669964);
@@ -161,12 +161,11 @@ TEST(Equilibrium, CooksMembraneConverges) {
   std::vector<double> deflection;
   for (const int n : {8, 16, 32, 64}) {
     const auto map = [](double s, double t) { return Point2{48 * s, 44 * s + t * (44 - 28 * s)}; };
-    Specimen<2> specimen(mapped(n, map), {.stiffness = 1, .poisson = 1.0 / 3},
-                         {.dimension = 2, .strain = Strain::linear}, held_in({0, 0}, {0, 44}),
-                         {{{{48, 44}, {48, 60}}, {0, 1.0 / 16, 0}}});
+    Body<2> body(mapped(n, map), {.stiffness = 1, .poisson = 1.0 / 3}, {.dimension = 2, .strain = Strain::linear},
+                 held_in({0, 0}, {0, 44}), {{{{48, 44}, {48, 60}}, {0, 1.0 / 16, 0}}});
     Stepper<2> stepper(with(Integrator::equilibrium, 1, "cholmod", 3));
-    ASSERT_EQ(stepper.step(specimen.model, specimen.state).verdict, "ok");
-    deflection.push_back(specimen.state.x[2 * ((n / 2) * (n + 1) + n) + 1] - 52);
+    ASSERT_EQ(stepper.step(body.model, body.state).verdict, "ok");
+    deflection.push_back(body.state.x[2 * ((n / 2) * (n + 1) + n) + 1] - 52);
   }
   for (std::size_t i = 0; i + 1 < deflection.size(); ++i) {
     const double ratio = (23.965 - deflection[i]) / (23.965 - deflection[i + 1]);
@@ -197,15 +196,15 @@ TEST(Equilibrium, NafemsLe1Converges) {
       pressure.push_back({{{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}},
                           {10 * d.y / length, -10 * d.x / length, 0}});
     }
-    Specimen<2> specimen(mesh, {.stiffness = 210e3, .poisson = 0.3}, {.dimension = 2, .strain = Strain::linear},
-                         symmetry, pressure);
+    Body<2> body(mesh, {.stiffness = 210e3, .poisson = 0.3}, {.dimension = 2, .strain = Strain::linear}, symmetry,
+                 pressure);
     Stepper<2> stepper(with(Integrator::equilibrium, 1, "cholmod", 3));
-    const StepReport report = stepper.step(specimen.model, specimen.state);
+    const StepReport report = stepper.step(body.model, body.state);
     ASSERT_EQ(report.verdict, "ok") << report.reason;
-    specimen.model.rotate(specimen.state.x);
+    body.model.rotate(body.state.x);
     double sum = 0;
-    const auto corners = specimen.model.incidence().at(0);
-    for (const auto c : corners) sum += specimen.model.deformation(triangle_of(c)()).stress(1, 1);
+    const auto corners = body.model.incidence().at(0);
+    for (const auto c : corners) sum += body.model.deformation(triangle_of(c)()).stress(1, 1);
     stress.push_back(sum / static_cast<double>(corners.size()));
   }
   for (std::size_t i = 0; i + 1 < stress.size(); ++i) {
@@ -219,21 +218,21 @@ TEST(Equilibrium, NafemsLe1Converges) {
 
 /// A piece that nothing holds has no equilibrium, and that is said.
 TEST(Equilibrium, P1APieceHeldNowhereIsRefused) {
-  Specimen<2> specimen(make_sheet("grid", 6), skin, {.dimension = 2, .gravity = {0, -1, 0}}, held_in({0, 0}, {0, 1}));
-  specimen.cut(polygon({{0.31, 0.32}, {0.72, 0.29}, {0.68, 0.75}}));
+  Body<2> body(make_sheet("grid", 6), skin, {.dimension = 2, .gravity = {0, -1, 0}}, held_in({0, 0}, {0, 1}));
+  body.cut(polygon({{0.31, 0.32}, {0.72, 0.29}, {0.68, 0.75}}));
   Stepper<2> stepper(with(Integrator::equilibrium, 1, "cholmod", 20));
-  const StepReport report = stepper.step(specimen.model, specimen.state);
+  const StepReport report = stepper.step(body.model, body.state);
   EXPECT_EQ(report.verdict, "solver_stalled");
   EXPECT_NE(report.reason.find("held nowhere"), std::string::npos);
 }
 
 /// A sheet with slivers: a cut along a mesh line, 1e-3 of a mesh width from it, and one with refined slivers across it.
-Specimen<3> with_slivers(const Material& material, Point3 gravity) {
-  Specimen<3> specimen(make_sheet("grid", 8), material, {.bending = BendingKind::patches, .gravity = gravity},
-                       held_in({0, 0}, {0, 1}));
-  EXPECT_EQ(specimen.cut(line({0.2, 0.5001}, {0.9, 0.50003})), Status::ok);
-  EXPECT_EQ(specimen.cut(line({0.51, 0.1}, {0.49, 0.9}), "bowyer_watson", 1), Status::ok);
-  return specimen;
+Body<3> with_slivers(const Material& material, Point3 gravity) {
+  Body<3> body(make_sheet("grid", 8), material, {.bending = BendingKind::patches, .gravity = gravity},
+               held_in({0, 0}, {0, 1}));
+  EXPECT_EQ(body.cut(line({0.2, 0.5001}, {0.9, 0.50003})), Status::ok);
+  EXPECT_EQ(body.cut(line({0.51, 0.1}, {0.49, 0.9}), "bowyer_watson", 1), Status::ok);
+  return body;
 }
 
 /// Slivers, any step, stiffness and Poisson's ratio, no load: finite, and no energy out of nothing.
@@ -249,16 +248,16 @@ TEST(Stepper, P5NothingBlowsUpOnSlivers) {
           SCOPED_TRACE(solver + ", h " + std::to_string(step) + ", E " + std::to_string(stiffness));
           Material material = skin;
           material.stiffness = stiffness, material.poisson = poisson;
-          Specimen<3> specimen = with_slivers(material, {});
-          specimen.state.v = 1e-3 * (37 * specimen.state.x.array()).sin();
+          Body<3> body = with_slivers(material, {});
+          body.state.v = 1e-3 * (37 * body.state.x.array()).sin();
           Stepper<3> stepper(with(Integrator::backward_euler, step, solver));
-          const double initial = balance_of(specimen.model, specimen.state).energy.total();
+          const double initial = balance_of(body.model, body.state).energy.total();
           for (std::size_t n = 0; n < each; ++n) {
-            const StepReport report = stepper.step(specimen.model, specimen.state);
+            const StepReport report = stepper.step(body.model, body.state);
             if (report.verdict == "solver_stalled" && solver != "cholmod") break;  // said, and no state made of it
             ++steps;
             ASSERT_EQ(report.verdict, "ok") << report.reason;
-            ASSERT_LE(balance_of(specimen.model, specimen.state).energy.total(), 1.01 * initial);
+            ASSERT_LE(balance_of(body.model, body.state).energy.total(), 1.01 * initial);
           }
         }
   EXPECT_GT(steps, 30 * each) << "of " << 42 * each;
@@ -267,16 +266,16 @@ TEST(Stepper, P5NothingBlowsUpOnSlivers) {
 /// A load out of the plane on a cut sheet.
 TEST(Stepper, P7LoadOutOfThePlaneIsStable) {
   for (const std::string solver : {"cholmod", "cg_sliver_blocks"}) {
-    Specimen<3> specimen = with_slivers(skin, {0, 0, -9.81});
+    Body<3> body = with_slivers(skin, {0, 0, -9.81});
     StepOptions options = with(Integrator::backward_euler, 1.0 / 240, solver, 2);
     options.solver.tolerance = 1e-4;
     Stepper<3> stepper(options);
-    const double initial = balance_of(specimen.model, specimen.state).energy.total();
+    const double initial = balance_of(body.model, body.state).energy.total();
     for (int n = 0; n < 60; ++n) {
-      const StepReport report = stepper.step(specimen.model, specimen.state);
+      const StepReport report = stepper.step(body.model, body.state);
       ASSERT_EQ(report.verdict, "ok") << solver << ", step " << n << ": " << report.reason;
     }
-    const Energy energy = balance_of(specimen.model, specimen.state).energy;
+    const Energy energy = balance_of(body.model, body.state).energy;
     EXPECT_LE(energy.total(), initial + 1e-3 * energy.kinetic);
     EXPECT_LT(energy.potential, -0.1) << "it falls";
   }
@@ -285,14 +284,14 @@ TEST(Stepper, P7LoadOutOfThePlaneIsStable) {
 TEST(Stepper, SameInputSameBits) {
   std::vector<Field> end;
   for (int run = 0; run < 2; ++run) {
-    Specimen<3> specimen(make_sheet("graded", 8), skin, {.bending = BendingKind::patches, .gravity = {0, 0, -9.81}},
-                         held_in({0, 0}, {0, 0}));
+    Body<3> body(make_sheet("graded", 8), skin, {.bending = BendingKind::patches, .gravity = {0, 0, -9.81}},
+                 held_in({0, 0}, {0, 0}));
     Stepper<3> stepper(with(Integrator::backward_euler, 1.0 / 240, "cg"));
     for (int n = 0; n < 10; ++n) {
-      if (n == 5) specimen.cut(line({0.2, 0.3}, {0.9, 0.61}));
-      ASSERT_EQ(stepper.step(specimen.model, specimen.state).verdict, "ok");
+      if (n == 5) body.cut(line({0.2, 0.3}, {0.9, 0.61}));
+      ASSERT_EQ(stepper.step(body.model, body.state).verdict, "ok");
     }
-    end.push_back(specimen.state.x);
+    end.push_back(body.state.x);
   }
   EXPECT_TRUE((end[0].array() == end[1].array()).all());
 }

@@ -4,6 +4,7 @@
 
 #include "harness/mesh/errors.h"
 #include "harness/truth/edge_crack.h"
+#include "harness/truth/out_of_plane.h"
 #include "harness/truth/window_problem.h"
 
 namespace cutbench {
@@ -13,6 +14,7 @@ const std::vector<std::unique_ptr<const Problem>>& all_problems() {
     std::vector<std::unique_ptr<const Problem>> all;
     append_window_problems(all);
     append_edge_cracks(all);
+    append_out_of_plane(all);
     return all;
   }();
   return problems;
