@@ -111,10 +111,11 @@ Answer solved(const Problem& problem, const Specimen& specimen, const Sheet& she
 }
 
 /// The errors of one member, in the order of the problem's measures, at most `bounds`.
-void expect_within(const Problem& problem, int n, const std::vector<double>& bounds, std::size_t members = 2) {
+void expect_within(const Problem& problem, int n, const std::vector<double>& bounds,
+                   const std::vector<std::size_t>& members) {
   for (const std::string family : {"alternating", "delaunay"})
     for (const std::string method : {"conventional_split", "cgal_cdt"})
-      for (std::size_t i = 0; i < members; ++i) {
+      for (const std::size_t i : members) {
         SCOPED_TRACE(family + ", " + method + ", member " + std::to_string(i));
         const Specimen specimen = problem.specimen(family, n, 1, i);
         EXPECT_EQ(specimen.mesh.triangles.size(), static_cast<std::size_t>(2 * n * n));
@@ -129,10 +130,15 @@ void expect_within(const Problem& problem, int n, const std::vector<double>& bou
       }
 }
 
-TEST(OutOfPlane, ASlitLeavesABentPatchAsItIs) { expect_within(*bending_patch_slit(), 14, {1e-4, 5e-4, 1e-6}, 3); }
-TEST(OutOfPlane, HalvesHangLikeTheWholeAndTheElastica) { expect_within(*slit_strip(), 14, {4e-3, 6e-3, 4e-3}); }
-TEST(OutOfPlane, AFlapHangsAsHeavyElastica) { expect_within(*flap(), 20, {4e-3, 5e-3}); }
-TEST(OutOfPlane, ATearReleasesWhatPullsTheLegs) { expect_within(*trouser_tear(), 20, {0.15}, 1); }
+TEST(OutOfPlane, ASlitLeavesABentPatchAsItIs) {
+  expect_within(*bending_patch_slit(), 14, {1e-4, 5e-4, 1e-6}, {0, 1, 2});
+}
+TEST(OutOfPlane, HalvesHangLikeTheWholeAndTheElastica) {
+  expect_within(*slit_strip(), 14, {4e-3, 6e-3, 4e-3}, {1, 3});
+  expect_within(*slit_strip(), 14, {0.03, 0.03, 0.06}, {0, 2});  // with slivers
+}
+TEST(OutOfPlane, AFlapHangsAsHeavyElastica) { expect_within(*flap(), 20, {4e-3, 5e-3}, {0, 1}); }
+TEST(OutOfPlane, ATearReleasesWhatPullsTheLegs) { expect_within(*trouser_tear(), 20, {0.15}, {0}); }
 
 TEST(OutOfPlane, SpecimensDependOnTheirArgumentsAlone) {
   std::vector<std::unique_ptr<const Problem>> problems;
@@ -142,7 +148,7 @@ TEST(OutOfPlane, SpecimensDependOnTheirArgumentsAlone) {
     const Specimen a = problem->specimen("grid", 8, 3, 5), b = problem->specimen("grid", 8, 3, 5);
     EXPECT_TRUE(std::equal(a.mesh.rest.begin(), a.mesh.rest.end(), b.mesh.rest.begin(), b.mesh.rest.end()));
     EXPECT_EQ(a.cuts.at(0).points, b.cuts.at(0).points);
-    // The same cut on every sheet, another one for another member or seed.
+    // The same cut on every sheet (of odd members), another one for another member or seed.
     EXPECT_EQ(a.cuts[0].points, problem->specimen("delaunay", 12, 3, 5).cuts[0].points);
     EXPECT_NE(a.cuts[0].points, problem->specimen("grid", 8, 3, 6).cuts[0].points);
     EXPECT_NE(a.cuts[0].points, problem->specimen("grid", 8, 4, 5).cuts[0].points);

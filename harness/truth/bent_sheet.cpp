@@ -35,7 +35,7 @@ BentSheet::BentSheet(const Sheet& sheet, const Material& material, BendingKind b
 }
 
 bool BentSheet::settle(const SolverOptions& solver, Answer& answer) {
-  Stepper<3> stepper({.integrator = Integrator::equilibrium, .newton = 200, .solver = solver});
+  Stepper<3> stepper({.integrator = Integrator::equilibrium, .newton = 100, .solver = solver});
   const StepReport report = stepper.step(model_, state_);
   answer.verdict = report.verdict, answer.reason = report.reason;
   answer.unknowns = 0;

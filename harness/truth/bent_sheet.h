@@ -15,7 +15,7 @@ struct Start {
 };
 
 /// Newton's method with a line search begins where `start` puts the sheet. Near the expected shape it needs a few
-/// iterations, from flat up to a hundred; the equilibrium is the same (tests/out_of_plane_truth_test.cpp).
+/// iterations, from flat twenty; the equilibrium is the same (tests/out_of_plane_truth_test.cpp).
 class BentSheet {
  public:
   /// One pin for each held rest vertex, so `start` must hold all copies of it or none on an axis. Gravity pulls along
@@ -23,7 +23,8 @@ class BentSheet {
   BentSheet(const Sheet& sheet, const Material& material, BendingKind bending, double gravity,
             const std::function<Start(DeformedIndex)>& start);
 
-  /// Adds what it took to `answer`; false where there is no equilibrium, which is then its verdict.
+  /// Adds what it took to `answer`: `iterations` are Newton's, `residual` is the last one's, of the forces. False where
+  /// there is no equilibrium, which is then the verdict.
   bool settle(const SolverOptions& solver, Answer& answer);
 
   // --- after settle() ------------------------------------------------------------------------------------------------
