@@ -92,7 +92,8 @@ TEST(ExactFields, AreInEquilibriumAndTheirStressIsThatOfTheirDisplacement) {
       EXPECT_LE((hooke(difference_gradient(*field, p, 1e-4)) - stress).norm(), 1e-5);
       EXPECT_LE((difference_gradient(*field, p, 1e-4) - field->gradient(p)).norm(), 1e-5);
       constexpr double step = 1e-3;
-      const auto at = [&](double x, double y) { return hooke(difference_gradient(*field, {p.x + x, p.y + y}, step)); };
+      const ElasticField& exact = *field;  // clang 14 does not capture parts of a structured binding
+      const auto at = [&](double x, double y) { return hooke(difference_gradient(exact, {p.x + x, p.y + y}, step)); };
       const Vector2d divergence =
           (at(step, 0).col(0) - at(-step, 0).col(0) + at(0, step).col(1) - at(0, -step).col(1)) / (2 * step);
       EXPECT_LE(divergence.norm(), 2e-3 * stress.norm() / clear);
@@ -375,23 +376,26 @@ TEST(Problems, TheWorkAtTheBorderIsWhatTheLipsGiveOff) {
 
 TEST(Problems, StressAlongACutIsExactWhateverTheShapes) {
   const Problem& problem = find_problem("parallel_stress");
-  double worst_shape = 0;
+  double worst_of_all = 0;
   for (const std::string family : sheet_families())
     for (const auto& row : all_methods())
       for (std::size_t index = 0; index < 10; ++index) {
         SCOPED_TRACE(family + ", " + row.name + ' ' + std::to_string(index));
         const Specimen specimen = problem.specimen(family, 8, 3, index);
         const Sheet sheet = cut_by(specimen, row.name);
+        double worst = 0;
         for (std::size_t t = 0; t < sheet.triangle_slots(); ++t)
           if (sheet.triangle(TriangleIndex(t)).alive()) {
             const auto [a, b, c] = sheet.corners(TriangleIndex(t));
-            worst_shape = std::max(worst_shape, aspect_ratio(a, b, c));
+            worst = std::max(worst, aspect_ratio(a, b, c));
           }
+        worst_of_all = std::max(worst_of_all, worst);
         const Answer answer = solved(problem, specimen, sheet);
-        EXPECT_LE(measure_of(answer, "energy_norm").error, 1e-11);
-        EXPECT_LE(measure_of(answer, "stress").error, 1e-9);
+        // Displacements to a unit in the last place or so, over the sliver's height.
+        EXPECT_LE(measure_of(answer, "stress").error, 1e-13 * worst);
+        EXPECT_LE(measure_of(answer, "displacement_l2").error, 1e-13 + 1e-15 * worst);
       }
-  EXPECT_GT(worst_shape, 1e4);
+  EXPECT_GT(worst_of_all, 1e5);
 }
 
 /// Mean errors over members, and the mean of (value / exact), for three sizes, each half the one before.

@@ -152,8 +152,8 @@ void Comparison::sample_elements() {
     if (!looked_at(e)) continue;
     const auto corners = sheet_.corners(TriangleIndex(e));
     integrate(corners, tips, 1, [&](Point2 p, double weight) {
-      samples_.push_back(
-          {p - corners[0], weight * solve_.elements()[e].fraction, field_.stress(p), field_.displacement(p)});
+      const auto exact = field_.state(p);
+      samples_.push_back({p - corners[0], weight * solve_.elements()[e].fraction, exact.stress, exact.displacement});
     });
     elements_.push_back({e, samples_.size()});
   }
