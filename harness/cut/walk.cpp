@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "harness/mesh/predicates.h"
@@ -302,6 +303,7 @@ Step Walk::from_outside(Point2 target) {
   double best = 2;
   HalfEdge best_edge;
   VertexIndex best_vertex;
+  std::optional<Place> at_target;  // on the border, where the line comes no nearer to it on the way
   auto try_vertex = [&](VertexIndex v, const Side& s) {
     const double at = dot(rest(v) - origin_, line) / length2;
     if (s.sign == 0 && at > outside_from_ + margin && at <= 1 + margin && at < best)
@@ -311,6 +313,10 @@ Step Walk::from_outside(Point2 target) {
       sheet_, origin_, target,
       [&](HalfEdge h) {
         const VertexIndex u = sheet_.origin(h), v = sheet_.target(h);
+        const auto off_target = [&](const Place& place) { return squared_length(place.point - target); };
+        if (lies_on(h, target))
+          if (const Place place = place_on(h, target); !at_target || off_target(place) < off_target(*at_target))
+            at_target = place;
         const Side left = side(origin_, target, rest(u)), right = side(origin_, target, rest(v));
         try_vertex(u, left), try_vertex(v, right);
         if (left.sign <= 0 || right.sign >= 0) return;
@@ -322,6 +328,7 @@ Step Walk::from_outside(Point2 target) {
       [&](double covered) { return best < covered; });
   if (best_vertex.valid()) return pass_vertex(outside, best_vertex, target);
   if (!best_edge.valid()) {
+    if (at_target) return reach(outside, *at_target);
     Place place;
     place.point = target;
     return reach(outside, place);
