@@ -45,7 +45,7 @@ CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, Cutti
   sheet.begin_cut();
   try {
     flatten(curve, options.flatten_tolerance * sheet.mean_edge(), sheet.snap(), polyline_);
-    const double reach = reach_of(polyline_.points);
+    const double reach = reach_of(curve.kind == Curve::Kind::polyline ? curve.points : polyline_.points);
     if (reach <= 4 * sheet.snap()) return nothing_done(Status::noop, "the path has no length");
     if (reach > longest_reach * sheet.size())
       return nothing_done(Status::refused, "the path reaches over 1000 times the sheet's size; cut it off nearer");

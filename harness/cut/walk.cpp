@@ -186,6 +186,8 @@ Step Walk::through(HalfEdge entry, double left, double right, Point2 target) {
   const Side s = side(origin_, target, w);
   if (s.sign == 0) {
     if (!near(w, target) && dot(target - w, target - origin_) < 0) return arrive(t, target);
+    const Point2 line = target - origin_;  // from the edge of a sliver, whose apex lies behind
+    if (dot(w - origin_, line) < -8 * snap_ * std::max(std::abs(line.x), std::abs(line.y))) throw WalkLost();
     return pass_vertex(through_face(t), apex, target);
   }
   const HalfEdge exit = s.sign > 0 ? to_apex : from_apex, other = s.sign > 0 ? from_apex : to_apex;
