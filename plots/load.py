@@ -12,6 +12,7 @@ import pandas as pd
 
 REPOSITORY = Path(__file__).resolve().parent.parent
 TEXT = ["suite_version", "scene", "sheet", "method", "knob", "seed", "cache", "status", "verdict", "reason"]
+TEXT_OF_SOME = ["solver", "primary"]  # text, too, in records that have them
 COUNTS = ["resolution", "case", "repetition"]
 VARIANT = ["method", "knob"]
 CUT = ["suite_version", "scene", "sheet", "resolution", "case"]  # names one cut, whatever the method
@@ -69,7 +70,8 @@ def read(folder, measures):
     return Run(table[made], table[~made], read_context(folder / "context.json"))
 
 
-def read_records(path, columns):
+def read_records(path, columns, all_columns=False):
+    """The table with `columns`, or with all there are, which must include these."""
     if not path.is_file():
         unfinished = path.with_name(path.name + ".part")
         stop(f"{unfinished} is of a run that has not ended; the same command goes on with it" if unfinished.is_file()
@@ -83,8 +85,8 @@ def read_records(path, columns):
             if missing and line:
                 stop(f"{path} lacks the column{'s' * (len(missing) > 1)} {', '.join(missing)}")
             file.seek(start)
-            table = pd.read_csv(file, usecols=columns, dtype=str, keep_default_na=False)
-        for column in table.columns.difference(TEXT):
+            table = pd.read_csv(file, usecols=None if all_columns else columns, dtype=str, keep_default_na=False)
+        for column in table.columns.difference(TEXT + TEXT_OF_SOME):
             table[column] = table[column].replace("", "nan").astype(float)
         table = table.astype({column: int for column in COUNTS})
     except (OSError, ValueError) as error:
@@ -111,6 +113,30 @@ def quartiles(table, by, column):
     groups = table.dropna(subset=[column]).groupby(by)[column]
     return pd.DataFrame({"q1": groups.quantile(0.25), "median": groups.median(), "q3": groups.quantile(0.75),
                          "n": groups.size()})
+
+
+def with_failures(values):
+    """q1, median, q3 of what may hold infinities, for cases that failed: the value that so many do not exceed."""
+    if not len(values):
+        return np.nan, np.nan, np.nan
+    return tuple(np.quantile(np.asarray(values, float), [0.25, 0.5, 0.75], method="inverted_cdf"))
+
+
+def front_layers(x, y):
+    """Per point the number of its front: 1 where no other is at least as small in both and smaller in one, 2 where
+    only those of 1 are, and so on. 0 for points that are not finite."""
+    points = np.column_stack([x, y]).astype(float)
+    layers = np.zeros(len(points), int)
+    left = np.isfinite(points).all(axis=1)
+    layer = 0
+    while left.any():
+        layer += 1
+        here = points[left]
+        beaten = np.array([((here <= p).all(axis=1) & (here < p).any(axis=1)).any() for p in here])
+        numbers = np.flatnonzero(left)[~beaten]
+        layers[numbers] = layer
+        left[numbers] = False
+    return layers
 
 
 def median_repetition(table, columns):

@@ -51,6 +51,7 @@ KNOWN = {  # in the order of the legend
     ("bowyer_watson", "rounds=1"): Look("Bowyer-Watson, rounds=1", "#0072b2", "^"),
     ("bowyer_watson", "rounds=3"): Look("Bowyer-Watson, rounds=3", "#0b2f66", "v"),
     ("cgal_cdt", ""): Look("CGAL CDT", "#d55e00", "D"),
+    ("body_fitted (reference)", ""): Look("body-fitted mesh (reference)", "#111111", "*", "--"),
     ("every_edge", ""): Look("every edge tested", "#8a8a8a", "h", ":"),
 }
 FREE_COLOURS = ["#009e73", "#cc79a7", "#e69f00", "#7b3294", "#8c564b", "#b2182b", "#66a61e", "#01665e"]

@@ -8,6 +8,7 @@
 #include "harness/mesh/families.h"
 #include "harness/run/cases.h"
 #include "harness/run/toml_reader.h"
+#include "harness/truth/problem.h"
 
 namespace cutbench {
 
@@ -37,6 +38,32 @@ Experiment::Campaign read_campaign(const TomlReader& reader, const std::filesyst
   return campaign;
 }
 
+Experiment::Accuracy read_accuracy(const TomlReader& reader, const std::vector<int>& resolutions) {
+  Experiment::Accuracy accuracy;
+  const bool all = !reader.table["problems"].is_array() && reader.value<std::string>("problems", "all") == "all";
+  if (all)
+    for (const auto& problem : all_problems()) accuracy.problems.push_back(problem->name());
+  else
+    accuracy.problems = reader.list<std::string>("problems");
+  for (const auto& name : accuracy.problems) find_problem(name);
+  accuracy.direct = reader.list<std::string>("direct");
+  if (reader.has("preconditioners")) accuracy.preconditioners = reader.list<std::string>("preconditioners");
+  for (const auto* list : {&accuracy.direct, &accuracy.preconditioners})
+    check_names(*list, solver_names(), reader.where + ": solver");
+  if (!accuracy.preconditioners.empty())
+    for (const auto n : reader.list<std::int64_t>("iterations")) {
+      if (n < 1 || n > 1000000) reader.refuse("\"iterations\" are whole numbers from 1 to 1000000");
+      accuracy.iterations.push_back(static_cast<int>(n));
+    }
+  const auto members = reader.list<std::int64_t>("members");
+  if (members.size() != resolutions.size()) reader.refuse("\"members\" must be as many numbers as \"resolutions\"");
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    if (members[i] < 1 || members[i] > 1000000) reader.refuse("\"members\" are whole numbers from 1 to 1000000");
+    accuracy.members.emplace_back(resolutions[i], static_cast<int>(members[i]));
+  }
+  return accuracy;
+}
+
 /// Rows that say the same of what was measured can't be told apart.
 template <class T>
 void refuse_repeated(std::vector<T> entries, const std::string& what) {
@@ -58,13 +85,15 @@ int squares_per_side(std::int64_t triangles) {
 Experiment read_experiment(const std::filesystem::path& file) {
   const std::string name = file.string();
   const toml::table table = parse_toml(file);
-  const bool is_campaign = table.contains("campaign");
-  std::vector<std::string> known{"claim", "sheets", "resolutions", "methods", "seed", "cases", "chord_tolerance"};
+  const bool is_campaign = table.contains("campaign"), is_accuracy = table.contains("accuracy");
+  std::vector<std::string> known{"claim", "sheets", "resolutions", "methods", "seed", "chord_tolerance"};
   if (is_campaign)
-    known.emplace_back("campaign");
+    known.insert(known.end(), {"campaign", "cases"});
+  else if (is_accuracy)
+    known.emplace_back("accuracy");
   else
-    known.insert(known.end(),
-                 {"cut_families", "repetitions", "cold", "quality", "every_edge", "scene", "cut_time", "scene_cases"});
+    known.insert(known.end(), {"cases", "cut_families", "repetitions", "cold", "quality", "every_edge", "scene",
+                               "cut_time", "scene_cases"});
   check_keys(table, known, name);
   const TomlReader reader{table, name};
   Experiment e;
@@ -73,7 +102,7 @@ Experiment read_experiment(const std::filesystem::path& file) {
   e.sheets = reader.list<std::string>("sheets");
   if (is_campaign)
     e.campaign = read_campaign(reader.section("campaign", {"mesh_files", "time_limit_s", "peer"}), file.parent_path());
-  else
+  else if (!is_accuracy)
     e.cut_families = reader.list<std::string>("cut_families");
   check_names(e.sheets, sheet_families(), name + ": sheet");
   check_names(e.cut_families, cut_families(), name + ": cut family");
@@ -84,6 +113,14 @@ Experiment read_experiment(const std::filesystem::path& file) {
   refuse_repeated(e.sheets, name + ": \"sheets\"");
   refuse_repeated(e.cut_families, name + ": \"cut_families\"");
   refuse_repeated(e.resolutions, name + ": \"resolutions\"");
+  if (is_accuracy) {
+    const std::vector<std::string> keys{"problems", "direct", "preconditioners", "iterations", "members"};
+    e.accuracy = read_accuracy(reader.section("accuracy", keys), e.resolutions);
+    refuse_repeated(e.accuracy->problems, name + ": \"problems\"");
+    refuse_repeated(e.accuracy->direct, name + ": \"direct\"");
+    refuse_repeated(e.accuracy->preconditioners, name + ": \"preconditioners\"");
+    refuse_repeated(e.accuracy->iterations, name + ": \"iterations\"");
+  }
   for (const auto& node : reader.array("methods")) e.methods.push_back(read_entry(node, name));
   e.seed = static_cast<std::uint64_t>(reader.value<std::int64_t>("seed", 1));
   e.cases = reader.count("cases", 1), e.repetitions = reader.count("repetitions", 1);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "harness/run/scene.h"
@@ -28,6 +29,16 @@ struct Experiment {
     bool peer = false;                              ///< CGAL's triangulation of the whole sheet cuts, too
   };
 
+  /// Problems with a known answer (harness/truth/problem.h) instead of families of cuts: every cut sheet is loaded,
+  /// solved and compared.
+  struct Accuracy {
+    std::vector<std::string> problems;
+    std::vector<std::string> direct;           ///< solvers that run until solved
+    std::vector<std::string> preconditioners;  ///< solvers that are given so many iterations, each of:
+    std::vector<int> iterations;
+    std::vector<std::pair<int, int>> members;  ///< resolution, and how many of each problem's ensemble on it
+  };
+
   std::string stem;   ///< of the file: names the results folder and the plot
   std::string claim;  ///< what is put to the test
   std::vector<std::string> sheets, cut_families;
@@ -47,6 +58,7 @@ struct Experiment {
   double cut_time = 0;     ///< s
   int scene_cases = 0;     ///< so many of the cuts only
   std::optional<Campaign> campaign;
+  std::optional<Accuracy> accuracy;
 };
 
 /// Throws InputError: unreadable, not TOML, unknown or missing keys (with the nearest known one), values out of range.

@@ -14,17 +14,15 @@ namespace cutbench {
 
 namespace {
 
-constexpr std::size_t key_columns = 10;  // suite_version ... cache
-
 std::string joined(const std::vector<std::string>& fields, std::size_t n) {
   std::string line;
   for (std::size_t i = 0; i < n; ++i) line += (i ? "," : "") + fields[i];
   return line;
 }
 
-std::string key_of(const std::string& line) {
+std::string key_of(const std::string& line, std::size_t columns) {
   std::size_t end = 0;
-  for (std::size_t i = 0; i < key_columns && end != std::string::npos; ++i) end = line.find(',', end + (i > 0));
+  for (std::size_t i = 0; i < columns && end != std::string::npos; ++i) end = line.find(',', end + (i > 0));
   return line.substr(0, end);
 }
 
@@ -106,7 +104,7 @@ const std::vector<std::string>& column_names() {
 }
 
 std::vector<std::string> key_column_names() {
-  return {column_names().begin(), column_names().begin() + std::ptrdiff_t{key_columns}};
+  return {column_names().begin(), column_names().begin() + static_cast<std::ptrdiff_t>(key_columns)};
 }
 
 Record::Record(const std::vector<std::string>& columns) : columns_(&columns), fields_(columns.size()) {}
@@ -142,12 +140,12 @@ void Record::set(const std::string& column, double value) {
 
 void Record::set(const std::string& column, std::int64_t value) { set(column, std::to_string(value)); }
 
-std::string Record::key() const { return joined(fields_, key_columns); }
+std::string Record::key(std::size_t columns) const { return joined(fields_, columns); }
 std::string Record::line() const { return joined(fields_, fields_.size()); }
 
 RecordFile::RecordFile(const std::filesystem::path& folder, const std::string& identity,
-                       const std::vector<std::string>& columns)
-    : folder_(folder), part_(folder_ / "records.csv.part"), columns_(columns) {
+                       const std::vector<std::string>& columns, std::size_t keys)
+    : folder_(folder), part_(folder_ / "records.csv.part"), columns_(columns), keys_(keys) {
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (error) throw InputError(folder_.string() + ": can't be made (" + error.message() + "); choose another --out");
@@ -177,7 +175,7 @@ bool RecordFile::resume(const std::string& head) {
     const std::string line = text.substr(begin, end - begin);
     if (static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1 != columns_.size()) break;
     lines_.push_back(line);
-    done_.insert(key_of(line));
+    done_.insert(key_of(line, keys_));
   }
   std::error_code ignored;  // if it can't be cut, nor can it be appended to
   std::filesystem::resize_file(part_, begin, ignored);

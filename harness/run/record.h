@@ -11,11 +11,13 @@
 
 namespace cutbench {
 
-/// Of a measured cut; the first ones, key_column_names(), up to `cache`, are those of every record.
+/// So many of the first columns say what was measured, in every record: up to `cache`.
+constexpr std::size_t key_columns = 10;
+/// Of a measured cut; the first ones, key_column_names(), are those of every record.
 const std::vector<std::string>& column_names();
 std::vector<std::string> key_column_names();
 
-/// A row: the fields in the order of the columns. The first ones, up to `cache`, say what was measured.
+/// A row: the fields in the order of the columns.
 class Record {
  public:
   /// \param columns  must outlive the record
@@ -26,8 +28,8 @@ class Record {
   void set(const std::string& column, double value);
   void set(const std::string& column, std::int64_t value);
   const std::string& get(const std::string& column) const;
-  std::string key() const;   ///< the fields that say what was measured
-  std::string line() const;  ///< CSV, without the newline
+  std::string key(std::size_t columns = key_columns) const;  ///< the fields that say what was measured
+  std::string line() const;                                  ///< CSV, without the newline
 
  private:
   std::size_t index(const std::string& column) const;
@@ -40,9 +42,10 @@ class Record {
 /// short is dropped. Rows of another identity are thrown away, and note() says so.
 class RecordFile {
  public:
+  /// \param keys  so many of the first columns say what was measured
   /// Throws InputError where the folder can't be written.
   RecordFile(const std::filesystem::path& folder, const std::string& identity,
-             const std::vector<std::string>& columns = column_names());
+             const std::vector<std::string>& columns = column_names(), std::size_t keys = key_columns);
   bool has(const std::string& key) const { return done_.contains(key); }
   const std::string& note() const { return note_; }  ///< what became of an earlier run's rows; empty without any
   /// Throws OutputError on a full disk.
@@ -57,6 +60,7 @@ class RecordFile {
   void check();
   std::filesystem::path folder_, part_;
   const std::vector<std::string>& columns_;
+  std::size_t keys_;
   std::string note_;
   std::set<std::string> done_;
   std::vector<std::string> lines_;

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/mesh/families.h"
+#include "harness/run/accuracy.h"
 #include "harness/run/campaign.h"
 #include "harness/run/cases.h"
 #include "harness/run/chill_caches.h"
@@ -19,22 +20,13 @@
 #include "harness/run/record.h"
 #include "harness/run/report.h"
 #include "harness/run/summary.h"
+#include "harness/run/worker.h"
 
 namespace cutbench {
 
 namespace {
 
 double length(Point3 p) { return std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z); }
-
-/// One method at work, with its storage kept warm.
-struct Worker {
-  Variant variant;
-  std::unique_ptr<CuttingMethod> method;
-  Cutter cutter;
-  Sheet sheet;
-  Locator locator;
-  bool undoable = false;  // at most one cut away from the base sheet
-};
 
 class Runner {
  public:
@@ -43,8 +35,7 @@ class Runner {
       : experiment_(experiment),
         options_(options),
         file_(std::filesystem::path(options.out) / experiment.stem, identity(experiment, context, options)) {
-    for (const Variant& v : variants_of(experiment, methods))
-      workers_.push_back({v, v.row->make(v.knob), {}, {}, {}, false});
+    for (const Variant& v : variants_of(experiment, methods)) workers_.emplace_back(v);
     cut_options_.chord_tolerance = experiment.chord_tolerance;
   }
 
@@ -58,9 +49,8 @@ class Runner {
     for (const auto& sheet : experiment_.sheets)
       for (int resolution : experiment_.resolutions) {
         start_scene(sheet, resolution);
-        base_ = motion_ ? motion_->sheet() : Sheet(make_sheet(sheet, squares_per_side(resolution)));
-        base_locator_ = Locator(base_);
-        for (Worker& worker : workers_) worker.undoable = false;
+        base_ = BaseSheet(motion_ ? motion_->sheet() : Sheet(make_sheet(sheet, squares_per_side(resolution))));
+        for (Worker& worker : workers_) worker.forget_base();
         for (const auto& family : experiment_.cut_families)
           for (std::size_t i = 0; i < cases; ++i, progress.step())
             if (static_cast<int>(i % static_cast<std::size_t>(options_.shards)) == options_.shard - 1)
@@ -85,7 +75,7 @@ class Runner {
   }
 
   void run_case(const std::string& sheet, int resolution, const std::string& family, std::size_t i) {
-    const std::vector<Curve> cuts = make_case(family, experiment_.seed, i, base_);
+    const std::vector<Curve> cuts = make_case(family, experiment_.seed, i, base_.sheet);
     std::vector<oracle::ForcedCorner> forced;
     const auto start_row = [&](const std::string& method, const std::string& knob, int repetition, const char* cache) {
       Record row;
@@ -103,8 +93,8 @@ class Runner {
       Record& row =
           judged.emplace_back(start_row(workers_[w].variant.row->name, workers_[w].variant.knob_text(), 0, "warm"));
       if (file_.has(row.key())) continue;
-      const CutRun run = cut(workers_[w], cuts);
-      if (forced.empty() && experiment_.quality) forced = forced_corners_of(base_, cuts);
+      const CutRun run = workers_[w].cut(base_, cuts, cut_options_);
+      if (forced.empty() && experiment_.quality) forced = forced_corners_of(base_.sheet, cuts);
       judge_into(row, summaries[w], workers_[w], cuts, forced, run);
     }
     std::size_t crossed = 0;
@@ -116,7 +106,7 @@ class Runner {
         Worker& worker = workers_[w];
         Record row = start_row(worker.variant.row->name, worker.variant.knob_text(), repetition, cache);
         if (file_.has(row.key())) continue;
-        const CutRun run = measure(worker, cuts, cold);
+        const CutRun run = worker.measure(base_, cuts, cut_options_, cold);
         if (run.crossed_triangles > 0) crossed = run.crossed_triangles;
         if (r == 0)
           row = judged[w];
@@ -128,7 +118,8 @@ class Runner {
         if (!cold) summarize(resolution, worker.variant, summaries[w], run);
       }
       if (experiment_.every_edge && crossed == 0)  // all rows but this one were there
-        for (Worker& worker : workers_) crossed = std::max(crossed, cut(worker, cuts).crossed_triangles);
+        for (Worker& worker : workers_)
+          crossed = std::max(crossed, worker.cut(base_, cuts, cut_options_).crossed_triangles);
       if (experiment_.every_edge)
         time_every_edge(cuts, start_row("every_edge", "", repetition, cache), resolution, crossed, cold);
     }
@@ -191,34 +182,6 @@ class Runner {
     summary_.add(resolution, variant.row->name, variant.knob_text(), cut);
   }
 
-  /// Makes the worker's sheet the base sheet again: by undoing a single cut, so that the caches stay as they are.
-  void restore(Worker& worker, const std::vector<Curve>& cuts) {
-    if (worker.undoable) {
-      worker.sheet.rollback();
-    } else {
-      worker.sheet = base_;
-      worker.sheet.reserve(4 * base_.triangle_slots(), 4 * base_.vertex_slots(), 4 * base_.deformed_slots());
-      worker.sheet.begin_cut();  // so that a cut that is refused can be undone, too
-    }
-    worker.locator = base_locator_;
-    worker.undoable = cuts.size() == 1;
-  }
-
-  /// Cuts the base sheet.
-  CutRun cut(Worker& worker, const std::vector<Curve>& cuts) {
-    restore(worker, cuts);
-    return cut_all(worker.sheet, worker.locator, worker.cutter, cuts, *worker.method, cut_options_);
-  }
-
-  /// Cold: right after other work has driven everything out of the caches. Warm: the same cut, made and undone twice
-  /// just before.
-  CutRun measure(Worker& worker, const std::vector<Curve>& cuts, bool cold) {
-    for (int i = 0; i < (cold ? 1 : 2); ++i) cut(worker, cuts);
-    restore(worker, cuts);
-    if (cold) chill_caches();
-    return cut_all(worker.sheet, worker.locator, worker.cutter, cuts, *worker.method, cut_options_);
-  }
-
   void judge_into(Record& row, Summary::Cut& summary, const Worker& worker, const std::vector<Curve>& cuts,
                   const std::vector<oracle::ForcedCorner>& forced, const CutRun& run) {
     row.set("status", std::string(name_of(run.status)));
@@ -226,7 +189,7 @@ class Runner {
     row.set("recovered_segments", std::int64_t{run.recovered_segments});
     summary.ok = run.verdict == "ok";
     if (run.status == Status::failed || run.status == Status::refused) return;
-    const Assessment a = assess(base_, worker.sheet, cuts, forced, worker.variant.row->promises, cut_options_);
+    const Assessment a = assess(base_.sheet, worker.sheet, cuts, forced, worker.variant.row->promises, cut_options_);
     row.set("verdict", a.judgement.verdict);
     if (!a.judgement.ok) row.set("reason", a.judgement.problems.front());
     summary.ok = a.judgement.ok, summary.vertices_added = static_cast<double>(a.vertices_added);
@@ -239,7 +202,7 @@ class Runner {
     row.set("vertices_added", std::int64_t{a.vertices_added});
     row.set("deformed_vertices_added", std::int64_t{a.deformed_vertices_added});
     row.set("triangles_added", std::int64_t{a.triangles_added});
-    row.set("incision_error_h", a.judgement.incision_error / base_.mean_edge());
+    row.set("incision_error_h", a.judgement.incision_error / base_.sheet.mean_edge());
     row.set("area_change", a.judgement.area_change);
     if (!experiment_.quality) return;
     for (const auto& [suffix, q] : {std::pair<std::string, const Quality&>{"_all", a.all}, {"_cut", a.cut}}) {
@@ -270,7 +233,7 @@ class Runner {
     const auto start = std::chrono::steady_clock::now();
     std::size_t crossings = 0;
     for (const Curve& curve : cuts)
-      if (curve.kind == Curve::Kind::bezier) crossings += count_crossings_by_every_edge(base_, curve);
+      if (curve.kind == Curve::Kind::bezier) crossings += count_crossings_by_every_edge(base_.sheet, curve);
     const double us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
     row.set("geometry_us", us);
     row.set("status", std::string("ok"));
@@ -287,8 +250,7 @@ class Runner {
   RecordFile file_;
   std::vector<Worker> workers_;
   CutOptions cut_options_;
-  Sheet base_;
-  Locator base_locator_;
+  BaseSheet base_;
   std::unique_ptr<InMotion> motion_;
   Summary summary_;
 };
@@ -331,6 +293,7 @@ std::vector<Variant> variants_of(const Experiment& experiment, const std::vector
 bool run_experiment(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
                     const RunOptions& options) {
   if (experiment.campaign) return run_campaign(experiment, methods, context, options);
+  if (experiment.accuracy) return run_accuracy(experiment, methods, context, options);
   Runner runner(experiment, methods, context, options);
   runner.run();
   runner.file().finish(context, experiment.stem, experiment.claim, options.command, experiment.seed);

@@ -1,0 +1,308 @@
+#include "harness/run/accuracy.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+
+#include "harness/run/accuracy_summary.h"
+#include "harness/run/progress.h"
+#include "harness/run/record.h"
+#include "harness/run/worker.h"
+#include "harness/truth/problem.h"
+
+namespace cutbench {
+
+namespace {
+
+/// Errors of the reference below it are round-off: no measuring stick.
+constexpr double exact_to_rounding = 1e-9;
+
+using Clock = std::chrono::steady_clock;
+
+double us_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
+}
+
+/// The errors of the reference, solved directly, by the name of the measure.
+using Yardstick = std::map<std::string, double>;
+
+class AccuracyRun {
+ public:
+  AccuracyRun(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
+              const RunOptions& options)
+      : experiment_(experiment),
+        plan_(*experiment.accuracy),
+        options_(options),
+        file_(std::filesystem::path(options.out) / experiment.stem, identity(experiment, context, options),
+              accuracy_columns(), key_columns + 2) {
+    for (const Variant& v : variants_of(experiment, methods)) workers_.emplace_back(v);
+    for (const auto& solver : plan_.direct) direct_.push_back({.solver = {.name = solver}});
+    budgets_ = direct_;
+    for (const auto& solver : plan_.preconditioners)
+      for (int n : plan_.iterations) budgets_.push_back({.solver = {.name = solver}, .iterations = n});
+    cut_options_.chord_tolerance = experiment.chord_tolerance;
+  }
+
+  void run() {
+    if (!file_.note().empty() && !options_.quiet)
+      std::fprintf(stderr, "%s: %s\n", experiment_.stem.c_str(), file_.note().c_str());
+    std::size_t total = 0;
+    for (int resolution : experiment_.resolutions) total += members_on(resolution);
+    Progress progress(experiment_.stem, total * plan_.problems.size() * experiment_.sheets.size(), options_.quiet);
+    for (const auto& name : plan_.problems)
+      for (const auto& sheet : experiment_.sheets)
+        for (int resolution : experiment_.resolutions)
+          for (std::size_t i = 0; i < members_on(resolution); ++i, progress.step())
+            if (static_cast<int>(i % static_cast<std::size_t>(options_.shards)) == options_.shard - 1)
+              run_member(find_problem(name), sheet, resolution, i);
+  }
+
+  RecordFile& file() { return file_; }
+  const std::map<std::string, double>& minutes() const { return minutes_; }
+
+  /// Of the rows, those of before a resumption too.
+  AccuracySummary summary() const {
+    AccuracySummary summary;
+    for (const std::string& line : file_.lines()) summary.add(Record(accuracy_columns(), line));
+    return summary;
+  }
+
+ private:
+  static std::string identity(const Experiment& e, const Context& context, const RunOptions& options) {
+    nlohmann::json methods;
+    for (const auto& entry : e.methods) methods.push_back({entry.method, entry.knob_values});
+    return nlohmann::json{context.identity(),
+                          e.stem,
+                          e.sheets,
+                          e.resolutions,
+                          methods,
+                          e.seed,
+                          e.chord_tolerance,
+                          e.accuracy->problems,
+                          e.accuracy->direct,
+                          e.accuracy->preconditioners,
+                          e.accuracy->members,
+                          e.accuracy->iterations,
+                          options.shard,
+                          options.shards}
+        .dump();
+  }
+
+  std::size_t members_on(int resolution) const {
+    const auto found = std::find_if(plan_.members.begin(), plan_.members.end(),
+                                    [&](const auto& entry) { return entry.first == resolution; });
+    return static_cast<std::size_t>(found->second);
+  }
+
+  const std::vector<Budget>& budgets_for(const Problem& problem) const {
+    return problem.takes_budgets() ? budgets_ : direct_;
+  }
+
+  void run_member(const Problem& problem, const std::string& family, int resolution, std::size_t i) {
+    Record start(accuracy_columns());
+    start.set("suite_version", std::string(suite_version)), start.set("scene", problem.name());
+    start.set("sheet", family), start.set("resolution", std::int64_t{resolution});
+    start.set("case", static_cast<std::int64_t>(i)), start.set("repetition", std::int64_t{0});
+    start.set("seed", static_cast<std::int64_t>(experiment_.seed)), start.set("cache", std::string("warm"));
+    start.set("primary", problem.measures().front());
+    const auto of_worker = [&](const Worker& worker) {
+      Record row = start;
+      row.set("method", worker.variant.row->name), row.set("knob", worker.variant.knob_text());
+      return row;
+    };
+    Record of_reference = start;
+    of_reference.set("method", std::string(reference_method));
+    if (is_done(of_reference, problem) && std::all_of(workers_.begin(), workers_.end(), [&](const Worker& worker) {
+          return is_done(of_worker(worker), problem);
+        }))
+      return;
+
+    const Specimen specimen = problem.specimen(family, squares_per_side(resolution), experiment_.seed, i);
+    const BaseSheet base{Sheet(specimen.mesh)};
+    const Yardstick yardstick = run_reference(problem, specimen, base, of_reference);
+    for (Worker& worker : workers_)
+      if (!is_done(of_worker(worker), problem))
+        run_method(problem, specimen, base, worker, of_worker(worker), yardstick);
+  }
+
+  bool is_done(Record row, const Problem& problem) const {
+    const auto& budgets = budgets_for(problem);
+    return std::all_of(budgets.begin(), budgets.end(), [&](const Budget& budget) {
+      set_budget(row, budget);
+      return file_.has(key(row));
+    });
+  }
+
+  static void set_budget(Record& row, const Budget& budget) {
+    row.set("solver", budget.solver.name), row.set("budget", std::int64_t{budget.iterations});
+  }
+  static std::string key(const Record& row) { return row.key(key_columns + 2); }
+
+  Yardstick run_reference(const Problem& problem, const Specimen& specimen, const BaseSheet& base, Record row) {
+    const auto start = Clock::now();
+    row.set("exact_incision", std::int64_t{1});
+    std::optional<Sheet> sheet;
+    try {
+      sheet = body_fitted(specimen);
+      row.set("cut_us", us_since(start));
+      const Assessment a = assess_result(base.sheet, sheet->to_mesh_data(), specimen.cuts, false, cut_options_);
+      row.set("status", std::string("ok"));
+      set_assessment(row, a, base);
+      if (!a.judgement.ok) sheet.reset();
+    } catch (const std::exception& error) {
+      set_failure(row, "failed", "crashed", error.what());
+      sheet.reset();
+    }
+    const Yardstick yardstick = answer(problem, specimen, sheet ? &*sheet : nullptr, row, {});
+    minutes_[reference_method] += us_since(start) / 60e6;
+    return yardstick;
+  }
+
+  void run_method(const Problem& problem, const Specimen& specimen, const BaseSheet& base, Worker& worker, Record row,
+                  const Yardstick& yardstick) {
+    const auto start = Clock::now();
+    worker.forget_base();
+    const CutRun cut = worker.measure(base, specimen.cuts, cut_options_, false);
+    row.set("status", std::string(name_of(cut.status)));
+    row.set("verdict", cut.verdict), row.set("reason", cut.reason);
+    row.set("exact_incision", std::int64_t{worker.variant.row->promises.exact_incision});
+    row.set("cut_us", cut.time_us.total());
+    row.set("crossed_triangles", static_cast<std::int64_t>(cut.crossed_triangles));
+    bool solvable = cut.status != Status::failed && cut.status != Status::refused;
+    if (solvable) {
+      const Promises& promises = worker.variant.row->promises;
+      const Assessment a = assess(base.sheet, worker.sheet, specimen.cuts, {}, promises, cut_options_);
+      set_assessment(row, a, base);
+      solvable = a.judgement.ok;
+    } else if (cut.verdict == "ok") {
+      row.set("verdict", std::string("refused"));
+    }
+    answer(problem, specimen, solvable ? &worker.sheet : nullptr, row, yardstick);
+    minutes_[AccuracySummary::label(row.get("method"), row.get("knob"))] += us_since(start) / 60e6;
+  }
+
+  static void set_failure(Record& row, const std::string& status, const std::string& verdict, const std::string& why) {
+    row.set("status", status), row.set("verdict", verdict), row.set("reason", why);
+  }
+
+  static void set_assessment(Record& row, const Assessment& a, const BaseSheet& base) {
+    row.set("verdict", a.judgement.verdict);
+    if (!a.judgement.ok) row.set("reason", a.judgement.problems.front());
+    row.set("triangles", static_cast<std::int64_t>(base.sheet.triangle_count()) + a.triangles_added);
+    row.set("vertices_added", std::int64_t{a.vertices_added});
+    row.set("incision_error", a.judgement.incision_error);
+    row.set("ar_max_cut", a.cut.ar_max), row.set("ar_max_all", a.all.ar_max);
+    row.set("angle_max_deg_cut", a.cut.angle_max_deg), row.set("altitude_min_h_cut", a.cut.altitude_min);
+  }
+
+  /// A row per budget. `sheet`: null where there is nothing to solve, which the row says already. Returns the errors of
+  /// the first direct solve.
+  Yardstick answer(const Problem& problem, const Specimen& specimen, const Sheet* sheet, Record& row,
+                   const Yardstick& yardstick) {
+    const std::vector<Budget>& budgets = budgets_for(problem);
+    std::vector<Answer> answers;
+    try {
+      if (sheet) answers = problem.answer(specimen, *sheet, budgets);
+    } catch (const std::exception& error) {
+      set_failure(row, row.get("status"), "crashed", error.what());
+    }
+    Yardstick errors;
+    if (!answers.empty() && answers.front().verdict == "ok")
+      for (const Measure& m : answers.front().measures) errors[m.name] = m.error;
+    const bool is_reference = row.get("method") == reference_method;
+    for (std::size_t b = 0; b < budgets.size(); ++b) {
+      Record full = row;
+      set_budget(full, budgets[b]);
+      if (b < answers.size()) set_answer(full, answers[b], is_reference ? errors : yardstick);
+      if (!file_.has(key(full))) file_.append(full);
+    }
+    return errors;
+  }
+
+  static void set_answer(Record& row, const Answer& answer, const Yardstick& yardstick) {
+    row.set("unknowns", static_cast<std::int64_t>(answer.unknowns));
+    row.set("assemble_us", answer.assemble_us);
+    row.set("setup_us", answer.setup_us), row.set("solve_us", answer.solve_us);
+    row.set("total_us", std::stod(row.get("cut_us")) + answer.assemble_us + answer.setup_us + answer.solve_us);
+    row.set("iterations", std::int64_t{answer.iterations}), row.set("residual", answer.residual);
+    row.set("verdict", answer.verdict), row.set("reason", answer.reason);
+    if (answer.verdict != "ok") return;
+    for (const Measure& m : answer.measures) {
+      const auto reference = yardstick.find(m.name);
+      const bool measurable = reference != yardstick.end() && reference->second > exact_to_rounding;
+      const double excess = measurable ? m.error / reference->second - 1 : 0;
+      row.set("value_" + m.name, m.value), row.set("exact_" + m.name, m.exact), row.set("error_" + m.name, m.error);
+      if (measurable) row.set("excess_" + m.name, excess);
+      if (m.name != row.get("primary")) continue;
+      row.set("error", m.error);
+      if (measurable) row.set("excess_error", excess);
+    }
+  }
+
+  const Experiment& experiment_;
+  const Experiment::Accuracy& plan_;
+  const RunOptions& options_;
+  RecordFile file_;
+  CutOptions cut_options_;
+  std::vector<Worker> workers_;
+  std::vector<Budget> direct_, budgets_;  // budgets_: the direct ones first
+  std::map<std::string, double> minutes_;
+};
+
+}  // namespace
+
+const std::vector<std::string>& accuracy_columns() {
+  static const std::vector<std::string> columns = [] {
+    std::vector<std::string> names = key_column_names(), measures;
+    for (const char* name : {"solver",
+                             "budget",
+                             "status",
+                             "verdict",
+                             "reason",
+                             "exact_incision",
+                             "cut_us",
+                             "assemble_us",
+                             "setup_us",
+                             "solve_us",
+                             "total_us",
+                             "unknowns",
+                             "triangles",
+                             "vertices_added",
+                             "iterations",
+                             "residual",
+                             "crossed_triangles",
+                             "incision_error",
+                             "ar_max_cut",
+                             "ar_max_all",
+                             "angle_max_deg_cut",
+                             "altitude_min_h_cut",
+                             "primary",
+                             "error",
+                             "excess_error"})
+      names.emplace_back(name);
+    for (const auto& problem : all_problems())
+      for (const std::string& measure : problem->measures())
+        if (std::find(measures.begin(), measures.end(), measure) == measures.end()) measures.push_back(measure);
+    for (const std::string& measure : measures)
+      for (const char* kind : {"value_", "exact_", "error_", "excess_"}) names.push_back(kind + measure);
+    return names;
+  }();
+  return columns;
+}
+
+bool run_accuracy(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
+                  const RunOptions& options) {
+  AccuracyRun run(experiment, methods, context, options);
+  run.run();
+  run.file().finish(context, experiment.stem, experiment.claim, options.command, experiment.seed);
+  const AccuracySummary summary = run.summary();
+  if (!options.quiet) summary.print(experiment.stem, run.minutes());
+  return summary.all_ok();
+}
+
+}  // namespace cutbench

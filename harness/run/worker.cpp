@@ -1,0 +1,31 @@
+#include "harness/run/worker.h"
+
+#include "harness/run/chill_caches.h"
+
+namespace cutbench {
+
+void Worker::restore(const BaseSheet& base, const std::vector<Curve>& cuts) {
+  if (undoable_) {
+    sheet.rollback();
+  } else {
+    sheet = base.sheet;
+    sheet.reserve(4 * sheet.triangle_slots(), 4 * sheet.vertex_slots(), 4 * sheet.deformed_slots());
+    sheet.begin_cut();  // so that a cut that is refused can be undone, too
+  }
+  locator_ = base.locator;
+  undoable_ = cuts.size() == 1;
+}
+
+CutRun Worker::cut(const BaseSheet& base, const std::vector<Curve>& cuts, const CutOptions& options) {
+  restore(base, cuts);
+  return cut_all(sheet, locator_, cutter, cuts, *method, options);
+}
+
+CutRun Worker::measure(const BaseSheet& base, const std::vector<Curve>& cuts, const CutOptions& options, bool cold) {
+  for (int i = 0; i < (cold ? 1 : 2); ++i) cut(base, cuts, options);
+  restore(base, cuts);
+  if (cold) chill_caches();
+  return cut_all(sheet, locator_, cutter, cuts, *method, options);
+}
+
+}  // namespace cutbench

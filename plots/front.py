@@ -1,0 +1,114 @@
+"""Points of two measures, each the median of an ensemble, and the front of those that none beats in both."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from matplotlib.lines import Line2D
+
+import load
+
+SOLVE = ["solver", "budget"]  # columns of records whose cuts were solved
+FRONT_LINE = dict(color="#111111", linewidth=0.7, linestyle=(0, (1, 1)), zorder=2.5)
+BEHIND = 0.28  # opacity
+
+
+@dataclass(frozen=True)
+class Axis:
+    """A column, and whether less of it is better."""
+    column: str
+    less_is_better: bool = True
+
+    def cost(self, values):
+        return values if self.less_is_better else -values
+
+
+def failed_rows(table):
+    return (table["verdict"] != "ok") | table["status"].isin(["failed", "refused"])
+
+
+def cells(table, x, y, by):
+    """A row per group of `by` columns: median and quartiles of x and y over the rows that have them, their number, how
+    many failed, and the layer of the front it is on. A failed case counts as infinitely bad, so where half of them fail
+    the group has no finite median and is on no front."""
+    failed = failed_rows(table)
+    table = table.assign(failed=failed)[failed | table[[x.column, y.column]].notna().all(axis=1)]
+    found = []
+    for key, group in table.groupby(by, sort=False):
+        row = dict(zip(by, key)) | {"n": len(group), "failed": int(group["failed"].sum())}
+        for name, axis in (("x", x), ("y", y)):
+            costs = axis.cost(group[axis.column]).where(~group["failed"], np.inf)
+            quartiles = [axis.cost(q) for q in load.with_failures(costs)]
+            row |= dict(zip((f"{name}_q1", name, f"{name}_q3"), quartiles))
+            row[f"{name}_made"] = group.loc[~group["failed"], axis.column].median()
+        found.append(row)
+    result = pd.DataFrame(found)
+    if len(result):
+        result["layer"] = load.front_layers(x.cost(result["x"]), y.cost(result["y"]))
+    return result
+
+
+def draw(ax, points, look, size=1.0):
+    """One curve of a panel, its points in order; those behind the front pale. Bars: quartiles."""
+    made = points[points["layer"] > 0]
+    ax.plot(made["x"], made["y"], color=look.colour, linestyle=look.line, linewidth=0.5 * look.width, alpha=BEHIND,
+            zorder=2)
+    for _, p in made.iterrows():
+        alpha = 1.0 if p["layer"] == 1 else BEHIND
+        bars = dict(color=look.colour, linewidth=0.7, alpha=0.5 * alpha, zorder=1.5)
+        ax.hlines(p["y"], *_finite(p["x_q1"], p["x_q3"], p["x"]), **bars)
+        ax.vlines(p["x"], *_finite(p["y_q1"], p["y_q3"], p["y"]), **bars)
+        ax.plot(p["x"], p["y"], color=look.colour, marker=look.marker, linestyle="", alpha=alpha, zorder=3,
+                markersize=size * (3.2 + (p["layer"] == 1)),
+                markeredgecolor="#111111" if p["layer"] == 1 else "white",
+                markeredgewidth=0.5 if p["layer"] == 1 else 0.3)
+
+
+def _finite(low, high, middle):
+    """A bar that would go on without end stops at the median."""
+    return (low if np.isfinite(low) else middle, high if np.isfinite(high) else middle)
+
+
+def draw_front(ax, points):
+    """The front itself, as the stairs below which nothing was measured."""
+    best = points[points["layer"] == 1].sort_values("x")
+    if len(best) > 1:
+        ax.plot(best["x"], best["y"], **FRONT_LINE)
+
+
+def draw_failures(ax, points, looks):
+    """At the top edge of a panel: a cross where a group with failures is, if any of it was made, and on the right, per
+    method, how many failed of how many."""
+    for number, ((method, knob), look) in enumerate(
+            (v, look) for v, look in looks.items() if _of(points, v)["failed"].any()):
+        here = _of(points, (method, knob))
+        for x in here.loc[(here["failed"] > 0) & np.isfinite(here["x_made"]), "x_made"]:
+            ax.annotate("×", (x, 1), xycoords=ax.get_xaxis_transform(), va="center", ha="center", fontsize=6,
+                        color=look.colour, annotation_clip=False)
+        ax.annotate(f"× {here['failed'].sum()}/{here['n'].sum()}", (1, 1), xycoords="axes fraction",
+                    xytext=(0, 2 + 5 * number), textcoords="offset points", va="bottom", ha="right", fontsize=4.6,
+                    color=look.colour, annotation_clip=False)
+
+
+def _of(points, variant):
+    return points[(points["method"] == variant[0]) & (points["knob"] == variant[1])]
+
+
+def legend_entries():
+    return [Line2D([], [], label="Pareto front (behind it: pale)", **FRONT_LINE)]
+
+
+def scale(axis, values):
+    """Logarithmic where values of one sign span more than a factor 5, linear near zero and logarithmic beyond where
+    they have both signs and span much, else linear. `axis`: "x" or "y" of set_xscale, as a function."""
+    values = np.asarray(values, float)
+    values = values[np.isfinite(values)]
+    if not len(values):
+        return
+    if (values > 0).all():
+        if values.max() > 5 * values.min():
+            axis("log")
+        return
+    sizes = np.abs(values[values != 0])
+    if len(sizes) and sizes.max() > 50 * np.median(sizes):
+        axis("symlog", linthresh=float(np.median(sizes)))
