@@ -67,21 +67,24 @@ def of(table, variant):
     return table[(table["method"] == variant[0]) & (table["knob"] == variant[1])]
 
 
-def percent_axis(axis, values):
-    """Excess errors in percent: linear up to 10, logarithmic beyond, plain numbers. `axis`: ax.yaxis and the like."""
+def percent_axis(ax, values):
+    """Excess errors in percent: where they are large, linear up to 10 and logarithmic beyond; plain numbers."""
     values = np.asarray(values, float)
     values = values[np.isfinite(values)]
-    if len(values) and np.abs(values).max() > 60:
-        axis._set_axes_scale("symlog", linthresh=10, linscale=0.7)
-        axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
-        axis.set_minor_formatter(NullFormatter())
+    if len(values) and np.abs(values).max() > 100:
+        ax.set_yscale("symlog", linthresh=10, linscale=0.7)
+        ax.set_ylim(bottom=min(-12, 1.5 * values.min()))
+        ax.yaxis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
+        ax.yaxis.set_minor_formatter(NullFormatter())
 
 
-def ms_axis(axis):
-    axis._set_axes_scale("log")
-    axis.set_major_locator(LogLocator(numticks=6))
-    axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
-    axis.set_minor_formatter(NullFormatter())
+def ms_axis(ax):
+    """Logarithmic, plain numbers. Call it when all is drawn."""
+    ax.set_xscale("log")
+    low, high = ax.get_xlim()
+    ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 40 * low else (1,), numticks=8))
+    ax.xaxis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
+    ax.xaxis.set_minor_formatter(NullFormatter())
 
 
 def cells_of(table, x, y, by):
@@ -109,8 +112,8 @@ def excess_figure(records, x, label, looks):
         front.draw_front(ax, here)
         front.draw_failures(ax, here, looks)
         zero_line(ax)
-        ms_axis(ax.xaxis)
-        percent_axis(ax.yaxis, cells["y"])
+        ms_axis(ax)
+        percent_axis(ax, cells["y"])
         ax.set_title(style.sheet_title(sheet), loc="left")
     label_edges(axes, label, "excess error, %")
     style.finish(figure, looks.values(), records.caption(
@@ -145,7 +148,7 @@ def problems_figure(records):
             front.draw(ax, of(here, variant).sort_values("resolution"), look)
         front.draw_front(ax, here)
         front.draw_failures(ax, here, records.looks)
-        ms_axis(ax.xaxis)
+        ms_axis(ax)
         if (here["y"] > 0).any():
             ax.set_yscale("log")
         primary = records.rows(scene=problem)["primary"].iloc[0]
@@ -181,11 +184,13 @@ def budgets_figure(records):
             front.draw_front(ax, cells)
             front.draw_failures(ax, cells, records.looks)
             zero_line(ax)
-            ms_axis(ax.xaxis)
-            ax.set_title(f"{style.sheet_title(sheet)}, {solver}".replace("_", " "), loc="left", fontsize=6.3)
+            ms_axis(ax)
+            ax.set_title(solver.replace("_", " ") if sheet == records.sheets[0] else "", loc="left")
     for ax in axes.flat:
-        percent_axis(ax.yaxis, everything)
-    label_edges(axes, "total time, ms", "excess error, %")
+        percent_axis(ax, everything)
+    label_edges(axes, "total time, ms", "")
+    for row, sheet in zip(axes, records.sheets):
+        row[0].set_ylabel(f"{style.sheet_title(sheet)}\nexcess error, %")
     style.finish(figure, records.looks.values(), records.caption(
         f"Excess error against total time at {top} triangles, by {', '.join(map(str, records.budgets))} iterations of "
         "conjugate gradients from zero (filled) and by the direct solve (hollow), preconditioned by the vertices' own "
@@ -198,7 +203,7 @@ def shape_columns(records):
     """(title, condition) of the columns of the figure of shapes."""
     columns = [("direct solve", {"direct": True})]
     budget = records.enough()
-    return columns + [(f"{solver.replace('_', ' ')}, {budget} it.", {"solver": solver, "budget": budget})
+    return columns + [(f"{solver.replace('_', ' ')},\n{budget} iterations", {"solver": solver, "budget": budget})
                       for solver in records.solvers]
 
 
@@ -280,6 +285,7 @@ def shape_statements(records):
         factor, low, high, n = factor_per_decade(table[(table["method"] != REFERENCE[0]) & ~table["failed"]])
         if not n or np.isnan(factor):
             continue
+        title = title.replace("\n", " ")
         found.append(f"{title}: a tenfold AR multiplies the error by {factor:.3f} [{low:.3f}, {high:.3f}]: "
                      f"{dependence(low, high)} (n = {n}).")
     return found
@@ -309,7 +315,7 @@ def profile_figure(records):
                 ax.plot(reached[-1], share[-1], marker=look.marker, markersize=3.2, color=look.colour,
                         markeredgecolor="white", markeredgewidth=0.3)
         ax.set_title(f"error ≤ {100 * tolerance:g} %", loc="left")
-        ms_axis(ax.xaxis)
+        ms_axis(ax)
         ax.set_ylim(0, 102)
     label_edges(axes, "total time, ms", "cases solved, %")
     style.finish(figure, records.looks.values(), records.caption(
@@ -392,9 +398,8 @@ def verification_figure(records, table):
         ax.set_xscale("log")
         ax.set_yscale("log")
         ax.xaxis.set_major_locator(LogLocator(subs=(2, 4, 8), numticks=8))
-        for axis in (ax.xaxis,):
-            axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
-            axis.set_minor_formatter(NullFormatter())
+        ax.xaxis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
+        ax.xaxis.set_minor_formatter(NullFormatter())
     label_edges(axes, "n (squares per side)", "error")
     style.finish(figure, records.looks.values(), records.caption(
         "Verification, not a ranking: error of the primary measure over the resolution, solved directly (geometric mean "
@@ -417,10 +422,7 @@ def print_ranking(records):
             tried = table.drop_duplicates(CASE)
             bad = table[table["failed"]].drop_duplicates(CASE)
             rows.append([sheet, look.label, str(len(tried)), f"{100 * len(bad) / max(1, len(tried)):.1f}", *cells])
-    best = {sheet: min((r[4] for r in rows if r[0] == sheet and not np.isnan(r[4])), default=np.nan)
-            for sheet in {r[0] for r in rows}}
     rows.sort(key=lambda r: ([*records.sheets, "all"].index(r[0]), np.nan_to_num(r[4], nan=np.inf)))
-    del best
     load.print_table(
         "Ranking: geometric mean of the error over the fitted mesh's, minus one, in percent; over problems, resolutions "
         f"and members. CG: after {records.enough()} iterations",

@@ -179,8 +179,6 @@ class AccuracyRun {
       const Assessment a = assess(base.sheet, worker.sheet, specimen.cuts, {}, promises, cut_options_);
       set_assessment(row, a, base);
       solvable = a.judgement.ok;
-    } else if (cut.verdict == "ok") {
-      row.set("verdict", std::string("refused"));
     }
     answer(problem, specimen, solvable ? &worker.sheet : nullptr, row, yardstick);
     minutes_[AccuracySummary::label(row.get("method"), row.get("knob"))] += us_since(start) / 60e6;

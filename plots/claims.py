@@ -1,0 +1,320 @@
+#!/usr/bin/env python3
+"""results/claims.md: what the paper claims, and whether it held in the records of fig9_aspect_ratio, table1_timing and
+accuracy. Every verdict and number is computed from these records; a claim whose records are missing is said to be
+untested, with the command that makes them."""
+
+import argparse
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+import accuracy
+import fig9_aspect_ratio as fig9
+import load
+import style
+import table1_timing as table1
+
+HELD, NOT_HELD, CONDITION = "held", "not held", "held under a condition"
+PAPERS = ("bowyer_watson", "rounds=1")  # with one round of the local split
+GENERATION = ("bowyer_watson", "rounds=0")  # Bowyer-Watson alone
+CONVENTIONAL = ("conventional_split", "")
+FEW = 0.1  # of the sheet's vertices: "a small number of additional DOFs"
+
+
+@dataclass
+class Finding:
+    verdict: str
+    evidence: str
+    figure: str
+
+
+@dataclass
+class Claim:
+    words: str  # the paper's, with the place
+    stem: str
+    find: object  # a function of the experiment's records, to a Finding, or None where they don't tell
+
+
+def name(variant):
+    return style.looks([variant])[variant].label
+
+
+def of(table, variant):
+    return table[(table["method"] == variant[0]) & (table["knob"] == variant[1])]
+
+
+def interval(ratio):
+    mean, low, high, n = ratio
+    return f"{load.number(mean)} [{load.number(low)}, {load.number(high)}] (n = {n})"
+
+
+def by_interval(ratio):
+    """Held where all of the interval is above 1, not held where all is below."""
+    return HELD if ratio[1] > 1 else NOT_HELD if ratio[2] < 1 else "undecided"
+
+
+def summed_up(verdicts):
+    """Of {condition: verdict} of the same claim: the one they share, else on which conditions it held."""
+    if len(set(verdicts.values())) == 1:
+        return next(iter(verdicts.values()))
+    where = [condition for condition, verdict in verdicts.items() if verdict == HELD]
+    return f"{CONDITION}: {', '.join(where)}" if where else NOT_HELD
+
+
+# --- shapes --------------------------------------------------------------------------------------------------------
+
+
+def below_limit(column, what, figure, share):
+    """Held where so large a share of the cuts of each sheet is below the limit."""
+    def find(run):
+        parts, verdicts = [], {}
+        for knob, cuts in fig9.paper_method(run).items():
+            good, n = fig9.held(cuts, column)
+            parts.append(f"{knob or 'default'}: {good} of {n} cuts")
+            counts = {style.sheet_title(sheet): fig9.held(cuts.select(sheet=sheet), column)
+                      for sheet in style.sheet_order(cuts.everything()["sheet"])}
+            held = [sheet for sheet, (here, tried) in counts.items() if here >= share * tried]
+            where = f" on {', '.join(held)}" if held and len(held) < len(counts) else ""
+            verdicts[f"{knob or 'default'}{where}"] = HELD if held else NOT_HELD
+            if where:
+                verdicts[f"{knob or 'default'} elsewhere"] = NOT_HELD
+        if not parts:
+            return None
+        return Finding(summed_up(verdicts), f"{what} below {fig9.LIMIT} (held: in {100 * share:g} % of the cuts on a "
+                       f"sheet): {'; '.join(parts)}.", figure)
+    return find
+
+
+def local_split_lowers(run):
+    pairs = of(run.rows, CONVENTIONAL).merge(of(run.rows, PAPERS), on=load.CUT)
+    ratio = load.ratio(pairs["ar_max_cut_x"], pairs["ar_max_cut_y"])
+    if not ratio[3]:
+        return None
+    return Finding(by_interval(ratio), f"Maximum AR by conventional split over that by {name(PAPERS)}, same cuts: "
+                   f"{interval(ratio)} (above 1: the paper's is better).", "fig9_aspect_ratio")
+
+
+def few_vertices(run):
+    pairs = of(run.rows, CONVENTIONAL).merge(of(run.rows, PAPERS), on=load.CUT)
+    if pairs.empty:
+        return None
+    share = (pairs["vertices_added_y"] - pairs["vertices_added_x"]) / (pairs["resolution"] / 2)
+    by_size = share.groupby(pairs["resolution"]).median()
+    verdicts = {f"{r} triangles": HELD if s <= FEW else NOT_HELD for r, s in by_size.items()}
+    return Finding(summed_up(verdicts), f"Vertices {name(PAPERS)} adds beyond the conventional split, of the sheet's own "
+                   f"(medians; few: at most {100 * FEW:g} %): " +
+                   ", ".join(f"{100 * s:.1f} % at {r}" for r, s in by_size.items()) + ".", "fig9_aspect_ratio")
+
+
+# --- times ---------------------------------------------------------------------------------------------------------
+
+
+def papers_grid(run):
+    return table1.Timings(run, style.sheet_order(run.everything()["sheet"])[0])
+
+
+def real_time(run):
+    cuts = of(table1.in_motion(run, papers_grid(run).sheet), PAPERS)
+    if cuts.empty:
+        return None
+    cuts = cuts[cuts["resolution"] == cuts["resolution"].max()]
+    limit = table1.REAL_TIME_US
+    sums = {"geometry": cuts["geometry_us"], "geometry and update without bending": cuts["geometry_us"] + cuts["update_us"],
+            "with the bending's update": cuts["geometry_us"] + cuts["update_us"] + cuts["bending_us"],
+            "with the first step, too": cuts["total_us"]}
+    medians = {what: values.median() for what, values in sums.items()}
+    verdicts = {what: HELD if value < limit else NOT_HELD for what, value in medians.items()}
+    return Finding(summed_up(verdicts), f"{name(PAPERS)} in the running simulation at {cuts['resolution'].max()} triangles (not the "
+                   "paper's CPU), medians: " + "; ".join(f"{what} {value / 1000:.2f} ms"
+                                                         for what, value in medians.items()) + ".",
+                   "table1_timing_in_motion")
+
+
+def growth(run):
+    parts, verdicts = [], {}
+    for sheet in style.sheet_order(run.everything()["sheet"]):
+        grown = table1.Timings(run, sheet).growth(PAPERS)
+        if grown:
+            low, high, factor = grown
+            verdicts[style.sheet_title(sheet)] = HELD if factor < (high / low) ** 0.75 else NOT_HELD
+            parts.append(f"{style.sheet_title(sheet)} {factor:.1f}")
+    if not parts:
+        return None
+    paper = table1.published()
+    return Finding(summed_up(verdicts), f"Geometry at {high} over that at {low} triangles ({high / low:.3g} times as many; "
+                   f"held: below the power 0.75 of it, {(high / low) ** 0.75:.1f}): {', '.join(parts)}; the paper's own "
+                   f"{paper.get(high, np.nan) / paper.get(low, np.nan):.1f}.", "table1_timing")
+
+
+def overhead(run):
+    timings = papers_grid(run)
+    resolution = max(timings.resolutions)
+    parts, verdicts = [], {}
+    for other in (CONVENTIONAL, ("cgal_cdt", "")):
+        ratio = timings.ratio(other, GENERATION, resolution)
+        if ratio[3]:
+            verdicts[f"against {name(other)}"] = by_interval(ratio)
+            parts.append(f"{name(other)} takes {interval(ratio)} times as long")
+    if not parts:
+        return None
+    return Finding(summed_up(verdicts), f"Against {name(GENERATION)} at {resolution} triangles: {'; '.join(parts)}.",
+                   "table1_timing")
+
+
+def incremental(run):
+    cuts = table1.in_motion(run, papers_grid(run).sheet)
+    parts, verdicts = [], {}
+    for resolution in sorted(set(cuts["resolution"])):
+        here = cuts[cuts["resolution"] == resolution]
+        ratio = load.ratio(here["rebuild_us"], here["pattern_us"])
+        if ratio[3]:
+            verdicts[f"{resolution} triangles"] = by_interval(ratio)
+            parts.append(f"{load.number(ratio[0])} at {resolution}")
+    if not parts:
+        return None
+    return Finding(summed_up(verdicts), "All made anew takes so many times as long as the update of the rows the cut touched: "
+                   f"{', '.join(parts)} (geometric means; each interval was asked).", "table1_timing_in_motion")
+
+
+# --- accuracy ------------------------------------------------------------------------------------------------------
+
+
+def paired_errors(records, other, condition):
+    """Error of `other` over that of the paper's method, case by case."""
+    keys = [*accuracy.CASE, "solver", "budget"]
+    good = records.rows(failed=False, **condition)
+    pairs = of(good, other).merge(of(good, PAPERS), on=keys)
+    pairs = pairs[pairs["ratio_x"].notna() & pairs["ratio_y"].notna()]
+    return load.ratio(pairs["error_x"], pairs["error_y"])
+
+
+def physically_accurate(records):
+    parts, verdicts = [], {}
+    for title, condition in accuracy.shape_columns(records):
+        title = title.replace("\n", " ")
+        ratio = paired_errors(records, CONVENTIONAL, condition)
+        if ratio[3]:
+            verdicts[title] = by_interval(ratio)
+            parts.append(f"{title}: {interval(ratio)}")
+    if not parts:
+        return None
+    fitted = load.ratio(of(records.rows(direct=True, failed=False), PAPERS)["ratio"], 1)
+    return Finding(summed_up(verdicts), "Error by conventional split over that by "
+                   f"{name(PAPERS)}, same cases (above 1: the paper's is better): {'; '.join(parts)}. Its error over that "
+                   f"of a mesh fitted to the cut, solved directly: {interval(fitted)}.", "accuracy")
+
+
+def shapes_cost_accuracy(records):
+    parts, verdicts = [], {}
+    for title, condition in accuracy.shape_columns(records):
+        title = title.replace("\n", " ")
+        table = records.rows(failed=False, **condition)
+        factor, low, high, n = accuracy.factor_per_decade(table[table["method"] != accuracy.REFERENCE[0]])
+        if n and not np.isnan(factor):
+            verdicts[title] = HELD if low > 1.02 else NOT_HELD
+            parts.append(f"{title}: {factor:.3f} [{low:.3f}, {high:.3f}]")
+    if not parts:
+        return None
+    return Finding(summed_up(verdicts), "A tenfold largest aspect ratio multiplies the error, within one problem, sheet and "
+                   f"resolution, by: {'; '.join(parts)} (held: all of the interval above 1.02).", "accuracy_shape")
+
+
+def refined_is_slower(records):
+    """Whether the optimised sheet reaches the conventional split's accuracy in less time."""
+    parts, verdicts = [], {}
+    for tolerance in accuracy.TOLERANCES:
+        shares = {v: accuracy.solved_times(records, v, tolerance) for v in (CONVENTIONAL, PAPERS)}
+        solved = {v: np.isfinite(t) for v, t in shares.items()}
+        if not len(shares[PAPERS]) or not (solved[PAPERS] | solved[CONVENTIONAL]).any():
+            continue
+        medians = {v: np.quantile(t, 0.5, method="inverted_cdf") for v, t in shares.items()}
+        verdicts[f"error {100 * tolerance:g} %"] = HELD if medians[PAPERS] < medians[CONVENTIONAL] else NOT_HELD
+        parts.append(f"error {100 * tolerance:g} %: " + ", ".join(
+            f"{name(v)} {100 * solved[v].mean():.0f} % of the cases, half of all within {medians[v]:.3g} ms"
+            for v in shares))
+    if not parts:
+        return None
+    return Finding(summed_up(verdicts), "Time to an error, by the best resolution, solver and number of iterations: " +
+                   "; ".join(parts) + ".", "accuracy_profile")
+
+
+CLAIMS = [
+    Claim("'maximum aspect ratio in the triangulation of less than 3' (conclusion, figure 9)", "fig9_aspect_ratio",
+          below_limit("ar_max_cut_strict", "Maximum AR of the triangles the cut made or changed, forced corners left out,",
+                      "fig9_aspect_ratio", 1)),
+    Claim("the same, where forced wedges are left out, too", "fig9_aspect_ratio",
+          below_limit("ar_max_cut_outside_wedges", "The same outside forced wedges", "fig9_aspect_ratio", 1)),
+    Claim("'low average aspect ratio (less than 3)' (5.2)", "fig9_aspect_ratio",
+          below_limit("ar_mean_all", "Mean AR of the sheet", "fig9_aspect_ratio_mean", 0.5)),
+    Claim("the conventional subdivision's 'high aspect ratio', against the 'optimized' one (5.2)", "fig9_aspect_ratio",
+          local_split_lowers),
+    Claim("'a small number of additional DOFs' (5.4)", "fig9_aspect_ratio", few_vertices),
+    Claim("'the total computation time in each call is less than six milliseconds' (5.3)", "table1_timing", real_time),
+    Claim("cost that grows 4.8 times from 800 to 12800 triangles: 'integrated into a high-quality model' (5.3)",
+          "table1_timing", growth),
+    Claim("Bowyer-Watson has 'lower computational overhead than existing algorithms' (conclusion)", "table1_timing",
+          overhead),
+    Claim("updating the matrix is 'more computationally efficient than recalculating the global matrix' (4.2)",
+          "table1_timing", incremental),
+    Claim("'a stable and physically accurate incision' by optimised triangles (5.2)", "accuracy", physically_accurate),
+    Claim("'ill-shaped objects can inject significant errors' (1)", "accuracy", shapes_cost_accuracy),
+    Claim("'computational speed can be reduced by inefficient elements' (4.1.3), so that optimising them pays",
+          "accuracy", refined_is_slower),
+]
+
+
+def records_of(results):
+    """{stem: its records, or None where there are none}."""
+    readers = {"fig9_aspect_ratio": lambda folder: load.read(folder, fig9.MEASURES).first_repetition(),
+               "table1_timing": lambda folder: load.read(folder, table1.MEASURES + table1.IN_MOTION),
+               "accuracy": accuracy.Records}
+    return {stem: read(results / stem) if (results / stem / "records.csv").is_file() else None
+            for stem, read in readers.items()}
+
+
+def context_of(records):
+    return records.run.context if isinstance(records, accuracy.Records) else records.context
+
+
+def text_of(results):
+    records = records_of(results)
+    lines = ["# The paper's claims", "",
+             "Xin et al. 2018, put to the test. Made by `plots/claims.py` from the records named below: nothing here is "
+             "written by hand, and a claim without records is not judged.", "",
+             "| claim | verdict | what was found | figure |", "|---|---|---|---|"]
+    for claim in CLAIMS:
+        found = claim.find(records[claim.stem]) if records[claim.stem] is not None else None
+        if found is None:
+            lines.append(f"| {claim.words} | untested | `experiments/reproduce {claim.stem}` makes the records | |")
+            continue
+        figure = f"{claim.stem}/{found.figure}.png"
+        link = f"[{found.figure}]({figure})" if (results / figure).is_file() else f"`plots/{claim.stem}.py` draws it"
+        lines.append(f"| {claim.words} | **{found.verdict}** | {found.evidence.replace('|', '/')} | {link} |")
+    lines += ["", "| records | command | seed | commit | machine |", "|---|---|---|---|---|"]
+    for stem, of_stem in records.items():
+        if of_stem is not None:
+            context = context_of(of_stem)
+            dirty = " with uncommitted changes" if context.get("dirty") else ""
+            lines.append(f"| {stem} | `{context.get('command', 'unknown')}` | {context.get('seed', 'unknown')} | "
+                         f"{str(context.get('commit') or 'unknown')[:10]}{dirty} | {context.get('cpu', 'unknown')} |")
+    return "\n".join(lines + ["", style.AR_DEFINITION + " Intervals: bootstrap, 95 %.", ""])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--results", type=Path, metavar="DIR", default=load.REPOSITORY / "results",
+                        help="holds the folders of the runs, receives claims.md (default: results)")
+    path = parser.parse_args().results / "claims.md"
+    text = text_of(path.parent)
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        load.stop(f"{path} can't be written: {error.strerror}")
+    print(path)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
