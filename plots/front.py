@@ -27,10 +27,10 @@ def failed_rows(table):
     return (table["verdict"] != "ok") | table["status"].isin(["failed", "refused"])
 
 
-def cells(table, x, y, by):
+def cells(table, x, y, by, panel=()):
     """A row per group of `by` columns: median and quartiles of x and y over the rows that have them, their number, how
-    many failed, and the layer of the front it is on. A failed case counts as infinitely bad, so where half of them fail
-    the group has no finite median and is on no front."""
+    many failed, and the layer of the front it is on among those of equal `panel` columns. A failed case counts as
+    infinitely bad, so where half of them fail the group has no finite median and is on no front."""
     failed = failed_rows(table)
     table = table.assign(failed=failed)[failed | table[[x.column, y.column]].notna().all(axis=1)]
     found = []
@@ -43,8 +43,11 @@ def cells(table, x, y, by):
             row[f"{name}_made"] = group.loc[~group["failed"], axis.column].median()
         found.append(row)
     result = pd.DataFrame(found)
-    if len(result):
-        result["layer"] = load.front_layers(x.cost(result["x"]), y.cost(result["y"]))
+    if result.empty:
+        return result
+    result["layer"] = 0
+    for _, here in result.groupby([result[c] for c in panel] or np.zeros(len(result))):
+        result.loc[here.index, "layer"] = load.front_layers(x.cost(here["x"]), y.cost(here["y"]))
     return result
 
 

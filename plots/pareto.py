@@ -137,7 +137,7 @@ def main():
     present = [c for c in [*front.SOLVE, "cache"] if c in table and (c in front.SOLVE or table[c].nunique() > 1)]
     if "budget" in present:
         table = table.astype({"budget": int})
-    cells = front.cells(table, x, y, ["sheet", "method", "knob", *present, "resolution"])
+    cells = front.cells(table, x, y, ["sheet", "method", "knob", *present, "resolution"], ["sheet"])
     if cells.empty or not cells["layer"].any():
         load.stop(f"no row of {args.scene} has both {x.column} and {y.column}")
     failed = front.failed_rows(table)

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -150,7 +151,10 @@ class AccuracyRun {
     try {
       sheet = body_fitted(specimen);
       row.set("cut_us", us_since(start));
-      const Assessment a = assess_result(base.sheet, sheet->to_mesh_data(), specimen.cuts, false, cut_options_);
+      // Its edges are chords of about h: what they cut off a curve is part of its error, not a fault.
+      CutOptions chords = cut_options_;
+      chords.chord_tolerance = std::numeric_limits<double>::infinity();
+      const Assessment a = assess_result(base.sheet, sheet->to_mesh_data(), specimen.cuts, false, chords);
       row.set("status", std::string("ok"));
       set_assessment(row, a, base);
       if (!a.judgement.ok) sheet.reset();
