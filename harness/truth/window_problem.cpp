@@ -22,7 +22,8 @@ Frame member_frame(Point2 middle, int n, std::uint64_t seed, std::size_t index) 
   Frame frame;
   Point2 place{0.5 + random.between(-0.5, 0.5) / n, 0.5 + random.between(-0.5, 0.5) / n};
   if (index % 2 == 0) {
-    place.y = (n / 2 + distance_from_mesh_line(random)) / n;
+    const int row = n / 2;
+    place.y = (row + distance_from_mesh_line(random)) / n;
   } else {
     frame.angle = random.between(0, 2 * std::numbers::pi);
   }
