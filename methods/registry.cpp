@@ -7,6 +7,7 @@
 #include "methods/bowyer_watson/bowyer_watson.h"
 #include "methods/cgal_cdt/cgal_cdt.h"
 #include "methods/conventional_split/conventional_split.h"
+#include "methods/longest_edge/longest_edge.h"
 
 namespace cutbench {
 
@@ -37,6 +38,14 @@ const std::vector<MethodRow>& all_methods() {
        {},
        exact_split,
        [](double) { return std::make_unique<CgalCdt>(); }},
+      {"longest_edge",
+       "local split by longest-edge propagation, with Delaunay flips",
+       {"cap", 8, "vertices that the split may make, per vertex of the path; 0: flips alone"},
+       exact_split,
+       [](double cap) {
+         if (!(cap >= 0 && cap <= 100)) throw InputError("longest_edge: cap must be a number from 0 to 100");
+         return std::make_unique<LongestEdge>(LongestEdge::Options{.cap = cap});
+       }},
   };
   return rows;
 }

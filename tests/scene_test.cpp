@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <set>
 
 #include "harness/run/cases.h"
 #include "harness/run/experiment.h"
@@ -375,6 +376,12 @@ std::vector<Point2> held(const Sheet& sheet, const Pin& pin) {
   return places;
 }
 
+std::size_t distinct(const std::vector<Point2>& places) {
+  std::set<std::pair<double, double>> known;
+  for (Point2 p : places) known.emplace(p.x, p.y);
+  return known.size();
+}
+
 TEST_F(SceneFile, PinsHoldTheNearestVertexAndAllItsCopies) {
   const Scene s = read(
       "[sheet]\nresolution = 200\nsize = 2\n[[pins]]\nnear = [-5, 9]\n[[pins]]\nnear = [1.05, 0.02]\n"
@@ -390,7 +397,8 @@ TEST_F(SceneFile, PinsHoldTheNearestVertexAndAllItsCopies) {
     ASSERT_EQ(table.cut({Curve::Kind::polyline, false, {{1, 0}, {1.23, 2.1}}}, 0.05), "");
     EXPECT_EQ(held(table.sheet, pins[0]).size(), 1u);
     EXPECT_EQ(held(table.sheet, pins[1]), (std::vector<Point2>{{1, 0}, {1, 0}})) << row.name;
-    EXPECT_EQ(held(table.sheet, pins[2]).size(), 12u) << row.name;
+    const auto in_the_box = held(table.sheet, pins[2]);  // also vertices that a method put in between
+    EXPECT_EQ(in_the_box.size(), distinct(in_the_box) + 1) << row.name;
   }
 }
 

@@ -130,12 +130,6 @@ int triangulate_delaunay(Patch& patch) {
   return recover_segments(patch);
 }
 
-bool is_diagonal_from_p_delaunay(const Crossing& crossing) {
-  const auto &q = crossing.q, &c = crossing.c, &a = crossing.a, &p = crossing.p;
-  return crossing.p_first ? in_circle(p.point, c.point, a.point, q.point) <= 0
-                          : in_circle(q.point, c.point, a.point, p.point) > 0;
-}
-
 void BowyerWatson::embed(Sheet& sheet, Subdivision& trace) {
   recovered_ = 0;
   embed_patches(sheet, trace, work_, is_diagonal_from_p_delaunay,

@@ -18,7 +18,7 @@
 #pragma once
 
 #include "harness/cut/cutting_method.h"
-#include "harness/cut/patch.h"
+#include "harness/cut/embed_plainly.h"
 
 namespace cutbench {
 
@@ -49,9 +49,7 @@ class BowyerWatson : public CuttingMethod {
 };
 
 /// Fills patch.triangles with a Delaunay triangulation of the patch's points; returns the number of segments recovered.
+/// (In a crossing that comes down to is_diagonal_from_p_delaunay().)
 int triangulate_delaunay(Patch& patch);
-/// What that comes down to in a crossing: is the diagonal p - c (else q - a) Delaunay? On a tie the point that the path
-/// met first has it, as when it is inserted first.
-bool is_diagonal_from_p_delaunay(const Crossing& crossing);
 
 }  // namespace cutbench

@@ -2,16 +2,6 @@
 
 namespace cutbench {
 
-int split_step_by_step(Patch& patch) {
-  const auto inside = [&](int p) { return patch.ring_position[static_cast<std::size_t>(p)] < 0; };
-  start_triangulation(patch);
-  for (int p : patch.path_order)
-    if (inside(p)) insert_inside(patch, p);
-  for (int p : patch.path_order)
-    if (!inside(p)) insert_on_ring(patch, p);
-  return recover_segments(patch);
-}
-
 int split_conventionally(Patch& patch) {
   const std::size_t on_edges = patch.ring.size() - 3, inside = patch.inside_count();
   if (on_edges != 1 || inside > 1 || (inside == 1 && patch.segments.size() != 1)) return split_step_by_step(patch);

@@ -15,7 +15,7 @@
 #pragma once
 
 #include "harness/cut/cutting_method.h"
-#include "harness/cut/patch.h"
+#include "harness/cut/embed_plainly.h"
 
 namespace cutbench {
 
@@ -31,7 +31,5 @@ class ConventionalSplit : public CuttingMethod {
 
 /// Fills patch.triangles; returns the number of segments that had to be recovered.
 int split_conventionally(Patch& patch);
-/// The same without the short cuts for a tip and for a path through a corner: for tests.
-int split_step_by_step(Patch& patch);
 
 }  // namespace cutbench

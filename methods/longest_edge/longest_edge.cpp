@@ -1,0 +1,97 @@
+#include "methods/longest_edge/longest_edge.h"
+
+#include "harness/mesh/predicates.h"
+#include "harness/mesh/quality.h"
+
+namespace cutbench {
+
+namespace {
+
+double squared_length(const Sheet& sheet, HalfEdge h) {
+  return squared_length(sheet.rest(sheet.target(h)) - sheet.rest(sheet.origin(h)));
+}
+
+HalfEdge longest_edge(const Sheet& sheet, TriangleIndex t) {
+  HalfEdge longest = half_edge(t, 0);
+  for (int k : {1, 2})
+    if (squared_length(sheet, half_edge(t, k)) > squared_length(sheet, longest)) longest = half_edge(t, k);
+  return longest;
+}
+
+/// The end of the longest-edge propagation path of t.
+HalfEdge terminal_edge(const Sheet& sheet, TriangleIndex t) {
+  HalfEdge h = longest_edge(sheet, t);
+  while (!sheet.on_border(h)) {
+    const HalfEdge longer = longest_edge(sheet, triangle_of(sheet.opposite(h)));
+    if (squared_length(sheet, longer) <= squared_length(sheet, h)) break;
+    h = longer;
+  }
+  return h;
+}
+
+/// Both halves of the triangle behind h are positive when p on h splits it; true past the border.
+bool halves_are_positive(const Sheet& sheet, HalfEdge h, Point2 p) {
+  if (!h.valid()) return true;
+  const Point2 apex = sheet.rest(sheet.origin(Sheet::previous(h)));
+  return orientation(sheet.rest(sheet.origin(h)), p, apex) > 0 && orientation(p, sheet.rest(sheet.target(h)), apex) > 0;
+}
+
+}  // namespace
+
+void LongestEdge::embed(Sheet& sheet, Subdivision& trace) { recovered_ = embed_plainly(sheet, trace, work_); }
+
+bool LongestEdge::wants_splitting(const Sheet& sheet, TriangleIndex t) const {
+  if (!sheet.triangle(t).alive()) return false;
+  const auto c = sheet.corners(t);
+  return aspect_ratio(c[0], c[1], c[2]) > options_.max_aspect && !wedges_.hold(c);
+}
+
+/// Splits the edge at the end of t's path at its midpoint; false where it is too short, or doubles too coarse.
+bool LongestEdge::split_terminal_edge(Sheet& sheet, TriangleIndex t) {
+  const HalfEdge h = terminal_edge(sheet, t), o = sheet.opposite(h);
+  const double floor = 2 * options_.min_edge * sheet.mean_edge();
+  if (squared_length(sheet, h) < floor * floor) return false;
+  const Point2 middle = 0.5 * sheet.rest(sheet.origin(h)) + 0.5 * sheet.rest(sheet.target(h));
+  if (!halves_are_positive(sheet, h, middle) || !halves_are_positive(sheet, o, middle)) return false;
+  const VertexIndex v = sheet.split_edge(h, 0.5, middle);
+  const HalfEdge first = sheet.first_spoke(v);
+  HalfEdge spoke = first;
+  do {
+    delaunay_.add(triangle_of(spoke)), delaunay_.changed.push_back(triangle_of(spoke));
+    spoke = sheet.turn_left(spoke);
+  } while (spoke.valid() && spoke != first);
+  return true;
+}
+
+/// Queues what the last flips and splits left ill-shaped.
+void LongestEdge::note_changed(const Sheet& sheet) {
+  for (const TriangleIndex t : delaunay_.changed)
+    if (wants_splitting(sheet, t)) ill_shaped_.push_back(t);
+  delaunay_.changed.clear();
+}
+
+void LongestEdge::improve(Sheet& sheet) {
+  wedges_.find(sheet);
+  delaunay_.begin(sheet), ill_shaped_.clear();
+  const EditLog& log = sheet.log();
+  const auto changed = [&](TriangleIndex t) {
+    if (sheet.triangle(t).alive()) delaunay_.add(t), delaunay_.changed.push_back(t);
+  };
+  for (const auto& touched : log.touched) changed(touched.slot);
+  for (std::size_t t = log.triangles_before; t < sheet.triangle_slots(); ++t) changed(TriangleIndex(t));
+  delaunay_.run(sheet);
+  note_changed(sheet);
+
+  const double most = options_.cap * static_cast<double>(log.path_vertices.size());
+  std::size_t made = 0;
+  for (std::size_t i = 0; i < ill_shaped_.size() && static_cast<double>(made) < most; ++i) {
+    const TriangleIndex t = ill_shaped_[i];
+    if (!wants_splitting(sheet, t) || !split_terminal_edge(sheet, t)) continue;
+    ++made;
+    delaunay_.changed.push_back(t);
+    delaunay_.run(sheet);
+    note_changed(sheet);
+  }
+}
+
+}  // namespace cutbench
