@@ -8,6 +8,7 @@
 #include "methods/cgal_cdt/cgal_cdt.h"
 #include "methods/conventional_split/conventional_split.h"
 #include "methods/longest_edge/longest_edge.h"
+#include "methods/snap_or_split/snap_or_split.h"
 
 namespace cutbench {
 
@@ -45,6 +46,15 @@ const std::vector<MethodRow>& all_methods() {
        [](double cap) {
          if (!(cap >= 0 && cap <= 100)) throw InputError("longest_edge: cap must be a number from 0 to 100");
          return std::make_unique<LongestEdge>(LongestEdge::Options{.cap = cap});
+       }},
+      {"snap_or_split",
+       "crossings near a vertex go through the vertex, the others are split",
+       {"tolerance", 0.25, "fraction of the edge up to which a crossing goes to the vertex, 0 to 0.5"},
+       {.exact_incision = false, .keeps_area = true, .conforming = true, .keeps_vertices = true},
+       [](double tolerance) {
+         if (!(tolerance >= 0 && tolerance <= 0.5))
+           throw InputError("snap_or_split: tolerance must be a number from 0 to 0.5");
+         return std::make_unique<SnapOrSplit>(tolerance);
        }},
   };
   return rows;

@@ -74,6 +74,7 @@ void check_forced(const json& expect, const Trial& trial, const Sheet& before, c
 
 void run_member(const CatalogueMember& member, const Trial& trial, double chord) {
   const json expect = trial.file.expect_of(trial.method);
+  const bool exact = trial.row.promises.exact_incision;
   MeshData mesh;
   if (is_refused(expect, "sheet_error", [&] { mesh = sheet_of(member); })) return;
   std::vector<Curve> cuts;
@@ -89,6 +90,11 @@ void run_member(const CatalogueMember& member, const Trial& trial, double chord)
     SCOPED_TRACE("cut " + std::to_string(i) + ": " + text_of(cuts[i]));
     const Sheet before = table.sheet;
     const std::string wrong = table.cut(cuts[i], chord), status = status_of(expect, i);
+    // A cut that was made elsewhere than asked for meets the next one elsewhere: there the oracle alone judges.
+    if (i > 0 && !exact) {
+      EXPECT_EQ(wrong, "");
+      continue;
+    }
     EXPECT_STREQ(name_of(table.outcome.status), status.c_str()) << wrong << table.outcome.reason;
     if (status == "refused" || status == "failed") {
       EXPECT_EQ(difference(before, table.sheet), "");
@@ -98,11 +104,14 @@ void run_member(const CatalogueMember& member, const Trial& trial, double chord)
     EXPECT_EQ(wrong, "");
     // What is nearer than twice the snap distance to an edge goes along it. A Bezier's error is the oracle's affair.
     const bool declared = cuts[i].kind == Curve::Kind::polyline && table.outcome.status == Status::ok;
-    if (expect.contains("incision_error") || declared) {
+    if (exact && (expect.contains("incision_error") || declared)) {
       EXPECT_LE(table.incision_error, expect.value("incision_error", 2 * table.sheet.snap()));
     }
   }
-  EXPECT_EQ(table.pieces, expect.value("pieces", table.pieces));
+  if (exact || cuts.size() == 1) {
+    EXPECT_EQ(table.pieces, expect.value("pieces", table.pieces));
+  }
+  if (!exact) return;
   EXPECT_EQ(table.embedded_vertices(), expect.value("new_vertices", table.embedded_vertices()));
   if (expect.contains("forced_corners")) check_forced(expect, trial, uncut, table.sheet, cuts, chord);
 }

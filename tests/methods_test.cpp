@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <sstream>
 #include <tuple>
 
 #include "harness/run/cases.h"
@@ -19,8 +21,12 @@ struct Variant {
 };
 
 std::string name_of_variant(const Variant& v) {
-  return v.row->name +
-         (v.row->knob.name.empty() ? "" : "_" + v.row->knob.name + "_" + std::to_string(static_cast<int>(v.knob)));
+  if (v.row->knob.name.empty()) return v.row->name;
+  std::ostringstream value;
+  value << v.knob;
+  std::string name = v.row->name + "_" + v.row->knob.name + "_" + value.str();
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
 }
 
 /// Every row at its default, and with its knob at zero.

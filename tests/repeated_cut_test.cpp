@@ -5,7 +5,11 @@
 namespace cutbench {
 namespace {
 
-class Repeated : public EveryVariant {};
+class Repeated : public EveryVariant {
+ protected:
+  bool is_exact() const { return GetParam().row->promises.exact_incision; }
+  static constexpr const char* inexact = "the incision is not where the path is, which therefore meets it elsewhere";
+};
 
 /// The same points, the other way round; a closed curve still begins where it began.
 Curve reversed(Curve curve) {
@@ -16,6 +20,7 @@ Curve reversed(Curve curve) {
 
 /// Once more, or backwards once more: there is nothing left to open, also where later cuts have crossed it.
 TEST_P(Repeated, PolylineIsANoop) {
+  if (!is_exact()) GTEST_SKIP() << inexact;
   std::size_t repeated = 0;
   for_each_case(scaled(2), 421, [&](const TestCase& c) {
     if (HasFailure()) return;
@@ -42,6 +47,7 @@ TEST_P(Repeated, PolylineIsANoop) {
 
 /// It follows the chords that stand for it, both ways, also round a loop.
 TEST_P(Repeated, BezierIsANoop) {
+  if (!is_exact()) GTEST_SKIP() << inexact;
   if (GetParam().knob == 3)
     GTEST_SKIP() << "three rounds of local split leave more edges along a chord than are followed";
   for_each_case(scaled(2), 424, [&](TestCase c) {
@@ -69,7 +75,11 @@ TEST_P(Repeated, BackwardsIsTheSameCut) {
     // A curve that comes to one edge in one triangle gets a node at its middle point; of two it takes the later one.
     const bool is_curved = c.cuts[0].kind == Curve::Kind::bezier && c.name.find("tiny_open") != std::string::npos;
     const double tolerance = is_curved ? 0.05 * forwards.sheet.mean_edge() : 2 * forwards.sheet.snap();
-    std::string what = different_cut(shape_of(forwards.sheet), shape_of(backwards.sheet), tolerance);
+    std::string what;
+    if (is_exact())
+      what = different_cut(shape_of(forwards.sheet), shape_of(backwards.sheet), tolerance);
+    else if (count_pieces(forwards.sheet) != count_pieces(backwards.sheet))  // ties go to the node met first
+      what = "pieces";
     if (forwards.statuses != backwards.statuses) what = "another status";
     EXPECT_EQ(what, "") << text_of(c);
   });
@@ -78,6 +88,7 @@ TEST_P(Repeated, BackwardsIsTheSameCut) {
 /// Every two neighbours in the list of all cases. What stands for a curve between two edges is its chord, so that
 /// curves which meet nearer than the chord tolerance may meet otherwise in the other order: it is small here.
 TEST_P(Repeated, TwoCutsInEitherOrderGiveTheSamePieces) {
+  if (!is_exact()) GTEST_SKIP() << inexact;
   std::map<const MeshData*, Curve> earlier;
   for_each_case(scaled(2), 423, [&](TestCase c) {
     if (HasFailure()) return;

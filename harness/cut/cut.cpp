@@ -60,6 +60,7 @@ CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, Cutti
     if (outcome.crossed_triangles == 0 && trace.along.empty())
       return nothing_done(Status::noop, "the path lies outside the sheet, or where it is open already");
 
+    outcome.crossed_triangles = trace.crossed_triangles();  // of the path as asked for, whatever becomes of it
     try {
       method.embed(sheet, trace);
       mark_along(sheet, trace);

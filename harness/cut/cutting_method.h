@@ -26,6 +26,7 @@ class CuttingMethod {
 
   /// Changes the mesh so that every segment of the trace is a chain of edges marked `path`. Sheet vertices made for the
   /// nodes are entered in them (Subdivision::Node::vertex). Pieces along edges are marked by the harness afterwards.
+  /// A method that does not promise exact_incision may put another trace in its place, of the same sheet.
   /// Throws CutFailed.
   virtual void embed(Sheet& sheet, Subdivision& trace) = 0;
 

@@ -54,6 +54,8 @@ class Subdivision {
 
   int face_of(TriangleIndex t);
   bool has_face(TriangleIndex t) const { return of_triangle_[t()].stamp == stamp_; }
+  /// The face of t, -1 where there is none.
+  int find_face(TriangleIndex t) const { return has_face(t) ? of_triangle_[t()].index : -1; }
   /// The node at a place; one that lies within the snap distance on the same edge or in the same triangle is taken for
   /// it.
   int node_of(const Place& place);
