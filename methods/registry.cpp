@@ -9,6 +9,7 @@
 #include "methods/conventional_split/conventional_split.h"
 #include "methods/longest_edge/longest_edge.h"
 #include "methods/snap_or_split/snap_or_split.h"
+#include "methods/vertex_snap/vertex_snap.h"
 
 namespace cutbench {
 
@@ -55,6 +56,14 @@ const std::vector<MethodRow>& all_methods() {
          if (!(tolerance >= 0 && tolerance <= 0.5))
            throw InputError("snap_or_split: tolerance must be a number from 0 to 0.5");
          return std::make_unique<SnapOrSplit>(tolerance);
+       }},
+      {"vertex_snap",
+       "the nearest vertices move onto the path, crossings left over are split",
+       {"reach", 0.5, "fraction of the edge over which a vertex comes to a crossing, 0 to 0.5"},
+       {.exact_incision = false, .keeps_area = true, .conforming = true, .keeps_vertices = false},
+       [](double reach) {
+         if (!(reach >= 0 && reach <= 0.5)) throw InputError("vertex_snap: reach must be a number from 0 to 0.5");
+         return std::make_unique<VertexSnap>(VertexSnap::Options{.reach = reach});
        }},
   };
   return rows;
