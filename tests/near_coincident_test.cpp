@@ -107,7 +107,9 @@ TEST(NearCoincident, ACutItsShadowAndAThirdAcross) {
       print(out, eps, method.name, row);
       EXPECT_EQ(row.outcomes["ok"] + row.outcomes["noop"], row.tried)
           << method.name << ", " << eps << ": " << row.problem;
-      EXPECT_LE(row.incision_error, promised) << method.name << ", " << eps;
+      if (method.promises.exact_incision) {
+        EXPECT_LE(row.incision_error, promised) << method.name << ", " << eps;
+      }
     }
     Row row;
     for (std::size_t i = 0; i < cases; ++i) cut_by_peer(meshes[i % meshes.size()], cuts_of_case(i, eps), row);
