@@ -141,17 +141,18 @@ int cut(const CutArguments& arguments) {
 // ----------------------------------------------------------------------------------------------------
 
 struct SimulateArguments {
-  std::string scene, method = "conventional_split", out;
+  std::string scene, method = "conventional_split", out, frames;
   std::vector<std::string> set;
   std::string chord_tolerance = "0.05";
-  int resolution = 0;
+  int resolution = 0, every = 8;
 };
 
-int simulate(const SimulateArguments& arguments) {
+int simulate(const SimulateArguments& arguments, const std::string& command) {
   if (!arguments.out.empty()) check_mesh_place(arguments.out, "--out");
   Scene scene = read_scene(arguments.scene);
   const MethodRow& row = find_method(arguments.method);
-  const auto method = row.make(knob_value(row, arguments.set));
+  const double knob = knob_value(row, arguments.set);
+  const auto method = row.make(knob);
   if (arguments.resolution > 0) {
     squares_per_side(arguments.resolution);
     if (!scene.mesh_file.empty())
@@ -159,7 +160,15 @@ int simulate(const SimulateArguments& arguments) {
     scene.resolution = arguments.resolution;
   }
   if (!scene.mesh_file.empty()) print_notes(mesh_of(scene));
-  return cutbench::simulate(scene, *method, options_with(arguments.chord_tolerance), arguments.out) ? done : fell_short;
+  char knob_text[64] = "";
+  if (!row.knob.name.empty()) std::snprintf(knob_text, sizeof knob_text, " %s=%g", row.knob.name.c_str(), knob);
+  const SimulateOptions options{.method = row.name + knob_text,
+                                .command = command,
+                                .out = arguments.out,
+                                .frames = arguments.frames,
+                                .every = arguments.every,
+                                .cut = options_with(arguments.chord_tolerance)};
+  return cutbench::simulate(scene, *method, options) ? done : fell_short;
 }
 
 // --- cutbench run
@@ -262,6 +271,11 @@ int main(int argc, char** argv) {
   simulate_command->add_option("--resolution", simulate_arguments.resolution, "triangles, instead of the scene's")
       ->check(CLI::PositiveNumber);
   simulate_command->add_option("--out", simulate_arguments.out, "the sheet in the end: OBJ, OFF or VTU");
+  auto* frames_option = simulate_command->add_option("--frames", simulate_arguments.frames,
+                                                     "folder for a time series: VTU, PVD, OBJ in the end");
+  simulate_command->add_option("--every", simulate_arguments.every, "steps from frame to frame")
+      ->check(CLI::PositiveNumber)
+      ->needs(frames_option);
 
   RunArguments run_arguments;
   auto* run_command = app.add_subcommand("run", "run experiments");
@@ -286,7 +300,7 @@ int main(int argc, char** argv) {
     const int code = *methods_command    ? list_methods(as_json)
                      : *cut_command      ? cut(cut_arguments)
                      : *score_command    ? run_score()
-                     : *simulate_command ? simulate(simulate_arguments)
+                     : *simulate_command ? simulate(simulate_arguments, command)
                                          : run(run_arguments, command);
     if (std::fflush(stdout) != 0 || !std::cout.flush())
       throw OutputError("standard output: can't be written; check where it goes");

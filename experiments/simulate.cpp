@@ -2,44 +2,110 @@
 
 #include <sys/resource.h>
 
+#include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "harness/mesh/mesh_io.h"
+#include "harness/run/context.h"
+#include "harness/run/frames.h"
 #include "harness/run/in_motion.h"
 
 namespace cutbench {
 
-bool simulate(const Scene& scene, CuttingMethod& method, const CutOptions& options, const std::string& out) {
+namespace {
+
+void print_head(const Scene& scene) {
   std::printf("%s\n  effect: %s\n  truth:  %s\n", scene.stem.c_str(), scene.effect.c_str(), scene.truth.c_str());
-  const auto motion = InMotion::start(scene);
   std::printf("%9s %12s %12s %12s %12s %12s %12s\n", "time s", "membrane J", "bending J", "kinetic J", "potential J",
               "total J", "residual N");
-  const auto print = [&] {
-    const Balance b = motion->balance();
-    std::printf("%9.4f %12.5g %12.5g %12.5g %12.5g %12.5g %12.5g\n", motion->time(), b.energy.membrane,
-                b.energy.bending, b.energy.kinetic, b.energy.potential, b.energy.total(), b.residual);
-  };
-  print();
-  StepReport report;
-  const bool static_solve = scene.integrator == Integrator::equilibrium;
-  for (int part = 1; part <= (static_solve ? 1 : 10) && report.verdict == "ok"; ++part) {
-    report = motion->advance(static_solve ? scene.step : scene.duration * part / 10, method, options);
-    print();
-  }
-  for (const MotionCut& cut : motion->made_cuts()) {
+}
+
+void print_balance(InMotion& motion) {
+  const Balance b = motion.balance();
+  std::printf("%9.4f %12.5g %12.5g %12.5g %12.5g %12.5g %12.5g\n", motion.time(), b.energy.membrane, b.energy.bending,
+              b.energy.kinetic, b.energy.potential, b.energy.total(), b.residual);
+}
+
+void print_cuts(const InMotion& motion) {
+  for (const MotionCut& cut : motion.made_cuts()) {
     const Energy &a = cut.before.energy, &b = cut.after.energy;
     std::printf(
         "cut: %s, %zu triangles crossed; jumps: membrane %.3g J, bending %.3g J, kinetic %.3g J, residual %.3g N\n",
         name_of(cut.cut.status), cut.cut.crossed_triangles, b.membrane - a.membrane, b.bending - a.bending,
         b.kinetic - a.kinetic, cut.after.residual - cut.before.residual);
   }
+}
+
+/// What a caption needs to say of the frames beside it.
+std::string description(const Scene& scene, const InMotion& motion, const SimulateOptions& options,
+                        const StepReport& report, std::size_t triangles_before) {
+  const Context context = gather_context();
+  nlohmann::ordered_json document{
+      {"scene", scene.stem},
+      {"effect", scene.effect},
+      {"method", options.method},
+      {"sheet", scene.family.empty() ? scene.mesh_file.string() : scene.family},
+      {"triangles_before", triangles_before},
+      {"triangles_after", motion.sheet().triangle_count()},
+      {"unknowns", scene.physics.dimension * static_cast<int>(motion.sheet().deformed_count())},
+      {"size_m", scene.size},
+      {"step_s", scene.step},
+      {"solver", scene.solver.name},
+      {"verdict", report.verdict},
+      {"reason", report.reason}};
+  if (std::isfinite(options.cut.chord_tolerance)) document["chord_tolerance"] = options.cut.chord_tolerance;
+  document["cuts"] = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < motion.made_cuts().size(); ++i) {
+    const CutRun& made = motion.made_cuts()[i].cut;
+    nlohmann::ordered_json cut{{"time_s", scene.cuts[i].time},
+                               {"status", name_of(made.status)},
+                               {"crossed_triangles", made.crossed_triangles}};
+    if (!scene.cuts[i].family.empty()) cut["seed"] = scene.cuts[i].seed;
+    document["cuts"].push_back(cut);
+  }
+  document["commit"] = context.commit ? nlohmann::ordered_json(*context.commit) : nullptr;
+  document["dirty"] = context.dirty ? nlohmann::ordered_json(*context.dirty) : nullptr;
+  document["command"] = options.command;
+  return document.dump(2) + "\n";
+}
+
+}  // namespace
+
+bool simulate(const Scene& scene, CuttingMethod& method, const SimulateOptions& options) {
+  const auto motion = InMotion::start(scene);
+  std::optional<Frames> frames;
+  if (!options.frames.empty()) frames.emplace(options.frames);
+  const std::size_t triangles_before = motion->sheet().triangle_count();
+  const bool static_solve = scene.integrator == Integrator::equilibrium;
+  const int steps = static_solve ? 1 : static_cast<int>(std::ceil(scene.duration / scene.step - 1e-9));
+
+  print_head(scene);
+  print_balance(*motion);
+  if (frames) frames->add(motion->posed_sheet(), motion->time());
+  StepReport report;
+  for (int step = 1, part = 1; step <= steps && report.verdict == "ok"; ++step) {
+    report = motion->advance(step * scene.step, method, options.cut);
+    const bool last = step == steps || report.verdict != "ok";
+    if (frames && report.verdict == "ok" && (last || step % options.every == 0))
+      frames->add(motion->posed_sheet(), motion->time());
+    if (last || step * 10 >= part * steps) print_balance(*motion), part = step * 10 / steps + 1;
+  }
+  print_cuts(*motion);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   const Sheet sheet = motion->posed_sheet();
   std::printf("%s%s%s; %zu triangles, %zu pieces; peak memory %.0f MB\n", report.verdict.c_str(),
               report.reason.empty() ? "" : ": ", report.reason.c_str(), sheet.triangle_count(), count_pieces(sheet),
               static_cast<double>(usage.ru_maxrss) / 1024);
-  if (!out.empty()) write_mesh(sheet.to_mesh_data(), out);
+  if (frames) {
+    frames->finish(sheet);
+    WholeFile(std::filesystem::path(options.frames) / "simulation.json",
+              description(scene, *motion, options, report, triangles_before))
+        .place();
+  }
+  if (!options.out.empty()) write_mesh(sheet.to_mesh_data(), options.out);
   return report.verdict == "ok";
 }
 

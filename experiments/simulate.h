@@ -8,8 +8,16 @@
 
 namespace cutbench {
 
-/// Prints a line of energies ten times; writes the sheet as it ends up where `out` is not empty. False where a cut or a
-/// step failed.
-bool simulate(const Scene& scene, CuttingMethod& method, const CutOptions& options, const std::string& out);
+struct SimulateOptions {
+  std::string method;   ///< as a caption names it: with its knob
+  std::string command;  ///< as given
+  std::string out;      ///< the sheet as it ends up; empty: not written
+  std::string frames;   ///< folder of the time series (harness/run/frames.h), with simulation.json; empty: none
+  int every = 8;        ///< steps from frame to frame
+  CutOptions cut;
+};
+
+/// Prints a line of energies ten times, and what the cuts did. False where a cut or a step failed.
+bool simulate(const Scene& scene, CuttingMethod& method, const SimulateOptions& options);
 
 }  // namespace cutbench

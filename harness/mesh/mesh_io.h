@@ -53,7 +53,7 @@ void take_rest_from_plane(MeshData& mesh, const std::string& name);
 /// - .obj: `v` deformed, `vt` rest, one per vertex, `f v/vt`; read_mesh gives it back unchanged.
 /// - .off: the deformed positions alone.
 /// - .vtu: text; points deformed, point data `rest` (z = 0), cell data `piece` (connected component, from 0 in order of
-///   the first triangle) and `aspect_ratio` (of the rest triangle).
+///   the first triangle), `aspect_ratio` (of the rest triangle) and `strain` (the largest |principal stretch - 1|).
 ///
 /// The file appears whole or not at all, see whole_file.h.
 /// \throw InputError for an unknown extension, OutputError for a place that can't be written.

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <string_view>
@@ -80,6 +82,22 @@ double rest_aspect_ratio(const MeshData& mesh, const std::array<std::int32_t, 3>
   return aspect_ratio(rest(triangle[0]), rest(triangle[1]), rest(triangle[2]));
 }
 
+/// The largest |principal stretch - 1|: of the two singular values of F, which takes the rest triangle to the deformed.
+double largest_strain(const MeshData& mesh, const std::array<std::int32_t, 3>& triangle) {
+  const auto [a, b, c] = triangle;
+  const auto rest = [&](std::int32_t v) { return mesh.rest[static_cast<std::size_t>(v)]; };
+  const auto side = [&](std::int32_t from, std::int32_t to) {
+    return mesh.deformed[static_cast<std::size_t>(to)] + -1.0 * mesh.deformed[static_cast<std::size_t>(from)];
+  };
+  const Point2 u = rest(b) - rest(a), v = rest(c) - rest(a);
+  const Point3 p = side(a, b), q = side(a, c);
+  const double area2 = cross(u, v);
+  const Point3 x = (1 / area2) * (v.y * p + -u.y * q), y = (1 / area2) * (u.x * q + -v.x * p);  // the columns of F
+  const auto dot = [](Point3 s, Point3 t) { return s.x * t.x + s.y * t.y + s.z * t.z; };
+  const double mean = (dot(x, x) + dot(y, y)) / 2, spread = std::hypot((dot(x, x) - dot(y, y)) / 2, dot(x, y));
+  return std::max(std::abs(std::sqrt(mean + spread) - 1), std::abs(std::sqrt(std::max(0.0, mean - spread)) - 1));
+}
+
 std::string vtu(const MeshData& mesh) {
   Text text;
   auto array = [&text](std::string_view type, std::string_view name, int components, const auto& values, auto put) {
@@ -104,6 +122,7 @@ std::string vtu(const MeshData& mesh) {
   text << "</PointData>\n<CellData>\n";
   array("Int32", "piece", 1, pieces(mesh), [&](std::int32_t piece) { text << piece; });
   array("Float64", "aspect_ratio", 1, mesh.triangles, [&](const auto& t) { text << rest_aspect_ratio(mesh, t); });
+  array("Float64", "strain", 1, mesh.triangles, [&](const auto& t) { text << largest_strain(mesh, t); });
   text << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
   return text.str();
 }

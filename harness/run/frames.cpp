@@ -1,0 +1,48 @@
+#include "harness/run/frames.h"
+
+#include <cstdio>
+
+#include "harness/mesh/mesh_io.h"
+
+namespace cutbench {
+
+namespace {
+
+std::string frame_name(std::size_t number) {
+  char name[32];
+  std::snprintf(name, sizeof name, "frame_%04zu.vtu", number);
+  return name;
+}
+
+}  // namespace
+
+Frames::Frames(const std::filesystem::path& folder) : folder_(folder) {
+  const std::filesystem::path parent = folder.has_parent_path() ? folder.parent_path() : ".";
+  std::error_code error;
+  if (!std::filesystem::is_directory(parent, error))
+    throw InputError("--frames " + folder.string() + ": there is no folder " + parent.string() + "; make it first");
+  std::filesystem::create_directory(folder, error);
+  if (error) throw InputError("--frames " + folder.string() + ": can't be made (" + error.message() + ")");
+  check_writable(folder / "frames.pvd", "--frames");
+}
+
+void Frames::add(const Sheet& posed, double time) {
+  write_mesh(posed.to_mesh_data(), folder_ / frame_name(times_.size()));
+  times_.push_back(time);
+}
+
+void Frames::finish(const Sheet& posed) const {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
+      "byte_order=\"LittleEndian\">\n<Collection>\n";
+  for (std::size_t i = 0; i < times_.size(); ++i) {
+    char entry[96];
+    std::snprintf(entry, sizeof entry, "<DataSet timestep=\"%.12g\" part=\"0\" file=\"%s\"/>\n", times_[i],
+                  frame_name(i).c_str());
+    text += entry;
+  }
+  WholeFile(folder_ / "frames.pvd", text + "</Collection>\n</VTKFile>\n").place();
+  write_mesh(posed.to_mesh_data(), folder_ / "last.obj");
+}
+
+}  // namespace cutbench
