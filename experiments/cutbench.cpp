@@ -4,9 +4,12 @@
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "experiments/score.h"
 #include "experiments/simulate.h"
+#include "harness/cut/pick.h"
+#include "harness/measure/stop_watch.h"
 #include "harness/mesh/mesh_io.h"
 #include "harness/run/interrupt.h"
 #include "harness/run/report_json.h"
@@ -104,17 +107,38 @@ void check_report_place(const CutArguments& arguments) {
       throw InputError("--report " + arguments.report + ": would take the place of " + other + "; give another name");
 }
 
+/// The path in rest space. Nothing moves between the cuts of a file, so all picks can be made on the sheet as it is
+/// read.
+std::vector<Curve> at_rest(const std::vector<std::variant<Curve, PickedCurve>>& path, const Sheet& sheet,
+                           const std::string& name, double& pick_us) {
+  std::vector<Curve> cuts;
+  std::optional<Picker> picker;
+  StopWatch watch;
+  for (const auto& cut : path) {
+    if (const auto* curve = std::get_if<Curve>(&cut)) {
+      cuts.push_back(*curve);
+      continue;
+    }
+    if (!picker) picker.emplace(sheet);
+    cuts.push_back(picker->rest_curve(std::get<PickedCurve>(cut), name + ", cut " + std::to_string(cuts.size())));
+  }
+  pick_us = picker ? watch.lap() : 0;
+  return cuts;
+}
+
 int cut(const CutArguments& arguments) {
   const MethodRow& row = find_method(arguments.method);
   const auto method = row.make(knob_value(row, arguments.set));
   const CutOptions options = options_with(arguments.chord_tolerance);
   check_mesh_place(arguments.out, "--out");
   if (!arguments.report.empty()) check_report_place(arguments);
-  const std::vector<Curve> cuts = read_path(arguments.path);
+  const auto path = read_path_with_picks(arguments.path);
   const MeshData data = read_mesh(arguments.mesh);
   print_notes(data);
 
   const Sheet before(data);
+  double pick_us = 0;
+  const std::vector<Curve> cuts = at_rest(path, before, arguments.path, pick_us);
   Sheet sheet = before;
   Locator locator(sheet);
   Cutter cutter;
@@ -126,7 +150,7 @@ int cut(const CutArguments& arguments) {
   }
   const Assessment a = assess(before, sheet, cuts, forced_corners_of(before, cuts), row.promises, options);
   WholeFile out = mesh_file(sheet.to_mesh_data(), arguments.out);
-  if (!arguments.report.empty()) report_file(arguments.report, row.name, run, a).place();  // both, or neither
+  if (!arguments.report.empty()) report_file(arguments.report, row.name, run, pick_us, a).place();  // both, or neither
   out.place();
   std::printf("%s: %zu triangles crossed, %td added, %d pieces, max aspect ratio of changed triangles %.3g, %.1f us\n",
               name_of(run.status), run.crossed_triangles, a.triangles_added, a.judgement.pieces, a.cut.ar_max,

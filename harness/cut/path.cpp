@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "harness/cut/pick.h"
 #include "harness/mesh/errors.h"
 #include "harness/mesh/whole_file.h"
 
@@ -80,22 +81,62 @@ void check_keys(const json& object, std::initializer_list<const char*> known, co
   }
 }
 
-Curve read_curve(const json& entry, const std::string& where) {
-  check_keys(entry, {"bezier", "polyline", "closed"}, where);
-  Curve curve;
+/// `shape` of the coordinates begins an error.
+template <std::size_t N>
+std::array<double, N> read_numbers(const json& list, const std::string& where, const char* shape) {
+  std::array<double, N> numbers{};
+  bool good = list.is_array() && list.size() == N;
+  for (std::size_t i = 0; good && i < N; ++i)
+    if ((good = list[i].is_number())) numbers[i] = list[i].get<double>();
+  if (!good) throw InputError(where + ": " + shape);
+  return numbers;
+}
+
+Pick read_pick(const json& p, const std::string& where) {
+  const auto point = [](const json& list, const std::string& place, const char* shape) {
+    const auto [x, y, z] = read_numbers<3>(list, place, shape);
+    return Point3{x, y, z};
+  };
+  if (!p.is_object())
+    return {
+        point(p, where, "a point in world space is [x, y, z], or {\"origin\": [x, y, z], \"direction\": [x, y, z]}"),
+        {}};
+  check_keys(p, {"origin", "direction"}, where);
+  for (const char* key : {"origin", "direction"})
+    if (!p.contains(key)) throw InputError(where + ": \"" + key + "\" is missing");
+  return {point(p["origin"], where, "\"origin\" is [x, y, z], three numbers"),
+          point(p["direction"], where, "\"direction\" is [x, y, z], three numbers")};
+}
+
+std::variant<Curve, PickedCurve> read_curve(const json& entry, const std::string& where) {
+  check_keys(entry, {"bezier", "polyline", "closed", "space"}, where);
   const bool bezier = entry.contains("bezier");
   if (bezier == entry.contains("polyline")) throw InputError(where + ": give either \"bezier\" or \"polyline\"");
-  curve.kind = bezier ? Curve::Kind::bezier : Curve::Kind::polyline;
+  const auto kind = bezier ? Curve::Kind::bezier : Curve::Kind::polyline;
+  bool closed = false;
   if (entry.contains("closed")) {
     if (!entry["closed"].is_boolean()) throw InputError(where + ": \"closed\" must be true or false");
-    curve.closed = entry["closed"].get<bool>();
+    closed = entry["closed"].get<bool>();
   }
+  const bool world = entry.contains("space") && entry["space"] == "world";
+  if (entry.contains("space") && !world && entry["space"] != "rest")
+    throw InputError(where + ": \"space\" must be \"rest\" or \"world\"");
   const json& points = entry[bezier ? "bezier" : "polyline"];
   if (!points.is_array()) throw InputError(where + ": must be a list of points, [[x, y], ...]");
-  for (const json& p : points) {
-    if (!p.is_array() || p.size() != 2 || !p[0].is_number() || !p[1].is_number())
-      throw InputError(where + ", point " + std::to_string(curve.points.size()) + ": a point is [x, y], two numbers");
-    curve.points.push_back({p[0].get<double>(), p[1].get<double>()});
+  Curve curve{kind, closed, {}};
+  PickedCurve picked{kind, closed, {}};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::string place = where + ", point " + std::to_string(i);
+    if (world) {
+      picked.picks.push_back(read_pick(points[i], place));
+    } else {
+      const auto [x, y] = read_numbers<2>(points[i], place, "a point is [x, y], two numbers");
+      curve.points.push_back({x, y});
+    }
+  }
+  if (world) {
+    check_picks(picked, where);
+    return picked;
   }
   check_curve(curve, where);
   return curve;
@@ -133,6 +174,17 @@ void check_curve(const Curve& curve, const std::string& name) {
 }
 
 std::vector<Curve> read_path(const std::filesystem::path& file) {
+  std::vector<Curve> cuts;
+  for (auto& cut : read_path_with_picks(file)) {
+    if (!std::holds_alternative<Curve>(cut))
+      throw InputError(file.string() + ", cut " + std::to_string(cuts.size()) +
+                       ": is in world space, which only `cutbench cut` takes; give it in rest space");
+    cuts.push_back(std::get<Curve>(std::move(cut)));
+  }
+  return cuts;
+}
+
+std::vector<std::variant<Curve, PickedCurve>> read_path_with_picks(const std::filesystem::path& file) {
   const std::string name = file.string();
   std::error_code ignored;
   std::ifstream in(file, std::ios::binary);
@@ -148,7 +200,7 @@ std::vector<Curve> read_path(const std::filesystem::path& file) {
   check_keys(document, {"cuts"}, name);
   if (!document.contains("cuts") || !document["cuts"].is_array())
     throw InputError(name + ": \"cuts\" must be a list, [{\"bezier\": [[x,y], ...]}]");
-  std::vector<Curve> cuts;
+  std::vector<std::variant<Curve, PickedCurve>> cuts;
   for (const json& entry : document["cuts"])
     cuts.push_back(read_curve(entry, name + ", cut " + std::to_string(cuts.size())));
   if (cuts.empty()) throw InputError(name + ": \"cuts\" is empty; give at least one");

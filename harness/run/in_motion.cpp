@@ -39,7 +39,7 @@ class SceneInMotion : public InMotion {
  public:
   explicit SceneInMotion(const Scene& scene) : scene_(scene), now_(scene), trial_(now_), stepper_(options_of(scene)) {
     now_.model.reserve_spare(), trial_.model.reserve_spare();
-    for (const auto& cut : scene.cuts) cuts_.push_back({cut.time, curves_of(cut, now_.sheet)});
+    for (const auto& cut : scene.cuts) cuts_.push_back({cut.time, curves_of(cut, now_.sheet), cut.picked});
   }
 
   const std::vector<MotionCut>& made_cuts() const override { return made_; }
@@ -60,7 +60,7 @@ class SceneInMotion : public InMotion {
     const double almost = time - 1e-9 * scene_.step;
     while (now_.state.time < almost && report.verdict == "ok") {
       while (next_cut_ < cuts_.size() && cuts_[next_cut_].time < now_.state.time + (1 - 1e-9) * scene_.step)
-        if (const MotionCut& made = made_.emplace_back(cut_with_balances(cuts_[next_cut_++].curves, method, options));
+        if (const MotionCut& made = made_.emplace_back(cut_with_balances(next_cut_++, method, options));
             made.verdict != "ok")
           report.verdict = made.verdict, report.reason = made.reason;
       if (report.verdict == "ok") report = stepper_.step(now_.model, now_.state);
@@ -113,16 +113,25 @@ class SceneInMotion : public InMotion {
   struct DueCuts {
     double time;
     std::vector<Curve> curves;
+    PickedCurve picked;
   };
 
   static StepOptions options_of(const Scene& scene) {
     return {scene.integrator, scene.step, scene.newton, scene.solver};
   }
 
-  MotionCut cut_with_balances(const std::vector<Curve>& curves, CuttingMethod& method, const CutOptions& options) {
+  MotionCut cut_with_balances(std::size_t number, CuttingMethod& method, const CutOptions& options) {
     const Balance before = balance();
+    std::vector<Curve> curves = cuts_[number].curves;
+    double pick_us = 0;
+    if (const PickedCurve& picked = cuts_[number].picked; !picked.picks.empty()) {
+      const Sheet posed = posed_sheet();
+      StopWatch watch;
+      curves.push_back(Picker(posed).rest_curve(picked, scene_.stem + ", cut " + std::to_string(number)));
+      pick_us = watch.lap();
+    }
     MotionCut made = cut(now_, curves, cutter_, method, options);
-    made.before = before, made.after = balance();
+    made.pick_us = pick_us, made.before = before, made.after = balance();
     return made;
   }
 

@@ -14,6 +14,7 @@ namespace cutbench {
 struct MotionCut {
   CutRun cut;
   std::string verdict = "ok", reason;  ///< of the cut and of the steps before and after it
+  double pick_us = 0;                  ///< the sheet as it is then into a tree, and the picks carried to rest space
   double transfer_us = 0;              ///< state of new vertices
   double pattern_us = 0;               ///< element data, mass, loads and the pattern of the system
   double bending_us = 0;               ///< stencils and rows of the bending matrix
@@ -34,7 +35,7 @@ class InMotion {
   virtual const Sheet& sheet() const = 0;
   virtual Sheet posed_sheet() const = 0;  ///< with the vertices where they are now
   /// Steps, with the scene's own cuts made by `method` when they are due. Returns the first report that is not ok, or
-  /// the last one.
+  /// the last one. Throws InputError where a pick misses the sheet.
   virtual StepReport advance(double time, CuttingMethod& method, const CutOptions& options) = 0;
   /// Goes on from here by one step, cuts, and steps again; then all is as it was before.
   virtual MotionCut try_cut(const std::vector<Curve>& cuts, Cutter& cutter, CuttingMethod& method,

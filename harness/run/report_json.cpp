@@ -28,7 +28,7 @@ void add_shapes(ordered_json& document, const Assessment& a) {
 
 }  // namespace
 
-WholeFile report_file(const std::filesystem::path& file, const std::string& method, const CutRun& run,
+WholeFile report_file(const std::filesystem::path& file, const std::string& method, const CutRun& run, double pick_us,
                       const Assessment& a) {
   const PhaseTimes& t = run.time_us;
   ordered_json document{{"status", name_of(run.status)},
@@ -42,7 +42,7 @@ WholeFile report_file(const std::filesystem::path& file, const std::string& meth
   document["embedded_carefully"] = run.carefully;
   add_shapes(document, a);
   document["incision_error"] = a.judgement.incision_error;
-  document["time_us"] = {{"pick", 0},        {"locate", t.locate},   {"trace", t.trace},
+  document["time_us"] = {{"pick", pick_us},  {"locate", t.locate},   {"trace", t.trace},
                          {"embed", t.embed}, {"improve", t.improve}, {"open", t.open}};
   document["area_change"] = a.judgement.area_change;
   return {file, document.dump(2) + "\n"};

@@ -127,6 +127,38 @@ Traction read_traction(const TomlReader& reader, const Physics& physics) {
   return {read_box(reader), read_vector(reader, "force", physics)};
 }
 
+/// Three numbers of a pick, an array in TOML.
+Point3 read_place(const TomlReader& reader, const toml::array* numbers, const std::string& what) {
+  Point3 p;
+  if (numbers == nullptr || numbers->size() != 3) reader.refuse(what + " is [x, y, z]");
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto x = (*numbers)[i].value<double>();
+    if (!x) reader.refuse(what + " is [x, y, z], three numbers");
+    (i == 0 ? p.x : i == 1 ? p.y : p.z) = *x;
+  }
+  return p;
+}
+
+PickedCurve read_picks(const TomlReader& reader, const char* key) {
+  exclude(reader, "a curve", {"seed", "case"});
+  PickedCurve curve{key == std::string("bezier") ? Curve::Kind::bezier : Curve::Kind::polyline,
+                    reader.value<bool>("closed", false),
+                    {}};
+  for (const auto& node : reader.array(key)) {
+    const std::string point = "point " + std::to_string(curve.picks.size());
+    const toml::table* ray = node.as_table();
+    if (ray == nullptr) {
+      curve.picks.push_back({read_place(reader, node.as_array(), point + " in world space"), {}});
+      continue;
+    }
+    check_keys(*ray, {"origin", "direction"}, reader.where + ", " + point);
+    curve.picks.push_back({read_place(reader, (*ray)["origin"].as_array(), point + ": \"origin\""),
+                           read_place(reader, (*ray)["direction"].as_array(), point + ": \"direction\"")});
+  }
+  check_picks(curve, reader.where);
+  return curve;
+}
+
 Curve read_curve(const TomlReader& reader, bool bezier) {
   exclude(reader, "a curve", {"seed", "case"});
   const Curve curve{bezier ? Curve::Kind::bezier : Curve::Kind::polyline, reader.value<bool>("closed", false),
@@ -141,10 +173,12 @@ Scene::Cut read_cut(const TomlReader& reader) {
   Scene::Cut cut;
   cut.time = reader.positive_or_zero("time", 0);
   if (!seeded) {
-    cut.curve = read_curve(reader, bezier);
+    const bool world = reader.choice("space", false, {{"rest", false}, {"world", true}});
+    if (world) cut.picked = read_picks(reader, bezier ? "bezier" : "polyline");
+    if (!world) cut.curve = read_curve(reader, bezier);
     return cut;
   }
-  exclude(reader, "\"family\"", {"closed"});
+  exclude(reader, "\"family\"", {"closed", "space"});
   cut.family = reader.value<std::string>("family");
   check_names({cut.family}, cut_families(), reader.where + ": cut family");
   cut.seed = static_cast<std::uint64_t>(reader.value<std::int64_t>("seed", 1));
@@ -244,7 +278,7 @@ Scene read_scene(const std::filesystem::path& file) {
   read_integrator(reader, scene);
   scene.solver = read_solver(reader);
   for (const auto& cut :
-       reader.sections("cuts", "cut", {"time", "bezier", "polyline", "closed", "family", "seed", "case"}))
+       reader.sections("cuts", "cut", {"time", "space", "bezier", "polyline", "closed", "family", "seed", "case"}))
     scene.cuts.push_back(read_cut(cut));
   check_times(scene, reader.where);
   return scene;
@@ -270,6 +304,7 @@ std::vector<Pin> pins_of(const Scene& scene, const Sheet& sheet) {
 }
 
 std::vector<Curve> curves_of(const Scene::Cut& cut, const Sheet& sheet) {
+  if (!cut.picked.picks.empty()) return {};
   return cut.family.empty() ? std::vector<Curve>{cut.curve} : make_case(cut.family, cut.seed, cut.index, sheet);
 }
 

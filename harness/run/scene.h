@@ -11,6 +11,8 @@
 //   [integrator]  name = "backward_euler"|"midpoint"|"symplectic_euler"|"equilibrium", step, newton
 //   [solver]      name, tolerance, max_iterations
 //   [[cuts]]      time; bezier | polyline = [[x, y], ...], closed = true | family, seed, case
+//                 space = "world": the points are picked on the sheet as it is at that time (harness/cut/pick.h), each
+//                 [x, y, z], or a ray {origin = [x, y, z], direction = [x, y, z]}
 //
 // What is left out has the value it has below; vectors of a scene in the plane may leave out z. Boxes may be infinite.
 #pragma once
@@ -22,6 +24,7 @@
 #include <vector>
 
 #include "harness/cut/path.h"
+#include "harness/cut/pick.h"
 #include "harness/fem/linear_solver.h"
 #include "harness/fem/physics.h"
 #include "harness/mesh/mesh_data.h"
@@ -39,6 +42,7 @@ struct Scene {
   struct Cut {
     double time = 0;     ///< s: made before the first step that ends after it
     Curve curve;         ///< in rest space, m; or a seeded case, see curves_of():
+    PickedCurve picked;  ///< in world space, m, instead of the curve; no picks: in rest space
     std::string family;  ///< of cut_families(); empty: the curve
     std::uint64_t seed = 1;
     std::size_t index = 0;  ///< key `case`
@@ -76,7 +80,8 @@ MeshData mesh_of(const Scene& scene);
 /// its copies on an incision. \pre `sheet` is not cut yet: a cut's own vertices may be nearer.
 std::vector<Pin> pins_of(const Scene& scene, const Sheet& sheet);
 
-/// One or more curves, made one after the other; a seeded case depends on the sheet before any cut (make_case).
+/// One or more curves, made one after the other; a seeded case depends on the sheet before any cut (make_case). None
+/// for a picked cut: it is not known before its time.
 std::vector<Curve> curves_of(const Scene::Cut& cut, const Sheet& sheet);
 
 }  // namespace cutbench
