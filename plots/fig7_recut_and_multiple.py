@@ -1,0 +1,12 @@
+#!/usr/bin/env python3
+"""Figure 7 of the paper: a cut across an older one, and several cuts in one sheet."""
+
+from render import Camera
+from scene_panels import Shot, main
+
+FROM_ABOVE = Camera(centre=(0.5, 0.5, -0.2), azimuth=25, elevation=48)
+
+if __name__ == "__main__":
+    main("fig7_recut_and_multiple", __doc__,
+         [Shot("fig7_recut_and_multiple_recut", "cut again", 1.2, FROM_ABOVE),
+          Shot("fig7_recut_and_multiple_multiple", "several cuts", 1.1, FROM_ABOVE)])

@@ -1,0 +1,145 @@
+"""Figures of scenes: a column per scene, a row per method, all of a column from the same camera at the same time. Their
+frames are in results/<stem>/<scene>/<method>, one folder per `cutbench simulate --frames`."""
+
+import argparse
+from dataclasses import dataclass
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+from matplotlib.cm import ScalarMappable
+
+import load
+import render
+import style
+
+GAP, TITLE = 0.04, 0.25  # inches
+
+
+@dataclass(frozen=True)
+class Shot:
+    scene: str
+    title: str
+    time: float  # s
+    camera: render.Camera = render.Camera()
+    ground: float = -0.6  # m
+    box: tuple = ()  # (x0, x1, y0, y1) of the picture, m at the camera's centre; empty: all that moves
+
+
+def arguments(stem, description):
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("--results", type=Path, metavar="DIR", default=load.REPOSITORY / "results" / stem,
+                        help=f"holds the frames, receives the figures (default: results/{stem})")
+    parser.add_argument("--colour", choices=sorted(render.SCALARS), help="of the triangles, instead of the skin's")
+    return parser.parse_args()
+
+
+def look_of(description):
+    method, _, knob = description["method"].partition(" ")
+    return style.looks([(method, knob)])[method, knob]
+
+
+def read_shot(folder, shot):
+    """[(description, frame)] of each method, in the order of every legend."""
+    found = [d.parent for d in (folder / shot.scene).glob("*/simulation.json")]
+    if not found:
+        load.stop(f"{folder / shot.scene} has no frames; experiments/reproduce {folder.name} makes them")
+    read = [(render.read_description(d), d) for d in found]
+    known = [f"{method} {knob}".strip() for method, knob in style.KNOWN]
+    read.sort(key=lambda r: (known.index(r[0]["method"]) if r[0]["method"] in known else len(known), r[0]["method"]))
+    return [(description, render.read_frame(d, shot.time)) for description, d in read]
+
+
+def same(values, what):
+    """The one value that all panels share: a figure compares nothing else."""
+    values = list(dict.fromkeys(values))
+    if len(values) > 1:
+        load.stop(f"the panels differ in {what}: {', '.join(map(str, values))}; simulate the scenes anew")
+    return values[0]
+
+
+def commits(described):
+    """`commit 0123456789`, or several."""
+    names = {str(d["commit"] or "unknown")[:10] + (" with uncommitted changes" if d["dirty"] else "") for d in described}
+    return "commit " + ", ".join(sorted(names))
+
+
+def caption(stem, shots, panels, extra):
+    """What the picture does not say: n, material, time, seed, tolerance, commit, command."""
+    described = [d for column in panels for d, _ in column]
+    n = same((d["triangles_before"] for d in described), "the number of triangles")
+    same((d["commit"] for d in described), "the commit")
+    times = ", ".join(f"{s.title} {same((f.time for _, f in column), 'time'):.3f} s (cut at "
+                      + ", ".join(f"{c['time_s']:g}" for c in column[0][0]["cuts"]) + " s)"
+                      for s, column in zip(shots, panels))
+    seeds = sorted({c["seed"] for d in described for c in d["cuts"] if "seed" in c})
+    failed = [f"{d['scene']} by {d['method']}: {d['verdict']}" for d in described if d["verdict"] != "ok"]
+    tolerance = same((d.get("chord_tolerance", "inf") for d in described), "the chord tolerance")
+    return " ".join([
+        *extra, f"n = {n} triangles before the cut, 1 m square, the skin of paper_table1; time: {times}. Red: lips of "
+        f"the incision. Backward Euler, {same((1 / d['step_s'] for d in described), 'the step'):.0f} steps per s, "
+        f"{same((d['solver'] for d in described), 'the solver')}; chord tolerance {tolerance} h.",
+        f"Seed: {', '.join(map(str, seeds)) if seeds else 'none, the cuts are in the scene files'}; "
+        f"{commits(described)}.",
+        *([f"FAILED: {'; '.join(failed)}."] if failed else []),
+        f"Command: experiments/reproduce {stem}"])
+
+
+def arranged(shots, panels):
+    """(column, row, shot, description, frame) of each panel: a column per scene, of a single scene two columns."""
+    if len(shots) == 1:
+        return [(i % 2, i // 2, shots[0], *panel) for i, panel in enumerate(panels[0])]
+    return [(c, r, shot, *panel) for c, (shot, column) in enumerate(zip(shots, panels))
+            for r, panel in enumerate(column)]
+
+
+def draw(shots, panels, wireframe, colour, text, label):
+    """The figure, 8.5 cm wide and as high as it needs. `label(description, frame)`: a second line over each panel."""
+    cells = arranged(shots, panels)
+    rows = 1 + max(r for _, r, *_ in cells)
+    width, heading = style.WIDTH / 2, 0.17 if len(shots) > 1 else 0
+    boxes = {s: s.box or render.extent([f for _, f in column], s.camera, s.ground) for s, column in zip(shots, panels)}
+    height = max((width - GAP) * (b[3] - b[2]) / (b[1] - b[0]) for b in boxes.values())
+    figure = plt.figure(figsize=(style.WIDTH, 1))
+    lines = style.wrapped(figure, text, style.WIDTH - 0.1)
+    below = 0.115 * len(lines) + 0.08 + (0.38 if colour else 0)
+    total = below + rows * (height + TITLE) + heading
+    figure.set_size_inches(style.WIDTH, total)
+    figure.text(0.05 / style.WIDTH, 0.04 / total, "\n".join(lines), fontsize=style.CAPTION_SIZE, va="bottom",
+                linespacing=1.2, parse_math=False)
+    for c, r, shot, description, frame in cells:
+        bottom, middle = below + (rows - 1 - r) * (height + TITLE), (c + 0.5) * width / style.WIDTH
+        ax = figure.add_axes([(c * width + GAP / 2) / style.WIDTH, bottom / total, (width - GAP) / style.WIDTH,
+                              height / total])
+        render.draw(ax, frame, shot.camera, wireframe=wireframe, colour=colour, ground=shot.ground)
+        render.blank(ax, boxes[shot])
+        figure.text(middle, (bottom + height + 0.01) / total,
+                    f"{look_of(description).label}\n{label(description, frame)}", ha="center", va="bottom", fontsize=6,
+                    linespacing=1.1)
+    if heading:
+        for c, shot in enumerate(shots):
+            figure.text((c + 0.5) / len(shots), 1 - 0.02 / total, shot.title, ha="center", va="top", fontsize=7.5,
+                        fontweight="bold")
+    if colour:
+        name, norm, colours = render.SCALARS[colour]
+        ax = figure.add_axes([0.2, (below - 0.16) / total, 0.6, 0.07 / total])
+        bar = figure.colorbar(ScalarMappable(norm, colours), cax=ax, orientation="horizontal", extend="max")
+        bar.set_label(name, fontsize=6.2, labelpad=1)
+        bar.ax.tick_params(labelsize=6, pad=1)
+    return figure
+
+
+def triangles_after(description, _):
+    return f"{description['triangles_after']} triangles"
+
+
+def main(stem, description, shots, label=triangles_after, kinds=("", "mesh")):
+    """`kinds` of figure: "" is shaded, "mesh" shows the triangles."""
+    options = arguments(stem, description)
+    panels = [read_shot(options.results, shot) for shot in shots]
+    text = caption(stem, shots, panels, [" ".join(description.split())])
+    if options.colour:
+        style.save(draw(shots, panels, True, options.colour, text, label), options.results, f"{stem}_{options.colour}")
+        return
+    for kind in kinds:
+        style.save(draw(shots, panels, kind == "mesh", None, text, label), options.results,
+                   stem + (f"_{kind}" if kind and len(kinds) > 1 else ""))
