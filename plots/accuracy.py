@@ -141,7 +141,7 @@ def problems_figure(records):
     direct = records.rows(direct=True)
     cells = cells_of(direct, "ms", "error", ["scene", "method", "knob", "resolution"], ["scene"])
     rows = -(-len(records.problems) // 2)
-    figure, axes = style.panels(rows, 2, 3.7)
+    figure, axes = style.panels(rows, 2, 3.7, sharex=True)
     for i, ax in enumerate(axes.flat):
         ax.set_visible(i < len(records.problems))
     for problem, ax in zip(records.problems, axes.flat):
@@ -394,7 +394,7 @@ def verification_figure(records, table):
     problems = [p for p in records.problems if p in set(table["problem"])]
     if not problems:
         return None
-    figure, axes = style.panels(-(-len(problems) // 2), 2, 3.7)
+    figure, axes = style.panels(-(-len(problems) // 2), 2, 3.7, sharex=True)
     for i, ax in enumerate(axes.flat):
         ax.set_visible(i < len(problems))
     direct = records.rows(direct=True, failed=False)

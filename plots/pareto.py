@@ -98,10 +98,12 @@ def figure_of(cells, run, args, x, y, present):
         for key, points in here.groupby(["method", "knob"] + present, sort=False):
             named = dict(zip(["method", "knob"] + present, key))
             look = looks[named["method"], named["knob"]]
-            if "solver" in named:
+            if len(lines) > 1:
                 look = style.Look(look.label, look.colour, look.marker, lines[named["solver"]], look.width)
             size = 0.7 + 0.6 * budgets.index(named["budget"]) / max(1, len(budgets) - 1) if "budget" in named else 1
             front.draw(ax, points.sort_values("resolution"), look, size)
+        if ax.get_yscale() == "log":
+            style.plain_numbers(ax)
         front.draw_front(ax, here)
         front.draw_failures(ax, here, looks)
         ax.set_xlabel(x.column if i + columns >= len(sheets) else "")
