@@ -113,5 +113,5 @@ def scale(axis, values):
             axis("log")
         return
     sizes = np.abs(values[values != 0])
-    if len(sizes) and sizes.max() > 50 * np.median(sizes):
+    if len(sizes) and sizes.max() > 10 * np.median(sizes):
         axis("symlog", linthresh=float(np.median(sizes)))
