@@ -7,6 +7,7 @@
 #include "methods/bowyer_watson/bowyer_watson.h"
 #include "methods/cgal_cdt/cgal_cdt.h"
 #include "methods/conventional_split/conventional_split.h"
+#include "methods/edge_release/edge_release.h"
 #include "methods/longest_edge/longest_edge.h"
 #include "methods/snap_or_split/snap_or_split.h"
 #include "methods/vertex_snap/vertex_snap.h"
@@ -48,6 +49,11 @@ const std::vector<MethodRow>& all_methods() {
          if (!(cap >= 0 && cap <= 100)) throw InputError("longest_edge: cap must be a number from 0 to 100");
          return std::make_unique<LongestEdge>(LongestEdge::Options{.cap = cap});
        }},
+      {"edge_release",
+       "the path is rounded to existing edges, a staircase",
+       {},
+       {.exact_incision = false, .keeps_area = true, .conforming = true, .keeps_vertices = true},
+       [](double) { return std::make_unique<EdgeRelease>(); }},
       {"snap_or_split",
        "crossings near a vertex go through the vertex, the others are split",
        {"tolerance", 0.25, "fraction of the edge up to which a crossing goes to the vertex, 0 to 0.5"},

@@ -488,7 +488,8 @@ TEST(Bending, ASlitLengthwiseCostsNothing) {
       const CutOutcome outcome = Cutter().cut(sheet, locator, {Curve::Kind::polyline, false, {{0.33, y}, {1.1, y}}},
                                               *row.make(row.knob.value), {});
       ASSERT_EQ(outcome.status, Status::ok);
-      EXPECT_NEAR(tip(sheet, n) / whole, 1, 1e-3) << row.name << ", " << family;
+      // Where it may wander, it is not quite lengthwise.
+      EXPECT_NEAR(tip(sheet, n) / whole, 1, row.promises.exact_incision ? 1e-3 : 5e-3) << row.name << ", " << family;
     }
 }
 

@@ -139,8 +139,30 @@ bool PathGraph::is_clear(HalfEdge edge, VertexIndex from, double up_to) const {
   return true;
 }
 
+/// No node lies on the edge between these two, which do.
+bool PathGraph::is_clear_between(HalfEdge edge, int a, int b) const {
+  const VertexIndex from = sheet_->origin(edge);
+  const auto progress = [&](int n) {
+    const Place& p = at(n).place;
+    return p.kind == Place::Kind::edge ? fraction_from(from, p) : p.vertex == from ? 0.0 : 1.0;
+  };
+  const auto [low, high] = std::minmax(progress(a), progress(b));
+  for (int n = trace_->first_on(first_half_edge(*sheet_, edge)); n >= 0; n = trace_->node(n).next)
+    if (n != a && n != b && !at(n).gone && at(n).place.kind == Place::Kind::edge && progress(n) >= low &&
+        progress(n) <= high)
+      return false;
+  return true;
+}
+
 bool PathGraph::is_nearest(int node, VertexIndex vertex) const {
   return is_clear(at(node).place.edge, vertex, fraction_from(vertex, at(node).place));
+}
+
+/// A node inside t, other than these two, lies in a part of it.
+bool PathGraph::holds_node(TriangleIndex t, const std::array<Point2, 3>& part, int end1, int end2) const {
+  for (int n = trace_->face(trace_->find_face(t)).inside; n >= 0; n = trace_->node(n).next)
+    if (n != end1 && n != end2 && !at(n).gone && in_closed_triangle(part[0], part[1], part[2], point(n))) return true;
+  return false;
 }
 
 /// The link from `node` of the run to `end` becomes one from the vertex to `end`: nothing of the path lies in between,
@@ -154,9 +176,7 @@ bool PathGraph::sweep_is_clear(int end, int i, int node, VertexIndex vertex) con
     const double distance = place.kind == Place::Kind::edge ? fraction_from(vertex, place) : 2;
     if (separates(edge) || !is_clear(edge, vertex, distance)) return false;
   }
-  for (int n = trace_->face(trace_->find_face(t)).inside; n >= 0; n = trace_->node(n).next)
-    if (n != end && in_closed_triangle(point(end), point(node), sheet_->rest(vertex), point(n))) return false;
-  return true;
+  return !holds_node(t, {point(end), point(node), sheet_->rest(vertex)}, end, node);
 }
 
 bool PathGraph::find_run(int node, VertexIndex vertex, double reach, Run& run) const {
@@ -214,7 +234,8 @@ bool PathGraph::has_star_to_itself(const Run& run) const {
   HalfEdge h = first;
   do {
     const int face = trace_->find_face(triangle_of(h));
-    if (face >= 0 && trace_->face(face).inside >= 0) return false;
+    for (int n = face >= 0 ? trace_->face(face).inside : -1; n >= 0; n = trace_->node(n).next)
+      if (!at(n).gone) return false;
     if (is_met_by_others(h) || is_met_by_others(Sheet::previous(h))) return false;
     h = sheet_->turn_left(h);
   } while (h.valid() && h != first);
@@ -238,6 +259,29 @@ void PathGraph::contract(const Run& run) {
   node.link = {run.link_before, run.link_after};
   node.degree = (run.link_before >= 0) + (run.link_after >= 0);
   taken_.insert(std::lower_bound(taken_.begin(), taken_.end(), run.vertex), run.vertex);
+}
+
+bool PathGraph::straighten(int node) {
+  const Node& n = at(node);
+  if (n.gone || n.place.kind != Place::Kind::face || n.degree != 2) return false;
+  const TriangleIndex t = n.place.face;
+  const int kept = n.link[0], dropped = n.link[1];
+  const int before = other_end(kept, node), after = other_end(dropped, node);
+  if (before == after || (at(before).degree > 2 && at(after).degree > 2)) return false;
+  const auto& [from, to] = at(before).degree <= 2 ? std::pair{before, after} : std::pair{after, before};
+  for (const int known : at(from).link)
+    if (known >= 0 && other_end(known, from) == to) return false;  // a loop closes
+  if (holds_node(t, {point(before), point(node), point(after)}, before, after)) return false;
+  if (const HalfEdge edge = common_edge(*sheet_, t, at(before).place, at(after).place); edge.valid())
+    if (separates(edge) || !is_clear_between(edge, before, after)) return false;
+
+  Link& link = links_[static_cast<std::size_t>(kept)];
+  (link.from == node ? link.from : link.to) = after;
+  links_[static_cast<std::size_t>(dropped)].gone = true;
+  for (int& known : nodes_[static_cast<std::size_t>(after)].link)
+    if (known == dropped) known = kept;
+  nodes_[static_cast<std::size_t>(node)].gone = true;
+  return true;
 }
 
 }  // namespace cutbench

@@ -1,9 +1,9 @@
-// A trace as a graph of nodes and links, and the one change that methods with an inexact incision make to it: what of
-// the path passes close by a vertex is contracted to that vertex.
+// A trace as a graph of nodes and links, and the changes that methods with an inexact incision make to it: what of the
+// path passes close by a vertex is contracted to that vertex, and points inside triangles are left out.
 //
-// Each contraction is an isotopy of the path: it is refused wherever the path would touch itself, the border or an
+// Each of these is an isotopy of the path: it is refused wherever the path would touch itself, the border or an
 // older incision where it did not before, or leave one that it touched. So the pieces of the sheet stay those of the
-// exact path, however many contractions there are, one after the other. Whether the path then goes to the vertex or the
+// exact path, however many there are, one after the other. Whether the path then goes to the vertex or the
 // vertex is moved to the path is the caller's choice.
 #pragma once
 
@@ -51,7 +51,12 @@ class PathGraph {
   bool has_star_to_itself(const Run& run) const;
   /// Makes one node, at the vertex, of the run.
   void contract(const Run& run);
+  /// Takes a node inside a triangle out of the path, which goes straight on from the node before to the one after; an
+  /// isotopy, too. False where the node is none of this kind, is a tip or a crossing of the path with itself, or
+  /// something lies between the old way and the new one.
+  bool straighten(int node);
 
+  int size() const { return static_cast<int>(nodes_.size()); }  ///< nodes, those that are gone included
   Point2 point(int node) const { return at(node).place.point; }
   const Place& place(int node) const { return at(node).place; }
   /// The trace of what the graph has become, nodes in the old order.
@@ -84,6 +89,8 @@ class PathGraph {
   bool extend(int node, int link, VertexIndex vertex, double reach, int& next) const;
   bool is_nearest(int node, VertexIndex vertex) const;
   bool is_clear(HalfEdge edge, VertexIndex from, double up_to) const;
+  bool is_clear_between(HalfEdge edge, int a, int b) const;
+  bool holds_node(TriangleIndex t, const std::array<Point2, 3>& part, int end1, int end2) const;
   bool sweep_is_clear(int end, int link, int node, VertexIndex vertex) const;
 
   const Sheet* sheet_ = nullptr;

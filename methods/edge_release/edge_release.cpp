@@ -1,0 +1,23 @@
+#include "methods/edge_release/edge_release.h"
+
+namespace cutbench {
+
+void EdgeRelease::embed(Sheet& sheet, Subdivision& trace) {
+  path_.read(sheet, trace);
+  for (int n = 0; n < path_.size(); ++n) path_.straighten(n);
+  const auto crossings = path_.approaches(0.5);
+  const auto release = [&](int node, VertexIndex v) {
+    if (path_.find_run(node, v, 1, run_)) path_.contract(run_);
+  };
+  for (const auto& crossing : crossings) release(crossing.node, crossing.vertex);
+  for (const auto& crossing : crossings) {
+    const Place& left_over = path_.place(crossing.node);
+    if (left_over.kind != Place::Kind::edge) continue;
+    const VertexIndex a = sheet.origin(left_over.edge), b = sheet.target(left_over.edge);
+    release(crossing.node, crossing.vertex == a ? b : a);
+  }
+  path_.write(trace);
+  recovered_ = embed_plainly(sheet, trace, work_);
+}
+
+}  // namespace cutbench
