@@ -146,7 +146,7 @@ bool PathGraph::is_clear_between(HalfEdge edge, int a, int b) const {
     const Place& p = at(n).place;
     return p.kind == Place::Kind::edge ? fraction_from(from, p) : p.vertex == from ? 0.0 : 1.0;
   };
-  const auto [low, high] = std::minmax(progress(a), progress(b));
+  const double low = std::min(progress(a), progress(b)), high = std::max(progress(a), progress(b));
   for (int n = trace_->first_on(first_half_edge(*sheet_, edge)); n >= 0; n = trace_->node(n).next)
     if (n != a && n != b && !at(n).gone && at(n).place.kind == Place::Kind::edge && progress(n) >= low &&
         progress(n) <= high)
