@@ -5,7 +5,6 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <cstdio>
 
 #include "harness/cut/cut.h"
 #include "harness/truth/bent_sheet.h"
@@ -120,13 +119,10 @@ void expect_within(const Problem& problem, int n, const std::vector<double>& bou
         const Specimen specimen = problem.specimen(family, n, 1, i);
         EXPECT_EQ(specimen.mesh.triangles.size(), static_cast<std::size_t>(2 * n * n));
         const Answer answer = solved(problem, specimen, cut_open(specimen, specimen.cuts, method));
-        std::printf("%s, n = %d, %s, %s, member %zu:", problem.name().c_str(), n, family.c_str(), method.c_str(), i);
         for (std::size_t k = 0; k < bounds.size(); ++k) {
           const Measure& m = answer.measures.at(k);
-          std::printf(" %s %.2e", m.name.c_str(), m.error);
           EXPECT_LE(m.error, bounds[k]) << m.name;
         }
-        std::printf("\n");
       }
 }
 
