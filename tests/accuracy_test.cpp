@@ -133,6 +133,18 @@ TEST_F(Accuracy, RunsAreTheSameAndShardsPartThem) {
   for (const Record& row : part) EXPECT_EQ(row.get("resolution"), "72");
 }
 
+TEST_F(Accuracy, ProblemsOfManySolvesHaveMembersOfTheirOwn) {
+  std::string text = experiment("", "\"centre_crack\", \"bending_patch_slit\"");
+  text.replace(text.find("[2, 1]\n"), 6, "[2, 1]\nmembers_nonlinear = [0, 1]");
+  write(folder_ / "e.toml", text);
+  const auto rows = run_and_read("--methods conventional_split", "r");
+  ASSERT_EQ(rows.size(), 3 * 2 * budgets + 2);  // by the reference and the method; the patch is solved directly alone
+  for (const Record& row : rows) {
+    EXPECT_TRUE(row.get("scene") == "centre_crack" || row.get("resolution") == "72");
+    EXPECT_EQ(row.get("verdict"), "ok") << row.line();
+  }
+}
+
 /// As a kill leaves it, in the middle of a case: some rows, and a line cut short.
 TEST_F(Accuracy, AKilledRunGoesOn) {
   write(folder_ / "e.toml", experiment());
@@ -215,7 +227,7 @@ TEST_F(Accuracy, AFailureIsARow) {
   Experiment e;
   e.stem = "e", e.claim = "c", e.sheets = {"grid"}, e.resolutions = {72};
   for (const MethodRow& row : contenders) e.methods.push_back({row.name, {}});
-  e.accuracy = Experiment::Accuracy{{"centre_crack"}, {"cholmod"}, {"cg"}, {5}, {{72, 2}}};
+  e.accuracy = Experiment::Accuracy{{"centre_crack"}, {"cholmod"}, {"cg"}, {5}, {{72, 2}}, {{72, 2}}};
   RunOptions options;
   options.out = folder_, options.quiet = true;
   EXPECT_FALSE(run_accuracy(e, contenders, gather_context(), options));

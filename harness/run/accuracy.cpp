@@ -53,14 +53,17 @@ class AccuracyRun {
     if (!file_.note().empty() && !options_.quiet)
       std::fprintf(stderr, "%s: %s\n", experiment_.stem.c_str(), file_.note().c_str());
     std::size_t total = 0;
-    for (int resolution : experiment_.resolutions) total += members_on(resolution);
-    Progress progress(experiment_.stem, total * plan_.problems.size() * experiment_.sheets.size(), options_.quiet);
     for (const auto& name : plan_.problems)
+      for (int resolution : experiment_.resolutions) total += members(find_problem(name), resolution);
+    Progress progress(experiment_.stem, total * experiment_.sheets.size(), options_.quiet);
+    for (const auto& name : plan_.problems) {
+      const Problem& problem = find_problem(name);
       for (const auto& sheet : experiment_.sheets)
         for (int resolution : experiment_.resolutions)
-          for (std::size_t i = 0; i < members_on(resolution); ++i, progress.step())
+          for (std::size_t i = 0; i < members(problem, resolution); ++i, progress.step())
             if (static_cast<int>(i % static_cast<std::size_t>(options_.shards)) == options_.shard - 1)
-              run_member(find_problem(name), sheet, resolution, i);
+              run_member(problem, sheet, resolution, i);
+    }
   }
 
   RecordFile& file() { return file_; }
@@ -88,15 +91,17 @@ class AccuracyRun {
                           e.accuracy->direct,
                           e.accuracy->preconditioners,
                           e.accuracy->members,
+                          e.accuracy->members_nonlinear,
                           e.accuracy->iterations,
                           options.shard,
                           options.shards}
         .dump();
   }
 
-  std::size_t members_on(int resolution) const {
-    const auto found = std::find_if(plan_.members.begin(), plan_.members.end(),
-                                    [&](const auto& entry) { return entry.first == resolution; });
+  std::size_t members(const Problem& problem, int resolution) const {
+    const auto& plan = problem.takes_budgets() ? plan_.members : plan_.members_nonlinear;
+    const auto found =
+        std::find_if(plan.begin(), plan.end(), [&](const auto& entry) { return entry.first == resolution; });
     return static_cast<std::size_t>(found->second);
   }
 

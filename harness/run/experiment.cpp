@@ -55,12 +55,21 @@ Experiment::Accuracy read_accuracy(const TomlReader& reader, const std::vector<i
       if (n < 1 || n > 1000000) reader.refuse("\"iterations\" are whole numbers from 1 to 1000000");
       accuracy.iterations.push_back(static_cast<int>(n));
     }
-  const auto members = reader.list<std::int64_t>("members");
-  if (members.size() != resolutions.size()) reader.refuse("\"members\" must be as many numbers as \"resolutions\"");
-  for (std::size_t i = 0; i < members.size(); ++i) {
-    if (members[i] < 1 || members[i] > 1000000) reader.refuse("\"members\" are whole numbers from 1 to 1000000");
-    accuracy.members.emplace_back(resolutions[i], static_cast<int>(members[i]));
-  }
+  const auto read_members = [&](const char* key, std::int64_t least) {
+    const auto members = reader.list<std::int64_t>(key);
+    if (members.size() != resolutions.size())
+      reader.refuse("\"" + std::string(key) + "\" must be as many numbers as \"resolutions\"");
+    std::vector<std::pair<int, int>> of_resolution;
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      if (members[i] < least || members[i] > 1000000)
+        reader.refuse("\"" + std::string(key) + "\" are whole numbers from " + std::to_string(least) + " to 1000000");
+      of_resolution.emplace_back(resolutions[i], static_cast<int>(members[i]));
+    }
+    return of_resolution;
+  };
+  accuracy.members = read_members("members", 1);
+  accuracy.members_nonlinear =
+      reader.has("members_nonlinear") ? read_members("members_nonlinear", 0) : accuracy.members;
   return accuracy;
 }
 
@@ -114,7 +123,8 @@ Experiment read_experiment(const std::filesystem::path& file) {
   refuse_repeated(e.cut_families, name + ": \"cut_families\"");
   refuse_repeated(e.resolutions, name + ": \"resolutions\"");
   if (is_accuracy) {
-    const std::vector<std::string> keys{"problems", "direct", "preconditioners", "iterations", "members"};
+    const std::vector<std::string> keys{"problems",   "direct",  "preconditioners",
+                                        "iterations", "members", "members_nonlinear"};
     e.accuracy = read_accuracy(reader.section("accuracy", keys), e.resolutions);
     refuse_repeated(e.accuracy->problems, name + ": \"problems\"");
     refuse_repeated(e.accuracy->direct, name + ": \"direct\"");

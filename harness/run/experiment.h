@@ -36,7 +36,8 @@ struct Experiment {
     std::vector<std::string> direct;           ///< solvers that run until solved
     std::vector<std::string> preconditioners;  ///< solvers that are given so many iterations, each of:
     std::vector<int> iterations;
-    std::vector<std::pair<int, int>> members;  ///< resolution, and how many of each problem's ensemble on it
+    std::vector<std::pair<int, int>> members;            ///< resolution, and how many of each problem's ensemble on it
+    std::vector<std::pair<int, int>> members_nonlinear;  ///< the same of problems that take no budgets; may be 0
   };
 
   std::string stem;   ///< of the file: names the results folder and the plot
