@@ -38,6 +38,19 @@ void print_cuts(const InMotion& motion) {
   }
 }
 
+/// A sheet that gains energy has a wrong step, however smooth it looks.
+void judge_budget(const EnergyBudget& budget, StepReport& report) {
+  const BudgetRow& end = budget.rows().back();
+  const double growth = budget.growth();
+  std::printf("budget: damping %.4g J, numerical loss %.4g J, work of pins %.4g J, jumps %.3g J, remainder %.3g J\n",
+              -end.damping, -end.numerical_loss, end.pin_work, end.jumps, end.remainder);
+  if (report.verdict != "ok" || growth <= 0.01) return;
+  char text[96];
+  std::snprintf(text, sizeof text, "the total, less work and jumps, rose by %.2g %% of kinetic and elastic energy",
+                100 * growth);
+  report.verdict = "energy_growth", report.reason = text;
+}
+
 /// What a caption needs to say of the frames beside it.
 std::string description(const Scene& scene, const InMotion& motion, const SimulateOptions& options,
                         const StepReport& report, std::size_t triangles_before) {
@@ -76,7 +89,7 @@ std::string description(const Scene& scene, const InMotion& motion, const Simula
 bool simulate(const Scene& scene, CuttingMethod& method, const SimulateOptions& options) {
   const auto motion = InMotion::start(scene);
   std::optional<Frames> frames;
-  if (!options.frames.empty()) frames.emplace(options.frames);
+  if (!options.frames.empty()) frames.emplace(options.frames), motion->keep_budget();
   const std::size_t triangles_before = motion->sheet().triangle_count();
   const bool static_solve = scene.integrator == Integrator::equilibrium;
   const int steps = static_solve ? 1 : static_cast<int>(std::ceil(scene.duration / scene.step - 1e-9));
@@ -93,6 +106,7 @@ bool simulate(const Scene& scene, CuttingMethod& method, const SimulateOptions& 
     if (last || step * 10 >= part * steps) print_balance(*motion), part = step * 10 / steps + 1;
   }
   print_cuts(*motion);
+  if (motion->budget()) judge_budget(*motion->budget(), report);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   const Sheet sheet = motion->posed_sheet();
@@ -101,6 +115,7 @@ bool simulate(const Scene& scene, CuttingMethod& method, const SimulateOptions& 
               static_cast<double>(usage.ru_maxrss) / 1024);
   if (frames) {
     frames->finish(sheet);
+    if (motion->budget()) motion->budget()->write(std::filesystem::path(options.frames) / "energy.csv");
     WholeFile(std::filesystem::path(options.frames) / "simulation.json",
               description(scene, *motion, options, report, triangles_before))
         .place();

@@ -12,7 +12,8 @@ struct SimulateOptions {
   std::string method;   ///< as a caption names it: with its knob
   std::string command;  ///< as given
   std::string out;      ///< the sheet as it ends up; empty: not written
-  std::string frames;   ///< folder of the time series (harness/run/frames.h), with simulation.json; empty: none
+  std::string frames;   ///< folder of the time series (harness/run/frames.h), with simulation.json and, of backward
+                        ///< Euler, energy.csv (harness/run/energy_budget.h); empty: none
   int every = 8;        ///< steps from frame to frame
   CutOptions cut;
 };

@@ -33,9 +33,9 @@ TEST_F(FramesOnDisk, AreReadByMeshioAndTheCutOutFallsByTheLaw) {
 TEST_F(FramesOnDisk, AreAsManyAsAskedForAndTheLast) {
   write_scene("fig5_single_cuts_straight", {{"duration = 1.5", "duration = 0.05"}, {"time = 0.5", "time = 0.02"}});
   ASSERT_EQ(run("simulate scene.toml --resolution 200 --frames f --every 5").code, 0);  // 12 steps
-  EXPECT_EQ(files(), (std::set<std::string>{"f", "f/frame_0000.vtu", "f/frame_0001.vtu", "f/frame_0002.vtu",
-                                            "f/frame_0003.vtu", "f/frames.pvd", "f/last.obj", "f/simulation.json",
-                                            "path.json", "scene.toml", "sheet.off"}));
+  EXPECT_EQ(files(), (std::set<std::string>{"f", "f/energy.csv", "f/frame_0000.vtu", "f/frame_0001.vtu",
+                                            "f/frame_0002.vtu", "f/frame_0003.vtu", "f/frames.pvd", "f/last.obj",
+                                            "f/simulation.json", "path.json", "scene.toml", "sheet.off"}));
   ASSERT_EQ(run("simulate scene.toml --resolution 200 --frames f --every 50").code, 0);
   const std::string pvd = read(folder_ / "f/frames.pvd");  // the older, longer series is not in it
   EXPECT_NE(pvd.find("frame_0001.vtu"), std::string::npos);

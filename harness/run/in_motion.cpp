@@ -53,6 +53,10 @@ class SceneInMotion : public InMotion {
     return posed;
   }
   double time() const override { return now_.state.time; }
+  void keep_budget() override {
+    if (scene_.integrator == Integrator::backward_euler) budget_.emplace(balance());
+  }
+  const EnergyBudget* budget() const override { return budget_ ? &*budget_ : nullptr; }
   Balance balance() override { return balance_of(now_.model, now_.state); }
 
   StepReport advance(double time, CuttingMethod& method, const CutOptions& options) override {
@@ -63,7 +67,7 @@ class SceneInMotion : public InMotion {
         if (const MotionCut& made = made_.emplace_back(cut_with_balances(next_cut_++, method, options));
             made.verdict != "ok")
           report.verdict = made.verdict, report.reason = made.reason;
-      if (report.verdict == "ok") report = stepper_.step(now_.model, now_.state);
+      if (report.verdict == "ok") report = step();
     }
     return report;
   }
@@ -120,6 +124,13 @@ class SceneInMotion : public InMotion {
     return {scene.integrator, scene.step, scene.newton, scene.solver};
   }
 
+  StepReport step() {
+    if (budget_) before_ = now_.state;
+    const StepReport report = stepper_.step(now_.model, now_.state);
+    if (budget_ && report.verdict == "ok") budget_->add_step(now_.model, before_, now_.state, scene_.step);
+    return report;
+  }
+
   MotionCut cut_with_balances(std::size_t number, CuttingMethod& method, const CutOptions& options) {
     const Balance before = balance();
     std::vector<Curve> curves = cuts_[number].curves;
@@ -132,6 +143,7 @@ class SceneInMotion : public InMotion {
     }
     MotionCut made = cut(now_, curves, cutter_, method, options);
     made.pick_us = pick_us, made.before = before, made.after = balance();
+    if (budget_) budget_->add_cut(made.before, made.after);
     return made;
   }
 
@@ -165,6 +177,8 @@ class SceneInMotion : public InMotion {
   std::vector<DueCuts> cuts_;
   std::vector<MotionCut> made_;
   std::size_t next_cut_ = 0;
+  std::optional<EnergyBudget> budget_;
+  State before_;  // the step, for the budget
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "harness/fem/stepper.h"
+#include "harness/run/energy_budget.h"
 #include "harness/run/report.h"
 #include "harness/run/scene.h"
 
@@ -43,6 +44,9 @@ class InMotion {
   virtual Balance balance() = 0;
   virtual const std::vector<MotionCut>& made_cuts() const = 0;  ///< by advance(), with what jumped
   virtual double time() const = 0;
+  /// From now on every step goes into the budget, where the integrator is backward Euler.
+  virtual void keep_budget() = 0;
+  virtual const EnergyBudget* budget() const = 0;  ///< none where it isn't kept
 };
 
 }  // namespace cutbench
