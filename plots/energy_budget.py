@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+"""Where the energy of each scene goes. Areas, one on the other: kinetic, elastic (membrane and bending), lost to
+damping, lost by backward Euler. Line: what gravity has given. Between them: the remainder, one linearisation per
+step's error, and the jumps at cuts (dotted: when)."""
+
+import argparse
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import pandas as pd
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+import contact_sheet
+import load
+import render
+import scene_panels
+import style
+
+PARTS = {"kinetic": "#56b4e9", "elastic": "#009e73", "damping": "#d9b38c", "numerical loss": "#b9b9b9"}
+
+
+def read_budget(folder):
+    try:
+        return pd.read_csv(folder / "energy.csv")
+    except (OSError, ValueError) as error:
+        load.stop(f"{folder / 'energy.csv'} can't be read: {error}; `cutbench simulate --frames` makes it")
+
+
+def panel(ax, folder, description):
+    b = read_budget(folder)
+    parts = [b["kinetic_j"], b["membrane_j"] + b["bending_j"], b["damping_j"], b["numerical_loss_j"]]
+    parts = [p - p.iloc[0] for p in parts]
+    ax.stackplot(b["time_s"], parts, colors=PARTS.values(), linewidth=0)
+    ax.plot(b["time_s"], b["potential_j"].iloc[0] - b["potential_j"] + b["pin_work_j"], color="black", linewidth=0.8)
+    for cut in description["cuts"]:
+        ax.axvline(cut["time_s"], color="#b0001e", linewidth=0.7, linestyle=":")
+    ax.set_xlim(0, b["time_s"].iloc[-1])
+    ax.set_ylim(0)
+    end = b.iloc[-1]
+    ax.set_title(f"{description['scene'].replace('_', ' ')}\nremainder {end['remainder_j']:.2g} J, jumps "
+                 f"{end['jumps_j']:.2g} J", fontsize=5, pad=2)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--results", type=Path, metavar="DIR", default=load.REPOSITORY / "results",
+                        help="holds STEM/SCENE/METHOD with frames, receives energy_budget (default: results)")
+    results = parser.parse_args().results
+    folders = contact_sheet.folders_of(results)
+    descriptions = [render.read_description(d) for d in folders]
+    n = scene_panels.same((d["triangles_before"] for d in descriptions), "the number of triangles")
+    rows = (len(folders) + 1) // 2
+    figure, axes = plt.subplots(rows, 2, figsize=(style.WIDTH, 1.05 * rows), squeeze=False, layout="constrained")
+    for ax in axes.flat[len(folders):]:
+        ax.axis("off")
+    for ax, folder, description in zip(axes.flat, folders, descriptions):
+        panel(ax, folder, description)
+    for ax in axes[:, 0]:
+        ax.set_ylabel("energy, J")
+    for i, ax in enumerate(axes.flat[:len(folders)]):
+        if i + 2 >= len(folders):
+            ax.set_xlabel("time, s")
+    style.finish(figure, [], f"{' '.join(__doc__.split())} By {contact_sheet.METHOD}; n = {n} triangles before the cuts, "
+                 f"{descriptions[0]['solver']}; seed: none, the cuts are in experiments/scenes; {scene_panels.commits(descriptions)}. "
+                 "Command: plots/energy_budget.py",
+                 [Patch(color=c, label=name) for name, c in PARTS.items()]
+                 + [Line2D([], [], color="black", linewidth=0.8, label="given by gravity")])
+    style.save(figure, results, "energy_budget")
+
+
+if __name__ == "__main__":
+    main()
