@@ -82,7 +82,8 @@ TEST_P(InARow, CutsWithoutEffectTakeNoMemory) {
   cutter.cut(sheet, locator, line, *method, CutOptions());
   std::size_t held = 0;
   for (std::size_t i = 0; i < 200; ++i) {
-    ASSERT_EQ(cutter.cut(sheet, locator, line, *method, CutOptions()).status, Status::noop);
+    const Status again = cutter.cut(sheet, locator, line, *method, CutOptions()).status;
+    ASSERT_TRUE(again == Status::noop || (i < 10 && !row().promises.exact_incision)) << name_of(again);
     if (i == 10) held = heap_bytes();
   }
   EXPECT_EQ(heap_bytes(), held);

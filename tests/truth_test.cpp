@@ -354,7 +354,7 @@ TEST(Problems, KeepTheContract) {
     ASSERT_EQ(answers.size(), budgets.size());
     for (std::size_t i = 0; i < answers.size(); ++i) {
       EXPECT_EQ(answers[i].verdict, "ok");
-      EXPECT_EQ(answers[i].iterations, budgets[i].iterations);
+      EXPECT_EQ(answers[i].iterations == budgets[i].iterations, problem->takes_budgets());
       ASSERT_EQ(answers[i].measures.size(), problem->measures().size());
       for (std::size_t m = 0; m < answers[i].measures.size(); ++m) {
         EXPECT_EQ(answers[i].measures[m].name, problem->measures()[m]);
@@ -379,7 +379,7 @@ TEST(Problems, StressAlongACutIsExactWhateverTheShapes) {
   double worst_of_all = 0;
   for (const std::string family : sheet_families())
     for (const auto& row : all_methods())
-      for (std::size_t index = 0; index < 10; ++index) {
+      for (std::size_t index = 0; index < 10 && row.promises.exact_incision; ++index) {
         SCOPED_TRACE(family + ", " + row.name + ' ' + std::to_string(index));
         const Specimen specimen = problem.specimen(family, 8, 3, index);
         const Sheet sheet = cut_by(specimen, row.name);

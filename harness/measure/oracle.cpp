@@ -218,7 +218,7 @@ class Judge {
         expected_pieces(input_.border, input_.incisions, requested,
                         {.tip = input_.on, .touch = flattening, .thin = std::max(flattening, request_.thin)});
     const std::vector<int> piece = pieces_of_triangles(edges);
-    judgement_.pieces = *std::max_element(piece.begin(), piece.end()) + 1;
+    judgement_.pieces = piece.empty() ? 0 : *std::max_element(piece.begin(), piece.end()) + 1;
     judgement_.expected_pieces = expected.expected;
     int most = expected.most;
     if (judgement_.pieces > most) most += count_hairs(edges, piece, requested, 2 * flattening);
