@@ -30,7 +30,7 @@ using Eigen::Vector2d;
 constexpr double pi = std::numbers::pi;
 constexpr double degree = pi / 180;
 constexpr Elastic rubber{.young = 7, .poisson = 0.3};
-const Frame turned{{0.3, -0.2}, 0.7};
+const Axes turned{{0.3, -0.2}, 0.7};
 
 // --- exact fields
 // ----------------------------------------------------------------------------------------------------------
@@ -184,7 +184,7 @@ TEST(ExactFields, OpeningOfAStraightCut) {
   constexpr int steps = 2000;
   for (int i = 0; i < steps; ++i) {
     const double x = -0.5 + (i + 0.5) / steps;
-    const Point2 normal = Frame{{}, turned.angle}.to_rest({0, 1});
+    const Point2 normal = Axes{{}, turned.angle}.to_rest({0, 1});
     const double gape = opening(field, {{turned.to_rest({x, 0}), normal, 1}}).front();
     EXPECT_NEAR(gape, 4 * 1.1 / rubber.young * std::sqrt(0.25 - x * x), 1e-12);
     given_off += 1.1 * gape / 2 / steps;

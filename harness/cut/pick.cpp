@@ -17,8 +17,8 @@ namespace cutbench {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Triangles = std::vector<Kernel::Triangle_3>;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
+using DeformedTriangles = std::vector<Kernel::Triangle_3>;
+using Primitive = CGAL::AABB_triangle_primitive<Kernel, DeformedTriangles::const_iterator>;
 using Boxes = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
 Kernel::Point_3 point(Point3 p) { return {p.x, p.y, p.z}; }
@@ -59,11 +59,11 @@ bool finite(Point3 p) {
 }  // namespace
 
 struct Picker::Tree {
-  Triangles deformed;
+  DeformedTriangles deformed;
   std::vector<std::array<Point2, 3>> rest;
   Boxes boxes;
 
-  Point2 at_rest(Triangles::const_iterator triangle, Weights w) const {
+  Point2 at_rest(DeformedTriangles::const_iterator triangle, Weights w) const {
     const auto& [a, b, c] = rest[static_cast<std::size_t>(triangle - deformed.begin())];
     // Rounding must not carry a pick on the border out of the sheet's triangle.
     const double second = std::clamp(w.second, 0.0, 1.0), third = std::clamp(w.third, 0.0, 1.0 - second);

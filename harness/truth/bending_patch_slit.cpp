@@ -9,6 +9,7 @@
 #include "harness/mesh/families.h"
 #include "harness/run/random.h"
 #include "harness/truth/bent_sheet.h"
+#include "harness/truth/members.h"
 #include "harness/truth/out_of_plane.h"
 
 namespace cutbench {
@@ -30,7 +31,7 @@ class BendingPatchSlit : public Problem {
   bool takes_budgets() const override { return false; }
 
   Specimen specimen(const std::string& family, int n, std::uint64_t seed, std::size_t index) const override {
-    Random random = random_of(seed, index);
+    Random random = member_random(seed, index);
     Specimen result{.mesh = make_sheet(family, n), .cuts = {}};
     result.origin = {random.between(0.45, 0.55), random.between(0.45, 0.55)};
     result.angle = random.between(-std::numbers::pi / 2, std::numbers::pi / 2);

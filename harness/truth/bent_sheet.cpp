@@ -3,8 +3,6 @@
 #include <cmath>
 #include <map>
 
-#include "harness/run/random.h"
-
 namespace cutbench {
 
 namespace {
@@ -94,10 +92,6 @@ Point2 from_frame(const Specimen& specimen, Point2 p) {
 
 Measure compared(std::string name, double value, double exact) {
   return {std::move(name), value, exact, std::abs(value - exact) / std::abs(exact)};
-}
-
-Random random_of(std::uint64_t seed, std::size_t index) {
-  return Random(Random(seed).bits() + index * 0xD1342543DE82EF95u);
 }
 
 }  // namespace cutbench

@@ -54,8 +54,4 @@ Point2 from_frame(const Specimen& specimen, Point2 p);
 /// Relative to `exact`.
 Measure compared(std::string name, double value, double exact);
 
-/// Random numbers of one member, the same on all sheets.
-class Random;
-Random random_of(std::uint64_t seed, std::size_t index);
-
 }  // namespace cutbench

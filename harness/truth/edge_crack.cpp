@@ -14,10 +14,8 @@ namespace cutbench {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr Elastic sheet_material{.young = 1000, .poisson = 0.3};
-constexpr double pull = 1;  // N/m, at both ends
-constexpr int height = 4;   // of the strip, in widths: longer makes no difference
+using std::numbers::pi;
+constexpr int height = 4;  // of the strip, in widths: longer makes no difference
 constexpr Ring ring{0.04, 0.14};
 
 /// Sheets one upon the other, every second one upside down, so that their common borders fit.

@@ -7,7 +7,7 @@ namespace cutbench {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 // What counts as on the cut, in units of the sheet: far above rounding, far below everything else.
 constexpr double on_the_cut = 1e-9;
 
@@ -29,14 +29,14 @@ Eigen::Matrix2d Elastic::strain(const Eigen::Matrix2d& stress) const {
   return ((1 + poisson) * stress - poisson * stress.trace() * Eigen::Matrix2d::Identity()) / young;
 }
 
-Complex Frame::to_local(Point2 p) const { return Complex(p.x - origin.x, p.y - origin.y) * std::polar(1.0, -angle); }
+Complex Axes::to_local(Point2 p) const { return Complex(p.x - origin.x, p.y - origin.y) * std::polar(1.0, -angle); }
 
-Point2 Frame::to_rest(Complex z) const {
+Point2 Axes::to_rest(Complex z) const {
   const Complex p = z * std::polar(1.0, angle);
   return {origin.x + p.real(), origin.y + p.imag()};
 }
 
-ElasticField::ElasticField(const Elastic& elastic, const Frame& frame)
+ElasticField::ElasticField(const Elastic& elastic, const Axes& frame)
     : elastic_(elastic), frame_(frame), axis_(std::polar(1.0, frame.angle)) {
   rotation_ << axis_.real(), -axis_.imag(), axis_.imag(), axis_.real();
 }
@@ -99,8 +99,7 @@ ElasticField::Potentials StraightCrackField::potentials(Complex z) const {
 
 Complex StraightCrackField::on_side(Complex z, Complex side) const { return beside_the_axis(z, side); }
 
-ArcCrackField::ArcCrackField(const Elastic& elastic, const Frame& frame, double radius, double half_angle,
-                             double stress)
+ArcCrackField::ArcCrackField(const Elastic& elastic, const Axes& frame, double radius, double half_angle, double stress)
     : ElasticField(elastic, frame),
       radius_(radius),
       half_angle_(half_angle),

@@ -29,7 +29,7 @@ struct Elastic {
 };
 
 /// Where a solution's own axes lie in rest space.
-struct Frame {
+struct Axes {
   Point2 origin;
   double angle = 0;  ///< of its x axis, radians
   Complex to_local(Point2 p) const;
@@ -44,7 +44,7 @@ struct Tip {
 
 class ElasticField {
  public:
-  ElasticField(const Elastic& elastic, const Frame& frame);
+  ElasticField(const Elastic& elastic, const Axes& frame);
   virtual ~ElasticField() = default;
 
   struct State {
@@ -61,7 +61,7 @@ class ElasticField {
   Eigen::Matrix2d stress(Point2 p) const { return state(p).stress; }
 
   const Elastic& elastic() const { return elastic_; }
-  const Frame& frame() const { return frame_; }
+  const Axes& frame() const { return frame_; }
 
  protected:
   /// First derivatives are `_1`.
@@ -77,7 +77,7 @@ class ElasticField {
   Complex to_local(Point2 p) const;
 
   Elastic elastic_;
-  Frame frame_;
+  Axes frame_;
   Complex axis_;  // of the frame
   Eigen::Matrix2d rotation_;
 };
@@ -85,7 +85,7 @@ class ElasticField {
 /// The same stress everywhere; in the frame's axes.
 class UniformField final : public ElasticField {
  public:
-  UniformField(const Elastic& elastic, const Frame& frame, double xx, double yy, double xy)
+  UniformField(const Elastic& elastic, const Axes& frame, double xx, double yy, double xy)
       : ElasticField(elastic, frame), xx_(xx), yy_(yy), xy_(xy) {}
 
  protected:
@@ -99,7 +99,7 @@ class UniformField final : public ElasticField {
 /// of it. phi = (K1 - i K2) sqrt(z / 2 pi).
 class WilliamsField final : public ElasticField {
  public:
-  WilliamsField(const Elastic& elastic, const Frame& frame, double k1, double k2)
+  WilliamsField(const Elastic& elastic, const Axes& frame, double k1, double k2)
       : ElasticField(elastic, frame), k1_(k1), k2_(k2) {}
 
  protected:
@@ -114,7 +114,7 @@ class WilliamsField final : public ElasticField {
 /// field, and phi = (yy - i xy) / 2 (sqrt(z^2 - a^2) - z). K1 = yy sqrt(pi a), K2 = xy sqrt(pi a) at both ends.
 class StraightCrackField final : public ElasticField {
  public:
-  StraightCrackField(const Elastic& elastic, const Frame& frame, double half_length, double xx, double yy, double xy)
+  StraightCrackField(const Elastic& elastic, const Axes& frame, double half_length, double xx, double yy, double xy)
       : ElasticField(elastic, frame), a_(half_length), xx_(xx), yy_(yy), xy_(xy) {}
 
  protected:
@@ -130,7 +130,7 @@ class StraightCrackField final : public ElasticField {
 /// psi = conj(omega(1 / conj z)) - phi' / z, omega = (C X - (s - C) z) / 2.
 class ArcCrackField final : public ElasticField {
  public:
-  ArcCrackField(const Elastic& elastic, const Frame& frame, double radius, double half_angle, double stress);
+  ArcCrackField(const Elastic& elastic, const Axes& frame, double radius, double half_angle, double stress);
 
  protected:
   Potentials potentials(Complex z) const override;
@@ -146,7 +146,7 @@ class ArcCrackField final : public ElasticField {
 /// A round hole in an infinite plate pulled by s along the x axis (Kirsch 1898).
 class HoleField final : public ElasticField {
  public:
-  HoleField(const Elastic& elastic, const Frame& frame, double radius, double stress)
+  HoleField(const Elastic& elastic, const Axes& frame, double radius, double stress)
       : ElasticField(elastic, frame), radius_(radius), stress_(stress) {}
 
  protected:

@@ -6,6 +6,7 @@
 #include "harness/run/random.h"
 #include "harness/truth/bent_sheet.h"
 #include "harness/truth/heavy_elastica.h"
+#include "harness/truth/members.h"
 #include "harness/truth/out_of_plane.h"
 
 namespace cutbench {
@@ -23,7 +24,7 @@ class Flap : public Problem {
   bool takes_budgets() const override { return false; }
 
   Specimen specimen(const std::string& family, int n, std::uint64_t seed, std::size_t index) const override {
-    Random random = random_of(seed, index);
+    Random random = member_random(seed, index);
     Specimen result{.mesh = make_sheet(family, n), .cuts = {}};
     result.angle = random.between(0, 2 * std::numbers::pi);
     result.origin = {0.5, 0.5};

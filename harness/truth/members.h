@@ -1,11 +1,16 @@
-// What the members of all ensembles share: their random numbers, and how near a mesh line a cut may run.
+// What the members of all ensembles share: the sheet's material, their random numbers, and how near a mesh line a cut
+// may run.
 #pragma once
 
 #include <cmath>
 
 #include "harness/run/random.h"
+#include "harness/truth/elastic_field.h"
 
 namespace cutbench {
+
+inline constexpr Elastic sheet_material{.young = 1000, .poisson = 0.3};
+inline constexpr double pull = 1;  ///< N/m, of the problems in the plane
 
 /// One sequence per member, the same on every sheet.
 inline Random member_random(std::uint64_t seed, std::size_t index) {

@@ -9,6 +9,7 @@
 #include "harness/run/random.h"
 #include "harness/truth/bent_sheet.h"
 #include "harness/truth/heavy_elastica.h"
+#include "harness/truth/members.h"
 #include "harness/truth/out_of_plane.h"
 
 namespace cutbench {
@@ -26,7 +27,7 @@ class SlitStrip : public Problem {
   bool takes_budgets() const override { return false; }
 
   Specimen specimen(const std::string& family, int n, std::uint64_t seed, std::size_t index) const override {
-    Random random = random_of(seed, index);
+    Random random = member_random(seed, index);
     Specimen result{.mesh = make_sheet(family, n), .cuts = {}};
     // In turns near a mesh line, 0.5e-3 to 0.5 widths of a triangle from it, and anywhere.
     const double off = 0.5 * std::pow(10, random.between(-3, 0)) * (random.coin() ? 1 : -1);

@@ -16,7 +16,7 @@ Eigen::Matrix2d displacement_gradient(const Element& element, const Field& displ
 
 InteractionIntegral::InteractionIntegral(const Sheet& sheet, const ElementTable& elements, const Elastic& elastic,
                                          const Tip& tip, const Ring& ring) {
-  const Frame frame{tip.at, tip.angle};
+  const Axes frame{tip.at, tip.angle};
   const WilliamsField mode_1(elastic, frame, 1, 0), mode_2(elastic, frame, 0, 1);
   const Eigen::Vector2d along(std::cos(tip.angle), std::sin(tip.angle));
   const double width = ring.outer - ring.inner;

@@ -14,12 +14,10 @@ namespace cutbench {
 
 namespace {
 
-constexpr Elastic sheet_material{.young = 1000, .poisson = 0.3};
-
 /// The same frame for a member of every size: only its distance from the mesh's cells is in units of them.
-Frame member_frame(Point2 middle, int n, std::uint64_t seed, std::size_t index) {
+Axes member_frame(Point2 middle, int n, std::uint64_t seed, std::size_t index) {
   Random random = member_random(seed, index);
-  Frame frame;
+  Axes frame;
   Point2 place{0.5 + random.between(-0.5, 0.5) / n, 0.5 + random.between(-0.5, 0.5) / n};
   if (index % 2 == 0) {
     const int row = n / 2;
@@ -27,7 +25,7 @@ Frame member_frame(Point2 middle, int n, std::uint64_t seed, std::size_t index) 
   } else {
     frame.angle = random.between(0, 2 * std::numbers::pi);
   }
-  frame.origin = place - (Frame{{0, 0}, frame.angle}).to_rest({middle.x, middle.y});
+  frame.origin = place - (Axes{{0, 0}, frame.angle}).to_rest({middle.x, middle.y});
   return frame;
 }
 
@@ -111,7 +109,7 @@ class Comparison {
   StressIntensity mean_intensity(const Field& displacement) const;
   Eigen::Matrix2d stress(std::size_t element, const Field& displacement) const;
   Point2 in_rest(Point2 local) const { return field_.frame().to_rest({local.x, local.y}); }
-  Point2 turned(Point2 local) const { return Frame{{0, 0}, field_.frame().angle}.to_rest({local.x, local.y}); }
+  Point2 turned(Point2 local) const { return Axes{{0, 0}, field_.frame().angle}.to_rest({local.x, local.y}); }
 
   const WindowCase& window_;
   const Sheet& sheet_;
@@ -261,7 +259,7 @@ class WindowProblem final : public Problem {
   std::vector<std::string> measures() const override { return window_.measures; }
 
   Specimen specimen(const std::string& family, int n, std::uint64_t seed, std::size_t index) const override {
-    const Frame frame = member_frame(window_.middle, n, seed, index);
+    const Axes frame = member_frame(window_.middle, n, seed, index);
     Specimen specimen{make_sheet(family, n), window_.cuts, frame.origin, frame.angle};
     for (Curve& cut : specimen.cuts)
       for (Point2& p : cut.points) p = frame.to_rest({p.x, p.y});
@@ -291,7 +289,6 @@ class WindowProblem final : public Problem {
 // --- the problems
 // ----------------------------------------------------------------------------------------------------------
 
-constexpr double pull = 1;            // N/m
 constexpr double half_length = 0.25;  // of straight cuts
 constexpr double degree = std::numbers::pi / 180;
 const double root = std::sqrt(std::numbers::pi * half_length);
@@ -326,7 +323,7 @@ std::vector<LipSample> straight_lips() {
 WindowCase straight(double xx, double yy, double xy) {
   WindowCase window;
   window.measures = {"released_energy", "opening", "energy_norm", "displacement_l2", "strain_energy", "k1", "k2"};
-  window.field = [=](const Frame& frame) {
+  window.field = [=](const Axes& frame) {
     return std::make_unique<StraightCrackField>(sheet_material, frame, half_length, xx, yy, xy);
   };
   window.cuts = {line({-half_length, 0}, {half_length, 0})};
@@ -366,7 +363,7 @@ WindowCase inclined_crack() {
 WindowCase williams(double k1, double k2) {
   WindowCase window;
   window.measures = {"energy_norm", "displacement_l2", "strain_energy", "k1", "k2"};
-  window.field = [=](const Frame& frame) { return std::make_unique<WilliamsField>(sheet_material, frame, k1, k2); };
+  window.field = [=](const Axes& frame) { return std::make_unique<WilliamsField>(sheet_material, frame, k1, k2); };
   window.cuts = {line({-2, 0}, {0, 0})};
   window.tips = {{{0, 0}, 0}};
   window.k = {k1, k2};
@@ -397,7 +394,7 @@ WindowCase arc_crack(int degrees) {
   window.effect = "a curved cut, an arc of twice " + std::to_string(degrees) + " degrees, pulled in all directions";
   window.truth = "infinite plate: Muskhelishvili's potentials; K left out, since straight auxiliary fields don't fit";
   window.measures = {"released_energy", "opening", "energy_norm", "strain_energy"};
-  window.field = [=](const Frame& frame) {
+  window.field = [=](const Axes& frame) {
     return std::make_unique<ArcCrackField>(sheet_material, frame, radius, half, pull);
   };
   window.cuts = {arc(radius, -half, half)};
@@ -420,7 +417,7 @@ WindowCase kirsch_hole() {
   window.effect = "a round piece cut out: three times the tension at the rim";
   window.truth = "infinite plate: hoop stress s (1 - 2 cos 2t); Kirsch 1898";
   window.measures = {"rim_stress", "energy_norm", "released_energy"};
-  window.field = [=](const Frame& frame) { return std::make_unique<HoleField>(sheet_material, frame, radius, pull); };
+  window.field = [=](const Axes& frame) { return std::make_unique<HoleField>(sheet_material, frame, radius, pull); };
   window.cuts = {arc(radius, 0, 2 * std::numbers::pi)};
   window.before = {pull, 0, 0};
   window.rim = radius;

@@ -25,7 +25,7 @@ namespace cutbench {
 struct WindowCase {
   std::string name, effect, truth;
   std::vector<std::string> measures;
-  std::function<std::unique_ptr<ElasticField>(const Frame&)> field;
+  std::function<std::unique_ptr<ElasticField>(const Axes&)> field;
   std::vector<Curve> cuts;
   Point2 middle{};                 ///< comes to lie in the middle of the sheet, within a mesh cell
   std::array<double, 3> before{};  ///< xx, yy, xy of the uniform stress before the cut, N/m
