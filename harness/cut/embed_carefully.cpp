@@ -36,7 +36,10 @@ class CarefulEmbedding {
     for (const auto& face : trace_.faces)  // the list of all segments has those that were replaced, too
       for (int s = face.segments; s >= 0; s = trace_.segment(s).next)
         connect(vertex_of(trace_.segment(s).from), vertex_of(trace_.segment(s).to));
-    for (const auto& a : trace_.along) connect(vertex_of(a.from), vertex_of(a.to));
+    for (const auto& along : trace_.along) {
+      const std::vector<int> stops = trace_.nodes_along(along);
+      for (std::size_t i = 0; i + 1 < stops.size(); ++i) connect(vertex_of(stops[i]), vertex_of(stops[i + 1]));
+    }
     return moved_;
   }
 

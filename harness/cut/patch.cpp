@@ -167,24 +167,13 @@ void append_answer(const Patch& patch, int parent, std::vector<Sheet::NewTriangl
 }
 
 void mark_along(Sheet& sheet, const Subdivision& subdivision) {
-  std::vector<VertexIndex> stops;
   for (const auto& along : subdivision.along) {
-    // From end to end by way of the nodes in between, which are sorted along the edge's first half.
-    const auto &from = subdivision.node(along.from), &to = subdivision.node(along.to);
-    const Point2 line = to.place.point - from.place.point;
-    stops.assign(1, from.vertex);
-    for (int n = subdivision.first_on(along.edge); n >= 0; n = subdivision.node(n).next) {
-      const double s = dot(subdivision.node(n).place.point - from.place.point, line);
-      if (n != along.from && n != along.to && s > 0 && s < squared_length(line))
-        stops.push_back(subdivision.node(n).vertex);
-    }
-    stops.push_back(to.vertex);
-    const auto progress = [&](VertexIndex v) { return dot(sheet.rest(v) - from.place.point, line); };
-    if (stops.size() > 3 && progress(stops[1]) > progress(stops[2])) std::reverse(stops.begin() + 1, stops.end() - 1);
+    const std::vector<int> stops = subdivision.nodes_along(along);
     for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
-      const HalfEdge h = find_spoke(sheet, stops[i], stops[i + 1]);
+      const VertexIndex a = subdivision.node(stops[i]).vertex, b = subdivision.node(stops[i + 1]).vertex;
+      const HalfEdge h = find_spoke(sheet, a, b);
       if (h.valid() && sheet.mark(h) == EdgeMark::none) sheet.set_mark(h, EdgeMark::path);
-      if (!h.valid() && !find_spoke(sheet, stops[i + 1], stops[i]).valid())  // a border edge has one half-edge only
+      if (!h.valid() && !find_spoke(sheet, b, a).valid())  // a border edge has one half-edge only
         throw TooClose("the path along an edge is not an edge of the result");
     }
   }

@@ -92,4 +92,15 @@ int Subdivision::first_on(HalfEdge first) const {
   return entry.stamp == stamp_ ? face(entry.index).on_edge[static_cast<std::size_t>(corner_of(first))] : -1;
 }
 
+std::vector<int> Subdivision::nodes_along(const Along& piece) const {
+  const Point2 from = node(piece.from).place.point, line = node(piece.to).place.point - from;
+  const auto progress = [&](int n) { return dot(node(n).place.point - from, line); };
+  std::vector<int> all{piece.from};
+  for (int n = first_on(piece.edge); n >= 0; n = node(n).next)
+    if (n != piece.from && n != piece.to && progress(n) > 0 && progress(n) < squared_length(line)) all.push_back(n);
+  if (all.size() > 2 && progress(all[1]) > progress(all[2])) std::reverse(all.begin() + 1, all.end());
+  all.push_back(piece.to);
+  return all;
+}
+
 }  // namespace cutbench

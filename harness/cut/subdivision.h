@@ -63,6 +63,8 @@ class Subdivision {
   void add_along(int from, int to, HalfEdge edge);
   /// The first node on an edge, given by its first half; -1 where there is none.
   int first_on(HalfEdge first) const;
+  /// The nodes of a piece along an edge from end to end, by way of those of others in between.
+  std::vector<int> nodes_along(const Along& piece) const;
   /// The node at v, -1 where there is none.
   int node_at(VertexIndex v) const { return at_vertex_[v()].stamp == stamp_ ? at_vertex_[v()].index : -1; }
 
