@@ -273,18 +273,18 @@ Step Walk::from_vertex(VertexIndex v, Point2 target) {
     if (leads_through(Sheet::next(h))) return enter(Sheet::next(h));
     h = sheet_.turn_left(h);
   } while (h.valid() && h != first);
-  if (h.valid()) {
-    // Inside the sheet, but the line misses all triangles here: they are narrower than the snap distance. Then the rest
-    // of the line starts here.
-    origin_ = rest(v);
-    do {
-      const Point2 a = rest(sheet_.target(h));
-      if (orientation(origin_, target, a) == 0 && ahead(a, target)) return along(h, sheet_.target(h), target);
-      if (leads_through(Sheet::next(h))) return enter(Sheet::next(h));
-      h = sheet_.turn_left(h);
-    } while (h != first);
-    throw WalkLost();
-  }
+  // The line misses all triangles here: it leaves the sheet, or they are narrower than the snap distance. Then the rest
+  // of the line starts here.
+  const Point2 origin = std::exchange(origin_, rest(v));
+  h = first;
+  do {
+    const Point2 a = rest(sheet_.target(h));
+    if (orientation(origin_, target, a) == 0 && ahead(a, target)) return along(h, sheet_.target(h), target);
+    if (leads_through(Sheet::next(h))) return enter(Sheet::next(h));
+    h = sheet_.turn_left(h);
+  } while (h.valid() && h != first);
+  if (h.valid()) throw WalkLost();
+  origin_ = origin;
   // Out of the sheet, by no more than what still lies on the border?
   for (const HalfEdge border : {first, Sheet::previous(last_spoke)}) {
     const VertexIndex end = sheet_.origin(border) == v ? sheet_.target(border) : sheet_.origin(border);
