@@ -91,11 +91,21 @@ Step Walk::arrive(TriangleIndex t, Point2 target) {
       if (is_past(b, a)) return pass_vertex(through_face(t), a, target);
     }
   const Place place = classify(t, target);
+  if (place.kind == Place::Kind::vertex && is_detour(place.vertex, target))
+    return pass_vertex(through_face(t), place.vertex, target);
   if (place.kind == Place::Kind::edge && !separates(place.edge))
     for (int k = 0; k < 3; ++k)
       if (lies_on(edge(k), target) && is_better_beyond(sheet_.opposite(edge(k)), target, 8))
         return arrive_on(through_face(t), edge(k), target);
   return reach(through_face(t), place);
+}
+
+/// A vertex at which the target was found because of an edge, though it is farther than the snap distance: there may be
+/// a nearer one beyond it, where the walk hasn't looked yet.
+bool Walk::is_detour(VertexIndex v, Point2 target) const {
+  const Point2 from = at_.point - target;
+  return !near(rest(v), target) &&
+         !(at_.kind == Place::Kind::vertex && std::max(std::abs(from.x), std::abs(from.y)) <= 4 * snap_);
 }
 
 /// Whether p lies on the edge, and no farther than twice the snap distance on its continuation.
@@ -177,6 +187,18 @@ Step Walk::leave(HalfEdge exit, double right, double left, Passage passage) {
   return {passage, place, false};
 }
 
+/// From the edge of a sliver, the line meets its others behind the place where it begins: then it leaves there.
+bool Walk::is_behind(Point2 p, Point2 target) const {
+  const Point2 line = target - origin_;
+  return dot(p - origin_, line) < -8 * snap_ * std::max(std::abs(line.x), std::abs(line.y));
+}
+
+Step Walk::leave_at_origin(HalfEdge exit) {
+  at_ = place_on(exit, origin_);
+  crossing_ = false;
+  return {through_face(triangle_of(exit)), at_, false};
+}
+
 /// The line has come in through `entry`, whose origin lies to its left and whose target to its right.
 Step Walk::through(HalfEdge entry, double left, double right, Point2 target) {
   const TriangleIndex t = triangle_of(entry);
@@ -186,9 +208,10 @@ Step Walk::through(HalfEdge entry, double left, double right, Point2 target) {
   const Side s = side(origin_, target, w);
   if (s.sign == 0) {
     if (!near(w, target) && dot(target - w, target - origin_) < 0) return arrive(t, target);
-    const Point2 line = target - origin_;  // from the edge of a sliver, whose apex lies behind
-    if (dot(w - origin_, line) < -8 * snap_ * std::max(std::abs(line.x), std::abs(line.y))) throw WalkLost();
-    return pass_vertex(through_face(t), apex, target);
+    if (!is_behind(w, target)) return pass_vertex(through_face(t), apex, target);
+    for (const HalfEdge exit : {to_apex, from_apex})
+      if (lies_on(exit, origin_)) return leave_at_origin(exit);
+    throw WalkLost();
   }
   const HalfEdge exit = s.sign > 0 ? to_apex : from_apex, other = s.sign > 0 ? from_apex : to_apex;
   if (const int beyond = side(rest(sheet_.origin(exit)), rest(sheet_.target(exit)), target).sign; beyond >= 0) {
@@ -235,7 +258,10 @@ Step Walk::from_edge(Place at, Point2 target) {
              right = side(origin_, target, rest(sheet_.target(h)));
   if (right.sign == 0 && ahead(rest(sheet_.target(h)), target)) return along(h, sheet_.target(h), target);
   if (left.sign == 0 && ahead(rest(sheet_.origin(h)), target)) return along(h, sheet_.origin(h), target);
-  return through(h, left.distance, right.distance, target);
+  const Step step = through(h, left.distance, right.distance, target);
+  if (crossing_ && is_behind(step.place.point, target) && lies_on(step.place.edge, origin_))
+    return leave_at_origin(step.place.edge);
+  return step;
 }
 
 Step Walk::from_vertex(VertexIndex v, Point2 target) {

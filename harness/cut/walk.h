@@ -82,6 +82,9 @@ class Walk {
   Step through(HalfEdge entry, double left, double right, Point2 target);
   Step leave(HalfEdge exit, double right, double left, Passage passage);
   Step arrive(TriangleIndex t, Point2 target);
+  bool is_behind(Point2 p, Point2 target) const;
+  bool is_detour(VertexIndex v, Point2 target) const;
+  Step leave_at_origin(HalfEdge exit);
   Step arrive_behind(HalfEdge third, Point2 target);
   Step arrive_on(Passage passage, HalfEdge h, Point2 target);
   Step arrive_beyond(HalfEdge entry, Point2 target);
