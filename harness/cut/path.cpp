@@ -19,6 +19,19 @@ Point2 bezier_point(const Point2* p, double t) {
   return s * s * s * p[0] + 3 * s * s * t * p[1] + 3 * s * t * t * p[2] + t * t * t * p[3];
 }
 
+/// Where in [a, b] a cubic is slowest: at the far end of a sharp return.
+double slowest_between(const Point2* p, double a, double b) {
+  const auto speed2 = [p](double t) {
+    const double s = 1 - t;
+    return squared_length(s * s * (p[1] - p[0]) + 2 * s * t * (p[2] - p[1]) + t * t * (p[3] - p[2]));
+  };
+  for (int i = 0; i < 100; ++i) {
+    const double u = a + (b - a) / 3, v = b - (b - a) / 3;
+    (speed2(u) < speed2(v) ? b : a) = speed2(u) < speed2(v) ? v : u;
+  }
+  return a + (b - a) / 2;
+}
+
 /// Two Beziers meet at `joint` with the tangents' directions more than 0.06 degrees apart.
 bool is_kink(Point2 before, Point2 joint, Point2 after) {
   const Point2 in = joint - before, out = after - joint;
@@ -51,7 +64,15 @@ void flatten_bezier(const Curve& curve, double tolerance, double snap, Polyline&
     const bool tip = i == 0 && !curve.closed;
     const bool kink = i == 0 ? is_kink(c[n - 2], c[0], c[1]) : is_kink(c[i - 1], c[i], c[i + 1]);
     add(out, p[0], tip || kink, snap);
-    for (double k = 1; k < steps; ++k) add(out, bezier_point(p, k / steps), false, snap);
+    Point2 before = p[0] - (p[1] - p[0]), from = p[0], to = bezier_point(p, 1 / steps);
+    for (double k = 1; k <= steps; ++k) {
+      const Point2 after = k < steps ? bezier_point(p, (k + 1) / steps) : p[3] + (p[3] - p[2]);
+      // A sharp return goes all its way, though a chord that cuts it off strays by less than the tolerance.
+      if (dot(from - before, after - to) < 0)
+        add(out, bezier_point(p, slowest_between(p, (k - 1) / steps, k / steps)), false, snap);
+      if (k < steps) add(out, to, false, snap);
+      before = from, from = to, to = after;
+    }
   }
   if (!curve.closed) add(out, c.back(), true, snap);
 }

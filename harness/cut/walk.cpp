@@ -270,6 +270,7 @@ Step Walk::from_vertex(VertexIndex v, Point2 target) {
   // Along a spoke? At a border vertex the last one has no half-edge out of v, but its triangle's edge into v. A vertex
   // that is nearly here tells nothing of the way, unless it lies on it exactly.
   const auto lies_on_line = [&](VertexIndex x) {
+    if (near(rest(x), target)) return true;
     const Point2 spoke = rest(x) - rest(v);
     if (dot(spoke, target - origin_) <= 0) return false;
     return squared_length(spoke) > 64 * snap_ * snap_ ? side(origin_, target, rest(x)).sign == 0
