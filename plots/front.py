@@ -46,8 +46,9 @@ def cells(table, x, y, by, panel=()):
     if result.empty:
         return result
     result["layer"] = 0
-    for _, here in result.groupby([result[c] for c in panel] or np.zeros(len(result))):
-        result.loc[here.index, "layer"] = load.front_layers(x.cost(here["x"]), y.cost(here["y"]))
+    for index in result.groupby([result[c] for c in panel] or np.zeros(len(result))).groups.values():
+        here = result.loc[index]
+        result.loc[index, "layer"] = load.front_layers(x.cost(here["x"]), y.cost(here["y"]))
     return result
 
 
