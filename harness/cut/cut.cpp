@@ -56,11 +56,11 @@ CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, Cutti
 
     Subdivision& trace = tracer_.trace(sheet, polyline_, walk, options.chord_tolerance * sheet.mean_edge());
     outcome.time_us.trace += watch.lap();
-    outcome.crossed_triangles = trace.crossed_triangles();
+    outcome.crossed_triangles = trace.crossed_triangles();  // of the path as asked for, whatever becomes of it
     if (outcome.crossed_triangles == 0 && trace.along.empty())
       return nothing_done(Status::noop, "the path lies outside the sheet, or where it is open already");
+    watch.lap();  // counting is no part of a cut
 
-    outcome.crossed_triangles = trace.crossed_triangles();  // of the path as asked for, whatever becomes of it
     try {
       method.embed(sheet, trace);
       mark_along(sheet, trace);

@@ -54,18 +54,8 @@ void PathGraph::add_link(int from, int to, TriangleIndex triangle, HalfEdge edge
 
 /// From node to node: another passage may cross the edge in between.
 void PathGraph::add_along(const Subdivision::Along& along) {
-  const auto progress = [&](int node) {
-    const Place& p = at(node).place;
-    return p.kind == Place::Kind::edge ? p.lambda : p.vertex == sheet_->origin(along.edge) ? 0.0 : 1.0;
-  };
-  int from = along.from, to = along.to;
-  if (progress(from) > progress(to)) std::swap(from, to);
-  for (int n = trace_->first_on(along.edge); n >= 0; n = trace_->node(n).next) {
-    if (n == from || n == to || progress(n) <= progress(from) || progress(n) >= progress(to)) continue;
-    add_link(from, n, {}, along.edge);
-    from = n;
-  }
-  add_link(from, to, {}, along.edge);
+  const std::vector<int> stops = trace_->nodes_along(along);
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i) add_link(stops[i], stops[i + 1], {}, along.edge);
 }
 
 void PathGraph::write(Subdivision& trace) const {
