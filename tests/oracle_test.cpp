@@ -201,6 +201,19 @@ TEST(Accepts, NothingToDo) {
   expect_ok({request(sheet, {polyline({{-1, 1}, {1, -1}})}), sheet}, 1);        // touches a corner
 }
 
+/// A curve of about the size that asks for nothing may be found smaller than it is, where it is flattened more coarsely.
+TEST(Accepts, NothingOpenedForACurveWithHardlyAnySize) {
+  const Mesh sheet = grid(4);
+  const auto loop = [&](double size) {
+    Request r = request(sheet, {Curve{true, true, {{0.3, 0.3}, {0.3 + size, 0.3}, {0.3, 0.3 + size}, {0.3, 0.3}}}});
+    r.snap = 1e-12;
+    return judge(r, sheet);
+  };
+  const double extent = 4.0 / 9;  // of the curve, in sizes
+  EXPECT_TRUE(loop(2.04e-12 / extent).ok);
+  EXPECT_EQ(loop(2.2e-12 / extent).verdict, "incision");
+}
+
 TEST(Accepts, SlitInsideOfOneEdge) {
   const std::vector<Point> slit{{0.25, 0.5}, {0.75, 0.5}};
   expect_ok({request(grid(4), {polyline(slit)}), open(grid(4), on({slit}))}, 1);

@@ -45,7 +45,6 @@ class CarefulEmbedding {
 
  private:
   Point2 rest(VertexIndex v) const { return sheet_.rest(v); }
-  bool separates(HalfEdge h) const { return sheet_.on_border(h) || sheet_.mark(h) != EdgeMark::none; }
   bool near(Point2 a, Point2 b, double distance) const {
     return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) <= distance;
   }
@@ -68,7 +67,7 @@ class CarefulEmbedding {
       for (int k = 0; k < 3; ++k) {
         const HalfEdge h = half_edge(face.triangle, k);
         const int first = face.on_edge[static_cast<std::size_t>(k)];
-        if (first >= 0 && first_half_edge(sheet_, h) == h && separates(h))
+        if (first >= 0 && first_half_edge(sheet_, h) == h && sheet_.separates(h))
           separating_.push_back({{sheet_.origin(h), sheet_.target(h)}, first});
       }
   }
@@ -136,7 +135,7 @@ class CarefulEmbedding {
       for (int k = 0; k < 3 && here; ++k) {
         const HalfEdge h = half_edge(t, k);
         if (orientation(rest(sheet_.origin(h)), rest(sheet_.target(h)), p) >= 0) continue;
-        if (separates(h)) give_up();
+        if (sheet_.separates(h)) give_up();
         t = triangle_of(sheet_.opposite(h));
         here = false;
       }
@@ -176,7 +175,7 @@ class CarefulEmbedding {
   }
 
   VertexIndex take(HalfEdge h, VertexIndex end) {
-    if (!separates(h)) sheet_.set_mark(h, EdgeMark::path);
+    if (!sheet_.separates(h)) sheet_.set_mark(h, EdgeMark::path);
     return end;
   }
 
@@ -184,7 +183,7 @@ class CarefulEmbedding {
   VertexIndex cross(VertexIndex a, VertexIndex target, HalfEdge h) {
     crossed_.clear();
     for (;;) {
-      if (separates(h)) {
+      if (sheet_.separates(h)) {
         targets_.push_back(split(sheet_.origin(h), sheet_.target(h), intersection(a, target, h)));
         return a;
       }

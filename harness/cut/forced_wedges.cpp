@@ -9,7 +9,6 @@ void ForcedWedges::find(const Sheet& sheet) {
   corners_.clear();
   disc_ = 0.25 * sheet.mean_edge();
   const double width = 0.3 * sheet.mean_edge();
-  const auto separates = [&](HalfEdge h) { return sheet.on_border(h) || sheet.mark(h) != EdgeMark::none; };
   for (const VertexIndex v : sheet.log().path_vertices) {
     const Point2 apex = sheet.rest(v);
     std::optional<Point2> first;
@@ -29,7 +28,7 @@ void ForcedWedges::find(const Sheet& sheet) {
     const HalfEdge start = sheet.first_spoke(v);
     HalfEdge h = start;
     for (;;) {
-      if (separates(h)) meet(towards(sheet.target(h)));
+      if (sheet.separates(h)) meet(towards(sheet.target(h)));
       const HalfEdge next = sheet.turn_left(h);
       if (!next.valid()) meet(towards(sheet.origin(Sheet::previous(h))));  // the border
       if (next == start && first) meet(*first);

@@ -6,8 +6,6 @@ namespace cutbench {
 
 namespace {
 
-bool separates(const Sheet& sheet, HalfEdge h) { return sheet.on_border(h) || sheet.mark(h) != EdgeMark::none; }
-
 /// A spoke of v that separates, looked for counter-clockwise as far as the border; none where there is none.
 HalfEdge some_separating_spoke(const Sheet& sheet, VertexIndex v) {
   const TriangleIndex t = sheet.triangle_of_vertex(v);
@@ -15,7 +13,7 @@ HalfEdge some_separating_spoke(const Sheet& sheet, VertexIndex v) {
   const HalfEdge start = half_edge(t, corner[0] == v ? 0 : corner[1] == v ? 1 : 2);
   HalfEdge h = start;
   do {
-    if (separates(sheet, h)) return h;
+    if (sheet.separates(h)) return h;
     h = sheet.turn_left(h);
   } while (h.valid() && h != start);
   return h.valid() ? HalfEdge() : sheet.first_spoke(v);

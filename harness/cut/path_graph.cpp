@@ -78,12 +78,6 @@ void PathGraph::write(Subdivision& trace) const {
 // --- looking round a vertex
 // --------------------------------------------------------------------------------------------
 
-Place PathGraph::place_at(VertexIndex v) const {
-  Place place;
-  place.kind = Place::Kind::vertex, place.vertex = v, place.point = sheet_->rest(v);
-  return place;
-}
-
 int PathGraph::other_end(int i, int node) const { return link(i).from == node ? link(i).to : link(i).from; }
 
 double PathGraph::fraction_from(VertexIndex v, const Place& place) const {
@@ -94,7 +88,7 @@ double PathGraph::fraction_from(VertexIndex v, const Place& place) const {
 bool PathGraph::may_move(int node) const {
   const Node& n = at(node);
   if (n.gone || n.place.kind != Place::Kind::edge) return false;
-  if (n.degree == 1) return separates(n.place.edge);
+  if (n.degree == 1) return sheet_->separates(n.place.edge);
   if (n.degree != 2 || sheet_->on_border(n.place.edge)) return false;
   return link(n.link[0]).triangle != link(n.link[1]).triangle;
 }
@@ -162,9 +156,9 @@ bool PathGraph::sweep_is_clear(int end, int i, int node, VertexIndex vertex) con
   const Place& place = at(end).place;
   if (!t.valid() || common_edge(*sheet_, t, place, at(node).place).valid())
     return true;  // on along the node's own edge
-  if (const HalfEdge edge = common_edge(*sheet_, t, place, place_at(vertex)); edge.valid()) {
+  if (const HalfEdge edge = common_edge(*sheet_, t, place, place_at(*sheet_, vertex)); edge.valid()) {
     const double distance = place.kind == Place::Kind::edge ? fraction_from(vertex, place) : 2;
-    if (separates(edge) || !is_clear(edge, vertex, distance)) return false;
+    if (sheet_->separates(edge) || !is_clear(edge, vertex, distance)) return false;
   }
   return !holds_node(t, {point(end), point(node), sheet_->rest(vertex)}, end, node);
 }
@@ -197,14 +191,14 @@ bool PathGraph::find_run(int node, VertexIndex vertex, double reach, Run& run) c
 
   std::size_t separating = 0;
   for (const int n : run.nodes) {
-    separating += separates(at(n).place.edge);
+    separating += sheet_->separates(at(n).place.edge);
     if (!is_nearest(n, vertex)) return false;
   }
   bool on_separator = false;
   const HalfEdge first = sheet_->first_spoke(vertex);
   HalfEdge h = first;
   do {
-    on_separator |= separates(h);
+    on_separator |= sheet_->separates(h);
     h = sheet_->turn_left(h);
   } while (h.valid() && h != first);
   if (separating != (on_separator ? 1 : 0)) return false;
@@ -245,7 +239,7 @@ void PathGraph::contract(const Run& run) {
     (after.from == last ? after.from : after.to) = kept;
   }
   Node& node = nodes_[static_cast<std::size_t>(kept)];
-  node.place = place_at(run.vertex);
+  node.place = place_at(*sheet_, run.vertex);
   node.link = {run.link_before, run.link_after};
   node.degree = (run.link_before >= 0) + (run.link_after >= 0);
   taken_.insert(std::lower_bound(taken_.begin(), taken_.end(), run.vertex), run.vertex);
@@ -263,7 +257,7 @@ bool PathGraph::straighten(int node) {
     if (known >= 0 && other_end(known, from) == to) return false;  // a loop closes
   if (holds_node(t, {point(before), point(node), point(after)}, before, after)) return false;
   if (const HalfEdge edge = common_edge(*sheet_, t, at(before).place, at(after).place); edge.valid())
-    if (separates(edge) || !is_clear_between(edge, before, after)) return false;
+    if (sheet_->separates(edge) || !is_clear_between(edge, before, after)) return false;
 
   Link& link = links_[static_cast<std::size_t>(kept)];
   (link.from == node ? link.from : link.to) = after;

@@ -80,9 +80,7 @@ class PathGraph {
   const Link& link(int i) const { return links_[static_cast<std::size_t>(i)]; }
   void add_link(int from, int to, TriangleIndex triangle, HalfEdge edge);
   void add_along(const Subdivision::Along& along);
-  Place place_at(VertexIndex v) const;
   int other_end(int link, int node) const;
-  bool separates(HalfEdge h) const { return sheet_->on_border(h) || sheet_->mark(h) != EdgeMark::none; }
   bool is_spoke(HalfEdge h, VertexIndex v) const { return sheet_->origin(h) == v || sheet_->target(h) == v; }
   double fraction_from(VertexIndex v, const Place& place) const;
   bool may_move(int node) const;

@@ -55,12 +55,11 @@ Subdivision& Tracer::trace(const Sheet& sheet, const Polyline& path, Walk& walk,
 /// Does neither the border nor an open incision pass through the place?
 bool Tracer::is_free(const Place& place) const {
   if (place.kind == Place::Kind::face) return true;
-  const auto closed = [&](HalfEdge h) { return !sheet_->on_border(h) && sheet_->mark(h) == EdgeMark::none; };
-  if (place.kind == Place::Kind::edge) return closed(place.edge);
+  if (place.kind == Place::Kind::edge) return !sheet_->separates(place.edge);
   const HalfEdge first = sheet_->first_spoke(place.vertex);
   HalfEdge h = first;
   do {
-    if (!closed(h)) return false;
+    if (sheet_->separates(h)) return false;
     h = sheet_->turn_left(h);
   } while (h != first);
   return true;
@@ -135,8 +134,7 @@ void Tracer::close_loop() {
 
 /// The path runs along an edge; where that is open already there is nothing to do.
 void Tracer::run_along(const Place& from, const Place& to, HalfEdge edge) {
-  if (!sheet_->on_border(edge) && sheet_->mark(edge) == EdgeMark::none)
-    trace_.add_along(trace_.node_of(from), trace_.node_of(to), edge);
+  if (!sheet_->separates(edge)) trace_.add_along(trace_.node_of(from), trace_.node_of(to), edge);
 }
 
 /// Records one passage through one triangle; returns the node at its end, -1 where it came to nothing. The node at its

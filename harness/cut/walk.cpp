@@ -12,8 +12,6 @@ namespace cutbench {
 
 namespace {
 
-constexpr Passage through_face(TriangleIndex t) { return {Passage::Kind::face, t, {}}; }
-constexpr Passage along_edge(HalfEdge h) { return {Passage::Kind::along, {}, h}; }
 constexpr Passage outside{Passage::Kind::outside, {}, {}};
 
 }  // namespace
@@ -38,111 +36,11 @@ Walk::Side Walk::side(Point2 a, Point2 b, Point2 p) const {
 
 bool Walk::near(Point2 a, Point2 b) const { return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) <= snap_; }
 
-Place Walk::place_at(VertexIndex v) const {
-  Place place;
-  place.kind = Place::Kind::vertex, place.vertex = v, place.point = rest(v);
-  return place;
-}
-
-Place Walk::place_on(HalfEdge h, Point2 p) const {
-  const Point2 a = rest(sheet_.origin(h)), ab = rest(sheet_.target(h)) - a;
-  Place place;
-  place.kind = Place::Kind::edge, place.edge = h;
-  const double from_a = std::max(0.0, dot(p - a, ab)), from_b = std::max(0.0, dot(rest(sheet_.target(h)) - p, ab));
-  place.point = divide(a, rest(sheet_.target(h)), from_a, from_b, place.lambda);
-  if (near(place.point, a)) return place_at(sheet_.origin(h));
-  if (near(place.point, rest(sheet_.target(h)))) return place_at(sheet_.target(h));
-  return place;
-}
-
-/// \pre p lies in t, or within the snap distance of it.
-Place Walk::classify(TriangleIndex t, Point2 p) const {
-  const Triangle& triangle = sheet_.triangle(t);
-  for (auto v : triangle.vertex)
-    if (near(rest(v), p)) return place_at(v);
-  HalfEdge on;  // in a corner so thin that two edges are that near: the border or an incision, else the second
-  for (int k = 0; k < 3; ++k) {
-    const HalfEdge h = half_edge(t, k);
-    if (lies_on(h, p) && (!on.valid() || !separates(on))) on = h;
-  }
-  return on.valid() ? place_on(on, p) : place_in(t, p);
-}
-
 Step Walk::reach(Passage passage, Place place) {
   at_ = place;
   origin_ = place.point;
   crossing_ = false;
   return {passage, place, true};
-}
-
-/// \pre the target lies to the left of the edges of t, or within twice the snap distance of their lines.
-Step Walk::arrive(TriangleIndex t, Point2 target) {
-  // Past the tip of a thin corner it does so, too: then the tip lies that near to the way.
-  const auto is_past = [&](VertexIndex from, VertexIndex end) {
-    const Point2 edge = rest(end) - rest(from);
-    return dot(target - rest(end), edge) > 2 * snap_ * std::max(std::abs(edge.x), std::abs(edge.y)) &&
-           side(rest(from), rest(end), target).sign == 0 && !(at_.kind == Place::Kind::vertex && at_.vertex == end);
-  };
-  const auto edge = [t](int k) { return half_edge(t, k); };
-  if (!lies_on(edge(0), target) && !lies_on(edge(1), target) && !lies_on(edge(2), target))
-    for (int k = 0; k < 3; ++k) {
-      const VertexIndex a = sheet_.origin(edge(k)), b = sheet_.target(edge(k));
-      if (is_past(a, b)) return pass_vertex(through_face(t), b, target);
-      if (is_past(b, a)) return pass_vertex(through_face(t), a, target);
-    }
-  const Place place = classify(t, target);
-  if (place.kind == Place::Kind::vertex && is_detour(place.vertex, target))
-    return pass_vertex(through_face(t), place.vertex, target);
-  if (place.kind == Place::Kind::edge && !separates(place.edge))
-    for (int k = 0; k < 3; ++k)
-      if (lies_on(edge(k), target) && is_better_beyond(sheet_.opposite(edge(k)), target, 8))
-        return arrive_on(through_face(t), edge(k), target);
-  return reach(through_face(t), place);
-}
-
-/// A vertex at which the target was found because of an edge, though it is farther than the snap distance: there may be
-/// a nearer one beyond it, where the walk hasn't looked yet.
-bool Walk::is_detour(VertexIndex v, Point2 target) const {
-  const Point2 from = at_.point - target;
-  return !near(rest(v), target) &&
-         !(at_.kind == Place::Kind::vertex && std::max(std::abs(from.x), std::abs(from.y)) <= 4 * snap_);
-}
-
-/// Whether p lies on the edge, and no farther than twice the snap distance on its continuation.
-bool Walk::lies_on(HalfEdge h, Point2 p) const {
-  const Point2 a = rest(sheet_.origin(h)), b = rest(sheet_.target(h)), ab = b - a;
-  const double slack = 2 * snap_ * std::max(std::abs(ab.x), std::abs(ab.y));
-  return side(a, b, p).sign == 0 && dot(p - a, ab) >= -slack && dot(b - p, ab) >= -slack;
-}
-
-/// Is there a vertex or a separating edge where p lies on the other side of an edge that it lies on, too? There the
-/// slivers of earlier cuts may lie upon each other.
-bool Walk::is_better_beyond(HalfEdge entry, Point2 p, int depth) const {
-  if (near(rest(sheet_.origin(Sheet::previous(entry))), p)) return true;
-  for (HalfEdge h : {Sheet::next(entry), Sheet::previous(entry)})
-    if (lies_on(h, p) && (separates(h) || (depth > 0 && is_better_beyond(sheet_.opposite(h), p, depth - 1))))
-      return true;
-  return false;
-}
-
-/// At the target, on an edge, but the walk goes on to the better place beyond it.
-Step Walk::arrive_on(Passage passage, HalfEdge h, Point2 target) {
-  Step step = reach(passage, place_on(h, target));
-  if (step.place.kind != Place::Kind::edge) return step;
-  beyond_ = sheet_.opposite(h);
-  step.arrived = false;
-  return step;
-}
-
-Step Walk::arrive_beyond(HalfEdge entry, Point2 target) {
-  const Passage passage = through_face(triangle_of(entry));
-  if (const VertexIndex apex = sheet_.origin(Sheet::previous(entry)); near(rest(apex), target))
-    return reach(passage, place_at(apex));
-  for (HalfEdge h : {Sheet::next(entry), Sheet::previous(entry)})
-    if (lies_on(h, target) && separates(h)) return reach(passage, place_on(h, target));
-  for (HalfEdge h : {Sheet::next(entry), Sheet::previous(entry)})
-    if (lies_on(h, target) && is_better_beyond(sheet_.opposite(h), target, 8)) return arrive_on(passage, h, target);
-  throw WalkLost();
 }
 
 /// Like arrive(), where the target is known to lie clearly on the left of two of the edges, and `third` is the other.
@@ -157,7 +55,7 @@ Step Walk::arrive_behind(HalfEdge third, Point2 target) {
 /// and the way back is the way there.
 Step Walk::pass_vertex(Passage passage, VertexIndex v, Point2 target) {
   const Point2 origin = origin_;
-  Step step = reach(passage, place_at(v));
+  Step step = reach(passage, place_at(sheet_, v));
   step.arrived = near(rest(v), target);
   if (!step.arrived) origin_ = origin;
   return step;
@@ -170,7 +68,7 @@ Step Walk::along(HalfEdge h, VertexIndex v, Point2 target) {
   if (near(rest(v), target) || dot(target - rest(v), on_line ? rest(v) - from : target - origin_) > 0)
     return pass_vertex(along_edge(h), v, target);
   for (HalfEdge entry : {h, sheet_.opposite(h)})
-    if (!separates(h) && is_better_beyond(entry, target, 8))
+    if (!sheet_.separates(h) && is_better_beyond(entry, target, 8))
       return arrive_on(along_edge(h), sheet_.opposite(entry), target);
   return reach(along_edge(h), place_on(h, target));
 }
@@ -259,13 +157,16 @@ Step Walk::from_edge(Place at, Point2 target) {
   if (right.sign == 0 && ahead(rest(sheet_.target(h)), target)) return along(h, sheet_.target(h), target);
   if (left.sign == 0 && ahead(rest(sheet_.origin(h)), target)) return along(h, sheet_.origin(h), target);
   const Step step = through(h, left.distance, right.distance, target);
-  if (crossing_ && is_behind(step.place.point, target) && lies_on(step.place.edge, origin_))
-    return leave_at_origin(step.place.edge);
+  const auto at_end = [&](VertexIndex v) { return near(step.place.point, rest(v)); };
+  if (const HalfEdge exit = step.place.edge;
+      crossing_ && lies_on(exit, origin_) &&
+      (is_behind(step.place.point, target) || at_end(sheet_.origin(exit)) || at_end(sheet_.target(exit))))
+    return leave_at_origin(exit);
   return step;
 }
 
 Step Walk::from_vertex(VertexIndex v, Point2 target) {
-  if (near(rest(v), target)) return reach({}, place_at(v));
+  if (near(rest(v), target)) return reach({}, place_at(sheet_, v));
   const HalfEdge first = sheet_.first_spoke(v);
   // Along a spoke? At a border vertex the last one has no half-edge out of v, but its triangle's edge into v. A vertex
   // that is nearly here tells nothing of the way, unless it lies on it exactly.
@@ -292,7 +193,11 @@ Step Walk::from_vertex(VertexIndex v, Point2 target) {
     const TriangleIndex t = triangle_of(exit);
     const Point2 a = rest(sheet_.origin(exit)), b = rest(sheet_.target(exit));
     if (side(a, b, target).sign >= 0) return arrive(t, target);
-    return leave(exit, side(origin_, target, a).distance, side(origin_, target, b).distance, through_face(t));
+    const Step step =
+        leave(exit, side(origin_, target, a).distance, side(origin_, target, b).distance, through_face(t));
+    if (near(step.place.point, a)) return along(Sheet::previous(exit), sheet_.origin(exit), target);
+    if (near(step.place.point, b)) return along(Sheet::next(exit), sheet_.target(exit), target);
+    return step;
   };
   HalfEdge last_spoke = h = first;
   do {
@@ -401,7 +306,7 @@ Step Walk::go_on(Point2 target) {
 }
 
 Place Walk::locate(Point2 p) {
-  reach({}, place_at(sheet_.triangle(locator_.near(sheet_, p)).vertex[0]));
+  reach({}, place_at(sheet_, sheet_.triangle(locator_.near(sheet_, p)).vertex[0]));
   for (std::size_t steps = 0; !advance(p).arrived; ++steps)
     if (steps > 4 * sheet_.triangle_slots() + 100) throw WalkLost();
   return at_;

@@ -30,6 +30,12 @@ inline Place place_in(TriangleIndex t, Point2 p) {
   return place;
 }
 
+inline Place place_at(const Sheet& sheet, VertexIndex v) {
+  Place place;
+  place.kind = Place::Kind::vertex, place.vertex = v, place.point = sheet.rest(v);
+  return place;
+}
+
 /// What lies between two places of a walk.
 struct Passage {
   enum class Kind : std::uint8_t { nothing, outside, face, along };
@@ -37,6 +43,9 @@ struct Passage {
   TriangleIndex face;  ///< whose interior was crossed
   HalfEdge edge;       ///< that the path ran along
 };
+
+inline Passage through_face(TriangleIndex t) { return {Passage::Kind::face, t, {}}; }
+inline Passage along_edge(HalfEdge h) { return {Passage::Kind::along, {}, h}; }
 
 struct Step {
   Passage passage;
@@ -74,6 +83,7 @@ class Walk {
   bool near(Point2 a, Point2 b) const;
   bool ahead(Point2 p, Point2 target) const { return dot(p - origin_, target - origin_) > 0; }
 
+  // walk.cpp: the way
   Step go_on(Point2 target);
   Step from_face(TriangleIndex t, Point2 target);
   Step from_vertex(VertexIndex v, Point2 target);
@@ -81,21 +91,21 @@ class Walk {
   Step from_outside(Point2 target);
   Step through(HalfEdge entry, double left, double right, Point2 target);
   Step leave(HalfEdge exit, double right, double left, Passage passage);
-  Step arrive(TriangleIndex t, Point2 target);
-  bool is_behind(Point2 p, Point2 target) const;
-  bool is_detour(VertexIndex v, Point2 target) const;
   Step leave_at_origin(HalfEdge exit);
+  Step pass_vertex(Passage passage, VertexIndex v, Point2 target);
+  Step along(HalfEdge h, VertexIndex end, Point2 target);
+  Step reach(Passage passage, Place place);
+  bool is_behind(Point2 p, Point2 target) const;
+
+  // walk_arrival.cpp: its end
+  Step arrive(TriangleIndex t, Point2 target);
   Step arrive_behind(HalfEdge third, Point2 target);
   Step arrive_on(Passage passage, HalfEdge h, Point2 target);
   Step arrive_beyond(HalfEdge entry, Point2 target);
-  bool separates(HalfEdge h) const { return sheet_.on_border(h) || sheet_.mark(h) != EdgeMark::none; }
   bool lies_on(HalfEdge h, Point2 p) const;
+  bool is_detour(VertexIndex v, Point2 target) const;
   bool is_better_beyond(HalfEdge entry, Point2 p, int depth) const;
-  Step reach(Passage passage, Place place);
-  Step pass_vertex(Passage passage, VertexIndex v, Point2 target);
-  Step along(HalfEdge h, VertexIndex end, Point2 target);
   Place place_on(HalfEdge h, Point2 p) const;
-  Place place_at(VertexIndex v) const;
   Place classify(TriangleIndex t, Point2 p) const;
 
   const Sheet& sheet_;

@@ -267,7 +267,7 @@ bool Sheet::collapse(HalfEdge h) {
   std::vector<NewTriangle> rest_of_star;
   HalfEdge spoke = h;
   do {
-    if (!spoke.valid() || on_border(spoke) || mark(spoke) != EdgeMark::none) return false;
+    if (!spoke.valid() || separates(spoke)) return false;
     const VertexIndex c = target(spoke), d = origin(previous(spoke));
     if (c != b && d != b) {
       if (orientation(rest(b), rest(c), rest(d)) <= 0) return false;

@@ -48,6 +48,8 @@ class Sheet {
   HalfEdge opposite(HalfEdge h) const { return triangle(triangle_of(h)).opposite[corner(h)]; }
   EdgeMark mark(HalfEdge h) const { return triangle(triangle_of(h)).mark[corner(h)]; }
   bool on_border(HalfEdge h) const { return !opposite(h).valid(); }
+  /// The border, an opened incision, or a path that is embedded but still closed.
+  bool separates(HalfEdge h) const { return on_border(h) || mark(h) != EdgeMark::none; }
   static HalfEdge next(HalfEdge h) { return half_edge(triangle_of(h), next_corner(corner_of(h))); }
   static HalfEdge previous(HalfEdge h) { return half_edge(triangle_of(h), previous_corner(corner_of(h))); }
   /// The next half-edge out of the same origin, counter-clockwise or clockwise; invalid past the border.

@@ -1,0 +1,105 @@
+// Arriving: which vertex, edge or triangle a corner of the path lies in. In a stack of slivers, which cuts upon cuts
+// leave, several edges can lie within the snap distance of it; then the walk goes on through the slivers to a vertex or
+// a separating edge, if there is one, so that the path meets older incisions and the border where it should.
+#include <algorithm>
+#include <utility>
+
+#include "harness/cut/walk.h"
+
+namespace cutbench {
+
+/// Whether p lies on the edge, and no farther than twice the snap distance on its continuation.
+bool Walk::lies_on(HalfEdge h, Point2 p) const {
+  const Point2 a = rest(sheet_.origin(h)), b = rest(sheet_.target(h)), ab = b - a;
+  const double slack = 2 * snap_ * std::max(std::abs(ab.x), std::abs(ab.y));
+  return side(a, b, p).sign == 0 && dot(p - a, ab) >= -slack && dot(b - p, ab) >= -slack;
+}
+
+Place Walk::place_on(HalfEdge h, Point2 p) const {
+  const Point2 a = rest(sheet_.origin(h)), ab = rest(sheet_.target(h)) - a;
+  Place place;
+  place.kind = Place::Kind::edge, place.edge = h;
+  const double from_a = std::max(0.0, dot(p - a, ab)), from_b = std::max(0.0, dot(rest(sheet_.target(h)) - p, ab));
+  place.point = divide(a, rest(sheet_.target(h)), from_a, from_b, place.lambda);
+  if (near(place.point, a)) return place_at(sheet_, sheet_.origin(h));
+  if (near(place.point, rest(sheet_.target(h)))) return place_at(sheet_, sheet_.target(h));
+  return place;
+}
+
+/// \pre p lies in t, or within the snap distance of it.
+Place Walk::classify(TriangleIndex t, Point2 p) const {
+  const Triangle& triangle = sheet_.triangle(t);
+  for (auto v : triangle.vertex)
+    if (near(rest(v), p)) return place_at(sheet_, v);
+  HalfEdge on;  // in a corner so thin that two edges are that near: the border or an incision, else the second
+  for (int k = 0; k < 3; ++k) {
+    const HalfEdge h = half_edge(t, k);
+    if (lies_on(h, p) && (!on.valid() || !sheet_.separates(on))) on = h;
+  }
+  return on.valid() ? place_on(on, p) : place_in(t, p);
+}
+
+/// \pre the target lies to the left of the edges of t, or within twice the snap distance of their lines.
+Step Walk::arrive(TriangleIndex t, Point2 target) {
+  // Past the tip of a thin corner it does so, too: then the tip lies that near to the way.
+  const auto is_past = [&](VertexIndex from, VertexIndex end) {
+    const Point2 edge = rest(end) - rest(from);
+    return dot(target - rest(end), edge) > 2 * snap_ * std::max(std::abs(edge.x), std::abs(edge.y)) &&
+           side(rest(from), rest(end), target).sign == 0 && !(at_.kind == Place::Kind::vertex && at_.vertex == end);
+  };
+  const auto edge = [t](int k) { return half_edge(t, k); };
+  if (!lies_on(edge(0), target) && !lies_on(edge(1), target) && !lies_on(edge(2), target))
+    for (int k = 0; k < 3; ++k) {
+      const VertexIndex a = sheet_.origin(edge(k)), b = sheet_.target(edge(k));
+      if (is_past(a, b)) return pass_vertex(through_face(t), b, target);
+      if (is_past(b, a)) return pass_vertex(through_face(t), a, target);
+    }
+  const Place place = classify(t, target);
+  if (place.kind == Place::Kind::vertex && is_detour(place.vertex, target))
+    return pass_vertex(through_face(t), place.vertex, target);
+  if (place.kind == Place::Kind::edge && !sheet_.separates(place.edge))
+    for (int k = 0; k < 3; ++k)
+      if (lies_on(edge(k), target) && is_better_beyond(sheet_.opposite(edge(k)), target, 8))
+        return arrive_on(through_face(t), edge(k), target);
+  return reach(through_face(t), place);
+}
+
+/// A vertex at which the target was found because of an edge, though it is farther than the snap distance: there may be
+/// a nearer one beyond it, where the walk hasn't looked yet.
+bool Walk::is_detour(VertexIndex v, Point2 target) const {
+  const Point2 from = at_.point - target;
+  return !near(rest(v), target) &&
+         !(at_.kind == Place::Kind::vertex && std::max(std::abs(from.x), std::abs(from.y)) <= 4 * snap_);
+}
+
+/// Is there a vertex or a separating edge where p lies on the other side of an edge that it lies on, too? There the
+/// slivers of earlier cuts may lie upon each other.
+bool Walk::is_better_beyond(HalfEdge entry, Point2 p, int depth) const {
+  if (near(rest(sheet_.origin(Sheet::previous(entry))), p)) return true;
+  for (HalfEdge h : {Sheet::next(entry), Sheet::previous(entry)})
+    if (lies_on(h, p) && (sheet_.separates(h) || (depth > 0 && is_better_beyond(sheet_.opposite(h), p, depth - 1))))
+      return true;
+  return false;
+}
+
+/// At the target, on an edge, but the walk goes on to the better place beyond it.
+Step Walk::arrive_on(Passage passage, HalfEdge h, Point2 target) {
+  Step step = reach(passage, place_on(h, target));
+  if (step.place.kind != Place::Kind::edge) return step;
+  beyond_ = sheet_.opposite(h);
+  step.arrived = false;
+  return step;
+}
+
+Step Walk::arrive_beyond(HalfEdge entry, Point2 target) {
+  const Passage passage = through_face(triangle_of(entry));
+  if (const VertexIndex apex = sheet_.origin(Sheet::previous(entry)); near(rest(apex), target))
+    return reach(passage, place_at(sheet_, apex));
+  for (HalfEdge h : {Sheet::next(entry), Sheet::previous(entry)})
+    if (lies_on(h, target) && sheet_.separates(h)) return reach(passage, place_on(h, target));
+  for (HalfEdge h : {Sheet::next(entry), Sheet::previous(entry)})
+    if (lies_on(h, target) && is_better_beyond(sheet_.opposite(h), target, 8)) return arrive_on(passage, h, target);
+  throw WalkLost();
+}
+
+}  // namespace cutbench
