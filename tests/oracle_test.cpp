@@ -201,7 +201,8 @@ TEST(Accepts, NothingToDo) {
   expect_ok({request(sheet, {polyline({{-1, 1}, {1, -1}})}), sheet}, 1);        // touches a corner
 }
 
-/// A curve of about the size that asks for nothing may be found smaller than it is, where it is flattened more coarsely.
+/// A curve of about the size that asks for nothing may be found smaller than it is, where it is flattened more
+/// coarsely.
 TEST(Accepts, NothingOpenedForACurveWithHardlyAnySize) {
   const Mesh sheet = grid(4);
   const auto loop = [&](double size) {
