@@ -1,6 +1,7 @@
 #include "harness/cut/cut.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "harness/cut/embed_carefully.h"
 #include "harness/cut/open.h"
@@ -44,11 +45,12 @@ CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, Cutti
   StopWatch watch;
   sheet.begin_cut();
   try {
-    flatten(curve, options.flatten_tolerance * sheet.mean_edge(), sheet.snap(), polyline_);
-    const double reach = reach_of(curve.kind == Curve::Kind::polyline ? curve.points : polyline_.points);
+    flatten(curve, std::numeric_limits<double>::infinity(), 0, polyline_);  // to a hundredth of its own size
+    const double reach = reach_of(polyline_.points);
     if (reach <= 4 * sheet.snap()) return nothing_done(Status::noop, "the path has no length");
     if (reach > longest_reach * sheet.size())
       return nothing_done(Status::refused, "the path reaches over 1000 times the sheet's size; cut it off nearer");
+    flatten(curve, options.flatten_tolerance * sheet.mean_edge(), sheet.snap(), polyline_);
     outcome.time_us.trace = watch.lap();
     Walk walk(sheet, locator);
     walk.locate(polyline_.points.front());
