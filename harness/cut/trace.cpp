@@ -7,7 +7,8 @@
 
 namespace cutbench {
 
-Subdivision& Tracer::trace(const Sheet& sheet, const Polyline& path, Walk& walk, double chord_tolerance) {
+Subdivision& Tracer::trace(const Sheet& sheet, const Polyline& path, Walk& walk, double chord_tolerance,
+                           bool may_begin_elsewhere) {
   sheet_ = &sheet, path_ = &path, chord_tolerance_ = chord_tolerance;
   trace_.reset(sheet);
   links_.clear(), links_of_face_.clear();
@@ -24,6 +25,7 @@ Subdivision& Tracer::trace(const Sheet& sheet, const Polyline& path, Walk& walk,
   std::size_t last = path.closed ? n : n - 1;
   bool begun = !(loop_ && path.curved && std::isfinite(chord_tolerance));
   std::size_t steps_left = 8 * (sheet.triangle_slots() + n) + 1000;
+  const Place begin = from_;
   Place start;
   const auto is_same = [](const Place& a, const Place& b) { return a.kind == b.kind && a.point == b.point; };
   for (std::size_t i = 1; i <= last; ++i)
@@ -45,6 +47,10 @@ Subdivision& Tracer::trace(const Sheet& sheet, const Polyline& path, Walk& walk,
       if (--steps_left == 0) throw WalkLost();
     }
   flush();
+  // Back at the first point, from another side, the walk may find it on another of several vertices or edges as near:
+  // the path closes only where it begins there, too.
+  if (path.closed && last == n && may_begin_elsewhere && !is_same(walk.place(), begin))
+    return trace(sheet, path, walk, chord_tolerance, false);
   if (loop_) close_loop();
   for (int f = 0; f < static_cast<int>(trace_.faces.size()); ++f)
     if (!is_simple(f)) arrange(f);
@@ -79,13 +85,15 @@ void Tracer::split_lone_piece() {
     trace_.node_of(place);
   } else if (!trace_.segments.empty()) {
     const Link& only = links_.front();
-    int node = only.count > 0 ? trace_.node_of(place_in(face_, point(only.first + only.count / 2))) : 0;
-    if (node < 2) node = trace_.node_of(place_in(face_, middle));  // a path that goes to and fro
+    const auto crossed = std::find_if(trace_.faces.begin(), trace_.faces.end(),
+                                      [](const Subdivision::Face& face) { return face.segments >= 0; });
+    const TriangleIndex t = crossed->triangle;
+    int node = only.count > 0 ? trace_.node_of(place_in(t, point(only.first + only.count / 2))) : 0;
+    if (node < 2) node = trace_.node_of(place_in(t, middle));  // a path that goes to and fro
     // Once more in the order of the path, in which methods insert them: else an edge from tip to tip might come first.
     const Place between = trace_.node(node).place;
     trace_.reset(*sheet_);
-    const int face = trace_.face_of(face_), from = trace_.node_of(a), at = trace_.node_of(between),
-              to = trace_.node_of(b);
+    const int face = trace_.face_of(t), from = trace_.node_of(a), at = trace_.node_of(between), to = trace_.node_of(b);
     trace_.add_segment(face, from, at), trace_.add_segment(face, at, to);
   }
 }

@@ -26,9 +26,13 @@ class Tracer {
   /// loop or a U-turn from collapsing. A curved path that leaves an older incision and comes back to it, never farther
   /// from it than `chord_tolerance`, follows it in between: there is nothing to do. The result stays valid until the
   /// next call. \pre the polyline has two points or more. Throws WalkLost.
-  Subdivision& trace(const Sheet& sheet, const Polyline& path, Walk& walk, double chord_tolerance);
+  Subdivision& trace(const Sheet& sheet, const Polyline& path, Walk& walk, double chord_tolerance) {
+    return trace(sheet, path, walk, chord_tolerance, true);
+  }
 
  private:
+  Subdivision& trace(const Sheet& sheet, const Polyline& path, Walk& walk, double chord_tolerance,
+                     bool may_begin_elsewhere);
   /// One passage of the path through one triangle: the polyline's points between two nodes.
   struct Link {
     int from, to;

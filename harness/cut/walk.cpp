@@ -238,9 +238,19 @@ Step Walk::from_outside(Point2 target) {
   HalfEdge best_edge;
   VertexIndex best_vertex;
   std::optional<Place> at_target;  // on the border, where the line comes no nearer to it on the way
+  // Two pieces that touch in one point have a vertex each there: from one the line may lead straight into the other.
+  const auto goes_on_at = [&](VertexIndex v) {
+    if (at_.kind != Place::Kind::vertex || v == at_.vertex || rest(v) != at_.point) return false;
+    HalfEdge h = sheet_.first_spoke(v);
+    for (; h.valid(); h = sheet_.turn_left(h))
+      if (orientation(origin_, target, rest(sheet_.target(h))) <= 0 &&
+          orientation(origin_, target, rest(sheet_.origin(Sheet::previous(h)))) >= 0)
+        return true;
+    return false;
+  };
   auto try_vertex = [&](VertexIndex v, const Side& s) {
     const double at = dot(rest(v) - origin_, line) / length2;
-    if (s.sign == 0 && at > outside_from_ + margin && at <= 1 + margin && at < best)
+    if (s.sign == 0 && at <= 1 + margin && at < best && (at > outside_from_ + margin || goes_on_at(v)))
       best = at, best_edge = {}, best_vertex = v;
   };
   locator_.visit_border(
