@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <map>
 
 #include "harness/truth/problem.h"
@@ -25,25 +23,12 @@ std::vector<Record> rows_of(const fs::path& records) {
 
 double number(const Record& row, const std::string& column) { return std::stod(row.get(column)); }
 
-bool is_time(const std::string& column) { return column.ends_with("_us"); }
-
-/// Everything but the times and what the last digits of the reference mesh decide: CGAL's mesher goes through its
-/// triangles in the order of their addresses.
+/// Everything but the times.
 std::vector<std::string> without_times(std::vector<Record> rows) {
   std::vector<std::string> lines;
   for (Record& row : rows) {
-    for (const auto& column : accuracy_columns()) {
-      const std::string& field = row.get(column);
-      char* end = nullptr;
-      const double value = std::strtod(field.c_str(), &end);
-      if (is_time(column) || column == "iterations" || column == "residual") {
-        row.set(column, std::string());
-      } else if (!field.empty() && *end == 0) {
-        char rounded[32];
-        std::snprintf(rounded, sizeof rounded, "%.5g", std::abs(value) < 1e-7 ? 0 : value);
-        row.set(column, std::string(rounded));
-      }
-    }
+    for (const auto& column : accuracy_columns())
+      if (column.ends_with("_us")) row.set(column, std::string());
     lines.push_back(row.line());
   }
   return lines;

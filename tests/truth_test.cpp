@@ -320,6 +320,16 @@ TEST(BodyFitted, IsACutSheetOfTheSameSize) {
   }
 }
 
+/// Whatever else the process has done: the addresses of a mesher's triangles must not be in the result.
+TEST(BodyFitted, IsTheSameWhereverTheMemoryIs) {
+  const Specimen specimen = find_problem("arc_crack_45").specimen("grid", 30, 1, 1);
+  const std::vector<Point2> first = body_fitted(specimen).to_mesh_data().rest;
+  std::vector<std::unique_ptr<std::vector<char>>> blocks;
+  for (std::size_t i = 0; i < 600; ++i) blocks.push_back(std::make_unique<std::vector<char>>(i * 7919 % 100000));
+  for (std::size_t i = 0; i < blocks.size(); i += 2) blocks[i].reset();  // so that the next ones are scattered
+  EXPECT_EQ(body_fitted(specimen).to_mesh_data().rest, first);
+}
+
 // --- problems
 // ------------------------------------------------------------------------------------------------------------
 

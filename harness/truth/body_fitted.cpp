@@ -1,14 +1,15 @@
 // Delaunay refinement (Ruppert 1995; Shewchuk 2002) as in CGAL's 2D mesh generator, with the sheet's border and the
-// cuts as constraints.
+// cuts as constraints; then smoothed. Not by CGAL's own Lloyd iterations: those go through the vertices in the order of
+// their addresses, so that the last digits would depend on what else the process has done.
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_mesh_face_base_2.h>
 #include <CGAL/Delaunay_mesh_size_criteria_2.h>
 #include <CGAL/Delaunay_mesh_vertex_base_2.h>
 #include <CGAL/Delaunay_mesher_2.h>
-#include <CGAL/lloyd_optimize_mesh_2.h>
 
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "harness/cut/open.h"
 #include "harness/mesh/predicates.h"
@@ -108,6 +109,38 @@ Triangulation mesh_of(const std::vector<std::array<Point2, 2>>& constraints, dou
   return mesh;
 }
 
+/// Where the triangles round a vertex want it: their circumcentres, weighted by their areas (Chen and Xu, Optimal
+/// Delaunay triangulations, J. Comput. Math. 22, 2004). The vertex stays where it is on a constraint, and where that
+/// would turn one of its triangles over.
+Kernel::Point_2 smoothed(const Triangulation& mesh, Triangulation::Vertex_handle vertex) {
+  if (mesh.are_there_incident_constraints(vertex)) return vertex->point();
+  Kernel::Vector_2 sum(0, 0);
+  double area = 0;
+  auto face = mesh.incident_faces(vertex), end = face;
+  do {
+    const double weight = mesh.triangle(face).area();
+    sum = sum + weight * (mesh.circumcenter(face) - CGAL::ORIGIN), area += weight;
+  } while (++face != end);
+  const Kernel::Point_2 place = CGAL::ORIGIN + sum / area;
+  do {
+    const int k = face->index(vertex);
+    if (CGAL::orientation(face->vertex(face->ccw(k))->point(), face->vertex(face->cw(k))->point(), place) !=
+        CGAL::LEFT_TURN)
+      return vertex->point();
+  } while (++face != end);
+  return place;
+}
+
+Triangulation smoothed(const Triangulation& mesh) {
+  Triangulation result;
+  for (const auto& [face, k] : mesh.constrained_edges())
+    result.insert_constraint(face->vertex(face->ccw(k))->point(), face->vertex(face->cw(k))->point());
+  Triangulation::Face_handle near;
+  for (const auto& vertex : mesh.finite_vertex_handles())
+    if (!mesh.are_there_incident_constraints(vertex)) near = result.insert(smoothed(mesh, vertex), near)->face();
+  return result;
+}
+
 std::size_t triangles_in(const Triangulation& mesh) {
   std::size_t count = 0;
   for (const auto& face : mesh.finite_face_handles()) count += face->is_in_domain();
@@ -138,8 +171,11 @@ Sheet body_fitted(const Specimen& specimen) {
     if (best <= 0.01 * wanted) break;
     size *= std::sqrt(count / wanted);
   }
+  constexpr int rounds = 10;
   Triangulation mesh = mesh_of(constraints, best_size);
-  CGAL::lloyd_optimize_mesh_2(mesh, CGAL::parameters::max_iteration_number = 10);
+  for (int round = 0; round < rounds; ++round) mesh = smoothed(mesh);
+  const std::span<const Kernel::Point_2> no_holes;
+  CGAL::Delaunay_mesher_2<Triangulation, Criteria>::mark_facets(mesh, no_holes.begin(), no_holes.end());
 
   MeshData data;
   std::map<Triangulation::Vertex_handle, std::int32_t> number;
