@@ -93,6 +93,7 @@ class AccuracyRun {
                           e.accuracy->members,
                           e.accuracy->members_nonlinear,
                           e.accuracy->iterations,
+                          e.accuracy->reference,
                           options.shard,
                           options.shards}
         .dump();
@@ -123,14 +124,15 @@ class AccuracyRun {
     };
     Record of_reference = start;
     of_reference.set("method", std::string(reference_method));
-    if (is_done(of_reference, problem) && std::all_of(workers_.begin(), workers_.end(), [&](const Worker& worker) {
-          return is_done(of_worker(worker), problem);
-        }))
+    if ((!plan_.reference || is_done(of_reference, problem)) &&
+        std::all_of(workers_.begin(), workers_.end(),
+                    [&](const Worker& worker) { return is_done(of_worker(worker), problem); }))
       return;
 
     const Specimen specimen = problem.specimen(family, squares_per_side(resolution), experiment_.seed, i);
     const BaseSheet base{Sheet(specimen.mesh)};
-    const Yardstick yardstick = run_reference(problem, specimen, base, of_reference);
+    Yardstick yardstick;
+    if (plan_.reference) yardstick = run_reference(problem, specimen, base, of_reference);
     for (Worker& worker : workers_)
       if (!is_done(of_worker(worker), problem))
         run_method(problem, specimen, base, worker, of_worker(worker), yardstick);

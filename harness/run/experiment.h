@@ -38,6 +38,7 @@ struct Experiment {
     std::vector<int> iterations;
     std::vector<std::pair<int, int>> members;            ///< resolution, and how many of each problem's ensemble on it
     std::vector<std::pair<int, int>> members_nonlinear;  ///< the same of problems that take no budgets; may be 0
+    bool reference = true;  ///< the mesh fitted to the cut beside the methods; without it there is no excess error
   };
 
   std::string stem;   ///< of the file: names the results folder and the plot

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "harness/mesh/families.h"
-#include "harness/run/random.h"
 #include "harness/truth/bent_sheet.h"
 #include "harness/truth/members.h"
 #include "harness/truth/out_of_plane.h"
@@ -31,10 +30,10 @@ class BendingPatchSlit : public Problem {
   bool takes_budgets() const override { return false; }
 
   Specimen specimen(const std::string& family, int n, std::uint64_t seed, std::size_t index) const override {
-    Random random = member_random(seed, index);
+    MemberNumbers numbers(seed, index);
     Specimen result{.mesh = make_sheet(family, n), .cuts = {}};
-    result.origin = {random.between(0.45, 0.55), random.between(0.45, 0.55)};
-    result.angle = random.between(-std::numbers::pi / 2, std::numbers::pi / 2);
+    result.origin = {numbers.between(0.45, 0.55), numbers.between(0.45, 0.55)};
+    result.angle = numbers.between(-std::numbers::pi / 2, std::numbers::pi / 2);
     result.cuts = {
         {Curve::Kind::polyline, false, {from_frame(result, {-half_slit, 0}), from_frame(result, {half_slit, 0})}}};
     return result;

@@ -66,10 +66,10 @@ class EdgeCrack final : public Problem {
   std::vector<std::string> measures() const override { return {"released_energy", "k1"}; }
 
   Specimen specimen(const std::string& family, int n, std::uint64_t seed, std::size_t index) const override {
-    Random random = member_random(seed, index);
+    MemberNumbers numbers(seed, index);
     const int squares = std::max(1, n / 2);
-    const double depth = percent_ / 100.0 + random.between(-0.25, 0.25) / squares;
-    const double off = index % 2 == 0 ? distance_from_mesh_line(random) : random.between(-0.5, 0.5);
+    const double depth = percent_ / 100.0 + numbers.between(-0.25, 0.25) / squares;
+    const double off = index % 2 == 0 ? distance_from_mesh_line(numbers) : numbers.between(-0.5, 0.5);
     const Point2 tip{depth, height / 2.0 + off / squares};
     return {strip(family, squares), {{Curve::Kind::polyline, false, {{-0.5, tip.y}, tip}}}, tip, 0};
   }
@@ -85,7 +85,9 @@ class EdgeCrack final : public Problem {
     const double k1 = pull * std::sqrt(pi * depth) * edge_crack_factor(depth);
     const double energy = pull * pull / sheet_material.young * released_energy(depth);
     const double before = pull * pull / (2 * sheet_material.young) * height;
-    const InteractionIntegral intensity(sheet, solve.elements(), sheet_material, {specimen.origin, 0}, ring);
+    const Tip tip{specimen.origin};
+    const InteractionIntegral intensity(sheet, solve.elements(), sheet_material, tip,
+                                        williams_modes(sheet_material, tip), ring);
     std::vector<Answer> answers;
     for (const Budget& budget : budgets) {
       auto [displacement, answer] = solve.solve(budget);

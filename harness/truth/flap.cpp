@@ -3,7 +3,6 @@
 #include <numbers>
 
 #include "harness/mesh/families.h"
-#include "harness/run/random.h"
 #include "harness/truth/bent_sheet.h"
 #include "harness/truth/heavy_elastica.h"
 #include "harness/truth/members.h"
@@ -24,12 +23,12 @@ class Flap : public Problem {
   bool takes_budgets() const override { return false; }
 
   Specimen specimen(const std::string& family, int n, std::uint64_t seed, std::size_t index) const override {
-    Random random = member_random(seed, index);
+    MemberNumbers numbers(seed, index);
     Specimen result{.mesh = make_sheet(family, n), .cuts = {}};
-    result.angle = random.between(0, 2 * std::numbers::pi);
+    result.angle = numbers.between(0, 2 * std::numbers::pi);
     result.origin = {0.5, 0.5};
     result.origin =
-        from_frame(result, {-length / 2, 0}) + Point2{random.between(-0.03, 0.03), random.between(-0.03, 0.03)};
+        from_frame(result, {-length / 2, 0}) + Point2{numbers.between(-0.03, 0.03), numbers.between(-0.03, 0.03)};
     result.cuts = {{Curve::Kind::polyline,
                     false,
                     {from_frame(result, {0, -half_width}), from_frame(result, {length, -half_width}),

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "harness/mesh/families.h"
-#include "harness/run/random.h"
 #include "harness/truth/bent_sheet.h"
 #include "harness/truth/heavy_elastica.h"
 #include "harness/truth/members.h"
@@ -27,11 +26,11 @@ class SlitStrip : public Problem {
   bool takes_budgets() const override { return false; }
 
   Specimen specimen(const std::string& family, int n, std::uint64_t seed, std::size_t index) const override {
-    Random random = member_random(seed, index);
+    MemberNumbers numbers(seed, index);
     Specimen result{.mesh = make_sheet(family, n), .cuts = {}};
     // In turns near a mesh line, 0.5e-3 to 0.5 widths of a triangle from it, and anywhere.
-    const double off = 0.5 * std::pow(10, random.between(-3, 0)) * (random.coin() ? 1 : -1);
-    const double y = index % 2 == 0 ? 0.5 + off / n : random.between(0.3, 0.7), from = random.between(0.3, 0.5);
+    const double off = 0.5 * std::pow(10, numbers.between(-3, 0)) * (numbers.coin() ? 1 : -1);
+    const double y = index % 2 == 0 ? 0.5 + off / n : numbers.between(0.3, 0.7), from = numbers.between(0.3, 0.5);
     result.origin = {0, y};
     result.cuts = {{Curve::Kind::polyline, false, {{1.1, y}, {from, y}}}};
     return result;

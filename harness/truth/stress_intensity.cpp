@@ -1,10 +1,30 @@
 #include "harness/truth/stress_intensity.h"
 
+#include <Eigen/LU>
 #include <cmath>
 
 #include "harness/truth/quadrature.h"
 
 namespace cutbench {
+
+namespace {
+
+/// How the cut grows, at a point of the ring: q, its gradient, and that of V.
+struct Growth {
+  double q;
+  Eigen::Vector2d grad_q;
+  Eigen::Matrix2d grad_v;  ///< d V_i / d x_j
+};
+
+Growth growth_at(const Eigen::Vector2d& from_tip, const Tip& tip, const Eigen::Matrix2d& turn, const Ring& ring) {
+  const double width = ring.outer - ring.inner, r = from_tip.norm(), s = (r - ring.inner) / width;
+  // q = 1 - 10 s^3 + 15 s^4 - 6 s^5, with two smooth derivatives at both ends.
+  const double q = 1 - s * s * s * (10 - 15 * s + 6 * s * s), slope = -30 * s * s * (1 - s) * (1 - s) / width;
+  const Eigen::Vector2d grad_q = slope / r * from_tip, tangent(std::cos(tip.angle), std::sin(tip.angle));
+  return {q, grad_q, q * turn + (tangent + turn * from_tip) * grad_q.transpose()};
+}
+
+}  // namespace
 
 Eigen::Matrix2d displacement_gradient(const Element& element, const Field& displacement) {
   Eigen::Matrix2d gradient = Eigen::Matrix2d::Zero();
@@ -14,12 +34,18 @@ Eigen::Matrix2d displacement_gradient(const Element& element, const Field& displ
   return gradient;
 }
 
+std::array<Mode, 2> williams_modes(const Elastic& elastic, const Tip& tip) {
+  const auto mode = [&](const StressIntensity& k) { return Mode{williams_field(elastic, {tip.at, tip.angle}, k), k}; };
+  return {mode({1, 0}), mode({0, 1})};
+}
+
 InteractionIntegral::InteractionIntegral(const Sheet& sheet, const ElementTable& elements, const Elastic& elastic,
-                                         const Tip& tip, const Ring& ring) {
-  const Axes frame{tip.at, tip.angle};
-  const WilliamsField mode_1(elastic, frame, 1, 0), mode_2(elastic, frame, 0, 1);
-  const Eigen::Vector2d along(std::cos(tip.angle), std::sin(tip.angle));
-  const double width = ring.outer - ring.inner;
+                                         const Tip& tip, const std::array<Mode, 2>& modes, const Ring& ring) {
+  Eigen::Matrix2d of_modes;
+  of_modes << modes[0].k.k1, modes[0].k.k2, modes[1].k.k1, modes[1].k.k2;
+  to_intensity_ = elastic.young / 2 * of_modes.inverse();
+  Eigen::Matrix2d turn;
+  turn << 0, -tip.curvature, tip.curvature, 0;
   for (std::size_t e = 0; e < elements.size(); ++e) {
     if (!elements[e].alive()) continue;
     const auto corners = sheet.corners(TriangleIndex(e));
@@ -29,34 +55,44 @@ InteractionIntegral::InteractionIntegral(const Sheet& sheet, const ElementTable&
       longest = std::max(longest, squared_length(corners[(i + 1) % 3] - corners[i]));
     }
     if (farthest < ring.inner * ring.inner || std::sqrt(farthest) - std::sqrt(longest) > ring.outer) continue;
-    Weights weights{e, Eigen::Matrix2d::Zero(), Eigen::Matrix2d::Zero()};
-    integrate(corners, {}, width / 8, [&](Point2 p, double weight) {
-      const double r = std::sqrt(squared_length(p - tip.at)), s = (r - ring.inner) / width;
-      if (s <= 0 || s >= 1) return;
-      // q = 1 - 10 s^3 + 15 s^4 - 6 s^5, with two smooth derivatives at both ends.
-      const double slope = -30 * s * s * (1 - s) * (1 - s) / width;
-      const Eigen::Vector2d grad_q = slope / r * Eigen::Vector2d(p.x - tip.at.x, p.y - tip.at.y);
-      const double factor = elastic.young / 2 * elements[e].fraction * weight;
-      const auto add = [&](const ElasticField& mode, Eigen::Matrix2d& sum) {
-        const Eigen::Matrix2d gradient = mode.gradient(p), strain = (gradient + gradient.transpose()) / 2;
-        const Eigen::Matrix2d turn = grad_q * (gradient * along).transpose();
+    Weights weights{e, {}};
+    integrate(corners, {}, (ring.outer - ring.inner) / 8, [&](Point2 p, double weight) {
+      const Eigen::Vector2d from_tip(p.x - tip.at.x, p.y - tip.at.y),
+          from_corner(p.x - corners[0].x, p.y - corners[0].y);
+      if (from_tip.norm() <= ring.inner || from_tip.norm() >= ring.outer) return;
+      const Growth growth = growth_at(from_tip, tip, turn, ring);
+      weight *= elements[e].fraction;
+      for (std::size_t m = 0; m < 2; ++m) {
+        const ElasticField::State mode = modes[m].field.state(p);
+        const Eigen::Matrix2d& h = mode.gradient;
+        const Eigen::Matrix2d strain = (h + h.transpose()) / 2;
+        const Eigen::Matrix2d g =
+            h * growth.grad_v - turn * (growth.q * h + mode.displacement * growth.grad_q.transpose());
         // What the stress is multiplied with, and Hooke's law, which is symmetric, moved over to it.
-        const Eigen::Matrix2d of_stress = (turn + turn.transpose()) / 2 - along.dot(grad_q) * strain;
-        sum += factor * (elastic.stress(of_stress) + elastic.stress(strain) * grad_q * along.transpose());
-      };
-      add(mode_1, weights.mode_1), add(mode_2, weights.mode_2);
+        const Eigen::Matrix2d of_stress = (g + g.transpose()) / 2 - growth.grad_v.trace() * strain;
+        // s'_ij g_ij of the sought field: of its gradient, and of its displacement, linear in the element.
+        const Eigen::Matrix2d of_gradient =
+            mode.stress * growth.grad_v.transpose() - growth.q * turn.transpose() * mode.stress;
+        const Eigen::Vector2d of_displacement = -turn.transpose() * mode.stress * growth.grad_q;
+        weights.mode[m].gradient +=
+            weight * (elastic.stress(of_stress) + of_gradient + of_displacement * from_corner.transpose());
+        weights.mode[m].corner += weight * of_displacement;
+      }
     });
     weights_.push_back(weights);
   }
 }
 
 StressIntensity InteractionIntegral::of(const ElementTable& elements, const Field& displacement) const {
-  StressIntensity k;
-  for (const auto& [element, mode_1, mode_2] : weights_) {
+  Eigen::Vector2d sum(0, 0);
+  for (const auto& [element, mode] : weights_) {
     const Eigen::Matrix2d gradient = displacement_gradient(elements[element], displacement);
-    k.k1 += mode_1.cwiseProduct(gradient).sum(), k.k2 += mode_2.cwiseProduct(gradient).sum();
+    const Eigen::Vector2d corner = displacement.segment<2>(2 * elements[element].vertex[0].value);
+    for (std::size_t m = 0; m < 2; ++m)
+      sum[static_cast<Eigen::Index>(m)] += mode[m].gradient.cwiseProduct(gradient).sum() + mode[m].corner.dot(corner);
   }
-  return k;
+  const Eigen::Vector2d k = to_intensity_ * sum;
+  return {k[0], k[1]};
 }
 
 }  // namespace cutbench

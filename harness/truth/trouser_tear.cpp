@@ -22,7 +22,6 @@
 #include <numbers>
 
 #include "harness/mesh/families.h"
-#include "harness/run/random.h"
 #include "harness/truth/bent_sheet.h"
 #include "harness/truth/members.h"
 #include "harness/truth/out_of_plane.h"
@@ -45,9 +44,9 @@ class TrouserTear : public Problem {
 
   /// A strip of 4 x 1 m: four sheets of `family`, of 2 (n / 2)^2 triangles each, mirrored in turns so that they fit.
   Specimen specimen(const std::string& family, int n, std::uint64_t seed, std::size_t index) const override {
-    Random random = member_random(seed, index);
+    MemberNumbers numbers(seed, index);
     Specimen result{.mesh = tiled(make_sheet(family, std::max(1, n / 2))), .cuts = {}};
-    const double y = random.between(0.47, 0.53), a = random.between(1.6, 1.8);
+    const double y = numbers.between(0.47, 0.53), a = numbers.between(1.6, 1.8);
     result.origin = {a, y};
     result.cuts = {{Curve::Kind::polyline, false, {{-0.1, y}, {a, y}}},
                    {Curve::Kind::polyline, false, {{a, y}, {a + torn, y}}}};

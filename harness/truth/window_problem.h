@@ -4,12 +4,19 @@
 
 #include <functional>
 
-#include "harness/truth/elastic_field.h"
+#include "harness/truth/exact_fields.h"
 #include "harness/truth/lips.h"
 #include "harness/truth/problem.h"
 #include "harness/truth/stress_intensity.h"
 
 namespace cutbench {
+
+/// An end of a cut inside the sheet, in the solution's own frame.
+struct WindowTip {
+  Tip tip;
+  StressIntensity k;                                        ///< exact
+  std::function<std::array<Mode, 2>(const Axes&)> modes{};  ///< to measure K by; none: it isn't measured
+};
 
 /// What distinguishes one such problem from another. Places are in the solution's own frame, in sides of the sheet.
 ///
@@ -19,20 +26,19 @@ namespace cutbench {
 /// 1/2 integral (t0 u - t u0) over the border; pi s^2 a^2 / E for a straight cut across the stress s. U(after) alone is
 /// computed, and never below the exact one but for the border's interpolation, so no lucky sign hides an error.
 /// strain_energy: U(after) alone. opening: gape along the requested curve, relative L2. energy_norm, displacement_l2:
-/// of the error, relative. k1, k2: mean over the tips, by the interaction integral; straight cuts only. rim_stress:
+/// of the error, relative. k1, k2: mean over the tips, by the interaction integral. rim_stress:
 /// hoop stress in the triangles at the rim, at the middle of their edges, relative L2. stress: largest error of any
 /// component in any triangle.
 struct WindowCase {
   std::string name, effect, truth;
-  std::vector<std::string> measures;
-  std::function<std::unique_ptr<ElasticField>(const Axes&)> field;
-  std::vector<Curve> cuts;
-  Point2 middle{};                 ///< comes to lie in the middle of the sheet, within a mesh cell
-  std::array<double, 3> before{};  ///< xx, yy, xy of the uniform stress before the cut, N/m
-  std::vector<Tip> tips{};         ///< inside the sheet
-  StressIntensity k{};             ///< the same at all tips
-  std::vector<LipSample> lips{};   ///< where the opening is compared
-  double rim = 0;                  ///< radius of the hole round the origin
+  std::vector<std::string> measures{};
+  std::function<ElasticField(const Axes&)> field{};
+  std::vector<Curve> cuts{};
+  Point2 middle{};       ///< comes to lie in the middle of the sheet, within a mesh cell
+  PlaneStress before{};  ///< uniform, before the cut
+  std::vector<WindowTip> tips{};
+  std::vector<LipSample> lips{};  ///< where the opening is compared
+  double rim = 0;                 ///< radius of the hole round the origin
 };
 
 /// Members with even index lie along the x axis of the mesh, at a distance of 0.5e-6 to 0.5 cells (evenly in its
@@ -40,7 +46,7 @@ struct WindowCase {
 /// angle.
 std::unique_ptr<const Problem> make_window_problem(WindowCase window);
 
-/// The in-plane problems of this kind, in the order of the tables.
+/// The in-plane problems of this kind (window_cases.cpp), in the order of the tables.
 void append_window_problems(std::vector<std::unique_ptr<const Problem>>& problems);
 
 }  // namespace cutbench

@@ -1,0 +1,61 @@
+// What a computed field on a cut window is compared with, and by which measures.
+#pragma once
+
+#include "harness/truth/border_work.h"
+#include "harness/truth/static_solve.h"
+#include "harness/truth/window_problem.h"
+
+namespace cutbench {
+
+/// The exact side of all measures, worked out once for all solutions on a cut sheet.
+class WindowComparison {
+ public:
+  WindowComparison(const WindowCase& window, const Specimen& specimen, const Sheet& sheet, const StaticSolve& solve,
+                   const ElasticField& field);
+  std::vector<Measure> measures(const Field& displacement) const;
+
+ private:
+  /// A point of a quadrature rule.
+  struct Sample {
+    Point2 from_corner;  ///< from the element's corner 0
+    double weight;
+    Eigen::Matrix2d stress;
+    Eigen::Vector2d displacement;
+  };
+  struct SampledElement {
+    std::size_t element, end;  ///< of its samples; they begin where those of the element before end
+  };
+  struct RimEdge {
+    std::size_t element;
+    double length, hoop;  ///< exact hoop stress in its middle
+    Eigen::Vector2d tangent;
+  };
+  /// What a norm of an error is made of.
+  struct Sums {
+    double energy = 0, error_energy = 0, error_squared = 0, exact_squared = 0, worst_stress = 0;
+  };
+  bool looked_at(std::size_t element) const;
+  void sample_elements();
+  void find_rim();
+  Sums sum(const Field& displacement) const;
+  double opening_error(const Field& displacement) const;
+  double rim_error(const Field& displacement) const;
+  StressIntensity mean_intensity(const Field& displacement) const;
+  Eigen::Matrix2d stress(std::size_t element, const Field& displacement) const;
+  Point2 in_rest(Point2 local) const;
+  Point2 turned(Point2 local) const;
+
+  const WindowCase& window_;
+  const Sheet& sheet_;
+  const StaticSolve& solve_;
+  const ElasticField& field_;
+  BorderWork border_;
+  std::vector<SampledElement> elements_;
+  std::vector<Sample> samples_;
+  std::vector<LipSample> lips_;
+  std::vector<double> opening_;
+  std::vector<RimEdge> rim_;
+  std::vector<InteractionIntegral> intensities_;  ///< per tip, where K is measured
+};
+
+}  // namespace cutbench
