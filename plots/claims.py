@@ -10,11 +10,13 @@ from pathlib import Path
 
 import numpy as np
 
-import accuracy
+import accuracy_profile
+import accuracy_shape
 import fig9_aspect_ratio as fig9
 import load
 import style
 import table1_timing as table1
+from accuracy_records import CASE, REFERENCE, Records
 
 HELD, NOT_HELD, CONDITION = "held", "not held", "held under a condition"
 PAPERS = ("bowyer_watson", "rounds=1")  # with one round of the local split
@@ -183,7 +185,7 @@ def incremental(run):
 
 def paired_errors(records, other, condition):
     """Error of `other` over that of the paper's method, case by case."""
-    keys = [*accuracy.CASE, "solver", "budget"]
+    keys = [*CASE, "solver", "budget"]
     good = records.rows(failed=False, **condition)
     pairs = of(good, other).merge(of(good, PAPERS), on=keys)
     pairs = pairs[pairs["ratio_x"].notna() & pairs["ratio_y"].notna()]
@@ -192,7 +194,7 @@ def paired_errors(records, other, condition):
 
 def physically_accurate(records):
     parts, verdicts = [], {}
-    for title, condition in accuracy.shape_columns(records):
+    for title, condition in accuracy_shape.shape_columns(records):
         title = title.replace("\n", " ")
         ratio = paired_errors(records, CONVENTIONAL, condition)
         if ratio[3]:
@@ -208,10 +210,10 @@ def physically_accurate(records):
 
 def shapes_cost_accuracy(records):
     parts, verdicts = [], {}
-    for title, condition in accuracy.shape_columns(records):
+    for title, condition in accuracy_shape.shape_columns(records):
         title = title.replace("\n", " ")
         table = records.rows(failed=False, **condition)
-        factor, low, high, n = accuracy.factor_per_decade(table[table["method"] != accuracy.REFERENCE[0]])
+        factor, low, high, n = accuracy_shape.factor_per_decade(table[table["method"] != REFERENCE[0]])
         if n and not np.isnan(factor):
             verdicts[title] = HELD if low > 1.02 else NOT_HELD
             parts.append(f"{title}: {factor:.3f} [{low:.3f}, {high:.3f}]")
@@ -224,8 +226,8 @@ def shapes_cost_accuracy(records):
 def refined_is_slower(records):
     """Whether the optimised sheet reaches the conventional split's accuracy in less time."""
     parts, verdicts = [], {}
-    for tolerance in accuracy.TOLERANCES:
-        shares = {v: accuracy.solved_times(records, v, tolerance) for v in (CONVENTIONAL, PAPERS)}
+    for tolerance in accuracy_profile.TOLERANCES:
+        shares = {v: accuracy_profile.solved_times(records, v, tolerance) for v in (CONVENTIONAL, PAPERS)}
         solved = {v: np.isfinite(t) for v, t in shares.items()}
         medians = {v: np.quantile(t, 0.5, method="inverted_cdf") if len(t) else np.inf for v, t in shares.items()}
         if not np.isfinite(list(medians.values())).any():
@@ -269,13 +271,13 @@ def records_of(results):
     """{stem: its records, or None where there are none}."""
     readers = {"fig9_aspect_ratio": lambda folder: load.read(folder, fig9.MEASURES).first_repetition(),
                "table1_timing": lambda folder: load.read(folder, table1.MEASURES + table1.IN_MOTION),
-               "accuracy": accuracy.Records}
+               "accuracy": Records}
     return {stem: read(results / stem) if (results / stem / "records.csv").is_file() else None
             for stem, read in readers.items()}
 
 
 def context_of(records):
-    return records.run.context if isinstance(records, accuracy.Records) else records.context
+    return records.run.context if isinstance(records, Records) else records.context
 
 
 def text_of(results):

@@ -108,6 +108,16 @@ def read_context(path):
     return context
 
 
+def write_beside(path, text):
+    """Writes what a script says into a file beside its figures, and prints it."""
+    try:
+        path.write_text(text.lstrip("\n"), encoding="utf-8")
+    except OSError as error:
+        stop(f"{path} can't be written: {error.strerror}")
+    print(path)
+    print(text, end="")
+
+
 def quartiles(table, by, column):
     """A row per value of `by`: q1, median, q3 and n of `column`; NaN is left out."""
     groups = table.dropna(subset=[column]).groupby(by)[column]

@@ -1,0 +1,43 @@
+"""A fixed number of iterations of conjugate gradients against the direct solve."""
+
+import front
+import style
+from accuracy_records import cells_of, label_edges, log_x_axis, of, percent_axis, zero_line
+
+
+def budgets_figure(records):
+    """A row per sheet, a column per solver: excess error over time at the highest resolution, a point per budget."""
+    if not records.budgets:
+        return None
+    top = records.resolutions[-1]
+    table = records.rows(resolution=top)
+    table = table[table["scene"].isin(set(table.loc[~table["direct"], "scene"]))]
+    figure, axes = style.panels(len(records.sheets), len(records.solvers), 3.7, sharex=True, sharey=True)
+    everything = []
+    for row, sheet in zip(axes, records.sheets):
+        for ax, solver in zip(row, records.solvers):
+            here = table[(table["sheet"] == sheet) & (table["direct"] | (table["solver"] == solver))]
+            cells = cells_of(here, "ms", "excess_percent", ["method", "knob", "budget"])
+            everything += list(cells["y"])
+            for variant, look in records.looks.items():
+                points = of(cells, variant).sort_values("budget")
+                front.draw(ax, points[points["budget"] > 0], look)
+                done = points[(points["budget"] == 0) & (points["layer"] > 0)]
+                ax.plot(done["x"], done["y"], linestyle="", marker=look.marker, markersize=4.5, markeredgewidth=0.9,
+                        markerfacecolor="none", markeredgecolor=look.colour, zorder=4)
+            front.draw_front(ax, cells)
+            front.draw_failures(ax, cells, records.looks)
+            zero_line(ax)
+            log_x_axis(ax)
+            ax.set_title(solver.replace("_", " ") if sheet == records.sheets[0] else "", loc="left")
+    for ax in axes.flat:
+        percent_axis(ax, everything)
+    label_edges(axes, "total time, ms", "")
+    for row, sheet in zip(axes, records.sheets):
+        row[0].set_ylabel(f"{style.sheet_title(sheet)}\nexcess error, %")
+    style.finish(figure, records.looks.values(), records.caption(
+        f"Excess error against total time at {top} triangles, by {', '.join(map(str, records.budgets))} iterations of "
+        "conjugate gradients from zero (filled) and by the direct solve (hollow), preconditioned by the vertices' own "
+        "blocks (cg) and by joint blocks round slivers (cg sliver blocks): medians over problems and ensembles, bars: "
+        "quartiles."), front.legend_entries())
+    return figure

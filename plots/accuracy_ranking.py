@@ -1,0 +1,63 @@
+"""Methods ranked by excess error: over the fitted mesh of as many triangles as the uncut sheet, and over one with as
+many unknowns as the cut sheet, so that nobody wins by triangles alone."""
+
+import numpy as np
+
+import load
+from accuracy_records import CASE, REFERENCE, of
+
+
+def per_unknown(reference):
+    """p of error = constant x unknowns^-p, by least squares over the resolutions and members of one problem and sheet;
+    0 where the error doesn't fall, NaN for a single resolution."""
+    rows = reference[reference["error"] > 0]
+    x, y = np.log(rows["unknowns"]), np.log(rows["error"])
+    if rows["resolution"].nunique() < 2:
+        return np.nan
+    return max(0.0, -np.polyfit(x, y, 1)[0])
+
+
+def at_equal_unknowns(records):
+    """The records with `ratio_equal`: error over that of a fitted mesh with as many unknowns, the case's own fitted mesh
+    refined as the problem's and sheet's fitted meshes converge; and `more`, unknowns over the fitted mesh's."""
+    reference = of(records.rows(direct=True, failed=False), REFERENCE)
+    powers = {key: per_unknown(rows) for key, rows in reference.groupby(["scene", "sheet"])}
+    table = records.table.merge(reference[CASE + ["unknowns"]], on=CASE, how="left", suffixes=("", "_fitted"))
+    power = np.array([powers.get(key, np.nan) for key in zip(table["scene"], table["sheet"])])
+    more = table["unknowns"] / table["unknowns_fitted"]
+    return records.with_rows(table.assign(more=more, ratio_equal=table["ratio"] * more**power,
+                                          excess_equal_percent=100 * (table["ratio"] * more**power - 1)))
+
+
+def mean_excess(table, column):
+    """Of a ratio, in percent: its geometric mean minus one."""
+    ratios = table.loc[~table["failed"], column]
+    ratios = ratios[(ratios > 0) & np.isfinite(ratios)]
+    return 100 * (np.exp(np.log(ratios).mean()) - 1) if len(ratios) else np.nan
+
+
+def print_ranking(records):
+    """Of records at_equal_unknowns()."""
+    rows = []
+    for sheet in [*records.sheets, "all"]:
+        chosen = records.table if sheet == "all" else records.rows(sheet=sheet)
+        for variant, look in records.looks.items():
+            table = of(chosen, variant)
+            direct = table[table["direct"]]
+            made = direct[~direct["failed"]]
+            cells = [mean_excess(direct, "ratio_equal"), mean_excess(direct, "ratio"), 100 * (made["more"].median() - 1),
+                     made["ms"].median(), made["cut_us"].median() / 1000]
+            for solver in records.solvers:
+                done = table[(table["solver"] == solver) & (table["budget"] == records.enough())]
+                cells.append(mean_excess(done, "ratio"))
+            tried = table.drop_duplicates(CASE)
+            bad = table[table["failed"]].drop_duplicates(CASE)
+            rows.append([sheet, look.label, str(len(tried)), f"{100 * len(bad) / max(1, len(tried)):.1f}", *cells])
+    rows.sort(key=lambda r: ([*records.sheets, "all"].index(r[0]), np.nan_to_num(r[4], nan=np.inf)))
+    load.print_table(
+        "Ranking: geometric mean of the error over the fitted mesh's, minus one, in percent, over problems, resolutions "
+        "and members. Ranked at equal unknowns: over a fitted mesh refined to as many as the cut sheet has; beside it "
+        f"over one of as many triangles as the uncut sheet, where triangles alone can win. CG: after {records.enough()} "
+        "iterations",
+        ["sheet", "method", "cases", "failed %", "excess %, equal unknowns", "as many triangles", "more unknowns, %",
+         "median ms", "of it cut", *(f"as many triangles, {s}" for s in records.solvers)], rows)

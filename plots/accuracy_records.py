@@ -1,0 +1,102 @@
+"""Records of an accuracy run (harness/run/accuracy.h), and the axes that its figures share."""
+
+import copy
+
+import numpy as np
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+import front
+import load
+import style
+
+REFERENCE = ("body_fitted (reference)", "")
+NEEDED = ["budget", "exact_incision", "cut_us", "total_us", "unknowns", "iterations", "ar_max_cut", "error",
+          "excess_error"]
+CASE = ["scene", "sheet", "resolution", "case"]
+CONVERGED = 1.05  # of the direct solve's error: the iterations no longer matter
+
+
+class Records:
+    """The rows with: failed, ratio (error over the reference's), ms, variant columns, direct (solved to the end)."""
+
+    def __init__(self, folder):
+        table = load.read_records(folder / "records.csv", load.TEXT + load.TEXT_OF_SOME + load.COUNTS + NEEDED,
+                                  all_columns=True)
+        failed = front.failed_rows(table)
+        self.table = table.assign(failed=failed, ratio=1 + table["excess_error"], ms=table["total_us"] / 1000,
+                                  excess_percent=100 * table["excess_error"], direct=table["budget"] == 0)
+        self.run = load.Run(table[~failed], table[failed], load.read_context(folder / "context.json"))
+        self.looks = style.looks(set(zip(table["method"], table["knob"])))
+        self.methods = {v: look for v, look in self.looks.items() if v != REFERENCE}
+        self.sheets = style.sheet_order(table["sheet"])
+        self.problems = list(dict.fromkeys(table["scene"]))
+        self.resolutions = sorted(set(table["resolution"]))
+        self.solvers = list(dict.fromkeys(table.loc[~self.table["direct"], "solver"]))
+        self.budgets = sorted(set(table.loc[~self.table["direct"], "budget"].astype(int)))
+
+    def rows(self, variant=None, **values):
+        table = self.table if variant is None else of(self.table, variant)
+        for column, value in values.items():
+            table = table[table[column] == value]
+        return table
+
+    def with_rows(self, table):
+        """The same with other rows."""
+        other = copy.copy(self)
+        other.table = table
+        return other
+
+    def enough(self):
+        """The fewest iterations of the first solver after which the reference mesh has converged on the largest sheet;
+        the most there are if it never does, None without any."""
+        for budget in self.budgets:
+            here = self.rows(REFERENCE, solver=self.solvers[0], budget=budget, resolution=self.resolutions[-1])
+            if len(here) and np.quantile(here["ratio"].fillna(np.inf), 0.75, method="inverted_cdf") <= CONVERGED:
+                return budget
+        return self.budgets[-1] if self.budgets else None
+
+    def caption(self, *sentences):
+        return " ".join([*sentences, style.provenance(self.run, self.run.rows, with_machine=True, with_crosses=False)])
+
+
+def of(table, variant):
+    return table[(table["method"] == variant[0]) & (table["knob"] == variant[1])]
+
+
+def percent_axis(ax, values):
+    """Excess errors in percent: where they are large, linear up to 10 and logarithmic beyond; plain numbers."""
+    values = np.asarray(values, float)
+    values = values[np.isfinite(values)]
+    if len(values) and np.abs(values).max() > 100:
+        ax.set_yscale("symlog", linthresh=10, linscale=0.7)
+        ax.set_ylim(bottom=min(-12, 1.5 * values.min()))
+        ax.yaxis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
+        ax.yaxis.set_minor_formatter(NullFormatter())
+
+
+def log_x_axis(ax):
+    """Logarithmic, plain numbers. Call it when all is drawn."""
+    ax.set_xscale("log")
+    low, high = ax.get_xlim()
+    subs = (1, 2, 5) if high < 40 * low else (1, 3) if high < 400 * low else (1,)
+    ax.xaxis.set_major_locator(LogLocator(subs=subs, numticks=12))
+    ax.xaxis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
+    ax.xaxis.set_minor_formatter(NullFormatter())
+
+
+def cells_of(table, x, y, by, panel=()):
+    return front.cells(table, front.Axis(x), front.Axis(y), by, panel)
+
+
+def zero_line(ax):
+    ax.axhline(0, color="#111111", linewidth=0.6, zorder=1)
+
+
+def label_edges(axes, x, y):
+    rows, columns = axes.shape
+    for r in range(rows):
+        for c in range(columns):
+            axes[r, c].set_ylabel("" if c else y)
+            below = r + 1 < rows and axes[r + 1, c].get_visible()
+            axes[r, c].set_xlabel("" if below else x)
+            axes[r, c].tick_params(labelbottom=not below)

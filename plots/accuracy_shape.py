@@ -1,0 +1,139 @@
+"""Whether the error depends on the shape of the triangles that a cut left, and from where on shape costs."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.lines import Line2D
+from matplotlib.ticker import LogLocator, NullFormatter
+
+import load
+import style
+from accuracy_records import CASE, CONVERGED, REFERENCE, of
+
+
+def shape_columns(records):
+    """(title, condition) of the columns of the figure of shapes."""
+    columns = [("direct solve", {"direct": True})]
+    budget = records.enough()
+    return columns + [(f"{solver.replace('_', ' ')},\n{budget} iterations", {"solver": solver, "budget": budget})
+                      for solver in records.solvers]
+
+
+def shape_figure(records):
+    """A row per sheet: error ratio over the largest aspect ratio the cut left, every case a dot."""
+    columns = shape_columns(records)
+    figure, axes = style.panels(len(records.sheets), len(columns), 3.2, sharex=True, sharey=True)
+    for row, sheet in zip(axes, records.sheets):
+        for ax, (title, condition) in zip(row, columns):
+            here = records.rows(sheet=sheet, **condition)
+            for variant, look in records.methods.items():
+                dots = of(here, variant).dropna(subset=["ratio", "ar_max_cut"])
+                ax.plot(dots["ar_max_cut"], dots["ratio"], linestyle="", marker="o", markersize=1.3,
+                        markeredgewidth=0, color=look.colour, alpha=0.45, zorder=2, rasterized=True)
+            bins = decades(here[here["method"] != REFERENCE[0]])
+            ax.plot(bins.index, bins["ratio"], color="#c00000", linewidth=1.1, marker="_", markersize=4, zorder=4)
+            ax.axhline(1, color="#111111", linewidth=0.5, zorder=1)
+            ax.set_xscale("log")
+            ax.set_yscale("log")
+            ax.set_title(title if sheet == records.sheets[0] else "", fontsize=6.3)
+        row[0].set_ylabel(f"{style.sheet_title(sheet)}\nerror / fitted mesh's")
+    for ax in axes.flat:
+        ax.xaxis.set_major_locator(LogLocator(numticks=4))
+        ax.xaxis.set_minor_formatter(NullFormatter())
+        style.plain_numbers(ax)
+    for ax in axes[-1]:
+        ax.set_xlabel("max AR of the cut")
+    dots = [Line2D([], [], linestyle="", marker="o", markersize=3, color=look.colour, label=look.label)
+            for look in records.methods.values()]
+    line = Line2D([], [], color="#c00000", linewidth=1.1, label="median per decade of AR")
+    style.finish(figure, [], records.caption(
+        "Does the error depend on the shape of the triangles? Error over that of the fitted mesh solved directly, against "
+        "the largest aspect ratio among the triangles the cut made or changed; a dot per case. "
+        f"{' '.join(shape_statements(records))} {style.AR_DEFINITION}"), [*dots, line])
+    return figure
+
+
+def decades(table):
+    """Median ratio by decade of the aspect ratio, where there are at least five cases; index: the decade's middle."""
+    table = table.dropna(subset=["ratio", "ar_max_cut"])
+    table = table[table["ar_max_cut"] > 0]
+    groups = table.groupby(np.floor(np.log10(table["ar_max_cut"])))["ratio"]
+    result = pd.DataFrame({"ratio": groups.median(), "n": groups.size()})
+    result = result[result["n"] >= 5]
+    return result.set_index(10 ** (result.index + 0.5))
+
+
+def factor_per_decade(table, draws=2000):
+    """By what the error is multiplied where the aspect ratio is ten times as large, all else alike: least squares of the
+    logarithms within each problem, sheet, resolution and method, members along the mesh (of even number) apart from those
+    at any angle; and its bootstrap 95 % interval over those groups."""
+    table = table[(table["ratio"] > 0) & np.isfinite(table["ratio"]) & (table["ar_max_cut"] > 0)]
+    if table.empty:
+        return np.nan, np.nan, np.nan, 0
+    group = table.groupby([table[c] for c in (*CASE[:3], "method", "knob")] + [table["case"] % 2]).ngroup()
+    x, y = np.log10(table["ar_max_cut"]), np.log(table["ratio"])
+    x, y = x - x.groupby(group).transform("mean"), y - y.groupby(group).transform("mean")
+    sums = pd.DataFrame({"xy": x * y, "xx": x * x}).groupby(group).sum().to_numpy()
+    sums = sums[sums[:, 1] > 0]
+    if not len(sums):
+        return np.nan, np.nan, np.nan, len(table)
+    picks = np.random.default_rng(1).integers(0, len(sums), (draws, len(sums)))
+    drawn = sums[picks].sum(axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        low, high = np.exp(np.nanpercentile(drawn[:, 0] / drawn[:, 1], [2.5, 97.5]))
+    return np.exp(sums[:, 0].sum() / sums[:, 1].sum()), low, high, len(table)
+
+
+def dependence(low, high):
+    """The interval of factor_per_decade() in words."""
+    if 0.98 <= low and high <= 1.02:
+        return "it does not depend on AR, within 2 %"
+    if low <= 1 <= high:
+        return "no dependence shown"
+    barely = ", by less than 5 %" if 0.95 <= low and high <= 1.05 else ""
+    return f"it {'grows' if low > 1 else 'falls'} with AR{barely}"
+
+
+def shape_statements(records):
+    found = []
+    for title, condition in shape_columns(records):
+        table = records.rows(**condition)
+        factor, low, high, n = factor_per_decade(table[(table["method"] != REFERENCE[0]) & ~table["failed"]])
+        if not n or np.isnan(factor):
+            continue
+        title = title.replace("\n", " ")
+        found.append(f"{title}: a tenfold AR multiplies the error by {factor:.3f} [{low:.3f}, {high:.3f}]: "
+                     f"{dependence(low, high)} (n = {n}).")
+    return found
+
+
+def print_shapes(records):
+    """Where shape starts to cost: the error after so many iterations over the same sheet's direct solve, by decade of
+    the aspect ratio; the same sheet on both sides, so nothing but the solver's progress is in it."""
+    keys = [*CASE, "method", "knob"]
+    direct = records.rows(direct=True, failed=False).drop_duplicates(keys)[keys + ["error"]]
+    rows, starts = [], []
+    for solver in records.solvers:
+        for budget in records.budgets:
+            table = records.rows(solver=solver, budget=budget, failed=False).merge(direct, on=keys, suffixes=("", "_d"))
+            table = table[(table["error_d"] > 1e-9) & (table["ar_max_cut"] > 0)]
+            table = table.assign(lag=table["error"] / table["error_d"], decade=np.floor(np.log10(table["ar_max_cut"])))
+            lags = table.groupby("decade")["lag"].agg(["median", "size"])
+            lags = lags[lags["size"] >= 5]["median"]
+            rows.append([solver, str(budget), *(lags.get(d, np.nan) for d in range(6))])
+            slow = lags[lags > CONVERGED]
+            starts.append(f"{solver}, {budget} iterations: " + (f"from AR {10 ** slow.index[0]:.0f}" if len(slow) else
+                                                               "at no AR") + " on")
+    if rows:
+        load.print_table("Error after so many iterations over the same sheet's own, solved directly: medians by the "
+                         "largest aspect ratio of the cut", ["solver", "iterations", "AR 1-10", "10-100", "100-1000",
+                                                             "1e3-1e4", "1e4-1e5", "1e5-1e6"], rows)
+        print(f"Shape starts to cost (median above {CONVERGED}): " + "; ".join(starts) + ".")
+
+
+def print_statements(records):
+    print("\nDoes the error depend on the aspect ratio? All sheets:")
+    for statement in shape_statements(records):
+        print(f"  {statement}")
+    for sheet in records.sheets:
+        for statement in shape_statements(records.with_rows(records.rows(sheet=sheet))):
+            print(f"  {sheet}, {statement}")
