@@ -135,7 +135,8 @@ def figure_of(records, table):
             means = np.exp(np.log(rows["error"]).groupby(rows["resolution"]).mean())
             ax.plot(np.sqrt(means.index / 2), means, **look.drawn())
         rates = table[(table["problem"] == problem) & (table["measure"] == primary)]["rate"].dropna()
-        text = f"rate {rates.min():.2f}–{rates.max():.2f}" if len(rates) else "exact"
+        found = sorted({f"{r:.2f}" for r in (rates.min(), rates.max())}) if len(rates) else []
+        text = f"rate {'–'.join(found)}" if found else "exact"
         ax.set_title(f"{problem}:\n{primary}, {text}".replace("_", " "), loc="left", fontsize=5.6)
         ax.set_xscale("log")
         ax.set_yscale("log")

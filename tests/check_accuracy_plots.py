@@ -1,0 +1,161 @@
+#!/usr/bin/env python3
+"""Draws the records of a small accuracy run and looks at what comes out: files, the methods in the tables, failures shown
+as failures, and one line with exit code 2 for records that lack a column. Prints every disagreement; exit code 1 if there
+is any.
+usage: check_accuracy_plots.py RESULTS with RESULTS/accuracy of such a run"""
+
+import contextlib
+import csv
+import io
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+PLOTS = Path(__file__).resolve().parent.parent / "plots"
+LABELS = ["conventional split", "Bowyer-Watson, rounds=0", "Bowyer-Watson, rounds=1"]
+FITTED = "body-fitted mesh (reference)"
+problems = []
+
+
+def expect(what, condition):
+    if not condition:
+        problems.append(what)
+
+
+def run(script, *arguments):
+    return subprocess.run([sys.executable, PLOTS / script, *map(str, arguments)], capture_output=True,
+                          text=True)
+
+
+def read(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+def write(path, rows):
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, rows[0].keys(), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def of(row, method, knob):
+    return row["method"] == method and row["knob"] == knob
+
+
+def check_all_there(results):
+    folder = results / "accuracy"
+    done = run("accuracy.py", "--results", folder)
+    expect(f"accuracy.py: {done.returncode} {done.stderr}", done.returncode == 0 and not done.stderr)
+    for stem in ("", "_unknowns", "_problems", "_budgets", "_shape", "_profile"):
+        for suffix in ("png", "pdf"):
+            path = folder / f"accuracy{stem}.{suffix}"
+            expect(f"{path.name} is not there", path.is_file() and path.stat().st_size > 5000)
+    table = done.stdout.partition("Error after so many")[0]
+    for label in [*LABELS, FITTED]:
+        expect(f"the ranking lacks {label}", sum(label in line for line in table.splitlines()) == 2)  # grid, all
+    kept = folder / "accuracy.txt"
+    expect("accuracy.txt is not what was printed",
+           kept.is_file() and kept.read_text(encoding="utf-8").strip() in done.stdout)
+    done = run("verification.py", "--results", folder)
+    expect(f"verification.py: {done.returncode} {done.stderr}", done.returncode == 0 and not done.stderr)
+    for label in LABELS:
+        expect(f"the verification lacks {label}", label in done.stdout)
+    expect("the fitted mesh, no method, is verified", FITTED not in done.stdout)
+    expect("verification.png is not there", (folder / "verification.png").is_file())
+    done = run("pareto.py", "--x", "total_us", "--y", "error", "--scene", "centre_crack", "--records",
+               folder / "records.csv")
+    expect(f"pareto.py: {done.returncode} {done.stderr}", done.returncode == 0 and not done.stderr)
+    expect("no Pareto figure", (folder / "pareto_centre_crack_total_us_error.png").is_file())
+    for label in [*LABELS, FITTED]:
+        expect(f"pareto.py's table lacks {label}", label in done.stdout)
+    done = run("claims.py", "--results", results)
+    expect(f"claims.py: {done.returncode} {done.stderr}", done.returncode == 0 and not done.stderr)
+    claims = (results / "claims.md").read_text(encoding="utf-8") if done.returncode == 0 else ""
+    lines = [line for line in claims.splitlines() if line.startswith("| ")]
+    for stem in ("fig9_aspect_ratio", "table1_timing"):  # no records of these
+        expect(f"claims of {stem} are judged", any(f"reproduce {stem}" in line and "| untested |" in line for line in lines))
+        expect(f"claims of {stem} have figures", f"({stem}/" not in claims)
+    expect("claims with records are not judged", sum("(accuracy/accuracy" in line for line in lines) >= 2)
+
+
+def check_equal_unknowns(folder):
+    """Worked out anew for one case: by the power law through the two sizes' fitted meshes."""
+    sys.path.insert(0, str(PLOTS))
+    import accuracy_ranking
+    from accuracy_records import REFERENCE, Records
+    records = Records(folder)
+    rows = accuracy_ranking.at_equal_unknowns(records).rows(direct=True)
+    fitted = rows[(rows["method"] == REFERENCE[0])]
+    expect("the fitted mesh is not its own measure", (abs(fitted["ratio_equal"] - 1) < 1e-12).all())
+    # Were all fitted meshes on one power law, error = c N^-0.5, that of as many unknowns would be that of N.
+    table = records.table.copy()
+    is_fitted = table["method"] == REFERENCE[0]
+    table.loc[is_fitted, "error"] = 3 * table.loc[is_fitted, "unknowns"] ** -0.5
+    keys = ["scene", "sheet", "resolution", "case"]
+    error = table[is_fitted & table["direct"]].set_index(keys)["error"]
+    table["ratio"] = table["error"] / error.reindex(table.set_index(keys).index).to_numpy()
+    rows = accuracy_ranking.at_equal_unknowns(records.with_rows(table)).rows(direct=True)
+    expected = rows["error"] / (3 * rows["unknowns"] ** -0.5)
+    expect("errors at equal unknowns are not those of the power law",
+           (abs(rows["ratio_equal"] / expected - 1) < 1e-9).all())
+
+
+def check_failures(results):
+    """A third of one method's cases failed."""
+    folder = results / "failed"
+    shutil.copytree(results / "accuracy", folder)
+    rows = read(folder / "records.csv")
+    for row in rows:
+        if of(row, "bowyer_watson", "rounds=1") and row["case"] == "0":
+            row["verdict"], row["reason"] = "inverted", "on purpose"
+            for column in row:
+                if column.startswith(("error", "value_", "excess")) or column in ("total_us", "unknowns"):
+                    row[column] = ""
+    write(folder / "records.csv", rows)
+    import accuracy
+    from accuracy_ranking import at_equal_unknowns, print_ranking
+    from accuracy_records import Records
+    records = at_equal_unknowns(Records(folder))
+    for x, y in (("ms", "excess_percent"), ("unknowns", "excess_equal_percent")):
+        figure = accuracy.excess_figure(records, x, y, x, "nothing")
+        texts = [t.get_text() for ax in figure.axes for t in ax.texts]
+        expect(f"failures are not shown over {x}: {texts}", any(t.startswith("× ") for t in texts))
+    ranking = io.StringIO()
+    with contextlib.redirect_stdout(ranking):
+        print_ranking(records)
+    lines = [line for line in ranking.getvalue().splitlines() if line.startswith("all ") and LABELS[2] in line]
+    expect(f"failures are not in the ranking: {lines}", lines and float(lines[0].split()[4]) > 10)
+
+
+def check_missing_columns(results):
+    folder = results / "without"
+    shutil.copytree(results / "accuracy", folder / "accuracy")
+    rows = read(folder / "accuracy/records.csv")
+    write(folder / "accuracy/records.csv", [{k: v for k, v in row.items() if k != "unknowns"} for row in rows])
+    for script, arguments in (("accuracy.py", ["--results", folder / "accuracy"]),
+                              ("verification.py", ["--results", folder / "accuracy"]),
+                              ("claims.py", ["--results", folder]),
+                              ("pareto.py", ["--x", "unknowns", "--y", "error", "--scene", "centre_crack", "--records",
+                                             folder / "accuracy/records.csv"])):
+        done = run(script, *arguments)
+        expect(f"{script} without a column: {done.returncode} {done.stderr}",
+               done.returncode == 2 and len(done.stderr.splitlines()) == 1 and "unknowns" in done.stderr)
+
+
+def main():
+    results = Path(sys.argv[1])
+    check_all_there(results)
+    if problems:  # the rest would only repeat them
+        print("\n".join(problems))
+        return 1
+    check_equal_unknowns(results / "accuracy")
+    check_failures(results)
+    check_missing_columns(results)
+    print("\n".join(problems))
+    return bool(problems)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
