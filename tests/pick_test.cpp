@@ -143,6 +143,20 @@ polyline = [[0.73, 0.5, 0.1], {origin = [5.33, 0.5, 1], direction = [0, 0, -3]}]
   const auto result = run("simulate s.toml");
   EXPECT_EQ(result.code, 2);
   EXPECT_EQ(result.error, "s, cut 0, point 1: the ray misses the sheet by 4; aim at where the sheet then is\n");
+
+  // Nor does it leave frames: none at all where there were none, and those of a whole run as they were.
+  const auto files_before = files();
+  EXPECT_EQ(run("simulate s.toml --frames f --every 1").code, 2);
+  EXPECT_EQ(files(), files_before);
+  scene("");
+  ASSERT_EQ(run("simulate s.toml --frames f --every 1").code, 0);
+  const auto whole = files();
+  const std::string series = read(folder_ / "f/frames.pvd"), frame = read(folder_ / "f/frame_0003.vtu");
+  scene("[[cuts]]\ntime = 0.05\nspace = \"world\"\npolyline = [[9, 0, 0], [9, 1, 0]]\n");
+  EXPECT_EQ(run("simulate s.toml --frames f --every 2").code, 2);
+  EXPECT_EQ(files(), whole);
+  EXPECT_EQ(read(folder_ / "f/frames.pvd"), series);
+  EXPECT_EQ(read(folder_ / "f/frame_0003.vtu"), frame);
 }
 
 TEST_F(PickedScene, APathFileMayBeInWorldSpace) {

@@ -10,19 +10,25 @@
 
 namespace cutbench {
 
+/// Nothing of it is there before finish(): the frames wait in the folder `unfinished` of the folder.
 class Frames {
  public:
-  /// Makes the folder where it isn't there; files of the names below are replaced.
-  /// Throws InputError: no folder to make it in, or no right to write there.
+  /// Makes the folder where it isn't there. Throws InputError: no folder to make it in, or no right to write there.
   explicit Frames(const std::filesystem::path& folder);
+  /// Without finish(), all is as it was before.
+  ~Frames();
+  Frames(const Frames&) = delete;
+  Frames& operator=(const Frames&) = delete;
 
   /// frame_0000.vtu and so on: see write_mesh(). \param posed  where the vertices are at that time (s)
   void add(const Sheet& posed, double time);
-  /// frames.pvd, which names the frames of this run and no others, and last.obj.
-  void finish(const Sheet& posed) const;
+  /// Puts all in place: the frames, frames.pvd, which names those of this run and no others, and last.obj. Files of
+  /// these names are replaced.
+  void finish(const Sheet& posed);
 
  private:
-  std::filesystem::path folder_;
+  std::filesystem::path folder_, unfinished_;
+  bool made_folder_;
   std::vector<double> times_;
 };
 
