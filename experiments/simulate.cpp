@@ -31,10 +31,11 @@ void print_balance(InMotion& motion) {
 void print_cuts(const InMotion& motion) {
   for (const MotionCut& cut : motion.made_cuts()) {
     const Energy &a = cut.before.energy, &b = cut.after.energy;
+    const std::string parts = cut.parts <= 1 ? "" : ", in " + std::to_string(cut.parts) + " parts";
     std::printf(
-        "cut: %s, %zu triangles crossed; jumps: membrane %.3g J, bending %.3g J, kinetic %.3g J, residual %.3g N\n",
-        name_of(cut.cut.status), cut.cut.crossed_triangles, b.membrane - a.membrane, b.bending - a.bending,
-        b.kinetic - a.kinetic, cut.after.residual - cut.before.residual);
+        "cut: %s%s, %zu triangles crossed; jumps: membrane %.3g J, bending %.3g J, kinetic %.3g J, residual %.3g N\n",
+        name_of(cut.cut.status), parts.c_str(), cut.cut.crossed_triangles, b.membrane - a.membrane,
+        b.bending - a.bending, b.kinetic - a.kinetic, cut.after.residual - cut.before.residual);
   }
 }
 
@@ -75,6 +76,7 @@ std::string description(const Scene& scene, const InMotion& motion, const Simula
     nlohmann::ordered_json cut{{"time_s", scene.cuts[i].time},
                                {"status", name_of(made.status)},
                                {"crossed_triangles", made.crossed_triangles}};
+    if (scene.cuts[i].speed > 0) cut["speed_m_s"] = scene.cuts[i].speed, cut["parts"] = motion.made_cuts()[i].parts;
     if (!scene.cuts[i].family.empty()) cut["seed"] = scene.cuts[i].seed;
     document["cuts"].push_back(cut);
   }

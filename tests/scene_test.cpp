@@ -161,6 +161,7 @@ polyline = [[0, 0], [1, 1], [1, 0]]
 closed = true
 [[cuts]]
 time = 0.5
+speed = 1.25
 bezier = [[0, 0], [1, 1], [1, 0], [2, 0.5]]
 [[cuts]]
 time = 1.5
@@ -209,7 +210,9 @@ case = 12
   EXPECT_EQ(s.cuts[0].curve.kind, Curve::Kind::polyline);
   EXPECT_TRUE(s.cuts[0].curve.closed);
   EXPECT_EQ(s.cuts[0].curve.points, (std::vector<Point2>{{0, 0}, {1, 1}, {1, 0}}));
+  EXPECT_EQ(s.cuts[0].speed, 0);
   EXPECT_EQ(s.cuts[1].time, 0.5);
+  EXPECT_EQ(s.cuts[1].speed, 1.25);
   EXPECT_EQ(s.cuts[1].curve.kind, Curve::Kind::bezier);
   EXPECT_FALSE(s.cuts[1].curve.closed);
   EXPECT_EQ(s.cuts[1].curve.points.size(), 4u);
@@ -343,6 +346,8 @@ TEST_F(SceneFile, SaysWhatIsWrongWithAValue) {
       {"[[cuts]]\nspace = \"world\"\npolyline = [[0, 0, 0], {origin = [1, 1, 1], direction = [0, 0, 0]}]\n",
        ", cut 0, point 1: the direction is zero"},
       {"[[cuts]]\nspace = \"world\"\nbezier = [[0, 0, 0], [1, 1, 1]]\n", "4, 7, 10"},
+      {cut + "speed = 0\n", "\"speed\" must be positive"},
+      {"[[cuts]]\nfamily = \"curved\"\nspeed = 1\n", "\"speed\" does not go with \"family\""},
       {"[[cuts]]\nspace = \"world\"\nfamily = \"curved\"\n", "\"space\" does not go with \"family\""},
   };
   for (const auto& [lines, what] : bad) expect_refused_text("effect = \"e\"\ntruth = \"t\"\n" + lines, what);
@@ -369,6 +374,8 @@ TEST_F(SceneFile, SaysWhatContradictsItself) {
       {equilibrium + "[physics]\ngravity = [0, 0, -9.81]\n", "add [[pins]]"},
       {"duration = 0.001\n", "the first step ends after the duration"},
       {cut + "time = 1\n", ", cut 0: no step follows it"},
+      {equilibrium + cut + "speed = 2\n", ", cut 0: equilibrium takes no time, so no blade has"},
+      {cut + "time = 0.5\nspeed = 2\n", ", cut 0: the blade arrives at 1.207 s, after the end"},
       {cut + "time = 0.5\n" + cut + "time = 0.4\n", ", cut 1: its \"time\" is before that of the cut above"},
   };
   for (const auto& [lines, what] : bad) expect_refused_text("effect = \"e\"\ntruth = \"t\"\n" + lines, what);

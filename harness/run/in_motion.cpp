@@ -1,7 +1,12 @@
 #include "harness/run/in_motion.h"
 
 #include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
 
+#include "harness/cut/blade.h"
 #include "harness/measure/stop_watch.h"
 
 namespace cutbench {
@@ -34,12 +39,34 @@ double time_triplets(const Model<D>& model) {
   return watch.lap();
 }
 
+/// A blade's tip on its way leaves no slivers: it waits while it is nearer to an edge than this (but not on it), for as
+/// long as one h at most; in mean rest edges h.
+constexpr double clear_of_edges = 0.05;
+
+/// How far the nearest edge is that the point doesn't lie on, rest units. Cost: the whole mesh, outside every clock.
+double distance_to_edges(const Sheet& sheet, Point2 p) {
+  double nearest2 = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < sheet.triangle_slots(); ++i) {
+    const TriangleIndex t(i);
+    if (!sheet.triangle(t).alive()) continue;
+    const auto corners = sheet.corners(t);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point2 a = corners[k], ab = corners[(k + 1) % 3] - a;
+      const double s = std::clamp(dot(p - a, ab) / squared_length(ab), 0.0, 1.0);
+      const double d2 = squared_length(p - (a + s * ab));
+      if (d2 > sheet.snap() * sheet.snap()) nearest2 = std::min(nearest2, d2);
+    }
+  }
+  return std::sqrt(nearest2);
+}
+
 template <int D>
 class SceneInMotion : public InMotion {
  public:
   explicit SceneInMotion(const Scene& scene) : scene_(scene), now_(scene), trial_(now_), stepper_(options_of(scene)) {
     now_.model.reserve_spare(), trial_.model.reserve_spare();
-    for (const auto& cut : scene.cuts) cuts_.push_back({cut.time, curves_of(cut, now_.sheet), cut.picked});
+    for (const auto& cut : scene.cuts)
+      cuts_.push_back({cut.time, cut.speed, curves_of(cut, now_.sheet), cut.picked, {}, 0});
   }
 
   const std::vector<MotionCut>& made_cuts() const override { return made_; }
@@ -63,10 +90,12 @@ class SceneInMotion : public InMotion {
     StepReport report;
     const double almost = time - 1e-9 * scene_.step;
     while (now_.state.time < almost && report.verdict == "ok") {
-      while (next_cut_ < cuts_.size() && cuts_[next_cut_].time < now_.state.time + (1 - 1e-9) * scene_.step)
-        if (const MotionCut& made = made_.emplace_back(cut_with_balances(next_cut_++, method, options));
-            made.verdict != "ok")
-          report.verdict = made.verdict, report.reason = made.reason;
+      const double soon = now_.state.time + (1 - 1e-9) * scene_.step;
+      for (std::size_t i = 0; i < cuts_.size() && cuts_[i].time < soon && report.verdict == "ok"; ++i) {
+        if (i == made_.size()) begin(i, method, options);
+        if (cuts_[i].blade) advance_blade(i, method, options);
+        if (made_[i].verdict != "ok") report.verdict = made_[i].verdict, report.reason = made_[i].reason;
+      }
       if (report.verdict == "ok") report = step();
     }
     return report;
@@ -114,10 +143,12 @@ class SceneInMotion : public InMotion {
     Model<D> model;
     State state;
   };
-  struct DueCuts {
-    double time;
+  struct DueCut {
+    double time, speed;
     std::vector<Curve> curves;
     PickedCurve picked;
+    std::optional<Blade> blade;  ///< while it is on its way
+    double reached;              ///< m: what it has cut
   };
 
   static StepOptions options_of(const Scene& scene) {
@@ -131,18 +162,65 @@ class SceneInMotion : public InMotion {
     return report;
   }
 
-  MotionCut cut_with_balances(std::size_t number, CuttingMethod& method, const CutOptions& options) {
-    const Balance before = balance();
-    std::vector<Curve> curves = cuts_[number].curves;
+  /// Makes a cut that is due, or lets its blade enter.
+  void begin(std::size_t number, CuttingMethod& method, const CutOptions& options) {
+    DueCut& due = cuts_[number];
+    std::vector<Curve> curves = due.curves;
     double pick_us = 0;
-    if (const PickedCurve& picked = cuts_[number].picked; !picked.picks.empty()) {
+    if (!due.picked.picks.empty()) {
       const Sheet posed = posed_sheet();
       StopWatch watch;
-      curves.push_back(Picker(posed).rest_curve(picked, scene_.stem + ", cut " + std::to_string(number)));
+      curves.push_back(Picker(posed).rest_curve(due.picked, scene_.stem + ", cut " + std::to_string(number)));
       pick_us = watch.lap();
     }
+    if (due.speed > 0) due.blade.emplace(curves.front());
+    made_.push_back(due.blade ? MotionCut() : cut_with_balances(curves, method, options));
+    made_.back().pick_us = pick_us;
+  }
+
+  /// Up to where the blade is at the end of this step, or where it waits. A part that can't be cut by itself goes with
+  /// the next one, too.
+  void advance_blade(std::size_t number, CuttingMethod& method, const CutOptions& options) {
+    DueCut& due = cuts_[number];
+    MotionCut& made = made_[number];
+    const double h = now_.sheet.mean_edge(), end = due.blade->length();
+    const double to = std::min(end, due.speed * std::max(0.0, now_.state.time + scene_.step - due.time));
+    if (to <= due.reached) return;
+    const Curve curve = due.blade->part(due.reached, to);
+    if (to < end && to < due.reached + h && distance_to_edges(now_.sheet, curve.points.back()) < clear_of_edges * h)
+      return;
+    const MotionCut part = cut_with_balances({curve}, method, options);
+    const bool cut = part.cut.status == Status::ok || part.cut.status == Status::deviated;
+    if (cut) due.reached = to;
+    if (cut || part.verdict != "ok") add(part, made);
+    if (made.parts == 0) made.cut.status = part.cut.status, made.reason = part.reason;
+    if (to == end) due.blade.reset();
+  }
+
+  static void add(const MotionCut& part, MotionCut& sum) {
+    if (sum.parts++ == 0) {
+      const double pick_us = sum.pick_us;
+      sum = part, sum.pick_us = pick_us;
+      return;
+    }
+    if (sum.cut.status != Status::deviated) sum.cut.status = part.cut.status;
+    sum.cut.crossed_triangles += part.cut.crossed_triangles;
+    sum.cut.time_us += part.cut.time_us, sum.cut.cpu_us += part.cut.cpu_us;
+    sum.verdict = part.verdict, sum.reason = part.reason;
+    sum.transfer_us += part.transfer_us, sum.pattern_us += part.pattern_us, sum.bending_us += part.bending_us;
+    const Energy &was = part.before.energy, &is = part.after.energy;
+    sum.after.energy.membrane += is.membrane - was.membrane, sum.after.energy.bending += is.bending - was.bending;
+    sum.after.energy.kinetic += is.kinetic - was.kinetic, sum.after.energy.potential += is.potential - was.potential;
+    sum.after.residual += part.after.residual - part.before.residual;
+    sum.after.momentum = sum.after.momentum + part.after.momentum + -1 * part.before.momentum;
+    sum.after.angular_momentum =
+        sum.after.angular_momentum + part.after.angular_momentum + -1 * part.before.angular_momentum;
+  }
+
+  MotionCut cut_with_balances(const std::vector<Curve>& curves, CuttingMethod& method, const CutOptions& options) {
+    const Balance before = balance();
     MotionCut made = cut(now_, curves, cutter_, method, options);
-    made.pick_us = pick_us, made.before = before, made.after = balance();
+    made.before = before, made.after = balance();
     if (budget_) budget_->add_cut(made.before, made.after);
     return made;
   }
@@ -151,6 +229,7 @@ class SceneInMotion : public InMotion {
   MotionCut cut(Now& now, const std::vector<Curve>& cuts, Cutter& cutter, CuttingMethod& method,
                 const CutOptions& options) {
     MotionCut result;
+    result.parts = 1;
     for (const Curve& curve : cuts) {
       const CutRun run = cut_all(now.sheet, now.locator, cutter, {&curve, 1}, method, options);
       result.cut.status = run.status, result.cut.verdict = run.verdict, result.cut.reason = run.reason;
@@ -174,9 +253,8 @@ class SceneInMotion : public InMotion {
   Now now_, trial_;
   Stepper<D> stepper_;
   Cutter cutter_;
-  std::vector<DueCuts> cuts_;
+  std::vector<DueCut> cuts_;
   std::vector<MotionCut> made_;
-  std::size_t next_cut_ = 0;
   std::optional<EnergyBudget> budget_;
   State before_;  // the step, for the budget
 };

@@ -15,6 +15,7 @@ namespace cutbench {
 struct MotionCut {
   CutRun cut;
   std::string verdict = "ok", reason;  ///< of the cut and of the steps before and after it
+  std::size_t parts = 0;               ///< it was made in: by a blade, one a step; below are sums over them
   double pick_us = 0;                  ///< the sheet as it is then into a tree, and the picks carried to rest space
   double transfer_us = 0;              ///< state of new vertices
   double pattern_us = 0;               ///< element data, mass, loads and the pattern of the system
@@ -24,7 +25,7 @@ struct MotionCut {
   double bending_rebuild_us = 0;  ///< (b): instead of `bending`
   double triplets_us =
       0;                  ///< (c): instead of `assemble`, by Eigen's setFromTriplets, scalar entries, triplets included
-  Balance before, after;  ///< of the instant
+  Balance before, after;  ///< of the instant; of a blade's cut, `after` has all that jumped, without what moved between
 };
 
 class InMotion {

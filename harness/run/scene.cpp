@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <utility>
 
+#include "harness/cut/blade.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/mesh_io.h"
 #include "harness/run/cases.h"
@@ -173,12 +175,13 @@ Scene::Cut read_cut(const TomlReader& reader) {
   Scene::Cut cut;
   cut.time = reader.positive_or_zero("time", 0);
   if (!seeded) {
+    if (reader.has("speed")) cut.speed = reader.positive("speed", 0);
     const bool world = reader.choice("space", false, {{"rest", false}, {"world", true}});
     if (world) cut.picked = read_picks(reader, bezier ? "bezier" : "polyline");
     if (!world) cut.curve = read_curve(reader, bezier);
     return cut;
   }
-  exclude(reader, "\"family\"", {"closed", "space"});
+  exclude(reader, "\"family\"", {"closed", "space", "speed"});
   cut.family = reader.value<std::string>("family");
   check_names({cut.family}, cut_families(), reader.where + ": cut family");
   cut.seed = static_cast<std::uint64_t>(reader.value<std::int64_t>("seed", 1));
@@ -217,6 +220,17 @@ SolverOptions read_solver(const TomlReader& file) {
   return s;
 }
 
+/// The blade has cut all of a curve before the end. Where a picked one will be is not known yet.
+void check_arrival(const Scene& scene, const Scene::Cut& cut, const std::string& where) {
+  if (cut.speed == 0 || cut.curve.points.empty()) return;
+  const double arrival = cut.time + Blade(cut.curve).length() / cut.speed;
+  if (arrival <= scene.duration) return;
+  char text[128];
+  std::snprintf(text, sizeof text, "the blade arrives at %.4g s, after the end; make it faster or \"duration\" longer",
+                arrival);
+  throw InputError(where + text);
+}
+
 /// What is wrong only together.
 void check_times(const Scene& scene, const std::string& name) {
   const bool equilibrium = scene.integrator == Integrator::equilibrium;
@@ -227,8 +241,11 @@ void check_times(const Scene& scene, const std::string& name) {
     const std::string where = name + ", cut " + std::to_string(i) + ": ";
     if (equilibrium && time > 0)
       throw InputError(where + "equilibrium takes no time, so \"time\" must be 0, or another integrator be chosen");
+    if (equilibrium && scene.cuts[i].speed > 0)
+      throw InputError(where + "equilibrium takes no time, so no blade has a \"speed\"; choose another integrator");
     if (!equilibrium && time >= scene.duration)
       throw InputError(where + "no step follows it; make \"time\" less than the scene's \"duration\"");
+    check_arrival(scene, scene.cuts[i], where);
     if (i > 0 && time < scene.cuts[i - 1].time)
       throw InputError(where + "its \"time\" is before that of the cut above; list cuts in the order they are made");
   }
@@ -277,8 +294,8 @@ Scene read_scene(const std::filesystem::path& file) {
     scene.tractions.push_back(read_traction(traction, scene.physics));
   read_integrator(reader, scene);
   scene.solver = read_solver(reader);
-  for (const auto& cut :
-       reader.sections("cuts", "cut", {"time", "space", "bezier", "polyline", "closed", "family", "seed", "case"}))
+  for (const auto& cut : reader.sections(
+           "cuts", "cut", {"time", "speed", "space", "bezier", "polyline", "closed", "family", "seed", "case"}))
     scene.cuts.push_back(read_cut(cut));
   check_times(scene, reader.where);
   return scene;

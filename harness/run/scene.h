@@ -10,7 +10,7 @@
 //   [[tractions]] box, force = [x, y, z]
 //   [integrator]  name = "backward_euler"|"midpoint"|"symplectic_euler"|"equilibrium", step, newton
 //   [solver]      name, tolerance, max_iterations
-//   [[cuts]]      time; bezier | polyline = [[x, y], ...], closed = true | family, seed, case
+//   [[cuts]]      time; bezier | polyline = [[x, y], ...], closed = true, speed | family, seed, case
 //                 space = "world": the points are picked on the sheet as it is at that time (harness/cut/pick.h), each
 //                 [x, y, z], or a ray {origin = [x, y, z], direction = [x, y, z]}
 //
@@ -41,6 +41,7 @@ struct ScenePin {
 struct Scene {
   struct Cut {
     double time = 0;     ///< s: made before the first step that ends after it
+    double speed = 0;    ///< m/s at rest: of a blade that enters at `time` and cuts as it advances; 0: all at once
     Curve curve;         ///< in rest space, m; or a seeded case, see curves_of():
     PickedCurve picked;  ///< in world space, m, instead of the curve; no picks: in rest space
     std::string family;  ///< of cut_families(); empty: the curve
