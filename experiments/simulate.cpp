@@ -52,6 +52,10 @@ void judge_budget(const EnergyBudget& budget, StepReport& report) {
   report.verdict = "energy_growth", report.reason = text;
 }
 
+const char* name_of(BendingKind bending) {
+  return bending == BendingKind::none ? "none" : bending == BendingKind::patches ? "patches" : "hinges";
+}
+
 /// What a caption needs to say of the frames beside it.
 std::string description(const Scene& scene, const InMotion& motion, const SimulateOptions& options,
                         const StepReport& report, std::size_t triangles_before) {
@@ -66,7 +70,9 @@ std::string description(const Scene& scene, const InMotion& motion, const Simula
       {"unknowns", scene.physics.dimension * static_cast<int>(motion.sheet().deformed_count())},
       {"size_m", scene.size},
       {"step_s", scene.step},
+      {"bending", name_of(scene.physics.bending)},
       {"solver", scene.solver.name},
+      {"solver_tolerance", scene.solver.tolerance},
       {"verdict", report.verdict},
       {"reason", report.reason}};
   if (std::isfinite(options.cut.chord_tolerance)) document["chord_tolerance"] = options.cut.chord_tolerance;

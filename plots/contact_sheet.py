@@ -14,6 +14,7 @@ import style
 
 METHOD = "bowyer_watson rounds=1"
 MOMENTS = 4
+CAMERA = render.Camera(centre=(0.5, 0.5, -0.25), azimuth=25, elevation=42)
 
 
 def main():
@@ -57,8 +58,7 @@ def draw(folders, results):
         times = [t for t, _ in render.read_series(folder)]
         first = description["cuts"][0]["time_s"]
         frames = [render.read_frame(folder, first + (times[-1] - first) * i / (MOMENTS - 1)) for i in range(MOMENTS)]
-        camera = render.Camera(centre=(0.5, 0.5, -0.25), azimuth=25, elevation=42)
-        box = render.extent(frames, camera)
+        box = render.extent(frames, CAMERA)
         bottom = below + row * (len(folders) - 1 - r)
         figure.text(0.05 / style.WIDTH, (bottom + height + 0.03) / total,
                     folder.parent.name.replace("_", " ") + "\n" + description["effect"], fontsize=4.9, va="bottom",
@@ -66,7 +66,7 @@ def draw(folders, results):
         for c, frame in enumerate(frames):
             ax = figure.add_axes([c * width / style.WIDTH, bottom / total, width / style.WIDTH,
                                   height / total])
-            render.draw(ax, frame, camera)
+            render.draw(ax, frame, CAMERA)
             render.blank(ax, box)
             ax.text(0.97, 1, f"{frame.time:.2f} s", transform=ax.transAxes, fontsize=5, va="top", ha="right")
     style.save(figure, results, "contact_sheet")

@@ -2,39 +2,39 @@
 """Figure 10 of the paper: the detail round an incision. Over each picture: unknowns, and the distance between the
 requested curve and the incision (Hausdorff, at rest, in mean edges h of the uncut sheet)."""
 
-import tomllib
-
 import numpy as np
+from matplotlib.lines import Line2D
 
+import lips
 import load
+import render
+import scene_panels
+import style
 from render import Camera
-from scene_panels import Shot, main
+from scene_panels import Shot
 
 STEM = "fig10_level_of_detail"
-
-
-def requested():
-    """Points close together on the scene's Bezier."""
-    with open(load.REPOSITORY / "experiments/scenes" / f"{STEM}.toml", "rb") as file:
-        p = np.array(tomllib.load(file)["cuts"][0]["bezier"])
-    t = np.linspace(0, 1, 2001)[:, None]
-    return (1 - t) ** 3 * p[0] + 3 * (1 - t) ** 2 * t * p[1] + 3 * (1 - t) * t ** 2 * p[2] + t ** 3 * p[3]
+TOLERANCES = {"": ("--", "edge crossings only"), "0.05": ("-", "chord tolerance 0.05 h")}
 
 
 def distances(points, a, b):
     """Of each point to the nearest of the segments a-b."""
     along = b - a
-    s = np.einsum("psx,sx->ps", points[:, None] - a, along) / np.einsum("sx,sx->s", along, along)
-    nearest = a + s.clip(0, 1)[..., None] * along
-    return np.linalg.norm(points[:, None] - nearest, axis=2).min(axis=1)
+    length2 = np.einsum("sx,sx->s", along, along)
+
+    def nearest(some):
+        s = np.einsum("psx,sx->ps", some[:, None] - a, along) / length2
+        return np.linalg.norm(some[:, None] - (a + s.clip(0, 1)[..., None] * along), axis=2).min(axis=1)
+    return np.concatenate([nearest(points[i:i + 500]) for i in range(0, len(points), 500)])
 
 
 def incision_error(frame):
-    curve, (edges, _) = requested(), frame.lips()
+    """m"""
+    curve, (edges, _) = lips.requested(STEM), frame.lips()
     a, b = frame.rest[edges[:, 0]], frame.rest[edges[:, 1]]
     share = np.linspace(0, 1, 21)[:, None, None]
-    return max(distances(curve, a, b).max(), distances(((1 - share) * a + share * b).reshape(-1, 2), curve[:-1],
-                                                       curve[1:]).max())
+    on_edges = np.unique(((1 - share) * a + share * b).reshape(-1, 2), axis=0)
+    return max(distances(curve, a, b).max(), distances(on_edges, curve[:-1], curve[1:]).max())
 
 
 def label(description, frame):
@@ -43,7 +43,50 @@ def label(description, frame):
     return f"{description['unknowns']} unknowns, error {load.number(incision_error(frame) / h, 2)} h"
 
 
+def read_levels(folder):
+    """{(method, knob): {tolerance: [(unknowns, error in mm)]}} of the same cut at several resolutions."""
+    levels, described = {}, []
+    for file in sorted(folder.glob("levels/*/*/simulation.json")):
+        description = render.read_description(file.parent)
+        if description["verdict"] != "ok":
+            continue
+        method, _, knob = description["method"].partition(" ")
+        error = 1000 * incision_error(render.read_frame(file.parent, 1e9))
+        tolerance = str(description.get("chord_tolerance", ""))
+        levels.setdefault((method, knob), {}).setdefault(tolerance, []).append((description["unknowns"], error))
+        described.append(description)
+    return levels, described
+
+
+def error_figure(levels, described):
+    """Error over unknowns: the same cut, just made, at several resolutions."""
+    figure, axes = style.panels(1, 1, 5, layout="constrained")
+    ax, looks = axes[0, 0], style.looks(levels)
+    for variant, look in looks.items():
+        for tolerance, points in levels[variant].items():
+            ax.plot(*zip(*sorted(points)), **{**look.drawn(), "linestyle": TOLERANCES[tolerance][0]})
+    ax.set_xscale("log")
+    ax.set_yscale("log")
+    ax.set_xlabel("unknowns after the cut")
+    ax.set_ylabel("incision error, mm")
+    n = sorted({d["triangles_before"] for d in described})
+    style.finish(figure, looks.values(), "Figure 10 of the paper, in numbers: the distance between the requested curve and the "
+                 "incision (Hausdorff, at rest; the sheet is 1 m wide) over the unknowns of the cut sheet. Every method cuts "
+                 "through the same points, so that the error is that of the resolution and the tolerance; methods differ in "
+                 f"the unknowns they need for it. n = {', '.join(map(str, n))} triangles before the cut, one cut; seed: none, "
+                 f"the cut is in the scene file; {scene_panels.commits(described)}. Command: experiments/reproduce {STEM}",
+                 [Line2D([], [], color="#444444", linestyle=line, label=name) for line, name in TOLERANCES.values()])
+    return figure
+
+
+def main():
+    options = scene_panels.main(
+        STEM, __doc__, [Shot(STEM, "", 0.7, Camera(centre=(0.5, 0.5, -0.25), azimuth=20, elevation=62),
+                             box=(-0.27, 0.27, -0.27, 0.25))], label=label, kinds=("mesh",))
+    levels, described = read_levels(options.results)
+    if levels:
+        style.save(error_figure(levels, described), options.results, f"{STEM}_error")
+
+
 if __name__ == "__main__":
-    main(STEM, __doc__,
-         [Shot(STEM, "", 0.7, Camera(centre=(0.5, 0.5, -0.25), azimuth=20, elevation=62),
-               box=(-0.27, 0.27, -0.27, 0.25))], label=label, kinds=("mesh",))
+    main()

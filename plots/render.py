@@ -55,10 +55,17 @@ def read_series(folder):
 
 def read_frame(folder, time):
     """The frame nearest to a time (s)."""
-    at, file = min(read_series(folder), key=lambda frame: abs(frame[0] - time))
+    return read_vtu(*min(read_series(folder), key=lambda frame: abs(frame[0] - time)))
+
+
+def read_all(folder):
+    return [read_vtu(*frame) for frame in read_series(folder)]
+
+
+def read_vtu(time, file):
     arrays = {a.get("Name"): np.array(a.text.split(), float).reshape(-1, int(a.get("NumberOfComponents")))
               for a in xml.parse(file).getroot().iter("DataArray")}
-    return Frame(at, arrays["deformed"], arrays["rest"][:, :2], arrays["connectivity"].astype(int).reshape(-1, 3),
+    return Frame(time, arrays["deformed"], arrays["rest"][:, :2], arrays["connectivity"].astype(int).reshape(-1, 3),
                  {name: arrays[name][:, 0] for name in ("piece", "aspect_ratio", "strain")})
 
 

@@ -38,12 +38,17 @@ def look_of(description):
     return style.looks([(method, knob)])[method, knob]
 
 
+def folders(results, scene):
+    """With the frames of each method."""
+    found = sorted(d.parent for d in (results / scene).glob("*/simulation.json"))
+    if not found:
+        load.stop(f"{results / scene} has no frames; experiments/reproduce {results.name} makes them")
+    return found
+
+
 def read_shot(folder, shot):
     """[(description, frame)] of each method, in the order of every legend."""
-    found = [d.parent for d in (folder / shot.scene).glob("*/simulation.json")]
-    if not found:
-        load.stop(f"{folder / shot.scene} has no frames; experiments/reproduce {folder.name} makes them")
-    read = [(render.read_description(d), d) for d in found]
+    read = [(render.read_description(d), d) for d in folders(folder, shot.scene)]
     known = [f"{method} {knob}".strip() for method, knob in style.KNOWN]
     read.sort(key=lambda r: (known.index(r[0]["method"]) if r[0]["method"] in known else len(known), r[0]["method"]))
     return [(description, render.read_frame(d, shot.time)) for description, d in read]
@@ -63,6 +68,14 @@ def commits(described):
     return "commit " + ", ".join(sorted(names))
 
 
+def solvers(shots, panels):
+    """`cholmod`, or by scene where they differ; of each scene it is the same."""
+    def named(description):
+        return description["solver"] + (f" to {description['solver_tolerance']:g}" if description["solver"] == "cg" else "")
+    names = [same((named(d) for d, _ in column), "the solver") for column in panels]
+    return names[0] if len(set(names)) == 1 else ", ".join(f"{s.title}: {n}" for s, n in zip(shots, names))
+
+
 def caption(stem, shots, panels, extra):
     """What the picture does not say: n, material, time, seed, tolerance, commit, command."""
     described = [d for column in panels for d, _ in column]
@@ -72,12 +85,12 @@ def caption(stem, shots, panels, extra):
                       + ", ".join(f"{c['time_s']:g}" for c in column[0][0]["cuts"]) + " s)"
                       for s, column in zip(shots, panels))
     seeds = sorted({c["seed"] for d in described for c in d["cuts"] if "seed" in c})
-    failed = [f"{d['scene']} by {d['method']}: {d['verdict']}" for d in described if d["verdict"] != "ok"]
+    failed = dict.fromkeys(f"{d['scene']} by {d['method']}: {d['verdict']}" for d in described if d["verdict"] != "ok")
     tolerance = same((d.get("chord_tolerance", "inf") for d in described), "the chord tolerance")
     return " ".join([
         *extra, f"n = {n} triangles before the cut, 1 m square, the skin of paper_table1; time: {times}. Red: lips of "
         f"the incision. Backward Euler, {same((1 / d['step_s'] for d in described), 'the step'):.0f} steps per s, "
-        f"{same((d['solver'] for d in described), 'the solver')}; chord tolerance {tolerance} h.",
+        f"{solvers(shots, panels)}; chord tolerance {tolerance} h.",
         f"Seed: {', '.join(map(str, seeds)) if seeds else 'none, the cuts are in the scene files'}; "
         f"{commits(described)}.",
         *([f"FAILED: {'; '.join(failed)}."] if failed else []),
@@ -128,18 +141,17 @@ def draw(shots, panels, wireframe, colour, text, label):
     return figure
 
 
-def triangles_after(description, _):
-    return f"{description['triangles_after']} triangles"
+def triangles(_, frame):
+    return f"{len(frame.triangles)} triangles"
 
 
-def main(stem, description, shots, label=triangles_after, kinds=("", "mesh")):
-    """`kinds` of figure: "" is shaded, "mesh" shows the triangles."""
+def main(stem, description, shots, label=triangles, kinds=("", "mesh"), notes=lambda results: []):
+    """`kinds` of figure: "" is shaded, "mesh" shows the triangles. `notes(results)`: sentences that the caption has,
+    too. Returns the arguments."""
     options = arguments(stem, description)
     panels = [read_shot(options.results, shot) for shot in shots]
-    text = caption(stem, shots, panels, [" ".join(description.split())])
-    if options.colour:
-        style.save(draw(shots, panels, True, options.colour, text, label), options.results, f"{stem}_{options.colour}")
-        return
-    for kind in kinds:
-        style.save(draw(shots, panels, kind == "mesh", None, text, label), options.results,
-                   stem + (f"_{kind}" if kind and len(kinds) > 1 else ""))
+    text = caption(stem, shots, panels, [" ".join(description.split()), *notes(options.results)])
+    for kind in [options.colour] if options.colour else kinds:
+        figure = draw(shots, panels, kind != "", options.colour, text, label)
+        style.save(figure, options.results, stem + (f"_{kind}" if options.colour or (kind and len(kinds) > 1) else ""))
+    return options

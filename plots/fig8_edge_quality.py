@@ -1,0 +1,142 @@
+#!/usr/bin/env python3
+"""Figure 8 of the paper: the cut edge, there a "swirling" one by the conventional split. Over each picture: the largest
+aspect ratio, and how far the lips are and turn away from those of the same scene on a fine sheet (root mean squares)."""
+
+import functools
+
+from matplotlib.lines import Line2D
+
+import lips
+import load
+import render
+import scene_panels
+import style
+from render import Camera
+from scene_panels import Shot
+
+STEM = "fig8_edge_quality"
+SCENES = {"patches": "bending: patches;\nsolver: direct", "hinges": "bending: hinges;\nsolver: direct",
+          "cg": "bending: patches;\nCG to 0.01", "unconverged": "bending: patches;\nCG to 0.3"}
+TIMES = (0.7, 1.5)  # s
+FINE, COARSER = 7442, 3362  # triangles of the reference, and of another that shows what it is worth
+COLUMNS = ["scene", "time, s", "method", "off by, mm", "turned by, degrees", f"{COARSER} triangles: mm", "degrees", "verdict"]
+FROM_ABOVE = Camera(centre=(0.5, 0.5, -0.2), azimuth=25, elevation=42)
+
+
+class Reference:
+    """Frames in <results>/reference/<bending>_<triangles>: direct solver, CGAL's constrained triangulation."""
+
+    def __init__(self, results):
+        self.folder = results / "reference"
+        self.curve = lips.requested(f"{STEM}_patches")
+        self.length = lips.distances_along(self.curve)[-1]
+
+    def is_there(self):
+        return all((self.folder / f"{bending}_{n}" / "frames.pvd").is_file()
+                   for bending in ("patches", "hinges") for n in (FINE, COARSER))
+
+    @functools.lru_cache(None)
+    def at(self, bending, triangles, time):
+        folder = self.folder / f"{bending}_{triangles}"
+        if not (folder / "frames.pvd").is_file():
+            load.stop(f"{folder} has no frames of the reference; experiments/reproduce {STEM} makes them")
+        return lips.by_side(render.read_frame(folder, time), self.curve)
+
+    def difference(self, description, frame):
+        """mm, degrees"""
+        bending = description["bending"]
+        offset, turn = lips.difference(lips.by_side(frame, self.curve), self.at(bending, FINE, round(frame.time, 6)),
+                                       self.length)
+        return 1000 * offset, turn
+
+    def worth(self, bending, time):
+        """What the lips of a sheet of half as many triangles differ by: mm, degrees."""
+        offset, turn = lips.difference(self.at(bending, COARSER, time), self.at(bending, FINE, time), self.length)
+        return 1000 * offset, turn
+
+
+def measured(results):
+    """[(scene, time, (method, knob), mm, degrees, verdict)], and the worth {(scene, time): (mm, degrees)}."""
+    reference, rows, worth = Reference(results), [], {}
+    for scene in SCENES:
+        for time in TIMES:
+            for description, frame in scene_panels.read_shot(results, Shot(f"{STEM}_{scene}", "", time)):
+                method, _, knob = description["method"].partition(" ")
+                rows.append((scene, time, (method, knob), *reference.difference(description, frame),
+                             description["verdict"]))
+                worth[scene, time] = reference.worth(description["bending"], round(frame.time, 6))
+    return rows, worth
+
+
+def lips_figure(rows, worth, described):
+    """Left: how far the lips are off; right: how far they turn away. Above: soon after the cut; below: in the end."""
+    figure, axes = style.panels(len(TIMES), 2, 3.4, sharey=True, layout="constrained")
+    looks = style.looks({method for _, _, method, *_ in rows})
+    names = list(SCENES)
+    for r, time in enumerate(TIMES):
+        for c, unit in enumerate(("lips off by, mm", "lips turned by, degrees")):
+            ax = axes[r, c]
+            for scene, at, method, *values, _ in rows:
+                if at == time:
+                    shift = 0.16 * (list(looks).index(method) - (len(looks) - 1) / 2)
+                    ax.plot(values[c], names.index(scene) + shift, **{**looks[method].drawn(), "linestyle": ""})
+            for i, scene in enumerate(names):
+                ax.vlines(worth[scene, time][c], i - 0.45, i + 0.45, color="black", linewidth=0.7, linestyle=":")
+            ax.set_xscale("log")
+            ax.set_yticks(range(len(names)), SCENES.values(), fontsize=5.6)
+            ax.set_ylim(len(names) - 0.5, -0.5)
+            ax.set_title(f"{time:g} s", loc="left")
+            ax.set_xlabel(unit)
+    n = scene_panels.same((d["triangles_before"] for d in described), "the number of triangles")
+    style.finish(figure, looks.values(), " ".join([
+        "Figure 8 of the paper, in numbers: is a swirling cut edge made by the mesh, by the bending or by the solver?", answer(rows),
+        f"Root mean squares along both lips against a sheet of {FINE} triangles (same scene, bending element, integrator "
+        f"and step; direct solver), of the same triangles' own edges. n = {n} triangles before the cut at 0.5 s; one cut; "
+        f"seed: none, it is in the scene files; {scene_panels.commits(described)}. Command: experiments/reproduce {STEM}"]),
+        [Line2D([], [], color="black", linewidth=0.7, linestyle=":", label=f"of a sheet of {COARSER} triangles")])
+    return figure
+
+
+def turns_of(rows, scene, of_conventional):
+    return [turn for s, _, (method, _), _, turn, _ in rows
+            if s == scene and (method == "conventional_split") == of_conventional]
+
+
+def swirls(rows):
+    """Whether, solved directly, the conventional split's lips turn away half as much again as any other's."""
+    return any(max(turns_of(rows, scene, True)) > 1.5 * max(turns_of(rows, scene, False)) for scene in ("patches", "hinges"))
+
+
+def answer(rows):
+    """In a few sentences, with ranges over the methods and times, of the turns."""
+    def range_of(values):
+        return f"{min(values):.1f}° to {max(values):.1f}°"
+    direct = [f"{scene} {range_of(turns_of(rows, scene, True))}, the others {range_of(turns_of(rows, scene, False))}"
+              for scene in ("patches", "hinges")]
+    cg, early = (range_of(turns_of(rows, scene, True) + turns_of(rows, scene, False)) for scene in ("cg", "unconverged"))
+    return (f"By the conventional split, solved directly, lips turn by {'; '.join(direct)}: it "
+            f"{'swirls more than they do' if swirls(rows) else 'does not swirl more than they do'}. CG to 0.01: {cg}; CG "
+            f"stopped at 0.3: {early}.")
+
+
+def print_numbers(rows, worth):
+    table = [[SCENES[scene].replace("\n", " "), f"{time:g}", " ".join(method).strip(), offset, turn, *worth[scene, time], verdict]
+             for scene, time, method, offset, turn, verdict in rows]
+    load.print_table("Lips against those of a fine sheet, root mean squares", COLUMNS, table)
+
+
+def main():
+    def label(description, frame):
+        offset, turn = Reference(options.results).difference(description, frame)
+        return f"max AR {frame.cell['aspect_ratio'].max():.0f}; lips {offset:.1f} mm off, {turn:.1f}° turned"
+    options = scene_panels.arguments(STEM, __doc__)
+    scene_panels.main(STEM, __doc__, [Shot(f"{STEM}_patches", "solved directly", TIMES[0], FROM_ABOVE),
+                                      Shot(f"{STEM}_unconverged", "CG stopped at 0.3", TIMES[0], FROM_ABOVE)], label=label)
+    rows, worth = measured(options.results)
+    described = [render.read_description(f.parent) for f in sorted(options.results.glob(f"{STEM}_*/*/simulation.json"))]
+    style.save(lips_figure(rows, worth, described), options.results, f"{STEM}_lips")
+    print_numbers(rows, worth)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,11 @@
+#!/usr/bin/env python3
+"""A blade that advances while the sheet moves: on its way, and after it has arrived."""
+
+from render import Camera
+from scene_panels import Shot, main
+
+FROM_ABOVE = Camera(centre=(0.5, 0.5, -0.2), azimuth=25, elevation=42)
+
+if __name__ == "__main__":
+    main("progressive_cut", __doc__,
+         [Shot("progressive_cut", "on its way", 0.8, FROM_ABOVE), Shot("progressive_cut", "through", 1.5, FROM_ABOVE)])
