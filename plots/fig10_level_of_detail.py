@@ -4,6 +4,7 @@ requested curve and the incision (Hausdorff, at rest, in mean edges h of the unc
 
 import numpy as np
 from matplotlib.lines import Line2D
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 import lips
 import load
@@ -14,7 +15,7 @@ from render import Camera
 from scene_panels import Shot
 
 STEM = "fig10_level_of_detail"
-TOLERANCES = {"": ("--", "edge crossings only"), "0.05": ("-", "chord tolerance 0.05 h")}
+TOLERANCES = {"0.05": ("-", "chord tolerance 0.05 h (default)"), "0.005": ("--", "0.005 h")}
 
 
 def distances(points, a, b):
@@ -67,6 +68,10 @@ def error_figure(levels, described):
             ax.plot(*zip(*sorted(points)), **{**look.drawn(), "linestyle": TOLERANCES[tolerance][0]})
     ax.set_xscale("log")
     ax.set_yscale("log")
+    for axis in (ax.xaxis, ax.yaxis):
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
+        axis.set_minor_formatter(NullFormatter())
     ax.set_xlabel("unknowns after the cut")
     ax.set_ylabel("incision error, mm")
     n = sorted({d["triangles_before"] for d in described})

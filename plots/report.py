@@ -30,6 +30,8 @@ nav a{display:inline-block;margin:0 .8rem .3rem 0}code{font-size:.85em;backgroun
 table{border-collapse:collapse;font-size:.85rem}td,th{padding:.25rem .6rem .25rem 0;text-align:left;vertical-align:top;border-bottom:1px solid #ddd}
 td.n,th.n{text-align:right}.figures{display:flex;flex-wrap:wrap;gap:1rem;align-items:flex-start}
 figure{margin:0;flex:1 1 20rem;max-width:30rem}figure img{width:100%;height:auto}figcaption{font-size:.8rem;color:#555}
+@media(max-width:45rem){.claims tr{display:block;border-bottom:1px solid #999;padding:.4rem 0}.claims td{display:block;border:0}
+.claims tr:first-child{display:none}.claims td:first-child{font-style:italic}}
 .held,.not,.cond,.untested{font-weight:700;padding:.05rem .4rem;border-radius:.2rem;white-space:nowrap}
 .held{background:#d6efd9}.not{background:#f8d4d0}.cond{background:#fdecc4}.untested{background:#e6e6e6}
 """
@@ -126,7 +128,7 @@ def claims_table(results, stem=None):
                     "</td></tr>")
     if not rows:
         return None
-    return ('<div class="wide"><table><tr><th>the paper claims</th><th>verdict</th><th>found</th></tr>'
+    return ('<div class="wide"><table class="claims"><tr><th>the paper claims</th><th>verdict</th><th>found</th></tr>'
             + "".join(rows) + "</table></div>")
 
 
