@@ -22,6 +22,7 @@ TIMES = (0.7, 1.5)  # s
 FINE, COARSER = 7442, 3362  # triangles of the reference, and of another that shows what it is worth
 COLUMNS = ["scene", "time, s", "method", "off by, mm", "turned by, degrees", f"{COARSER} triangles: mm", "degrees", "verdict"]
 FROM_ABOVE = Camera(centre=(0.5, 0.5, -0.2), azimuth=25, elevation=42)
+BOX = (-0.45, 0.42, -0.36, 0.3)
 
 
 class Reference:
@@ -134,10 +135,11 @@ def print_numbers(rows, worth):
 def main():
     def label(description, frame):
         offset, turn = Reference(options.results).difference(description, frame)
-        return f"max AR {frame.cell['aspect_ratio'].max():.0f}; lips {offset:.1f} mm off, {turn:.1f}° turned"
+        return f"AR {frame.cell['aspect_ratio'].max():.0f}; {offset:.1f} mm, {turn:.1f}°"
     options = scene_panels.arguments(STEM, __doc__)
-    scene_panels.main(STEM, __doc__, [Shot(f"{STEM}_patches", "solved directly", TIMES[0], FROM_ABOVE),
-                                      Shot(f"{STEM}_unconverged", "CG stopped at 0.3", TIMES[0], FROM_ABOVE)], label=label)
+    scene_panels.main(STEM, __doc__, [Shot(f"{STEM}_patches", "solved directly", TIMES[0], FROM_ABOVE, box=BOX),
+                                      Shot(f"{STEM}_unconverged", "CG stopped at 0.3", TIMES[0], FROM_ABOVE, box=BOX)],
+                      label=label)
     rows, worth = measured(options.results)
     described = [render.read_description(f.parent) for f in sorted(options.results.glob(f"{STEM}_*/*/simulation.json"))]
     style.save(lips_figure(rows, worth, described), options.results, f"{STEM}_lips")

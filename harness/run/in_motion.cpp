@@ -194,6 +194,8 @@ class SceneInMotion : public InMotion {
     if (cut) due.reached = to;
     if (cut || part.verdict != "ok") add(part, made);
     if (made.parts == 0) made.cut.status = part.cut.status, made.reason = part.reason;
+    if (to == end && part.cut.status == Status::refused && made.parts > 0)
+      made.cut.status = Status::deviated, made.reason = "its end was refused: " + part.reason;
     if (to == end) due.blade.reset();
   }
 
