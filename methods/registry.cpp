@@ -8,6 +8,7 @@
 #include "methods/cgal_cdt/cgal_cdt.h"
 #include "methods/conventional_split/conventional_split.h"
 #include "methods/edge_release/edge_release.h"
+#include "methods/example/example.h"
 #include "methods/longest_edge/longest_edge.h"
 #include "methods/snap_or_split/snap_or_split.h"
 #include "methods/vertex_snap/vertex_snap.h"
@@ -54,6 +55,11 @@ const std::vector<MethodRow>& all_methods() {
        {},
        {.exact_incision = false, .keeps_area = true, .conforming = true, .keeps_vertices = true},
        [](double) { return std::make_unique<EdgeRelease>(); }},
+      {"example",
+       "an example to start from: crossed triangles divided by the shorter diagonal",
+       {},
+       exact_split,
+       [](double) { return std::make_unique<Example>(); }},
       {"snap_or_split",
        "crossings near a vertex go through the vertex, the others are split",
        {"tolerance", 0.25, "fraction of the edge up to which a crossing goes to the vertex, 0 to 0.5"},
