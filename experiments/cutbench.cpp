@@ -235,6 +235,8 @@ int run(const RunArguments& arguments, const std::string& command) {
   std::vector<Experiment> experiments;
   for (const auto& file : arguments.experiments) {  // all are read before any is run
     Experiment& e = experiments.emplace_back(read_experiment(file));
+    if (e.methods.empty())
+      for (const MethodRow& row : all_methods()) e.methods.push_back({row.name, {}});
     restrict_to(e.methods, arguments.methods, "--methods: one of them", [](const auto& m) { return m.method; });
     restrict_to(e.resolutions, arguments.resolutions, "--resolutions: one of them", [](int r) { return r; });
     if (e.campaign && !arguments.methods.empty()) e.campaign->peer = false;

@@ -31,7 +31,7 @@ void print(const Assessment& a, double h) {
   std::printf(
       "forced: %zu corners with %d triangles; %d triangles in wedges, area %.4g; "
       "max aspect ratio without corners %.4g, without wedges %.4g\n",
-      a.forced_corners, a.corner_triangles, a.wedge_triangles, a.wedge_area, a.ar_max_strict, a.ar_max_outside_wedges);
+      a.forced_corners, a.corner_triangles, a.wedge_triangles, a.wedge_area, a.strict.ar_max, a.outside_wedges.ar_max);
 }
 
 }  // namespace

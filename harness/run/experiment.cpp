@@ -102,8 +102,8 @@ Experiment read_experiment(const std::filesystem::path& file) {
   else if (is_accuracy)
     known.emplace_back("accuracy");
   else
-    known.insert(known.end(), {"cases", "cut_families", "repetitions", "cold", "quality", "every_edge", "scene",
-                               "cut_time", "scene_cases"});
+    known.insert(known.end(), {"cases", "cut_families", "repetitions", "cold", "quality", "eigenvalue_cases",
+                               "every_edge", "scene", "cut_time", "scene_cases"});
   check_keys(table, known, name);
   const TomlReader reader{table, name};
   Experiment e;
@@ -132,10 +132,12 @@ Experiment read_experiment(const std::filesystem::path& file) {
     refuse_repeated(e.accuracy->preconditioners, name + ": \"preconditioners\"");
     refuse_repeated(e.accuracy->iterations, name + ": \"iterations\"");
   }
-  for (const auto& node : reader.array("methods")) e.methods.push_back(read_entry(node, name));
+  if (table["methods"].value<std::string>() != "all")
+    for (const auto& node : reader.array("methods")) e.methods.push_back(read_entry(node, name));
   e.seed = static_cast<std::uint64_t>(reader.value<std::int64_t>("seed", 1));
   e.cases = reader.count("cases", 1), e.repetitions = reader.count("repetitions", 1);
   e.cold = reader.value<bool>("cold", false), e.quality = reader.value<bool>("quality", true);
+  if (reader.has("eigenvalue_cases")) e.eigenvalue_cases = reader.count("eigenvalue_cases", 1);
   e.every_edge = reader.value<bool>("every_edge", false);
   e.chord_tolerance = reader.value<double>("chord_tolerance", 0.05);  // TOML has inf
   if (!(e.chord_tolerance > 0)) throw InputError(name + ": \"chord_tolerance\" must be positive, or inf");

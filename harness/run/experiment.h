@@ -44,13 +44,14 @@ struct Experiment {
   std::string stem;   ///< of the file: names the results folder and the plot
   std::string claim;  ///< what is put to the test
   std::vector<std::string> sheets, cut_families;
-  std::vector<int> resolutions;  ///< triangles of the uncut sheet, 2 n^2
-  std::vector<Entry> methods;
+  std::vector<int> resolutions;   ///< triangles of the uncut sheet, 2 n^2
+  std::vector<Entry> methods;     ///< none: the file says "all", which the caller who knows them puts in
   std::uint64_t seed = 1;         ///< for development; published figures use --seed commit
   int cases = 1;                  ///< per sheet, resolution and cut family; of a campaign per sheet and resolution
   int repetitions = 1;            ///< of each cut, warm
   bool cold = false;              ///< and once more with cold caches
   bool quality = true;            ///< shapes, forced zones; the oracle judges every case either way
+  int eigenvalue_cases = 0;       ///< so many of the cuts with the largest eigenvalue (harness/fem), too
   bool every_edge = false;        ///< time the paper's wording taken literally, too
   double chord_tolerance = 0.05;  ///< in mean rest edges
   /// Each cut is made once more inside this running scene, after its first step that ends at `cut_time` or later. Sheet

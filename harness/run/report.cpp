@@ -84,7 +84,7 @@ void measure(Assessment& result, const oracle::Mesh& mesh, const std::vector<cha
   result.forced_corners = forced.size();
   result.corner_triangles = zones.corner_triangles, result.wedge_triangles = zones.zone_triangles;
   result.wedge_area = zones.zone_area;
-  std::vector<std::array<Point2, 3>> all, cut;
+  std::vector<std::array<Point2, 3>> all, cut, strict, outside_wedges;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     auto& c = all.emplace_back();
     const Corners corners = corners_of(mesh, t);
@@ -93,11 +93,11 @@ void measure(Assessment& result, const oracle::Mesh& mesh, const std::vector<cha
     });
     if (!changed[t]) continue;
     cut.push_back(c);
-    const double ar = aspect_ratio(c[0], c[1], c[2]);
-    if (!zones.in_corner[t]) result.ar_max_strict = std::max(result.ar_max_strict, ar);
-    if (!zones.in_zone[t]) result.ar_max_outside_wedges = std::max(result.ar_max_outside_wedges, ar);
+    if (!zones.in_corner[t]) strict.push_back(c);
+    if (!zones.in_zone[t]) outside_wedges.push_back(c);
   }
   result.all = quality_in_h(all, h), result.cut = quality_in_h(cut, h);
+  result.strict = quality_in_h(strict, h), result.outside_wedges = quality_in_h(outside_wedges, h);
 }
 
 /// The oracle judges places in rest space; but no simulation goes on from a vertex that is nowhere.

@@ -42,8 +42,8 @@ struct Assessment {
   Quality all, cut;      ///< over the whole sheet, and over the triangles the cut made or changed; altitude in h
   std::size_t forced_corners = 0;
   int corner_triangles = 0, wedge_triangles = 0;
-  double wedge_area = 0;                                ///< rest units squared
-  double ar_max_strict = 0, ar_max_outside_wedges = 0;  ///< over the cut's triangles without the exempted ones
+  double wedge_area = 0;           ///< rest units squared
+  Quality strict, outside_wedges;  ///< over the cut's triangles without the exempted ones
   std::ptrdiff_t vertices_added = 0, deformed_vertices_added = 0, triangles_added = 0;
 };
 /// Looks at everything, by the oracle and the audit: outside the clock. `forced`: forced_corners_of(before, cuts).

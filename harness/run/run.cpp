@@ -9,6 +9,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "harness/fem/largest_eigenvalue.h"
 #include "harness/mesh/families.h"
 #include "harness/run/accuracy.h"
 #include "harness/run/campaign.h"
@@ -51,6 +52,7 @@ class Runner {
         start_scene(sheet, resolution);
         base_ = BaseSheet(motion_ ? motion_->sheet() : Sheet(make_sheet(sheet, squares_per_side(resolution))));
         for (Worker& worker : workers_) worker.forget_base();
+        if (experiment_.eigenvalue_cases > 0) base_eigenvalue_ = largest_eigenvalue(base_.sheet);
         for (const auto& family : experiment_.cut_families)
           for (std::size_t i = 0; i < cases; ++i, progress.step())
             if (static_cast<int>(i % static_cast<std::size_t>(options_.shards)) == options_.shard - 1)
@@ -66,11 +68,11 @@ class Runner {
   static std::string identity(const Experiment& e, const Context& context, const RunOptions& options) {
     nlohmann::json methods;
     for (const auto& entry : e.methods) methods.push_back({entry.method, entry.knob_values});
-    return nlohmann::json{context.identity(), e.stem,        e.sheets,   e.cut_families,
-                          e.resolutions,      methods,       e.seed,     e.cases,
-                          e.repetitions,      e.cold,        e.quality,  e.every_edge,
-                          e.chord_tolerance,  e.scene_text,  e.cut_time, e.scene_cases,
-                          options.shard,      options.shards}
+    return nlohmann::json{context.identity(), e.stem,        e.sheets,      e.cut_families,
+                          e.resolutions,      methods,       e.seed,        e.cases,
+                          e.repetitions,      e.cold,        e.quality,     e.every_edge,
+                          e.chord_tolerance,  e.scene_text,  e.cut_time,    e.scene_cases,
+                          e.eigenvalue_cases, options.shard, options.shards}
         .dump();
   }
 
@@ -96,6 +98,9 @@ class Runner {
       const CutRun run = workers_[w].cut(base_, cuts, cut_options_);
       if (forced.empty() && experiment_.quality) forced = forced_corners_of(base_.sheet, cuts);
       judge_into(row, summaries[w], workers_[w], cuts, forced, run);
+      if (static_cast<int>(i) < experiment_.eigenvalue_cases && row.get("verdict") == "ok" &&
+          (run.status == Status::ok || run.status == Status::deviated))
+        row.set("eigenvalue_ratio", largest_eigenvalue(workers_[w].sheet) / base_eigenvalue_);
     }
     std::size_t crossed = 0;
     for (int r = 0; r < experiment_.repetitions + (experiment_.cold ? 1 : 0); ++r) {
@@ -216,7 +221,8 @@ class Runner {
     row.set("forced_triangles", std::int64_t{a.corner_triangles}),
         row.set("wedge_triangles", std::int64_t{a.wedge_triangles});
     row.set("wedge_area", a.wedge_area);
-    row.set("ar_max_cut_strict", a.ar_max_strict), row.set("ar_max_cut_outside_wedges", a.ar_max_outside_wedges);
+    row.set("ar_max_cut_strict", a.strict.ar_max), row.set("ar_max_cut_outside_wedges", a.outside_wedges.ar_max);
+    row.set("ar_p99_cut_strict", a.strict.ar_p99), row.set("ar_p99_cut_outside_wedges", a.outside_wedges.ar_p99);
   }
 
   static void set_times(Record& row, const CutRun& run) {
@@ -251,6 +257,7 @@ class Runner {
   std::vector<Worker> workers_;
   CutOptions cut_options_;
   BaseSheet base_;
+  double base_eigenvalue_ = 0;  // of its sheet, where it is asked for
   std::unique_ptr<InMotion> motion_;
   Summary summary_;
 };

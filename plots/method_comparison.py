@@ -1,0 +1,241 @@
+#!/usr/bin/env python3
+"""All methods on the same cuts: the shapes they make, their price, what jumps at the cut, and a table of it all, ranked
+by largest eigenvalue, smallest altitude and largest angle. Reads results/method_comparison and, where they are there,
+its neighbours method_comparison_fine (a closer chord tolerance) and method_comparison_jumps (cuts in a running scene)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from matplotlib.lines import Line2D
+from matplotlib.ticker import LogLocator, NullFormatter
+
+import load
+import method_gallery
+import style
+
+STEM = "method_comparison"
+MEASURES = ["crossed_triangles", "vertices_added", "angle_max_deg_cut", "altitude_min_h_cut", "ar_max_cut", "ar_p99_cut",
+            "ar_max_cut_strict", "ar_p99_cut_strict", "ar_max_cut_outside_wedges", "ar_p99_cut_outside_wedges",
+            "wedge_area", "eigenvalue_ratio", "incision_error_h", "geometry_us"]
+JUMPS = ["membrane_j", "membrane_jump_j", "bending_j", "bending_jump_j", "residual_n", "residual_jump_n", "kinetic_j",
+         "kinetic_jump_j", "momentum_jump_kg_m_s"]
+MARKERS = {"grid": ("o", "#0072b2"), "alternating": ("s", "#e69f00"), "delaunay": ("^", "#009e73"),
+           "graded": ("D", "#cc79a7")}
+OTHER = ("P", "#666666")
+
+
+@dataclass(frozen=True)
+class Measure:
+    """A column, what it is called, and which end of it is bad."""
+    column: str
+    label: str
+    worst: float = np.inf  # what a failed cut counts as
+    linear: bool = False
+
+
+SHAPES = [Measure("eigenvalue_ratio", "largest eigen-\nvalue / uncut"),
+          Measure("altitude_min_h_cut", "smallest\naltitude (h)", -np.inf),
+          Measure("angle_max_deg_cut", "largest\nangle (°)", linear=True)]
+PRICE = [Measure("vertices_per_crossed", "vertices added\n/ crossed triangle", linear=True),
+         Measure("incision_error_h", "incision\nerror (h)"),
+         Measure("us_per_crossed", "µs / crossed\ntriangle")]
+JUMP = [Measure("membrane_jump", "membrane energy\n|jump| / energy"), Measure("bending_jump", "bending energy\n|jump| / energy"),
+        Measure("residual_jump", "residual force\n|jump| / before")]
+ROUNDING = 1e-12  # a jump below it is none
+
+
+def measured(run):
+    """Every cut once, with what is derived of its columns; a failed one as bad as can be."""
+    rows = run.rows[run.rows["status"] != "noop"].copy()
+    rows["vertices_per_crossed"] = rows["vertices_added"] / rows["crossed_triangles"]
+    rows["us_per_crossed"] = rows["geometry_us"] / rows["crossed_triangles"]
+    failed = run.failed.copy()
+    for m in SHAPES + PRICE:
+        failed[m.column] = m.worst
+    failed["eigenvalue_ratio"] = np.nan  # asked of some cuts only
+    return pd.concat([rows, failed], ignore_index=True)
+
+
+def jumped(run):
+    rows = run.rows[(run.rows["cache"] == "simulation") & run.rows["membrane_j"].notna()].copy()
+    for name, unit in (("membrane", "j"), ("bending", "j"), ("residual", "n")):
+        rows[f"{name}_jump"] = (rows[f"{name}_jump_{unit}"].abs() / rows[f"{name}_{unit}"]).clip(lower=ROUNDING)
+    return rows
+
+
+def spread(values, worst=np.inf):
+    """q1, median, q3 and the worst; infinities are failures."""
+    values = np.asarray(values.dropna(), float)
+    if not len(values):
+        return (np.nan,) * 4
+    sign = 1 if worst > 0 else -1
+    q = sign * np.array(load.with_failures(sign * values))
+    return (*(q if sign > 0 else q[::-1]), (values.max() if sign > 0 else values.min()))
+
+
+def ranking(table, variants, sheets):
+    """The variants, best first: by the sum of their ranks in the three measures of shape, each the mean over the sheets
+    of the rank of the median there. Also the ranks."""
+    ranks = pd.DataFrame(index=variants, columns=[m.column for m in SHAPES], dtype=float)
+    for m in SHAPES:
+        per_sheet = pd.DataFrame({s: {v: np.sign(m.worst) * spread(of(table, v, s)[m.column], m.worst)[1] for v in variants}
+                                  for s in sheets})
+        ranks[m.column] = per_sheet.rank(na_option="bottom").mean(axis=1).reindex(ranks.index)
+    ranks["sum"] = ranks.sum(axis=1)
+    return ranks.sort_values("sum", kind="stable")
+
+
+def of(table, variant, sheet=None):
+    here = table[(table["method"] == variant[0]) & (table["knob"] == variant[1])]
+    return here if sheet is None else here[here["sheet"] == sheet]
+
+
+def label(variant):
+    look = style.KNOWN.get(variant)
+    return look.label if look else variant[0].replace("_", " ") + (f", {variant[1]}" if variant[1] else "")
+
+
+def dot_figure(table, fine, order, sheets, measures):
+    """A row per method, best shapes on top, a panel per measure; a marker per sheet at the median, a line from quartile
+    to quartile, a tick at the worst. Hollow: with the closer chord tolerance."""
+    height = 0.34 * len(order) + 1.5
+    figure, axes = style.panels(1, len(measures), height, sharey=True)
+    offsets = np.linspace(-0.3, 0.3, len(sheets)) if len(sheets) > 1 else [0]
+    for ax, m in zip(axes[0], measures):
+        if not m.linear:
+            ax.set_xscale("log")
+        for row, variant in enumerate(order):
+            if row % 2:
+                ax.axhspan(row - 0.5, row + 0.5, color="#f4f4f4", linewidth=0, zorder=0)
+            for sheet, offset in zip(sheets, offsets):
+                marker, colour = MARKERS.get(sheet, OTHER)
+                for data, hollow in ((table, False), (fine, True)):
+                    if data is None or m.column not in data:
+                        continue
+                    q1, median, q3, worst = spread(of(data, variant, sheet)[m.column], m.worst)
+                    if not np.isfinite(median):
+                        continue
+                    if not hollow:
+                        ax.hlines(row + offset, q1, min(q3, 1e30), color=colour, linewidth=0.8, alpha=0.6, zorder=2)
+                        if np.isfinite(worst):
+                            ax.plot(worst, row + offset, "|", color=colour, markersize=2.6, markeredgewidth=0.5, alpha=0.8)
+                    ax.plot(median, row + offset, marker, color="white" if hollow else colour, markersize=2.3,
+                            markeredgecolor=colour, markeredgewidth=0.5, zorder=3 if hollow else 4)
+        ax.set_xlabel(m.label)
+        ax.grid(axis="y", visible=False)
+        ax.tick_params(axis="y", length=0)
+        if not m.linear:
+            ax.xaxis.set_major_locator(LogLocator(numticks=5))
+            ax.xaxis.set_minor_formatter(NullFormatter())
+    axes[0, 0].set_yticks(range(len(order)), [label(v) for v in order])
+    axes[0, 0].set_ylim(len(order) - 0.5, -0.5)
+    return figure, axes[0]
+
+
+def legend(sheets, fine):
+    entries = [Line2D([], [], linestyle="", marker=MARKERS.get(s, OTHER)[0], color=MARKERS.get(s, OTHER)[1], markersize=3,
+                      label=style.sheet_title(s)) for s in sheets]
+    entries.append(Line2D([], [], linestyle="", marker="|", color="#444444", markersize=4, label="worst cut"))
+    if fine is not None:
+        entries.append(Line2D([], [], linestyle="", marker="o", color="white", markeredgecolor="#444444", markersize=3,
+                              label="chord tolerance 0.01"))
+    return entries
+
+
+def caption(what, run, rows):
+    scenes = ", ".join(sorted(set(rows["scene"])))
+    sizes = sorted(set(rows["resolution"]))
+    size = f"{sizes[0]}" if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]}"
+    return (f"{what} Marker: median of the cuts on a sheet (cuts: {scenes}; {size} triangles); line: quartiles. Best "
+            f"shapes on top: by the ranks of the medians of eigenvalue, altitude and angle. Knobs at their defaults. "
+            + style.provenance(run, rows, with_crosses=False))
+
+
+def summary(table, jumps, order, ranks):
+    """The table: a row per method over all sheets, families and resolutions."""
+    rows = []
+    for variant in order:
+        cuts = of(table, variant)
+        row = {"method": variant[0], "knob": variant[1], "cuts": len(cuts), "failed": int(cuts["failed"].sum()),
+               "rank": ranks.loc[[variant], "sum"].iloc[0] / len(SHAPES)}
+        for m in SHAPES + PRICE:
+            _, row[f"{m.column}_median"], _, row[f"{m.column}_worst"] = spread(cuts[m.column], m.worst)
+        for kind in ("strict", "outside_wedges"):
+            for which in ("max", "p99"):
+                row[f"ar_{which}_{kind}_median"] = spread(cuts[f"ar_{which}_cut_{kind}"])[1]
+            below = (cuts[f"ar_max_cut_{kind}"] < 3) & ~cuts["failed"]
+            row[f"ar_below_3_{kind}"] = f"{int(below.sum())}/{len(cuts)}"
+        row["wedge_area_mean"] = cuts["wedge_area"].mean()
+        if jumps is not None:
+            for m in JUMP:
+                row[f"{m.column}_median"] = of(jumps, variant)[m.column].median()
+        rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def write_tables(folder, tables):
+    """{name: table}: the text of all, and a CSV of each."""
+    lines = []
+    for name, table in tables.items():
+        table.to_csv(folder / f"{name}.csv", index=False, float_format="%.6g")
+        print(folder / f"{name}.csv")
+        shown = table.copy()
+        for column in shown.columns:
+            if shown[column].dtype == float:
+                shown[column] = [f"{x:.3g}" if np.isfinite(x) else "-" for x in shown[column]]
+        parts = [["eigenvalue_ratio", "altitude_min", "angle_max"], ["ar_", "wedge"], ["vertices", "incision", "us_per"],
+                 ["_jump"]]
+        lines.append(f"{name}: medians over the cuts of all families, sheets and resolutions; best shapes first\n")
+        for part in parts:
+            columns = [c for c in shown.columns if any(p in c for p in part)]
+            if columns:
+                lines.append(shown[["method", "knob", "cuts", "failed", "rank"] + columns].to_string(index=False) + "\n")
+    text = "\n".join(lines)
+    (folder / f"{STEM}.txt").write_text(text, encoding="utf-8")
+    print(folder / f"{STEM}.txt", text, sep="\n\n")
+
+
+def read_cuts(folder):
+    run = load.read(folder, MEASURES).first_repetition()
+    table = measured(run)
+    table["failed"] = (table["verdict"] != "ok") | table["status"].isin(["failed", "refused"])
+    return run, table
+
+
+def main():
+    folder = load.results_folder(STEM, __doc__)
+    run, table = read_cuts(folder)
+    fine_folder, jumps_folder = (folder.with_name(f"{folder.name}_{kind}") for kind in ("fine", "jumps"))
+    fine = read_cuts(fine_folder)[1] if fine_folder.is_dir() else None
+    jumps_run = load.read(jumps_folder, JUMPS) if jumps_folder.is_dir() else None
+    jumps = jumped(jumps_run) if jumps_run else None
+    sheets = style.sheet_order(table["sheet"])
+    ranks = ranking(table, sorted(set(zip(table["method"], table["knob"]))), sheets)
+    order = list(ranks.index)
+
+    for name, measures, what in (
+            (f"{STEM}_shapes", SHAPES, "Shapes after a cut, by method. Altitude and angle over the triangles the cut made "
+             "or changed; eigenvalue: largest of stiffness and lumped mass, by whose root an explicit step shrinks."),
+            (f"{STEM}_price", PRICE, "The price: rest vertices added, distance between path and incision, and time of the "
+             "geometry (warm).")):
+        figure, axes = dot_figure(table, fine, order, sheets, measures)
+        if measures is SHAPES:
+            axes[2].set_xlim(right=180)
+        style.finish(figure, [], caption(what, run, run.rows), legend(sheets, fine))
+        style.save(figure, folder, name)
+    if jumps is not None:
+        figure, _ = dot_figure(jumps, None, order, sheets, JUMP)
+        style.finish(figure, [], caption(
+            "What jumps at the instant of a cut in a moving sheet, relative to its value before (10⁻¹² or less drawn at "
+            "10⁻¹²).", jumps_run, jumps), legend(sheets, None))
+        style.save(figure, folder, f"{STEM}_jumps")
+    tables = {STEM: summary(table, jumps, order, ranks)}
+    if fine is not None:
+        tables[f"{STEM}_fine"] = summary(fine, None, order, ranks)
+    write_tables(folder, tables)
+    method_gallery.draw(folder)
+
+
+if __name__ == "__main__":
+    main()

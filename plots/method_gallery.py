@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+"""The same cut by every method, zoomed at the incision: runs the program that experiments/reproduce builds."""
+
+import json
+import subprocess
+import tempfile
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import LogNorm
+
+import load
+import style
+
+STEM = "method_comparison"
+PROGRAM = load.REPOSITORY / "build/release/cutbench"
+SQUARES = 20
+CURVE = [[0.0, 0.36], [0.3, 0.62], [0.55, 0.28], [0.72, 0.55]]  # from the border to a tip inside
+WINDOW = (0.36, 0.76, 0.32, 0.58)
+COLOURS = "YlOrBr"
+
+
+def write_grid(path):
+    n = SQUARES
+    points = [(i / n, j / n) for j in range(n + 1) for i in range(n + 1)]
+    corner = lambda i, j: j * (n + 1) + i + 1
+    triangles = [t for j in range(n) for i in range(n) for t in (
+        (corner(i, j), corner(i + 1, j), corner(i + 1, j + 1)), (corner(i, j), corner(i + 1, j + 1), corner(i, j + 1)))]
+    path.write_text("".join(f"v {x!r} {y!r} 0\n" for x, y in points) + "".join("f %d %d %d\n" % t for t in triangles),
+                    encoding="utf-8")
+
+
+def read_result(path):
+    """Rest points and triangles of an OBJ with vt; those are of the opened sheet."""
+    points, triangles = [], []
+    for line in path.read_text(encoding="utf-8").splitlines():
+        kind, *rest = line.split()
+        if kind == "vt":
+            points.append([float(x) for x in rest[:2]])
+        elif kind == "f":
+            triangles.append([int(corner.split("/")[1]) - 1 for corner in rest])
+    return np.array(points), np.array(triangles)
+
+
+def incision(points, triangles):
+    """Border edges that lie on another one."""
+    edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    half = {tuple(e) for e in edges.tolist()}
+    border = [points[list(e)] for e in half if e[::-1] not in half]
+    places = {tuple(e.ravel()) for e in border}
+    return [e for e in border if tuple(e[::-1].ravel()) in places]
+
+
+def aspect_ratio(corners):
+    edges = np.roll(corners, -1, axis=1) - corners
+    twice = np.abs(edges[:, 0, 0] * edges[:, 1, 1] - edges[:, 0, 1] * edges[:, 1, 0])
+    return (edges ** 2).sum(axis=2).max(axis=1) / twice
+
+
+def run(*arguments):
+    try:
+        done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True)
+    except OSError as error:
+        load.stop(f"{PROGRAM} can't be run: {error.strerror}; experiments/reproduce builds it")
+    return done
+
+
+def cut_by(method, folder):
+    """What came of it and the program's report; nothing where the method failed or refused."""
+    out, report = folder / f"{method}.obj", folder / f"{method}.json"
+    run("cut", "--mesh", str(folder / "sheet.obj"), "--path", str(folder / "path.json"), "--method", method,
+        "--out", str(out), "--report", str(report))
+    if not report.is_file():
+        return None
+    return *read_result(out), json.loads(report.read_text(encoding="utf-8"))
+
+
+def draw_method(ax, name, result, norm):
+    ax.set_xlim(WINDOW[:2])
+    ax.set_ylim(WINDOW[2:])
+    ax.set_aspect("equal")
+    ax.set_xticks([])
+    ax.set_yticks([])
+    ax.grid(False)
+    ax.spines[:].set_visible(True)
+    ax.set_title(name.replace("_", " "), pad=2)
+    if result is None:
+        ax.text(0.5, 0.5, "failed", transform=ax.transAxes, ha="center")
+        return None
+    points, triangles, report = result
+    corners = points[triangles]
+    faces = PolyCollection(corners, array=aspect_ratio(corners), cmap=COLOURS, norm=norm, edgecolor="#555555",
+                           linewidth=0.25)
+    ax.add_collection(faces)
+    t = np.linspace(0, 1, 200)[:, None]
+    a, b, c, d = np.array(CURVE)
+    asked = (1 - t) ** 3 * a + 3 * t * (1 - t) ** 2 * b + 3 * t ** 2 * (1 - t) * c + t ** 3 * d
+    ax.plot(*asked.T, color="#0072b2", linewidth=2.4, alpha=0.35, zorder=2, solid_capstyle="butt")
+    ax.add_collection(LineCollection(incision(points, triangles), color="#b0001e", linewidth=0.9, zorder=3))
+    ratio = report["aspect_ratio"]["cut"]["max"]
+    ax.set_xlabel(f"AR ≤ {load.number(ratio, 2)}, {report['vertices_added']:+d} vertices", fontsize=5.6, labelpad=2)
+    return faces
+
+
+def draw(folder):
+    """Writes folder/method_gallery.png and .pdf."""
+    listed = run("methods", "--json")
+    methods = [m["name"] for m in json.loads(listed.stdout)]
+    with tempfile.TemporaryDirectory() as scratch:
+        scratch = Path(scratch)
+        write_grid(scratch / "sheet.obj")
+        (scratch / "path.json").write_text(json.dumps({"cuts": [{"bezier": CURVE}]}), encoding="utf-8")
+        results = {m: cut_by(m, scratch) for m in methods}
+    columns = 3
+    figure, axes = style.panels(-(-len(methods) // columns), columns, 2.5)
+    norm = LogNorm(1, 100)
+    faces = None
+    for i, ax in enumerate(axes.flat):
+        ax.set_visible(i < len(methods))
+        if i < len(methods):
+            faces = draw_method(ax, methods[i], results[methods[i]], norm) or faces
+    if faces is not None:
+        bar = figure.colorbar(faces, ax=list(axes.flat), orientation="horizontal", aspect=50, pad=0.02, extend="max")
+        bar.set_label("aspect ratio")
+    style.finish(figure, [], f"The same cut by every method at its default knob, in rest space, near its tip; the paper's "
+                 f"grid of {2 * SQUARES ** 2} triangles, chord tolerance 0.05. Blue: the path asked for; red: the opened "
+                 f"incision. AR: the largest aspect ratio of the triangles the cut made or changed. {style.AR_DEFINITION} "
+                 "Command: plots/method_gallery.py")
+    style.save(figure, folder, "method_gallery")
+
+
+if __name__ == "__main__":
+    target = load.results_folder(STEM, __doc__)
+    target.mkdir(parents=True, exist_ok=True)
+    draw(target)
