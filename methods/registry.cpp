@@ -12,6 +12,7 @@
 #include "methods/longest_edge/longest_edge.h"
 #include "methods/snap_or_split/snap_or_split.h"
 #include "methods/vertex_snap/vertex_snap.h"
+#include "methods/warp_and_refine/warp_and_refine.h"
 
 namespace cutbench {
 
@@ -76,6 +77,16 @@ const std::vector<MethodRow>& all_methods() {
        [](double reach) {
          if (!(reach >= 0 && reach <= 0.5)) throw InputError("vertex_snap: reach must be a number from 0 to 0.5");
          return std::make_unique<VertexSnap>(VertexSnap::Options{.reach = reach});
+       }},
+      {"warp_and_refine",
+       "near vertices move onto the path, short edges go, flips and smoothing, then refinement",
+       {"reach", 0.35, "fraction of the edge over which a vertex comes to a crossing, 0 to 0.5"},
+       {.exact_incision = false, .keeps_area = true, .conforming = true, .keeps_vertices = false},
+       [](double reach) {
+         if (!(reach >= 0 && reach <= 0.5)) throw InputError("warp_and_refine: reach must be a number from 0 to 0.5");
+         WarpAndRefine::Options options;
+         options.warping.reach = reach;
+         return std::make_unique<WarpAndRefine>(options);
        }},
   };
   return rows;

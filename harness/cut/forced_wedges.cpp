@@ -10,6 +10,7 @@ void ForcedWedges::find(const Sheet& sheet) {
   disc_ = 0.25 * sheet.mean_edge();
   const double width = 0.3 * sheet.mean_edge();
   for (const VertexIndex v : sheet.log().path_vertices) {
+    if (!sheet.triangle_of_vertex(v).valid()) continue;  // collapsed
     const Point2 apex = sheet.rest(v);
     std::optional<Point2> first;
     Point2 right;

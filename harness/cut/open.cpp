@@ -50,6 +50,7 @@ bool separate_fans(Sheet& sheet, HalfEdge first, std::vector<DeformedIndex>& see
 void open_path(Sheet& sheet) {
   std::vector<DeformedIndex> seen;
   for (auto v : sheet.log().path_vertices) {
+    if (!sheet.triangle_of_vertex(v).valid()) continue;  // collapsed
     const HalfEdge spoke = some_separating_spoke(sheet, v);
     if (!spoke.valid() || separate_fans(sheet, spoke, seen) || sheet.on_border(spoke)) continue;
     separate_fans(sheet, sheet.first_spoke(v), seen);  // a border vertex: once more, from the border on

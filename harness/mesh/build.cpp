@@ -159,6 +159,8 @@ Sheet::Compaction Sheet::compact() {
       renumber<VertexIndex>(rest_.size(), [&](std::size_t i) { return triangle_of_vertex_[i].valid(); }),
       renumber<DeformedIndex>(position_.size(), [&](std::size_t i) { return vertex_of_deformed_[i].valid(); })};
   keep(triangles_, map.triangles);
+  held_.resize(rest_.size());
+  keep(held_, map.vertices);
   keep(rest_, map.vertices), keep(triangle_of_vertex_, map.vertices);
   keep(position_, map.deformed), keep(vertex_of_deformed_, map.deformed);
   for (Triangle& t : triangles_)

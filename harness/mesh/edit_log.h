@@ -56,7 +56,7 @@ struct EditLog {
   std::vector<Ancestry> ancestry;           ///< deformed vertices made or moved, in order; parents come before children
   std::vector<Moved> moved;                 ///< rest vertices moved, in order
   std::vector<Displaced> displaced;         ///< deformed vertices moved with them, in order
-  std::vector<VertexIndex> path_vertices;   ///< ends of the edges marked as path, each once
+  std::vector<VertexIndex> path_vertices;   ///< ends of the edges marked as path, each once; collapsed ones stay in
 
   void clear() {
     touched.clear(), new_vertices.clear(), new_deformed.clear(), ancestry.clear();

@@ -217,7 +217,13 @@ bool Sheet::flip(HalfEdge h) {
   return true;
 }
 
+void Sheet::hold(VertexIndex v) {
+  if (held_.size() <= v()) held_.resize(rest_.size());
+  held_[v()] = 1;
+}
+
 bool Sheet::move(VertexIndex v, Point2 to) {
+  if (is_held(v)) return false;
   const HalfEdge first = first_spoke(v);
   HalfEdge h = first;
   do {
@@ -263,15 +269,31 @@ void Sheet::free_vertex(VertexIndex v) {
 
 bool Sheet::collapse(HalfEdge h) {
   const VertexIndex a = origin(h), b = target(h);
-  std::vector<TriangleIndex> star;
-  std::vector<NewTriangle> rest_of_star;
+  if (is_held(a)) return false;
+  HalfEdge onward;  // the other piece of the path at a
   HalfEdge spoke = h;
   do {
-    if (!spoke.valid() || separates(spoke)) return false;
+    if (!spoke.valid() || on_border(spoke) || mark(spoke) == EdgeMark::incision) return false;
+    if (mark(spoke) == EdgeMark::path && spoke != h) {
+      if (onward.valid()) return false;
+      onward = spoke;
+    }
+    spoke = turn_left(spoke);
+  } while (spoke != h);
+  if ((mark(h) == EdgeMark::path) != onward.valid()) return false;
+  const VertexIndex end = onward.valid() ? target(onward) : VertexIndex();
+
+  auto& star = work_.star;
+  auto& rest_of_star = work_.rest_of_star;
+  star.clear(), rest_of_star.clear();
+  do {
     const VertexIndex c = target(spoke), d = origin(previous(spoke));
     if (c != b && d != b) {
       if (orientation(rest(b), rest(c), rest(d)) <= 0) return false;
-      rest_of_star.push_back({{b, c, d}, static_cast<int>(star.size()), {}});
+      const auto mark_to = [&](VertexIndex v) { return v == end ? EdgeMark::path : EdgeMark::none; };
+      rest_of_star.push_back({{b, c, d}, static_cast<int>(star.size()), {mark_to(c), EdgeMark::none, mark_to(d)}});
+    } else if (c == end || d == end) {
+      return false;
     }
     star.push_back(triangle_of(spoke));
     spoke = turn_left(spoke);

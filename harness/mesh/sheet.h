@@ -98,9 +98,15 @@ class Sheet {
   VertexIndex split_edge(HalfEdge h, double lambda, Point2 p);  ///< two triangles (one on the border) become four (two)
   VertexIndex split_triangle(TriangleIndex t, Point2 p);        ///< \pre p strictly inside t
   bool flip(HalfEdge h);  ///< false, unchanged: on the border, marked, or the four corners are not strictly convex
-  bool move(VertexIndex v, Point2 to);  ///< false, unchanged: a triangle at v would not stay positive
-  bool collapse(HalfEdge h);  ///< origin onto target; false, unchanged: origin on a border or marked edge, or a
-                              ///< triangle would not stay positive
+  bool move(VertexIndex v, Point2 to);  ///< false, unchanged: v is held, or a triangle at v would not stay positive
+  /// Origin onto target, and out of the sheet. The origin may lie on the embedded path, where h is one of two pieces of
+  /// it there: they become one, straight on from the target. False, unchanged: the origin is held, on the border, an
+  /// incision or otherwise on the path, a triangle would not stay positive, or the path would close a triangle.
+  bool collapse(HalfEdge h);
+
+  /// A held vertex stays where it is in rest space, for something is tied to it: a pin, a load, a mark of the user's.
+  void hold(VertexIndex v);
+  bool is_held(VertexIndex v) const { return v() < held_.size() && held_[v()] != 0; }
 
   void set_mark(HalfEdge h, EdgeMark mark);  ///< of both half-edges; nothing on the border
   void set_deformed(TriangleIndex t, int corner, DeformedIndex d);
@@ -140,6 +146,7 @@ class Sheet {
   std::vector<TriangleIndex> triangle_of_vertex_;
   std::vector<Point3> position_;
   std::vector<VertexIndex> vertex_of_deformed_;
+  std::vector<std::uint8_t> held_;  // per vertex, as far as any is held
   // Free slots, and slots freed by the cut under way, which are not used again before the next one.
   std::vector<TriangleIndex> free_triangles_, freed_triangles_;
   std::vector<VertexIndex> free_vertices_, freed_vertices_;
@@ -168,6 +175,8 @@ class Sheet {
     std::vector<std::uint32_t> removed_in;  ///< per slot: the call that removed it last
     std::uint32_t call = 0;
     std::vector<HalfEdge> unassigned;  ///< corners (as spokes) whose deformed vertex is still to be found
+    std::vector<TriangleIndex> star;        ///< of a vertex that is collapsed
+    std::vector<NewTriangle> rest_of_star;
     EdgeTable edges;
     std::uint32_t epoch = 0;
     std::vector<std::uint32_t> touched_in;  ///< per slot: the epoch of the cut that touched it last

@@ -1,0 +1,209 @@
+#include "harness/cut/reshape.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/mesh/quality.h"
+#include "harness/mesh/star.h"
+
+namespace cutbench {
+
+void Reshape::begin(Sheet& sheet, PathCurve& curve) {
+  sheet_ = &sheet, curve_ = &curve;
+  h_ = sheet.mean_edge();
+  wedges_.find(sheet);
+}
+
+bool Reshape::is_ill_shaped(TriangleIndex t) const {
+  if (!sheet_->triangle(t).alive()) return false;
+  const auto c = sheet_->corners(t);
+  return aspect_ratio(c[0], c[1], c[2]) >= options_.max_aspect && !wedges_.hold(c);
+}
+
+std::vector<TriangleIndex> Reshape::changed_triangles() const {
+  std::vector<TriangleIndex> changed;
+  const EditLog& log = sheet_->log();
+  for (const auto& touched : log.touched)
+    if (sheet_->triangle(touched.slot).alive()) changed.push_back(touched.slot);
+  for (std::size_t t = log.triangles_before; t < sheet_->triangle_slots(); ++t)
+    if (sheet_->triangle(TriangleIndex(t)).alive()) changed.emplace_back(t);
+  return changed;
+}
+
+/// Path vertices may go along the curve where they have two pieces of path and nothing else, sheet vertices anywhere
+/// where they have nothing of the kind.
+Reshape::Freedom Reshape::freedom(VertexIndex v, Neighbours& neighbours) const {
+  if (sheet_->is_held(v)) return Freedom::none;
+  int pieces = 0;
+  const HalfEdge first = sheet_->first_spoke(v);
+  HalfEdge h = first;
+  do {
+    const EdgeMark mark = sheet_->mark(h);
+    if (sheet_->on_border(h) || mark == EdgeMark::incision) return Freedom::none;
+    if (mark == EdgeMark::path) {
+      if (pieces == 2) return Freedom::none;
+      (pieces == 0 ? neighbours.before : neighbours.after) = sheet_->target(h);
+      ++pieces;
+    }
+    h = sheet_->turn_left(h);
+    if (!h.valid()) return Freedom::none;
+  } while (h != first);
+  return pieces == 0 ? Freedom::free : pieces == 2 ? Freedom::along : Freedom::none;
+}
+
+/// Inside the sheet, with one piece of path or incision.
+bool Reshape::is_tip(VertexIndex v) const {
+  int pieces = 0;
+  bool inside = true;
+  for_each_spoke(*sheet_, v, [&](HalfEdge h) {
+    pieces += sheet_->mark(h) != EdgeMark::none;
+    inside &= !sheet_->on_border(h);
+  });
+  return inside && pieces == 1;
+}
+
+// --- thinning
+// ----------------------------------------------------------------------------------------------------------
+
+/// The largest aspect ratio of the triangles that take the place of those round the origin of h; infinite where that
+/// can't be.
+double Reshape::worst_after_collapse(HalfEdge h) const {
+  const VertexIndex b = sheet_->target(h);
+  const Point2 to = sheet_->rest(b);
+  double worst = 0;
+  for_each_spoke(*sheet_, sheet_->origin(h), [&](HalfEdge spoke) {
+    const VertexIndex c = sheet_->target(spoke), d = sheet_->origin(Sheet::previous(spoke));
+    if (c != b && d != b) worst = std::max(worst, oriented_aspect(to, sheet_->rest(c), sheet_->rest(d)));
+  });
+  return worst;
+}
+
+/// May the origin of `towards` go onto its target, as far as the path is concerned?
+bool Reshape::may_leave_out(VertexIndex v, HalfEdge towards) const {
+  Neighbours n;
+  const Freedom how = freedom(v, n);
+  if (how != Freedom::along) return how == Freedom::free;
+  if (sheet_->mark(towards) != EdgeMark::path) return false;
+  const double from = curve_->parameter(n.before), s = curve_->parameter(v), to = curve_->parameter(n.after);
+  if (s < 0 || (s - from) * (to - s) <= 0) return false;
+  if (is_tip(n.before) && is_tip(n.after)) return false;  // a single edge between tips would not open
+  return curve_->stays_near(from, to, sheet_->rest(n.before), sheet_->rest(n.after), options_.tolerance * h_);
+}
+
+/// Takes the shortest edge at path vertex v away, if it is too short; false where there is none, or it can't be.
+bool Reshape::shorten_at(VertexIndex v) {
+  const double most = options_.short_edge * options_.short_edge * h_ * h_;
+  HalfEdge shortest;
+  double length2 = most;
+  for_each_spoke(*sheet_, v, [&](HalfEdge h) {
+    if (sheet_->on_border(h) || sheet_->mark(h) == EdgeMark::incision) return;
+    const double l2 = squared_length(sheet_->rest(sheet_->target(h)) - sheet_->rest(v));
+    if (l2 < length2) shortest = h, length2 = l2;
+  });
+  if (!shortest.valid()) return false;
+  HalfEdge best;
+  double least = 2 * options_.max_aspect;
+  for (const HalfEdge h : {shortest, sheet_->opposite(shortest)}) {
+    const VertexIndex gone = sheet_->origin(h);
+    if (!may_leave_out(gone, h)) continue;
+    const double worst = worst_after_collapse(h);
+    if (worst < least) best = h, least = worst;
+  }
+  return best.valid() && sheet_->collapse(best);
+}
+
+void Reshape::thin() {
+  const std::vector<VertexIndex>& vertices = sheet_->log().path_vertices;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {  // collapsing adds none
+    const VertexIndex v = vertices[i];
+    while (sheet_->triangle_of_vertex(v).valid() && shorten_at(v)) {
+    }
+  }
+}
+
+// --- flips and moves
+// ---------------------------------------------------------------------------------------------------
+
+bool Reshape::flip_one(TriangleIndex t) {
+  HalfEdge best;
+  double gain = 0;
+  for (int k = 0; k < 3; ++k) {
+    const HalfEdge h = half_edge(t, k), o = sheet_->opposite(h);
+    if (!o.valid() || sheet_->mark(h) != EdgeMark::none) continue;
+    const Point2 a = sheet_->rest(sheet_->origin(h)), b = sheet_->rest(sheet_->target(h));
+    const Point2 c = sheet_->rest(sheet_->origin(Sheet::previous(h))), d = sheet_->rest(sheet_->origin(Sheet::previous(o)));
+    const double before = std::max(aspect_ratio(a, b, c), aspect_ratio(b, a, d));
+    const double after = std::max(oriented_aspect(a, d, c), oriented_aspect(d, b, c));
+    if (before - after > gain) best = h, gain = before - after;
+  }
+  if (!best.valid()) return false;
+  const TriangleIndex other = triangle_of(sheet_->opposite(best));
+  if (!sheet_->flip(best)) return false;
+  queue_.push_back(t), queue_.push_back(other);
+  return true;
+}
+
+void Reshape::note_star(VertexIndex v) {
+  for_each_spoke(*sheet_, v, [&](HalfEdge h) { queue_.push_back(triangle_of(h)); });
+}
+
+/// Pattern search for the place of v where the worst triangle at it is best.
+bool Reshape::smooth(VertexIndex v) {
+  Neighbours neighbours;
+  const Freedom how = freedom(v, neighbours);
+  if (how == Freedom::none) return false;
+  if (how == Freedom::along) return slide(v, neighbours);
+  const Point2 start = sheet_->rest(v);
+  const double worst = worst_aspect(*sheet_, v, start);
+  Point2 best = start;
+  double least = worst;
+  constexpr std::array<Point2, 8> directions{
+      {{1, 0}, {0.7, 0.7}, {0, 1}, {-0.7, 0.7}, {-1, 0}, {-0.7, -0.7}, {0, -1}, {0.7, -0.7}}};
+  for (double step = 0.2 * h_; step > 0.02 * h_; step /= 2) {
+    const Point2 centre = best;
+    for (const Point2 d : directions) {
+      const Point2 p = centre + step * d;
+      if (const double w = worst_aspect(*sheet_, v, p); w < least) best = p, least = w;
+    }
+  }
+  if (!(least < 0.99 * worst) || !sheet_->move(v, best)) return false;
+  note_star(v);
+  return true;
+}
+
+bool Reshape::slide(VertexIndex v, const Neighbours& neighbours) {
+  const double from = curve_->parameter(neighbours.before), to = curve_->parameter(neighbours.after);
+  const double start = curve_->parameter(v);
+  if (start < 0 || from < 0 || to < 0 || (start - from) * (to - start) <= 0) return false;
+  const Point2 before = sheet_->rest(neighbours.before), after = sheet_->rest(neighbours.after);
+  const double worst = worst_aspect(*sheet_, v, sheet_->rest(v));
+  double best = start, least = worst;
+  for (double step = 0.25 * std::min(std::abs(start - from), std::abs(to - start)), i = 0; i < 3; ++i, step /= 2) {
+    const double centre = best;
+    for (const double s : {centre - step, centre + step}) {
+      const Point2 p = curve_->at(s);
+      if (const double w = worst_aspect(*sheet_, v, p);
+          w < least && curve_->stays_near(from, s, before, p, options_.tolerance * h_) &&
+          curve_->stays_near(s, to, p, after, options_.tolerance * h_))
+        best = s, least = w;
+    }
+  }
+  if (!(least < 0.99 * worst) || !sheet_->move(v, curve_->at(best))) return false;
+  curve_->set_parameter(v, best);
+  note_star(v);
+  return true;
+}
+
+void Reshape::mend(bool smoothing) {
+  queue_ = changed_triangles();
+  const std::size_t most = 20 * queue_.size();
+  for (std::size_t i = 0; i < queue_.size() && i < most; ++i) {
+    const TriangleIndex t = queue_[i];
+    if (!is_ill_shaped(t) || flip_one(t) || !smoothing) continue;
+    const std::array<VertexIndex, 3> corners = sheet_->triangle(t).vertex;
+    for (const VertexIndex v : corners)
+      if (!is_ill_shaped(t) || smooth(v)) break;
+  }
+}
+
+}  // namespace cutbench

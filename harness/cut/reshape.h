@@ -1,0 +1,64 @@
+// Better shapes round an embedded path, still closed, without new vertices: short edges at it go, edges are flipped,
+// vertices moved a little. What is done is undone nowhere: every step is taken only where the exact orientation of each
+// triangle stays positive and the largest aspect ratio of those it changes gets smaller (or stays below a bound).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "harness/cut/forced_wedges.h"
+#include "harness/cut/path_curve.h"
+#include "harness/mesh/sheet.h"
+
+namespace cutbench {
+
+/// Keeps its working storage from one cut to the next.
+class Reshape {
+ public:
+  struct Options {
+    double short_edge = 0.35;  ///< an edge at the path is too short below it, in mean rest edges
+    double max_aspect = 3;     ///< a triangle at or beyond it is ill-shaped
+    double tolerance = 0.05;   ///< of the path from the edges that stand for it, in mean rest edges
+  };
+  explicit Reshape(const Options& options) : options_(options) {}
+
+  /// \pre begin_cut() was called, and the path is embedded; `curve` knows its vertices.
+  void begin(Sheet& sheet, PathCurve& curve);
+
+  /// Takes one end of each edge at the path that is too short out of the sheet: a vertex of the path, where it goes on
+  /// from its neighbours within the tolerance, or one of the sheet beside it that nothing holds.
+  void thin();
+  /// Flips an edge of each ill-shaped triangle where that makes the worse of the two better; with `smoothing`, moves
+  /// its corners, too: those of the path along the curve, others anywhere.
+  void mend(bool smoothing);
+
+  /// Ill-shaped, and not in a forced wedge.
+  bool is_ill_shaped(TriangleIndex t) const;
+  /// Triangles that the cut made or changed, as yet.
+  std::vector<TriangleIndex> changed_triangles() const;
+
+ private:
+  /// How a vertex may move.
+  enum class Freedom : std::uint8_t { none, along, free };
+  struct Neighbours {
+    VertexIndex before, after;  // on the path
+  };
+  Freedom freedom(VertexIndex v, Neighbours& neighbours) const;
+  bool is_tip(VertexIndex v) const;
+  bool may_leave_out(VertexIndex v, HalfEdge towards) const;
+  double worst_after_collapse(HalfEdge h) const;
+  bool shorten_at(VertexIndex v);
+  bool flip_one(TriangleIndex t);
+  bool smooth(VertexIndex v);
+  bool slide(VertexIndex v, const Neighbours& neighbours);
+  void note_star(VertexIndex v);
+
+  Options options_;
+  Sheet* sheet_ = nullptr;
+  PathCurve* curve_ = nullptr;
+  ForcedWedges wedges_;
+  double h_ = 0;
+  std::vector<TriangleIndex> queue_;
+};
+
+}  // namespace cutbench

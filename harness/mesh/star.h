@@ -1,0 +1,46 @@
+// The triangles round a vertex, looked at where the vertex is or might be.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "harness/mesh/sheet.h"
+
+namespace cutbench {
+
+/// Aspect ratio of the triangle where it is counter-clockwise in doubles, else infinite.
+inline double oriented_aspect(Point2 a, Point2 b, Point2 c) {
+  const double twice_area = cross(b - a, c - a);
+  if (!(twice_area > 0)) return std::numeric_limits<double>::infinity();
+  return std::max({squared_length(b - a), squared_length(c - b), squared_length(a - c)}) / twice_area;
+}
+
+/// Calls look(spoke) for every spoke of v that has a triangle on its left, counter-clockwise.
+template <class Look>
+void for_each_spoke(const Sheet& sheet, VertexIndex v, Look look) {
+  const HalfEdge first = sheet.first_spoke(v);
+  HalfEdge h = first;
+  do {
+    look(h);
+    h = sheet.turn_left(h);
+  } while (h.valid() && h != first);
+}
+
+/// The largest aspect ratio of the triangles at v, were it at p; infinite where one would not be positive.
+inline double worst_aspect(const Sheet& sheet, VertexIndex v, Point2 p) {
+  double worst = 0;
+  for_each_spoke(sheet, v, [&](HalfEdge h) {
+    worst = std::max(
+        worst, oriented_aspect(p, sheet.rest(sheet.target(h)), sheet.rest(sheet.origin(Sheet::previous(h)))));
+  });
+  return worst;
+}
+
+/// Of p from the segment a b.
+inline double squared_distance(Point2 p, Point2 a, Point2 b) {
+  const double length2 = squared_length(b - a);
+  const double s = length2 > 0 ? std::clamp(dot(p - a, b - a) / length2, 0.0, 1.0) : 0;
+  return squared_length(p - (a + s * (b - a)));
+}
+
+}  // namespace cutbench
