@@ -247,10 +247,10 @@ int run(const RunArguments& arguments, const std::string& command) {
       e.seed = seed_of_commit(context);
     else if (!arguments.seed.empty())
       e.seed = seed(arguments.seed);
-    variants_of(e, all_methods());
+    variants_of(e, nameable_methods());
   }
   bool ok = true;
-  for (const Experiment& e : experiments) ok &= run_experiment(e, all_methods(), context, options);
+  for (const Experiment& e : experiments) ok &= run_experiment(e, nameable_methods(), context, options);
   return ok ? done : fell_short;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "harness/mesh/mesh_data.h"
 #include "methods/bowyer_watson/bowyer_watson.h"
@@ -92,12 +93,49 @@ const std::vector<MethodRow>& all_methods() {
   return rows;
 }
 
+const std::vector<MethodRow>& ablation_methods() {
+  using Before = WarpAndRefine::Before;
+  using After = WarpAndRefine::After;
+  constexpr std::pair<Before, const char*> befores[] = {{Before::nothing, "nothing"},
+                                                        {Before::snap, "snap"},
+                                                        {Before::warp, "warp"},
+                                                        {Before::thin, "thin"},
+                                                        {Before::warp_and_thin, "warp+thin"}};
+  constexpr std::pair<After, const char*> afters[] = {
+      {After::nothing, "nothing"}, {After::flips, "flips"}, {After::smoothing, "smoothing"}, {After::refine, "refine"}};
+  static const auto rows = [&] {
+    std::vector<MethodRow> made;
+    for (const auto& [before, first] : befores)
+      for (const auto& [after, then] : afters) {
+        WarpAndRefine::Options options;
+        options.before = before, options.after = after;
+        const Promises promises{.keeps_area = true, .conforming = true, .keeps_vertices = false};
+        made.push_back({std::string("ablation:") + first + ":" + then,
+                        "warp_and_refine, in part",
+                        {},
+                        promises,
+                        [options](double) { return std::make_unique<WarpAndRefine>(options); }});
+      }
+    return made;
+  }();
+  return rows;
+}
+
+const std::vector<MethodRow>& nameable_methods() {
+  static const auto rows = [] {
+    std::vector<MethodRow> all = all_methods();
+    all.insert(all.end(), ablation_methods().begin(), ablation_methods().end());
+    return all;
+  }();
+  return rows;
+}
+
 const MethodRow& find_method(const std::string& name) {
-  const auto& rows = all_methods();
+  const auto& rows = nameable_methods();
   const auto row = std::find_if(rows.begin(), rows.end(), [&](const MethodRow& r) { return r.name == name; });
   if (row != rows.end()) return *row;
   std::string known;
-  for (const auto& r : rows) known += (known.empty() ? "" : ", ") + r.name;
+  for (const auto& r : all_methods()) known += (known.empty() ? "" : ", ") + r.name;
   throw InputError("unknown method \"" + name + "\"; known are " + known);
 }
 

@@ -9,7 +9,15 @@ namespace cutbench {
 
 const std::vector<MethodRow>& all_methods();
 
-/// Throws InputError that lists the known names.
+/// What warp_and_refine consists of, in every combination: "ablation:BEFORE:AFTER", where BEFORE the split comes
+/// nothing, snap, warp, thin or warp+thin, and AFTER it nothing, flips, smoothing (flips, too) or refine (all of them).
+/// For experiments that name them; not in the table.
+const std::vector<MethodRow>& ablation_methods();
+
+/// Both: whatever may be named.
+const std::vector<MethodRow>& nameable_methods();
+
+/// Throws InputError that lists the names in the table.
 const MethodRow& find_method(const std::string& name);
 
 }  // namespace cutbench

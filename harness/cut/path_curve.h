@@ -21,6 +21,11 @@ class PathCurve {
   double parameter(VertexIndex v) const {
     return v() < of_vertex_.size() && of_vertex_[v()].stamp == stamp_ ? of_vertex_[v()].parameter : -1;
   }
+  /// v is a new vertex of the path.
+  void add(VertexIndex v, double s) {
+    if (of_vertex_.size() <= v()) of_vertex_.resize(2 * v());
+    of_vertex_[v()] = {stamp_, s};
+  }
   void set_parameter(VertexIndex v, double s) { of_vertex_[v()].parameter = s; }
   Point2 at(double s) const;
   /// Is all between two parameters one piece of the curve without ends, and within `tolerance` of the segment a b?

@@ -268,4 +268,13 @@ bool PathGraph::straighten(int node) {
   return true;
 }
 
+void snap_to_vertices(const Sheet& sheet, Subdivision& trace, double tolerance, PathGraph& path) {
+  path.read(sheet, trace);
+  const auto near = path.approaches(tolerance);
+  PathGraph::Run run;
+  for (const auto& crossing : near)
+    if (path.find_run(crossing.node, crossing.vertex, tolerance, run)) path.contract(run);
+  if (!near.empty()) path.write(trace);
+}
+
 }  // namespace cutbench

@@ -98,4 +98,8 @@ class PathGraph {
   std::vector<VertexIndex> taken_;  // vertices that runs were contracted to, sorted
 };
 
+/// The path goes through the vertex instead of every crossing at most `tolerance` of its edge from it, the nearest
+/// first, together with its neighbours as near as that. `path` is working storage.
+void snap_to_vertices(const Sheet& sheet, Subdivision& trace, double tolerance, PathGraph& path);
+
 }  // namespace cutbench

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/mesh/predicates.h"
 #include "harness/mesh/quality.h"
 #include "harness/mesh/star.h"
 
@@ -131,7 +132,8 @@ bool Reshape::flip_one(TriangleIndex t) {
     const HalfEdge h = half_edge(t, k), o = sheet_->opposite(h);
     if (!o.valid() || sheet_->mark(h) != EdgeMark::none) continue;
     const Point2 a = sheet_->rest(sheet_->origin(h)), b = sheet_->rest(sheet_->target(h));
-    const Point2 c = sheet_->rest(sheet_->origin(Sheet::previous(h))), d = sheet_->rest(sheet_->origin(Sheet::previous(o)));
+    const Point2 c = sheet_->rest(sheet_->origin(Sheet::previous(h))),
+                 d = sheet_->rest(sheet_->origin(Sheet::previous(o)));
     const double before = std::max(aspect_ratio(a, b, c), aspect_ratio(b, a, d));
     const double after = std::max(oriented_aspect(a, d, c), oriented_aspect(d, b, c));
     if (before - after > gain) best = h, gain = before - after;
@@ -194,9 +196,75 @@ bool Reshape::slide(VertexIndex v, const Neighbours& neighbours) {
   return true;
 }
 
-void Reshape::mend(bool smoothing) {
-  queue_ = changed_triangles();
-  const std::size_t most = 20 * queue_.size();
+/// Moves a corner of t, or what stands in the way of that: the vertices round it.
+bool Reshape::smooth_round(TriangleIndex t) {
+  const std::array<VertexIndex, 3> corners = sheet_->triangle(t).vertex;
+  bool moved = false;
+  for (const VertexIndex v : corners)
+    if (is_ill_shaped(t)) moved |= smooth(v);
+  if (!is_ill_shaped(t)) return true;
+  ring_.clear();
+  for (const VertexIndex v : corners)
+    for_each_spoke(*sheet_, v, [&](HalfEdge h) {
+      const VertexIndex w = sheet_->target(h);
+      if (std::find(ring_.begin(), ring_.end(), w) == ring_.end()) ring_.push_back(w);
+    });
+  for (const VertexIndex v : ring_) moved |= smooth(v);
+  return moved;
+}
+
+/// Takes the corner of t out whose edges leave the best shapes, where they are better than t.
+bool Reshape::shorten_in(TriangleIndex t) {
+  const auto c = sheet_->corners(t);
+  double least = aspect_ratio(c[0], c[1], c[2]);
+  HalfEdge best;
+  for (int k = 0; k < 3; ++k)
+    for (const HalfEdge h : {half_edge(t, k), sheet_->opposite(half_edge(t, k))}) {
+      if (!h.valid() || !may_leave_out(sheet_->origin(h), h)) continue;
+      if (const double worst = worst_after_collapse(h); worst < least) best = h, least = worst;
+    }
+  if (!best.valid()) return false;
+  const VertexIndex kept = sheet_->target(best);
+  if (!sheet_->collapse(best)) return false;
+  note_star(kept);
+  return true;
+}
+
+/// Halves the edge of t that leaves the best shapes; a piece of the path at a point of the curve.
+bool Reshape::split_in(TriangleIndex t) {
+  HalfEdge best;
+  Point2 at;
+  double least = 4 * options_.max_aspect, parameter = -1;
+  for (int k = 0; k < 3; ++k) {
+    const HalfEdge h = half_edge(t, k), o = sheet_->opposite(h);
+    const Point2 a = sheet_->rest(sheet_->origin(h)), b = sheet_->rest(sheet_->target(h));
+    if (squared_length(b - a) < 0.04 * h_ * h_) continue;
+    Point2 middle = 0.5 * a + 0.5 * b;
+    double s = -1;
+    if (sheet_->mark(h) == EdgeMark::path) {
+      const double from = curve_->parameter(sheet_->origin(h)), to = curve_->parameter(sheet_->target(h));
+      if (from >= 0 && to >= 0 && curve_->stays_near(from, to, a, b, h_)) s = (from + to) / 2, middle = curve_->at(s);
+    }
+    const auto halves = [&](HalfEdge side) {
+      if (!side.valid()) return 0.0;
+      const Point2 apex = sheet_->rest(sheet_->origin(Sheet::previous(side)));
+      const Point2 from = sheet_->rest(sheet_->origin(side)), to = sheet_->rest(sheet_->target(side));
+      if (orientation(from, middle, apex) <= 0 || orientation(middle, to, apex) <= 0) return 1e300;
+      return std::max(aspect_ratio(from, middle, apex), aspect_ratio(middle, to, apex));
+    };
+    if (const double worst = std::max(halves(h), halves(o)); worst < least)
+      best = h, at = middle, least = worst, parameter = s;
+  }
+  if (!best.valid()) return false;
+  const VertexIndex v = sheet_->split_edge(best, 0.5, at);
+  if (parameter >= 0) curve_->add(v, parameter);
+  note_star(v);
+  return true;
+}
+
+/// Flips and moves round the ill-shaped triangles of the queue, and those that this puts in doubt, until all is well or
+/// `most` were looked at.
+void Reshape::settle(bool smoothing, std::size_t most) {
   for (std::size_t i = 0; i < queue_.size() && i < most; ++i) {
     const TriangleIndex t = queue_[i];
     if (!is_ill_shaped(t) || flip_one(t) || !smoothing) continue;
@@ -204,6 +272,30 @@ void Reshape::mend(bool smoothing) {
     for (const VertexIndex v : corners)
       if (!is_ill_shaped(t) || smooth(v)) break;
   }
+}
+
+void Reshape::mend(bool smoothing) {
+  queue_ = changed_triangles();
+  settle(smoothing, 20 * queue_.size());
+}
+
+bool Reshape::refine() {
+  stuck_.clear();
+  for (const TriangleIndex t : changed_triangles())
+    if (is_ill_shaped(t)) stuck_.push_back(t);
+  const std::size_t most = 50 + 4 * stuck_.size();
+  for (std::size_t i = 0; i < stuck_.size(); ++i) {
+    const TriangleIndex t = stuck_[i];
+    for (int tries = 0; tries < 4 && is_ill_shaped(t); ++tries) {
+      if (i >= most) return false;
+      queue_.clear();
+      if (!flip_one(t) && !shorten_in(t) && !smooth_round(t) && !split_in(t)) break;
+      settle(true, 50);
+      for (const TriangleIndex u : queue_)
+        if (u != t && is_ill_shaped(u)) stuck_.push_back(u);
+    }
+  }
+  return true;
 }
 
 }  // namespace cutbench

@@ -1,6 +1,7 @@
-// Better shapes round an embedded path, still closed, without new vertices: short edges at it go, edges are flipped,
-// vertices moved a little. What is done is undone nowhere: every step is taken only where the exact orientation of each
-// triangle stays positive and the largest aspect ratio of those it changes gets smaller (or stays below a bound).
+// Better shapes round an embedded path, still closed: short edges at it go, edges are flipped, vertices moved a little,
+// and where all that does not help, edges split. Each step is one of the sheet's editing calls, which the exact
+// orientation of every triangle decides: whatever is done or left undone, the path stays embedded, and separates what
+// it separated.
 #pragma once
 
 #include <array>
@@ -31,6 +32,9 @@ class Reshape {
   /// Flips an edge of each ill-shaped triangle where that makes the worse of the two better; with `smoothing`, moves
   /// its corners, too: those of the path along the curve, others anywhere.
   void mend(bool smoothing);
+  /// For each triangle that is still ill-shaped: takes a corner out, moves what stands round it, and at last splits an
+  /// edge, a piece of the path at a point of the curve. False where that did not end within a budget.
+  bool refine();
 
   /// Ill-shaped, and not in a forced wedge.
   bool is_ill_shaped(TriangleIndex t) const;
@@ -51,14 +55,19 @@ class Reshape {
   bool flip_one(TriangleIndex t);
   bool smooth(VertexIndex v);
   bool slide(VertexIndex v, const Neighbours& neighbours);
+  bool smooth_round(TriangleIndex t);
+  bool shorten_in(TriangleIndex t);
+  bool split_in(TriangleIndex t);
   void note_star(VertexIndex v);
+  void settle(bool smoothing, std::size_t most);
 
   Options options_;
   Sheet* sheet_ = nullptr;
   PathCurve* curve_ = nullptr;
   ForcedWedges wedges_;
   double h_ = 0;
-  std::vector<TriangleIndex> queue_;
+  std::vector<TriangleIndex> queue_, stuck_;
+  std::vector<VertexIndex> ring_;
 };
 
 }  // namespace cutbench

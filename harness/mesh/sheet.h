@@ -175,7 +175,7 @@ class Sheet {
     std::vector<std::uint32_t> removed_in;  ///< per slot: the call that removed it last
     std::uint32_t call = 0;
     std::vector<HalfEdge> unassigned;  ///< corners (as spokes) whose deformed vertex is still to be found
-    std::vector<TriangleIndex> star;        ///< of a vertex that is collapsed
+    std::vector<TriangleIndex> star;   ///< of a vertex that is collapsed
     std::vector<NewTriangle> rest_of_star;
     EdgeTable edges;
     std::uint32_t epoch = 0;

@@ -30,8 +30,8 @@ void for_each_spoke(const Sheet& sheet, VertexIndex v, Look look) {
 inline double worst_aspect(const Sheet& sheet, VertexIndex v, Point2 p) {
   double worst = 0;
   for_each_spoke(sheet, v, [&](HalfEdge h) {
-    worst = std::max(
-        worst, oriented_aspect(p, sheet.rest(sheet.target(h)), sheet.rest(sheet.origin(Sheet::previous(h)))));
+    worst =
+        std::max(worst, oriented_aspect(p, sheet.rest(sheet.target(h)), sheet.rest(sheet.origin(Sheet::previous(h)))));
   });
   return worst;
 }

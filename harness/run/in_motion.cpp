@@ -136,7 +136,9 @@ class SceneInMotion : public InMotion {
           locator(sheet),
           pins(pins_of(scene, sheet)),
           model(sheet, scene.material, scene.physics, pins, scene.tractions),
-          state(initial_state(model, sheet)) {}
+          state(initial_state(model, sheet)) {
+      hold_tied_vertices(pins, scene.tractions, sheet);
+    }
     Sheet sheet;
     Locator locator;
     std::vector<Pin> pins;

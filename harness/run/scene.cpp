@@ -320,6 +320,18 @@ std::vector<Pin> pins_of(const Scene& scene, const Sheet& sheet) {
   return pins;
 }
 
+void hold_tied_vertices(const std::vector<Pin>& pins, const std::vector<Traction>& tractions, Sheet& sheet) {
+  for (std::size_t i = 0; i < sheet.vertex_slots(); ++i) {
+    const VertexIndex v(i);
+    if (!sheet.triangle_of_vertex(v).valid()) continue;
+    const auto holds = [&](const auto& tie) { return tie.where.contains(sheet.rest(v)); };
+    const bool on_border = sheet.on_border(sheet.first_spoke(v));
+    if (std::any_of(pins.begin(), pins.end(), holds) ||
+        (on_border && std::any_of(tractions.begin(), tractions.end(), holds)))
+      sheet.hold(v);
+  }
+}
+
 std::vector<Curve> curves_of(const Scene::Cut& cut, const Sheet& sheet) {
   if (!cut.picked.picks.empty()) return {};
   return cut.family.empty() ? std::vector<Curve>{cut.curve} : make_case(cut.family, cut.seed, cut.index, sheet);

@@ -81,6 +81,9 @@ MeshData mesh_of(const Scene& scene);
 /// its copies on an incision. \pre `sheet` is not cut yet: a cut's own vertices may be nearer.
 std::vector<Pin> pins_of(const Scene& scene, const Sheet& sheet);
 
+/// Holds the rest vertices that are pinned, and those on the border that tractions pull at (Sheet::hold).
+void hold_tied_vertices(const std::vector<Pin>& pins, const std::vector<Traction>& tractions, Sheet& sheet);
+
 /// One or more curves, made one after the other; a seeded case depends on the sheet before any cut (make_case). None
 /// for a picked cut: it is not known before its time.
 std::vector<Curve> curves_of(const Scene::Cut& cut, const Sheet& sheet);

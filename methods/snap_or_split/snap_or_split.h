@@ -32,7 +32,6 @@ class SnapOrSplit : public CuttingMethod {
  private:
   double tolerance_;  // in edge lengths
   PathGraph path_;
-  PathGraph::Run run_;
   PatchWork work_;
   int recovered_ = 0;
 };

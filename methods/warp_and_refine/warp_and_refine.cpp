@@ -4,15 +4,18 @@ namespace cutbench {
 
 void WarpAndRefine::embed(Sheet& sheet, Subdivision& trace) {
   curve_.read(trace);
-  if (options_.warp) warp_.run(sheet, trace);
+  if (options_.before == Before::snap) snap_to_vertices(sheet, trace, options_.snap, path_);
+  if (options_.before == Before::warp || options_.before == Before::warp_and_thin) warp_.run(sheet, trace);
   recovered_ = embed_plainly(sheet, trace, work_);
   curve_.find_vertices(sheet, trace);
 }
 
 void WarpAndRefine::improve(Sheet& sheet) {
+  stopped_early_ = false;
   reshape_.begin(sheet, curve_);
-  if (options_.thin) reshape_.thin();
-  if (options_.flip || options_.smooth) reshape_.mend(options_.smooth);
+  if (options_.before == Before::thin || options_.before == Before::warp_and_thin) reshape_.thin();
+  if (options_.after != After::nothing) reshape_.mend(options_.after >= After::smoothing);
+  if (options_.after == After::refine) stopped_early_ = !reshape_.refine();
 }
 
 }  // namespace cutbench

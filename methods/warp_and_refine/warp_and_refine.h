@@ -1,4 +1,28 @@
-// Warp and refine
+// Warp and refine: the project's own method. The sheet gives way to the path before it is split, and what is still
+// ill-shaped afterwards is mended.
+//
+// How it works. embed: vertices that the path passes within `reach` of an edge move to a point of the exact path
+// (harness/cut/warp.h); every other crossing is split, with the Delaunay diagonal in each crossed triangle. improve
+// (harness/cut/reshape.h), wherever the path has no forced wedge: thinning takes edges at the path shorter than 0.35
+// mean rest edges out, where one end is a vertex of the path that it can do without, or one of the sheet beside it;
+// then flips that make the worse of two triangles better, and moves of the corners of ill-shaped ones: those of the
+// path slide along the curve as it was traced, never farther from it than 0.05 mean rest edges between two of them;
+// then refinement of what is left, edge by edge. Every single step is decided by exact predicates and leaves the path
+// embedded, so that what can't be mended is left as the plain split made it.
+//
+// Never moved: held vertices (Sheet::hold: pinned or loaded ones), corners, those on older incisions; one on the border
+// only along a straight part of it. A tip is a vertex where it was asked for, however near to the border: the ligament
+// is real, and no topology changes. Moved vertices carry their deformed state over by the old map (Sheet::move).
+//
+// Source: own. Relatives: isosurface stuffing (Labelle and Shewchuk 2007) warps a lattice onto a surface where that is
+// near and cuts it elsewhere; universal meshes (Rangarajan and Lew 2014) move the nodes of triangles along a curve onto
+// it; CISAMR (Soghrati, Xiao and Nagarajan 2017) relocates the nodes of a structured grid and divides what is left;
+// snapping by moves (vertex_snap). Flips and moves that lower the worst aspect ratio: Freitag and Ollivier-Gooch 1997.
+// Promises: area, conforming; pieces as the exact path has them. Neither the exact path (its vertices lie on it, but
+// there are fewer) nor that vertices stay.
+// Fails: an aspect ratio below 3 is not guaranteed, only sought, within a budget; near forced wedges, between cuts that
+// almost meet and where the tolerance is large for the curve it may be missed. It costs about twice a plain split.
+// Flips across old edges change the deformed surface where the sheet is bent.
 #pragma once
 
 #include "harness/cut/cutting_method.h"
@@ -11,8 +35,14 @@ namespace cutbench {
 
 class WarpAndRefine : public CuttingMethod {
  public:
+  /// What happens before the split, and how far the work after it goes: each step includes those before it. The method
+  /// is warp_and_thin with refine; the others are rows of the ablation.
+  enum class Before : std::uint8_t { nothing, snap, warp, thin, warp_and_thin };
+  enum class After : std::uint8_t { nothing, flips, smoothing, refine };
   struct Options {
-    bool warp = true, thin = true, flip = true, smooth = true, refine = true;
+    Before before = Before::warp_and_thin;
+    After after = After::refine;
+    double snap = 0.25;  ///< of an edge: crossings nearer to a vertex go through it (Before::snap)
     Warp::Options warping;
     Reshape::Options reshaping;
   };
@@ -22,14 +52,17 @@ class WarpAndRefine : public CuttingMethod {
   void embed(Sheet& sheet, Subdivision& trace) override;
   void improve(Sheet& sheet) override;
   int recovered_segments() const override { return recovered_; }
+  bool stopped_early() const override { return stopped_early_; }
 
  private:
   Options options_;
+  PathGraph path_;
   Warp warp_;
   PathCurve curve_;
   Reshape reshape_;
   PatchWork work_;
   int recovered_ = 0;
+  bool stopped_early_ = false;
 };
 
 }  // namespace cutbench
