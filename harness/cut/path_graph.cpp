@@ -103,8 +103,9 @@ std::vector<PathGraph::Approach> PathGraph::approaches(double reach) const {
     if (fraction <= reach && reach > 0)
       found.push_back({i, first ? sheet_->origin(place.edge) : sheet_->target(place.edge), fraction});
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Approach& a, const Approach& b) { return a.fraction < b.fraction; });
+  std::sort(found.begin(), found.end(), [](const Approach& a, const Approach& b) {
+    return a.fraction < b.fraction || (a.fraction == b.fraction && a.node < b.node);
+  });
   return found;
 }
 

@@ -2,12 +2,44 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "harness/mesh/predicates.h"
 #include "harness/mesh/quality.h"
 #include "harness/mesh/star.h"
 
 namespace cutbench {
+
+namespace {
+
+/// The edges opposite to a vertex in its triangles: what decides where it may go.
+class Link {
+ public:
+  Link(const Sheet& sheet, VertexIndex v) {
+    for_each_spoke(sheet, v, [&](HalfEdge h) {
+      if (size_ < edges_.size())
+        edges_[size_] = {sheet.rest(sheet.target(h)), sheet.rest(sheet.origin(Sheet::previous(h)))};
+      ++size_;
+    });
+  }
+  bool is_whole() const { return size_ <= edges_.size(); }
+  /// The largest aspect ratio with the vertex at p, once it is known not to be below `enough`.
+  double worst(Point2 p, double enough) const {
+    double worst = 0;
+    for (std::size_t i = 0; i < size_ && worst < enough; ++i)
+      worst = std::max(worst, oriented_aspect(p, edges_[i][0], edges_[i][1]));
+    return worst;
+  }
+
+ private:
+  std::array<std::array<Point2, 2>, 16> edges_;
+  std::size_t size_ = 0;
+};
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double good = 0.9;  // of the largest aspect ratio allowed: no need to look for better
+
+}  // namespace
 
 void Reshape::begin(Sheet& sheet, PathCurve& curve) {
   sheet_ = &sheet, curve_ = &curve;
@@ -156,16 +188,18 @@ bool Reshape::smooth(VertexIndex v) {
   if (how == Freedom::none) return false;
   if (how == Freedom::along) return slide(v, neighbours);
   const Point2 start = sheet_->rest(v);
-  const double worst = worst_aspect(*sheet_, v, start);
+  const Link link(*sheet_, v);
+  if (!link.is_whole()) return false;
+  const double worst = link.worst(start, infinity);
   Point2 best = start;
   double least = worst;
   constexpr std::array<Point2, 8> directions{
       {{1, 0}, {0.7, 0.7}, {0, 1}, {-0.7, 0.7}, {-1, 0}, {-0.7, -0.7}, {0, -1}, {0.7, -0.7}}};
-  for (double step = 0.2 * h_; step > 0.02 * h_; step /= 2) {
+  for (double step = 0.2 * h_; step > 0.02 * h_ && least > good * options_.max_aspect; step /= 2) {
     const Point2 centre = best;
     for (const Point2 d : directions) {
       const Point2 p = centre + step * d;
-      if (const double w = worst_aspect(*sheet_, v, p); w < least) best = p, least = w;
+      if (const double w = link.worst(p, least); w < least) best = p, least = w;
     }
   }
   if (!(least < 0.99 * worst) || !sheet_->move(v, best)) return false;
@@ -178,13 +212,15 @@ bool Reshape::slide(VertexIndex v, const Neighbours& neighbours) {
   const double start = curve_->parameter(v);
   if (start < 0 || from < 0 || to < 0 || (start - from) * (to - start) <= 0) return false;
   const Point2 before = sheet_->rest(neighbours.before), after = sheet_->rest(neighbours.after);
-  const double worst = worst_aspect(*sheet_, v, sheet_->rest(v));
+  const Link link(*sheet_, v);
+  if (!link.is_whole()) return false;
+  const double worst = link.worst(sheet_->rest(v), infinity);
   double best = start, least = worst;
   for (double step = 0.25 * std::min(std::abs(start - from), std::abs(to - start)), i = 0; i < 3; ++i, step /= 2) {
     const double centre = best;
     for (const double s : {centre - step, centre + step}) {
       const Point2 p = curve_->at(s);
-      if (const double w = worst_aspect(*sheet_, v, p);
+      if (const double w = link.worst(p, least);
           w < least && curve_->stays_near(from, s, before, p, options_.tolerance * h_) &&
           curve_->stays_near(s, to, p, after, options_.tolerance * h_))
         best = s, least = w;

@@ -15,15 +15,18 @@ inline double oriented_aspect(Point2 a, Point2 b, Point2 c) {
   return std::max({squared_length(b - a), squared_length(c - b), squared_length(a - c)}) / twice_area;
 }
 
-/// Calls look(spoke) for every spoke of v that has a triangle on its left, counter-clockwise.
+/// Calls look(spoke) for every spoke of v that has a triangle on its left, in no particular order.
 template <class Look>
 void for_each_spoke(const Sheet& sheet, VertexIndex v, Look look) {
-  const HalfEdge first = sheet.first_spoke(v);
-  HalfEdge h = first;
+  const auto& corner = sheet.triangle(sheet.triangle_of_vertex(v)).vertex;
+  const HalfEdge start = half_edge(sheet.triangle_of_vertex(v), corner[0] == v ? 0 : corner[1] == v ? 1 : 2);
+  HalfEdge h = start;
   do {
     look(h);
     h = sheet.turn_left(h);
-  } while (h.valid() && h != first);
+  } while (h.valid() && h != start);
+  if (h.valid()) return;
+  for (h = sheet.turn_right(start); h.valid(); h = sheet.turn_right(h)) look(h);  // the border came in between
 }
 
 /// The largest aspect ratio of the triangles at v, were it at p; infinite where one would not be positive.
