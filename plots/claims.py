@@ -289,7 +289,9 @@ def text_of(results):
     for claim in CLAIMS:
         found = claim.find(records[claim.stem]) if records[claim.stem] is not None else None
         if found is None:
-            lines.append(f"| {claim.words} | untested | `experiments/reproduce {claim.stem}` makes the records | |")
+            why = f"`experiments/reproduce {claim.stem}` makes the records" if records[claim.stem] is None else \
+                f"the records of {claim.stem} that are there don't tell"
+            lines.append(f"| {claim.words} | untested | {why} | |")
             continue
         figure = f"{claim.stem}/{found.figure}.png"
         link = f"[{found.figure}]({figure})" if (results / figure).is_file() else f"`plots/{claim.stem}.py` draws it"

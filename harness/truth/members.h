@@ -20,19 +20,19 @@ inline constexpr double pull = 1;  ///< N/m, of the problems in the plane
 class MemberNumbers {
  public:
   MemberNumbers(std::uint64_t seed, std::size_t index)
-      : start_(seed + 0x9E3779B97F4A7C15u * (index % 2 + 1)), turns_(static_cast<double>(index / 2)) {}
+      : start_(seed + 0x9E3779B97F4A7C15u * (index % 2 + 1)), turns_(index / 2) {}
   double between(double a, double b) { return a + (b - a) * unit(); }
   bool coin() { return unit() < 0.5; }
 
  private:
   double unit() {
     constexpr std::array<double, 6> primes{2, 3, 5, 7, 11, 13};
-    const double number = start_.unit() + turns_ * std::sqrt(primes.at(drawn_++));
+    const double number = start_.unit() + static_cast<double>(turns_) * std::sqrt(primes.at(drawn_++));
     return number - std::floor(number);
   }
 
   Random start_;
-  double turns_;
+  std::size_t turns_;
   std::size_t drawn_ = 0;
 };
 
