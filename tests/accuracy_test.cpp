@@ -130,6 +130,19 @@ TEST_F(Accuracy, ProblemsOfManySolvesHaveMembersOfTheirOwn) {
   }
 }
 
+TEST_F(Accuracy, WithoutAReferenceNothingIsRanked) {
+  std::string text = experiment();
+  text.replace(text.find("members"), 0, "reference = false\n");
+  write(folder_ / "e.toml", text);
+  const auto rows = run_and_read("--methods conventional_split", "r");
+  ASSERT_EQ(rows.size(), 3 * budgets);
+  for (const Record& row : rows) {
+    EXPECT_EQ(row.get("method"), "conventional_split");
+    EXPECT_FALSE(row.get("error").empty());
+    EXPECT_TRUE(row.get("excess_error").empty());
+  }
+}
+
 /// As a kill leaves it, in the middle of a case: some rows, and a line cut short.
 TEST_F(Accuracy, AKilledRunGoesOn) {
   write(folder_ / "e.toml", experiment());

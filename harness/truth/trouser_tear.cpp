@@ -15,12 +15,12 @@
 //
 // What it neglects: that the fold feels the grips, and that the legs stretch, which releases 2 F / E b more, as the
 // pull runs along their edges. Together below 1 %: 0.2 to 0.5 % with legs of 1.5 m and more, 1.3 to 3 % with 1 m. The
-// fold is 0.6 m wide (sqrt(D b / F)) and sharpest at its end, the tip: there the mesh shows, as if the tip were a part of
-// a triangle off. What the grips are higher than without a fold, `slack`, is in proportion to sqrt(D b / F) alone, so
-// F goes like slack^-2, and a tip that seems to be d off changes the force by 2 d / slack: a quarter of a triangle of 0.1 m
-// is a quarter of the force. Of the rate it changes d / torn. Hence single members scatter (standard deviation on 800 to
-// 3200 triangles) by 3 to 17 % in the force and by 1 to 3 % in the rate, whose means are within 3 % of 2 F: only the mean
-// over members says something, and nothing is extrapolated from forces.
+// fold is 0.6 m wide (sqrt(D b / F)) and sharpest at its end, the tip: there the mesh shows, as if the tip were a part
+// of a triangle off. What the grips are higher than without a fold, `slack`, is in proportion to sqrt(D b / F) alone,
+// so F goes like slack^-2, and a tip that seems to be d off changes the force by 2 d / slack: a quarter of a triangle
+// of 0.1 m is a quarter of the force. Of the rate it changes d / torn. Hence single members scatter (standard deviation
+// on 800 to 3200 triangles) by 3 to 17 % in the force and by 1 to 3 % in the rate, whose means are within 3 % of 2 F:
+// only the mean over members says something, and nothing is extrapolated from forces.
 #include <cmath>
 #include <map>
 #include <numbers>
