@@ -39,7 +39,8 @@ def panel(ax, folder, description):
     ax.set_ylim(0)
     end = b.iloc[-1]
     ax.set_title(f"{description['scene'].replace('_', ' ')}\nremainder {end['remainder_j']:.2g} J, jumps "
-                 f"{end['jumps_j']:.2g} J", fontsize=5, pad=2)
+                 f"{end['jumps_j']:.2g} J" + ("" if description["verdict"] == "ok" else f"; {description['verdict']}"),
+                 fontsize=5, pad=2)
 
 
 def main():
@@ -62,7 +63,7 @@ def main():
         if i + 2 >= len(folders):
             ax.set_xlabel("time, s")
     style.finish(figure, [], f"{' '.join(__doc__.split())} By {contact_sheet.METHOD}; n = {n} triangles before the cuts, "
-                 f"{descriptions[0]['solver']}; seed: none, the cuts are in experiments/scenes; {scene_panels.commits(descriptions)}. "
+                 f"{' or '.join(sorted({d['solver'] for d in descriptions}))}, as in the scene files; seed: none, the cuts are in experiments/scenes; {scene_panels.commits(descriptions)}. "
                  "Command: plots/energy_budget.py",
                  [Patch(color=c, label=name) for name, c in PARTS.items()]
                  + [Line2D([], [], color="black", linewidth=0.8, label="given by gravity")])
