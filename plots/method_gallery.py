@@ -97,8 +97,8 @@ def draw_method(ax, name, result, norm):
     t = np.linspace(0, 1, 200)[:, None]
     a, b, c, d = np.array(CURVE)
     asked = (1 - t) ** 3 * a + 3 * t * (1 - t) ** 2 * b + 3 * t ** 2 * (1 - t) * c + t ** 3 * d
-    ax.plot(*asked.T, color="#0072b2", linewidth=2.4, alpha=0.35, zorder=2, solid_capstyle="butt")
-    ax.add_collection(LineCollection(incision(points, triangles), color="#b0001e", linewidth=0.9, zorder=3))
+    ax.plot(*asked.T, color="#0072b2", linewidth=2.2, alpha=0.45, zorder=2, solid_capstyle="butt")
+    ax.add_collection(LineCollection(incision(points, triangles), color="#b0001e", linewidth=0.7, zorder=3))
     ratio = report["aspect_ratio"]["cut"]["max"]
     ax.set_xlabel(f"AR ≤ {load.number(ratio, 2)}, {report['vertices_added']:+d} vertices", fontsize=5.6, labelpad=2)
     return faces
@@ -114,8 +114,8 @@ def draw(folder):
         (scratch / "path.json").write_text(json.dumps({"cuts": [{"bezier": CURVE}]}), encoding="utf-8")
         results = {m: cut_by(m, scratch) for m in methods}
     columns = 3
-    figure, axes = style.panels(-(-len(methods) // columns), columns, 2.5)
-    norm = LogNorm(1, 100)
+    figure, axes = style.panels(-(-len(methods) // columns), columns, 2.75)
+    norm = LogNorm(1.2, 60)
     faces = None
     for i, ax in enumerate(axes.flat):
         ax.set_visible(i < len(methods))
@@ -124,6 +124,8 @@ def draw(folder):
     if faces is not None:
         bar = figure.colorbar(faces, ax=list(axes.flat), orientation="horizontal", aspect=50, pad=0.02, extend="max")
         bar.set_label("aspect ratio")
+        bar.set_ticks([2, 3, 5, 10, 20, 50], labels=["2", "3", "5", "10", "20", "50"])
+        bar.ax.minorticks_off()
     style.finish(figure, [], f"The same cut by every method at its default knob, in rest space, near its tip; the paper's "
                  f"grid of {2 * SQUARES ** 2} triangles, chord tolerance 0.05. Blue: the path asked for; red: the opened "
                  f"incision. AR: the largest aspect ratio of the triangles the cut made or changed. {style.AR_DEFINITION} "
