@@ -262,9 +262,11 @@ bool Sheet::move(VertexIndex v, Point2 to) {
   return true;
 }
 
-void Sheet::free_vertex(VertexIndex v) {
+void Sheet::drop_vertex(VertexIndex v, DeformedIndex d) {
   triangle_of_vertex_[v()] = {};
   freed_vertices_.push_back(v);
+  vertex_of_deformed_[d()] = {};
+  freed_deformed_.push_back(d);
 }
 
 bool Sheet::collapse(HalfEdge h) {
@@ -300,9 +302,7 @@ bool Sheet::collapse(HalfEdge h) {
   } while (spoke != h);
   const DeformedIndex d = triangle(triangle_of(h)).deformed[corner(h)];
   replace_cavity(star, rest_of_star);
-  free_vertex(a);
-  vertex_of_deformed_[d()] = {};
-  freed_deformed_.push_back(d);
+  drop_vertex(a, d);
   return true;
 }
 
