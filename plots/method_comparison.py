@@ -207,8 +207,8 @@ def main():
     folder = load.results_folder(STEM, __doc__)
     run, table = read_cuts(folder)
     fine_folder, jumps_folder = (folder.with_name(f"{folder.name}_{kind}") for kind in ("fine", "jumps"))
-    fine = read_cuts(fine_folder)[1] if fine_folder.is_dir() else None
-    jumps_run = load.read(jumps_folder, JUMPS) if jumps_folder.is_dir() else None
+    fine = read_cuts(fine_folder)[1] if (fine_folder / "records.csv").is_file() else None
+    jumps_run = load.read(jumps_folder, JUMPS) if (jumps_folder / "records.csv").is_file() else None
     jumps = jumped(jumps_run) if jumps_run else None
     sheets = style.sheet_order(table["sheet"])
     ranks = ranking(table, sorted(set(zip(table["method"], table["knob"]))), sheets)
