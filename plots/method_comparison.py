@@ -37,9 +37,9 @@ class Measure:
 SHAPES = [Measure("eigenvalue_ratio", "largest eigen-\nvalue / uncut"),
           Measure("altitude_min_h_cut", "smallest\naltitude (h)", -np.inf),
           Measure("angle_max_deg_cut", "largest\nangle (°)", linear=True)]
-PRICE = [Measure("vertices_per_crossed", "vertices added\n/ crossed triangle", linear=True),
+PRICE = [Measure("vertices_per_crossed", "vertices added\nper crossed tri.", linear=True),
          Measure("incision_error_h", "incision\nerror (h)"),
-         Measure("us_per_crossed", "µs / crossed\ntriangle")]
+         Measure("us_per_crossed", "µs per\ncrossed tri.")]
 JUMP = [Measure("membrane_jump", "membrane energy\n|jump| / energy"), Measure("bending_jump", "bending energy\n|jump| / energy"),
         Measure("residual_jump", "residual force\n|jump| / before")]
 ROUNDING = 1e-12  # a jump below it is none
@@ -49,6 +49,8 @@ def measured(run):
     """Every cut once, with what is derived of its columns; a failed one as bad as can be."""
     rows = run.rows[run.rows["status"] != "noop"].copy()
     rows["vertices_per_crossed"] = rows["vertices_added"] / rows["crossed_triangles"]
+    shapes = [c for c in MEASURES if c.startswith(("ar_", "angle_", "altitude_"))]
+    rows.loc[rows["ar_max_cut"] == 0, shapes] = np.nan  # released edges: no triangle was changed
     rows["us_per_crossed"] = rows["geometry_us"] / rows["crossed_triangles"]
     failed = run.failed.copy()
     for m in SHAPES + PRICE:
@@ -126,7 +128,7 @@ def dot_figure(table, fine, order, sheets, measures):
         ax.grid(axis="y", visible=False)
         ax.tick_params(axis="y", length=0)
         if not m.linear:
-            ax.xaxis.set_major_locator(LogLocator(numticks=5))
+            ax.xaxis.set_major_locator(LogLocator(numticks=4))
             ax.xaxis.set_minor_formatter(NullFormatter())
     axes[0, 0].set_yticks(range(len(order)), [label(v) for v in order])
     axes[0, 0].set_ylim(len(order) - 0.5, -0.5)
@@ -164,7 +166,7 @@ def summary(table, jumps, order, ranks):
         for kind in ("strict", "outside_wedges"):
             for which in ("max", "p99"):
                 row[f"ar_{which}_{kind}_median"] = spread(cuts[f"ar_{which}_cut_{kind}"])[1]
-            below = (cuts[f"ar_max_cut_{kind}"] < 3) & ~cuts["failed"]
+            below = ~(cuts[f"ar_max_cut_{kind}"] >= 3) & ~cuts["failed"]
             row[f"ar_below_3_{kind}"] = f"{int(below.sum())}/{len(cuts)}"
         row["wedge_area_mean"] = cuts["wedge_area"].mean()
         if jumps is not None:
@@ -216,12 +218,12 @@ def main():
 
     for name, measures, what in (
             (f"{STEM}_shapes", SHAPES, "Shapes after a cut, by method. Altitude and angle over the triangles the cut made "
-             "or changed; eigenvalue: largest of stiffness and lumped mass, by whose root an explicit step shrinks."),
+             "or changed, where there are any; eigenvalue: largest of stiffness and lumped mass, by whose root an explicit step shrinks."),
             (f"{STEM}_price", PRICE, "The price: rest vertices added, distance between path and incision, and time of the "
              "geometry (warm).")):
         figure, axes = dot_figure(table, fine, order, sheets, measures)
         if measures is SHAPES:
-            axes[2].set_xlim(right=180)
+            axes[2].set_xlim(90, 180)
         style.finish(figure, [], caption(what, run, run.rows), legend(sheets, fine))
         style.save(figure, folder, name)
     if jumps is not None:
