@@ -40,8 +40,8 @@ SHAPES = [Measure("eigenvalue_ratio", "largest eigen-\nvalue / uncut"),
 PRICE = [Measure("vertices_per_crossed", "vertices added\nper crossed tri.", linear=True),
          Measure("incision_error_h", "incision\nerror (h)"),
          Measure("us_per_crossed", "µs per\ncrossed tri.")]
-JUMP = [Measure("membrane_jump", "membrane energy\n|jump| / energy"), Measure("bending_jump", "bending energy\n|jump| / energy"),
-        Measure("residual_jump", "residual force\n|jump| / before")]
+JUMP = [Measure("membrane_jump", "membrane\nenergy"), Measure("bending_jump", "bending\nenergy"),
+        Measure("residual_jump", "residual\nforce")]
 ROUNDING = 1e-12  # a jump below it is none
 
 

@@ -28,7 +28,7 @@ class CgalRefine : public CuttingMethod {
     double bound = 3;                  ///< no aspect ratio beyond it; infinity: no refinement
     double min_edge = 1e-3;            ///< triangles with shorter edges alone are left, in mean rest edges
     int rings = 2;                     ///< of neighbours, to begin with
-    std::size_t most_vertices = 1000;  ///< made by the refinement, and so many
+    std::size_t most_vertices = 200;   ///< made by the refinement, and so many
     std::size_t per_path_vertex = 20;  ///< more for each vertex of the path
   };
   explicit CgalRefine(const Options& options) : options_(options) {}
