@@ -99,7 +99,7 @@ const std::vector<MethodRow>& all_methods() {
        }},
       {"warp_and_refine",
        "near vertices move onto the path, short edges go, flips and smoothing, then refinement",
-       {"reach", 0.35, "fraction of the edge over which a vertex comes to a crossing, 0 to 0.5"},
+       {"reach", 0.4, "fraction of the edge over which a vertex comes to a crossing, 0 to 0.5"},
        {.exact_incision = false, .keeps_area = true, .conforming = true, .keeps_vertices = false},
        [](double reach) {
          if (!(reach >= 0 && reach <= 0.5)) throw InputError("warp_and_refine: reach must be a number from 0 to 0.5");

@@ -7,8 +7,8 @@ namespace cutbench {
 
 void ForcedWedges::find(const Sheet& sheet) {
   corners_.clear();
-  disc_ = 0.25 * sheet.mean_edge();
-  const double width = 0.3 * sheet.mean_edge();
+  disc_ = share_ * 0.25 * sheet.mean_edge();
+  const double width = share_ * 0.3 * sheet.mean_edge();
   for (const VertexIndex v : sheet.log().path_vertices) {
     if (!sheet.triangle_of_vertex(v).valid()) continue;  // collapsed
     const Point2 apex = sheet.rest(v);

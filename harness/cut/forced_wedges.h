@@ -13,6 +13,10 @@ namespace cutbench {
 /// the triangle there has an aspect ratio above 3 whatever is done.
 class ForcedWedges {
  public:
+  ForcedWedges() = default;
+  /// Holds only what lies well inside: `share` times the widths below. For a method that would rather try too much than
+  /// leave alone what is not excused.
+  explicit ForcedWedges(double share) : share_(share) {}
   /// Looks at the fans round the path's vertices. \pre the path is embedded and still closed.
   void find(const Sheet& sheet);
   /// Does p lie within 0.25 mean rest edges of a corner, or between its legs where they are closer than 0.3? Legs are
@@ -28,7 +32,7 @@ class ForcedWedges {
     double reach;              // from the apex, to where the legs are too far apart
   };
   std::vector<Corner> corners_;
-  double disc_ = 0;
+  double share_ = 1, disc_ = 0;
 };
 
 }  // namespace cutbench

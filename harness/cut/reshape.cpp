@@ -135,7 +135,7 @@ bool Reshape::shorten_at(VertexIndex v) {
   });
   if (!shortest.valid()) return false;
   HalfEdge best;
-  double least = 2 * options_.max_aspect;
+  double least = options_.max_aspect;
   for (const HalfEdge h : {shortest, sheet_->opposite(shortest)}) {
     const VertexIndex gone = sheet_->origin(h);
     if (!may_leave_out(gone, h)) continue;
@@ -220,9 +220,9 @@ bool Reshape::slide(VertexIndex v, const Neighbours& neighbours) {
     const double centre = best;
     for (const double s : {centre - step, centre + step}) {
       const Point2 p = curve_->at(s);
-      if (const double w = link.worst(p, least);
-          w < least && curve_->stays_near(from, s, before, p, options_.tolerance * h_) &&
-          curve_->stays_near(s, to, p, after, options_.tolerance * h_))
+      if (const double w = link.worst(p, least); w < least &&
+                                                 curve_->stays_near(from, s, before, p, options_.tolerance * h_) &&
+                                                 curve_->stays_near(s, to, p, after, options_.tolerance * h_))
         best = s, least = w;
     }
   }

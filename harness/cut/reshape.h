@@ -64,7 +64,7 @@ class Reshape {
   Options options_;
   Sheet* sheet_ = nullptr;
   PathCurve* curve_ = nullptr;
-  ForcedWedges wedges_;
+  ForcedWedges wedges_{0.7};  // the mesh's legs are chords, and its wedges not quite those of the curves
   double h_ = 0;
   std::vector<TriangleIndex> queue_, stuck_;
   std::vector<VertexIndex> ring_;

@@ -14,7 +14,7 @@ namespace cutbench {
 class Warp {
  public:
   struct Options {
-    double reach = 0.35;      ///< of an edge, from a vertex to the crossing it moves for
+    double reach = 0.4;       ///< of an edge, from a vertex to the crossing it moves for
     double max_aspect = 4;    ///< no triangle is pressed beyond it
     double tolerance = 0.05;  ///< of the path that is left out, from the new way; mean rest edges
   };

@@ -1,0 +1,101 @@
+// What warping and reshaping must not do, and what they are for.
+
+#include <gtest/gtest.h>
+
+#include "harness/run/cases.h"
+#include "methods/registry.h"
+#include "tests/helpers.h"
+
+namespace cutbench {
+namespace {
+
+constexpr const char* families[] = {"straight", "curved", "partial", "cut_out", "recut"};
+
+TEST(Reshape, HeldVerticesStayWhereTheyAre) {
+  std::size_t moved_when_free = 0;
+  for (const std::string family : families)
+    for (std::size_t i = 0; i < scaled(5); ++i)
+      for (const bool held : {false, true}) {
+        Sheet sheet(make_sheet("delaunay", 12));
+        if (held)
+          for (std::size_t v = 0; v < sheet.vertex_slots(); ++v) sheet.hold(VertexIndex(v));
+        const Sheet before = sheet;
+        Locator locator(sheet);
+        Cutter cutter;
+        const auto method = find_method("warp_and_refine").make(find_method("warp_and_refine").knob.value);
+        for (const Curve& curve : make_case(family, 5, i, sheet)) cutter.cut(sheet, locator, curve, *method, {});
+        for (std::size_t k = 0; k < before.vertex_slots(); ++k) {
+          const VertexIndex v(k);
+          const bool stays = sheet.triangle_of_vertex(v).valid() && sheet.rest(v) == before.rest(v);
+          moved_when_free += !held && !stays;
+          EXPECT_TRUE(!held || stays) << family << " " << i << ", vertex " << k;
+        }
+      }
+  EXPECT_GT(moved_when_free, 100u);
+}
+
+/// A path across a square of four triangles round a vertex that it does not meet: its middle vertex can go, its ends
+/// can't.
+TEST(Sheet, APathVertexCollapsesAlongThePath) {
+  Sheet sheet(make_sheet("grid", 2));
+  sheet.begin_cut();
+  const VertexIndex middle(std::size_t{4});
+  ASSERT_EQ(sheet.rest(middle), (Point2{0.5, 0.5}));
+  HalfEdge left, right;
+  HalfEdge h = sheet.first_spoke(middle);
+  for (int i = 0; i < 6; ++i, h = sheet.turn_left(h)) {
+    if (sheet.rest(sheet.target(h)) == Point2{0, 0.5}) left = h;
+    if (sheet.rest(sheet.target(h)) == Point2{1, 0.5}) right = h;
+  }
+  const Point2 on_left{0.25, 0.5};
+  const VertexIndex v = sheet.split_edge(left, 0.5, on_left);
+  h = sheet.first_spoke(v);
+  HalfEdge towards_border, towards_middle, aside;
+  for (int i = 0; i < 4; ++i, h = sheet.turn_left(h)) {
+    const Point2 to = sheet.rest(sheet.target(h));
+    (to == Point2{0, 0.5} ? towards_border : to == Point2{0.5, 0.5} ? towards_middle : aside) = h;
+  }
+  sheet.set_mark(towards_border, EdgeMark::path);
+  EXPECT_FALSE(sheet.collapse(towards_border)) << "a tip";
+  sheet.set_mark(towards_middle, EdgeMark::path);
+  EXPECT_FALSE(sheet.collapse(aside)) << "off the path";
+  const std::size_t vertices = sheet.vertex_count();
+  ASSERT_TRUE(sheet.collapse(towards_middle));
+  EXPECT_EQ(sheet.vertex_count() + 1, vertices);
+  EXPECT_EQ(faults(sheet, false), "");
+  bool joined = false;
+  h = sheet.first_spoke(middle);
+  const HalfEdge first = h;
+  do {
+    if (sheet.rest(sheet.target(h)) == Point2{0, 0.5}) joined = sheet.mark(h) == EdgeMark::path;
+    h = sheet.turn_left(h);
+  } while (h.valid() && h != first);
+  EXPECT_TRUE(joined);
+}
+
+/// The method's claim: below 3 where the input forces nothing, as the audit has it, which knows nothing of the method;
+/// and few vertices. (Beside a forced corner the last triangle may be worse.)
+TEST(WarpAndRefine, NoTriangleIsIllShapedAndFewVerticesAreAdded) {
+  const MethodRow& row = find_method("warp_and_refine");
+  std::size_t judged = 0, crossed = 0;
+  std::ptrdiff_t added = 0;
+  for (const int n : {20, 40})
+    for (std::size_t i = 0; i < scaled(20); ++i) {
+      Sheet sheet(make_sheet("grid", n));
+      const Sheet before = sheet;
+      Locator locator(sheet);
+      const auto cuts = make_case("curved", 7, i, sheet);
+      const CutOutcome outcome = Cutter().cut(sheet, locator, cuts[0], *row.make(row.knob.value), {});
+      ASSERT_EQ(outcome.status, Status::ok);
+      const Assessment a = assess_result(before, sheet.to_mesh_data(), cuts, false, {});
+      crossed += outcome.crossed_triangles, added += a.vertices_added;
+      if (a.forced_corners > 0) continue;
+      ++judged;
+      EXPECT_LT(a.ar_max_outside_wedges, 3) << "curved " << i << " on " << n;
+    }
+  EXPECT_GT(2 * judged, scaled(20));
+  EXPECT_LT(static_cast<double>(added), 0.4 * static_cast<double>(crossed));
+}
+
+}  // namespace
+}  // namespace cutbench
