@@ -91,7 +91,7 @@ TEST(WarpAndRefine, NoTriangleIsIllShapedAndFewVerticesAreAdded) {
       crossed += outcome.crossed_triangles, added += a.vertices_added;
       if (a.forced_corners > 0) continue;
       ++judged;
-      EXPECT_LT(a.ar_max_outside_wedges, 3) << "curved " << i << " on " << n;
+      EXPECT_LT(a.outside_wedges.ar_max, 3) << "curved " << i << " on " << n;
     }
   EXPECT_GT(2 * judged, scaled(20));
   EXPECT_LT(static_cast<double>(added), 0.4 * static_cast<double>(crossed));
