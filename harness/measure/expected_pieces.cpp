@@ -1,6 +1,8 @@
 #include "harness/measure/expected_pieces.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -120,7 +122,10 @@ ExpectedPieces expected_pieces(const std::vector<Segment>& border, const std::ve
   const std::vector<char> inside = inside_faces(map, border.size());
   const std::vector<int> joined = faces_without_extensions(map, first_extension);
   std::set<int> expected, thick;
-  for (std::size_t face = 0; face < map.faces.size(); ++face) {
+  std::map<int, PlanarMap::Face> whole;  // of each face, what the extensions made of it together
+  for (std::size_t face = 1; face < map.faces.size(); ++face) {  // the first is the infinite one
+    auto& [area, perimeter] = whole[joined[face]];
+    area += map.faces[face].area, perimeter += map.faces[face].perimeter;
     if (!inside[face]) continue;
     const double width = 2 * map.faces[face].area / map.faces[face].perimeter;
     ++result.most;
@@ -128,7 +133,11 @@ ExpectedPieces expected_pieces(const std::vector<Segment>& border, const std::ve
     if (width >= tolerances.thin) thick.insert(joined[face]);
   }
   result.expected = static_cast<int>(expected.size());
-  result.least = static_cast<int>(thick.size());
+  whole.erase(joined.front());
+  const auto slits = std::count_if(whole.begin(), whole.end(), [&](const auto& face) {
+    return 2 * face.second.area < tolerances.touch * face.second.perimeter;
+  });
+  result.least = std::max(1, static_cast<int>(thick.size()) - static_cast<int>(slits));
   return result;
 }
 
