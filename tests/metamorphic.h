@@ -87,7 +87,8 @@ inline CutSheet cut_with(const Variant& variant, const MeshData& mesh, const std
   const auto method = variant.row->make(variant.knob);
   for (const Curve& curve : cuts) {
     const CutOutcome outcome = cutter.cut(result.sheet, locator, curve, *method, {.chord_tolerance = chord});
-    result.statuses.push_back(std::string(name_of(outcome.status)) + " " + outcome.reason);
+    result.statuses.push_back(name_of(outcome.status));
+    if (outcome.status != Status::ok) result.statuses.back() += " " + outcome.reason;  // else a remark on shapes
     result.recovered_segments += outcome.recovered_segments;
   }
   return result;

@@ -262,11 +262,9 @@ bool Sheet::move(VertexIndex v, Point2 to) {
   return true;
 }
 
-void Sheet::drop_vertex(VertexIndex v, DeformedIndex d) {
+void Sheet::free_vertex(VertexIndex v) {
   triangle_of_vertex_[v()] = {};
   freed_vertices_.push_back(v);
-  vertex_of_deformed_[d()] = {};
-  freed_deformed_.push_back(d);
 }
 
 bool Sheet::collapse(HalfEdge h) {
@@ -302,7 +300,9 @@ bool Sheet::collapse(HalfEdge h) {
   } while (spoke != h);
   const DeformedIndex d = triangle(triangle_of(h)).deformed[corner(h)];
   replace_cavity(star, rest_of_star);
-  drop_vertex(a, d);
+  free_vertex(a);
+  vertex_of_deformed_[d()] = {};
+  freed_deformed_.push_back(d);
   return true;
 }
 

@@ -108,9 +108,6 @@ class Sheet {
   void hold(VertexIndex v);
   bool is_held(VertexIndex v) const { return v() < held_.size() && held_[v()] != 0; }
 
-  /// Frees a vertex that the last replace_cavity() left without triangles. \pre d was its one deformed vertex.
-  void drop_vertex(VertexIndex v, DeformedIndex d);
-
   void set_mark(HalfEdge h, EdgeMark mark);  ///< of both half-edges; nothing on the border
   void set_deformed(TriangleIndex t, int corner, DeformedIndex d);
   DeformedIndex copy_deformed(DeformedIndex d);  ///< a new deformed vertex at the same place
@@ -142,6 +139,7 @@ class Sheet {
   void put_on_path(VertexIndex v);
   DeformedIndex pending_deformed(VertexIndex v, TriangleIndex parent) const;
   void inherit_round(HalfEdge spoke);
+  void free_vertex(VertexIndex v);
 
   std::vector<Triangle> triangles_;
   std::vector<Point2> rest_;
