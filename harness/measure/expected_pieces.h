@@ -11,11 +11,11 @@ namespace cutbench::oracle {
 /// ends that near to something, or a piece that thin.
 struct ExpectedPieces {
   int expected = 0;  ///< open ends as they are, pieces thinner than `tip` left out
-  int least = 0;     ///< pieces thinner than `thin` left out too; and one less for each face, inside the sheet or outside,
-                     ///< that is thinner than `touch`: the lines round it may not cross at all
-  int most = 0;      ///< open ends lengthened by `tip`, what passes within `touch` of the path joined
-                     ///< to it, however thin the pieces; and one more for each segment of a path
-                     ///< so small (8 `touch`) that it nearly touches itself everywhere
+  int least = 0;  ///< pieces thinner than `thin` left out too; and one less for each face, inside the sheet or outside,
+                  ///< that is thinner than `touch`: the lines round it may not cross at all
+  int most = 0;   ///< open ends lengthened by `tip`, what passes within `touch` of the path joined
+                  ///< to it, however thin the pieces; and one more for each segment of a path
+                  ///< so small (8 `touch`) that it nearly touches itself everywhere
 };
 
 /// Rest units.
