@@ -4,17 +4,11 @@
 #include <cmath>
 
 #include "harness/cut/trace.h"
+#include "harness/mesh/star.h"
 
 namespace cutbench {
 
 namespace {
-
-double squared_distance(Point2 p, Point2 a, Point2 b) {
-  const Point2 ab = b - a;
-  const double length2 = squared_length(ab);
-  const double s = length2 > 0 ? std::clamp(dot(p - a, ab) / length2, 0.0, 1.0) : 0;
-  return squared_length(p - (a + s * ab));
-}
 
 bool is_near(Point2 p, const std::vector<Point2>& polyline, double tolerance) {
   for (std::size_t i = 0; i + 1 < polyline.size(); ++i)

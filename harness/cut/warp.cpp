@@ -8,17 +8,6 @@
 
 namespace cutbench {
 
-bool is_straight_at(const Sheet& sheet, VertexIndex v) {
-  const HalfEdge right = sheet.first_spoke(v);
-  HalfEdge left = right;
-  for (HalfEdge h = right; h.valid(); h = sheet.turn_left(h)) {
-    if (h != right && sheet.mark(h) != EdgeMark::none) return false;
-    left = h;
-  }
-  const Point2 a = sheet.rest(sheet.target(right)), b = sheet.rest(sheet.origin(Sheet::previous(left)));
-  return std::abs(cross(b - a, sheet.rest(v) - a)) <= 1e-3 * sheet.snap() * std::sqrt(squared_length(b - a));
-}
-
 /// Points of the path that the run leaves out lie close to the new way by `to`.
 bool Warp::stays_near(Point2 to) const {
   const double most = options_.tolerance * options_.tolerance * mean_edge2_;

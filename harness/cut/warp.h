@@ -39,7 +39,4 @@ class Warp {
   double mean_edge2_ = 0;
 };
 
-/// Can border vertex v slide along the border without changing the sheet's shape, but for rounding?
-bool is_straight_at(const Sheet& sheet, VertexIndex v);
-
 }  // namespace cutbench

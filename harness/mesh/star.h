@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "harness/mesh/sheet.h"
@@ -44,6 +45,18 @@ inline double squared_distance(Point2 p, Point2 a, Point2 b) {
   const double length2 = squared_length(b - a);
   const double s = length2 > 0 ? std::clamp(dot(p - a, b - a) / length2, 0.0, 1.0) : 0;
   return squared_length(p - (a + s * (b - a)));
+}
+
+/// Can border vertex v slide along the border without changing the sheet's shape, but for rounding?
+inline bool is_straight_at(const Sheet& sheet, VertexIndex v) {
+  const HalfEdge right = sheet.first_spoke(v);
+  HalfEdge left = right;
+  for (HalfEdge h = right; h.valid(); h = sheet.turn_left(h)) {
+    if (h != right && sheet.mark(h) != EdgeMark::none) return false;
+    left = h;
+  }
+  const Point2 a = sheet.rest(sheet.target(right)), b = sheet.rest(sheet.origin(Sheet::previous(left)));
+  return std::abs(cross(b - a, sheet.rest(v) - a)) <= 1e-3 * sheet.snap() * std::sqrt(squared_length(b - a));
 }
 
 }  // namespace cutbench

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "harness/mesh/quality.h"
+#include "harness/mesh/star.h"
 
 namespace cutbench {
 
@@ -12,30 +12,6 @@ namespace {
 Point2 nearest_on_segment(Point2 a, Point2 b, Point2 p) {
   const double length2 = squared_length(b - a);
   return length2 > 0 ? a + std::clamp(dot(p - a, b - a) / length2, 0.0, 1.0) * (b - a) : a;
-}
-
-/// Can border vertex v slide along the border without changing the sheet's shape, but for rounding?
-bool is_straight_at(const Sheet& sheet, VertexIndex v) {
-  const HalfEdge right = sheet.first_spoke(v);
-  HalfEdge left = right;
-  for (HalfEdge h = right; h.valid(); h = sheet.turn_left(h)) {
-    if (h != right && sheet.mark(h) != EdgeMark::none) return false;
-    left = h;
-  }
-  const Point2 a = sheet.rest(sheet.target(right)), b = sheet.rest(sheet.origin(Sheet::previous(left)));
-  return std::abs(cross(b - a, sheet.rest(v) - a)) <= 1e-3 * sheet.snap() * std::sqrt(squared_length(b - a));
-}
-
-/// Would the triangles at v stay below an aspect ratio, were v at p?
-bool stay_fat(const Sheet& sheet, VertexIndex v, Point2 p, double max_aspect) {
-  const HalfEdge first = sheet.first_spoke(v);
-  HalfEdge h = first;
-  do {
-    if (aspect_ratio(p, sheet.rest(sheet.target(h)), sheet.rest(sheet.origin(Sheet::previous(h)))) > max_aspect)
-      return false;
-    h = sheet.turn_left(h);
-  } while (h.valid() && h != first);
-  return true;
 }
 
 }  // namespace
@@ -69,7 +45,7 @@ void VertexSnap::embed(Sheet& sheet, Subdivision& trace) {
   for (const auto& crossing : near) {
     if (!path_.find_run(crossing.node, crossing.vertex, 1, run_) || !path_.has_star_to_itself(run_)) continue;
     const auto to = target(sheet);
-    if (to && stay_fat(sheet, run_.vertex, *to, options_.max_aspect) && sheet.move(run_.vertex, *to))
+    if (to && worst_aspect(sheet, run_.vertex, *to) <= options_.max_aspect && sheet.move(run_.vertex, *to))
       path_.contract(run_);
   }
   if (!near.empty()) path_.write(trace);
