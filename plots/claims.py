@@ -312,11 +312,7 @@ def main():
                         help="holds the folders of the runs, receives claims.md (default: results)")
     path = parser.parse_args().results / "claims.md"
     text = text_of(path.parent)
-    try:
-        path.write_text(text, encoding="utf-8")
-    except OSError as error:
-        load.stop(f"{path} can't be written: {error.strerror}")
-    print(path)
+    load.write_page(path, text)
     return 0
 
 

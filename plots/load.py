@@ -188,3 +188,11 @@ def print_table(title, columns, rows):
     print(f"\n{title}")
     for line in [columns] + cells:
         print("  ".join(c.ljust(w) if t else c.rjust(w) for c, w, t in zip(line, widths, is_text)).rstrip())
+
+
+def write_page(path, text):
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        stop(f"{path} can't be written: {error.strerror}")
+    print(path)

@@ -322,11 +322,7 @@ def main():
                         help="holds the folders of the runs and reference/, receives report.html (default: results)")
     path = parser.parse_args().results / "report.html"
     text = page(path.parent)
-    try:
-        path.write_text(text, encoding="utf-8")
-    except OSError as error:
-        load.stop(f"{path} can't be written: {error.strerror}")
-    print(path)
+    load.write_page(path, text)
     return 0
 
 

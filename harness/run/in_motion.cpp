@@ -8,6 +8,7 @@
 
 #include "harness/cut/blade.h"
 #include "harness/measure/stop_watch.h"
+#include "harness/mesh/star.h"
 
 namespace cutbench {
 
@@ -51,9 +52,7 @@ double distance_to_edges(const Sheet& sheet, Point2 p) {
     if (!sheet.triangle(t).alive()) continue;
     const auto corners = sheet.corners(t);
     for (std::size_t k = 0; k < 3; ++k) {
-      const Point2 a = corners[k], ab = corners[(k + 1) % 3] - a;
-      const double s = std::clamp(dot(p - a, ab) / squared_length(ab), 0.0, 1.0);
-      const double d2 = squared_length(p - (a + s * ab));
+      const double d2 = squared_distance(p, corners[k], corners[(k + 1) % 3]);
       if (d2 > sheet.snap() * sheet.snap()) nearest2 = std::min(nearest2, d2);
     }
   }
