@@ -45,9 +45,6 @@ class CarefulEmbedding {
 
  private:
   Point2 rest(VertexIndex v) const { return sheet_.rest(v); }
-  bool near(Point2 a, Point2 b, double distance) const {
-    return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) <= distance;
-  }
 
   /// The half-edge from a to b, or from b to a where that is the only one; none where they are no neighbours.
   HalfEdge find_edge(VertexIndex a, VertexIndex b) const {
@@ -84,7 +81,7 @@ class CarefulEmbedding {
   /// A vertex at p on the edge a - b; the nearer end where that is near, or where p falls out of its triangles.
   VertexIndex split(VertexIndex a, VertexIndex b, Point2 p) {
     const VertexIndex nearest = squared_length(p - rest(a)) < squared_length(p - rest(b)) ? a : b;
-    if (near(p, rest(nearest), snap_)) return nearest;
+    if (within(p, rest(nearest), snap_)) return nearest;
     if (const HalfEdge h = make_room(a, b, p); h.valid()) {
       const Point2 from = rest(sheet_.origin(h)), along = rest(sheet_.target(h)) - from;
       return sheet_.split_edge(h, std::clamp(dot(p - from, along) / squared_length(along), 0.0, 1.0), p);
@@ -122,7 +119,7 @@ class CarefulEmbedding {
   VertexIndex insert(Point2 p, TriangleIndex t) {
     t = locate(p, t);
     for (const VertexIndex v : sheet_.triangle(t).vertex)
-      if (near(p, rest(v), snap_)) return v;
+      if (within(p, rest(v), snap_)) return v;
     for (int k = 0; k < 3; ++k)
       if (const HalfEdge h = half_edge(t, k); orientation(rest(sheet_.origin(h)), rest(sheet_.target(h)), p) == 0)
         return split(sheet_.origin(h), sheet_.target(h), p);

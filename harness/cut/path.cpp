@@ -39,12 +39,9 @@ bool is_kink(Point2 before, Point2 joint, Point2 after) {
 }
 
 void add(Polyline& out, Point2 p, bool kept, double snap) {
-  if (!out.points.empty()) {
-    const Point2 d = p - out.points.back();
-    if (std::max(std::abs(d.x), std::abs(d.y)) <= snap) {
-      out.kept.back() |= static_cast<std::uint8_t>(kept);
-      return;
-    }
+  if (!out.points.empty() && within(p, out.points.back(), snap)) {
+    out.kept.back() |= static_cast<std::uint8_t>(kept);
+    return;
   }
   out.points.push_back(p);
   out.kept.push_back(kept);
@@ -172,9 +169,8 @@ void flatten(const Curve& curve, double tolerance, double snap, Polyline& out) {
     flatten_bezier(curve, tolerance, snap, out);
   else
     for (Point2 p : curve.points) add(out, p, true, snap);
-  if (!out.closed || out.points.empty()) return;
-  const Point2 d = out.points.back() - out.points.front();  // the closing step, too, has a length
-  if (out.points.size() > 1 && std::max(std::abs(d.x), std::abs(d.y)) <= snap)
+  if (!out.closed || out.points.size() < 2) return;
+  if (within(out.points.back(), out.points.front(), snap))  // the closing step has a length, too
     out.points.pop_back(), out.kept.pop_back();
 }
 

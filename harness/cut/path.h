@@ -1,6 +1,8 @@
 // The cut that was asked for: a chain of cubic Beziers or a polyline in rest space, and the polyline it is traced as.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <vector>
 
@@ -14,6 +16,11 @@ struct Curve {
   bool closed = false;         ///< a closed polyline repeats no point; a closed Bezier ends where it began
   std::vector<Point2> points;  ///< rest positions; a chain of m cubic Beziers has 3 m + 1
 };
+
+/// Are the points at most `distance` apart, along x and along y?
+inline bool within(Point2 a, Point2 b, double distance) {
+  return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) <= distance;
+}
 
 /// Where a curve goes, for tracing only.
 struct Polyline {

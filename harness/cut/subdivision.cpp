@@ -5,12 +5,6 @@
 
 namespace cutbench {
 
-namespace {
-
-bool within(Point2 a, Point2 b, double snap) { return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) <= snap; }
-
-}  // namespace
-
 void Subdivision::reset(const Sheet& sheet) {
   sheet_ = &sheet;
   nodes.clear(), segments.clear(), along.clear(), faces.clear();

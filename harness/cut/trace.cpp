@@ -179,7 +179,7 @@ int Tracer::finish(int face, const Place& from, std::size_t first, std::size_t c
 /// Which points of a link become nodes.
 void Tracer::choose(bool on_one_edge, const Place& from, std::size_t first, std::size_t count, const Place& to) {
   for (std::size_t i = 0; i < count; ++i) chosen_[i] = path_->kept[wrapped(first + i)];
-  if (from.point == to.point) choose_on_loop(from.point, first, count);
+  if (within(from.point, to.point, sheet_->snap())) choose_on_loop(from.point, first, count);
   if (std::isfinite(chord_tolerance_)) {
     std::size_t begin = 0;
     Point2 a = from.point;

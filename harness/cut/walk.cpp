@@ -34,8 +34,6 @@ Walk::Side Walk::side(Point2 a, Point2 b, Point2 p) const {
   return {area, sign};
 }
 
-bool Walk::near(Point2 a, Point2 b) const { return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) <= snap_; }
-
 Step Walk::reach(Passage passage, Place place) {
   at_ = place;
   origin_ = place.point;

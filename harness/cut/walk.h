@@ -8,6 +8,7 @@
 #pragma once
 
 #include "harness/cut/cut_failed.h"
+#include "harness/cut/path.h"
 #include "harness/mesh/locator.h"
 #include "harness/mesh/sheet.h"
 
@@ -80,7 +81,7 @@ class Walk {
   };
   Point2 rest(VertexIndex v) const { return sheet_.rest(v); }
   Side side(Point2 a, Point2 b, Point2 p) const;
-  bool near(Point2 a, Point2 b) const;
+  bool near(Point2 a, Point2 b) const { return within(a, b, snap_); }
   bool ahead(Point2 p, Point2 target) const { return dot(p - origin_, target - origin_) > 0; }
 
   // walk.cpp: the way
