@@ -258,7 +258,7 @@ class Judge {
       const Segment s = segment(after_, static_cast<int>(e));
       pieces[piece[e / 3]].perimeter += distance(s[0], s[1]);
     }
-    const auto is_thin = [&](const Piece& p) { return 2 * p.area < input_.on * p.perimeter; };
+    const auto is_thin = [&](const Piece& p) { return 4 * p.area < near * p.perimeter; };
     for (std::size_t e = 0; e < edges.opposite.size(); ++e)
       if (Piece& p = pieces[piece[e / 3]]; edges.opposite[e] < 0 && is_thin(p) && p.between_lines)
         p.between_lines = between_two(segment(after_, static_cast<int>(e)));
