@@ -63,8 +63,13 @@ void Tracer::arrange(int face) {
 
 std::vector<Point2> Tracer::link_points(const Link& link, bool all) const {
   std::vector<Point2> points{trace_.node(link.from).place.point};
-  for (std::size_t i = 0; i < link.count && all; ++i) points.push_back(point(link.first + i));
-  points.push_back(trace_.node(link.to).place.point);
+  if (all) {
+    for (std::size_t i = 0; i < link.count; ++i) points.push_back(point(link.first + i));
+    points.push_back(trace_.node(link.to).place.point);
+  } else {
+    for (std::size_t s = link.segments[0]; s < link.segments[1]; ++s)
+      points.push_back(trace_.node(trace_.segments[s].to).place.point);
+  }
   return points;
 }
 

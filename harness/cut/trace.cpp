@@ -160,6 +160,7 @@ int Tracer::finish(int face, const Place& from, std::size_t first, std::size_t c
   const int start = from_node_ >= 0 ? from_node_ : trace_.node_of(from);
   int node = start;
   std::size_t kept = 0;
+  const std::size_t segments = trace_.segments.size();
   for (std::size_t i = 0; i < count; ++i) {
     if (!chosen_[i]) continue;
     const int next = trace_.node_of(place_in(t, point(first + i)));
@@ -171,7 +172,7 @@ int Tracer::finish(int face, const Place& from, std::size_t first, std::size_t c
   trace_.add_segment(face, node, end);
   links_of_face_.resize(trace_.faces.size(), -1);
   int& head = links_of_face_[static_cast<std::size_t>(face)];
-  links_.push_back({start, end, first, count, kept < count, head});
+  links_.push_back({start, end, first, count, kept < count, {segments, trace_.segments.size()}, head});
   head = static_cast<int>(links_.size() - 1);
   return end;
 }

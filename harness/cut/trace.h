@@ -36,9 +36,10 @@ class Tracer {
   /// One passage of the path through one triangle: the polyline's points between two nodes.
   struct Link {
     int from, to;
-    std::size_t first, count;  // of the polyline's points, counted on past its end
-    bool simplified;           // some of them did not become nodes
-    int next;                  // next link of the same triangle
+    std::size_t first, count;             // of the polyline's points, counted on past its end
+    bool simplified;                      // some of them did not become nodes
+    std::array<std::size_t, 2> segments;  // of the subdivision, that it became: the first, past the last
+    int next;                             // next link of the same triangle
   };
   void take(const Step& step, std::size_t point, bool tip);
   void handle(const Step& step, std::size_t point, bool tip);
