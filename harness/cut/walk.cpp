@@ -86,7 +86,7 @@ Step Walk::leave(HalfEdge exit, double right, double left, Passage passage) {
 /// From the edge of a sliver, the line meets its others behind the place where it begins: then it leaves there.
 bool Walk::is_behind(Point2 p, Point2 target) const {
   const Point2 line = target - origin_;
-  return dot(p - origin_, line) < -8 * snap_ * std::max(std::abs(line.x), std::abs(line.y));
+  return dot(p - origin_, line) < -2 * snap_ * std::max(std::abs(line.x), std::abs(line.y));
 }
 
 Step Walk::leave_at_origin(HalfEdge exit) {
