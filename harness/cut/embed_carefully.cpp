@@ -30,8 +30,13 @@ class CarefulEmbedding {
   double run() {
     collect();
     for (const auto& [edge, first] : separating_) split_separating_edge(edge, first);
-    for (std::size_t i = 0; i < vertex_.size(); ++i)
-      if (!vertex_[i].valid()) vertex_[i] = insert(trace_.nodes[i].place.point, triangle_of_node_[i]);
+    for (std::size_t i = 0; i < vertex_.size(); ++i) {
+      if (vertex_[i].valid()) continue;
+      const Point2 p = trace_.nodes[i].place.point;
+      // Across a stack of slivers the path's nodes may fall upon each other: then they are one.
+      const bool again = i > 0 && within(p, rest(vertex_[i - 1]), snap_);
+      vertex_[i] = again ? vertex_[i - 1] : insert(p, triangle_of_node_[i]);
+    }
     const auto vertex_of = [&](int node) { return vertex_[static_cast<std::size_t>(node)]; };
     for (const auto& face : trace_.faces)  // the list of all segments has those that were replaced, too
       for (int s = face.segments; s >= 0; s = trace_.segment(s).next)
