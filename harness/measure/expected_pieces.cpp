@@ -39,6 +39,20 @@ void add_near_touches(const std::vector<Segment>& segments, const std::vector<in
       });
 }
 
+/// How many of the path's points lie on another piece of it, or within `tolerance`, which is none of their own: they
+/// may as well fall short of it.
+int count_points_on_itself(const std::vector<Segment>& path, double tolerance) {
+  const SegmentGrid grid(path);
+  std::set<Point> found;
+  for (const Segment& segment : path)
+    for (const Point& p : segment)
+      grid.for_each_in({{p[0] - tolerance, p[1] - tolerance}, {p[0] + tolerance, p[1] + tolerance}}, [&](int i) {
+        const Segment& s = path[static_cast<std::size_t>(i)];
+        if (p != s[0] && p != s[1] && distance(p, s) <= tolerance) found.insert(p);
+      });
+  return static_cast<int>(found.size());
+}
+
 /// The longer side of the bounding box.
 double extent(const std::vector<Segment>& path) {
   double longest = 0;
@@ -104,12 +118,14 @@ ExpectedPieces expected_pieces(const std::vector<Segment>& border, const std::ve
   std::vector<int> path_of(segments.size(), -1);
   std::vector<char> tiny;
   ExpectedPieces result;
+  int may_fall_short = 0;
   for (const auto& path : paths) {
     segments.insert(segments.end(), path.begin(), path.end());
     path_of.resize(segments.size(), static_cast<int>(tiny.size()));
     // Where a path nearly touches itself almost everywhere, as many pieces as it has segments are enough to allow for.
     tiny.push_back(extent(path) <= 8 * tolerances.touch);
     if (tiny.back()) result.most += static_cast<int>(path.size());
+    if (!path.empty()) may_fall_short += count_points_on_itself(path, tolerances.tip);
     if (path.empty() || path.front()[0] == path.back()[1] || tolerances.tip == 0) continue;
     add_extension(path.front()[0], path.front()[1], tolerances.tip, extensions);
     add_extension(path.back()[1], path.back()[0], tolerances.tip, extensions);
@@ -137,7 +153,7 @@ ExpectedPieces expected_pieces(const std::vector<Segment>& border, const std::ve
   const auto slits = std::count_if(whole.begin(), whole.end(), [&](const auto& face) {
     return 2 * face.second.area < tolerances.touch * face.second.perimeter;
   });
-  result.least = std::max(1, static_cast<int>(thick.size()) - static_cast<int>(slits));
+  result.least = std::max(1, static_cast<int>(thick.size()) - static_cast<int>(slits) - may_fall_short);
   return result;
 }
 

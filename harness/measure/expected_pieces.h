@@ -12,7 +12,8 @@ namespace cutbench::oracle {
 struct ExpectedPieces {
   int expected = 0;  ///< open ends as they are, pieces thinner than `tip` left out
   int least = 0;  ///< pieces thinner than `thin` left out too; and one less for each face, inside the sheet or outside,
-                  ///< that is thinner than `touch`: the lines round it may not cross at all
+                  ///< that is thinner than `touch`: the lines round it may not cross at all; and one
+                  ///< less for each point of a path within `tip` of another piece of that path
   int most = 0;   ///< open ends lengthened by `tip`, what passes within `touch` of the path joined
                   ///< to it, however thin the pieces; and one more for each segment of a path
                   ///< so small (8 `touch`) that it nearly touches itself everywhere
