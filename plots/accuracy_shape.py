@@ -65,14 +65,14 @@ def decades(table):
 def factor_per_decade(table, draws=2000):
     """By what the error is multiplied where the aspect ratio is ten times as large, all else alike: least squares of the
     logarithms within each problem, sheet, resolution and method, members along the mesh (of even number) apart from those
-    at any angle; and its bootstrap 95 % interval over those groups."""
+    at any angle; and its bootstrap 95 % interval over problems, each of which has the same cuts on all sheets and sizes."""
     table = table[(table["ratio"] > 0) & np.isfinite(table["ratio"]) & (table["ar_max_cut"] > 0)]
     if table.empty:
         return np.nan, np.nan, np.nan, 0
     group = table.groupby([table[c] for c in (*CASE[:3], "method", "knob")] + [table["case"] % 2]).ngroup()
     x, y = np.log10(table["ar_max_cut"]), np.log(table["ratio"])
     x, y = x - x.groupby(group).transform("mean"), y - y.groupby(group).transform("mean")
-    sums = pd.DataFrame({"xy": x * y, "xx": x * x}).groupby(group).sum().to_numpy()
+    sums = pd.DataFrame({"xy": x * y, "xx": x * x}).groupby(table["scene"]).sum().to_numpy()
     sums = sums[sums[:, 1] > 0]
     if not len(sums):
         return np.nan, np.nan, np.nan, len(table)

@@ -116,7 +116,7 @@ double edge_crack_factor(double x) {
 }
 
 void append_edge_cracks(std::vector<std::unique_ptr<const Problem>>& problems) {
-  for (const int percent : {20, 35, 50}) problems.push_back(std::make_unique<EdgeCrack>(percent));
+  for (const int percent : {30, 40, 50}) problems.push_back(std::make_unique<EdgeCrack>(percent));
 }
 
 }  // namespace cutbench
