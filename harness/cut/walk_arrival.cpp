@@ -8,11 +8,13 @@
 
 namespace cutbench {
 
-/// Whether p lies on the edge, and no farther than twice the snap distance on its continuation.
+/// Whether p lies on the edge, or past its end no farther than twice the snap distance from there.
 bool Walk::lies_on(HalfEdge h, Point2 p) const {
   const Point2 a = rest(sheet_.origin(h)), b = rest(sheet_.target(h)), ab = b - a;
-  const double slack = 2 * snap_ * std::max(std::abs(ab.x), std::abs(ab.y));
-  return side(a, b, p).sign == 0 && dot(p - a, ab) >= -slack && dot(b - p, ab) >= -slack;
+  if (side(a, b, p).sign != 0) return false;
+  if (dot(p - a, ab) < 0) return squared_length(p - a) <= 4 * snap_ * snap_;
+  if (dot(b - p, ab) < 0) return squared_length(p - b) <= 4 * snap_ * snap_;
+  return true;
 }
 
 Place Walk::place_on(HalfEdge h, Point2 p) const {
