@@ -12,6 +12,7 @@
 #include "methods/example/example.h"
 #include "methods/longest_edge/longest_edge.h"
 #include "methods/snap_or_split/snap_or_split.h"
+#include "methods/split_and_tie/split_and_tie.h"
 #include "methods/vertex_snap/vertex_snap.h"
 #include "methods/warp_and_refine/warp_and_refine.h"
 
@@ -70,6 +71,15 @@ const std::vector<MethodRow>& all_methods() {
          if (!(tolerance >= 0 && tolerance <= 0.5))
            throw InputError("snap_or_split: tolerance must be a number from 0 to 0.5");
          return std::make_unique<SnapOrSplit>(tolerance);
+       }},
+      {"split_and_tie",
+       "conventional split whose slivers' vertices follow good triangles on their side",
+       {"thinness", 0.1, "altitude over the longest edge nearby below which a triangle is a sliver, 0 to 0.3"},
+       exact_split,
+       [](double thinness) {
+         if (!(thinness >= 0 && thinness <= 0.3))
+           throw InputError("split_and_tie: thinness must be a number from 0 to 0.3");
+         return std::make_unique<SplitAndTie>(SplitAndTie::Options{.thinness = thinness});
        }},
       {"vertex_snap",
        "the nearest vertices move onto the path, crossings left over are split",
