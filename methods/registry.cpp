@@ -11,6 +11,7 @@
 #include "methods/edge_release/edge_release.h"
 #include "methods/example/example.h"
 #include "methods/longest_edge/longest_edge.h"
+#include "methods/phantom_node/phantom_node.h"
 #include "methods/snap_or_split/snap_or_split.h"
 #include "methods/split_and_tie/split_and_tie.h"
 #include "methods/vertex_snap/vertex_snap.h"
@@ -63,6 +64,11 @@ const std::vector<MethodRow>& all_methods() {
        {},
        exact_split,
        [](double) { return std::make_unique<Example>(); }},
+      {"phantom_node",
+       "no new unknowns but copies: crossed triangles are doubled, each part linear",
+       {},
+       exact_split,
+       [](double) { return std::make_unique<PhantomNode>(); }},
       {"snap_or_split",
        "crossings near a vertex go through the vertex, the others are split",
        {"tolerance", 0.25, "fraction of the edge up to which a crossing goes to the vertex, 0 to 0.5"},
