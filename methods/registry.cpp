@@ -65,7 +65,7 @@ const std::vector<MethodRow>& all_methods() {
        exact_split,
        [](double) { return std::make_unique<Example>(); }},
       {"phantom_node",
-       "no new unknowns but copies: crossed triangles are doubled, each part linear",
+       "crossed triangles are doubled, and the field is linear in every part",
        {},
        exact_split,
        [](double) { return std::make_unique<PhantomNode>(); }},
