@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "harness/mesh/mesh_data.h"
 #include "methods/bowyer_watson/bowyer_watson.h"
 #include "methods/cgal_cdt/cgal_cdt.h"
+#include "methods/cgal_refine/cgal_refine.h"
 #include "methods/conventional_split/conventional_split.h"
 #include "methods/edge_release/edge_release.h"
 #include "methods/example/example.h"
+#include "methods/global_remesh/global_remesh.h"
 #include "methods/longest_edge/longest_edge.h"
 #include "methods/phantom_node/phantom_node.h"
 #include "methods/snap_or_split/snap_or_split.h"
@@ -46,6 +49,21 @@ const std::vector<MethodRow>& all_methods() {
        {},
        exact_split,
        [](double) { return std::make_unique<CgalCdt>(); }},
+      {"cgal_refine",
+       "CGAL's Delaunay refinement of the cut's surroundings",
+       {"bound", 3, "largest aspect ratio that is left outside forced wedges; 0: constrained Delaunay alone"},
+       exact_split,
+       [](double bound) {
+         if (!(bound == 0 || (bound >= 2 && bound <= 1000)))
+           throw InputError("cgal_refine: bound must be 0, or a number from 2 to 1000");
+         return std::make_unique<CgalRefine>(
+             CgalRefine::Options{.bound = bound == 0 ? std::numeric_limits<double>::infinity() : bound});
+       }},
+      {"global_remesh",
+       "the whole sheet meshed anew by CGAL with the path in it",
+       {},
+       {.exact_incision = true, .keeps_area = true, .conforming = true, .keeps_vertices = false},
+       [](double) { return std::make_unique<GlobalRemesh>(); }},
       {"longest_edge",
        "local split by longest-edge propagation, with Delaunay flips",
        {"cap", 8, "vertices that the split may make, per vertex of the path; 0: flips alone"},
