@@ -10,6 +10,7 @@
 #include "methods/cgal_cdt/cgal_cdt.h"
 #include "methods/cgal_refine/cgal_refine.h"
 #include "methods/conventional_split/conventional_split.h"
+#include "methods/delaunay_refine/delaunay_refine.h"
 #include "methods/edge_release/edge_release.h"
 #include "methods/example/example.h"
 #include "methods/global_remesh/global_remesh.h"
@@ -58,6 +59,16 @@ const std::vector<MethodRow>& all_methods() {
            throw InputError("cgal_refine: bound must be 0, or a number from 2 to 1000");
          return std::make_unique<CgalRefine>(
              CgalRefine::Options{.bound = bound == 0 ? std::numeric_limits<double>::infinity() : bound});
+       }},
+      {"delaunay_refine",
+       "local Delaunay refinement of the cut's surroundings, by off-centres",
+       {"bound", 3, "largest aspect ratio that is left outside forced wedges; 0: flips alone"},
+       exact_split,
+       [](double bound) {
+         if (!(bound == 0 || (bound >= 2 && bound <= 1000)))
+           throw InputError("delaunay_refine: bound must be 0, or a number from 2 to 1000");
+         return std::make_unique<DelaunayRefine>(
+             DelaunayRefine::Options{.bound = bound == 0 ? std::numeric_limits<double>::infinity() : bound});
        }},
       {"global_remesh",
        "the whole sheet meshed anew by CGAL with the path in it",
