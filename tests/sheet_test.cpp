@@ -293,47 +293,6 @@ TEST(Sheet, ReplacedFansFindTheirDeformedVertices) {
       EXPECT_EQ(sheet.triangle(TriangleIndex(t)).deformed[k], before.triangle(TriangleIndex(t)).deformed[(k + 1) % 3]);
 }
 
-/// A triangle that was cut free and lifted, all three sides divided at once, and no parents given.
-TEST(Sheet, NewVerticesOnIncisionsFindTheirSide) {
-  Sheet sheet(make_sheet("grid", 4));
-  sheet.begin_cut();
-  const TriangleIndex free = triangle_of(find(sheet, [&](HalfEdge h) {
-    return !sheet.on_border(h) && !sheet.on_border(Sheet::next(h)) && !sheet.on_border(Sheet::previous(h));
-  }));
-  for (int k = 0; k < 3; ++k) sheet.set_mark(half_edge(free, k), EdgeMark::path);
-  open_path(sheet);
-  for (const DeformedIndex d : sheet.triangle(free).deformed)
-    sheet.set_position(d, sheet.position(d) + Point3{0, 0, 1});
-
-  sheet.begin_cut();
-  constexpr EdgeMark none = EdgeMark::none, open = EdgeMark::incision;
-  const auto v = sheet.triangle(free).vertex;
-  std::vector<TriangleIndex> removed{free};
-  std::vector<NewTriangle> added;
-  std::array<VertexIndex, 3> m;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const HalfEdge h = half_edge(free, static_cast<int>(k)), o = sheet.opposite(h);
-    m[k] = sheet.new_vertex(k == 0 ? h : o, 0.5, on_edge(sheet, h, 0.5));
-    const VertexIndex apex = sheet.origin(Sheet::previous(o));
-    removed.push_back(triangle_of(o));
-    added.push_back({{v[(k + 1) % 3], m[k], apex}, -1, {open, none, none}});
-    added.push_back({{m[k], v[k], apex}, -1, {open, none, none}});
-  }
-  for (std::size_t k = 0; k < 3; ++k) added.push_back({{v[k], m[k], m[(k + 2) % 3]}, -1, {open, none, open}});
-  added.push_back({m, -1, {}});
-  sheet.replace_cavity(removed, added);
-  ASSERT_EQ(faults(sheet), "");
-  std::size_t lifted = 0;
-  for (std::size_t t = 0; t < sheet.triangle_slots(); ++t) {
-    const auto& d = sheet.triangle(TriangleIndex(t)).deformed;
-    const auto is_up = [&](DeformedIndex i) { return sheet.position(i).z == 1; };
-    EXPECT_EQ(is_up(d[0]), is_up(d[1])) << t;
-    EXPECT_EQ(is_up(d[1]), is_up(d[2])) << t;
-    lifted += is_up(d[0]);
-  }
-  EXPECT_EQ(lifted, 4u);
-}
-
 TEST(Sheet, MarksBothHalfEdgesAndNothingOnTheBorder) {
   Sheet sheet(make_sheet("alternating", 3));
   sheet.begin_cut();

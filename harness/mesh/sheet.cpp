@@ -160,7 +160,7 @@ VertexIndex Sheet::new_vertex(HalfEdge h, double lambda, Point2 p) {
     return new_deformed(v, {d[k], d[k == 2 ? 0 : k + 1], {}}, {1 - fraction, fraction, 0});
   };
   const VertexIndex v = new_rest_vertex(p);
-  Work::Pending pending{v, triangle_of(h), {}, on_side(h, lambda, v), {}, rest(target(h)) - rest(origin(h)), {}};
+  Work::Pending pending{v, triangle_of(h), {}, on_side(h, lambda, v), {}, {}};
   if (mark(h) == EdgeMark::incision) {
     pending.right = triangle_of(opposite(h));
     pending.at_right = on_side(opposite(h), 1 - lambda, v);
@@ -172,7 +172,7 @@ VertexIndex Sheet::new_vertex(HalfEdge h, double lambda, Point2 p) {
 VertexIndex Sheet::new_vertex(TriangleIndex t, Point2 p) {
   const VertexIndex v = new_rest_vertex(p);
   work_.pending.push_back(
-      {v, t, {}, new_deformed(v, std::array(triangle(t).deformed), barycentric(corners(t), p)), {}, {}, {}});
+      {v, t, {}, new_deformed(v, std::array(triangle(t).deformed), barycentric(corners(t), p)), {}, {}});
   return v;
 }
 
@@ -262,11 +262,9 @@ bool Sheet::move(VertexIndex v, Point2 to) {
   return true;
 }
 
-void Sheet::drop_vertex(VertexIndex v, DeformedIndex d) {
+void Sheet::free_vertex(VertexIndex v) {
   triangle_of_vertex_[v()] = {};
   freed_vertices_.push_back(v);
-  vertex_of_deformed_[d()] = {};
-  freed_deformed_.push_back(d);
 }
 
 bool Sheet::collapse(HalfEdge h) {
@@ -302,7 +300,9 @@ bool Sheet::collapse(HalfEdge h) {
   } while (spoke != h);
   const DeformedIndex d = triangle(triangle_of(h)).deformed[corner(h)];
   replace_cavity(star, rest_of_star);
-  drop_vertex(a, d);
+  free_vertex(a);
+  vertex_of_deformed_[d()] = {};
+  freed_deformed_.push_back(d);
   return true;
 }
 

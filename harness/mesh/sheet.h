@@ -108,9 +108,6 @@ class Sheet {
   void hold(VertexIndex v);
   bool is_held(VertexIndex v) const { return v() < held_.size() && held_[v()] != 0; }
 
-  /// Frees a vertex that the last replace_cavity() left without triangles. \pre d was its one deformed vertex.
-  void drop_vertex(VertexIndex v, DeformedIndex d);
-
   void set_mark(HalfEdge h, EdgeMark mark);  ///< of both half-edges; nothing on the border
   void set_deformed(TriangleIndex t, int corner, DeformedIndex d);
   DeformedIndex copy_deformed(DeformedIndex d);  ///< a new deformed vertex at the same place
@@ -141,8 +138,8 @@ class Sheet {
   bool was_removed(HalfEdge h) const { return work_.removed_in[triangle_of(h)()] == work_.call; }
   void put_on_path(VertexIndex v);
   DeformedIndex pending_deformed(VertexIndex v, TriangleIndex parent) const;
-  DeformedIndex pending_deformed_left_of(HalfEdge rightmost) const;
   void inherit_round(HalfEdge spoke);
+  void free_vertex(VertexIndex v);
 
   std::vector<Triangle> triangles_;
   std::vector<Point2> rest_;
@@ -168,7 +165,6 @@ class Sheet {
       VertexIndex vertex;
       TriangleIndex left, right;  ///< right: invalid unless the vertex lies on an opened incision
       DeformedIndex at_left, at_right;
-      Point2 along;                       ///< the edge it lies on, with `left` on the left; zero inside a triangle
       std::array<HalfEdge, 2> waiting{};  ///< halves of its edge, in order, whose other sides are still whole
     };
     std::vector<Pending> pending;
