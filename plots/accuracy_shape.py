@@ -106,28 +106,46 @@ def shape_statements(records):
     return found
 
 
-def print_shapes(records):
-    """Where shape starts to cost: the error after so many iterations over the same sheet's direct solve, by decade of
-    the aspect ratio; the same sheet on both sides, so nothing but the solver's progress is in it."""
+def lags_of(records, solver, budget):
+    """Each error after so many iterations over the same sheet's, solved directly: the same sheet on both sides, so nothing
+    but the solver's progress is in it."""
     keys = [*CASE, "method", "knob"]
     direct = records.rows(direct=True, failed=False).drop_duplicates(keys)[keys + ["error"]]
-    rows, starts = [], []
-    for solver in records.solvers:
-        for budget in records.budgets:
-            table = records.rows(solver=solver, budget=budget, failed=False).merge(direct, on=keys, suffixes=("", "_d"))
-            table = table[(table["error_d"] > 1e-9) & (table["ar_max_cut"] > 0)]
-            table = table.assign(lag=table["error"] / table["error_d"], decade=np.floor(np.log10(table["ar_max_cut"])))
-            lags = table.groupby("decade")["lag"].agg(["median", "size"])
-            lags = lags[lags["size"] >= 5]["median"]
-            rows.append([solver, str(budget), *(lags.get(d, np.nan) for d in range(6))])
-            slow = lags[lags > CONVERGED]
-            starts.append(f"{solver}, {budget} iterations: " + (f"from AR {10 ** slow.index[0]:.0f}" if len(slow) else
-                                                               "at no AR") + " on")
-    if rows:
-        load.print_table("Error after so many iterations over the same sheet's own, solved directly: medians by the "
-                         "largest aspect ratio of the cut", ["solver", "iterations", "AR 1-10", "10-100", "100-1000",
-                                                             "1e3-1e4", "1e4-1e5", "1e5-1e6"], rows)
-        print(f"Shape starts to cost (median above {CONVERGED}): " + "; ".join(starts) + ".")
+    table = records.rows(solver=solver, budget=budget, failed=False).merge(direct, on=keys, suffixes=("", "_d"))
+    table = table[(table["error_d"] > 1e-9) & (table["ar_max_cut"] > 0)]
+    return table.assign(lag=table["error"] / table["error_d"], decade=np.floor(np.log10(table["ar_max_cut"])))
+
+
+def by_decade(lags):
+    """The median of each decade of the aspect ratio that has at least five cases."""
+    found = lags.groupby("decade")["lag"].agg(["median", "size"])
+    return found[found["size"] >= 5]["median"]
+
+
+def starts_at(medians):
+    """The lowest decade that does worse than a rounder one: how slow the solver is at any shape is not shape's doing."""
+    best = np.inf
+    for decade, median in medians.items():
+        if median > CONVERGED * best:
+            return f"AR {10 ** decade:g}"
+        best = min(best, median)
+    return "never"
+
+
+def print_shapes(records):
+    """By how much shape holds the solver up, and where each method's starts to."""
+    lags = {(solver, budget): lags_of(records, solver, budget) for solver in records.solvers for budget in records.budgets}
+    rows = [[solver, str(budget), *(by_decade(table).get(d, np.nan) for d in range(6))]
+            for (solver, budget), table in lags.items()]
+    if not rows:
+        return
+    load.print_table("Error after so many iterations over the same sheet's own, solved directly: medians by the "
+                     "largest aspect ratio of the cut", ["solver", "iterations", "AR 1-10", "10-100", "100-1000",
+                                                         "1e3-1e4", "1e4-1e5", "1e5-1e6"], rows)
+    starts = [[look.label, solver, *(starts_at(by_decade(of(lags[solver, budget], variant))) for budget in records.budgets)]
+              for variant, look in records.methods.items() if variant[0] != REFERENCE[0] for solver in records.solvers]
+    load.print_table(f"Where each method's shape starts to cost: the decade of AR from which that median is above {CONVERGED} "
+                     "times a rounder one's, by iterations", ["method", "solver", *map(str, records.budgets)], starts)
 
 
 def print_statements(records):
