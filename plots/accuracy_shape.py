@@ -127,7 +127,7 @@ def starts_at(medians):
     best = np.inf
     for decade, median in medians.items():
         if median > CONVERGED * best:
-            return f"AR {10 ** decade:g}"
+            return f"AR {10 ** decade:.0f}"
         best = min(best, median)
     return "never"
 
