@@ -8,28 +8,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/oracle_cases.h"
+
 namespace cutbench::oracle {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// The unit square in n x n squares, each divided by its rising diagonal.
-Mesh grid(int n) {
-  Mesh mesh;
-  for (int y = 0; y <= n; ++y)
-    for (int x = 0; x <= n; ++x) mesh.rest.push_back({double(x) / n, double(y) / n});
-  for (int y = 0; y < n; ++y)
-    for (int x = 0; x < n; ++x) {
-      const int a = y * (n + 1) + x, b = a + 1, c = a + n + 2, d = a + n + 1;
-      mesh.triangles.push_back({a, b, c});
-      mesh.triangles.push_back({a, c, d});
-    }
-  return mesh;
-}
-
 constexpr double h = 0.1;  // of grid(10), nearly
-
-Curve polyline(std::vector<Point> points, bool closed = false) { return {false, closed, std::move(points)}; }
 
 std::vector<ForcedCorner> corners(std::vector<Curve> cuts) { return forced_corners(grid(10), cuts, h); }
 

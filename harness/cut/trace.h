@@ -79,7 +79,7 @@ class Tracer {
   bool is_simple(int face) const;
   void arrange(int face);
   bool chords_tell_the_truth(int face) const;
-  std::vector<Point2> link_points(const Link& link, bool all) const;
+  std::vector<Point2> link_points(const Link& link, bool all) const;  // not all: those that became nodes
   void restore_all_points(int face);
   void resolve_crossings(int face);
   std::vector<int> nodes_of(int face) const;
