@@ -19,8 +19,9 @@ STEM = "accuracy"
 
 
 def excess_figure(records, x, y, label, zero):
-    """A panel per sheet: excess error `y` of the direct solve over `x`, all problems, a point per resolution. `zero`: what
-    it is compared with."""
+    """A panel per sheet: excess error `y` of the direct solve over `x`, all problems in plane, a point per resolution.
+    `zero`: what it is compared with."""
+    records = records.in_plane().ranked()
     looks = records.methods
     direct = records.rows(direct=True)
     cells = cells_of(direct[direct["method"] != REFERENCE[0]], x, y,
@@ -42,8 +43,8 @@ def excess_figure(records, x, y, label, zero):
     label_edges(axes, label, "excess error, %")
     style.finish(figure, looks.values(), records.caption(
         f"Excess error (of the primary measure, over that of a mesh made anew to fit the cut, minus one) against "
-        f"{label}, solved directly: medians over {len(records.problems)} problems and their ensembles, a point per "
-        f"resolution; bars: quartiles; zero: {zero}. ×: failed/tried, each counted as infinitely bad."),
+        f"{label}, solved directly: medians over {len(records.problems)} problems in plane and their ensembles, a point "
+        f"per resolution; bars: quartiles; zero: {zero}. ×: failed/tried, each counted as infinitely bad."),
         front.legend_entries())
     return figure
 
@@ -52,8 +53,8 @@ def problems_figure(records):
     """Work and precision: a panel per problem, the error itself against time, all sheets."""
     direct = records.rows(direct=True)
     cells = cells_of(direct, "ms", "error", ["scene", "method", "knob", "resolution"], ["scene"])
-    rows = -(-len(records.problems) // 2)
-    figure, axes = style.panels(rows, 2, 3.7, sharex=True)
+    columns = min(4, len(records.problems))
+    figure, axes = style.panels(-(-len(records.problems) // columns), columns, 3.9, sharex=True, width=style.PAGE)
     for i, ax in enumerate(axes.flat):
         ax.set_visible(i < len(records.problems))
     for problem, ax in zip(records.problems, axes.flat):
@@ -68,7 +69,7 @@ def problems_figure(records):
             style.plain_numbers(ax)
         primary = records.rows(scene=problem)["primary"].iloc[0]
         ax.set_title(f"{problem}:\n{primary}".replace("_", " "), loc="left", fontsize=6.3)
-    label_edges(axes, "total time, ms", "error")
+    label_edges(axes, "total time, ms", "relative error")
     style.finish(figure, records.looks.values(), records.caption(
         "Error of each problem's primary measure against the total time (cut, assembly, direct solve): medians over all "
         "sheets and the ensemble, a point per resolution; bars: quartiles. The reference's cut is the meshing of the "
@@ -80,7 +81,8 @@ def write_text(folder, records):
     """Printed, and kept beside the figures."""
     text = io.StringIO()
     with contextlib.redirect_stdout(text):
-        print_ranking(records)
+        print_ranking(records.in_plane(), "in plane")
+        print_ranking(records.out_of_plane(), "out of plane")
         print_shapes(records)
         print_statements(records)
         print(f"\n{style.provenance(records.run, records.run.rows, with_machine=True, with_crosses=False)}")

@@ -6,12 +6,15 @@ from accuracy_records import cells_of, label_edges, log_x_axis, of, percent_axis
 
 
 def budgets_figure(records):
-    """A row per sheet, a column per solver: excess error over time at the highest resolution, a point per budget."""
+    """A row per sheet, a column per solver: excess error over time at the highest resolution with an ensemble, a point per
+    budget."""
     if not records.budgets:
         return None
-    top = records.resolutions[-1]
-    table = records.rows(resolution=top)
-    table = table[table["scene"].isin(set(table.loc[~table["direct"], "scene"]))]
+    records = records.in_plane().ranked()
+    members = records.table.groupby("resolution")["case"].nunique()
+    top = members[members >= min(2, members.max())].index.max()
+    records = records.with_rows(records.rows(resolution=top))
+    table = records.table
     figure, axes = style.panels(len(records.sheets), len(records.solvers), 3.7, sharex=True, sharey=True)
     everything = []
     for row, sheet in zip(axes, records.sheets):

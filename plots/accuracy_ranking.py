@@ -36,28 +36,40 @@ def mean_excess(table, column):
     return 100 * (np.exp(np.log(ratios).mean()) - 1) if len(ratios) else np.nan
 
 
-def print_ranking(records):
-    """Of records at_equal_unknowns()."""
-    rows = []
+def made_by_all(table):
+    """The rows of the cases, solvers and budgets in which nobody failed."""
+    failed = table.groupby([table[c] for c in (*CASE, "solver", "budget")])["failed"].transform("any")
+    return table[~failed]
+
+
+def print_ranking(records, title):
+    """Of records at_equal_unknowns(), without what a fitted mesh solves exactly, too."""
+    records = records.ranked()
+    if not records.problems:
+        return
+    rows, budgets = [], not records.table["direct"].all()
     for sheet in [*records.sheets, "all"]:
         chosen = records.table if sheet == "all" else records.rows(sheet=sheet)
+        common = made_by_all(chosen)
         for variant, look in records.looks.items():
+            made = of(common, variant)
+            direct = made[made["direct"]]
             table = of(chosen, variant)
-            direct = table[table["direct"]]
-            made = direct[~direct["failed"]]
-            cells = [mean_excess(direct, "ratio_equal"), mean_excess(direct, "ratio"), 100 * (made["more"].median() - 1),
-                     made["ms"].median(), made["cut_us"].median() / 1000]
-            for solver in records.solvers:
-                done = table[(table["solver"] == solver) & (table["budget"] == records.enough())]
-                cells.append(mean_excess(done, "ratio"))
+            cells = [mean_excess(direct, "ratio_equal"), mean_excess(direct, "ratio"), 100 * (direct["more"].median() - 1),
+                     direct["ms"].median(), direct["cut_us"].median() / 1000]
+            if budgets:
+                for solver in records.solvers:
+                    done = made[(made["solver"] == solver) & (made["budget"] == records.enough())]
+                    cells.append(mean_excess(done, "ratio"))
             tried = table.drop_duplicates(CASE)
             bad = table[table["failed"]].drop_duplicates(CASE)
             rows.append([sheet, look.label, str(len(tried)), f"{100 * len(bad) / max(1, len(tried)):.1f}", *cells])
     rows.sort(key=lambda r: ([*records.sheets, "all"].index(r[0]), np.nan_to_num(r[4], nan=np.inf)))
+    solvers = records.solvers if budgets else []
     load.print_table(
-        "Ranking: geometric mean of the error over the fitted mesh's, minus one, in percent, over problems, resolutions "
-        "and members. Ranked at equal unknowns: over a fitted mesh refined to as many as the cut sheet has; beside it "
-        f"over one of as many triangles as the uncut sheet, where triangles alone can win. CG: after {records.enough()} "
-        "iterations",
+        f"Ranking, {title} ({', '.join(records.problems)}): geometric mean of the error over the fitted mesh's, minus one, "
+        "in percent, over problems, resolutions and members, of the cases that no method failed. Ranked at equal unknowns: "
+        "over a fitted mesh refined to as many as the cut sheet has; beside it over one of as many triangles as the uncut "
+        "sheet, where triangles alone can win" + (f". CG: after {records.enough()} iterations" if budgets else ""),
         ["sheet", "method", "cases", "failed %", "excess %, equal unknowns", "as many triangles", "more unknowns, %",
-         "median ms", "of it cut", *(f"as many triangles, {s}" for s in records.solvers)], rows)
+         "median ms", "of it cut", *(f"as many triangles, {s}" for s in solvers)], rows)

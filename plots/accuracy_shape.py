@@ -19,7 +19,8 @@ def shape_columns(records):
 
 
 def shape_figure(records):
-    """A row per sheet: error ratio over the largest aspect ratio the cut left, every case a dot."""
+    """A row per sheet: error ratio over the largest aspect ratio the cut left, every case in plane a dot."""
+    records = records.in_plane().ranked()
     columns = shape_columns(records)
     figure, axes = style.panels(len(records.sheets), len(columns), 3.2, sharex=True, sharey=True)
     for row, sheet in zip(axes, records.sheets):
@@ -47,7 +48,7 @@ def shape_figure(records):
     line = Line2D([], [], color="#c00000", linewidth=1.1, label="median per decade of AR")
     style.finish(figure, [], records.caption(
         "Does the error depend on the shape of the triangles? Error over that of the fitted mesh solved directly, against "
-        "the largest aspect ratio among the triangles the cut made or changed; a dot per case. "
+        "the largest aspect ratio among the triangles the cut made or changed; problems in plane, a dot per case. "
         f"{' '.join(shape_statements(records))} {style.AR_DEFINITION}"), [*dots, line])
     return figure
 
@@ -64,16 +65,18 @@ def decades(table):
 
 def factor_per_decade(table, draws=2000):
     """By what the error is multiplied where the aspect ratio is ten times as large, all else alike: least squares of the
-    logarithms within each problem, sheet, resolution and method, members along the mesh (of even number) apart from those
-    at any angle; and its bootstrap 95 % interval over problems, each of which has the same cuts on all sheets and sizes."""
+    logarithms, a level for each problem, sheet, resolution and method, and another for members along the mesh (of even
+    number), who may err more or less than those at any angle, by problem, sheet and method; and its bootstrap 95 %
+    interval over problems, each of which has the same cuts on all sheets and sizes. And the number of cases that say
+    anything: those with another of their level."""
     table = table[(table["ratio"] > 0) & np.isfinite(table["ratio"]) & (table["ar_max_cut"] > 0)]
+    level = [table[c] for c in (*CASE[:3], "method", "knob")]
+    table = table[table["case"].groupby(level).transform("size") > 1]
     if table.empty:
         return np.nan, np.nan, np.nan, 0
-    group = table.groupby([table[c] for c in (*CASE[:3], "method", "knob")] + [table["case"] % 2]).ngroup()
-    x, y = np.log10(table["ar_max_cut"]), np.log(table["ratio"])
-    x, y = x - x.groupby(group).transform("mean"), y - y.groupby(group).transform("mean")
+    x, y = within(np.log10(table["ar_max_cut"]), table), within(np.log(table["ratio"]), table)
     sums = pd.DataFrame({"xy": x * y, "xx": x * x}).groupby(table["scene"]).sum().to_numpy()
-    sums = sums[sums[:, 1] > 0]
+    sums = sums[sums[:, 1] > 1e-9]
     if not len(sums):
         return np.nan, np.nan, np.nan, len(table)
     picks = np.random.default_rng(1).integers(0, len(sums), (draws, len(sums)))
@@ -81,6 +84,16 @@ def factor_per_decade(table, draws=2000):
     with np.errstate(divide="ignore", invalid="ignore"):
         low, high = np.exp(np.nanpercentile(drawn[:, 0] / drawn[:, 1], [2.5, 97.5]))
     return np.exp(sums[:, 0].sum() / sums[:, 1].sum()), low, high, len(table)
+
+
+def within(values, table):
+    """The values without the two levels of factor_per_decade(), by taking the means of either out in turns."""
+    levels = [table.groupby([table[c] for c in (*CASE[:3], "method", "knob")]).ngroup(),
+              table.groupby([table[c] for c in ("scene", "sheet", "method", "knob")] + [table["case"] % 2]).ngroup()]
+    for _ in range(50):
+        for level in levels:
+            values = values - values.groupby(level).transform("mean")
+    return values
 
 
 def dependence(low, high):
@@ -110,9 +123,10 @@ def lags_of(records, solver, budget):
     """Each error after so many iterations over the same sheet's, solved directly: the same sheet on both sides, so nothing
     but the solver's progress is in it."""
     keys = [*CASE, "method", "knob"]
+    records = records.ranked()
     direct = records.rows(direct=True, failed=False).drop_duplicates(keys)[keys + ["error"]]
     table = records.rows(solver=solver, budget=budget, failed=False).merge(direct, on=keys, suffixes=("", "_d"))
-    table = table[(table["error_d"] > 1e-9) & (table["ar_max_cut"] > 0)]
+    table = table[(table["method"] != REFERENCE[0]) & (table["error_d"] > 0) & (table["ar_max_cut"] > 0)]
     return table.assign(lag=table["error"] / table["error_d"], decade=np.floor(np.log10(table["ar_max_cut"])))
 
 
@@ -135,13 +149,15 @@ def starts_at(medians):
 def print_shapes(records):
     """By how much shape holds the solver up, and where each method's starts to."""
     lags = {(solver, budget): lags_of(records, solver, budget) for solver in records.solvers for budget in records.budgets}
-    rows = [[solver, str(budget), *(by_decade(table).get(d, np.nan) for d in range(6))]
+    rows = [[solver, str(budget), *(by_decade(table).get(d, np.nan) for d in range(7))]
             for (solver, budget), table in lags.items()]
     if not rows:
         return
-    load.print_table("Error after so many iterations over the same sheet's own, solved directly: medians by the "
-                     "largest aspect ratio of the cut", ["solver", "iterations", "AR 1-10", "10-100", "100-1000",
-                                                         "1e3-1e4", "1e4-1e5", "1e5-1e6"], rows)
+    sizes = next(iter(lags.values())).groupby("decade").size()
+    rows.append(["cases", "", *(str(sizes.get(d, 0)) for d in range(7))])
+    load.print_table("Error after so many iterations over the same sheet's own, solved directly: medians over all methods "
+                     "by the largest aspect ratio of the cut", ["solver", "iterations", "AR 1-10", "10-100", "100-1000",
+                                                                "1e3-1e4", "1e4-1e5", "1e5-1e6", "1e6-1e7"], rows)
     starts = [[look.label, solver, *(starts_at(by_decade(of(lags[solver, budget], variant))) for budget in records.budgets)]
               for variant, look in records.methods.items() if variant[0] != REFERENCE[0] for solver in records.solvers]
     load.print_table(f"Where each method's shape starts to cost: the decade of AR from which that median is above {CONVERGED} "
@@ -149,6 +165,7 @@ def print_shapes(records):
 
 
 def print_statements(records):
+    records = records.in_plane()
     print("\nDoes the error depend on the aspect ratio? All sheets:")
     for statement in shape_statements(records):
         print(f"  {statement}")

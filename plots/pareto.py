@@ -108,10 +108,11 @@ def figure_of(cells, run, args, x, y, present):
         front.draw_failures(ax, here, looks)
         ax.set_xlabel(x.column if i + columns >= len(sheets) else "")
         ax.set_ylabel("" if i % columns else y.column)
+    where = f" Rows with {', '.join(args.where)}." if args.where else ""
     more = " Larger marks: more iterations (0: until solved)." if len(budgets) > 1 else ""
     style.finish(figure, looks.values(), " ".join([
         f"{y.column} against {x.column}, {args.scene}: medians of the ensemble at each resolution, bars: quartiles; a "
-        f"failed case counts as infinitely bad (×: failed/tried).{more}",
+        f"failed case counts as infinitely bad (×: failed/tried).{where}{more}",
         style.provenance(run, run.rows, with_machine="_us" in x.column + y.column, with_crosses=False)]),
         front.legend_entries() + entries)
     return figure

@@ -15,7 +15,8 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullForma
 
 from load import CUT, VARIANT, count, stop
 
-WIDTH = 8.5 / 2.54  # inches
+WIDTH = 8.5 / 2.54  # inches, of a column
+PAGE = 17.4 / 2.54  # of two, and the space between them
 CAPTION_SIZE = 6.2
 matplotlib.rcParams.update({
     "font.family": "DejaVu Sans", "font.size": 7, "axes.titlesize": 7, "axes.labelsize": 7, "legend.fontsize": 6.5,
@@ -103,9 +104,9 @@ def sheet_title(sheet):
     return SHEETS.get(sheet, sheet)
 
 
-def panels(rows, columns, height, **shared):
-    """A figure one column wide with `rows` x `columns` axes, each `height` cm high with its labels."""
-    figure, axes = plt.subplots(rows, columns, figsize=(WIDTH, rows * height / 2.54), squeeze=False, **shared)
+def panels(rows, columns, height, width=WIDTH, **shared):
+    """A figure with `rows` x `columns` axes, each `height` cm high with its labels."""
+    figure, axes = plt.subplots(rows, columns, figsize=(width, rows * height / 2.54), squeeze=False, **shared)
     return figure, axes
 
 
@@ -209,8 +210,8 @@ def provenance(run, cases, with_machine=False, with_crosses=True):
 
 def finish(figure, looks_drawn, caption, extra=()):
     """Legend above the panels, caption below, the figure made so much higher."""
-    renderer, height = figure.canvas.get_renderer(), figure.get_size_inches()[1]
-    text = figure.text(0.05 / WIDTH, 0, "\n".join(wrapped(figure, caption, WIDTH - 0.1)), fontsize=CAPTION_SIZE,
+    renderer, (width, height) = figure.canvas.get_renderer(), figure.get_size_inches()
+    text = figure.text(0.05 / width, 0, "\n".join(wrapped(figure, caption, width - 0.1)), fontsize=CAPTION_SIZE,
                        va="bottom", linespacing=1.2, parse_math=False, in_layout=False)
     caption_height = text.get_window_extent(renderer).height / figure.dpi + 0.08
     handles = [legend_entry(look) for look in looks_drawn] + list(extra)
@@ -218,11 +219,11 @@ def finish(figure, looks_drawn, caption, extra=()):
         legend = figure.legend(handles=handles, loc="upper center", ncol=columns, handlelength=2.1, columnspacing=1.2,
                                handletextpad=0.5, borderaxespad=0.2)
         box = legend.get_window_extent(renderer)
-        if box.width / figure.dpi <= WIDTH or columns == 1:
+        if box.width / figure.dpi <= width or columns == 1:
             break
         legend.remove()
     total = height + caption_height + box.height / figure.dpi + 0.04
-    figure.set_size_inches(WIDTH, total)
+    figure.set_size_inches(width, total)
     text.set_y(0.04 / total)
     figure.set_layout_engine("constrained", rect=(0, caption_height / total, 1, height / total), h_pad=0.03, w_pad=0.03)
     figure.draw_without_rendering()

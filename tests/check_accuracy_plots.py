@@ -124,9 +124,37 @@ def check_failures(results):
         expect(f"failures are not shown over {x}: {texts}", any(t.startswith("× ") for t in texts))
     ranking = io.StringIO()
     with contextlib.redirect_stdout(ranking):
-        print_ranking(records)
+        print_ranking(records, "some")
     lines = [line for line in ranking.getvalue().splitlines() if line.startswith("all ") and LABELS[2] in line]
     expect(f"failures are not in the ranking: {lines}", lines and float(lines[0].split()[4]) > 10)
+    check_ranked_cases(records)
+
+
+def check_ranked_cases(records):
+    """Who failed the hardest cases is not the better for it: means are over the cases that all made."""
+    from accuracy_ranking import made_by_all
+    made = made_by_all(records.rows(direct=True))
+    expect(f"cases that somebody failed are ranked: {set(made['case'])}", set(made["case"]) == {1, 2})
+    sizes = made.groupby(["method", "knob"]).size()
+    expect(f"methods are ranked on different cases: {sizes.to_dict()}", sizes.nunique() == 1)
+
+
+def check_factor(folder):
+    """Errors that follow a power of the aspect ratio, with levels of their own for every sheet and for even members; a
+    case that is alone on its level says nothing."""
+    import numpy as np
+    from accuracy_records import Records
+    from accuracy_shape import factor_per_decade
+    table = Records(folder).rows(direct=True)
+    table = table[table["method"] == "conventional_split"].copy()
+    level = (1 + table["resolution"] / 1000) * table["scene"].map(len) * np.where(table["case"] % 2 == 0, 1, 3)
+    table["ratio"] = level * table["ar_max_cut"] ** 0.1
+    factor, low, high, n = factor_per_decade(table)
+    expect(f"the factor of a power law: {factor} [{low}, {high}] {n}",
+           max(abs(x - 10 ** 0.1) for x in (factor, low, high)) < 1e-6 and n == len(table))
+    one = table[(table["case"] == 0) | (table["resolution"] != table["resolution"].max())]
+    expect("a case alone on its level counts", factor_per_decade(one)[3] == (one["resolution"] != 200).sum())
+    expect("cases that are all alone have a factor", np.isnan(factor_per_decade(table[table["case"] == 0])[0]))
 
 
 def check_missing_columns(results):
@@ -151,6 +179,7 @@ def main():
         print("\n".join(problems))
         return 1
     check_equal_unknowns(results / "accuracy")
+    check_factor(results / "accuracy")
     check_failures(results)
     check_missing_columns(results)
     print("\n".join(problems))

@@ -41,11 +41,15 @@ void AccuracySummary::print(const std::string& title, const std::map<std::string
     for (const auto& [key, group] : groups_) {
       const auto& [name, solver, budget] = key;
       if (name != method) continue;
-      std::printf("%-28s %-18s %10s %7zu %7zu %14.3g %10.4g\n", method.c_str(), solver.c_str(),
-                  budget > 0 ? std::to_string(budget).c_str() : "till solved", group.rows, group.failed,
-                  100 * median(group.excess, group.failed), median(group.total_us, group.failed) / 1000);
+      char excess[32] = "-";  // none without the mesh fitted to the cut
+      if (!group.excess.empty())
+        std::snprintf(excess, sizeof excess, "%.3g", 100 * median(group.excess, group.failed));
+      std::printf("%-28s %-18s %10s %7zu %7zu %14s %10.4g\n", method.c_str(), solver.c_str(),
+                  budget > 0 ? std::to_string(budget).c_str() : "till solved", group.rows, group.failed, excess,
+                  median(group.total_us, group.failed) / 1000);
     }
   for (const auto& [method, spent] : minutes) std::printf("%-28s %.2f minutes\n", method.c_str(), spent);
+  std::fflush(stdout);  // before the next run's progress, which goes to stderr
 }
 
 }  // namespace cutbench

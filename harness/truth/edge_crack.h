@@ -9,7 +9,7 @@ namespace cutbench {
 /// / cos(pi x/2), within 0.5 % for any x (Tada, Paris and Irwin, The Stress Analysis of Cracks Handbook).
 double edge_crack_factor(double x);
 
-/// At depths of 0.2, 0.35 and 0.5 of the width.
+/// At depths of 0.3, 0.4 and 0.5 of the width.
 void append_edge_cracks(std::vector<std::unique_ptr<const Problem>>& problems);
 
 }  // namespace cutbench

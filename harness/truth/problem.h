@@ -1,5 +1,5 @@
 // A problem with a known answer: a sheet, a cut, what holds and pulls at it, and what the cut sheet must then do. Each
-// shows one effect. Sources: in the files of the problems.
+// shows one effect. Sources: in the files of the problems, in plane in exact_fields.h.
 //
 // A problem has many members: the same cut at another place and angle relative to the mesh. One lucky position proves
 // nothing, so errors are published over ensembles.
