@@ -73,6 +73,7 @@ std::string description(const Scene& scene, const InMotion& motion, const Simula
       {"bending", name_of(scene.physics.bending)},
       {"solver", scene.solver.name},
       {"solver_tolerance", scene.solver.tolerance},
+      {"newton", scene.newton},
       {"verdict", report.verdict},
       {"reason", report.reason}};
   if (std::isfinite(options.cut.chord_tolerance)) document["chord_tolerance"] = options.cut.chord_tolerance;

@@ -13,13 +13,14 @@ import contact_sheet
 import load
 import render
 
-WIDTH, DPI = 3.2, 150  # inches
+WIDTH, HEADER, DPI = 3.2, 0.24, 200  # inches
 LAST = 1000  # ms that the end is held
 
 
 def picture(frame, camera, box, caption):
-    figure = plt.figure(figsize=(WIDTH, WIDTH * (box[3] - box[2]) / (box[1] - box[0])))
-    ax = figure.add_axes([0, 0, 1, 1])
+    below = WIDTH * (box[3] - box[2]) / (box[1] - box[0])
+    figure = plt.figure(figsize=(WIDTH, below + HEADER))
+    ax = figure.add_axes([0, 0, 1, below / (below + HEADER)])
     render.draw(ax, frame, camera)
     render.blank(ax, box)
     figure.text(0.02, 0.98, caption, fontsize=6, va="top")

@@ -42,30 +42,30 @@ def scene_number(folder):
 
 def draw(folders, results):
     height = 0.56
-    width = style.WIDTH / MOMENTS
+    width = style.WIDTH / MOMENTS  # of a picture; two columns of scenes, half as many rows
+    rows = -(-len(folders) // 2)
     descriptions = [render.read_description(d) for d in folders]
     n = sorted({d["triangles_before"] for d in descriptions})
-    figure = plt.figure(figsize=(style.WIDTH, 1))
+    figure = plt.figure(figsize=(style.PAGE, 1))
     lines = style.wrapped(figure, f"Every scene, by {METHOD}, from just before the first cut to the end. n = "
                           f"{', '.join(map(str, n))} triangles before the cuts; lips red. Seed: none, the cuts are in "
-                          f"experiments/scenes; {scene_panels.commits(descriptions)}. Command: plots/contact_sheet.py", style.WIDTH - 0.1)
+                          f"experiments/scenes; {scene_panels.commits(descriptions)}. Command: plots/contact_sheet.py", style.PAGE - 0.1)
     below, row = 0.115 * len(lines) + 0.08, height + 0.24
-    total = below + row * len(folders)
-    figure.set_size_inches(style.WIDTH, total)
-    figure.text(0.05 / style.WIDTH, 0.04 / total, "\n".join(lines), fontsize=style.CAPTION_SIZE, va="bottom",
+    total = below + row * rows
+    figure.set_size_inches(style.PAGE, total)
+    figure.text(0.05 / style.PAGE, 0.04 / total, "\n".join(lines), fontsize=style.CAPTION_SIZE, va="bottom",
                 linespacing=1.2, parse_math=False)
     for r, (folder, description) in enumerate(zip(folders, descriptions)):
         times = [t for t, _ in render.read_series(folder)]
         first = description["cuts"][0]["time_s"]
         frames = [render.read_frame(folder, first + (times[-1] - first) * i / (MOMENTS - 1)) for i in range(MOMENTS)]
         box = render.extent(frames, CAMERA)
-        bottom = below + row * (len(folders) - 1 - r)
-        figure.text(0.05 / style.WIDTH, (bottom + height + 0.03) / total,
+        bottom, left = below + row * (rows - 1 - r % rows), (style.PAGE - style.WIDTH) * (r // rows)
+        figure.text((left + 0.05) / style.PAGE, (bottom + height + 0.03) / total,
                     folder.parent.name.replace("_", " ") + "\n" + description["effect"], fontsize=4.9, va="bottom",
                     linespacing=1.1)
         for c, frame in enumerate(frames):
-            ax = figure.add_axes([c * width / style.WIDTH, bottom / total, width / style.WIDTH,
-                                  height / total])
+            ax = figure.add_axes([(left + c * width) / style.PAGE, bottom / total, width / style.PAGE, height / total])
             render.draw(ax, frame, CAMERA)
             render.blank(ax, box)
             ax.text(0.97, 1, f"{frame.time:.2f} s", transform=ax.transAxes, fontsize=5, va="top", ha="right")

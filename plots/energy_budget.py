@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Where the energy of each scene goes. Areas, one on the other: kinetic, elastic (membrane and bending), lost to
-damping, lost by backward Euler. Line: what gravity has given. Between them: the remainder, one linearisation per
-step's error, and the jumps at cuts (dotted: when)."""
+damping, lost by backward Euler. Line: what gravity has given. Between them: the remainder, the error of the
+linearisation, and the jumps at cuts (dotted: when, or from when on a blade cuts). Over each: those, and the largest of
+all methods."""
 
 import argparse
 from pathlib import Path
@@ -37,10 +38,13 @@ def panel(ax, folder, description):
         ax.axvline(cut["time_s"], color="#b0001e", linewidth=0.7, linestyle=":")
     ax.set_xlim(0, b["time_s"].iloc[-1])
     ax.set_ylim(0)
+    others = [read_budget(d.parent).iloc[-1] for d in sorted(folder.parent.glob("*/simulation.json"))]
+    verdicts = sorted({render.read_description(d.parent)["verdict"] for d in folder.parent.glob("*/simulation.json")} - {"ok"})
     end = b.iloc[-1]
-    ax.set_title(f"{description['scene'].replace('_', ' ')}\nremainder {end['remainder_j']:.2g} J, jumps "
-                 f"{end['jumps_j']:.2g} J" + ("" if description["verdict"] == "ok" else f"; {description['verdict']}"),
-                 fontsize=5, pad=2)
+    worst = {c: max((o[c] for o in others), key=abs) for c in ("remainder_j", "jumps_j")}
+    ax.set_title(f"{description['scene'].replace('_', ' ')}{': ' if verdicts else ''}{', '.join(verdicts)}\nremainder "
+                 f"{end['remainder_j']:.2g} J (by any: {worst['remainder_j']:.2g}), jumps {end['jumps_j']:.2g} J "
+                 f"({worst['jumps_j']:.2g})", fontsize=4.8, pad=2, color="#b0001e" if verdicts else "black")
 
 
 def main():

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Figure 10 of the paper: the detail round an incision. Over each picture: unknowns, and the distance between the
-requested curve and the incision (Hausdorff, at rest, in mean edges h of the uncut sheet)."""
+requested curve and the incision (Hausdorff, at rest; the sheet is 1 m wide)."""
 
 import numpy as np
 from matplotlib.lines import Line2D
@@ -39,9 +39,7 @@ def incision_error(frame):
 
 
 def label(description, frame):
-    n = np.sqrt(description["triangles_before"] / 2)
-    h = description["size_m"] * (2 * n * (n + 1) + n * n * np.sqrt(2)) / (n * (3 * n + 2)) / n  # of the grid's edges
-    return f"{description['unknowns']} unknowns, error {load.number(incision_error(frame) / h, 2)} h"
+    return f"{description['unknowns']} unknowns, error {load.number(1000 * incision_error(frame), 2)} mm"
 
 
 def read_levels(folder):
@@ -87,7 +85,7 @@ def error_figure(levels, described):
 def main():
     options = scene_panels.main(
         STEM, __doc__, [Shot(STEM, "", 0.7, Camera(centre=(0.5, 0.5, -0.25), azimuth=20, elevation=62),
-                             box=(-0.27, 0.27, -0.27, 0.25))], label=label, kinds=("mesh",))
+                             box=(-0.3, 0.3, -0.31, 0.3))], label=label, kinds=("mesh",))
     levels, described = read_levels(options.results)
     if levels:
         style.save(error_figure(levels, described), options.results, f"{STEM}_error")

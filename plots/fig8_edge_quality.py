@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Figure 8 of the paper: the cut edge, there a "swirling" one by the conventional split. Over each picture: the largest
-aspect ratio, and how far the lips are and turn away from those of the same scene on a fine sheet (root mean squares)."""
+aspect ratio; how far the lips are from those of the same scene on a fine sheet, in mm, and by how many degrees they turn
+away from them (root mean squares)."""
 
 import functools
 
@@ -117,12 +118,14 @@ def answer(rows):
     """In a few sentences, with ranges over the methods and times, of the turns."""
     def range_of(values):
         return f"{min(values):.1f}° to {max(values):.1f}°"
-    direct = [f"with {scene} {range_of(turns_of(rows, scene, True))}, by the others {range_of(turns_of(rows, scene, False))}"
-              for scene in ("patches", "hinges")]
+    direct = [f"{range_of(turns_of(rows, scene, True))} (bending by {scene}), lips cut by the others by "
+              f"{range_of(turns_of(rows, scene, False))}" for scene in ("patches", "hinges")]
+    scene, time, method, off, *_ = max((r for r in rows if r[0] in ("patches", "hinges")), key=lambda r: r[3])
     cg, early = (range_of(turns_of(rows, scene, True) + turns_of(rows, scene, False)) for scene in ("cg", "unconverged"))
     gained = sorted({" ".join(method).strip() for *_, method, _, _, verdict in rows if verdict == "energy_growth"})
     return (f"Solved directly, lips cut by the conventional split turn away by {'; '.join(direct)}: it "
-            f"{'swirls more than they do' if swirls(rows) else 'does not swirl more than they do'}. By CG to 0.01: {cg}; "
+            f"{'swirls more than they do' if swirls(rows) else 'does not swirl more than they do'}. Farthest off are those by "
+            f"{' '.join(method).strip()} after {time:g} s (bending by {scene}): {off:.0f} mm. By CG to 0.01: {cg}; "
             f"by CG stopped at 0.3: {early}" + (f", and energy grows by over 1 % ({', '.join(gained)})." if gained else "."))
 
 
@@ -135,7 +138,7 @@ def print_numbers(rows, worth):
 def main():
     def label(description, frame):
         offset, turn = Reference(options.results).difference(description, frame)
-        return f"AR {frame.cell['aspect_ratio'].max():.0f}; {offset:.1f} mm, {turn:.1f}°"
+        return f"max AR {frame.cell['aspect_ratio'].max():.0f}; off by {offset:.1f} mm, {turn:.1f}°"
     options = scene_panels.arguments(STEM, __doc__)
     scene_panels.main(STEM, __doc__, [Shot(f"{STEM}_patches", "solved directly", TIMES[0], FROM_ABOVE, box=BOX),
                                       Shot(f"{STEM}_unconverged", "CG stopped at 0.3", TIMES[0], FROM_ABOVE, box=BOX)],

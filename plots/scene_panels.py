@@ -73,10 +73,12 @@ def solvers(shots, panels):
     def named(description):
         return description["solver"] + (f" to {description['solver_tolerance']:g}" if description["solver"] == "cg" else "")
     names = [same((named(d) for d, _ in column), "the solver") for column in panels]
+    names = [name + (f", {column[0][0]['newton']} solves a step" if column[0][0].get("newton", 1) > 1 else "")
+             for name, column in zip(names, panels)]
     return names[0] if len(set(names)) == 1 else ", ".join(f"{s.title}: {n}" for s, n in zip(shots, names))
 
 
-def caption(stem, shots, panels, extra):
+def caption(stem, shots, panels, extra, colour=None):
     """What the picture does not say: n, material, time, seed, tolerance, commit, command."""
     described = [d for column in panels for d, _ in column]
     n = same((d["triangles_before"] for d in described), "the number of triangles")
@@ -94,7 +96,7 @@ def caption(stem, shots, panels, extra):
         f"Seed: {', '.join(map(str, seeds)) if seeds else 'none, the cuts are in the scene files'}; "
         f"{commits(described)}.",
         *([f"FAILED: {'; '.join(failed)}."] if failed else []),
-        f"Command: experiments/reproduce {stem}"])
+        f"Command: experiments/reproduce {stem}" + (f"; plots/{stem}.py --colour {colour}" if colour else "")])
 
 
 def arranged(shots, panels):
@@ -150,7 +152,11 @@ def main(stem, description, shots, label=triangles, kinds=("", "mesh"), notes=la
     too. Returns the arguments."""
     options = arguments(stem, description)
     panels = [read_shot(options.results, shot) for shot in shots]
-    text = caption(stem, shots, panels, [" ".join(description.split()), *notes(options.results)])
+    extra = [" ".join(description.split()), *notes(options.results)]
+    if options.colour:
+        largest = max(frame.cell[options.colour].max() for column in panels for _, frame in column)
+        extra.append(f"Largest {render.SCALARS[options.colour][0]}: {load.number(largest, 2)}.")
+    text = caption(stem, shots, panels, extra, options.colour)
     for kind in [options.colour] if options.colour else kinds:
         figure = draw(shots, panels, kind != "", options.colour, text, label)
         style.save(figure, options.results, stem + (f"_{kind}" if options.colour or (kind and len(kinds) > 1) else ""))

@@ -85,11 +85,11 @@ TEST(Pick, AMissSaysByHowFar) {
   const Sheet sheet(make_sheet("grid", 4));
   const Picker picker(sheet);
   const auto begins = [](const std::string& text, const std::string& start) { return text.rfind(start, 0) == 0; };
-  EXPECT_PRED2(begins, error_of_pick(picker, {{0.5, 0.5, 0.25}, {}}), "here: the point misses the sheet by 0.25 ");
+  EXPECT_PRED2(begins, error_of_pick(picker, {{0.5, 0.5, 0.25}, {}}), "here: the point misses the sheet by 0.25 m ");
   EXPECT_PRED2(begins, error_of_pick(picker, {{1.125, 0.5, 3}, Point3{0, 0, -1}}),
-               "here: the ray misses the sheet by 0.125; ");
+               "here: the ray misses the sheet by 0.125 m; ");
   EXPECT_PRED2(begins, error_of_pick(picker, {{0.5, 0.5, 2}, Point3{0, 0, 1}}),
-               "here: the ray misses the sheet by 2; ");
+               "here: the ray misses the sheet by 2 m; ");
   EXPECT_EQ(error_of_pick(picker, {{0.5, 0.5, 1e-7}, {}}), "");  // what six digits leave
 }
 
@@ -142,7 +142,7 @@ space = "world"
 polyline = [[0.73, 0.5, 0.1], {origin = [5.33, 0.5, 1], direction = [0, 0, -3]}])");
   const auto result = run("simulate s.toml");
   EXPECT_EQ(result.code, 2);
-  EXPECT_EQ(result.error, "s, cut 0, point 1: the ray misses the sheet by 4; aim at where the sheet then is\n");
+  EXPECT_EQ(result.error, "s, cut 0, point 1: the ray misses the sheet by 4 m; aim at where the sheet then is\n");
 
   // Nor does it leave frames: none at all where there were none, and those of a whole run as they were.
   const auto files_before = files();

@@ -48,7 +48,7 @@ Weights weights_of(const Kernel::Triangle_3& t, const Kernel::Point_3& origin, c
 
 std::string metres(double length) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.3g", length);
+  std::snprintf(text, sizeof text, "%.3g m", length);
   return text;
 }
 
