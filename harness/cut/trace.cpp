@@ -49,7 +49,8 @@ Subdivision& Tracer::trace(const Sheet& sheet, const Polyline& path, Walk& walk,
   flush();
   // Back at the first point, from another side, the walk may find it on another of several vertices or edges as near:
   // the path closes only where it begins there, too.
-  if (path.closed && last == n && may_begin_elsewhere && !is_same(walk.place(), begin))
+  const bool comes_back = path.closed ? last == n : path.points.front() == path.points.back();
+  if (comes_back && may_begin_elsewhere && !is_same(walk.place(), begin))
     return trace(sheet, path, walk, chord_tolerance, false);
   if (loop_) close_loop();
   for (int f = 0; f < static_cast<int>(trace_.faces.size()); ++f)
