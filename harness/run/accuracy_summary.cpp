@@ -42,8 +42,7 @@ void AccuracySummary::print(const std::string& title, const std::map<std::string
       const auto& [name, solver, budget] = key;
       if (name != method) continue;
       char excess[32] = "-";  // none without the mesh fitted to the cut
-      if (!group.excess.empty())
-        std::snprintf(excess, sizeof excess, "%.3g", 100 * median(group.excess, group.failed));
+      if (!group.excess.empty()) std::snprintf(excess, sizeof excess, "%.3g", 100 * median(group.excess, group.failed));
       std::printf("%-28s %-18s %10s %7zu %7zu %14s %10.4g\n", method.c_str(), solver.c_str(),
                   budget > 0 ? std::to_string(budget).c_str() : "till solved", group.rows, group.failed, excess,
                   median(group.total_us, group.failed) / 1000);

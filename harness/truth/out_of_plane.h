@@ -1,8 +1,9 @@
 // Problems of a sheet that leaves its plane: bending beside a cut. SI units. What each compares with, formula and
 // source, is at the top of its .cpp; the elastica's numbers are in heavy_elastica.h.
 //
-// "Solved" is Newton's decrement at 1e-8 of the energy or less (Stepper), not a small residual: forces of slivers cancel
-// no better than 1e-5 to 1e-3 of the whole in doubles. Where slivers keep Newton from that, too, the row has failed.
+// "Solved" is Newton's decrement at 1e-8 of the energy or less (Stepper), not a small residual: forces of slivers
+// cancel no better than 1e-5 to 1e-3 of the whole in doubles. Where slivers keep Newton from that, too, the row has
+// failed.
 #pragma once
 
 #include "harness/fem/physics.h"
