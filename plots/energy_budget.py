@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Where the energy of each scene goes. Areas, one on the other: kinetic, elastic (membrane and bending), lost to
 damping, lost by backward Euler. Line: what gravity has given. Between them: the remainder, the error of the
-linearisation, and the jumps at cuts (dotted: when, or from when on a blade cuts). Over each: those, and the largest of
-all methods."""
+linearisation, and the jumps at cuts (dotted: when, or from when on a blade cuts). Over each: those, and the largest by
+any method."""
 
 import argparse
 from pathlib import Path
@@ -43,8 +43,8 @@ def panel(ax, folder, description):
     end = b.iloc[-1]
     worst = {c: max((o[c] for o in others), key=abs) for c in ("remainder_j", "jumps_j")}
     ax.set_title(f"{description['scene'].replace('_', ' ')}{': ' if verdicts else ''}{', '.join(verdicts)}\nremainder "
-                 f"{end['remainder_j']:.2g} J (by any: {worst['remainder_j']:.2g}), jumps {end['jumps_j']:.2g} J "
-                 f"({worst['jumps_j']:.2g})", fontsize=4.8, pad=2, color="#b0001e" if verdicts else "black")
+                 f"{end['remainder_j']:.2g} J, the largest {worst['remainder_j']:.2g}\njumps {end['jumps_j']:.2g} J, the "
+                 f"largest {worst['jumps_j']:.2g}", fontsize=4.8, pad=2, color="#b0001e" if verdicts else "black")
 
 
 def main():
@@ -56,7 +56,7 @@ def main():
     descriptions = [render.read_description(d) for d in folders]
     n = scene_panels.same((d["triangles_before"] for d in descriptions), "the number of triangles")
     rows = (len(folders) + 1) // 2
-    figure, axes = plt.subplots(rows, 2, figsize=(style.WIDTH, 1.05 * rows), squeeze=False, layout="constrained")
+    figure, axes = plt.subplots(rows, 2, figsize=(style.WIDTH, 1.12 * rows), squeeze=False, layout="constrained")
     for ax in axes.flat[len(folders):]:
         ax.axis("off")
     for ax, folder, description in zip(axes.flat, folders, descriptions):
