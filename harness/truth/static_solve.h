@@ -3,10 +3,8 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <span>
 
-#include "harness/fem/combination.h"
 #include "harness/fem/model.h"
 #include "harness/truth/elastic_field.h"
 #include "harness/truth/problem.h"
@@ -15,7 +13,7 @@ namespace cutbench {
 
 class StaticSolve {
  public:
-  StaticSolve(const Sheet& sheet, const Elastic& elastic, const Ties& ties = {});
+  StaticSolve(const Sheet& sheet, const Elastic& elastic);
 
   /// Gives every vertex of the sheet's border its displacement: `value` of its rest position, and of a point inside a
   /// triangle there, which says on which lip it is.
@@ -40,14 +38,11 @@ class StaticSolve {
   const Field& force() const { return force_; }  ///< N
 
  private:
-  SystemMatrix<2> held_system() const;
-
   const Sheet& sheet_;
   Model<2> model_;
-  std::optional<TiedSystem<2>> tied_;
   std::vector<std::uint8_t> held_, loose_;
   Field given_, force_;
-  Field right_;  // of the assembled system, tied where anything is
+  Field right_;  // of the assembled system
   double assemble_us_ = 0;
   bool assembled_ = false;
 };

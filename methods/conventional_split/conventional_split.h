@@ -15,7 +15,7 @@
 #pragma once
 
 #include "harness/cut/cutting_method.h"
-#include "harness/cut/patch.h"
+#include "harness/cut/embed_plainly.h"
 
 namespace cutbench {
 
@@ -28,5 +28,8 @@ class ConventionalSplit : public CuttingMethod {
   PatchWork work_;
   int recovered_ = 0;
 };
+
+/// Fills patch.triangles; returns the number of segments that had to be recovered.
+int split_conventionally(Patch& patch);
 
 }  // namespace cutbench
