@@ -3,11 +3,15 @@
 #include <benchmark/benchmark.h>
 #include <valgrind/callgrind.h>
 
+#include <array>
 #include <cstring>
 #include <iostream>
 #include <limits>
 
 #include "harness/cut/cut.h"
+#include "harness/cut/embed_plainly.h"
+#include "harness/cut/region_mesher.h"
+#include "harness/measure/stop_watch.h"
 #include "harness/mesh/families.h"
 #include "harness/run/cases.h"
 #include "harness/run/chill_caches.h"
@@ -55,6 +59,55 @@ void time_method(benchmark::State& state, const MethodRow& row, double knob, int
     bench.undo();
   }
   // Inverted rate: seconds per crossed triangle.
+  state.counters["per_crossed_triangle"] =
+      benchmark::Counter(static_cast<double>(crossed), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+/// cgal_refine at its defaults, as far as its first try, and what each part of it takes.
+class PartsOfRefinement final : public CuttingMethod {
+ public:
+  static constexpr const char* names[] = {"convert", "insert", "refine", "put_back"};
+
+  void embed(Sheet& sheet, Subdivision& trace) override { embed_plainly(sheet, trace, work_); }
+  void improve(Sheet& sheet) override {
+    wedges_.find(sheet);
+    find_changed(sheet, region_);
+    grow_region(sheet, 2, region_);
+    StopWatch watch;
+    mesher_.convert(sheet, region_, true);
+    us[0] += watch.lap();
+    mesher_.insert(sheet);
+    us[1] += watch.lap();
+    mesher_.refine(sheet, {.max_aspect = 3,
+                           .min_edge = 1e-3 * sheet.mean_edge(),
+                           .most_vertices = 20 * sheet.log().path_vertices.size(),
+                           .wedges = &wedges_});
+    us[2] += watch.lap();
+    if (mesher_.divided().empty()) mesher_.put_back(sheet);
+    us[3] += watch.lap();
+  }
+
+  std::array<double, 4> us{};
+
+ private:
+  PatchWork work_;
+  ForcedWedges wedges_;
+  RegionMesher mesher_;
+  std::vector<TriangleIndex> region_;
+};
+
+void time_part_of_refinement(benchmark::State& state, std::size_t part, int n) {
+  Bench bench(n);
+  PartsOfRefinement method;
+  std::size_t crossed = 0, i = 0;
+  for (auto _ : state) {
+    const std::size_t curve = i++ % cases;
+    bench.cut(curve, method), bench.undo();
+    method.us = {};
+    crossed += bench.cut(curve, method);
+    state.SetIterationTime(1e-6 * method.us[part]);
+    bench.undo();
+  }
   state.counters["per_crossed_triangle"] =
       benchmark::Counter(static_cast<double>(crossed), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
@@ -109,6 +162,11 @@ int main(int argc, char** argv) {
               ->UseManualTime();
         if (row.knob.name.empty()) break;
       }
+    for (std::size_t part = 0; part < 4; ++part)
+      benchmark::RegisterBenchmark(
+          (std::string("cgal_refine:") + PartsOfRefinement::names[part] + "/" + triangles).c_str(),
+          [part, n](benchmark::State& s) { time_part_of_refinement(s, part, n); })
+          ->UseManualTime();
     benchmark::RegisterBenchmark(("every_edge/" + triangles).c_str(),
                                  [n](benchmark::State& s) { time_every_edge(s, n); });
   }

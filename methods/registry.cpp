@@ -2,16 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "harness/mesh/mesh_data.h"
 #include "methods/bowyer_watson/bowyer_watson.h"
 #include "methods/cgal_cdt/cgal_cdt.h"
+#include "methods/cgal_refine/cgal_refine.h"
+#include "methods/cisamr/cisamr.h"
 #include "methods/conventional_split/conventional_split.h"
+#include "methods/delaunay_refine/delaunay_refine.h"
 #include "methods/edge_release/edge_release.h"
+#include "methods/element_deletion/element_deletion.h"
 #include "methods/example/example.h"
+#include "methods/global_remesh/global_remesh.h"
 #include "methods/longest_edge/longest_edge.h"
+#include "methods/phantom_node/phantom_node.h"
 #include "methods/snap_or_split/snap_or_split.h"
+#include "methods/split_and_tie/split_and_tie.h"
 #include "methods/vertex_snap/vertex_snap.h"
 #include "methods/warp_and_refine/warp_and_refine.h"
 
@@ -44,6 +52,36 @@ const std::vector<MethodRow>& all_methods() {
        {},
        exact_split,
        [](double) { return std::make_unique<CgalCdt>(); }},
+      {"cgal_refine",
+       "CGAL's Delaunay refinement of the cut's surroundings",
+       {"bound", 3, "largest aspect ratio that is left outside forced wedges; 0: constrained Delaunay alone"},
+       exact_split,
+       [](double bound) {
+         if (!(bound == 0 || (bound >= 2 && bound <= 1000)))
+           throw InputError("cgal_refine: bound must be 0, or a number from 2 to 1000");
+         return std::make_unique<CgalRefine>(
+             CgalRefine::Options{.bound = bound == 0 ? std::numeric_limits<double>::infinity() : bound});
+       }},
+      {"cisamr",
+       "structured grids: near nodes move onto the path, then one pass of splits and better diagonals",
+       {},
+       {.exact_incision = false, .keeps_area = true, .conforming = true, .keeps_vertices = false},
+       [](double) { return std::make_unique<Cisamr>(); }},
+      {"delaunay_refine",
+       "local Delaunay refinement of the cut's surroundings, by off-centres",
+       {"bound", 3, "largest aspect ratio that is left outside forced wedges; 0: flips alone"},
+       exact_split,
+       [](double bound) {
+         if (!(bound == 0 || (bound >= 2 && bound <= 1000)))
+           throw InputError("delaunay_refine: bound must be 0, or a number from 2 to 1000");
+         return std::make_unique<DelaunayRefine>(
+             DelaunayRefine::Options{.bound = bound == 0 ? std::numeric_limits<double>::infinity() : bound});
+       }},
+      {"global_remesh",
+       "the whole sheet meshed anew by CGAL with the path in it",
+       {},
+       {.exact_incision = true, .keeps_area = true, .conforming = true, .keeps_vertices = false},
+       [](double) { return std::make_unique<GlobalRemesh>(); }},
       {"longest_edge",
        "local split by longest-edge propagation, with Delaunay flips",
        {"cap", 8, "vertices that the split may make, per vertex of the path; 0: flips alone"},
@@ -57,11 +95,21 @@ const std::vector<MethodRow>& all_methods() {
        {},
        {.exact_incision = false, .keeps_area = true, .conforming = true, .keeps_vertices = true},
        [](double) { return std::make_unique<EdgeRelease>(); }},
+      {"element_deletion",
+       "crossed triangles are taken out of the sheet",
+       {},
+       {.exact_incision = false, .keeps_area = false, .conforming = true, .keeps_vertices = false},
+       [](double) { return std::make_unique<ElementDeletion>(); }},
       {"example",
        "an example to start from: crossed triangles divided by the shorter diagonal",
        {},
        exact_split,
        [](double) { return std::make_unique<Example>(); }},
+      {"phantom_node",
+       "crossed triangles are doubled, and the field is linear in every part",
+       {},
+       exact_split,
+       [](double) { return std::make_unique<PhantomNode>(); }},
       {"snap_or_split",
        "crossings near a vertex go through the vertex, the others are split",
        {"tolerance", 0.25, "fraction of the edge up to which a crossing goes to the vertex, 0 to 0.5"},
@@ -70,6 +118,15 @@ const std::vector<MethodRow>& all_methods() {
          if (!(tolerance >= 0 && tolerance <= 0.5))
            throw InputError("snap_or_split: tolerance must be a number from 0 to 0.5");
          return std::make_unique<SnapOrSplit>(tolerance);
+       }},
+      {"split_and_tie",
+       "conventional split whose slivers' vertices follow good triangles on their side",
+       {"thinness", 0.1, "altitude over the longest edge nearby below which a triangle is a sliver, 0 to 0.3"},
+       exact_split,
+       [](double thinness) {
+         if (!(thinness >= 0 && thinness <= 0.3))
+           throw InputError("split_and_tie: thinness must be a number from 0 to 0.3");
+         return std::make_unique<SplitAndTie>(SplitAndTie::Options{.thinness = thinness});
        }},
       {"vertex_snap",
        "the nearest vertices move onto the path, crossings left over are split",
@@ -101,8 +158,11 @@ const std::vector<MethodRow>& ablation_methods() {
                                                         {Before::warp, "warp"},
                                                         {Before::thin, "thin"},
                                                         {Before::warp_and_thin, "warp+thin"}};
-  constexpr std::pair<After, const char*> afters[] = {
-      {After::nothing, "nothing"}, {After::flips, "flips"}, {After::smoothing, "smoothing"}, {After::refine, "refine"}};
+  constexpr std::pair<After, const char*> afters[] = {{After::nothing, "nothing"},
+                                                      {After::flips, "flips"},
+                                                      {After::smoothing, "smoothing"},
+                                                      {After::refine, "refine"},
+                                                      {After::tie, "tie"}};
   static const auto rows = [&] {
     std::vector<MethodRow> made;
     for (const auto& [before, first] : befores)

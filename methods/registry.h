@@ -10,8 +10,8 @@ namespace cutbench {
 const std::vector<MethodRow>& all_methods();
 
 /// What warp_and_refine consists of, in every combination: "ablation:BEFORE:AFTER", where BEFORE the split comes
-/// nothing, snap, warp, thin or warp+thin, and AFTER it nothing, flips, smoothing (flips, too) or refine (all of them).
-/// For experiments that name them; not in the table.
+/// nothing, snap, warp, thin or warp+thin, and AFTER it nothing, flips, smoothing (flips, too), refine (all of them) or
+/// tie. For experiments that name them; not in the table.
 const std::vector<MethodRow>& ablation_methods();
 
 /// Both: whatever may be named.

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """All methods on the same cuts: the shapes they make, their price, what jumps at the cut, and a table of it all, ranked
 by largest eigenvalue, smallest altitude and largest angle. Reads results/method_comparison and, where they are there,
-its neighbours method_comparison_fine (a closer chord tolerance) and method_comparison_jumps (cuts in a running scene)."""
+its neighbours method_comparison_fine (a closer chord tolerance), method_comparison_jumps (cuts in a running scene), method_comparison_knobs and
+method_comparison_ablation (parts of warp_and_refine)."""
 
 from dataclasses import dataclass
 
@@ -12,6 +13,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 import load
 import method_gallery
+import method_sweeps
 import style
 
 STEM = "method_comparison"
@@ -235,6 +237,18 @@ def main():
     tables = {STEM: summary(table, jumps, order, ranks)}
     if fine is not None:
         tables[f"{STEM}_fine"] = summary(fine, None, order, ranks)
+    for kind, draw, what in (
+            ("knobs", method_sweeps.draw_knobs, "Medians as the knob of each method turns, its first and last setting "
+             "written beside; lower and to the left is better. AR outside forced wedges."),
+            ("ablation", method_sweeps.draw_ablation, "The parts of warp_and_refine: what is done before the split (rows) "
+             "and after it (columns). Medians; AR outside forced wedges.")):
+        beside = folder.with_name(f"{folder.name}_{kind}")
+        if not (beside / "records.csv").is_file():
+            continue
+        swept_run, swept = read_cuts(beside)
+        swept_ranks = ranking(swept, sorted(set(zip(swept["method"], swept["knob"]))), style.sheet_order(swept["sheet"]))
+        draw(folder, swept, what + " " + style.provenance(swept_run, swept_run.rows, with_crosses=False))
+        tables[f"{STEM}_{kind}"] = summary(swept, None, list(swept_ranks.index), swept_ranks)
     write_tables(folder, tables)
     method_gallery.draw(folder)
 

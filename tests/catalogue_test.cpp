@@ -112,7 +112,9 @@ void run_member(const CatalogueMember& member, const Trial& trial, double chord)
     EXPECT_EQ(table.pieces, expect.value("pieces", table.pieces));
   }
   if (!exact) return;
-  EXPECT_EQ(table.embedded_vertices(), expect.value("new_vertices", table.embedded_vertices()));
+  if (trial.row.promises.keeps_vertices || cuts.size() == 1) {  // else a later cut meets another mesh
+    EXPECT_EQ(table.embedded_vertices(), expect.value("new_vertices", table.embedded_vertices()));
+  }
   if (expect.contains("forced_corners")) check_forced(expect, trial, uncut, table.sheet, cuts, chord);
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
 
 #include "tests/oracle_cases.h"
@@ -240,6 +241,75 @@ TEST(Rejects, BadRequests) {
   thrown([](Request& r) { r.cuts[0].bezier = true; });
   thrown([](Request& r) { r.cuts[0].points[0][0] = std::numeric_limits<double>::quiet_NaN(); });
   thrown([](Request& r) { r.cuts[0] = {true, true, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}}; });
+}
+
+// --- deletion
+// ----------------------------------------------------------------------------------------------------------
+
+/// What is left of a grid when all triangles with a piece of y = 0.55 in their interior are gone.
+struct Deleted {
+  Deleted() {
+    before = grid(8);
+    request.before = before;
+    request.cuts = {{false, false, {{-0.1, 0.55}, {1.1, 0.55}}}};
+    request.tolerance = 1e-9, request.keeps_area = false, request.keeps_vertices = false;
+    for (std::size_t t = 0; t < before.triangles.size(); ++t) {
+      double low = 1, high = 0;
+      for (int v : before.triangles[t])
+        low = std::min(low, before.rest[v][1]), high = std::max(high, before.rest[v][1]);
+      (low < 0.55 && high > 0.55 ? gone : stays).push_back(before.triangles[t]);
+    }
+  }
+  Judgement judge(std::vector<std::array<int, 3>> triangles) const {
+    Mesh after;
+    std::map<int, int> number;
+    for (auto& t : triangles)
+      for (int& v : t) {
+        const auto [it, fresh] = number.try_emplace(v, static_cast<int>(after.rest.size()));
+        if (fresh) after.rest.push_back(before.rest[v]);
+        v = it->second;
+      }
+    after.triangles = std::move(triangles);
+    return oracle::judge(request, after);
+  }
+
+  Mesh before;
+  Request request;
+  std::vector<std::array<int, 3>> gone, stays;
+};
+
+TEST(Deletion, OfTheCrossedTrianglesIsRight) {
+  const Deleted d;
+  ASSERT_EQ(d.gone.size(), 16u);
+  const Judgement found = d.judge(d.stays);
+  EXPECT_TRUE(found.ok) << found.problems.front();
+  EXPECT_EQ(found.pieces, 2);
+  EXPECT_NEAR(found.area_change, -0.125, 1e-12);
+}
+
+TEST(Deletion, OfOneMoreOrOneLessIsNot) {
+  const Deleted d;
+  for (std::size_t t = 0; t < d.stays.size(); t += 3) {
+    auto less = d.stays;
+    less.erase(less.begin() + static_cast<std::ptrdiff_t>(t));
+    const std::string verdict = d.judge(less).verdict;
+    EXPECT_TRUE(verdict == "deletion" || verdict == "non_manifold") << t << " " << verdict;
+  }
+  for (const auto& left : d.gone) {
+    auto more = d.stays;
+    more.push_back(left);
+    const std::string verdict = d.judge(more).verdict;
+    EXPECT_TRUE(verdict == "deletion" || verdict == "non_manifold") << verdict;
+  }
+}
+
+TEST(Deletion, MakesNoNewTriangles) {
+  Deleted d;
+  auto other = d.stays;
+  ASSERT_EQ(other[0], (std::array{0, 1, 10}));
+  ASSERT_EQ(other[1], (std::array{0, 10, 9}));
+  other[0] = {0, 1, 9}, other[1] = {1, 10, 9};
+  EXPECT_EQ(d.judge(other).verdict, "deletion");
 }
 
 }  // namespace

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <set>
 
+#include "harness/cut/embed_conventionally.h"
 #include "harness/cut/trace.h"
 #include "harness/mesh/predicates.h"
 #include "harness/run/cases.h"
 #include "methods/bowyer_watson/bowyer_watson.h"
-#include "methods/conventional_split/conventional_split.h"
 #include "tests/helpers.h"
 #include "tests/mesh_checks.h"
 

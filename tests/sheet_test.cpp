@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "harness/cut/open.h"
 #include "harness/mesh/predicates.h"
@@ -293,6 +295,47 @@ TEST(Sheet, ReplacedFansFindTheirDeformedVertices) {
       EXPECT_EQ(sheet.triangle(TriangleIndex(t)).deformed[k], before.triangle(TriangleIndex(t)).deformed[(k + 1) % 3]);
 }
 
+/// A triangle that was cut free and lifted, all three sides divided at once, and no parents given.
+TEST(Sheet, NewVerticesOnIncisionsFindTheirSide) {
+  Sheet sheet(make_sheet("grid", 4));
+  sheet.begin_cut();
+  const TriangleIndex free = triangle_of(find(sheet, [&](HalfEdge h) {
+    return !sheet.on_border(h) && !sheet.on_border(Sheet::next(h)) && !sheet.on_border(Sheet::previous(h));
+  }));
+  for (int k = 0; k < 3; ++k) sheet.set_mark(half_edge(free, k), EdgeMark::path);
+  open_path(sheet);
+  for (const DeformedIndex d : sheet.triangle(free).deformed)
+    sheet.set_position(d, sheet.position(d) + Point3{0, 0, 1});
+
+  sheet.begin_cut();
+  constexpr EdgeMark none = EdgeMark::none, open = EdgeMark::incision;
+  const auto v = sheet.triangle(free).vertex;
+  std::vector<TriangleIndex> removed{free};
+  std::vector<NewTriangle> added;
+  std::array<VertexIndex, 3> m;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const HalfEdge h = half_edge(free, static_cast<int>(k)), o = sheet.opposite(h);
+    m[k] = sheet.new_vertex(k == 0 ? h : o, 0.5, on_edge(sheet, h, 0.5));
+    const VertexIndex apex = sheet.origin(Sheet::previous(o));
+    removed.push_back(triangle_of(o));
+    added.push_back({{v[(k + 1) % 3], m[k], apex}, -1, {open, none, none}});
+    added.push_back({{m[k], v[k], apex}, -1, {open, none, none}});
+  }
+  for (std::size_t k = 0; k < 3; ++k) added.push_back({{v[k], m[k], m[(k + 2) % 3]}, -1, {open, none, open}});
+  added.push_back({m, -1, {}});
+  sheet.replace_cavity(removed, added);
+  ASSERT_EQ(faults(sheet), "");
+  std::size_t lifted = 0;
+  for (std::size_t t = 0; t < sheet.triangle_slots(); ++t) {
+    const auto& d = sheet.triangle(TriangleIndex(t)).deformed;
+    const auto is_up = [&](DeformedIndex i) { return sheet.position(i).z == 1; };
+    EXPECT_EQ(is_up(d[0]), is_up(d[1])) << t;
+    EXPECT_EQ(is_up(d[1]), is_up(d[2])) << t;
+    lifted += is_up(d[0]);
+  }
+  EXPECT_EQ(lifted, 4u);
+}
+
 TEST(Sheet, MarksBothHalfEdgesAndNothingOnTheBorder) {
   Sheet sheet(make_sheet("alternating", 3));
   sheet.begin_cut();
@@ -307,6 +350,81 @@ TEST(Sheet, MarksBothHalfEdgesAndNothingOnTheBorder) {
   EXPECT_EQ(sheet.log().path_vertices.size(), 2u);
   EXPECT_EQ(faults(sheet, false), "");
   EXPECT_NE(faults(sheet, true), "");
+}
+
+/// Fans round all vertices, counted by rest position: what is left of a vertex in several fans became several vertices.
+std::size_t count_fans(const Sheet& sheet) {
+  std::map<std::array<double, 2>, std::vector<std::array<double, 4>>> wedges;  // per place: sides of its corners
+  std::size_t fans = 0;
+  for (std::size_t i = 0; i < sheet.triangle_slots(); ++i) {
+    if (!sheet.triangle(TriangleIndex(i)).alive()) continue;
+    const auto c = sheet.corners(TriangleIndex(i));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point2 a = c[(k + 1) % 3], b = c[(k + 2) % 3];
+      wedges[{c[k].x, c[k].y}].push_back({a.x, a.y, b.x, b.y});
+    }
+  }
+  for (const auto& [place, all] : wedges) {
+    std::size_t joints = 0;
+    for (const auto& w : all)
+      for (const auto& other : all) joints += w[2] == other[0] && w[3] == other[1];
+    fans += std::max<std::size_t>(all.size() - joints, 1);  // a closed one has as many joints as corners
+  }
+  return fans;
+}
+
+TEST(Sheet, RemovesTriangles) {
+  for (const auto& [name, mesh] : small_meshes()) {
+    SCOPED_TRACE(name);
+    Random random(7);
+    for (int trial = 0; trial < 40; ++trial) {
+      Sheet sheet(lifted(mesh));
+      for (int call = 0; call < 3 && sheet.triangle_count() > 4; ++call) {
+        sheet.begin_cut();
+        const Sheet before = sheet;
+        std::set<TriangleIndex> chosen;
+        for (std::size_t i = 0; i < 1 + random.below(sheet.triangle_count() / 3); ++i)
+          chosen.insert(any_triangle(sheet, random));
+        const std::vector<TriangleIndex> removed(chosen.begin(), chosen.end());
+        sheet.remove(removed);
+        ASSERT_EQ(faults(sheet), "");
+        ASSERT_EQ(sheet.triangle_count(), before.triangle_count() - removed.size());
+        ASSERT_EQ(sheet.vertex_count(), count_fans(sheet));
+        ASSERT_EQ(sheet.deformed_count(), sheet.vertex_count());
+        for (std::size_t t = 0; t < before.triangle_slots(); ++t) {
+          const bool stays = before.triangle(TriangleIndex(t)).alive() && !chosen.contains(TriangleIndex(t));
+          ASSERT_EQ(sheet.triangle(TriangleIndex(t)).alive(), stays);
+          for (std::size_t k = 0; k < 3 && stays; ++k) {
+            const auto now = sheet.triangle(TriangleIndex(t)).deformed[k];
+            ASSERT_EQ(sheet.position(now), before.position(before.triangle(TriangleIndex(t)).deformed[k]));
+          }
+        }
+        if (random.coin()) {
+          sheet.rollback();
+          ASSERT_EQ(difference(before, sheet), "");
+        }
+      }
+    }
+  }
+}
+
+TEST(Sheet, RemovesTrianglesBesideAnIncision) {
+  Sheet sheet(lifted(make_sheet("grid", 4)));
+  sheet.begin_cut();
+  open_two_edges(sheet);
+  const HalfEdge lip = find(sheet, [&](HalfEdge h) { return sheet.mark(h) == EdgeMark::incision; });
+  sheet.begin_cut();
+  const Sheet before = sheet;
+  const TriangleIndex one[] = {triangle_of(lip)}, other[] = {triangle_of(sheet.opposite(lip))};
+  const HalfEdge far = sheet.opposite(lip);
+  sheet.remove(one);
+  ASSERT_EQ(faults(sheet), "");
+  EXPECT_TRUE(sheet.on_border(far));
+  EXPECT_EQ(sheet.mark(far), EdgeMark::none);
+  sheet.remove(other);
+  ASSERT_EQ(faults(sheet), "");
+  sheet.rollback();
+  EXPECT_EQ(difference(before, sheet), "");
 }
 
 TEST(Sheet, WeldsTheLipsOfIncisions) {

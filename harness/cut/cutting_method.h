@@ -14,6 +14,7 @@
 
 #include "harness/cut/subdivision.h"
 #include "harness/mesh/sheet.h"
+#include "harness/mesh/ties.h"
 
 namespace cutbench {
 
@@ -32,6 +33,10 @@ class CuttingMethod {
 
   /// Improves the mesh round the embedded path, still closed. Must not flip, move or lose a marked edge.
   virtual void improve(Sheet&) {}
+
+  /// What is to be solved for on a sheet that this method cut, any number of times; none: every vertex of its own.
+  /// Looks at everything, and depends on the two sheets alone. \param before  the sheet that the first cut was made in
+  virtual Ties ties(const Sheet& /*before*/, const Sheet& /*cut*/) const { return {}; }
 
   /// Path segments that embed() had to recover because its triangulation did not contain them, in the last cut.
   virtual int recovered_segments() const { return 0; }

@@ -1,9 +1,11 @@
 #include "harness/fem/largest_eigenvalue.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/SparseCholesky>
 #include <random>
 #include <vector>
 
+#include "harness/fem/combination.h"
 #include "harness/fem/element_table.h"
 #include "harness/fem/membrane.h"
 
@@ -13,65 +15,89 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// y = M^-1/2 K M^-1/2 x, element by element.
+/// y = L^-1 C^T K C L^-T x, element by element, with L L^T = C^T M C.
 class ScaledStiffness {
  public:
-  explicit ScaledStiffness(const Sheet& sheet) : lame_(lame_of({.stiffness = 1, .poisson = 0.3}, Plane::stress)) {
-    std::vector<int> number(sheet.deformed_slots(), -1);
-    std::vector<double> mass;
-    for (const Element& element : ElementTable(sheet)) {
-      if (!element.alive()) continue;
-      Row& row = rows_.emplace_back();
-      row.gradient = element.gradient, row.area = element.area;
-      for (std::size_t k = 0; k < 3; ++k) {
-        int& n = number[element.vertex[k]()];
-        if (n < 0) n = static_cast<int>(mass.size()), mass.push_back(0);
-        row.vertex[k] = n;
-        mass[static_cast<std::size_t>(n)] += element.area / 3;
-      }
-    }
-    scale_ = Eigen::Map<const VectorXd>(mass.data(), static_cast<Eigen::Index>(mass.size())).cwiseSqrt().cwiseInverse();
+  ScaledStiffness(const Sheet& sheet, const Ties& ties)
+      : lame_(lame_of({.stiffness = 1, .poisson = 0.3}, Plane::stress)),
+        elements_(sheet),
+        combination_(ties, sheet.deformed_slots()) {
+    VectorXd mass = VectorXd::Zero(static_cast<Eigen::Index>(combination_.vertices()));
+    for (const Element& element : elements_)
+      if (element.alive())
+        for (const auto d : element.vertex) mass[d.value] += element.area / 3;
+    factor(mass);
   }
 
-  Eigen::Index size() const { return 2 * scale_.size(); }
+  Eigen::Index size() const { return 2 * mass_.rows(); }
 
-  void apply(const VectorXd& x, VectorXd& y) const {
-    y.setZero(size());
-    for (const Row& row : rows_) {
-      double xx = 0, yy = 0, xy = 0;  // strain
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto [gx, gy] = row.gradient[k];
-        const double s = scale_[row.vertex[k]], u = s * x[2 * row.vertex[k]], v = s * x[2 * row.vertex[k] + 1];
-        xx += u * gx, yy += v * gy, xy += (u * gy + v * gx) / 2;
-      }
-      const double pressure = lame_.lambda * (xx + yy), a = row.area;
-      const double sx = a * (2 * lame_.mu * xx + pressure), sy = a * (2 * lame_.mu * yy + pressure);
-      const double shear = a * 2 * lame_.mu * xy;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto [gx, gy] = row.gradient[k];
-        const double s = scale_[row.vertex[k]];
-        y[2 * row.vertex[k]] += s * (sx * gx + shear * gy), y[2 * row.vertex[k] + 1] += s * (shear * gx + sy * gy);
-      }
-    }
+  void apply(const VectorXd& x, VectorXd& y) {
+    scaled_ = Eigen::Map<const TwoPerUnknown>(x.data(), mass_.rows(), 2);
+    mass_.matrixU().solveInPlace(scaled_);
+    scaled_ = mass_.permutationPinv() * scaled_;
+    combination_.expand(2, Eigen::Map<const VectorXd>(scaled_.data(), size()), moved_);
+    force_.setZero(moved_.size());
+    for (const Element& element : elements_)
+      if (element.alive()) add_force(element);
+    combination_.reduce(2, force_, y);
+    scaled_ = mass_.permutationP() * Eigen::Map<const TwoPerUnknown>(y.data(), mass_.rows(), 2);
+    mass_.matrixL().solveInPlace(scaled_);
+    y = Eigen::Map<const VectorXd>(scaled_.data(), size());
   }
 
  private:
-  struct Row {
-    std::array<int, 3> vertex;
-    std::array<Point2, 3> gradient;
-    double area;
-  };
+  using TwoPerUnknown = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+
+  void factor(const VectorXd& mass) {
+    const auto n = static_cast<Eigen::Index>(combination_.unknowns());
+    if (n == 0) return;
+    std::vector<Eigen::Triplet<double>> entries;
+    VectorXd diagonal = VectorXd::Zero(n);
+    for (Eigen::Index i = 0; i < mass.size(); ++i) {
+      const auto& row = combination_.row(static_cast<std::size_t>(i));
+      for (std::size_t k = 0; k < row.size; ++k)
+        for (std::size_t l = 0; l < row.size; ++l)
+          entries.emplace_back(row.unknown[k], row.unknown[l], row.weight[k] * row.weight[l] * mass[i]);
+      for (std::size_t k = 0; k < row.size; ++k) diagonal[row.unknown[k]] += mass[i];
+    }
+    for (Eigen::Index u = 0; u < n; ++u)  // what nothing depends on has no stiffness either, and any mass will do
+      if (diagonal[u] == 0) entries.emplace_back(static_cast<int>(u), static_cast<int>(u), 1);
+    Eigen::SparseMatrix<double> matrix(n, n);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    mass_.compute(matrix);
+  }
+
+  void add_force(const Element& element) {
+    double xx = 0, yy = 0, xy = 0;  // strain
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [gx, gy] = element.gradient[k];
+      const double u = moved_[2 * element.vertex[k].value], v = moved_[2 * element.vertex[k].value + 1];
+      xx += u * gx, yy += v * gy, xy += (u * gy + v * gx) / 2;
+    }
+    const double pressure = lame_.lambda * (xx + yy), a = element.area;
+    const double sx = a * (2 * lame_.mu * xx + pressure), sy = a * (2 * lame_.mu * yy + pressure);
+    const double shear = a * 2 * lame_.mu * xy;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [gx, gy] = element.gradient[k];
+      force_[2 * element.vertex[k].value] += sx * gx + shear * gy;
+      force_[2 * element.vertex[k].value + 1] += shear * gx + sy * gy;
+    }
+  }
+
   Lame lame_;
-  std::vector<Row> rows_;
-  VectorXd scale_;  // M^-1/2, per vertex
+  ElementTable elements_;
+  Combination combination_;
+  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> mass_;
+  TwoPerUnknown scaled_;
+  VectorXd moved_, force_;
 };
 
 }  // namespace
 
-double largest_eigenvalue(const Sheet& sheet) {
+double largest_eigenvalue(const Sheet& sheet, const Ties& ties) {
   constexpr double tolerance = 1e-3;
   constexpr int most_steps = 1000, between_checks = 8;
-  const ScaledStiffness stiffness(sheet);
+  ScaledStiffness stiffness(sheet, ties);
   const Eigen::Index n = stiffness.size();
   if (n == 0) return 0;
   std::mt19937_64 bits(1);  // its bits, unlike the distributions, are the same everywhere

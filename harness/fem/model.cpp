@@ -43,6 +43,7 @@ void Model<D>::reserve_spare() {
 template <int D>
 void Model<D>::update(const Sheet& sheet) {
   const EditLog& log = sheet.log();
+  tied_.reset();
   ++round_;
   marked_.clear();
   for (const auto& touched : log.touched) {
@@ -65,6 +66,12 @@ void Model<D>::update(const Sheet& sheet) {
 template <int D>
 void Model<D>::update_bending(const Sheet& sheet) {
   if (bending_) bending_->update(sheet);
+}
+
+template <int D>
+void Model<D>::tie(const Ties& ties) {
+  tied_.reset();
+  if (!ties.empty()) tied_.emplace(ties, vertices());
 }
 
 template <int D>

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "harness/fem/bending.h"
+#include "harness/fem/combination.h"
 #include "harness/fem/incidence.h"
 #include "harness/fem/membrane.h"
 #include "harness/fem/system_matrix.h"
@@ -31,6 +32,9 @@ class Model {
   /// indices and adds elements (the paper's 4.2) where the sheet's log says so. Both must be called.
   void update(const Sheet& sheet);
   void update_bending(const Sheet& sheet);  ///< nothing without bending
+  /// After update() and update_bending(), which forget what was tied before: from now on, these vertices. What is
+  /// computed of a state is that of all vertices, as ever; whoever solves does so for tied()'s unknowns.
+  void tie(const Ties& ties);
 
   std::size_t vertices() const { return static_cast<std::size_t>(mass_.size()); }  ///< slots of the opened sheet
   /// Positions of the sheet's vertices, m.
@@ -45,6 +49,7 @@ class Model {
   void assemble(double mass_factor, double stiffness_factor);
   /// Of the last assemble(). Refers to this model.
   SystemMatrix<D> system() const;
+  TiedSystem<D>* tied() { return tied_ ? &*tied_ : nullptr; }  ///< none where every vertex is its own unknown
   /// y += factor M x.
   void add_mass_product(double factor, const Field& x, Field& y) const;
   Energy energy(const Field& x, const Field& v) const;  ///< \pre rotate(x)
@@ -87,6 +92,7 @@ class Model {
   std::vector<std::array<std::array<std::int32_t, 3>, 3>> slots_;  // per element: of its nine blocks
   std::optional<Bending> bending_;
   std::optional<BlockMatrix<1>> consistent_mass_;
+  std::optional<TiedSystem<D>> tied_;
   double mass_factor_ = 0, stiffness_factor_ = 0;  // of the last assemble()
   Field mass_, external_;
   std::vector<std::uint8_t> held_;

@@ -50,6 +50,11 @@ Balance balance_of(Model<D>& model, const State& state) {
   model.add_external_force(force);
   for (std::size_t i = 0; i < model.held().size(); ++i)
     if (model.held()[i]) force[static_cast<Eigen::Index>(i)] = 0;
+  if (const auto* tied = model.tied()) {
+    Field reduced;
+    tied->reduce(model.held(), force, reduced);
+    force = reduced;
+  }
   balance.residual = force.norm();
   return balance;
 }

@@ -25,7 +25,7 @@ struct Balance {
   Energy energy;
   Point3 momentum;          ///< kg m/s
   Point3 angular_momentum;  ///< kg m2/s, about the origin
-  double residual = 0;      ///< N: norm of internal and external force on what is not held
+  double residual = 0;      ///< N: norm of internal and external force on the unknowns that are not held
 };
 /// Rotates the model's elements to the state.
 template <int D>

@@ -89,14 +89,25 @@ void Stepper<D>::forces(Model<D>& model, const Field& x, StepReport& report) {
 /// Solves A dv = rhs.
 template <int D>
 void Stepper<D>::solve(Model<D>& model, StepReport& report) {
-  const SystemMatrix<D> a = model.system();
+  SystemMatrix<D> a = model.system();
+  TiedSystem<D>* const tied = model.tied();
   project(model, rhs_);
+  if (tied) {
+    Clock clock(report.time_us.assemble);
+    tied->assemble(a);
+    tied->reduce(model.held(), rhs_, reduced_);
+    a = tied->system();
+  }
   {
     Clock clock(report.time_us.setup);
     solver_->setup(a);
   }
   Clock clock(report.time_us.solve);
-  const SolveReport solved = solver_->solve(rhs_, dv_);
+  const SolveReport solved = solver_->solve(tied ? reduced_ : rhs_, dv_);
+  if (tied) {
+    reduced_ = dv_;
+    tied->expand(reduced_, dv_);
+  }
   ++report.newton;
   report.iterations += solved.iterations;
   report.residual = std::max(report.residual, solved.residual);
@@ -105,14 +116,20 @@ void Stepper<D>::solve(Model<D>& model, StepReport& report) {
     report.reason = options_.solver.name + " left a relative residual of " + text(solved.residual);
 }
 
-/// Velocities of held unknowns: what brings them where they are to be after h.
+/// Velocities of held unknowns: what brings them where they are to be after h. What is tied to them goes along.
 template <int D>
-void Stepper<D>::hold(const Model<D>& model, const State& state, double h) {
+void Stepper<D>::hold(Model<D>& model, const State& state, double h) {
+  const TiedSystem<D>* const tied = model.tied();
+  if (tied) product_ = v_;
   for (std::size_t i = 0; i < model.held().size(); ++i) {
     if (!model.held()[i]) continue;
     const auto k = static_cast<Eigen::Index>(i);
     v_[k] = model.pinned(i) ? (state.anchor[k] + model.held_displacement(i, state.time + h) - state.x[k]) / h : 0;
   }
+  if (!tied) return;
+  v_ -= product_;
+  tied->follow(model.held(), v_);
+  v_ += product_;
 }
 
 /// Leaves the velocity after (backward Euler), or half way through (midpoint), in v_.
@@ -186,10 +203,17 @@ void Stepper<D>::equilibrium(Model<D>& model, State& state, StepReport& report) 
     return;
   }
   const Field still = Field::Zero(state.v.size());
+  const TiedSystem<D>* const tied = model.tied();
+  x_ = state.x;
   for (std::size_t i = 0; i < model.held().size(); ++i)
     if (model.pinned(i))
       state.x[static_cast<Eigen::Index>(i)] =
           state.anchor[static_cast<Eigen::Index>(i)] + model.held_displacement(i, state.time + options_.step);
+  if (tied) {
+    state.x -= x_;
+    tied->follow(model.held(), state.x);
+    state.x += x_;
+  }
   state.v.setZero();
   double last_step = 1e300, last_slope = 1e300;
   for (int iteration = 0; iteration <= options_.newton; ++iteration) {
@@ -200,7 +224,9 @@ void Stepper<D>::equilibrium(Model<D>& model, State& state, StepReport& report) 
       if (model.held()[i]) scale += std::abs(force_[static_cast<Eigen::Index>(i)]);
     rhs_ = force_;
     project(model, rhs_);
-    report.newton_residual = scale > 0 ? rhs_.norm() / scale : rhs_.norm();
+    if (tied) tied->reduce(model.held(), rhs_, reduced_);
+    const double left = tied ? reduced_.norm() : rhs_.norm();
+    report.newton_residual = scale > 0 ? left / scale : left;
     // Settled: the forces cancel, or rounding is all that the last step was.
     if (report.newton_residual <= 1e-10 || last_step <= 1e-13 * state.x.cwiseAbs().maxCoeff()) return;
     if (iteration == options_.newton) break;

@@ -13,6 +13,8 @@
 //                     (slivers, few Newton iterations).
 //   symplectic_euler  v = v0 + h M^-1 f(x0, v0); x = x0 + h v. Explicit: stable below 2 / omega_max.
 //   equilibrium       f(x) + f_ext = 0 by Newton with a line search on the energy.
+//
+// Where the model's vertices are tied, x = x0 + C q, the implicit ones solve for the change of q: C^T A C dq = C^T rhs.
 #pragma once
 
 #include <memory>
@@ -51,7 +53,8 @@ struct StepReport {
 template <int D>
 class Stepper {
  public:
-  /// Throws InputError for an unknown solver. Symplectic Euler uses the lumped mass (scenes refuse another).
+  /// Throws InputError for an unknown solver. Symplectic Euler uses the lumped mass (scenes refuse another), and takes
+  /// no ties.
   explicit Stepper(const StepOptions& options);
   StepReport step(Model<D>& model, State& state);
 
@@ -61,12 +64,12 @@ class Stepper {
   void explicit_step(Model<D>& model, State& state, StepReport& report);
   void equilibrium(Model<D>& model, State& state, StepReport& report);
   void solve(Model<D>& model, StepReport& report);
-  void hold(const Model<D>& model, const State& state, double h);
+  void hold(Model<D>& model, const State& state, double h);
   void forces(Model<D>& model, const Field& x, StepReport& report);
 
   StepOptions options_;
   std::unique_ptr<LinearSolver<D>> solver_;
-  Field v_, x_, force_, rhs_, dv_, product_;  // kept between steps
+  Field v_, x_, force_, rhs_, dv_, product_, reduced_;  // kept between steps
 };
 
 }  // namespace cutbench

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "harness/measure/clip.h"
+#include "harness/measure/deletion.h"
 #include "harness/measure/exact.h"
 #include "harness/measure/expected_pieces.h"
 #include "harness/measure/flatten.h"
@@ -163,6 +164,8 @@ class Judge {
     check_unused();
     check_borders(borders(after_, edges));
     check_area();
+    count_pieces(edges);
+    if (!request_.keeps_area) return check_deletion();
     if (request_.keeps_vertices) check_vertices();
     check_pieces(edges);
     check_incision();
@@ -181,7 +184,8 @@ class Judge {
     for (int e : borders.ambiguous) problems_.add("leak", "not just two lips " + name(segment(after_, e)));
     for (int e : borders.single) {
       edges_.push_back(segment(after_, e));
-      if (!outline.covers(edges_.back(), input_.on)) problems_.add("leak", "border edge " + name(edges_.back()));
+      if (request_.keeps_area && !outline.covers(edges_.back(), input_.on))
+        problems_.add("leak", "border edge " + name(edges_.back()));
     }
     for (const auto& pair : borders.lips) {
       lips.push_back(segment(after_, pair[0]));
@@ -199,7 +203,8 @@ class Judge {
     double perimeter = 0;
     for (const auto& [a, b] : input_.border) perimeter += distance(a, b);
     const long double allowed = 1e-12L * before + input_.rounding * perimeter;
-    if (std::abs(after - before) > allowed) problems_.add("area", "relative change " + number(judgement_.area_change));
+    if (request_.keeps_area && std::abs(after - before) > allowed)
+      problems_.add("area", "relative change " + number(judgement_.area_change));
   }
 
   void check_vertices() {
@@ -207,6 +212,18 @@ class Judge {
     for (std::size_t v = 0; v < request_.before.rest.size(); ++v)
       if (v >= after_.rest.size() || bits(after_.rest[v]) != bits(request_.before.rest[v]))
         problems_.add("moved_vertex", std::to_string(v));
+  }
+
+  void check_deletion() {
+    const Deletion found = judge_deletion(request_.before, after_, requested_path(), allowed_error());
+    for (int t : found.invented) problems_.add("deletion", name(after_, t) + " is none of the sheet before");
+    for (int t : found.unasked) problems_.add("deletion", name(request_.before, t) + " is gone, and not on the path");
+    for (int t : found.left) problems_.add("deletion", name(after_, t) + " is on the path, and still there");
+  }
+
+  void count_pieces(const HalfEdges& edges) {
+    piece_ = pieces_of_triangles(edges);
+    judgement_.pieces = piece_.empty() ? 0 : *std::max_element(piece_.begin(), piece_.end()) + 1;
   }
 
   void check_pieces(const HalfEdges& edges) {
@@ -217,11 +234,9 @@ class Judge {
     const ExpectedPieces expected =
         expected_pieces(input_.border, input_.incisions, requested,
                         {.tip = input_.on, .touch = flattening, .thin = std::max(flattening, request_.thin)});
-    const std::vector<int> piece = pieces_of_triangles(edges);
-    judgement_.pieces = piece.empty() ? 0 : *std::max_element(piece.begin(), piece.end()) + 1;
     judgement_.expected_pieces = expected.expected;
     int most = expected.most;
-    if (judgement_.pieces > most) most += count_hairs(edges, piece, requested, 2 * flattening);
+    if (judgement_.pieces > most) most += count_hairs(edges, requested, 2 * flattening);
     if (judgement_.pieces < expected.least || judgement_.pieces > most)
       problems_.add("wrong_pieces",
                     std::to_string(judgement_.pieces) + " instead of " + std::to_string(expected.expected));
@@ -229,8 +244,7 @@ class Judge {
 
   /// Where two lines of the input run so near to each other that they may have been merged, they may have been merged
   /// here and there: how many pieces thinner than that lie between two such lines all along.
-  int count_hairs(const HalfEdges& edges, const std::vector<int>& piece, const std::vector<std::vector<Segment>>& paths,
-                  double near) const {
+  int count_hairs(const HalfEdges& edges, const std::vector<std::vector<Segment>>& paths, double near) const {
     std::vector<Segment> lines = input_.border;
     lines.insert(lines.end(), input_.incisions.begin(), input_.incisions.end());
     for (const auto& path : paths) lines.insert(lines.end(), path.begin(), path.end());
@@ -248,44 +262,54 @@ class Judge {
       bool between_lines = true;
     };
     std::vector<Piece> pieces(static_cast<std::size_t>(judgement_.pieces));
-    for (std::size_t t = 0; t < piece.size(); ++t) {
+    for (std::size_t t = 0; t < piece_.size(); ++t) {
       const auto& [a, b, c] = after_.triangles[t];
       const Point &p = after_.rest[a], &q = after_.rest[b], &r = after_.rest[c];
-      pieces[piece[t]].area += cross(minus(q, p), minus(r, p)) / 2;
+      pieces[piece_[t]].area += cross(minus(q, p), minus(r, p)) / 2;
     }
     for (std::size_t e = 0; e < edges.opposite.size(); ++e) {
       if (edges.opposite[e] >= 0) continue;
       const Segment s = segment(after_, static_cast<int>(e));
-      pieces[piece[e / 3]].perimeter += distance(s[0], s[1]);
+      pieces[piece_[e / 3]].perimeter += distance(s[0], s[1]);
     }
     const auto is_thin = [&](const Piece& p) { return 4 * p.area < near * p.perimeter; };
     for (std::size_t e = 0; e < edges.opposite.size(); ++e)
-      if (Piece& p = pieces[piece[e / 3]]; edges.opposite[e] < 0 && is_thin(p) && p.between_lines)
+      if (Piece& p = pieces[piece_[e / 3]]; edges.opposite[e] < 0 && is_thin(p) && p.between_lines)
         p.between_lines = between_two(segment(after_, static_cast<int>(e)));
     return static_cast<int>(
         std::count_if(pieces.begin(), pieces.end(), [&](const Piece& p) { return is_thin(p) && p.between_lines; }));
   }
 
   void check_incision() {
-    const double flattening = 1e-5 * input_.lengths.mean;
-    std::vector<Segment> requested;
-    for (const auto& path : paths(request_.cuts, flattening, asks_for_nothing()))
-      requested.insert(requested.end(), path.begin(), path.end());
-    const SegmentGrid path(near_mesh(requested, request_.before));
+    const SegmentGrid path(requested_path());
     const IncisionError error =
         incision_error(path, SegmentGrid(edges_), added_, TriangleGrid(request_.before), 0.02 * input_.lengths.mean);
     judgement_.incision_error = std::max(error.of_path, error.of_edges);
-    const double tolerance = request_.exact_incision ? request_.tolerance : std::numeric_limits<double>::infinity();
-    const double slack = input_.on + (curved() ? flattening : 0);
-    const double allowed = std::min(tolerance, input_.lengths.longest) + slack;
+    const double allowed = allowed_error();
     if (error.of_path > allowed) problems_.add("incision", "path not opened, off by " + number(error.of_path));
     if (error.of_edges > allowed) problems_.add("incision", "edges off the path by " + number(error.of_edges));
     for (const Segment& s : healed_) problems_.add("incision", "an older one has closed at " + name(s));
     if (!request_.exact_incision) return;
     for (const Segment& s : added_)
       for (const Point& p : s)
-        if (path.distance(p) > request_.vertex_tolerance + slack)
+        if (path.distance(p) > request_.vertex_tolerance + slack())
           problems_.add("incision", "a vertex is off the path at " + name(p));
+  }
+
+  /// Finely flattened, and what of it is near the sheet.
+  std::vector<Segment> requested_path() const {
+    std::vector<Segment> all;
+    for (const auto& path : paths(request_.cuts, flattening(), asks_for_nothing()))
+      all.insert(all.end(), path.begin(), path.end());
+    return near_mesh(all, request_.before);
+  }
+
+  double flattening() const { return 1e-5 * input_.lengths.mean; }
+  double slack() const { return input_.on + (curved() ? flattening() : 0); }
+
+  double allowed_error() const {
+    const double tolerance = request_.exact_incision ? request_.tolerance : std::numeric_limits<double>::infinity();
+    return std::min(tolerance, input_.lengths.longest) + slack();
   }
 
   /// The size of a curve that needn't be cut. The code under test flattens it more coarsely, by hundredths of its size,
@@ -307,6 +331,7 @@ class Judge {
   const Mesh& after_;
   Judgement& judgement_;
   Problems& problems_;
+  std::vector<int> piece_;       // per triangle of the result
   std::vector<Segment> edges_;   // all border edges of the result
   std::vector<Segment> added_;   // new opened edges, one per pair of lips
   std::vector<Segment> healed_;  // older incisions no longer open

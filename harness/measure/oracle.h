@@ -25,6 +25,9 @@ struct Request {
   double thin = 0;
   bool keeps_vertices = true;  ///< the input's rest vertices are bit-equal at the same index
   bool exact_incision = true;  ///< `tolerance` binds; else only the longest edge does
+  /// False: triangles may be taken out, those that the path crosses and no others (deletion.h), and the others stay as
+  /// they are. That, and that the result is a manifold, is then all that is judged.
+  bool keeps_area = true;
   /// Allowed distance of the vertices of new opened edges from the path, where the incision is exact. Must leave room
   /// for the flattening of Bezier curves by the code under test.
   double vertex_tolerance = std::numeric_limits<double>::infinity();
@@ -41,6 +44,7 @@ struct Request {
 ///   area           total area changed by more than 1e-12 of it (and the rounding of points on the border)
 ///   moved_vertex   an input vertex is not bit-equal at its index
 ///   wrong_pieces   number of pieces other than that of the exact arrangement of border, incisions and path
+///   deletion       a triangle is gone that the path does not cross, or there that it crosses, or new (!keeps_area)
 ///   incision       the opened edges and the path are too far apart, or an older incision has closed
 struct Judgement {
   bool ok = true;

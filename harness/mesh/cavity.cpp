@@ -81,6 +81,16 @@ void Sheet::cut_off_corner(HalfEdge apex, VertexIndex q, VertexIndex p, bool dia
   if (mark == EdgeMark::path || mark_p == EdgeMark::path) put_on_path(p);
 }
 
+/// The deformed vertex of the fan that ends, clockwise, at `rightmost`, a piece of the opened incision that the pending
+/// vertex at its origin lies on: the fan on the left of that edge ends at the piece that runs the edge's way.
+DeformedIndex Sheet::pending_deformed_left_of(HalfEdge rightmost) const {
+  const VertexIndex v = origin(rightmost);
+  const auto i = v() < work_.pending_of.size() ? work_.pending_of[v()] : work_.pending.size();
+  if (i >= work_.pending.size() || work_.pending[i].vertex != v) return {};
+  const auto& made = work_.pending[i];
+  return dot(rest(target(rightmost)) - rest(v), made.along) > 0 ? made.at_left : made.at_right;
+}
+
 /// Gives the corner at the origin of `spoke` the deformed vertex that others of its fan have.
 void Sheet::inherit_round(HalfEdge spoke) {
   const auto known = [&](HalfEdge h) { return triangle(triangle_of(h)).deformed[corner(h)]; };
@@ -92,7 +102,10 @@ void Sheet::inherit_round(HalfEdge spoke) {
     if (h.valid()) d = known(h);
   }
   for (HalfEdge h = spoke; h.valid() && !d.valid();) {
-    if (mark(h) == EdgeMark::incision) break;
+    if (mark(h) == EdgeMark::incision) {
+      d = pending_deformed_left_of(h);
+      break;
+    }
     h = turn_right(h);
     if (h == spoke) break;
     if (h.valid()) d = known(h);

@@ -42,6 +42,7 @@ void Sheet::begin_cut() {
   recycle(freed_triangles_, free_triangles_);
   recycle(freed_vertices_, free_vertices_);
   recycle(freed_deformed_, free_deformed_);
+  vertex_of_freed_.clear();
   log_.clear();
   log_.triangles_before = triangles_.size();
   log_.vertices_before = rest_.size();
@@ -63,8 +64,8 @@ void Sheet::rollback() {
   // Backwards, so that what was logged first, the oldest state, is written last.
   for (auto moved = log_.moved.rbegin(); moved != log_.moved.rend(); ++moved) rest_[moved->vertex()] = moved->from;
   for (auto d = log_.displaced.rbegin(); d != log_.displaced.rend(); ++d) position_[d->vertex()] = d->from;
-  for (std::size_t i = 0; i < freed_vertices_.size(); ++i)
-    vertex_of_deformed_[freed_deformed_[i]()] = freed_vertices_[i];
+  for (std::size_t i = 0; i < freed_deformed_.size(); ++i)
+    vertex_of_deformed_[freed_deformed_[i]()] = vertex_of_freed_[i];
   for (auto d = log_.new_deformed.rbegin(); d != log_.new_deformed.rend(); ++d) {
     vertex_of_deformed_[(*d)()] = {};
     if ((*d)() < log_.deformed_before) free_deformed_.push_back(*d);
@@ -90,7 +91,7 @@ void Sheet::rollback() {
   triangles_.resize(log_.triangles_before);
   rest_.resize(log_.vertices_before), triangle_of_vertex_.resize(log_.vertices_before);
   position_.resize(log_.deformed_before), vertex_of_deformed_.resize(log_.deformed_before);
-  freed_triangles_.clear(), freed_vertices_.clear(), freed_deformed_.clear();
+  freed_triangles_.clear(), freed_vertices_.clear(), freed_deformed_.clear(), vertex_of_freed_.clear();
   work_.pending.clear();
   log_.clear();
 }
@@ -160,7 +161,7 @@ VertexIndex Sheet::new_vertex(HalfEdge h, double lambda, Point2 p) {
     return new_deformed(v, {d[k], d[k == 2 ? 0 : k + 1], {}}, {1 - fraction, fraction, 0});
   };
   const VertexIndex v = new_rest_vertex(p);
-  Work::Pending pending{v, triangle_of(h), {}, on_side(h, lambda, v), {}, {}};
+  Work::Pending pending{v, triangle_of(h), {}, on_side(h, lambda, v), {}, rest(target(h)) - rest(origin(h)), {}};
   if (mark(h) == EdgeMark::incision) {
     pending.right = triangle_of(opposite(h));
     pending.at_right = on_side(opposite(h), 1 - lambda, v);
@@ -172,7 +173,7 @@ VertexIndex Sheet::new_vertex(HalfEdge h, double lambda, Point2 p) {
 VertexIndex Sheet::new_vertex(TriangleIndex t, Point2 p) {
   const VertexIndex v = new_rest_vertex(p);
   work_.pending.push_back(
-      {v, t, {}, new_deformed(v, std::array(triangle(t).deformed), barycentric(corners(t), p)), {}, {}});
+      {v, t, {}, new_deformed(v, std::array(triangle(t).deformed), barycentric(corners(t), p)), {}, {}, {}});
   return v;
 }
 
@@ -267,6 +268,12 @@ void Sheet::free_vertex(VertexIndex v) {
   freed_vertices_.push_back(v);
 }
 
+void Sheet::free_deformed(DeformedIndex d) {
+  vertex_of_freed_.push_back(vertex_of_deformed_[d()]);
+  vertex_of_deformed_[d()] = {};
+  freed_deformed_.push_back(d);
+}
+
 bool Sheet::collapse(HalfEdge h) {
   const VertexIndex a = origin(h), b = target(h);
   if (is_held(a)) return false;
@@ -300,9 +307,7 @@ bool Sheet::collapse(HalfEdge h) {
   } while (spoke != h);
   const DeformedIndex d = triangle(triangle_of(h)).deformed[corner(h)];
   replace_cavity(star, rest_of_star);
-  free_vertex(a);
-  vertex_of_deformed_[d()] = {};
-  freed_deformed_.push_back(d);
+  drop_vertex(a, d);
   return true;
 }
 

@@ -104,9 +104,17 @@ class Sheet {
   /// incision or otherwise on the path, a triangle would not stay positive, or the path would close a triangle.
   bool collapse(HalfEdge h);
 
+  /// Takes triangles out of the sheet, with what is left of their vertices. Where those that stay at a vertex are no
+  /// longer one fan, each fan but the first gets a vertex of its own at the same place. An incision with nothing on its
+  /// other side is border. \pre `removed` names each triangle once; no path is embedded.
+  void remove(std::span<const TriangleIndex> removed);
+
   /// A held vertex stays where it is in rest space, for something is tied to it: a pin, a load, a mark of the user's.
   void hold(VertexIndex v);
   bool is_held(VertexIndex v) const { return v() < held_.size() && held_[v()] != 0; }
+
+  /// Frees a vertex that the last replace_cavity() left without triangles. \pre d was its one deformed vertex.
+  void drop_vertex(VertexIndex v, DeformedIndex d) { free_vertex(v), free_deformed(d); }
 
   void set_mark(HalfEdge h, EdgeMark mark);  ///< of both half-edges; nothing on the border
   void set_deformed(TriangleIndex t, int corner, DeformedIndex d);
@@ -131,6 +139,9 @@ class Sheet {
   VertexIndex new_rest_vertex(Point2 p);
   DeformedIndex new_deformed(VertexIndex v, const std::array<DeformedIndex, 3>& parents,
                              const std::array<double, 3>& weights);
+  void free_vertex(VertexIndex v);
+  void free_deformed(DeformedIndex d);
+  void mend_vertex(VertexIndex v, std::span<const HalfEdge> spokes);
   void link(HalfEdge h, HalfEdge o);
   void join_halves(VertexIndex v, HalfEdge first, HalfEdge second);
   void add_triangle(TriangleIndex slot, const NewTriangle& made, std::span<const TriangleIndex> removed);
@@ -138,8 +149,8 @@ class Sheet {
   bool was_removed(HalfEdge h) const { return work_.removed_in[triangle_of(h)()] == work_.call; }
   void put_on_path(VertexIndex v);
   DeformedIndex pending_deformed(VertexIndex v, TriangleIndex parent) const;
+  DeformedIndex pending_deformed_left_of(HalfEdge rightmost) const;
   void inherit_round(HalfEdge spoke);
-  void free_vertex(VertexIndex v);
 
   std::vector<Triangle> triangles_;
   std::vector<Point2> rest_;
@@ -150,7 +161,8 @@ class Sheet {
   // Free slots, and slots freed by the cut under way, which are not used again before the next one.
   std::vector<TriangleIndex> free_triangles_, freed_triangles_;
   std::vector<VertexIndex> free_vertices_, freed_vertices_;
-  std::vector<DeformedIndex> free_deformed_, freed_deformed_;  // freed_: entry i belongs to freed_vertices_[i]
+  std::vector<DeformedIndex> free_deformed_, freed_deformed_;
+  std::vector<VertexIndex> vertex_of_freed_;  // that freed_deformed_[i] belonged to
   double mean_edge_ = 0, size_ = 0, snap_ = 0;
   EditLog log_;
 
@@ -165,6 +177,7 @@ class Sheet {
       VertexIndex vertex;
       TriangleIndex left, right;  ///< right: invalid unless the vertex lies on an opened incision
       DeformedIndex at_left, at_right;
+      Point2 along;                       ///< the edge it lies on, with `left` on the left; zero inside a triangle
       std::array<HalfEdge, 2> waiting{};  ///< halves of its edge, in order, whose other sides are still whole
     };
     std::vector<Pending> pending;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "harness/mesh/predicates.h"
 #include "harness/mesh/sheet.h"
 
 namespace cutbench {
@@ -14,6 +15,17 @@ inline double oriented_aspect(Point2 a, Point2 b, Point2 c) {
   const double twice_area = cross(b - a, c - a);
   if (!(twice_area > 0)) return std::numeric_limits<double>::infinity();
   return std::max({squared_length(b - a), squared_length(c - b), squared_length(a - c)}) / twice_area;
+}
+
+inline double squared_length(const Sheet& sheet, HalfEdge h) {
+  return squared_length(sheet.rest(sheet.target(h)) - sheet.rest(sheet.origin(h)));
+}
+
+/// Both halves of the triangle behind h are positive when p on h splits it; true past the border.
+inline bool halves_are_positive(const Sheet& sheet, HalfEdge h, Point2 p) {
+  if (!h.valid()) return true;
+  const Point2 apex = sheet.rest(sheet.origin(Sheet::previous(h)));
+  return orientation(sheet.rest(sheet.origin(h)), p, apex) > 0 && orientation(p, sheet.rest(sheet.target(h)), apex) > 0;
 }
 
 /// Calls look(spoke) for every spoke of v that has a triangle on its left, in no particular order.

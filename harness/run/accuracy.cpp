@@ -176,7 +176,7 @@ class AccuracyRun {
       set_failure(row, "failed", "crashed", error.what());
       sheet.reset();
     }
-    const Yardstick yardstick = answer(problem, specimen, sheet ? &*sheet : nullptr, row, {});
+    const Yardstick yardstick = answer(problem, specimen, sheet ? &*sheet : nullptr, {}, row, {});
     minutes_[reference_method] += us_since(start) / 60e6;
     return yardstick;
   }
@@ -198,7 +198,18 @@ class AccuracyRun {
       set_assessment(row, a, base);
       solvable = a.judgement.ok;
     }
-    answer(problem, specimen, solvable ? &worker.sheet : nullptr, row, yardstick);
+    Ties ties;
+    if (solvable) {
+      const auto tying = Clock::now();
+      ties = worker.method->ties(base.sheet, worker.sheet);
+      row.set("cut_us", cut.time_us.total() + us_since(tying));
+      if (!ties.empty() && !problem.takes_ties()) {
+        row.set("status", std::string(name_of(Status::refused)));
+        row.set("reason", std::string("vertices are tied, and the problem bends"));
+        solvable = false;
+      }
+    }
+    answer(problem, specimen, solvable ? &worker.sheet : nullptr, ties, row, yardstick);
     minutes_[AccuracySummary::label(row.get("method"), row.get("knob"))] += us_since(start) / 60e6;
   }
 
@@ -218,12 +229,12 @@ class AccuracyRun {
 
   /// A row per budget. `sheet`: null where there is nothing to solve, which the row says already. Returns the errors of
   /// the first direct solve.
-  Yardstick answer(const Problem& problem, const Specimen& specimen, const Sheet* sheet, Record& row,
+  Yardstick answer(const Problem& problem, const Specimen& specimen, const Sheet* sheet, const Ties& ties, Record& row,
                    const Yardstick& yardstick) {
     const std::vector<Budget>& budgets = budgets_for(problem);
     std::vector<Answer> answers;
     try {
-      if (sheet) answers = problem.answer(specimen, *sheet, budgets);
+      if (sheet) answers = problem.answer(specimen, *sheet, budgets, ties);
     } catch (const std::exception& error) {
       set_failure(row, row.get("status"), "crashed", error.what());
     }

@@ -62,7 +62,8 @@ double distance_to_edges(const Sheet& sheet, Point2 p) {
 template <int D>
 class SceneInMotion : public InMotion {
  public:
-  explicit SceneInMotion(const Scene& scene) : scene_(scene), now_(scene), trial_(now_), stepper_(options_of(scene)) {
+  explicit SceneInMotion(const Scene& scene)
+      : scene_(scene), now_(scene), trial_(now_), before_cuts_(now_.sheet), stepper_(options_of(scene)) {
     now_.model.reserve_spare(), trial_.model.reserve_spare();
     for (const auto& cut : scene.cuts)
       cuts_.push_back({cut.time, cut.speed, curves_of(cut, now_.sheet), cut.picked, {}, 0});
@@ -248,12 +249,32 @@ class SceneInMotion : public InMotion {
       result.pattern_us += watch.lap();
       now.model.update_bending(now.sheet);
       result.bending_us += watch.lap();
+      const std::string why_not = tie(now, method.ties(before_cuts_, now.sheet));
+      result.pattern_us += watch.lap();
+      if (!why_not.empty()) {
+        result.verdict = "unsupported", result.reason = why_not;
+        return result;
+      }
     }
     return result;
   }
 
+  /// Brings the state to where it satisfies the ties, too. Returns why that can't be, empty where it can.
+  std::string tie(Now& now, const Ties& ties) const {
+    if (ties.empty()) return {};
+    if (scene_.integrator == Integrator::symplectic_euler)
+      return "the method ties vertices to others, which symplectic_euler does not take; choose an implicit integrator";
+    if (ties.phantoms > 0 && scene_.physics.bending != BendingKind::none)
+      return "the method's phantom nodes do not bend; set bending to none";
+    now.model.tie(ties);
+    now.model.tied()->settle(now.model.held(), now.state.x);
+    now.model.tied()->settle(now.model.held(), now.state.v);
+    return {};
+  }
+
   Scene scene_;
   Now now_, trial_;
+  Sheet before_cuts_;
   Stepper<D> stepper_;
   Cutter cutter_;
   std::vector<DueCut> cuts_;

@@ -173,6 +173,7 @@ oracle::Request request_for(const Sheet& before, std::span<const Curve> cuts, co
   if (curved && std::isfinite(options.chord_tolerance)) request.thin = request.tolerance;
   request.keeps_vertices = promises.keeps_vertices;
   request.exact_incision = promises.exact_incision;
+  request.keeps_area = promises.keeps_area;
   request.vertex_tolerance = improved ? request.tolerance : flattening + request.snap;
   return request;
 }
@@ -200,7 +201,7 @@ Assessment assess(const Sheet& before, const Sheet& after, std::span<const Curve
 
 Assessment assess_result(const Sheet& before, const MeshData& result, std::span<const Curve> cuts, bool keeps_vertices,
                          const CutOptions& options) {
-  const Promises asked{.exact_incision = true, .keeps_vertices = keeps_vertices};
+  const Promises asked{.exact_incision = true, .keeps_area = true, .keeps_vertices = keeps_vertices};
   const oracle::Request request = request_for(before, cuts, asked, options, true);
   oracle::Mesh mesh;
   for (Point2 p : result.rest) mesh.rest.push_back({p.x, p.y});

@@ -100,7 +100,7 @@ class Runner {
       judge_into(row, summaries[w], workers_[w], cuts, forced, run);
       if (static_cast<int>(i) < experiment_.eigenvalue_cases && row.get("verdict") == "ok" &&
           (run.status == Status::ok || run.status == Status::deviated))
-        row.set("eigenvalue_ratio", largest_eigenvalue(workers_[w].sheet) / base_eigenvalue_);
+        row.set("eigenvalue_ratio", eigenvalue_of(workers_[w]) / base_eigenvalue_);
     }
     std::size_t crossed = 0;
     for (int r = 0; r < experiment_.repetitions + (experiment_.cold ? 1 : 0); ++r) {
@@ -131,6 +131,10 @@ class Runner {
     if (!motion_ || i >= static_cast<std::size_t>(experiment_.scene_cases)) return;
     for (Worker& worker : workers_)
       run_in_motion(cuts, worker, start_row(worker.variant.row->name, worker.variant.knob_text(), 0, "simulation"));
+  }
+
+  double eigenvalue_of(const Worker& worker) const {
+    return largest_eigenvalue(worker.sheet, worker.method->ties(base_.sheet, worker.sheet));
   }
 
   /// The experiment's scene on this sheet, brought to the last step before the cut.

@@ -39,8 +39,8 @@ class BendingPatchSlit : public Problem {
     return result;
   }
 
-  std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet,
-                             std::span<const Budget> budgets) const override {
+  std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
+                             const Ties&) const override {
     const std::vector<int> ring = rings(sheet);
     const auto exact = [&](DeformedIndex d) { return on_cylinder(specimen, sheet.rest(sheet.rest_vertex(d))); };
     std::vector<Answer> answers;

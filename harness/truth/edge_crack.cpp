@@ -74,9 +74,9 @@ class EdgeCrack final : public Problem {
     return {strip(family, squares), {{Curve::Kind::polyline, false, {{-0.5, tip.y}, tip}}}, tip, 0};
   }
 
-  std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet,
-                             std::span<const Budget> budgets) const override {
-    StaticSolve solve(sheet, sheet_material);
+  std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
+                             const Ties& ties) const override {
+    StaticSolve solve(sheet, sheet_material, ties);
     const auto at = [](double y) { return [y](Point2 a, Point2 b) { return a.y == y && b.y == y; }; };
     solve.pull_border(at(0), {0, -pull}), solve.pull_border(at(height), {0, pull});
     // Tractions in equilibrium: what is held takes no force.

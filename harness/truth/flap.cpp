@@ -36,8 +36,8 @@ class Flap : public Problem {
     return result;
   }
 
-  std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet,
-                             std::span<const Budget> budgets) const override {
+  std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
+                             const Ties&) const override {
     const std::vector<Point2> side = sides(sheet);
     const auto in_flap = [&](DeformedIndex d) {
       const Point2 p = to_frame(specimen, side[d()]);

@@ -15,6 +15,7 @@
 #include "harness/fem/linear_solver.h"
 #include "harness/mesh/mesh_data.h"
 #include "harness/mesh/sheet.h"
+#include "harness/mesh/ties.h"
 
 namespace cutbench {
 
@@ -59,13 +60,19 @@ class Problem {
   /// What answer() measures, the primary one first: that which ranks.
   virtual std::vector<std::string> measures() const = 0;
   virtual bool takes_budgets() const { return true; }  ///< false: several linear solves, solved directly only
+  /// False: it bends, which it does at the sheet's own vertices alone.
+  virtual bool takes_ties() const { return takes_budgets(); }
 
   /// Member `index` on a sheet of `family` (sheet_families()) with 2 n^2 triangles; depends on the arguments alone.
   virtual Specimen specimen(const std::string& family, int n, std::uint64_t seed, std::size_t index) const = 0;
   /// Loads the opened sheet, solves it once per budget, and compares. One assembly serves all budgets.
-  /// \pre `sheet` is that of `specimen` with its cuts made, by whatever method, or body_fitted() to them.
-  virtual std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet,
-                                     std::span<const Budget> budgets) const = 0;
+  /// \pre `sheet` is that of `specimen` with its cuts made, by whatever method, or body_fitted() to them; `ties` are
+  /// those of the method, and empty unless takes_ties().
+  virtual std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
+                                     const Ties& ties) const = 0;
+  std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets) const {
+    return answer(specimen, sheet, budgets, {});
+  }
 };
 
 /// All problems, in the order of the tables.

@@ -36,8 +36,8 @@ class SlitStrip : public Problem {
     return result;
   }
 
-  std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet,
-                             std::span<const Budget> budgets) const override {
+  std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
+                             const Ties&) const override {
     const Sheet whole(specimen.mesh);
     const double depth = -elastica_.at(1).z;
     std::vector<Answer> answers;

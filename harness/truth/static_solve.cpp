@@ -28,12 +28,14 @@ std::array<DeformedIndex, 2> ends(const Sheet& sheet, HalfEdge h) {
 
 }  // namespace
 
-StaticSolve::StaticSolve(const Sheet& sheet, const Elastic& elastic)
+StaticSolve::StaticSolve(const Sheet& sheet, const Elastic& elastic, const Ties& ties)
     : sheet_(sheet),
       model_(sheet, {.stiffness = elastic.young, .poisson = elastic.poisson}, in_the_plane, {}, {}),
       held_(model_.held()),
       given_(Field::Zero(static_cast<Eigen::Index>(held_.size()))),
-      force_(given_) {}
+      force_(given_) {
+  if (!ties.empty()) tied_.emplace(ties, model_.vertices());
+}
 
 void StaticSolve::hold_border(const std::function<Eigen::Vector2d(Point2, Point2)>& value) {
   for_each_border_edge(sheet_, [&](HalfEdge h) {
@@ -84,18 +86,29 @@ void StaticSolve::hold_loose_pieces() {
   }
 }
 
+SystemMatrix<2> StaticSolve::held_system() const {
+  SystemMatrix<2> system = model_.system();
+  system.held = &held_;
+  return system;
+}
+
 StaticSolve::Solution StaticSolve::solve(const Budget& budget) {
   StopWatch watch;
   if (!std::exchange(assembled_, true)) {
     model_.rotate(Field::Zero(given_.size()));
     model_.assemble(0, 1);
     right_ = Field::Zero(given_.size());
+    if (tied_) tied_->follow(held_, given_);
     model_.system().add_product(given_, right_);
     right_ = force_ - right_;
+    if (tied_) {
+      tied_->assemble(held_system());
+      const Field all = right_;
+      tied_->reduce(held_, all, right_);
+    }
     assemble_us_ = watch.lap();
   }
-  SystemMatrix<2> system = model_.system();
-  system.held = &held_;
+  const SystemMatrix<2> system = tied_ ? tied_->system() : held_system();
   SolverOptions options = budget.solver;
   if (budget.iterations > 0) options.tolerance = 0, options.max_iterations = budget.iterations;
   const auto solver = make_solver<2>(options);
@@ -106,11 +119,15 @@ StaticSolve::Solution StaticSolve::solve(const Budget& budget) {
   answer.setup_us = watch.lap();
   const SolveReport report = solver->solve(right_, solution.displacement);
   answer.solve_us = watch.lap();
+  for (const auto h : *system.held) answer.unknowns += !h;
+  if (tied_) {
+    const Field unknowns = solution.displacement;
+    tied_->expand(unknowns, solution.displacement);
+  }
   solution.displacement += given_;
 
   answer.assemble_us = assemble_us_;
   answer.iterations = report.iterations, answer.residual = report.residual;
-  for (const auto h : held_) answer.unknowns += !h;
   if (!solution.displacement.allFinite())
     answer.verdict = "not_finite", answer.reason = "the displacement is not finite";
   else if (budget.iterations == 0 && !report.converged)

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 
+#include "harness/fem/combination.h"
 #include "harness/fem/model.h"
 #include "harness/truth/elastic_field.h"
 #include "harness/truth/problem.h"
@@ -13,7 +15,7 @@ namespace cutbench {
 
 class StaticSolve {
  public:
-  StaticSolve(const Sheet& sheet, const Elastic& elastic);
+  StaticSolve(const Sheet& sheet, const Elastic& elastic, const Ties& ties = {});
 
   /// Gives every vertex of the sheet's border its displacement: `value` of its rest position, and of a point inside a
   /// triangle there, which says on which lip it is.
@@ -38,11 +40,14 @@ class StaticSolve {
   const Field& force() const { return force_; }  ///< N
 
  private:
+  SystemMatrix<2> held_system() const;
+
   const Sheet& sheet_;
   Model<2> model_;
+  std::optional<TiedSystem<2>> tied_;
   std::vector<std::uint8_t> held_, loose_;
   Field given_, force_;
-  Field right_;  // of the assembled system
+  Field right_;  // of the assembled system, tied where anything is
   double assemble_us_ = 0;
   bool assembled_ = false;
 };

@@ -57,8 +57,8 @@ class TrouserTear : public Problem {
     return result;
   }
 
-  std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet,
-                             std::span<const Budget> budgets) const override {
+  std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
+                             const Ties&) const override {
     const Sheet shorter = sewn_up(specimen, sheet);
     std::vector<Answer> answers;
     for (const Budget& budget : budgets) {

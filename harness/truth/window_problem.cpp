@@ -42,10 +42,10 @@ class WindowProblem final : public Problem {
     return specimen;
   }
 
-  std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet,
-                             std::span<const Budget> budgets) const override {
+  std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
+                             const Ties& ties) const override {
     const ElasticField field = window_.field({specimen.origin, specimen.angle});
-    StaticSolve solve(sheet, sheet_material);
+    StaticSolve solve(sheet, sheet_material, ties);
     solve.hold_border([&](Point2 p, Point2 inside) { return field.displacement(p, inside); });
     solve.hold_loose_pieces();
     const WindowComparison comparison(window_, specimen, sheet, solve, field);

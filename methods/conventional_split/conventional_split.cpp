@@ -1,24 +1,11 @@
 #include "methods/conventional_split/conventional_split.h"
 
+#include "harness/cut/embed_conventionally.h"
+
 namespace cutbench {
 
-int split_conventionally(Patch& patch) {
-  const std::size_t on_edges = patch.ring.size() - 3, inside = patch.inside_count();
-  if (on_edges != 1 || inside > 1 || (inside == 1 && patch.segments.size() != 1)) return split_step_by_step(patch);
-  const int p = 3, tip = 4;
-  const int a = patch.edge_of(p), b = next_corner(a), c = previous_corner(a);  // p lies between a and b
-  if (inside == 0)
-    patch.triangles = {{a, p, c}, {p, b, c}};
-  else
-    patch.triangles = {{a, p, tip}, {p, b, tip}, {b, c, tip}, {c, a, tip}};
-  return 0;
-}
-
 void ConventionalSplit::embed(Sheet& sheet, Subdivision& trace) {
-  recovered_ = 0;
-  embed_patches(
-      sheet, trace, work_, [](const Crossing& crossing) { return crossing.p_first; },
-      [&](Patch& patch) { recovered_ += split_conventionally(patch); });
+  recovered_ = embed_conventionally(sheet, trace, work_);
 }
 
 }  // namespace cutbench

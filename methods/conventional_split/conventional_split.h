@@ -15,7 +15,7 @@
 #pragma once
 
 #include "harness/cut/cutting_method.h"
-#include "harness/cut/embed_plainly.h"
+#include "harness/cut/patch.h"
 
 namespace cutbench {
 
@@ -28,8 +28,5 @@ class ConventionalSplit : public CuttingMethod {
   PatchWork work_;
   int recovered_ = 0;
 };
-
-/// Fills patch.triangles; returns the number of segments that had to be recovered.
-int split_conventionally(Patch& patch);
 
 }  // namespace cutbench

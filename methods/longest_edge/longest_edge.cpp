@@ -1,15 +1,11 @@
 #include "methods/longest_edge/longest_edge.h"
 
-#include "harness/mesh/predicates.h"
 #include "harness/mesh/quality.h"
+#include "harness/mesh/star.h"
 
 namespace cutbench {
 
 namespace {
-
-double squared_length(const Sheet& sheet, HalfEdge h) {
-  return squared_length(sheet.rest(sheet.target(h)) - sheet.rest(sheet.origin(h)));
-}
 
 HalfEdge longest_edge(const Sheet& sheet, TriangleIndex t) {
   HalfEdge longest = half_edge(t, 0);
@@ -27,13 +23,6 @@ HalfEdge terminal_edge(const Sheet& sheet, TriangleIndex t) {
     h = longer;
   }
   return h;
-}
-
-/// Both halves of the triangle behind h are positive when p on h splits it; true past the border.
-bool halves_are_positive(const Sheet& sheet, HalfEdge h, Point2 p) {
-  if (!h.valid()) return true;
-  const Point2 apex = sheet.rest(sheet.origin(Sheet::previous(h)));
-  return orientation(sheet.rest(sheet.origin(h)), p, apex) > 0 && orientation(p, sheet.rest(sheet.target(h)), apex) > 0;
 }
 
 }  // namespace

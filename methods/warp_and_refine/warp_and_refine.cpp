@@ -1,5 +1,7 @@
 #include "methods/warp_and_refine/warp_and_refine.h"
 
+#include "harness/cut/tie_slivers.h"
+
 namespace cutbench {
 
 void WarpAndRefine::embed(Sheet& sheet, Subdivision& trace) {
@@ -14,8 +16,13 @@ void WarpAndRefine::improve(Sheet& sheet) {
   stopped_early_ = false;
   reshape_.begin(sheet, curve_);
   if (options_.before == Before::thin || options_.before == Before::warp_and_thin) reshape_.thin();
-  if (options_.after != After::nothing) reshape_.mend(options_.after >= After::smoothing);
+  if (options_.after >= After::flips && options_.after <= After::refine)
+    reshape_.mend(options_.after >= After::smoothing);
   if (options_.after == After::refine) stopped_early_ = !reshape_.refine();
+}
+
+Ties WarpAndRefine::ties(const Sheet& before, const Sheet& cut) const {
+  return options_.after == After::tie ? tie_slivers(before, cut, options_.thinness) : Ties{};
 }
 
 }  // namespace cutbench

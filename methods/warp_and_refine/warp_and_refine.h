@@ -35,14 +35,16 @@ namespace cutbench {
 
 class WarpAndRefine : public CuttingMethod {
  public:
-  /// What happens before the split, and how far the work after it goes: each step includes those before it. The method
+  /// What happens before the split, and how far the work after it goes: each step includes those before it, but tie
+  /// (harness/cut/tie_slivers.h), which leaves the mesh as it is. The method
   /// is warp_and_thin with refine; the others are rows of the ablation.
   enum class Before : std::uint8_t { nothing, snap, warp, thin, warp_and_thin };
-  enum class After : std::uint8_t { nothing, flips, smoothing, refine };
+  enum class After : std::uint8_t { nothing, flips, smoothing, refine, tie };
   struct Options {
     Before before = Before::warp_and_thin;
     After after = After::refine;
-    double snap = 0.25;  ///< of an edge: crossings nearer to a vertex go through it (Before::snap)
+    double thinness = 0.1;  ///< of slivers (After::tie)
+    double snap = 0.25;     ///< of an edge: crossings nearer to a vertex go through it (Before::snap)
     Warp::Options warping;
     Reshape::Options reshaping;
   };
@@ -51,6 +53,7 @@ class WarpAndRefine : public CuttingMethod {
 
   void embed(Sheet& sheet, Subdivision& trace) override;
   void improve(Sheet& sheet) override;
+  Ties ties(const Sheet& before, const Sheet& cut) const override;
   int recovered_segments() const override { return recovered_; }
   bool stopped_early() const override { return stopped_early_; }
 

@@ -1,0 +1,80 @@
+// How triangles are taken out of the sheet for good.
+#include <algorithm>
+#include <utility>
+
+#include "harness/mesh/sheet.h"
+
+namespace cutbench {
+
+/// Each fan of what is left at v gets a vertex of its own, the first one v itself. \param spokes  all that v had,
+/// counter-clockwise
+void Sheet::mend_vertex(VertexIndex v, std::span<const HalfEdge> spokes) {
+  const auto stays = [&](HalfEdge h) { return triangle(triangle_of(h)).alive(); };
+  const auto known = [&](HalfEdge h) { return triangle(triangle_of(h)).deformed[corner(h)]; };
+  std::vector<DeformedIndex> unused;
+  for (const HalfEdge h : spokes)
+    if (std::find(unused.begin(), unused.end(), known(h)) == unused.end()) unused.push_back(known(h));
+
+  // Round an inner vertex a fan may go on past the last spoke: begin behind a triangle that is gone.
+  const auto gone = std::find_if_not(spokes.begin(), spokes.end(), stays);
+  const auto begin = static_cast<std::size_t>(gone - spokes.begin());
+  VertexIndex mine;                                             // of the fan under way
+  std::vector<std::pair<DeformedIndex, DeformedIndex>> copies;  // its deformed vertices, where v has the originals
+  bool has_fan = false;
+  for (std::size_t i = 0; i < spokes.size(); ++i) {
+    const HalfEdge h = spokes[(begin + i) % spokes.size()];
+    if (!stays(h)) continue;
+    Triangle& t = at(triangle_of(h));
+    if (on_border(h)) {  // a fan begins
+      mine = std::exchange(has_fan, true) ? new_rest_vertex(rest(v)) : v;
+      triangle_of_vertex_[mine()] = triangle_of(h);
+      copies.clear();
+    }
+    const DeformedIndex d = known(h);
+    if (mine == v) {
+      std::erase(unused, d);
+      continue;
+    }
+    auto copy = std::find_if(copies.begin(), copies.end(), [&](const auto& c) { return c.first == d; });
+    if (copy == copies.end()) copy = copies.insert(copies.end(), {d, new_deformed(mine, {d, {}, {}}, {1, 0, 0})});
+    touch(triangle_of(h));
+    t.vertex[corner(h)] = mine, t.deformed[corner(h)] = copy->second;
+  }
+  if (!has_fan) free_vertex(v);
+  for (const DeformedIndex d : unused) free_deformed(d);
+}
+
+void Sheet::remove(std::span<const TriangleIndex> removed) {
+  struct Star {
+    VertexIndex vertex;
+    std::size_t first;  // of its spokes
+  };
+  std::vector<Star> stars;
+  std::vector<HalfEdge> spokes;
+  std::vector<std::uint8_t> met(vertex_slots());
+  for (const TriangleIndex t : removed)
+    for (const VertexIndex v : triangle(t).vertex) {
+      if (std::exchange(met[v()], 1)) continue;
+      stars.push_back({v, spokes.size()});
+      const HalfEdge first = first_spoke(v);
+      HalfEdge h = first;
+      do spokes.push_back(h), h = turn_left(h);
+      while (h.valid() && h != first);
+    }
+  for (const TriangleIndex t : removed) {
+    touch(t);
+    for (const HalfEdge o : triangle(t).opposite) {
+      if (!o.valid()) continue;
+      touch(triangle_of(o));
+      at(triangle_of(o)).opposite[corner(o)] = {};
+      at(triangle_of(o)).mark[corner(o)] = EdgeMark::none;
+    }
+    at(t).vertex[0] = {};
+    freed_triangles_.push_back(t);
+  }
+  stars.push_back({{}, spokes.size()});
+  for (std::size_t i = 0; i + 1 < stars.size(); ++i)
+    mend_vertex(stars[i].vertex, std::span(spokes).subspan(stars[i].first, stars[i + 1].first - stars[i].first));
+}
+
+}  // namespace cutbench

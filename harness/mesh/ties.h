@@ -1,0 +1,28 @@
+// Unknowns that are fewer than the sheet's vertices: what a method that leaves the geometry as it is can do about the
+// finite elements on it. x = C q, a row of C per vertex of the opened sheet, and the system of the unknowns q is
+// C^T K C, C^T M C, C^T f (harness/fem/combination.h).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "harness/mesh/types.h"
+
+namespace cutbench {
+
+/// A vertex of the opened sheet that is no unknown: it goes where the linear field goes that three unknowns span. On an
+/// axis on which it is held it stays where it is held.
+struct Tie {
+  DeformedIndex vertex;
+  std::array<DeformedIndex, 3> masters;  ///< untied vertices, or phantom i as Sheet::deformed_slots() + i
+  std::array<double, 3> weights;         ///< barycentric coordinates: of any sign, sum 1; a 0 leaves its master out
+};
+
+struct Ties {
+  std::vector<Tie> ties;     ///< each vertex once
+  std::size_t phantoms = 0;  ///< unknowns that are no vertex of the sheet
+  bool empty() const { return ties.empty(); }
+};
+
+}  // namespace cutbench

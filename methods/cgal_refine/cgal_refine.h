@@ -1,0 +1,52 @@
+// Delaunay refinement by CGAL round the cut: the textbook answer to bad triangles.
+//
+// How it works. embed: crossed triangles are divided along the path. improve: what the cut changed, with two rings of
+// neighbours, is triangulated anew by CGAL (constrained Delaunay) and refined by its mesh generator until no triangle
+// has an aspect ratio above `bound`. Path, older incisions and the sheet's border are constraints, which get new points
+// where these want to be (Ruppert's rule, with CGAL's clusters at small angles). Where the refinement would divide the
+// region's border, the region grows by what lies there, and it starts again (harness/cut/region_mesher.h). Triangles
+// shorter than `min_edge` and those in forced wedges (harness/cut/forced_wedges.h) are left alone.
+//
+// Source: Ruppert, A Delaunay refinement algorithm for quality 2-dimensional mesh generation, 1995; Shewchuk, Delaunay
+// refinement algorithms for triangular mesh generation, 2002; CGAL 5.5, Delaunay_mesher_2 with the Epick kernel.
+// Promises: the exact path, area, conforming, no vertex moved.
+// Fails: an aspect ratio of 3 is beyond what is proved to end (20.7 degrees), so that a limit on vertices is needed,
+// at which it stops and leaves the rest. A vertex close to the path stays where it is and costs dozens of vertices
+// round it, the smallest of them as near to each other as it is to the path: the step of an explicit integrator shrinks
+// as by a plain split. Flips across old edges change the deformed surface where the sheet is bent.
+#pragma once
+
+#include "harness/cut/cutting_method.h"
+#include "harness/cut/embed_plainly.h"
+#include "harness/cut/region_mesher.h"
+
+namespace cutbench {
+
+class CgalRefine : public CuttingMethod {
+ public:
+  struct Options {
+    double bound = 3;                   ///< no aspect ratio beyond it; infinity: constrained Delaunay alone
+    double min_edge = 1e-3;             ///< triangles with shorter edges alone are left, in mean rest edges
+    int rings = 2;                      ///< of neighbours, to begin with
+    int most_rings = 64;                ///< by which it grows at once; then the cut stays as it was divided
+    std::size_t per_path_vertex = 20;   ///< vertices that the refinement may make, for each one of the path
+    std::size_t most_vertices = 20000;  ///< and in all: a path with more to ask for leads across stacks of slivers
+  };
+  explicit CgalRefine(const Options& options) : options_(options) {}
+
+  void embed(Sheet& sheet, Subdivision& trace) override;
+  void improve(Sheet& sheet) override;
+  int recovered_segments() const override { return recovered_; }
+  bool stopped_early() const override { return stopped_early_; }
+
+ private:
+  Options options_;
+  PatchWork work_;
+  ForcedWedges wedges_;
+  RegionMesher mesher_;
+  std::vector<TriangleIndex> region_, across_;
+  int recovered_ = 0;
+  bool stopped_early_ = false;
+};
+
+}  // namespace cutbench

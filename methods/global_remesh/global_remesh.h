@@ -1,0 +1,39 @@
+// The whole sheet meshed anew with the path in it: what one does who has no cutting method. A baseline.
+//
+// How it works. embed: crossed triangles are divided along the path. improve: of the whole sheet only the vertices on
+// the border, on older incisions and on the path are kept, and held ones (pinned or loaded); CGAL's mesh generator
+// fills it with new triangles, as large as the sheet's were in the mean and of aspect ratios up to 3, and puts points
+// on border and incisions where it wants them (harness/cut/region_mesher.h). The deformation at a new vertex is that of
+// the old triangle it lies in. The path keeps the points where it crossed the old edges, so that the incision is the
+// same as every other method's.
+//
+// Source: as harness/truth/body_fitted.cpp; CGAL 5.5, Delaunay_mesher_2.
+// Promises: the exact path, area, conforming; not that vertices stay.
+// Fails: costs the sheet and not the cut, and everything that belonged to vertices and triangles is lost: the state is
+// interpolated everywhere, anew with each cut. Crossings near each
+// other on the path stay as near, with small triangles round them. A graded sheet loses its grading.
+#pragma once
+
+#include "harness/cut/cutting_method.h"
+#include "harness/cut/embed_plainly.h"
+#include "harness/cut/region_mesher.h"
+
+namespace cutbench {
+
+class GlobalRemesh : public CuttingMethod {
+ public:
+  void embed(Sheet& sheet, Subdivision& trace) override;
+  void improve(Sheet& sheet) override;
+  int recovered_segments() const override { return recovered_; }
+  bool stopped_early() const override { return stopped_early_; }
+
+ private:
+  PatchWork work_;
+  ForcedWedges wedges_;
+  RegionMesher mesher_;
+  std::vector<TriangleIndex> sheet_;
+  int recovered_ = 0;
+  bool stopped_early_ = false;
+};
+
+}  // namespace cutbench

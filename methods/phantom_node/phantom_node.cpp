@@ -1,0 +1,199 @@
+#include "methods/phantom_node/phantom_node.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "harness/cut/embed_conventionally.h"
+#include "harness/mesh/locator.h"
+#include "harness/mesh/predicates.h"
+
+namespace cutbench {
+
+namespace {
+
+/// The triangle that holds p; p lies inside the sheet, clear of its edges but for rounding.
+TriangleIndex triangle_at(const Sheet& sheet, const Locator& locator, Point2 p) {
+  const auto step = [&](TriangleIndex t) {  // itself where it holds p, invalid beyond the border
+    const auto c = sheet.corners(t);
+    for (int k = 0; k < 3; ++k)
+      if (const auto i = static_cast<std::size_t>(k); orientation(c[i], c[(i + 1) % 3], p) < 0) {
+        const HalfEdge o = sheet.opposite(half_edge(t, k));
+        return o.valid() ? triangle_of(o) : TriangleIndex();
+      }
+    return t;
+  };
+  TriangleIndex t = locator.near(sheet, p);
+  for (std::size_t i = 0; t.valid() && i < sheet.triangle_slots(); ++i) {
+    const TriangleIndex next = step(t);
+    if (next == t) return t;
+    t = next;
+  }
+  // Past a notch of the border.
+  for (std::size_t i = 0; i < sheet.triangle_slots(); ++i)
+    if (sheet.triangle(TriangleIndex(i)).alive() && step(TriangleIndex(i)) == TriangleIndex(i)) return TriangleIndex(i);
+  return {};
+}
+
+/// Sets of numbers that were joined, each known by its smallest.
+class JoinedSets {
+ public:
+  explicit JoinedSets(std::size_t n) : parent_(n) {
+    for (std::size_t i = 0; i < n; ++i) parent_[i] = i;
+  }
+  std::size_t find(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::size_t a, std::size_t b) {
+    a = find(a), b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+class Doubling {
+ public:
+  Doubling(const Sheet& before, const Sheet& cut)
+      : before_(before),
+        cut_(cut),
+        parent_(cut.triangle_slots()),
+        parts_(cut.triangle_slots()),
+        copies_(cut.deformed_slots() + 3 * cut.triangle_slots()) {
+    find_parents();
+    join_parts();
+    join_copies();
+  }
+
+  Ties run() {
+    number_phantoms();
+    Ties ties;
+    ties.phantoms = phantoms_;
+    std::vector<std::uint8_t> seen(cut_.deformed_slots());
+    for (std::size_t i = 0; i < cut_.triangle_slots(); ++i) {
+      const TriangleIndex t(i);
+      if (!cut_.triangle(t).alive()) continue;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const DeformedIndex d = cut_.triangle(t).deformed[k];
+        if (std::exchange(seen[d()], 1)) continue;
+        if (is_new(cut_.triangle(t).vertex[k]))
+          ties.ties.push_back(tie_of(d, t));
+        else if (const DeformedIndex one = unknown(d()); one != d)
+          ties.ties.push_back({d, {one, one, one}, {1, 0, 0}});
+      }
+    }
+    return ties;
+  }
+
+ private:
+  bool is_new(VertexIndex v) const { return v() >= before_.vertex_slots(); }
+
+  void find_parents() {
+    const Locator locator(before_);
+    for (std::size_t i = 0; i < parent_.size(); ++i) {
+      const TriangleIndex t(i);
+      const Triangle& triangle = cut_.triangle(t);
+      if (!triangle.alive()) continue;
+      if (i < before_.triangle_slots() && before_.triangle(t).vertex == triangle.vertex) {
+        parent_[i] = t;
+        continue;
+      }
+      const auto c = cut_.corners(t);
+      parent_[i] = triangle_at(before_, locator, 1.0 / 3 * (c[0] + c[1] + c[2]));
+    }
+  }
+
+  /// The corner of t's parent that is vertex v; none where it isn't one.
+  std::optional<std::size_t> corner_at(TriangleIndex t, VertexIndex v) const {
+    const auto& corners = before_.triangle(parent_[t()]).vertex;
+    const auto found = std::find(corners.begin(), corners.end(), v);
+    if (found == corners.end()) return {};
+    return static_cast<std::size_t>(found - corners.begin());
+  }
+  /// The number of what t's part has at a corner of its parent. Numbers of vertices come first.
+  std::size_t copy(TriangleIndex t, std::size_t corner) {
+    return cut_.deformed_slots() + 3 * parts_.find(t()) + corner;
+  }
+
+  template <class Visit>
+  void for_each_joint(Visit visit) const {
+    for (std::size_t i = 0; i < cut_.triangle_slots(); ++i)
+      for (int k = 0; k < 3 && cut_.triangle(TriangleIndex(i)).alive(); ++k)
+        if (const HalfEdge h = half_edge(TriangleIndex(i), k); !cut_.separates(h))
+          visit(TriangleIndex(i), triangle_of(cut_.opposite(h)));
+  }
+
+  void join_parts() {
+    for_each_joint([&](TriangleIndex t, TriangleIndex u) {
+      if (parent_[t()] == parent_[u()]) parts_.join(t(), u());
+    });
+  }
+
+  void join_copies() {
+    for (std::size_t i = 0; i < cut_.triangle_slots(); ++i) {
+      const TriangleIndex t(i);
+      if (!cut_.triangle(t).alive()) continue;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (const auto corner = corner_at(t, cut_.triangle(t).vertex[k]))
+          copies_.join(copy(t, *corner), cut_.triangle(t).deformed[k]());
+    }
+    for_each_joint([&](TriangleIndex t, TriangleIndex u) {
+      if (parent_[t()] == parent_[u()]) return;
+      const auto& corners = before_.triangle(parent_[t()]).vertex;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (const auto other = corner_at(u, corners[k])) copies_.join(copy(t, k), copy(u, *other));
+    });
+  }
+
+  void number_phantoms() {
+    phantom_.assign(3 * cut_.triangle_slots(), -1);
+    for (std::size_t i = 0; i < cut_.triangle_slots(); ++i) {
+      if (!cut_.triangle(TriangleIndex(i)).alive()) continue;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t one = copies_.find(copy(TriangleIndex(i), k));
+        if (one < cut_.deformed_slots()) continue;
+        if (auto& number = phantom_[one - cut_.deformed_slots()]; number < 0)
+          number = static_cast<std::int32_t>(phantoms_++);
+      }
+    }
+  }
+
+  DeformedIndex unknown(std::size_t number) {
+    const std::size_t one = copies_.find(number), vertices = cut_.deformed_slots();
+    return DeformedIndex(one < vertices ? one : vertices + static_cast<std::size_t>(phantom_[one - vertices]));
+  }
+
+  Tie tie_of(DeformedIndex d, TriangleIndex t) {
+    const Point2 p = cut_.rest(cut_.rest_vertex(d));
+    const auto c = before_.corners(parent_[t()]);
+    const double twice = cross(c[1] - c[0], c[2] - c[0]);
+    Tie tie{d, {}, {}};
+    for (std::size_t k = 0; k < 3; ++k) {
+      tie.masters[k] = unknown(copy(t, k));
+      const Point2 from = c[(k + 1) % 3], to = c[(k + 2) % 3];
+      const double area = cross(from - p, to - p);
+      // A path that is no farther from an edge goes along it, so this is the rounding of a crossing.
+      const bool on_edge = std::abs(area) <= before_.snap() / 2 * std::sqrt(squared_length(to - from));
+      tie.weights[k] = on_edge ? 0 : area / twice;
+    }
+    *std::max_element(tie.weights.begin(), tie.weights.end()) += 1 - (tie.weights[0] + tie.weights[1] + tie.weights[2]);
+    return tie;
+  }
+
+  const Sheet &before_, &cut_;
+  std::vector<TriangleIndex> parent_;  // per triangle
+  JoinedSets parts_;                   // of triangles of one parent
+  JoinedSets copies_;                  // of vertices, and three for the corners of the parent of each part
+  std::vector<std::int32_t> phantom_;  // per copy that is no vertex: its number
+  std::size_t phantoms_ = 0;
+};
+
+}  // namespace
+
+void PhantomNode::embed(Sheet& sheet, Subdivision& trace) { recovered_ = embed_conventionally(sheet, trace, work_); }
+
+Ties PhantomNode::ties(const Sheet& before, const Sheet& cut) const { return Doubling(before, cut).run(); }
+
+}  // namespace cutbench

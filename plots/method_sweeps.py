@@ -1,0 +1,81 @@
+"""What method_comparison.py draws of its neighbours: shapes against price as the knob of each method turns
+(method_comparison_knobs), and what each part of warp_and_refine does (method_comparison_ablation)."""
+
+import numpy as np
+from matplotlib.colors import LogNorm, Normalize
+
+import style
+
+BEFORE = ["nothing", "snap", "warp", "thin", "warp+thin"]
+AFTER = ["nothing", "flips", "smoothing", "refine", "tie"]
+
+
+def median(rows, column):
+    """Failed cuts as bad as can be; NaN: never measured."""
+    values = np.where(rows["failed"], np.inf, rows[column].to_numpy(float))
+    values = values[~np.isnan(values)]
+    return float(np.quantile(values, 0.5, method="inverted_cdf")) if len(values) else np.nan
+
+
+def below_three(rows):
+    return float((~(rows["ar_max_cut_outside_wedges"] >= 3) & ~rows["failed"]).mean())
+
+
+def draw_knobs(folder, table, caption):
+    """A panel per sheet and measure of shape; a curve per method through the settings of its knob."""
+    sheets = style.sheet_order(table["sheet"])
+    measures = [("eigenvalue_ratio", "largest eigenvalue / uncut"), ("ar_max_cut_outside_wedges", "largest AR")]
+    figure, axes = style.panels(len(measures), len(sheets), 4.6, sharex=True, sharey="row")
+    variants = sorted(set(zip(table["method"], table["knob"])), key=lambda v: (v[0], style.natural(v[1])))
+    names = list(dict.fromkeys(name for name, _ in variants))
+    looks = style.looks([(name, "") for name in names])
+    for row, (column, label) in zip(axes, measures):
+        for ax, sheet in zip(row, sheets):
+            ax.set_xscale("log")
+            ax.set_yscale("log")
+            for name in names:
+                knobs = [knob for n, knob in variants if n == name]
+                points = []
+                for knob in knobs:
+                    rows = table[(table["method"] == name) & (table["knob"] == knob) & (table["sheet"] == sheet)]
+                    points.append((median(rows, "us_per_crossed"), median(rows, column)))
+                x, y = np.array(points).T
+                look = looks[name, ""]
+                ax.plot(x, y, color=look.colour, linewidth=0.8, marker=look.marker, markersize=2.6,
+                        markeredgecolor="white", markeredgewidth=0.3)
+                for (px, py), knob in zip(points, knobs):
+                    if np.isfinite(px) and np.isfinite(py) and knob in (knobs[0], knobs[-1]):
+                        ax.annotate(knob.partition("=")[2], (px, py), xytext=(1.5, 1.5), textcoords="offset points",
+                                    fontsize=4.2, color=look.colour)
+        row[0].set_ylabel(label)
+    for ax, sheet in zip(axes[0], sheets):
+        ax.set_title(style.sheet_title(sheet))
+    for ax in axes[-1]:
+        ax.set_xlabel("µs per crossed triangle")
+    style.finish(figure, [looks[name, ""] for name in names], caption)
+    style.save(figure, folder, "method_comparison_knobs")
+
+
+def draw_ablation(folder, table, caption):
+    """What comes before the split, by row, and after it, by column; a panel per measure, its numbers in the cells."""
+    measures = [("largest eigenvalue / uncut", lambda rows: median(rows, "eigenvalue_ratio"), "{:.3g}", LogNorm(1, 1e4)),
+                ("share of cuts with AR < 3", below_three, "{:.0%}", Normalize(0, 1)),
+                ("vertices added per crossed tri.", lambda rows: median(rows, "vertices_per_crossed"), "{:.2f}",
+                 Normalize(0, 3)),
+                ("µs per crossed triangle", lambda rows: median(rows, "us_per_crossed"), "{:.2g}", LogNorm(0.3, 10))]
+    figure, axes = style.panels(2, 2, 4.4)
+    for ax, (label, measure, text, norm) in zip(axes.flat, measures):
+        cells = np.array([[measure(table[table["method"] == f"ablation:{before}:{after}"]) for after in AFTER]
+                          for before in BEFORE])
+        ax.imshow(cells, norm=norm, cmap="viridis_r" if "share" not in label else "viridis", aspect="auto", alpha=0.55)
+        for i, row in enumerate(cells):
+            for j, value in enumerate(row):
+                ax.text(j, i, text.format(value) if np.isfinite(value) else "-", ha="center", va="center", fontsize=5)
+        ax.set_title(label, pad=3)
+        ax.set_xticks(range(len(AFTER)), AFTER, fontsize=5, rotation=20)
+        ax.set_yticks(range(len(BEFORE)), BEFORE, fontsize=5)
+        ax.tick_params(length=0)
+        ax.grid(False)
+        ax.spines[:].set_visible(False)
+    style.finish(figure, [], caption)
+    style.save(figure, folder, "method_comparison_ablation")

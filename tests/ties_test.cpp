@@ -1,0 +1,290 @@
+// Tied vertices: that affine fields come through, that the cut stays open and nothing else comes apart, and that the
+// stiffness of slivers is gone.
+
+#include "harness/mesh/ties.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <map>
+
+#include "harness/fem/combination.h"
+#include "harness/fem/largest_eigenvalue.h"
+#include "harness/fem/stepper.h"
+#include "harness/run/cases.h"
+#include "tests/fem_helpers.h"
+#include "tests/helpers.h"
+#include "tests/truth_helpers.h"
+
+namespace cutbench {
+namespace {
+
+const std::vector<std::string> tying_methods{"split_and_tie", "phantom_node"};
+
+/// A sheet cut by a method of which some vertices are tied.
+struct Cut {
+  Cut(const std::string& family, int n, const std::string& name, const std::string& cuts, std::uint64_t seed,
+      std::size_t number)
+      : before(make_sheet(family, n)), table(make_sheet(family, n), find_method(name), find_method(name).knob.value) {
+    for (const Curve& curve : make_case(cuts, seed, number, before)) EXPECT_EQ(table.cut(curve, 0.05), "");
+    ties = find_method(name).make(find_method(name).knob.value)->ties(before, table.sheet);
+  }
+  const Sheet& sheet() const { return table.sheet; }
+
+  Sheet before;
+  Table table;
+  Ties ties;
+};
+
+template <class Visit>
+void for_each_cut(int n, std::size_t cases, Visit visit) {
+  for (const std::string& method : tying_methods)
+    for (const std::string family : sheet_families())
+      for (const std::string cuts : {"straight", "curved", "partial", "cut_out", "recut", "several", "self_crossing",
+                                     "tiny_loop", "u_turn", "through_vertices", "along_edges"})
+        for (std::size_t i = 0; i < scaled(cases); ++i) {
+          SCOPED_TRACE(method + ", " + family + ", " + cuts + " " + std::to_string(i));
+          visit(Cut(family, n, method, cuts, 641, i));
+        }
+}
+
+bool on_border(Point2 p) { return p.x == 0 || p.x == 1 || p.y == 0 || p.y == 1; }
+
+/// Vertices of the opened sheet that a triangle uses, and which of them are in pieces that touch the border.
+struct Pieces {
+  explicit Pieces(const Sheet& sheet) : root(sheet.deformed_slots(), -1), held(sheet.deformed_slots()) {
+    for (std::size_t t = 0; t < sheet.triangle_slots(); ++t)
+      if (sheet.triangle(TriangleIndex(t)).alive())
+        for (const DeformedIndex d : sheet.triangle(TriangleIndex(t)).deformed)
+          join(d.value, sheet.triangle(TriangleIndex(t)).deformed[0].value);
+    for (std::size_t d = 0; d < root.size(); ++d)
+      if (root[d] >= 0 && on_border(sheet.rest(sheet.rest_vertex(DeformedIndex(d))))) held[find(d)] = 1;
+  }
+  std::size_t find(std::size_t i) const {
+    while (root[i] != static_cast<int>(i)) i = static_cast<std::size_t>(root[i]);
+    return i;
+  }
+  void join(int a, int b) {
+    for (const int i : {a, b})
+      if (root[static_cast<std::size_t>(i)] < 0) root[static_cast<std::size_t>(i)] = i;
+    root[find(static_cast<std::size_t>(a))] = static_cast<int>(find(static_cast<std::size_t>(b)));
+  }
+  std::size_t count() const {
+    std::size_t roots = 0;
+    for (std::size_t i = 0; i < root.size(); ++i) roots += root[i] == static_cast<int>(i);
+    return roots;
+  }
+  std::vector<int> root;
+  std::vector<std::uint8_t> held;
+};
+
+/// The border held by an affine field, lips pulled as its stress pulls them: the field is the only answer, and comes
+/// out only if x = C q can be affine.
+TEST(Ties, PatchTest) {
+  std::size_t tied = 0;
+  for_each_cut(9, 2, [&](const Cut& cut) {
+    const Sheet& sheet = cut.sheet();
+    Model<2> model(sheet, {.stiffness = 1000, .poisson = 0.3},
+                   {.dimension = 2, .strain = Strain::linear, .bending = BendingKind::none}, {}, {});
+    const Pieces pieces(sheet);
+    Field affine = Field::Zero(static_cast<Eigen::Index>(2 * model.vertices())), given = affine, force = affine;
+    std::vector<std::uint8_t> held = model.held();
+    for (std::size_t d = 0; d < model.vertices(); ++d) {
+      if (pieces.root[d] < 0) continue;
+      const Point2 p = sheet.rest(sheet.rest_vertex(DeformedIndex(d)));
+      const auto at = static_cast<Eigen::Index>(2 * d);
+      affine.segment<2>(at) << 0.3 + 0.02 * p.x - 0.05 * p.y, -0.1 + 0.04 * p.x + 0.01 * p.y;
+      if (!on_border(p) && pieces.held[pieces.find(d)]) continue;
+      held[2 * d] = held[2 * d + 1] = 1;
+      given.segment<2>(at) = affine.segment<2>(at);
+    }
+    model.rotate(Field::Zero(affine.size()));
+    model.assemble(0, 1);
+    model.system().add_product(affine, force);
+    SystemMatrix<2> system = model.system();
+    system.held = &held;
+    TiedSystem<2> tying(cut.ties, model.vertices());
+    tying.follow(held, given);
+    system.add_product(-given, force);
+    tying.assemble(system);
+    const SystemMatrix<2> small = tying.system();
+    Field pulled, unknowns, moved;
+    tying.reduce(held, force, pulled);
+    const auto solver = make_solver<2>({.name = "cholmod"});
+    solver->setup(small);
+    EXPECT_TRUE(solver->solve(pulled, unknowns).converged);
+    tying.expand(unknowns, moved);
+    moved += given;
+    EXPECT_LE((moved - affine).cwiseAbs().maxCoeff(), 1e-8);
+    tied += cut.ties.ties.size();
+  });
+  EXPECT_GT(tied, 1000u);
+}
+
+/// Ties join what triangles do, and nothing more: the pieces of the system are those of the sheet.
+TEST(Ties, CutsStayOpen) {
+  for_each_cut(9, 3, [&](const Cut& cut) {
+    Pieces pieces(cut.sheet());
+    EXPECT_EQ(pieces.count(), count_pieces(cut.sheet()));
+    const auto first = static_cast<std::int32_t>(cut.sheet().deformed_slots());
+    pieces.root.resize(static_cast<std::size_t>(first) + cut.ties.phantoms, -1);
+    std::vector<std::uint8_t> is_tied(pieces.root.size());
+    for (const Tie& tie : cut.ties.ties) is_tied[tie.vertex()] = 1;
+    for (const Tie& tie : cut.ties.ties)
+      for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_FALSE(is_tied[tie.masters[k]()] && tie.weights[k] != 0) << "a chain";
+        if (tie.weights[k] != 0) pieces.join(tie.masters[k].value, tie.vertex.value);
+      }
+    EXPECT_EQ(pieces.count(), count_pieces(cut.sheet()));
+  });
+}
+
+/// C^T A C and C^T f against dense products, held unknowns among them.
+TEST(Ties, SystemIsTheDenseProduct) {
+  for_each_cut(4, 1, [&](const Cut& cut) {
+    const Sheet& sheet = cut.sheet();
+    Model<3> model(sheet, {.stiffness = 1000, .poisson = 0.3, .bending = 0.1},
+                   {.bending = BendingKind::patches, .mass = Mass::consistent}, {{.where = {{0, 0}, {0.3, 0.3}}}}, {});
+    model.rotate(bent(model, sheet));
+    model.assemble(1.1, 0.01);
+    Eigen::MatrixXd a = dense(model);
+    const auto n = a.rows();
+    const auto unknowns = n + 3 * static_cast<Eigen::Index>(cut.ties.phantoms);
+    Eigen::MatrixXd c = Eigen::MatrixXd::Zero(n, unknowns);
+    c.leftCols(n).setIdentity();
+    for (const Tie& tie : cut.ties.ties)
+      for (int k = 0; k < 3; ++k) {
+        const Eigen::Index row = 3 * tie.vertex.value + k;
+        c(row, row) = 0;
+        for (std::size_t l = 0; l < 3; ++l) c(row, 3 * tie.masters[l].value + k) += tie.weights[l];
+      }
+    for (Eigen::Index u = 0; u < n; ++u)
+      if (model.held()[static_cast<std::size_t>(u)]) c.row(u).setZero();
+    const Eigen::MatrixXd expected = c.transpose() * a * c;
+    TiedSystem<3> tying(cut.ties, model.vertices());
+    tying.assemble(model.system());
+    const SystemMatrix<3> small = tying.system();
+    ASSERT_EQ(static_cast<Eigen::Index>(3 * small.vertices()), unknowns);
+    const Field some = Field::Random(unknowns), force = Field::Random(n);
+    Field all = Field::Zero(unknowns), moved, pulled;
+    small.add_product(some, all);
+    EXPECT_LE((all - expected * some).norm(), 1e-11 * a.norm());  // slivers, whose entries cancel out
+    tying.expand(some, moved), tying.reduce(model.held(), force, pulled);
+    EXPECT_LE((moved - c * some).norm(), 1e-12 * moved.norm());
+    Field expected_pull = c.transpose() * force;
+    for (Eigen::Index u = 0; u < n; ++u)
+      if (model.held()[static_cast<std::size_t>(u)]) expected_pull[u] = 0;
+    EXPECT_LE((pulled - expected_pull).norm(), 1e-12 * pulled.norm());
+    for (Eigen::Index u = 0; u < unknowns; ++u)
+      EXPECT_EQ((*small.held)[static_cast<std::size_t>(u)] != 0,
+                expected(u, u) == 0 || (u < n && model.held()[static_cast<std::size_t>(u)]));
+  });
+}
+
+TEST(Ties, LargestEigenvalueIsThatOfADenseSolve) {
+  for_each_cut(4, 1, [&](const Cut& cut) {
+    const Sheet& sheet = cut.sheet();
+    Model<2> model(sheet, {.density = 1, .stiffness = 1, .poisson = 0.3},
+                   {.dimension = 2, .strain = Strain::linear, .bending = BendingKind::none}, {}, {});
+    model.rotate(Field::Zero(static_cast<Eigen::Index>(2 * model.vertices())));
+    model.assemble(0, 1);
+    const Eigen::MatrixXd k = dense(model);
+    const auto n = k.rows();
+    Eigen::MatrixXd c = Eigen::MatrixXd::Zero(n, n + 2 * static_cast<Eigen::Index>(cut.ties.phantoms));
+    c.leftCols(n).setIdentity();
+    for (const Tie& tie : cut.ties.ties)
+      for (int i = 0; i < 2; ++i) {
+        const Eigen::Index row = 2 * tie.vertex.value + i;
+        c(row, row) = 0;
+        for (std::size_t l = 0; l < 3; ++l) c(row, 2 * tie.masters[l].value + i) += tie.weights[l];
+      }
+    Eigen::VectorXd mass(n);
+    for (Eigen::Index u = 0; u < n; ++u) mass[u] = model.lumped_mass()[u / 2];
+    Eigen::MatrixXd m = c.transpose() * mass.asDiagonal() * c;
+    for (Eigen::Index u = 0; u < m.rows(); ++u)
+      if (m(u, u) == 0) m(u, u) = 1;
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solved(c.transpose() * k * c, m,
+                                                                           Eigen::EigenvaluesOnly);
+    const double expected = solved.eigenvalues().tail(1)[0];
+    EXPECT_NEAR(largest_eigenvalue(sheet, cut.ties), expected, 1e-3 * expected);
+  });
+}
+
+/// Released energy of a crack whose distance from a mesh line is half a cell to a millionth of one.
+TEST(Ties, CracksOpenAsTheyDoByTheSplitAlone) {
+  const Problem& problem = find_problem("centre_crack");
+  for (const std::string& name : tying_methods)
+    for (const std::string family : sheet_families())
+      for (std::size_t member = 0; member < 6; ++member) {
+        SCOPED_TRACE(name + ", " + family + ", member " + std::to_string(member));
+        const Specimen specimen = problem.specimen(family, 24, 641, member);
+        const Sheet before(specimen.mesh), cut = cut_by(specimen, name);
+        const Ties ties = find_method(name).make(find_method(name).knob.value)->ties(before, cut);
+        const Budget direct;
+        const Answer tied = problem.answer(specimen, cut, {&direct, 1}, ties).front();
+        const Answer split = solved(problem, specimen, cut);
+        ASSERT_EQ(tied.verdict, "ok") << tied.reason;
+        const auto energy = [](const Answer& answer) { return measure_of(answer, "released_energy"); };
+        EXPECT_LE(energy(tied).value, energy(split).value + 1e-9 * energy(split).exact) << "fewer unknowns are stiffer";
+        // Phantom nodes lose up to a triangle at each of the two tips, of a crack of twelve.
+        const double lost = name == "phantom_node" ? 0.35 : 0.1;
+        EXPECT_GE(energy(tied).value, energy(split).value - lost * energy(split).exact);
+      }
+}
+
+/// A cut sheet that is let go falls freely, shaken or not, and what is tied stays tied.
+TEST(Ties, HoldInMotion) {
+  for (const std::string& name : tying_methods)
+    for (const bool shaken : {false, true}) {
+      if (shaken && name == "phantom_node") continue;  // not every field of the vertices is one of its unknowns
+      SCOPED_TRACE(name + (shaken ? ", shaken" : ""));
+      const Sheet before(make_sheet("delaunay", 8));
+      Body<3> body(make_sheet("delaunay", 8), {.density = 1, .stiffness = 1000, .poisson = 0.3},
+                   {.bending = BendingKind::none, .gravity = {0, 0, -10}});
+      ASSERT_EQ(body.cut(line({-0.1, 0.41}, {0.6, 0.52}), name, find_method(name).knob.value), Status::ok);
+      const Ties ties = find_method(name).make(find_method(name).knob.value)->ties(before, body.sheet);
+      ASSERT_FALSE(ties.empty());
+      body.model.tie(ties);
+      if (shaken) {
+        body.state.v = 0.1 * bent(body.model, body.sheet);
+        body.model.tied()->settle(body.model.held(), body.state.v);
+      }
+      const Balance start = balance_of(body.model, body.state);
+      Stepper<3> stepper({.step = 0.01, .solver = {.name = "cholmod"}});
+      for (int i = 0; i < 5; ++i) ASSERT_EQ(stepper.step(body.model, body.state).verdict, "ok");
+      const Balance end = balance_of(body.model, body.state);
+      EXPECT_NEAR(end.momentum.z - start.momentum.z, -0.5, 1e-9);
+      EXPECT_NEAR(end.momentum.x, start.momentum.x, 1e-9);
+      if (!shaken)
+        for (Eigen::Index v = 2; v < body.state.v.size(); v += 3) {
+          const auto d = DeformedIndex(static_cast<std::size_t>(v / 3));
+          if (body.sheet.rest_vertex(d).valid()) {
+            EXPECT_NEAR(body.state.v[v], -0.5, 1e-8);
+          }
+        }
+      if (ties.phantoms == 0)
+        for (const Tie& tie : ties.ties) {
+          Eigen::Vector3d place = Eigen::Vector3d::Zero();
+          for (std::size_t k = 0; k < 3; ++k)
+            place += tie.weights[k] * body.state.x.segment<3>(3 * tie.masters[k].value);
+          EXPECT_LE((place - body.state.x.segment<3>(3 * tie.vertex.value)).norm(), 1e-10);
+        }
+    }
+}
+
+TEST(SplitAndTie, SliversAreNoStiffer) {
+  double worst_split = 0;
+  for (const std::string family : sheet_families())
+    for (const std::string cuts : {"straight", "curved", "partial", "border_inward"})
+      for (std::size_t i = 0; i < scaled(4); ++i) {
+        SCOPED_TRACE(family + ", " + cuts + " " + std::to_string(i));
+        const Cut cut(family, 16, "split_and_tie", cuts, 641, i);
+        const double whole = largest_eigenvalue(cut.before);
+        EXPECT_LE(largest_eigenvalue(cut.sheet(), cut.ties), 60 * whole);
+        worst_split = std::max(worst_split, largest_eigenvalue(cut.sheet()) / whole);
+      }
+  EXPECT_GE(worst_split, 1e4);
+}
+
+}  // namespace
+}  // namespace cutbench
