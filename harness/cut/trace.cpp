@@ -27,10 +27,11 @@ Subdivision& Tracer::trace(const Sheet& sheet, const Polyline& path, Walk& walk,
   std::size_t steps_left = 8 * (sheet.triangle_slots() + n) + 1000;
   const Place begin = from_;
   Place start;
-  const auto is_same = [](const Place& a, const Place& b) { return a.kind == b.kind && a.point == b.point; };
-  for (std::size_t i = 1; i <= last; ++i)
+  found_.clear(), note(path.points.front(), from_);
+  for (std::size_t i = 1; i <= last; ++i) {
+    const Place* before = found_before(point(i));
     for (bool arrived = false; !arrived;) {
-      const Step step = walk.advance(point(i));
+      const Step step = walk.advance(point(i), before);
       arrived = step.arrived;
       if (begun) {
         take(step, i, arrived && i == last && !loop_);
@@ -46,10 +47,12 @@ Subdivision& Tracer::trace(const Sheet& sheet, const Polyline& path, Walk& walk,
       }
       if (--steps_left == 0) throw WalkLost();
     }
+    if (!before) note(point(i), walk.place());
+  }
   flush();
   // Back at the first point, from another side, the walk may find it on another of several vertices or edges as near:
   // the path closes only where it begins there, too.
-  const bool comes_back = path.closed ? last == n : path.points.front() == path.points.back();
+  const bool comes_back = path.closed ? last == n : within(path.points.front(), path.points.back(), sheet.snap());
   if (comes_back && may_begin_elsewhere && !is_same(walk.place(), begin))
     return trace(sheet, path, walk, chord_tolerance, false);
   if (loop_) close_loop();
@@ -57,6 +60,17 @@ Subdivision& Tracer::trace(const Sheet& sheet, const Polyline& path, Walk& walk,
     if (!is_simple(f)) arrange(f);
   if (trace_.nodes.size() == 2) split_lone_piece();
   return trace_;
+}
+
+void Tracer::note(Point2 p, const Place& at) {
+  if (at.kind == Place::Kind::vertex || at.kind == Place::Kind::edge) found_.push_back({p, at});
+}
+
+/// Where the path was when it came by this point earlier; none where it didn't, or was inside a triangle.
+const Place* Tracer::found_before(Point2 p) const {
+  const auto known =
+      std::find_if(found_.begin(), found_.end(), [&](const auto& f) { return within(f.first, p, sheet_->snap()); });
+  return known == found_.end() ? nullptr : &known->second;
 }
 
 /// Does neither the border nor an open incision pass through the place?

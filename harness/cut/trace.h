@@ -68,6 +68,8 @@ class Tracer {
   bool find_chain(const Place& to, VertexIndex before, VertexIndex v);
   void flush();
 
+  void note(Point2 p, const Place& at);
+  const Place* found_before(Point2 p) const;
   bool is_free(const Place& place) const;
   void split_lone_piece();
   int common_edge(TriangleIndex t, const Place& a, const Place& b) const;
@@ -86,7 +88,8 @@ class Tracer {
 
   Subdivision trace_;
   std::vector<Link> links_;
-  std::vector<int> links_of_face_;  // per face: its first link
+  std::vector<int> links_of_face_;               // per face: its first link
+  std::vector<std::pair<Point2, Place>> found_;  // points of the path, and the edges and vertices they were found on
   const Sheet* sheet_ = nullptr;
   const Polyline* path_ = nullptr;
   double chord_tolerance_ = std::numeric_limits<double>::infinity();

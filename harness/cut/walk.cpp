@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "harness/mesh/predicates.h"
+#include "harness/mesh/star.h"
 
 namespace cutbench {
 
@@ -54,7 +55,7 @@ Step Walk::arrive_behind(HalfEdge third, Point2 target) {
 Step Walk::pass_vertex(Passage passage, VertexIndex v, Point2 target) {
   const Point2 origin = origin_;
   Step step = reach(passage, place_at(sheet_, v));
-  step.arrived = near(rest(v), target);
+  step.arrived = is_at(v, target);
   if (!step.arrived) origin_ = origin;
   return step;
 }
@@ -63,10 +64,10 @@ Step Walk::pass_vertex(Passage passage, VertexIndex v, Point2 target) {
 Step Walk::along(HalfEdge h, VertexIndex v, Point2 target) {
   const Point2 from = rest(sheet_.origin(h) == v ? sheet_.target(h) : sheet_.origin(h));
   const bool on_line = side(from, rest(v), target).sign == 0;
-  if (near(rest(v), target) || dot(target - rest(v), on_line ? rest(v) - from : target - origin_) > 0)
+  if (is_at(v, target) || dot(target - rest(v), on_line ? rest(v) - from : target - origin_) > 0)
     return pass_vertex(along_edge(h), v, target);
   for (HalfEdge entry : {h, sheet_.opposite(h)})
-    if (!sheet_.separates(h) && is_better_beyond(entry, target, 8))
+    if (!attracts(h) && is_better_beyond(entry, target, 8))
       return arrive_on(along_edge(h), sheet_.opposite(entry), target);
   return reach(along_edge(h), place_on(h, target));
 }
@@ -103,7 +104,7 @@ Step Walk::through(HalfEdge entry, double left, double right, Point2 target) {
   const Point2 w = rest(apex);
   const Side s = side(origin_, target, w);
   if (s.sign == 0) {
-    if (!near(w, target) && dot(target - w, target - origin_) < 0) return arrive(t, target);
+    if (!is_at(apex, target) && dot(target - w, target - origin_) < 0) return arrive(t, target);
     if (!is_behind(w, target)) return pass_vertex(through_face(t), apex, target);
     for (const HalfEdge exit : {to_apex, from_apex})
       if (lies_on(exit, origin_)) return leave_at_origin(exit);
@@ -164,7 +165,8 @@ Step Walk::from_edge(Place at, Point2 target) {
 }
 
 Step Walk::from_vertex(VertexIndex v, Point2 target) {
-  if (near(rest(v), target)) return reach({}, place_at(sheet_, v));
+  if (is_at(v, target)) return reach({}, place_at(sheet_, v));
+  if (within(rest(v), target, 8 * snap_)) origin_ = rest(v);  // so near, the target may lie behind the line's origin
   const HalfEdge first = sheet_.first_spoke(v);
   // Along a spoke? At a border vertex the last one has no half-edge out of v, but its triangle's edge into v. A vertex
   // that is nearly here tells nothing of the way, unless it lies on it exactly.
@@ -287,10 +289,51 @@ Step Walk::from_outside(Point2 target) {
   return {outside, place, false};
 }
 
-Step Walk::advance(Point2 target) {
-  const Step step = go_on(target);
+Step Walk::advance(Point2 target, const Place* before) {
+  before_ = before;
+  Step step = joining_.valid() ? reach(through_face(std::exchange(joining_, {})), *before) : go_on(target);
+  if (step.arrived && before && !are_together(step.place, *before)) {
+    joining_ = common_triangle(step.place, *before);
+    step.arrived = !joining_.valid();
+  }
   if (step.arrived) origin_ = target;  // not where it was snapped to, so that the way back is the way there
   return step;
+}
+
+/// On one edge, where the nodes of a path join, or at one vertex.
+bool Walk::are_together(const Place& a, const Place& b) const {
+  if (a.kind != b.kind) return false;
+  return a.kind == Place::Kind::vertex ? a.vertex == b.vertex : a.edge == b.edge || a.edge == sheet_.opposite(b.edge);
+}
+
+/// A triangle that both lie in or on; none where they have none in common.
+TriangleIndex Walk::common_triangle(const Place& a, const Place& b) const {
+  TriangleIndex found;
+  const auto look = [&](HalfEdge h) {
+    if (h.valid() && touches(triangle_of(h), b)) found = triangle_of(h);
+  };
+  switch (a.kind) {
+    case Place::Kind::face:
+      look(half_edge(a.face, 0));
+      break;
+    case Place::Kind::edge:
+      look(a.edge), look(sheet_.opposite(a.edge));
+      break;
+    case Place::Kind::vertex:
+      for_each_spoke(sheet_, a.vertex, look);
+      break;
+    case Place::Kind::outside:
+      break;
+  }
+  return found;
+}
+
+/// Whether b is a corner of t or on an edge of it.
+bool Walk::touches(TriangleIndex t, const Place& b) const {
+  const auto& corners = sheet_.triangle(t).vertex;
+  if (b.kind == Place::Kind::vertex) return std::find(corners.begin(), corners.end(), b.vertex) != corners.end();
+  const HalfEdge o = sheet_.opposite(b.edge);
+  return triangle_of(b.edge) == t || (o.valid() && triangle_of(o) == t);
 }
 
 Step Walk::go_on(Point2 target) {

@@ -25,6 +25,8 @@ struct Place {
   double lambda = 0;  ///< on an edge: fraction from the origin of `edge`
 };
 
+inline bool is_same(const Place& a, const Place& b) { return a.kind == b.kind && a.point == b.point; }
+
 inline Place place_in(TriangleIndex t, Point2 p) {
   Place place;
   place.kind = Place::Kind::face, place.face = t, place.point = p;
@@ -72,7 +74,9 @@ class Walk {
   Place locate(Point2 p);
   const Place& place() const { return at_; }
   /// The next event on the straight way to `target`. \pre the target differs from the last one arrived at.
-  Step advance(Point2 target);
+  /// \param before  the edge or vertex where the path found the target before, if it did: of several that are as near
+  /// it is that one again, if need be by a last step through a triangle. The same for all steps to the target.
+  Step advance(Point2 target, const Place* before = nullptr);
 
  private:
   struct Side {
@@ -82,6 +86,14 @@ class Walk {
   Point2 rest(VertexIndex v) const { return sheet_.rest(v); }
   Side side(Point2 a, Point2 b, Point2 p) const;
   bool near(Point2 a, Point2 b) const { return within(a, b, snap_); }
+  bool is_at(VertexIndex v, Point2 target) const {
+    return near(rest(v), target) || (before_ && before_->kind == Place::Kind::vertex && before_->vertex == v);
+  }
+  /// Of edges as near to the target the one to be on.
+  bool attracts(HalfEdge h) const {
+    return sheet_.separates(h) || (before_ && before_->kind == Place::Kind::edge &&
+                                   (before_->edge == h || before_->edge == sheet_.opposite(h)));
+  }
   bool ahead(Point2 p, Point2 target) const { return dot(p - origin_, target - origin_) > 0; }
 
   // walk.cpp: the way
@@ -97,6 +109,9 @@ class Walk {
   Step along(HalfEdge h, VertexIndex end, Point2 target);
   Step reach(Passage passage, Place place);
   bool is_behind(Point2 p, Point2 target) const;
+  bool are_together(const Place& a, const Place& b) const;
+  TriangleIndex common_triangle(const Place& a, const Place& b) const;
+  bool touches(TriangleIndex t, const Place& b) const;
 
   // walk_arrival.cpp: its end
   Step arrive(TriangleIndex t, Point2 target);
@@ -120,7 +135,9 @@ class Walk {
   HalfEdge entry_;
   double left_ = 0, right_ = 0;
   double outside_from_ = 0;  // fraction of the line at which it left the sheet
-  HalfEdge beyond_;          // that the target was found on, and the walk goes on through to a better place
+  const Place* before_ = nullptr;
+  TriangleIndex joining_;  // through which the walk goes on from where it arrived to *before_
+  HalfEdge beyond_;        // that the target was found on, and the walk goes on through to a better place
 };
 
 }  // namespace cutbench

@@ -32,11 +32,11 @@ Place Walk::place_on(HalfEdge h, Point2 p) const {
 Place Walk::classify(TriangleIndex t, Point2 p) const {
   const Triangle& triangle = sheet_.triangle(t);
   for (auto v : triangle.vertex)
-    if (near(rest(v), p)) return place_at(sheet_, v);
+    if (is_at(v, p)) return place_at(sheet_, v);
   HalfEdge on;  // in a corner so thin that two edges are that near: the border or an incision, else the second
   for (int k = 0; k < 3; ++k) {
     const HalfEdge h = half_edge(t, k);
-    if (lies_on(h, p) && (!on.valid() || !sheet_.separates(on))) on = h;
+    if (lies_on(h, p) && (!on.valid() || !attracts(on))) on = h;
   }
   return on.valid() ? place_on(on, p) : place_in(t, p);
 }
@@ -46,8 +46,8 @@ Step Walk::arrive(TriangleIndex t, Point2 target) {
   // Past the tip of a thin corner it does so, too: then the tip lies that near to the way.
   const auto is_past = [&](VertexIndex from, VertexIndex end) {
     const Point2 edge = rest(end) - rest(from);
-    return dot(target - rest(end), edge) > 2 * snap_ * std::max(std::abs(edge.x), std::abs(edge.y)) &&
-           side(rest(from), rest(end), target).sign == 0 && !(at_.kind == Place::Kind::vertex && at_.vertex == end);
+    return dot(target - rest(end), edge) > 0 && side(rest(from), rest(end), target).sign == 0 &&
+           !(at_.kind == Place::Kind::vertex && at_.vertex == end);
   };
   const auto edge = [t](int k) { return half_edge(t, k); };
   if (!lies_on(edge(0), target) && !lies_on(edge(1), target) && !lies_on(edge(2), target))
@@ -59,7 +59,7 @@ Step Walk::arrive(TriangleIndex t, Point2 target) {
   const Place place = classify(t, target);
   if (place.kind == Place::Kind::vertex && is_detour(place.vertex, target))
     return pass_vertex(through_face(t), place.vertex, target);
-  if (place.kind == Place::Kind::edge && !sheet_.separates(place.edge))
+  if (place.kind == Place::Kind::edge && !attracts(place.edge))
     for (int k = 0; k < 3; ++k)
       if (lies_on(edge(k), target) && is_better_beyond(sheet_.opposite(edge(k)), target, 8))
         return arrive_on(through_face(t), edge(k), target);
@@ -70,16 +70,16 @@ Step Walk::arrive(TriangleIndex t, Point2 target) {
 /// a nearer one beyond it, where the walk hasn't looked yet.
 bool Walk::is_detour(VertexIndex v, Point2 target) const {
   const Point2 from = at_.point - target;
-  return !near(rest(v), target) &&
+  return !is_at(v, target) &&
          !(at_.kind == Place::Kind::vertex && std::max(std::abs(from.x), std::abs(from.y)) <= 4 * snap_);
 }
 
 /// Is there a vertex or a separating edge where p lies on the other side of an edge that it lies on, too? There the
 /// slivers of earlier cuts may lie upon each other.
 bool Walk::is_better_beyond(HalfEdge entry, Point2 p, int depth) const {
-  if (near(rest(sheet_.origin(Sheet::previous(entry))), p)) return true;
+  if (is_at(sheet_.origin(Sheet::previous(entry)), p)) return true;
   for (HalfEdge h : {Sheet::next(entry), Sheet::previous(entry)})
-    if (lies_on(h, p) && (sheet_.separates(h) || (depth > 0 && is_better_beyond(sheet_.opposite(h), p, depth - 1))))
+    if (lies_on(h, p) && (attracts(h) || (depth > 0 && is_better_beyond(sheet_.opposite(h), p, depth - 1))))
       return true;
   return false;
 }
@@ -95,10 +95,10 @@ Step Walk::arrive_on(Passage passage, HalfEdge h, Point2 target) {
 
 Step Walk::arrive_beyond(HalfEdge entry, Point2 target) {
   const Passage passage = through_face(triangle_of(entry));
-  if (const VertexIndex apex = sheet_.origin(Sheet::previous(entry)); near(rest(apex), target))
+  if (const VertexIndex apex = sheet_.origin(Sheet::previous(entry)); is_at(apex, target))
     return reach(passage, place_at(sheet_, apex));
   for (HalfEdge h : {Sheet::next(entry), Sheet::previous(entry)})
-    if (lies_on(h, target) && sheet_.separates(h)) return reach(passage, place_on(h, target));
+    if (lies_on(h, target) && attracts(h)) return reach(passage, place_on(h, target));
   for (HalfEdge h : {Sheet::next(entry), Sheet::previous(entry)})
     if (lies_on(h, target) && is_better_beyond(sheet_.opposite(h), target, 8)) return arrive_on(passage, h, target);
   throw WalkLost();
