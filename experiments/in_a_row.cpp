@@ -78,6 +78,11 @@ bool cut_in_a_row(const MethodRow& row, int n, std::size_t cuts, const std::stri
     if (outcome.status == Status::ok && outcome.crossed_triangles >= 20)
       cost.push_back(outcome.time_us.total() / static_cast<double>(outcome.crossed_triangles));
   }
+  if (cost.empty()) {
+    std::printf("%-20s %7zu %6zu %10zu %10zu: no cut crossed 20 triangles or more\n", row.name.c_str(), failed, wrong,
+                crossed, sheet.triangle_count());
+    return failed == 0 && wrong == 0;
+  }
   const std::size_t sample = std::min<std::size_t>(50, cost.size());
   const double first = median({cost.data(), sample}), last = median({cost.data() + cost.size() - sample, sample});
   const auto triangles = static_cast<double>(sheet.triangle_count());

@@ -145,7 +145,7 @@ struct Cut {
 
 std::vector<Cut> cut_sheets(int n, std::size_t cases) {
   std::vector<Cut> result;
-  for (const MethodRow& row : all_methods())
+  for (const MethodRow& row : whole_sheet_methods())
     for (const std::string family : sheet_families())
       for (const std::string kind : cut_families())
         for (std::size_t i = 0; i < cases; ++i) {
@@ -478,7 +478,7 @@ TEST(Bending, ASupportedPlateBendsLikeABeam) {
 }
 
 TEST(Bending, ASlitLengthwiseCostsNothing) {
-  for (const MethodRow& row : all_methods())
+  for (const MethodRow& row : whole_sheet_methods())
     for (const std::string family : {"grid", "alternating", "delaunay"}) {
       const int n = 20;
       Sheet sheet(make_sheet(family, n));
@@ -488,13 +488,14 @@ TEST(Bending, ASlitLengthwiseCostsNothing) {
       const CutOutcome outcome = Cutter().cut(sheet, locator, {Curve::Kind::polyline, false, {{0.33, y}, {1.1, y}}},
                                               *row.make(row.knob.value), {});
       ASSERT_EQ(outcome.status, Status::ok);
-      // Where it may wander, it is not quite lengthwise.
-      EXPECT_NEAR(tip(sheet, n) / whole, 1, row.promises.exact_incision ? 1e-3 : 5e-3) << row.name << ", " << family;
+      // Where it may wander, it is not quite lengthwise; and another mesh bends otherwise by its own error.
+      const bool is_exact = row.promises.exact_incision, same_mesh = row.promises.keeps_vertices;
+      EXPECT_NEAR(tip(sheet, n) / whole, 1, !is_exact ? 5e-3 : same_mesh ? 1e-3 : 2e-2) << row.name << ", " << family;
     }
 }
 
 TEST(Bending, NothingHoldsAcrossAnIncision) {
-  for (const MethodRow& row : all_methods()) {
+  for (const MethodRow& row : whole_sheet_methods()) {
     Sheet sheet(make_sheet("delaunay", 10));
     Locator locator(sheet);
     Cutter().cut(sheet, locator, {Curve::Kind::polyline, false, {{-0.1, 0.41}, {1.1, 0.52}}}, *row.make(row.knob.value),

@@ -86,12 +86,15 @@ void run_member(const CatalogueMember& member, const Trial& trial, double chord)
 
   Table table(mesh, trial.row, trial.knob);
   const Sheet uncut = table.sheet;
+  bool whole = trial.row.promises.keeps_area;  // all of the sheet, and the method takes it
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     SCOPED_TRACE("cut " + std::to_string(i) + ": " + text_of(cuts[i]));
     const Sheet before = table.sheet;
+    const bool refuses = table.why_unsupported().has_value();
     const std::string wrong = table.cut(cuts[i], chord), status = status_of(expect, i);
+    whole &= !refuses;
     // A cut that was made elsewhere than asked for meets the next one elsewhere: there the oracle alone judges.
-    if (i > 0 && !exact) {
+    if (!whole || (i > 0 && !exact)) {
       EXPECT_EQ(wrong, "");
       continue;
     }
@@ -108,7 +111,7 @@ void run_member(const CatalogueMember& member, const Trial& trial, double chord)
       EXPECT_LE(table.incision_error, expect.value("incision_error", 2 * table.sheet.snap()));
     }
   }
-  if (exact || cuts.size() == 1) {
+  if (whole && (exact || cuts.size() == 1)) {
     EXPECT_EQ(table.pieces, expect.value("pieces", table.pieces));
   }
   if (!exact) return;

@@ -3,7 +3,7 @@
 #include <regex>
 
 #include "harness/run/record.h"
-#include "methods/registry.h"
+#include "tests/helpers.h"
 #include "tests/program.h"
 
 namespace cutbench {
@@ -30,7 +30,7 @@ TEST_F(Cli, MethodsListsEveryRow) {
 }
 
 TEST_F(Cli, CutWritesMeshAndReport) {
-  for (const auto& row : all_methods()) {
+  for (const auto& row : whole_sheet_methods()) {
     const auto result = cut("--report r.json", row.name);
     ASSERT_EQ(result.code, 0) << result.error;
     const auto report = nlohmann::json::parse(read(folder_ / "r.json"));

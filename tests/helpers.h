@@ -22,6 +22,7 @@
 #include "harness/run/random.h"
 #include "harness/run/report.h"
 #include "harness/run/same_sheet.h"
+#include "methods/registry.h"
 
 namespace cutbench {
 
@@ -118,19 +119,39 @@ inline oracle::Mesh for_oracle(const MeshData& mesh) {
 class Table : public JudgedSheet {
  public:
   Table(const MeshData& mesh, const MethodRow& row, double knob)
-      : JudgedSheet(Sheet(mesh), row.promises, row.make(knob)) {}
+      : JudgedSheet(Sheet(mesh), row.promises, row.make(knob)), may_delete_(!row.promises.keeps_area) {}
 
-  /// Cuts, and returns what is wrong with the outcome; empty: nothing.
+  /// Cuts, and returns what is wrong with the outcome; empty: nothing. A sheet that the method doesn't support must be
+  /// refused; one that takes triangles out may refuse to take all.
   std::string cut(const Curve& curve, double chord_tolerance) {
+    const bool refuses = why_unsupported().has_value();
     const Finding finding =
         JudgedSheet::cut(curve, CutOptions{.flatten_tolerance = flatten_tolerance, .chord_tolerance = chord_tolerance});
     if (!finding.ok()) return finding.verdict + ": " + finding.reason;
-    if (outcome.status == Status::ok || outcome.status == Status::noop) return {};
+    const bool done = outcome.status == Status::ok || outcome.status == Status::noop;
+    if (refuses ? outcome.status == Status::refused : done) return {};
+    if (may_delete_ && outcome.status == Status::refused) return {};
     return std::string(name_of(outcome.status)) + ", " + outcome.verdict + ": " + outcome.reason;
   }
 
   double flatten_tolerance = CutOptions().flatten_tolerance;
+
+ private:
+  bool may_delete_;
 };
+
+/// The methods that cut any sheet and leave all of it: what pieces, places and mechanics of any sheet can be asked of.
+/// Not those that refuse sheets (cisamr) or take triangles out (element_deletion).
+inline const std::vector<MethodRow>& whole_sheet_methods() {
+  static const std::vector<MethodRow> rows = [] {
+    const Sheet irregular(make_sheet("delaunay", 4));
+    std::vector<MethodRow> some;
+    for (const MethodRow& row : all_methods())
+      if (row.promises.keeps_area && !row.make(row.knob.value)->why_unsupported(irregular)) some.push_back(row);
+    return some;
+  }();
+  return rows;
+}
 
 inline std::string text_of(const Curve& curve) {
   std::string text = curve.kind == Curve::Kind::bezier ? "bezier" : "polyline";

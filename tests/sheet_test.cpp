@@ -408,6 +408,27 @@ TEST(Sheet, RemovesTriangles) {
   }
 }
 
+/// At its tips, where the two lips come apart, as well as along it.
+TEST(Sheet, RemovesAnyTriangleNearAnIncision) {
+  Sheet sheet(lifted(make_sheet("grid", 4)));
+  sheet.begin_cut();
+  open_two_edges(sheet);
+  const std::size_t pieces = count_pieces(sheet);
+  std::size_t more = 0;
+  for (std::size_t t = 0; t < sheet.triangle_slots(); ++t) {
+    sheet.begin_cut();
+    const Sheet before = sheet;
+    const TriangleIndex one[] = {TriangleIndex(t)};
+    sheet.remove(one);
+    ASSERT_EQ(faults(sheet), "") << t;
+    EXPECT_LE(count_pieces(sheet), pieces + 1);
+    more += sheet.deformed_count() > before.deformed_count();
+    sheet.rollback();
+    ASSERT_EQ(difference(before, sheet), "") << t;
+  }
+  EXPECT_GT(more, 0u) << "no lips have come apart";
+}
+
 TEST(Sheet, RemovesTrianglesBesideAnIncision) {
   Sheet sheet(lifted(make_sheet("grid", 4)));
   sheet.begin_cut();

@@ -74,7 +74,8 @@ TEST(Problems, StressAlongACutIsExactWhateverTheShapes) {
         worst_of_all = std::max(worst_of_all, worst);
         const Answer answer = solved(problem, specimen, sheet);
         // Displacements to a unit in the last place or so, over the sliver's height.
-        EXPECT_LE(measure_of(answer, "stress").error, 1e-13 * worst);
+        // A sheet meshed anew has triangles as flat elsewhere, too.
+        EXPECT_LE(measure_of(answer, "stress").error, (row.promises.keeps_vertices ? 1e-13 : 1e-12) * worst);
         EXPECT_LE(measure_of(answer, "displacement_l2").error, 1e-13 + 1e-15 * worst);
       }
   EXPECT_GT(worst_of_all, 1e5);
@@ -182,13 +183,13 @@ TEST(Problems, TruthIsThatOfTheRequestedCurve) {
 
 /// The same final geometry by one cut and by two.
 TEST(Problems, TwoCutsAreAsGoodAsOne) {
-  for (const auto& row : all_methods())
+  for (const auto& row : whole_sheet_methods())
     for (std::size_t index = 0; index < 4; ++index) {
       const Problem &one = find_problem("centre_crack"), &two = find_problem("two_cuts_one_geometry");
       const Specimen a = one.specimen("alternating", 24, 1, index), b = two.specimen("alternating", 24, 1, index);
       const Answer by_one = solved(one, a, cut_by(a, row.name)), by_two = solved(two, b, cut_by(b, row.name));
       EXPECT_NEAR(measure_of(by_two, "released_energy").value, measure_of(by_one, "released_energy").value,
-                  0.02 * measure_of(by_one, "released_energy").exact)
+                  (row.promises.keeps_vertices ? 0.02 : 0.05) * measure_of(by_one, "released_energy").exact)
           << row.name << ' ' << index;
     }
 }

@@ -63,6 +63,40 @@ TEST(WrongMethods, AHundredthOfTheIncisionIsMissed) {
     }
 }
 
+/// Takes triangles out, but not those that it should.
+class DeletesOthers final : public CuttingMethod {
+ public:
+  explicit DeletesOthers(bool too_many) : too_many_(too_many) {}
+  void embed(Sheet& sheet, Subdivision& trace) override {
+    std::vector<TriangleIndex> gone;
+    const auto add = [&](TriangleIndex t) {
+      if (std::find(gone.begin(), gone.end(), t) == gone.end()) gone.push_back(t);
+    };
+    for (const Subdivision::Face& face : trace.faces) {
+      if (face.segments < 0 || !too_many_) continue;
+      add(face.triangle);
+      for (int k = 0; k < 3; ++k)
+        if (const HalfEdge o = sheet.opposite(half_edge(face.triangle, k)); o.valid()) add(triangle_of(o));
+    }
+    sheet.remove(gone);
+    trace.along.clear();
+  }
+
+ private:
+  bool too_many_;
+};
+
+TEST(WrongMethods, DeletingNothingOrTooMuchIsNoticed) {
+  constexpr Promises deletion{.exact_incision = false, .keeps_area = false, .conforming = true};
+  const Curve path = line({-0.1, 0.43}, {1.1, 0.52});
+  for (const std::string family : sheet_families())
+    for (const bool too_many : {false, true}) {
+      JudgedSheet wrong(Sheet(make_sheet(family, 20)), deletion, std::make_unique<DeletesOthers>(too_many));
+      EXPECT_FALSE(wrong.cut(path, {}).ok()) << family << ' ' << too_many;
+      EXPECT_EQ(wrong.outcome.status, Status::ok);
+    }
+}
+
 /// Splits, and moves the vertices of the mesh near the path a little.
 class MovesVertices final : public CuttingMethod {
  public:

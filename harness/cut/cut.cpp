@@ -89,6 +89,9 @@ CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, Cutti
   } catch (const TooClose& reason) {
     sheet.rollback();
     outcome = nothing_done(Status::refused, reason.what());
+  } catch (const CutRefused& reason) {
+    sheet.rollback();
+    outcome = nothing_done(Status::refused, reason.what());
   } catch (const CutFailed& failure) {
     sheet.rollback();
     outcome = nothing_done(Status::failed, failure.what());

@@ -30,9 +30,11 @@ struct CutOptions {
 /// the locator up to date.
 struct PhaseTimes {
   double locate = 0, trace = 0, embed = 0, improve = 0, open = 0;
-  double total() const { return locate + trace + embed + improve + open; }
+  double tie = 0;  ///< CuttingMethod::ties(), which is for those who solve on the sheet to call: Cutter leaves it 0
+  double total() const { return locate + trace + embed + improve + open + tie; }
   PhaseTimes& operator+=(const PhaseTimes& o) {
     locate += o.locate, trace += o.trace, embed += o.embed, improve += o.improve, open += o.open;
+    tie += o.tie;
     return *this;
   }
 };

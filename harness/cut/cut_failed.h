@@ -13,6 +13,12 @@ struct CutFailed : std::runtime_error {
   std::string verdict;
 };
 
+/// What a method can't be asked for, as it finds while it cuts: the sheet is rolled back and the cut is refused.
+/// `why`: one line, with the mend.
+struct CutRefused : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// Points are too close together for doubles: one that was rounded fell out of its triangle, or a path became two edges
 /// that cross. The sheet is rolled back, and the path embedded in another way (embed_carefully.h) before anything
 /// fails.

@@ -5,6 +5,7 @@
 // failed; a method only changes triangles, through the sheet's editing calls, and holds no timer, counter, log or file.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -28,14 +29,19 @@ class CuttingMethod {
   /// Changes the mesh so that every segment of the trace is a chain of edges marked `path`. Sheet vertices made for the
   /// nodes are entered in them (Subdivision::Node::vertex). Pieces along edges are marked by the harness afterwards.
   /// A method that does not promise exact_incision may put another trace in its place, of the same sheet.
-  /// Throws CutFailed.
+  /// Throws CutFailed, or CutRefused.
   virtual void embed(Sheet& sheet, Subdivision& trace) = 0;
 
-  /// Improves the mesh round the embedded path, still closed. Must not flip, move or lose a marked edge.
+  /// Improves the mesh round the embedded path, still closed. May divide a marked edge; must not flip, move or lose
+  /// one.
   virtual void improve(Sheet&) {}
 
+  /// Whether ties() may give any, and of phantoms, too: to be known before a cut.
+  enum class Tying : std::uint8_t { nothing, vertices, phantoms };
+  virtual Tying tying() const { return Tying::nothing; }
   /// What is to be solved for on a sheet that this method cut, any number of times; none: every vertex of its own.
-  /// Looks at everything, and depends on the two sheets alone. \param before  the sheet that the first cut was made in
+  /// Looks at everything, and depends on the two sheets alone. \param before  the sheet that the first cut was made in,
+  /// of whose slots none has moved since (Sheet::compact would)
   virtual Ties ties(const Sheet& /*before*/, const Sheet& /*cut*/) const { return {}; }
 
   /// Path segments that embed() had to recover because its triangulation did not contain them, in the last cut.

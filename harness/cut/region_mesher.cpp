@@ -48,6 +48,10 @@ class ShapeCriteria {
     CGAL::Mesh_2::Face_badness operator()(const Mesh::Face_handle& face, Quality& quality) const {
       const std::array<Point2, 3> c{from_cgal(face->vertex(0)->point()), from_cgal(face->vertex(1)->point()),
                                     from_cgal(face->vertex(2)->point())};
+      if (!(cross(c[1] - c[0], c[2] - c[0]) > 0)) {  // for doubles: it has no circumcentre to put a vertex at
+        quality = 1;
+        return (*this)(quality);
+      }
       const double longest =
           std::sqrt(std::max({squared_length(c[1] - c[0]), squared_length(c[2] - c[1]), squared_length(c[0] - c[2])}));
       quality = std::min(limits_.max_edge / longest, limits_.max_aspect / aspect_ratio(c[0], c[1], c[2]));
@@ -68,6 +72,15 @@ class ShapeCriteria {
 
 using Mesher = CGAL::Delaunay_mesher_2<Mesh, ShapeCriteria>;
 
+/// Inside the region or outside: beside it, too, a vertex has one deformed vertex per side.
+bool is_on_incision(const Sheet& sheet, VertexIndex v) {
+  bool found = false;
+  for_each_spoke(sheet, v, [&](HalfEdge h) {
+    found |= sheet.mark(h) == EdgeMark::incision || sheet.mark(Sheet::previous(h)) == EdgeMark::incision;
+  });
+  return found;
+}
+
 }  // namespace
 
 struct RegionMesher::Work {
@@ -84,6 +97,7 @@ struct RegionMesher::Work {
   TriangleIndex find(const Sheet& sheet, const Vertex& from, const Vertex& vertex);
   bool locate_inner(const Sheet& sheet);
   bool collect_triangles(const Sheet& sheet);
+  bool put_back(Sheet& sheet);
   HalfEdge edge_under(const Sheet& sheet, const Vertex& a, const Vertex& b) const;
   int parent_of(const Sheet& sheet, const Mesh::Face_handle& face) const;
 
@@ -93,7 +107,7 @@ struct RegionMesher::Work {
   std::vector<VertexIndex> points;
   std::vector<std::pair<VertexIndex, DeformedIndex>> left_out;
   std::vector<std::uint8_t> use;  // per vertex: left out, used, on an incision
-  std::vector<Vertex> handle_of;  // per vertex of the sheet; unset ones are stale
+  std::vector<Vertex> handle_of;  // per vertex of the sheet; unset where it isn't in the mesh
   Mesh mesh;
   std::vector<Chain> chains;
   std::vector<Vertex> inner;          // new vertices on no constraint
@@ -120,10 +134,8 @@ void RegionMesher::convert(const Sheet& sheet, std::span<const TriangleIndex> re
     for (int k = 0; k < 3; ++k) {
       const HalfEdge h = half_edge(t, k), o = sheet.opposite(h);
       if (o.valid() && w.in_region(o) && sheet.mark(h) == EdgeMark::none) continue;
-      for (const VertexIndex v : {sheet.origin(h), sheet.target(h)}) {
-        std::uint8_t& use = w.use[v()];
-        use = std::max<std::uint8_t>(use, sheet.mark(h) == EdgeMark::incision ? 2 : 1);
-      }
+      for (const VertexIndex v : {sheet.origin(h), sheet.target(h)})
+        if (w.use[v()] == 0) w.use[v()] = is_on_incision(sheet, v) ? 2 : 1;
       if (!o.valid() || !w.in_region(o) || h < o) w.constraints.push_back(h);
     }
   std::vector<std::uint8_t> met(sheet.vertex_slots());
@@ -141,7 +153,7 @@ void RegionMesher::convert(const Sheet& sheet, std::span<const TriangleIndex> re
 bool RegionMesher::insert(const Sheet& sheet) {
   Work& w = *work_;
   w.mesh.clear();
-  w.handle_of.resize(std::max(w.handle_of.size(), sheet.vertex_slots()));
+  w.handle_of.assign(sheet.vertex_slots(), Vertex());
   Mesh::Face_handle hint;
   for (const VertexIndex v : w.points) {
     const Vertex handle = w.mesh.insert(to_cgal(sheet.rest(v)), hint);
@@ -152,8 +164,7 @@ bool RegionMesher::insert(const Sheet& sheet) {
   }
   for (const TriangleIndex t : w.region)
     for (const VertexIndex v : sheet.triangle(t).vertex)
-      if (const auto& handle = w.handle_of[v()]; handle != Vertex() && handle->info().vertex == v)
-        handle->info().triangle = t;
+      if (const auto& handle = w.handle_of[v()]; handle != Vertex()) handle->info().triangle = t;
   for (const HalfEdge h : w.constraints)
     w.mesh.insert_constraint(w.handle_of[sheet.origin(h)()], w.handle_of[sheet.target(h)()]);
   return w.mesh.number_of_vertices() == w.points.size();
@@ -353,20 +364,25 @@ bool RegionMesher::Work::collect_triangles(const Sheet& sheet) {
 }
 
 bool RegionMesher::put_back(Sheet& sheet) {
-  Work& w = *work_;
-  if (!w.locate_inner(sheet) || !w.collect_triangles(sheet)) return false;
-  for (const auto& chain : w.chains) {
+  const bool done = work_->put_back(sheet);
+  work_->mesh.clear(), work_->chains.clear();  // else as much memory as the largest region took
+  return done;
+}
+
+bool RegionMesher::Work::put_back(Sheet& sheet) {
+  if (!locate_inner(sheet) || !collect_triangles(sheet)) return false;
+  for (const auto& chain : chains) {
     const Point2 a = sheet.rest(sheet.origin(chain.edge)), along = sheet.rest(sheet.target(chain.edge)) - a;
     for (const Vertex& v : chain.vertices) {
       const Point2 p = from_cgal(v->point());
       v->info().vertex = sheet.new_vertex(chain.edge, dot(p - a, along) / squared_length(along), p);
     }
   }
-  for (const Vertex& v : w.inner) v->info().vertex = sheet.new_vertex(v->info().triangle, from_cgal(v->point()));
-  for (std::size_t i = 0; i < w.faces.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) w.added[i].vertex[k] = w.faces[i]->vertex(static_cast<int>(k))->info().vertex;
-  sheet.replace_cavity(w.region, w.added);
-  for (const auto& [v, d] : w.left_out) sheet.drop_vertex(v, d);
+  for (const Vertex& v : inner) v->info().vertex = sheet.new_vertex(v->info().triangle, from_cgal(v->point()));
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) added[i].vertex[k] = faces[i]->vertex(static_cast<int>(k))->info().vertex;
+  sheet.replace_cavity(region, added);
+  for (const auto& [v, d] : left_out) sheet.drop_vertex(v, d);
   return true;
 }
 

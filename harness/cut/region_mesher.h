@@ -12,7 +12,8 @@
 
 namespace cutbench {
 
-/// Keeps its working storage from one use to the next. The three steps are called one after the other.
+/// Keeps its working storage from one use to the next. The four steps are called one after the other, refine() also
+/// where it is to add nothing. Each costs the sheet's size, for tables per vertex and triangle.
 class RegionMesher {
  public:
   RegionMesher();
@@ -22,14 +23,15 @@ class RegionMesher {
     double max_aspect = 3;                                      ///< a triangle beyond it is divided
     double max_edge = std::numeric_limits<double>::infinity();  ///< and one with a longer edge, rest units
     double min_edge = 0;                                        ///< but none whose edges are all shorter
-    std::size_t most_vertices = 0;                              ///< made; then it stops where it is
+    std::size_t most_vertices = 0;                              ///< made; then it stops where it is; 0 refines nothing
     const ForcedWedges* wedges = nullptr;                       ///< triangles there are left alone
   };
 
   /// 1. Reads the triangles of the region: constraints, and vertices, of which those on no constraint and not held
   /// (Sheet::hold) may be left out.
   void convert(const Sheet& sheet, std::span<const TriangleIndex> region, bool with_inner_vertices);
-  /// 2. The constrained Delaunay triangulation of what was read. False: too close together for doubles.
+  /// 2. The constrained Delaunay triangulation of what was read. False: too close together for doubles,
+  /// or two vertices at one place; then there is nothing to go on with.
   bool insert(const Sheet& sheet);
   /// 3. CGAL's Delaunay_mesher_2, until no triangle asks for more. False where it met the limit of vertices, or doubles
   /// were too coarse.

@@ -16,8 +16,7 @@ double length(Point2 edge) { return std::sqrt(squared_length(edge)); }
 /// The ties of one cut sheet.
 class Tying {
  public:
-  Tying(const Sheet& before, const Sheet& cut, double thinness)
-      : sheet_(cut), thinness_(thinness), old_vertices_(before.vertex_slots()) {
+  Tying(const Sheet& before, const Sheet& cut, double thinness) : sheet_(cut), thinness_(thinness), before_(before) {
     measure();
     collect();
   }
@@ -47,7 +46,7 @@ class Tying {
     double altitude;  ///< the smallest, over L of its triangle
   };
 
-  bool is_new(VertexIndex v) const { return v() >= old_vertices_; }
+  bool is_new(VertexIndex v) const { return sheet_.is_newer(v, before_); }
   const Triangle& triangle(TriangleIndex t) const { return sheet_.triangle(t); }
 
   static double twice_area(const std::array<Point2, 3>& c) { return cross(c[1] - c[0], c[2] - c[0]); }
@@ -250,7 +249,7 @@ class Tying {
 
   const Sheet& sheet_;
   double thinness_;
-  std::size_t old_vertices_;
+  const Sheet& before_;
   std::vector<double> longest_;                     // per vertex: edge of the triangles round it
   std::vector<Corner> corners_;                     // by vertex
   std::vector<New> new_;                            // in the order in which they are made free

@@ -1,6 +1,7 @@
 #include "harness/fem/combination.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "harness/fem/linear_solver.h"
 
@@ -136,6 +137,19 @@ void TiedSystem<D>::follow(std::int32_t tied, const std::vector<std::uint8_t>& h
 template <int D>
 void TiedSystem<D>::follow(const std::vector<std::uint8_t>& held, Field& x) const {
   for (const std::int32_t v : combination_.tied()) follow(v, held, x);
+}
+
+template <int D>
+void TiedSystem<D>::hand_on(const std::vector<std::uint8_t>& held, Field& f) const {
+  for (const std::int32_t v : combination_.tied()) {
+    const auto& row = combination_.row(static_cast<std::size_t>(v));
+    for (std::int32_t k = 0; k < D; ++k) {
+      if (held[static_cast<std::size_t>(D * v + k)]) continue;
+      const double force = std::exchange(f[D * v + k], 0);
+      for (std::size_t l = 0; l < row.size; ++l)
+        if (!combination_.is_phantom(row.unknown[l])) f[D * row.unknown[l] + k] += row.weight[l] * force;
+    }
+  }
 }
 
 template <int D>

@@ -54,6 +54,9 @@ class TiedSystem {
   void expand(const Field& q, Field& x) const;
   /// Tied vertices of x go where their masters are, but for phantoms, which add nothing, and on axes that are held.
   void follow(const std::vector<std::uint8_t>& held, Field& x) const;
+  /// Forces at tied vertices go to their masters, as in C^T f, but for phantoms' shares; on axes that are held they
+  /// stay.
+  void hand_on(const std::vector<std::uint8_t>& held, Field& f) const;
   /// Those all of whose masters are vertices: what brings a state to where it satisfies the ties.
   void settle(const std::vector<std::uint8_t>& held, Field& x) const;
 

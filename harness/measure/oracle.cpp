@@ -215,7 +215,8 @@ class Judge {
   }
 
   void check_deletion() {
-    const Deletion found = judge_deletion(request_.before, after_, requested_path(), allowed_error());
+    const double near = std::min(request_.tolerance, input_.lengths.longest) + slack();
+    const Deletion found = judge_deletion(request_.before, after_, requested_path(), near);
     for (int t : found.invented) problems_.add("deletion", name(after_, t) + " is none of the sheet before");
     for (int t : found.unasked) problems_.add("deletion", name(request_.before, t) + " is gone, and not on the path");
     for (int t : found.left) problems_.add("deletion", name(after_, t) + " is on the path, and still there");

@@ -92,7 +92,7 @@ Sheet::Sheet(const MeshData& data) {
     if (representative == d) rest_.push_back(data.rest[d]);
     vertex_of_deformed_[d] = representative == d ? VertexIndex(rest_.size() - 1) : vertex_of_deformed_[representative];
   }
-  triangle_of_vertex_.resize(rest_.size());
+  triangle_of_vertex_.resize(rest_.size()), born_in_.resize(rest_.size());
   for (std::size_t t = 0; t < n; ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       triangles_[t].vertex[k] = vertex_of_deformed_[triangles_[t].deformed[k]()];
@@ -161,7 +161,7 @@ Sheet::Compaction Sheet::compact() {
   keep(triangles_, map.triangles);
   held_.resize(rest_.size());
   keep(held_, map.vertices);
-  keep(rest_, map.vertices), keep(triangle_of_vertex_, map.vertices);
+  keep(rest_, map.vertices), keep(triangle_of_vertex_, map.vertices), keep(born_in_, map.vertices);
   keep(position_, map.deformed), keep(vertex_of_deformed_, map.deformed);
   for (Triangle& t : triangles_)
     for (std::size_t k = 0; k < 3; ++k) {

@@ -58,6 +58,10 @@ void Locator::add_border(const Sheet& sheet, HalfEdge h) {
 void Locator::update(const Sheet& sheet) {
   // A cell's triangle needs no update: the first child of a triangle keeps its slot, so what is there is still near.
   // Nor does a border edge that stayed the same half-edge; entries of others remain, as few as border edges ever made.
+  if (2 * sheet.log().touched.size() > sheet.triangle_count()) {  // a new one costs no more, and forgets old entries
+    *this = Locator(sheet);
+    return;
+  }
   const bool in_place = sheet.log().moved.empty();
   const auto add = [&](TriangleIndex t, const Triangle& before) {
     const Triangle& triangle = sheet.triangle(t);

@@ -6,20 +6,24 @@
 
 namespace cutbench {
 
-/// Each fan of what is left at v gets a vertex of its own, the first one v itself. \param spokes  all that v had,
-/// counter-clockwise
+/// Each fan of what is left at v gets a vertex of its own, the first one v itself; each side of an incision that ends
+/// in the fan gets deformed vertices of its own. \param spokes  all that v had, counter-clockwise
 void Sheet::mend_vertex(VertexIndex v, std::span<const HalfEdge> spokes) {
   const auto stays = [&](HalfEdge h) { return triangle(triangle_of(h)).alive(); };
   const auto known = [&](HalfEdge h) { return triangle(triangle_of(h)).deformed[corner(h)]; };
-  std::vector<DeformedIndex> unused;
+  const auto holds = [](const std::vector<DeformedIndex>& all, DeformedIndex d) {
+    return std::find(all.begin(), all.end(), d) != all.end();
+  };
+  std::vector<DeformedIndex> originals;
   for (const HalfEdge h : spokes)
-    if (std::find(unused.begin(), unused.end(), known(h)) == unused.end()) unused.push_back(known(h));
+    if (!holds(originals, known(h))) originals.push_back(known(h));
 
   // Round an inner vertex a fan may go on past the last spoke: begin behind a triangle that is gone.
   const auto gone = std::find_if_not(spokes.begin(), spokes.end(), stays);
   const auto begin = static_cast<std::size_t>(gone - spokes.begin());
   VertexIndex mine;                                             // of the fan under way
-  std::vector<std::pair<DeformedIndex, DeformedIndex>> copies;  // its deformed vertices, where v has the originals
+  std::vector<DeformedIndex> taken, kept;                       // originals: by earlier sides, by the one under way
+  std::vector<std::pair<DeformedIndex, DeformedIndex>> copies;  // of this side, where it can't have the originals
   bool has_fan = false;
   for (std::size_t i = 0; i < spokes.size(); ++i) {
     const HalfEdge h = spokes[(begin + i) % spokes.size()];
@@ -28,11 +32,14 @@ void Sheet::mend_vertex(VertexIndex v, std::span<const HalfEdge> spokes) {
     if (on_border(h)) {  // a fan begins
       mine = std::exchange(has_fan, true) ? new_rest_vertex(rest(v)) : v;
       triangle_of_vertex_[mine()] = triangle_of(h);
-      copies.clear();
+    }
+    if (on_border(h) || mark(h) == EdgeMark::incision) {  // a side
+      taken.insert(taken.end(), kept.begin(), kept.end());
+      kept.clear(), copies.clear();
     }
     const DeformedIndex d = known(h);
-    if (mine == v) {
-      std::erase(unused, d);
+    if (mine == v && !holds(taken, d)) {
+      kept.push_back(d);
       continue;
     }
     auto copy = std::find_if(copies.begin(), copies.end(), [&](const auto& c) { return c.first == d; });
@@ -40,8 +47,10 @@ void Sheet::mend_vertex(VertexIndex v, std::span<const HalfEdge> spokes) {
     touch(triangle_of(h));
     t.vertex[corner(h)] = mine, t.deformed[corner(h)] = copy->second;
   }
+  taken.insert(taken.end(), kept.begin(), kept.end());
   if (!has_fan) free_vertex(v);
-  for (const DeformedIndex d : unused) free_deformed(d);
+  for (const DeformedIndex d : originals)
+    if (!holds(taken, d)) free_deformed(d);
 }
 
 void Sheet::remove(std::span<const TriangleIndex> removed) {

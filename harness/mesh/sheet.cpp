@@ -48,7 +48,7 @@ void Sheet::begin_cut() {
   log_.vertices_before = rest_.size();
   log_.deformed_before = position_.size();
   if (work_.touched_in.size() < triangles_.size()) work_.touched_in.resize(triangles_.size());
-  ++work_.epoch;
+  ++work_.epoch, ++cuts_begun_;
 }
 
 void Sheet::touch(TriangleIndex t) {
@@ -90,6 +90,7 @@ void Sheet::rollback() {
   }
   triangles_.resize(log_.triangles_before);
   rest_.resize(log_.vertices_before), triangle_of_vertex_.resize(log_.vertices_before);
+  born_in_.resize(log_.vertices_before);
   position_.resize(log_.deformed_before), vertex_of_deformed_.resize(log_.deformed_before);
   freed_triangles_.clear(), freed_vertices_.clear(), freed_deformed_.clear(), vertex_of_freed_.clear();
   work_.pending.clear();
@@ -113,12 +114,13 @@ TriangleIndex Sheet::new_triangle() {
 VertexIndex Sheet::new_rest_vertex(Point2 p) {
   VertexIndex v(rest_.size());
   if (free_vertices_.empty()) {
-    rest_.push_back(p), triangle_of_vertex_.emplace_back();
+    rest_.push_back(p), triangle_of_vertex_.emplace_back(), born_in_.emplace_back();
   } else {
     v = free_vertices_.back();
     free_vertices_.pop_back();
     rest_[v()] = p;
   }
+  born_in_[v()] = cuts_begun_;
   log_.new_vertices.push_back(v);
   if (v() >= work_.pending_of.size()) work_.pending_of.resize(std::max(rest_.capacity(), v() + 1));
   work_.pending_of[v()] = static_cast<std::uint32_t>(work_.pending.size());
@@ -147,7 +149,7 @@ DeformedIndex Sheet::copy_deformed(DeformedIndex d) { return new_deformed(rest_v
 
 void Sheet::reserve(std::size_t triangles, std::size_t vertices, std::size_t deformed) {
   triangles_.reserve(triangles);
-  rest_.reserve(vertices), triangle_of_vertex_.reserve(vertices);
+  rest_.reserve(vertices), triangle_of_vertex_.reserve(vertices), born_in_.reserve(vertices);
   position_.reserve(deformed), vertex_of_deformed_.reserve(deformed);
 }
 

@@ -41,6 +41,8 @@ class Sheet {
   VertexIndex rest_vertex(DeformedIndex d) const { return vertex_of_deformed_[d()]; }
   /// Some triangle at v; invalid where v was freed.
   TriangleIndex triangle_of_vertex(VertexIndex v) const { return triangle_of_vertex_[v()]; }
+  /// v is not there in `earlier`, of which this sheet is a copy that was cut: its slot may be one used before.
+  bool is_newer(VertexIndex v, const Sheet& earlier) const { return born_in_[v()] > earlier.cuts_begun_; }
   std::array<Point2, 3> corners(TriangleIndex t) const;
 
   VertexIndex origin(HalfEdge h) const { return triangle(triangle_of(h)).vertex[corner(h)]; }
@@ -155,6 +157,7 @@ class Sheet {
   std::vector<Triangle> triangles_;
   std::vector<Point2> rest_;
   std::vector<TriangleIndex> triangle_of_vertex_;
+  std::vector<std::uint32_t> born_in_;  // per vertex: the number of the cut that made it, 0: none
   std::vector<Point3> position_;
   std::vector<VertexIndex> vertex_of_deformed_;
   std::vector<std::uint8_t> held_;  // per vertex, as far as any is held
@@ -164,6 +167,7 @@ class Sheet {
   std::vector<DeformedIndex> free_deformed_, freed_deformed_;
   std::vector<VertexIndex> vertex_of_freed_;  // that freed_deformed_[i] belonged to
   double mean_edge_ = 0, size_ = 0, snap_ = 0;
+  std::uint32_t cuts_begun_ = 0;  // never fewer, not by rollback() either
   EditLog log_;
 
   /// Working storage, kept between calls so that they don't allocate. No part of the value: copies start without.

@@ -198,18 +198,12 @@ class AccuracyRun {
       set_assessment(row, a, base);
       solvable = a.judgement.ok;
     }
-    Ties ties;
-    if (solvable) {
-      const auto tying = Clock::now();
-      ties = worker.method->ties(base.sheet, worker.sheet);
-      row.set("cut_us", cut.time_us.total() + us_since(tying));
-      if (!ties.empty() && !problem.takes_ties()) {
-        row.set("status", std::string(name_of(Status::refused)));
-        row.set("reason", std::string("vertices are tied, and the problem bends"));
-        solvable = false;
-      }
+    if (solvable && !worker.ties.empty() && !problem.takes_ties()) {
+      row.set("status", std::string(name_of(Status::refused)));
+      row.set("reason", std::string("vertices are tied, and the problem bends"));
+      solvable = false;
     }
-    answer(problem, specimen, solvable ? &worker.sheet : nullptr, ties, row, yardstick);
+    answer(problem, specimen, solvable ? &worker.sheet : nullptr, worker.ties, row, yardstick);
     minutes_[AccuracySummary::label(row.get("method"), row.get("knob"))] += us_since(start) / 60e6;
   }
 

@@ -234,6 +234,10 @@ class SceneInMotion : public InMotion {
                 const CutOptions& options) {
     MotionCut result;
     result.parts = 1;
+    if (const std::string reason = why_not(method.tying()); !reason.empty()) {
+      result.cut.status = Status::refused, result.cut.reason = result.reason = reason;
+      return result;
+    }
     for (const Curve& curve : cuts) {
       const CutRun run = cut_all(now.sheet, now.locator, cutter, {&curve, 1}, method, options);
       result.cut.status = run.status, result.cut.verdict = run.verdict, result.cut.reason = run.reason;
@@ -249,26 +253,25 @@ class SceneInMotion : public InMotion {
       result.pattern_us += watch.lap();
       now.model.update_bending(now.sheet);
       result.bending_us += watch.lap();
-      const std::string why_not = tie(now, method.ties(before_cuts_, now.sheet));
+      if (method.tying() == CuttingMethod::Tying::nothing) continue;
+      const Ties ties = method.ties(before_cuts_, now.sheet);
+      result.cut.time_us.tie += watch.lap();
+      if (ties.empty()) continue;
+      now.model.tie(ties);
+      now.model.tied()->settle(now.model.held(), now.state.x);  // to where it satisfies the ties, too
+      now.model.tied()->settle(now.model.held(), now.state.v);
       result.pattern_us += watch.lap();
-      if (!why_not.empty()) {
-        result.verdict = "unsupported", result.reason = why_not;
-        return result;
-      }
     }
     return result;
   }
 
-  /// Brings the state to where it satisfies the ties, too. Returns why that can't be, empty where it can.
-  std::string tie(Now& now, const Ties& ties) const {
-    if (ties.empty()) return {};
+  /// A method can't be used in this scene for what it ties; empty: it can.
+  std::string why_not(CuttingMethod::Tying tying) const {
+    if (tying == CuttingMethod::Tying::nothing) return {};
     if (scene_.integrator == Integrator::symplectic_euler)
       return "the method ties vertices to others, which symplectic_euler does not take; choose an implicit integrator";
-    if (ties.phantoms > 0 && scene_.physics.bending != BendingKind::none)
+    if (tying == CuttingMethod::Tying::phantoms && scene_.physics.bending != BendingKind::none)
       return "the method's phantom nodes do not bend; set bending to none";
-    now.model.tie(ties);
-    now.model.tied()->settle(now.model.held(), now.state.x);
-    now.model.tied()->settle(now.model.held(), now.state.v);
     return {};
   }
 

@@ -11,7 +11,7 @@
 
 namespace cutbench {
 
-/// Passes everything on to a method, and notes which of the two steps made vertices.
+/// Passes everything that a cut asks for on to a method, and notes which of the two steps made vertices.
 class Watched : public CuttingMethod {
  public:
   explicit Watched(std::unique_ptr<CuttingMethod> method) : method_(std::move(method)) {}
@@ -50,6 +50,9 @@ class JudgedSheet {
   /// bit-unchanged, and a noop must be justified; after ok it must pass check() and the oracle, and after deviated all
   /// of it but the number of pieces.
   Finding cut(const Curve& curve, const CutOptions& options);
+
+  /// Why the method refuses the sheet as it is; empty: it doesn't.
+  std::optional<std::string> why_unsupported() const { return method_.why_unsupported(sheet); }
 
   std::size_t embedded_vertices() const { return method_.embedded_vertices; }
 

@@ -78,6 +78,7 @@ const std::vector<std::string>& column_names() {
                                               "embed_us",
                                               "improve_us",
                                               "open_us",
+                                              "tie_us",
                                               "geometry_us",
                                               "cpu_us",
                                               "transfer_us",

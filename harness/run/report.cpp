@@ -21,12 +21,6 @@ std::vector<oracle::Curve> for_oracle(std::span<const Curve> cuts) {
   return curves;
 }
 
-/// The triangle in slot t is not the one that was there before.
-bool was_changed(const Sheet& before, const Sheet& after, TriangleIndex t) {
-  if (t() >= before.triangle_slots() || !before.triangle(t).alive()) return true;
-  return before.corners(t) != after.corners(t);
-}
-
 using Corners = std::array<oracle::Point, 3>;
 
 Corners corners_of(const oracle::Mesh& mesh, std::size_t t) {
@@ -133,7 +127,7 @@ CutRun cut_all(Sheet& sheet, Locator& locator, Cutter& cutter, std::span<const C
   return run;
 }
 
-oracle::Mesh for_oracle(const Sheet& sheet, std::vector<TriangleIndex>* slots) {
+oracle::Mesh for_oracle(const Sheet& sheet) {
   oracle::Mesh mesh;
   std::vector<int> number(sheet.deformed_slots(), -1);
   for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) {
@@ -147,7 +141,6 @@ oracle::Mesh for_oracle(const Sheet& sheet, std::vector<TriangleIndex>* slots) {
     if (!triangle.alive()) continue;
     mesh.triangles.push_back(
         {number[triangle.deformed[0]()], number[triangle.deformed[1]()], number[triangle.deformed[2]()]});
-    if (slots) slots->emplace_back(t);
   }
   return mesh;
 }
@@ -186,13 +179,10 @@ Assessment assess(const Sheet& before, const Sheet& after, std::span<const Curve
                   std::span<const oracle::ForcedCorner> forced, const Promises& promises, const CutOptions& options) {
   const double h = before.mean_edge();
   Assessment result;
-  std::vector<TriangleIndex> slots;
-  const oracle::Mesh mesh = for_oracle(after, &slots);
-  result.judgement = oracle::judge(request_for(before, cuts, promises, options, true), mesh);
-
-  std::vector<char> changed;
-  for (TriangleIndex t : slots) changed.push_back(was_changed(before, after, t));
-  measure(result, mesh, changed, forced, h);
+  const oracle::Mesh mesh = for_oracle(after);
+  const oracle::Request request = request_for(before, cuts, promises, options, true);
+  result.judgement = oracle::judge(request, mesh);
+  measure(result, mesh, changed_triangles(request.before, mesh), forced, h);
   result.vertices_added = difference(after.vertex_count(), before.vertex_count());
   result.deformed_vertices_added = difference(after.deformed_count(), before.deformed_count());
   result.triangles_added = difference(after.triangle_count(), before.triangle_count());

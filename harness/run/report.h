@@ -26,8 +26,7 @@ CutRun cut_all(Sheet& sheet, Locator& locator, Cutter& cutter, std::span<const C
                const CutOptions& options);
 
 // The oracle knows none of our types.
-/// \param slots  gets the slot of each triangle
-oracle::Mesh for_oracle(const Sheet& sheet, std::vector<TriangleIndex>* slots = nullptr);
+oracle::Mesh for_oracle(const Sheet& sheet);
 oracle::Curve for_oracle(const Curve& cut);
 
 /// What the oracle is to hold a cut to, or several made one after the other.

@@ -42,8 +42,8 @@ WholeFile report_file(const std::filesystem::path& file, const std::string& meth
   document["embedded_carefully"] = run.carefully;
   add_shapes(document, a);
   document["incision_error"] = a.judgement.incision_error;
-  document["time_us"] = {{"pick", pick_us},  {"locate", t.locate},   {"trace", t.trace},
-                         {"embed", t.embed}, {"improve", t.improve}, {"open", t.open}};
+  document["time_us"] = {{"pick", pick_us},      {"locate", t.locate}, {"trace", t.trace}, {"embed", t.embed},
+                         {"improve", t.improve}, {"open", t.open},     {"tie", t.tie}};
   document["area_change"] = a.judgement.area_change;
   return {file, document.dump(2) + "\n"};
 }

@@ -187,6 +187,7 @@ class Runner {
 
   void summarize(int resolution, const Variant& variant, Summary::Cut cut, const CutRun& run) {
     cut.geometry_us = run.time_us.total(), cut.crossed_triangles = static_cast<double>(run.crossed_triangles);
+    if (run.status == Status::refused) return;  // in no time
     cut.ok = cut.ok && run.verdict == "ok";
     summary_.add(resolution, variant.row->name, variant.knob_text(), cut);
   }
@@ -233,7 +234,8 @@ class Runner {
     row.set("crossed_triangles", static_cast<std::int64_t>(run.crossed_triangles));
     const PhaseTimes& t = run.time_us;
     row.set("locate_us", t.locate), row.set("trace_us", t.trace), row.set("embed_us", t.embed);
-    row.set("improve_us", t.improve), row.set("open_us", t.open), row.set("geometry_us", t.total());
+    row.set("improve_us", t.improve), row.set("open_us", t.open);
+    row.set("tie_us", t.tie), row.set("geometry_us", t.total());
     row.set("cpu_us", run.cpu_us);
   }
 

@@ -1,5 +1,6 @@
 #include "harness/run/worker.h"
 
+#include "harness/measure/stop_watch.h"
 #include "harness/run/chill_caches.h"
 
 namespace cutbench {
@@ -25,7 +26,15 @@ CutRun Worker::measure(const BaseSheet& base, const std::vector<Curve>& cuts, co
   for (int i = 0; i < (cold ? 1 : 2); ++i) cut(base, cuts, options);
   restore(base, cuts);
   if (cold) chill_caches();
-  return cut_all(sheet, locator_, cutter, cuts, *method, options);
+  CutRun run = cut_all(sheet, locator_, cutter, cuts, *method, options);
+  const bool made = run.status == Status::ok || run.status == Status::deviated;
+  ties = {};
+  if (made && method->tying() != CuttingMethod::Tying::nothing) {
+    StopWatch watch;
+    ties = method->ties(base.sheet, sheet);
+    run.time_us.tie = watch.lap();
+  }
+  return run;
 }
 
 }  // namespace cutbench

@@ -25,13 +25,14 @@ class Worker {
   /// Cuts the base sheet.
   CutRun cut(const BaseSheet& base, const std::vector<Curve>& cuts, const CutOptions& options);
   /// Cold: right after other work has driven everything out of the caches. Warm: the same cut, made and undone twice
-  /// just before.
+  /// just before. What the method ties is part of the price.
   CutRun measure(const BaseSheet& base, const std::vector<Curve>& cuts, const CutOptions& options, bool cold);
 
   Variant variant;
   std::unique_ptr<CuttingMethod> method;
   Cutter cutter;
   Sheet sheet;  ///< what the last cut made of the base sheet
+  Ties ties;    ///< of it; after measure()
 
  private:
   /// Makes the sheet the base sheet again: by undoing a single cut, so that the caches stay as they are.

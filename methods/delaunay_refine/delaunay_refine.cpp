@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "harness/mesh/predicates.h"
 #include "harness/mesh/quality.h"
@@ -86,7 +87,9 @@ Point2 DelaunayRefine::off_centre(const Sheet& sheet, TriangleIndex t) const {
   const Point2 middle = 0.5 * (a + b), edge = b - a, apex = sheet.rest(sheet.origin(Sheet::previous(base))) - middle;
   const double length = std::sqrt(squared_length(edge));
   const Point2 up{-edge.y / length, edge.x / length};
-  const double circumcentre = (squared_length(apex) - 0.25 * length * length) / (2 * dot(apex, up));
+  const double height = dot(apex, up);  // rounded: of a needle it may come out as zero or less
+  const double circumcentre = height > 0 ? (squared_length(apex) - 0.25 * length * length) / (2 * height)
+                                         : std::numeric_limits<double>::infinity();
   // An isosceles triangle of base 1 and height x has the aspect ratio x + 1 / (4 x); some of the bound is left over for
   // rounding and for what comes to lie beside it.
   const double aspect = 0.95 * options_.bound;

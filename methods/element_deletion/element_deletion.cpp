@@ -8,7 +8,8 @@ void ElementDeletion::embed(Sheet& sheet, Subdivision& trace) {
   crossed_.clear();
   for (const Subdivision::Face& face : trace.faces)
     if (face.segments >= 0) crossed_.push_back(face.triangle);
-  if (crossed_.size() == sheet.triangle_count()) throw CutFailed("empty", "every triangle would be deleted");
+  if (crossed_.size() == sheet.triangle_count())
+    throw CutRefused("the path crosses every triangle, and none would be left; refine the sheet");
   sheet.remove(crossed_);
   for (const Subdivision::Along& piece : trace.along)
     if (sheet.triangle(triangle_of(piece.edge)).alive()) sheet.set_mark(piece.edge, EdgeMark::path);

@@ -10,8 +10,9 @@
 // Source: as harness/truth/body_fitted.cpp; CGAL 5.5, Delaunay_mesher_2.
 // Promises: the exact path, area, conforming; not that vertices stay.
 // Fails: costs the sheet and not the cut, and everything that belonged to vertices and triangles is lost: the state is
-// interpolated everywhere, anew with each cut. Crossings near each
-// other on the path stay as near, with small triangles round them. A graded sheet loses its grading.
+// interpolated everywhere, anew with each cut. Crossings near each other on the path stay as near, with small triangles
+// round them. A graded sheet loses its grading. Where doubles are too coarse for the mesh generator, two vertices lie
+// at one place, or it doesn't come to an end within four times the sheet's vertices, the plain split stays.
 #pragma once
 
 #include "harness/cut/cutting_method.h"

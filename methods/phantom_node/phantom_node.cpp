@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "harness/cut/embed_conventionally.h"
 #include "harness/mesh/locator.h"
@@ -12,7 +13,8 @@ namespace cutbench {
 
 namespace {
 
-/// The triangle that holds p; p lies inside the sheet, clear of its edges but for rounding.
+/// The triangle that holds p; p lies inside the sheet, clear of its edges but for rounding. Where that takes it past
+/// the border, the last triangle before it.
 TriangleIndex triangle_at(const Sheet& sheet, const Locator& locator, Point2 p) {
   const auto step = [&](TriangleIndex t) {  // itself where it holds p, invalid beyond the border
     const auto c = sheet.corners(t);
@@ -23,16 +25,16 @@ TriangleIndex triangle_at(const Sheet& sheet, const Locator& locator, Point2 p) 
       }
     return t;
   };
-  TriangleIndex t = locator.near(sheet, p);
+  TriangleIndex last, t = locator.near(sheet, p);
   for (std::size_t i = 0; t.valid() && i < sheet.triangle_slots(); ++i) {
     const TriangleIndex next = step(t);
     if (next == t) return t;
-    t = next;
+    last = std::exchange(t, next);
   }
   // Past a notch of the border.
   for (std::size_t i = 0; i < sheet.triangle_slots(); ++i)
     if (sheet.triangle(TriangleIndex(i)).alive() && step(TriangleIndex(i)) == TriangleIndex(i)) return TriangleIndex(i);
-  return {};
+  return last;
 }
 
 /// Sets of numbers that were joined, each known by its smallest.
@@ -88,7 +90,7 @@ class Doubling {
   }
 
  private:
-  bool is_new(VertexIndex v) const { return v() >= before_.vertex_slots(); }
+  bool is_new(VertexIndex v) const { return cut_.is_newer(v, before_); }
 
   void find_parents() {
     const Locator locator(before_);

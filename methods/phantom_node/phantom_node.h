@@ -31,6 +31,7 @@ namespace cutbench {
 class PhantomNode : public CuttingMethod {
  public:
   void embed(Sheet& sheet, Subdivision& trace) override;
+  Tying tying() const override { return Tying::phantoms; }
   Ties ties(const Sheet& before, const Sheet& cut) const override;
   int recovered_segments() const override { return recovered_; }
 

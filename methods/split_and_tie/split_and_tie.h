@@ -25,6 +25,7 @@ class SplitAndTie : public CuttingMethod {
   explicit SplitAndTie(const Options& options) : options_(options) {}
 
   void embed(Sheet& sheet, Subdivision& trace) override;
+  Tying tying() const override { return options_.thinness > 0 ? Tying::vertices : Tying::nothing; }
   Ties ties(const Sheet& before, const Sheet& cut) const override;
   int recovered_segments() const override { return recovered_; }
 

@@ -53,6 +53,7 @@ class WarpAndRefine : public CuttingMethod {
 
   void embed(Sheet& sheet, Subdivision& trace) override;
   void improve(Sheet& sheet) override;
+  Tying tying() const override { return options_.after == After::tie ? Tying::vertices : Tying::nothing; }
   Ties ties(const Sheet& before, const Sheet& cut) const override;
   int recovered_segments() const override { return recovered_; }
   bool stopped_early() const override { return stopped_early_; }
