@@ -16,7 +16,9 @@ std::size_t heap_bytes() { return mallinfo2().uordblks; }
 
 class InARow : public testing::TestWithParam<std::size_t> {
  protected:
-  const MethodRow& row() const { return all_methods()[GetParam()]; }
+  const MethodRow& row() const { return whole_sheet_methods()[GetParam()]; }
+  /// The one that meshes the whole sheet each time needs as long for each cut as the others for all.
+  std::size_t cuts() const { return scaled(row().name == "global_remesh" ? 50 : 500); }
 };
 
 TEST_P(InARow, ThousandCutsWithoutFailure) {
@@ -27,7 +29,7 @@ TEST_P(InARow, ThousandCutsWithoutFailure) {
     const auto method = row().make(0);
     const CutOptions options;
     std::size_t changed = 0, failures = 0;
-    for (std::size_t i = 0; i < scaled(500); ++i) {
+    for (std::size_t i = 0; i < cuts(); ++i) {
       const Curve curve = make_small_cut(11, i, sheet);
       const bool judged = i % 125 == 49;  // the oracle takes far longer than the cuts
       const Sheet before = judged ? sheet : Sheet();
@@ -42,7 +44,7 @@ TEST_P(InARow, ThousandCutsWithoutFailure) {
       ADD_FAILURE() << what << "\ncut " << i << " on " << family << ": " << text_of(curve);
       if (++failures == 5) FAIL() << "and so on";
     }
-    EXPECT_GT(changed, scaled(500) * 9 / 10);
+    EXPECT_GT(changed, cuts() * 9 / 10);
   }
 }
 
@@ -61,10 +63,9 @@ TEST_P(InARow, HoldsNoMemoryButTheMeshs) {
     return static_cast<double>(held);
   };
   if (heap_bytes() == 0) GTEST_SKIP() << "the heap can't be asked";
-  const std::size_t cuts = scaled(500);
   MeshData end, ignored;
-  const double after_all = hold(make_sheet("grid", 10), 0, cuts, end);
-  const double after_one = hold(end, cuts, cuts + 1, ignored);
+  const double after_all = hold(make_sheet("grid", 10), 0, cuts(), end);
+  const double after_one = hold(end, cuts(), cuts() + 1, ignored);
   RecordProperty("ratio_percent", static_cast<int>(100 * after_all / after_one));
   // Vectors that grew may hold twice what they need.
   EXPECT_LT(after_all, 2 * after_one) << end.triangles.size() << " triangles";
@@ -86,7 +87,7 @@ TEST_P(InARow, CutsWithoutEffectTakeNoMemory) {
     ASSERT_TRUE(again == Status::noop || (i < 10 && !row().promises.exact_incision)) << name_of(again);
     if (i == 10) held = heap_bytes();
   }
-  EXPECT_EQ(heap_bytes(), held);
+  EXPECT_LE(heap_bytes(), held);
   const Locator kept = locator;
   for (std::size_t i = 0; i < 200; ++i) {
     const Curve curve = make_case("recut", 3, i % 5, sheet).front();
@@ -94,11 +95,11 @@ TEST_P(InARow, CutsWithoutEffectTakeNoMemory) {
     sheet.rollback(), locator = kept;
     if (i == 10) held = heap_bytes();
   }
-  EXPECT_EQ(heap_bytes(), held);
+  EXPECT_LE(heap_bytes(), held);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, InARow, testing::Range(std::size_t{0}, all_methods().size()),
-                         [](const auto& parameter) { return all_methods()[parameter.param].name; });
+INSTANTIATE_TEST_SUITE_P(Methods, InARow, testing::Range(std::size_t{0}, whole_sheet_methods().size()),
+                         [](const auto& parameter) { return whole_sheet_methods()[parameter.param].name; });
 
 }  // namespace
 }  // namespace cutbench
