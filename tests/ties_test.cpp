@@ -78,10 +78,24 @@ struct Pieces {
   std::vector<std::uint8_t> held;
 };
 
+/// C, dense, for `dimension` values per vertex and unknown.
+Eigen::MatrixXd dense_combination(const Ties& ties, std::size_t vertices, Eigen::Index dimension) {
+  const auto n = dimension * static_cast<Eigen::Index>(vertices);
+  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(n, n + dimension * static_cast<Eigen::Index>(ties.phantoms));
+  c.leftCols(n).setIdentity();
+  for (const Tie& tie : ties.ties)
+    for (Eigen::Index k = 0; k < dimension; ++k) {
+      const Eigen::Index row = dimension * tie.vertex.value + k;
+      c(row, row) = 0;
+      for (std::size_t l = 0; l < 3; ++l) c(row, dimension * tie.masters[l].value + k) += tie.weights[l];
+    }
+  return c;
+}
+
 /// The border held by an affine field, lips pulled as its stress pulls them: the field is the only answer, and comes
 /// out only if x = C q can be affine.
 TEST(Ties, PatchTest) {
-  std::size_t tied = 0;
+  std::size_t tied = 0, phantoms = 0;
   for_each_cut(9, 2, [&](const Cut& cut) {
     const Sheet& sheet = cut.sheet();
     Model<2> model(sheet, {.stiffness = 1000, .poisson = 0.3},
@@ -116,9 +130,10 @@ TEST(Ties, PatchTest) {
     tying.expand(unknowns, moved);
     moved += given;
     EXPECT_LE((moved - affine).cwiseAbs().maxCoeff(), 1e-8);
-    tied += cut.ties.ties.size();
+    (cut.ties.phantoms > 0 ? phantoms : tied) += cut.ties.ties.size();
   });
-  EXPECT_GT(tied, 1000u);
+  EXPECT_GT(tied, scaled(200));
+  EXPECT_GT(phantoms, scaled(800));
 }
 
 /// Ties join what triangles do, and nothing more: the pieces of the system are those of the sheet.
@@ -149,15 +164,8 @@ TEST(Ties, SystemIsTheDenseProduct) {
     model.assemble(1.1, 0.01);
     Eigen::MatrixXd a = dense(model);
     const auto n = a.rows();
-    const auto unknowns = n + 3 * static_cast<Eigen::Index>(cut.ties.phantoms);
-    Eigen::MatrixXd c = Eigen::MatrixXd::Zero(n, unknowns);
-    c.leftCols(n).setIdentity();
-    for (const Tie& tie : cut.ties.ties)
-      for (int k = 0; k < 3; ++k) {
-        const Eigen::Index row = 3 * tie.vertex.value + k;
-        c(row, row) = 0;
-        for (std::size_t l = 0; l < 3; ++l) c(row, 3 * tie.masters[l].value + k) += tie.weights[l];
-      }
+    Eigen::MatrixXd c = dense_combination(cut.ties, model.vertices(), 3);
+    const auto unknowns = c.cols();
     for (Eigen::Index u = 0; u < n; ++u)
       if (model.held()[static_cast<std::size_t>(u)]) c.row(u).setZero();
     const Eigen::MatrixXd expected = c.transpose() * a * c;
@@ -190,14 +198,7 @@ TEST(Ties, LargestEigenvalueIsThatOfADenseSolve) {
     model.assemble(0, 1);
     const Eigen::MatrixXd k = dense(model);
     const auto n = k.rows();
-    Eigen::MatrixXd c = Eigen::MatrixXd::Zero(n, n + 2 * static_cast<Eigen::Index>(cut.ties.phantoms));
-    c.leftCols(n).setIdentity();
-    for (const Tie& tie : cut.ties.ties)
-      for (int i = 0; i < 2; ++i) {
-        const Eigen::Index row = 2 * tie.vertex.value + i;
-        c(row, row) = 0;
-        for (std::size_t l = 0; l < 3; ++l) c(row, 2 * tie.masters[l].value + i) += tie.weights[l];
-      }
+    const Eigen::MatrixXd c = dense_combination(cut.ties, model.vertices(), 2);
     Eigen::VectorXd mass(n);
     for (Eigen::Index u = 0; u < n; ++u) mass[u] = model.lumped_mass()[u / 2];
     Eigen::MatrixXd m = c.transpose() * mass.asDiagonal() * c;
@@ -225,18 +226,23 @@ TEST(Ties, CracksOpenAsTheyDoByTheSplitAlone) {
         const Answer split = solved(problem, specimen, cut);
         ASSERT_EQ(tied.verdict, "ok") << tied.reason;
         const auto energy = [](const Answer& answer) { return measure_of(answer, "released_energy"); };
-        EXPECT_LE(energy(tied).value, energy(split).value + 1e-9 * energy(split).exact) << "fewer unknowns are stiffer";
+        ASSERT_FALSE(ties.empty());
+        EXPECT_LE(energy(tied).value, energy(split).value - 1e-9 * energy(split).exact) << "fewer unknowns are stiffer";
         // Phantom nodes lose up to a triangle at each of the two tips, of a crack of twelve.
         const double lost = name == "phantom_node" ? 0.35 : 0.1;
         EXPECT_GE(energy(tied).value, energy(split).value - lost * energy(split).exact);
       }
 }
 
+/// How far a field of the vertices is from all that x = C q can be, in the mean square.
+double off_range(const Eigen::MatrixXd& c, const Field& x) {
+  return (c * c.completeOrthogonalDecomposition().solve(x) - x).norm();
+}
+
 /// A cut sheet that is let go falls freely, shaken or not, and what is tied stays tied.
 TEST(Ties, HoldInMotion) {
   for (const std::string& name : tying_methods)
     for (const bool shaken : {false, true}) {
-      if (shaken && name == "phantom_node") continue;  // not every field of the vertices is one of its unknowns
       SCOPED_TRACE(name + (shaken ? ", shaken" : ""));
       const Sheet before(make_sheet("delaunay", 8));
       Body<3> body(make_sheet("delaunay", 8), {.density = 1, .stiffness = 1000, .poisson = 0.3},
@@ -245,10 +251,8 @@ TEST(Ties, HoldInMotion) {
       const Ties ties = find_method(name).make(find_method(name).knob.value)->ties(before, body.sheet);
       ASSERT_FALSE(ties.empty());
       body.model.tie(ties);
-      if (shaken) {
-        body.state.v = 0.1 * bent(body.model, body.sheet);
-        body.model.tied()->settle(body.model.held(), body.state.v);
-      }
+      const Eigen::MatrixXd c = dense_combination(ties, body.model.vertices(), 3);
+      if (shaken) body.state.v = c * (0.1 * Field::Random(c.cols()));
       const Balance start = balance_of(body.model, body.state);
       Stepper<3> stepper({.step = 0.01, .solver = {.name = "cholmod"}});
       for (int i = 0; i < 5; ++i) ASSERT_EQ(stepper.step(body.model, body.state).verdict, "ok");
@@ -262,13 +266,8 @@ TEST(Ties, HoldInMotion) {
             EXPECT_NEAR(body.state.v[v], -0.5, 1e-8);
           }
         }
-      if (ties.phantoms == 0)
-        for (const Tie& tie : ties.ties) {
-          Eigen::Vector3d place = Eigen::Vector3d::Zero();
-          for (std::size_t k = 0; k < 3; ++k)
-            place += tie.weights[k] * body.state.x.segment<3>(3 * tie.masters[k].value);
-          EXPECT_LE((place - body.state.x.segment<3>(3 * tie.vertex.value)).norm(), 1e-10);
-        }
+      EXPECT_LE(off_range(c, body.state.v), 1e-9);
+      EXPECT_LE(off_range(c, body.state.x), 1e-9);
     }
 }
 

@@ -37,7 +37,7 @@ bool cross_each_other(const Segment& s, const Segment& r) {
          orientation(r[0], r[1], s[0]) * orientation(r[0], r[1], s[1]) <= 0;
 }
 
-double distance(const Segment& s, const Corners& c) {
+double from_path(const Segment& s, const Corners& c) {
   double nearest = std::numeric_limits<double>::infinity();
   bool inside = true;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -89,7 +89,7 @@ Deletion judge_deletion(const Mesh& before, const Mesh& after, const std::vector
   }
   for (std::size_t t = 0; t < before.triangles.size(); ++t) {
     const Corners c = corners(before, t);
-    if (!holds(kept, c) && !on_path(c, [&](const Segment& s) { return distance(s, c) <= near; }))
+    if (!holds(kept, c) && !on_path(c, [&](const Segment& s) { return from_path(s, c) <= near; }))
       result.unasked.push_back(static_cast<int>(t));
   }
   return result;
