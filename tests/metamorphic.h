@@ -14,17 +14,17 @@
 namespace cutbench {
 
 /// A method with a value of its knob.
-struct Variant {
+struct MethodVariant {
   const MethodRow* row;
   double knob;
   std::string name;
 
-  friend void PrintTo(const Variant& variant, std::ostream* out) { *out << variant.name; }
+  friend void PrintTo(const MethodVariant& variant, std::ostream* out) { *out << variant.name; }
 };
 
 /// Every row at its default; the paper's method also without and with much local split.
-inline std::vector<Variant> all_variants() {
-  std::vector<Variant> variants;
+inline std::vector<MethodVariant> all_variants() {
+  std::vector<MethodVariant> variants;
   for (const MethodRow& row : all_methods())
     if (row.name != "bowyer_watson") variants.push_back({&row, row.knob.value, row.name});
   for (int rounds : {0, 1, 3})
@@ -33,8 +33,8 @@ inline std::vector<Variant> all_variants() {
   return variants;
 }
 
-class EveryVariant : public testing::TestWithParam<Variant> {};
-inline std::string name_of_variant(const testing::TestParamInfo<Variant>& info) { return info.param.name; }
+class EveryVariant : public testing::TestWithParam<MethodVariant> {};
+inline std::string name_of_variant(const testing::TestParamInfo<MethodVariant>& info) { return info.param.name; }
 
 /// One or more cuts on one of the test meshes.
 struct TestCase {
@@ -80,7 +80,8 @@ struct CutSheet {
   int recovered_segments = 0;  ///< of all cuts together
 };
 
-inline CutSheet cut_with(const Variant& variant, const MeshData& mesh, const std::vector<Curve>& cuts, double chord) {
+inline CutSheet cut_with(const MethodVariant& variant, const MeshData& mesh, const std::vector<Curve>& cuts,
+                         double chord) {
   CutSheet result{Sheet(mesh), {}, 0};
   Locator locator(result.sheet);
   Cutter cutter;

@@ -31,7 +31,7 @@ TEST(Reshape, HeldVerticesStayWhereTheyAre) {
           EXPECT_TRUE(!held || stays) << family << " " << i << ", vertex " << k;
         }
       }
-  EXPECT_GT(moved_when_free, 100u);
+  EXPECT_GT(moved_when_free, scaled(100));
 }
 
 /// A path across a square of four triangles round a vertex that it does not meet: its middle vertex can go, its ends

@@ -30,7 +30,7 @@ class CgalRefine : public CuttingMethod {
     int rings = 2;                      ///< of neighbours, to begin with
     int most_rings = 64;                ///< by which it grows at once; then the cut stays as it was divided
     std::size_t per_path_vertex = 20;   ///< vertices that the refinement may make, for each one of the path
-    std::size_t most_vertices = 20000;  ///< and in all: a path with more to ask for leads across stacks of slivers
+    std::size_t most_vertices = 5000;  ///< and in all: a path with more to ask for leads across stacks of slivers
   };
   explicit CgalRefine(const Options& options) : options_(options) {}
 
