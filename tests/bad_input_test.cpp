@@ -50,6 +50,10 @@ class BadInput : public Program {
 
 const std::string good = "cut --method cgal_cdt --mesh sheet.off --path path.json --out out.obj";
 
+std::string knob(const std::string& method, const std::string& value) {
+  return "cut --method " + method + " --set " + value + " --mesh sheet.off --path path.json --out out.obj";
+}
+
 TEST_F(BadInput, Options) {
   expect_all({{"", 2, "subcommand"},
               {"nonsense", 2, "subcommand"},
@@ -60,6 +64,14 @@ TEST_F(BadInput, Options) {
               {"cut --method '' --mesh sheet.off --path path.json --out out.obj", 2, "known are conventional_split"},
               {"cut --method bowyer_watson --set rounds=inf --mesh sheet.off --path path.json --out out.obj", 2,
                "rounds must be a whole number from 0 to 20"},
+              {knob("bowyer_watson", "rounds=0.5"), 2, "rounds must be a whole number from 0 to 20"},
+              {knob("cgal_refine", "bound=1"), 2, "bound must be 0, or a number from 2 to 1000"},
+              {knob("delaunay_refine", "bound=1001"), 2, "bound must be 0, or a number from 2 to 1000"},
+              {knob("longest_edge", "cap=101"), 2, "cap must be a number from 0 to 100"},
+              {knob("snap_or_split", "tolerance=0.6"), 2, "tolerance must be a number from 0 to 0.5"},
+              {knob("split_and_tie", "thinness=-1"), 2, "thinness must be a number from 0 to 0.3"},
+              {knob("vertex_snap", "reach=0.6"), 2, "reach must be a number from 0 to 0.5"},
+              {knob("warp_and_refine", "reach=-1"), 2, "reach must be a number from 0 to 0.5"},
               {good + " --chord-tolerance 1x", 2, "\"1x\" is not a number"},
               {"simulate " + std::string(CUTBENCH_TEST_CASES) +
                    "/../../experiments/scenes/falling_piece.toml "

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "harness/mesh/mesh_data.h"
 #include "methods/registry.h"
@@ -133,6 +134,64 @@ TEST_P(CornerCases, SheetWithAHole) {
   EXPECT_EQ(table.pieces, 1);
   EXPECT_EQ(table.cut({polyline, false, {middle - aside, middle + aside}}, 0.05), "");
   EXPECT_EQ(table.pieces, 3);
+}
+
+/// Triangles round a vertex, some of them thin, and in `angles` those of their edges.
+MeshData fan(Random& random, std::vector<double>& angles) {
+  constexpr double turn = 2 * std::numbers::pi;
+  const auto is_good = [&] {
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+      const double gap = (i + 1 < angles.size() ? angles[i + 1] : angles[0] + turn) - angles[i];
+      if (gap < 1e-4 || gap > 2.6) return false;
+    }
+    return true;
+  };
+  do {
+    angles.clear();
+    for (std::size_t i = 0, n = 5 + random.below(5); i < n; ++i) angles.push_back(random.between(0, turn));
+    for (std::size_t i = 0, n = 1 + random.below(3); i < n; ++i)
+      angles.push_back(std::fmod(angles[random.below(angles.size())] + std::pow(10.0, random.between(-3, 0)), turn));
+    std::sort(angles.begin(), angles.end());
+  } while (!is_good());
+  MeshData mesh;
+  mesh.rest = {random.coin() ? Point2{} : Point2{0.5, 0.3}};
+  const auto n = static_cast<std::int32_t>(angles.size());
+  for (const double a : angles)
+    mesh.rest.push_back(mesh.rest[0] + random.between(0.8, 1.2) * Point2{std::cos(a), std::sin(a)});
+  for (std::int32_t i = 0; i < n; ++i) mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % n});
+  for (const Point2 p : mesh.rest) mesh.deformed.push_back({p.x, p.y, 0});
+  return mesh;
+}
+
+/// Within some snap distances of the middle of a fan several edges are as near to a corner of the path: where the path
+/// comes back to it from another side, it must be on the same one, or the loop stays open.
+TEST(CornersMetAgain, CloseTheLoop) {
+  std::size_t refused = 0;
+  for (std::size_t i = 0; i < scaled(3000); ++i) {
+    Random random(i);
+    std::vector<double> angles;
+    Table table(fan(random, angles), find_method("conventional_split"), 0);
+    const Point2 middle = table.sheet.rest(VertexIndex(0));
+    const auto at = [&](double angle, double distance) {
+      return middle + distance * Point2{std::cos(angle), std::sin(angle)};
+    };
+    const auto anywhere = [&] { return at(random.between(0, 7), random.between(0.05, 0.35)); };
+    const double off_an_edge[] = {0, random.between(-1e-3, 1e-3), random.between(-0.05, 0.05), random.between(-3, 3)};
+    const Point2 corner = at(angles[random.below(angles.size())] + off_an_edge[random.below(4)],
+                             table.sheet.snap() * std::pow(10.0, random.between(0, 3)));
+    std::vector<Point2> points{corner, anywhere(), anywhere(), corner};
+    if (random.coin()) points.insert(points.begin(), anywhere());
+    if (random.coin()) points.push_back(anywhere());
+    const Curve path{polyline, false, points};
+    const std::string wrong = table.cut(path, 0.05);
+    if (table.outcome.status == Status::refused) {
+      ++refused;
+      continue;
+    }
+    EXPECT_EQ(wrong, "") << i << ": " << text_of(path);
+    EXPECT_GE(table.pieces, 2) << i << ": " << text_of(path);
+  }
+  EXPECT_LE(refused, scaled(3000) / 100) << "declared, but not for many: crossings too close together for doubles";
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, CornerCases, testing::ValuesIn([] {
