@@ -155,6 +155,8 @@ TEST_F(PathFile, SaysWhatIsWrong) {
   expect_refused(reading(R"({"cut": []})"), "unknown key \"cut\"");
   expect_refused(reading(R"({"cuts": [{"line": [[0,0],[1,1]]}]})"), "cut 0: unknown key \"line\"");
   expect_refused(reading(R"({"cuts": [{"closed": true}]})"), "cut 0: give either");
+  expect_refused(reading(R"({"cuts": [{"space": "screen", "polyline": [[0,0],[1,1]]}]})"),
+                 "\"space\" must be \"rest\" or \"world\"");
   expect_refused(reading(R"({"cuts": [{"polyline": [[0,0],[1,1]], "bezier": [[0,0],[1,1],[1,2],[2,2]]}]})"),
                  "give either");
   expect_refused(reading(R"({"cuts": [{"polyline": [[0,0],[1,1]]}, {"polyline": [[0,0],[1,1,2]]}]})"),

@@ -46,6 +46,35 @@ std::vector<Place> places(const Sheet& sheet) {
 
 double distance(Point2 a, Point2 b) { return std::sqrt(squared_length(a - b)); }
 
+TEST(Pick, BadOnesAreRefused) {
+  constexpr auto polyline = Curve::Kind::polyline, bezier = Curve::Kind::bezier;
+  const auto expect_refused = [](const PickedCurve& curve, const std::string& what) {
+    try {
+      check_picks(curve, "it");
+      ADD_FAILURE() << "not refused: " << what;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+    }
+  };
+  const Pick origin{{0, 0, 0}, {}}, one{{1, 0, 0}, {}}, lost{{0, std::nan(""), 0}, {}};
+  expect_refused({polyline, false, {origin, lost}}, "it, point 1: coordinates must be finite and below 1e60");
+  expect_refused({polyline, false, {{{0, 0, 0}, Point3{0, 1e61, 0}}, one}}, "it, point 0: coordinates");
+  expect_refused({polyline, false, {{{0, 0, 0}, Point3{0, 0, 0}}, one}}, "it, point 0: the direction is zero");
+  expect_refused({bezier, true, {origin, one, one, one}}, "must end where it began");
+  EXPECT_NO_THROW(check_picks({bezier, true, {origin, one, one, origin}}, "it"));
+}
+
+/// It lies in the plane of whole triangles: the nearest point of these counts.
+TEST(Pick, ARayInThePlaneOfTheSheetFindsItsBorder) {
+  const Sheet sheet(make_sheet("delaunay", 6));
+  const Picker picker(sheet);
+  for (const double y : {0.13, 0.5, 0.87})
+    for (const double side : {0.0, 1.0}) {
+      const Point3 from{3 * side - 1, y, 0}, along{1 - 2 * side, 0, 0};
+      EXPECT_LE(distance(picker.rest_point({from, along}, "p"), {side, y}), 1e-12);
+    }
+}
+
 TEST(Pick, ToSpaceAndBackIsToRounding) {
   for (const char* family : {"grid", "delaunay", "graded"}) {
     const Sheet sheet = helicoid(family);

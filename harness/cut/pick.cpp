@@ -117,7 +117,12 @@ Point2 Picker::rest_point(const Pick& pick, const std::string& name) const {
     const bool first = CGAL::has_smaller_distance_to_point(origin, along->source(), along->target());
     return tree_->at_rest(hit->second, weights_of(*hit->second, first ? along->source() : along->target()));
   }
-  return tree_->at_rest(hit->second, weights_of(*hit->second, origin, direction));
+  const auto& triangle = *hit->second;
+  // In its plane, too, it may meet no more than a corner.
+  if (const auto* at = boost::get<Kernel::Point_3>(&hit->first);
+      at && CGAL::coplanar(triangle[0], triangle[1], triangle[2], origin))
+    return tree_->at_rest(hit->second, weights_of(triangle, *at));
+  return tree_->at_rest(hit->second, weights_of(triangle, origin, direction));
 }
 
 Curve Picker::rest_curve(const PickedCurve& picked, const std::string& name) const {

@@ -25,11 +25,11 @@ namespace cutbench {
 class CgalRefine : public CuttingMethod {
  public:
   struct Options {
-    double bound = 3;                   ///< no aspect ratio beyond it; infinity: constrained Delaunay alone
-    double min_edge = 1e-3;             ///< triangles with shorter edges alone are left, in mean rest edges
-    int rings = 2;                      ///< of neighbours, to begin with
-    int most_rings = 64;                ///< by which it grows at once; then the cut stays as it was divided
-    std::size_t per_path_vertex = 20;   ///< vertices that the refinement may make, for each one of the path
+    double bound = 3;                  ///< no aspect ratio beyond it; infinity: constrained Delaunay alone
+    double min_edge = 1e-3;            ///< triangles with shorter edges alone are left, in mean rest edges
+    int rings = 2;                     ///< of neighbours, to begin with
+    int most_rings = 64;               ///< by which it grows at once; then the cut stays as it was divided
+    std::size_t per_path_vertex = 20;  ///< vertices that the refinement may make, for each one of the path
     std::size_t most_vertices = 5000;  ///< and in all: a path with more to ask for leads across stacks of slivers
   };
   explicit CgalRefine(const Options& options) : options_(options) {}

@@ -32,9 +32,9 @@ namespace cutbench {
 class DelaunayRefine : public CuttingMethod {
  public:
   struct Options {
-    double bound = 3;                   ///< no aspect ratio beyond it; infinity: flips alone
-    double min_edge = 1e-4;             ///< no edge of path, incision or border is made shorter, in mean rest edges
-    std::size_t per_path_vertex = 20;   ///< vertices that the refinement may make, for each one of the path
+    double bound = 3;                  ///< no aspect ratio beyond it; infinity: flips alone
+    double min_edge = 1e-4;            ///< no edge of path, incision or border is made shorter, in mean rest edges
+    std::size_t per_path_vertex = 20;  ///< vertices that the refinement may make, for each one of the path
     std::size_t most_vertices = 5000;  ///< and in all: a path with more to ask for leads across stacks of slivers
   };
   explicit DelaunayRefine(const Options& options) : options_(options) {}
