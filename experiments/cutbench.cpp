@@ -237,9 +237,12 @@ int run(const RunArguments& arguments, const std::string& command) {
     Experiment& e = experiments.emplace_back(read_experiment(file));
     if (e.methods.empty())
       for (const MethodRow& row : all_methods()) e.methods.push_back({row.name, {}});
-    restrict_to(e.methods, arguments.methods, "--methods: one of them", [](const auto& m) { return m.method; });
+    std::vector<std::string> methods = arguments.methods;
+    const bool with_peer = e.campaign && std::erase(methods, "peer") > 0;
+    restrict_to(e.methods, methods, "--methods: one of them", [](const auto& m) { return m.method; });
+    if (with_peer && methods.empty()) e.methods.clear();
     restrict_to(e.resolutions, arguments.resolutions, "--resolutions: one of them", [](int r) { return r; });
-    if (e.campaign && !arguments.methods.empty()) e.campaign->peer = false;
+    if (e.campaign && !arguments.methods.empty()) e.campaign->peer = with_peer;
     if (e.campaign && !arguments.resolutions.empty()) e.campaign->mesh_files.clear();
     if (arguments.cases > 0) e.cases = arguments.cases;
     if (arguments.repetitions > 0) e.repetitions = arguments.repetitions;

@@ -82,7 +82,7 @@ CatalogueCase read_case(const fs::path& file) {
              "the file");
   check_keys(document.at("expect"),
              {"status", "pieces", "new_vertices", "incision_error", "path_error", "sheet_error", "note",
-              "forced_corners", "worst_is_forced", "methods"},
+              "forced_corners", "worst_is_forced", "reason", "methods"},
              "expect");
   CatalogueCase result;
   result.name = file.stem().string();

@@ -99,6 +99,8 @@ void run_member(const CatalogueMember& member, const Trial& trial, double chord)
       continue;
     }
     EXPECT_STREQ(name_of(table.outcome.status), status.c_str()) << wrong << table.outcome.reason;
+    EXPECT_NE(table.outcome.reason.find(expect.value("reason", "")), std::string::npos) << table.outcome.reason;
+    EXPECT_EQ(table.outcome.reason.find('\n'), std::string::npos) << "one line: " << table.outcome.reason;
     if (status == "refused" || status == "failed") {
       EXPECT_EQ(difference(before, table.sheet), "");
       EXPECT_NE(table.outcome.reason, "");
@@ -183,6 +185,7 @@ std::string outcome_in_words(const json& expect) {
   if (expect.contains("forced_corners")) words += "; forced corners " + expect["forced_corners"].dump();
   if (expect.contains("worst_is_forced"))
     words += expect["worst_is_forced"] ? "; worst triangle excused" : "; worst triangle not excused";
+  if (expect.contains("reason")) words += "; reason: " + expect["reason"].get<std::string>();
   if (expect.contains("note")) words += "; note: " + expect["note"].get<std::string>();
   return words;
 }

@@ -125,6 +125,24 @@ TEST(Invariants, ARefusedCutLeavesTheSheetAsItWas) {
   EXPECT_EQ(difference(before, sheet), "");
 }
 
+TEST(Invariants, MethodsSayWhatTheyRefuse) {
+  struct Row {
+    const char *method, *why;
+    MeshData mesh;
+  };
+  for (const Row& row : {Row{"cisamr", "the sheet is no structured grid", make_sheet("delaunay", 6)},
+                         Row{"element_deletion", "none would be left", make_sheet("grid", 1)}}) {
+    Sheet sheet(row.mesh);
+    Locator locator(sheet);
+    const Sheet before = sheet;
+    const CutOutcome outcome = Cutter().cut(sheet, locator, {Curve::Kind::polyline, false, {{-0.1, 0.4}, {1.1, 0.7}}},
+                                            *find_method(row.method).make(0), {});
+    EXPECT_EQ(outcome.status, Status::refused) << row.method;
+    EXPECT_NE(outcome.reason.find(row.why), std::string::npos) << outcome.reason;
+    EXPECT_EQ(difference(before, sheet), "");
+  }
+}
+
 /// A cut sheet written out and read again is the same sheet: the next cut gives the same pieces.
 TEST(Invariants, ACutSheetCanBeReadAndCutAgain) {
   for (const MethodRow& row : whole_sheet_methods())

@@ -208,7 +208,9 @@ TEST_F(PickedScene, APathFileMayBeInWorldSpace) {
   EXPECT_EQ(miss.code, 2);
   EXPECT_EQ(miss.error.rfind("miss.json, cut 0, point 1: the point misses the sheet by ", 0), 0u) << miss.error;
   EXPECT_FALSE(fs::exists(folder_ / "c.obj"));
-  EXPECT_EQ(run("score --mesh bent.obj --path world.json --result a.obj").code, 2);
+  const auto scored = run("score --mesh bent.obj --path world.json --result a.obj");
+  EXPECT_EQ(scored.code, 2);
+  EXPECT_NE(scored.error.find("is in world space, which only `cutbench cut` takes"), std::string::npos);
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ class ShapeCriteria {
  public:
   using Quality = double;  // the worst come first: those of small quality; 1 is good enough
 
-  class Is_bad {
+  class Is_bad {  // NOLINT(readability-identifier-naming): CGAL's name
    public:
     explicit Is_bad(const RegionMesher::Limits& limits) : limits_(limits) {}
     CGAL::Mesh_2::Face_badness operator()(Quality quality) const {

@@ -152,7 +152,9 @@ class Tying {
     double thinnest = thinness_;
     DeformedIndex nearer;
     for (std::size_t i = v.begin; i < v.end; ++i) {
-      const auto& [d, t, corner] = corners_[i];
+      const DeformedIndex d = corners_[i].vertex;
+      const TriangleIndex t = corners_[i].triangle;
+      const std::size_t corner = corners_[i].corner;
       std::array<DeformedIndex, 3> drawn;
       std::array<Point2, 3> c;
       draw(t, drawn, c);
