@@ -207,10 +207,13 @@ struct RunArguments {
 
 /// Keeps the entries of `all` that are named in `wanted`, unless that is empty.
 template <class Entry, class Wanted, class Name>
-void restrict_to(std::vector<Entry>& all, const std::vector<Wanted>& wanted, const std::string& what, Name name) {
+void restrict_to(std::vector<Entry>& all, const std::vector<Wanted>& wanted, const std::string& option, Name name) {
   for (const Wanted& w : wanted)
-    if (std::none_of(all.begin(), all.end(), [&](const Entry& e) { return name(e) == w; }))
-      throw InputError(what + " is not in the experiment");
+    if (std::none_of(all.begin(), all.end(), [&](const Entry& e) { return name(e) == w; })) {
+      std::ostringstream what;
+      what << option << ' ' << w << " is not in the experiment";
+      throw InputError(what.str());
+    }
   if (!wanted.empty())
     std::erase_if(all,
                   [&](const Entry& e) { return std::find(wanted.begin(), wanted.end(), name(e)) == wanted.end(); });
@@ -239,9 +242,9 @@ int run(const RunArguments& arguments, const std::string& command) {
       for (const MethodRow& row : all_methods()) e.methods.push_back({row.name, {}});
     std::vector<std::string> methods = arguments.methods;
     const bool with_peer = e.campaign && std::erase(methods, "peer") > 0;
-    restrict_to(e.methods, methods, "--methods: one of them", [](const auto& m) { return m.method; });
+    restrict_to(e.methods, methods, "--methods", [](const auto& m) { return m.method; });
     if (with_peer && methods.empty()) e.methods.clear();
-    restrict_to(e.resolutions, arguments.resolutions, "--resolutions: one of them", [](int r) { return r; });
+    restrict_to(e.resolutions, arguments.resolutions, "--resolutions", [](int r) { return r; });
     if (e.campaign && !arguments.methods.empty()) e.campaign->peer = with_peer;
     if (e.campaign && !arguments.resolutions.empty()) e.campaign->mesh_files.clear();
     if (arguments.cases > 0) e.cases = arguments.cases;

@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -36,6 +37,7 @@ void print_cuts(const InMotion& motion) {
         "cut: %s%s, %zu triangles crossed; jumps: membrane %.3g J, bending %.3g J, kinetic %.3g J, residual %.3g N\n",
         name_of(cut.cut.status), parts.c_str(), cut.cut.crossed_triangles, b.membrane - a.membrane,
         b.bending - a.bending, b.kinetic - a.kinetic, cut.after.residual - cut.before.residual);
+    if (cut.cut.status == Status::refused) std::printf("     %s\n", cut.reason.c_str());
   }
 }
 
@@ -130,7 +132,9 @@ bool simulate(const Scene& scene, CuttingMethod& method, const SimulateOptions& 
         .place();
   }
   if (!options.out.empty()) write_mesh(sheet.to_mesh_data(), options.out);
-  return report.verdict == "ok";
+  const auto refused = [](const MotionCut& cut) { return cut.cut.status == Status::refused; };
+  const auto& cuts = motion->made_cuts();
+  return report.verdict == "ok" && std::none_of(cuts.begin(), cuts.end(), refused);
 }
 
 }  // namespace cutbench

@@ -525,23 +525,26 @@ void expect_like_new(const Sheet& sheet, const Bending& updated, BendingKind kin
 }
 
 TEST(BendingUpdate, IsLikeNewAfterEveryKindOfCut) {
-  for (const MethodRow& row : all_methods())
-    for (const BendingKind kind : {BendingKind::patches, BendingKind::hinges})
-      for (const std::string family : sheet_families()) {
-        Sheet sheet(make_sheet(family, 8));
-        Bending bending(sheet, kind, rigidity, poisson);
-        Locator locator(sheet);
-        Cutter cutter;
-        const auto method = row.make(row.knob.value);
-        for (const std::string cut : cut_families())
-          for (const Curve& curve : make_case(cut, 92, 1, sheet)) {
-            SCOPED_TRACE(row.name + ", " + family + ", " + cut);
-            const CutOutcome outcome = cutter.cut(sheet, locator, curve, *method, {});
-            if (outcome.status != Status::ok) continue;
-            bending.update(sheet);
-            expect_like_new(sheet, bending, kind);
-          }
-      }
+  std::size_t turn = 0;  // not every family for every method and kind: these take turns
+  for (const MethodRow& row : all_methods()) {
+    ++turn;
+    for (const BendingKind kind : {BendingKind::patches, BendingKind::hinges}) {
+      const std::string family = sheet_families()[(turn + (kind == BendingKind::hinges)) % sheet_families().size()];
+      Sheet sheet(make_sheet(family, 8));
+      Bending bending(sheet, kind, rigidity, poisson);
+      Locator locator(sheet);
+      Cutter cutter;
+      const auto method = row.make(row.knob.value);
+      for (const std::string cut : cut_families())
+        for (const Curve& curve : make_case(cut, 92, 1, sheet)) {
+          SCOPED_TRACE(row.name + ", " + family + ", " + cut);
+          const CutOutcome outcome = cutter.cut(sheet, locator, curve, *method, {});
+          if (outcome.status != Status::ok) continue;
+          bending.update(sheet);
+          expect_like_new(sheet, bending, kind);
+        }
+    }
+  }
 }
 
 /// Splits, flips, moves, collapses and openings at random, many between two updates, so that slots are freed and used

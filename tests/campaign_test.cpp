@@ -20,6 +20,7 @@
 #include "harness/run/shrink.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
+#include "tests/mesh_checks.h"
 
 namespace cutbench {
 namespace {
@@ -253,6 +254,15 @@ TEST_F(CampaignRun, AKilledCampaignGoesOn) {
   std::size_t known = 0;
   for (std::size_t at = 0; (at = text.find("12345\n", at)) != std::string::npos; ++at) ++known;
   EXPECT_EQ(known, kept);
+}
+
+TEST_F(CampaignRun, ACaseThatCannotBeSavedIsSaid) {
+  const Variant variant{&rows().front(), 0};
+  const FailingCase failing{
+      "taken", "title", {make_sheet("grid", 1), {{Curve::Kind::polyline, false, {{0, 0.2}, {1, 0.7}}}}}, {}};
+  fs::create_directories(folder_ / "taken.txt");
+  expect_refused([&] { save(failing, folder_, contender_of(variant), {}, 1, 0); },
+                 "taken.txt: can't be written; check");
 }
 
 TEST(Isolated, EveryPieceHasItsFate) {

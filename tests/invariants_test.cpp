@@ -165,7 +165,7 @@ TEST(Invariants, ManyCutsInARow) {
   for (const MethodRow& row : all_methods()) {
     Table table(make_sheet("grid", 8), row, row.knob.value);
     table.flatten_tolerance = 1e-5;  // finer than the pieces get
-    for (std::size_t i = 0; i < 2 * cut_families().size(); ++i) {
+    for (std::size_t i = 0; i < cut_families().size() + scaled(cut_families().size()); ++i) {
       const std::string family = cut_families()[i % cut_families().size()];
       const Curve curve = make_case(family, 81, i, table.sheet).front();
       ASSERT_EQ(table.cut(curve, 0.05), "") << row.name << ", " << family << " " << i << "\n" << text_of(curve);

@@ -122,6 +122,13 @@ TEST(Pick, AMissSaysByHowFar) {
   EXPECT_EQ(error_of_pick(picker, {{0.5, 0.5, 1e-7}, {}}), "");  // what six digits leave
 }
 
+TEST(Pick, ACrumpledSheetIsNotPicked) {
+  Sheet sheet(make_sheet("grid", 2));
+  for (std::size_t d = 0; d < sheet.deformed_slots(); ++d)
+    sheet.set_position(DeformedIndex(d), {static_cast<double>(d), 0, 0});
+  EXPECT_EQ(error_of_pick(Picker(sheet), {{0, 0, 0}, {}}), "here: the sheet is crumpled to lines; pick earlier");
+}
+
 /// The scene's own words: a sheet that a pin moves by (0.3, 0.2, 0.1) in the first step, and then at 0.6 m/s along x.
 class PickedScene : public Program {
  protected:
