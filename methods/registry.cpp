@@ -107,9 +107,12 @@ const std::vector<MethodRow>& all_methods() {
        [](double) { return std::make_unique<Example>(); }},
       {"phantom_node",
        "crossed triangles are doubled, and the field is linear in every part",
-       {},
+       {"ghost", 0, "ghost penalty, dimensionless, for statics: usually 0.01 to 1; 0: none"},
        exact_split,
-       [](double) { return std::make_unique<PhantomNode>(); }},
+       [](double ghost) {
+         if (!(ghost >= 0 && ghost <= 100)) throw InputError("phantom_node: ghost must be a number from 0 to 100");
+         return std::make_unique<PhantomNode>(PhantomNode::Options{.ghost = ghost});
+       }},
       {"snap_or_split",
        "crossings near a vertex go through the vertex, the others are split",
        {"tolerance", 0.25, "fraction of the edge up to which a crossing goes to the vertex, 0 to 0.5"},
@@ -169,7 +172,7 @@ const std::vector<MethodRow>& ablation_methods() {
       for (const auto& [after, then] : afters) {
         WarpAndRefine::Options options;
         options.before = before, options.after = after;
-        const Promises promises{.keeps_area = true, .conforming = true, .keeps_vertices = false};
+        const Promises promises{.keeps_area = true, .conforming = true};
         made.push_back({std::string("ablation:") + first + ":" + then,
                         "warp_and_refine, in part",
                         {},
@@ -185,6 +188,10 @@ const std::vector<MethodRow>& nameable_methods() {
   static const auto rows = [] {
     std::vector<MethodRow> all = all_methods();
     all.insert(all.end(), ablation_methods().begin(), ablation_methods().end());
+    all.push_back(
+        {"phantom_node:lumped_mass", "phantom_node with a lumped mass", {}, exact_split, [](double) {
+           return std::make_unique<PhantomNode>(PhantomNode::Options{.lumped_mass = true});
+         }});
     return all;
   }();
   return rows;

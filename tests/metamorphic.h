@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "harness/measure/grids.h"
+#include "harness/measure/search.h"
 #include "harness/run/cases.h"
 #include "harness/run/mixture.h"
 #include "methods/registry.h"
@@ -184,7 +184,7 @@ inline std::string different_cut(const Shape& a, const Shape& b, double toleranc
   if (a.pieces != b.pieces) return std::to_string(a.pieces) + " pieces, then " + std::to_string(b.pieces);
   for (auto edges : {&Shape::opened, &Shape::border}) {
     const std::string what = edges == &Shape::opened ? "incision" : "border";
-    const oracle::SegmentGrid in_a(segments(a, a.*edges)), in_b(segments(b, b.*edges));
+    const oracle::SegmentSearch in_a(segments(a, a.*edges)), in_b(segments(b, b.*edges));
     for (const auto& [grid, others] : {std::pair{&in_a, &in_b}, std::pair{&in_b, &in_a}})
       for (const oracle::Segment& s : others->segments())
         if (!grid->covers(s, tolerance)) {

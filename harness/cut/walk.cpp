@@ -66,9 +66,9 @@ Step Walk::along(HalfEdge h, VertexIndex v, Point2 target) {
   const bool on_line = side(from, rest(v), target).sign == 0;
   if (is_at(v, target) || dot(target - rest(v), on_line ? rest(v) - from : target - origin_) > 0)
     return pass_vertex(along_edge(h), v, target);
-  for (HalfEdge entry : {h, sheet_.opposite(h)})
-    if (!attracts(h) && is_better_beyond(entry, target, 8))
-      return arrive_on(along_edge(h), sheet_.opposite(entry), target);
+  if (!attracts(h))
+    for (const HalfEdge side : {h, sheet_.opposite(h)})
+      if (way_to_better({side}, target).valid()) return arrive_on(along_edge(h), side, target);
   return reach(along_edge(h), place_on(h, target));
 }
 

@@ -7,6 +7,8 @@
 // crossing that is left is clear of the ends of its edge, and its rounded position can't fall behind them.
 #pragma once
 
+#include <initializer_list>
+
 #include "harness/cut/cut_failed.h"
 #include "harness/cut/path.h"
 #include "harness/mesh/locator.h"
@@ -120,7 +122,7 @@ class Walk {
   Step arrive_beyond(HalfEdge entry, Point2 target);
   bool lies_on(HalfEdge h, Point2 p) const;
   bool is_detour(VertexIndex v, Point2 target) const;
-  bool is_better_beyond(HalfEdge entry, Point2 p, int depth) const;
+  HalfEdge way_to_better(std::initializer_list<HalfEdge> exits, Point2 p) const;
   Place place_on(HalfEdge h, Point2 p) const;
   Place classify(TriangleIndex t, Point2 p) const;
 

@@ -2,6 +2,7 @@
 // leave, several edges can lie within the snap distance of it; then the walk goes on through the slivers to a vertex or
 // a separating edge, if there is one, so that the path meets older incisions and the border where it should.
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "harness/cut/walk.h"
@@ -60,9 +61,8 @@ Step Walk::arrive(TriangleIndex t, Point2 target) {
   if (place.kind == Place::Kind::vertex && is_detour(place.vertex, target))
     return pass_vertex(through_face(t), place.vertex, target);
   if (place.kind == Place::Kind::edge && !attracts(place.edge))
-    for (int k = 0; k < 3; ++k)
-      if (lies_on(edge(k), target) && is_better_beyond(sheet_.opposite(edge(k)), target, 8))
-        return arrive_on(through_face(t), edge(k), target);
+    if (const HalfEdge exit = way_to_better({edge(0), edge(1), edge(2)}, target); exit.valid())
+      return arrive_on(through_face(t), exit, target);
   return reach(through_face(t), place);
 }
 
@@ -74,14 +74,35 @@ bool Walk::is_detour(VertexIndex v, Point2 target) const {
          !(at_.kind == Place::Kind::vertex && std::max(std::abs(from.x), std::abs(from.y)) <= 4 * snap_);
 }
 
-/// Is there a vertex or a separating edge where p lies on the other side of an edge that it lies on, too? There the
-/// slivers of earlier cuts may lie upon each other.
-bool Walk::is_better_beyond(HalfEdge entry, Point2 p, int depth) const {
-  if (is_at(sheet_.origin(Sheet::previous(entry)), p)) return true;
-  for (HalfEdge h : {Sheet::next(entry), Sheet::previous(entry)})
-    if (lies_on(h, p) && (attracts(h) || (depth > 0 && is_better_beyond(sheet_.opposite(h), p, depth - 1))))
-      return true;
-  return false;
+/// Is there a vertex at p, or an edge that attracts it, on the other side of an edge that it lies on, too? There the
+/// slivers of earlier cuts may lie upon each other, dozens of them where these were refined. Through which of the exits
+/// the way is shortest, breadth first; invalid: there is none.
+HalfEdge Walk::way_to_better(std::initializer_list<HalfEdge> exits, Point2 p) const {
+  struct Way {
+    HalfEdge exit, entry;  // out of the first triangle, and into the one that it has come to
+  };
+  constexpr std::size_t farthest = 128;
+  std::array<Way, farthest> ways;
+  std::size_t count = 0;
+  const TriangleIndex start = triangle_of(*exits.begin());
+  const auto go = [&](HalfEdge exit, HalfEdge h) {
+    const HalfEdge entry = sheet_.opposite(h);
+    const auto is_there = [&](const Way& way) { return triangle_of(way.entry) == triangle_of(entry); };
+    if (count < farthest && triangle_of(entry) != start && std::none_of(ways.data(), ways.data() + count, is_there))
+      ways[count++] = {exit, entry};
+  };
+  for (const HalfEdge h : exits)
+    if (lies_on(h, p) && !sheet_.separates(h)) go(h, h);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto [exit, entry] = ways[i];
+    if (is_at(sheet_.origin(Sheet::previous(entry)), p)) return exit;
+    for (const HalfEdge h : {Sheet::next(entry), Sheet::previous(entry)}) {
+      if (!lies_on(h, p)) continue;
+      if (attracts(h)) return exit;
+      go(exit, h);
+    }
+  }
+  return {};
 }
 
 /// At the target, on an edge, but the walk goes on to the better place beyond it.
@@ -99,9 +120,8 @@ Step Walk::arrive_beyond(HalfEdge entry, Point2 target) {
     return reach(passage, place_at(sheet_, apex));
   for (HalfEdge h : {Sheet::next(entry), Sheet::previous(entry)})
     if (lies_on(h, target) && attracts(h)) return reach(passage, place_on(h, target));
-  for (HalfEdge h : {Sheet::next(entry), Sheet::previous(entry)})
-    if (lies_on(h, target) && is_better_beyond(sheet_.opposite(h), target, 8)) return arrive_on(passage, h, target);
-  throw WalkLost();
+  const HalfEdge exit = way_to_better({Sheet::next(entry), Sheet::previous(entry)}, target);
+  return exit.valid() ? arrive_on(passage, exit, target) : throw WalkLost();
 }
 
 }  // namespace cutbench

@@ -49,6 +49,9 @@ void TiedSystem<D>::set_pattern(const SystemMatrix<D>& a) {
   };
   collect(*a.blocks);
   for (const auto& term : a.scalar) collect(*term.matrix);
+  for (const GhostEdge& ghost : ghosts_)
+    for (const DeformedIndex u : ghost.unknown)
+      for (const DeformedIndex v : ghost.unknown) columns[u()].push_back(v.value);
   blocks_.resize(columns.size());
   for (std::size_t u = 0; u < columns.size(); ++u) {
     auto& all = columns[u];
@@ -75,7 +78,7 @@ void TiedSystem<D>::add(std::size_t i, std::size_t j, typename BlockMatrix<D>::B
 }
 
 template <int D>
-void TiedSystem<D>::assemble(const SystemMatrix<D>& a) {
+void TiedSystem<D>::assemble(const SystemMatrix<D>& a, double stiffness) {
   if (blocks_.rows() == 0) set_pattern(a);
   blocks_.set_zero();
   pattern_ = a.pattern, held_vertices_ = *a.held;
@@ -97,6 +100,14 @@ void TiedSystem<D>::assemble(const SystemMatrix<D>& a) {
       const auto c = static_cast<Eigen::Index>(k);
       if (blocks_.columns(u).empty() || blocks_.block(blocks_.first_slot(u))(c, c) == 0) held_[D * u + k] = 1;
     }
+  ghost_stiffness_ = stiffness;
+  for (const GhostEdge& ghost : ghosts_)
+    for (std::size_t k = 0; k < 4; ++k)
+      for (std::size_t l = 0; l < 4; ++l)
+        for (std::size_t axis = 0; axis < D; ++axis)
+          if (const auto c = static_cast<Eigen::Index>(axis); acts(ghost, axis))
+            blocks_.block(blocks_.find(ghost.unknown[k](), ghost.unknown[l].value))(c, c) +=
+                stiffness * ghost.stiffness * ghost.jump[k] * ghost.jump[l];
 }
 
 template <int D>
@@ -113,6 +124,27 @@ void TiedSystem<D>::reduce(const std::vector<std::uint8_t>& held, const Field& f
   combination_.reduce(D, free, r);
   for (std::size_t u = 0; u < held.size(); ++u)
     if (held[u]) r[static_cast<Eigen::Index>(u)] = 0;
+}
+
+/// Not where it would be alone in saying where a phantom is.
+template <int D>
+bool TiedSystem<D>::acts(const GhostEdge& ghost, std::size_t axis) const {
+  return std::none_of(ghost.unknown.begin(), ghost.unknown.end(),
+                      [&](DeformedIndex u) { return combination_.is_phantom(u.value) && held_[D * u() + axis]; });
+}
+
+template <int D>
+void TiedSystem<D>::subtract_ghosts(const Field& given, Field& r) const {
+  const auto vertices = combination_.vertices();
+  for (const GhostEdge& ghost : ghosts_)
+    for (std::size_t k = 0; k < 4; ++k)
+      for (std::size_t l = 0; l < 4; ++l)
+        for (std::size_t axis = 0; axis < D; ++axis) {
+          const std::size_t from = D * ghost.unknown[l]() + axis, to = D * ghost.unknown[k]() + axis;
+          if (ghost.unknown[l]() >= vertices || !held_vertices_[from] || held_[to] || !acts(ghost, axis)) continue;
+          r[static_cast<Eigen::Index>(to)] -= ghost_stiffness_ * ghost.stiffness * ghost.jump[k] * ghost.jump[l] *
+                                              given[static_cast<Eigen::Index>(from)];
+        }
 }
 
 template <int D>

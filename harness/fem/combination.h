@@ -41,15 +41,17 @@ class Combination {
 template <int D>
 class TiedSystem {
  public:
-  TiedSystem(const Ties& ties, std::size_t vertices) : combination_(ties, vertices) {}
+  TiedSystem(const Ties& ties, std::size_t vertices) : combination_(ties, vertices), ghosts_(ties.ghosts) {}
 
   const Combination& combination() const { return combination_; }
-  /// \pre the pattern of `a` is that of the first call.
-  void assemble(const SystemMatrix<D>& a);
+  /// \pre the pattern of `a` is that of the first call. \param stiffness  N/m, of the sheet: for ghost penalties
+  void assemble(const SystemMatrix<D>& a, double stiffness = 0);
   /// Of the last assemble(); refers to this. No element table: preconditioners see no slivers, which were tied.
   SystemMatrix<D> system() const;
   /// r = C^T f, zero where a vertex is held, and without what pulls at held ones.
   void reduce(const std::vector<std::uint8_t>& held, const Field& f, Field& r) const;
+  /// Takes what the ghost penalties of the last assemble() do to given values of held vertices off the right side.
+  void subtract_ghosts(const Field& given, Field& r) const;
   /// x = C q, zero where A is held. \pre q is zero where system() is held.
   void expand(const Field& q, Field& x) const;
   /// Tied vertices of x go where their masters are, but for phantoms, which add nothing, and on axes that are held.
@@ -63,9 +65,12 @@ class TiedSystem {
  private:
   void follow(std::int32_t tied, const std::vector<std::uint8_t>& held, Field& x) const;
   void set_pattern(const SystemMatrix<D>& a);
+  bool acts(const GhostEdge& ghost, std::size_t axis) const;
   void add(std::size_t i, std::size_t j, typename BlockMatrix<D>::Block block);
 
   Combination combination_;
+  std::vector<GhostEdge> ghosts_;
+  double ghost_stiffness_ = 0;
   BlockMatrix<D> blocks_;
   std::vector<std::uint8_t> held_, held_vertices_;  // per unknown of q, and of A
   std::uint64_t pattern_ = 0;

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "harness/measure/exact.h"
-#include "harness/measure/grids.h"
+#include "harness/measure/search.h"
 
 namespace cutbench::oracle {
 
@@ -66,16 +66,16 @@ bool is_deep_inside(const Segment& s, const Corners& c, double near) {
 }  // namespace
 
 Deletion judge_deletion(const Mesh& before, const Mesh& after, const std::vector<Segment>& path, double near) {
-  const SegmentGrid grid(path);
+  const SegmentSearch search(path);
   const auto on_path = [&](const Corners& c, auto meets) {
-    CellGrid::Box box{c[0], c[0]};
+    BoxTree::Box box{c[0], c[0]};
     for (const Point& p : c)
       for (std::size_t i = 0; i < 2; ++i) {
         box.low[i] = std::min(box.low[i], p[i] - near);
         box.high[i] = std::max(box.high[i], p[i] + near);
       }
     bool found = false;
-    grid.for_each_in(box, [&](int i) { found = found || meets(path[static_cast<std::size_t>(i)]); });
+    search.for_each_in(box, [&](int i) { found = found || meets(path[static_cast<std::size_t>(i)]); });
     return found;
   };
 

@@ -7,8 +7,8 @@
 #include <set>
 #include <utility>
 
-#include "harness/measure/grids.h"
 #include "harness/measure/planar_map.h"
+#include "harness/measure/search.h"
 
 namespace cutbench::oracle {
 namespace {
@@ -25,11 +25,11 @@ void add_extension(const Point& end, const Point& before, double length, std::ve
 /// `tiny` paths are left alone with each other.
 void add_near_touches(const std::vector<Segment>& segments, const std::vector<int>& path, const std::vector<char>& tiny,
                       double tolerance, std::vector<Segment>& extensions) {
-  const SegmentGrid grid(segments);
+  const SegmentSearch search(segments);
   std::set<std::pair<Point, int>> done;
   for (std::size_t i = 0; i < segments.size(); ++i)
     for (const Point& p : segments[i])
-      grid.for_each_in({{p[0] - tolerance, p[1] - tolerance}, {p[0] + tolerance, p[1] + tolerance}}, [&](int j) {
+      search.for_each_in({{p[0] - tolerance, p[1] - tolerance}, {p[0] + tolerance, p[1] + tolerance}}, [&](int j) {
         const Segment& s = segments[j];
         if (p == s[0] || p == s[1] || (path[i] == path[j] && (path[i] < 0 || tiny[path[i]]))) return;
         if (distance(p, s) > tolerance || !done.insert({p, j}).second) return;
@@ -42,11 +42,11 @@ void add_near_touches(const std::vector<Segment>& segments, const std::vector<in
 /// How many of the path's points lie on another piece of it, or within `tolerance`, which is none of their own: they
 /// may as well fall short of it.
 int count_points_on_itself(const std::vector<Segment>& path, double tolerance) {
-  const SegmentGrid grid(path);
+  const SegmentSearch search(path);
   std::set<Point> found;
   for (const Segment& segment : path)
     for (const Point& p : segment)
-      grid.for_each_in({{p[0] - tolerance, p[1] - tolerance}, {p[0] + tolerance, p[1] + tolerance}}, [&](int i) {
+      search.for_each_in({{p[0] - tolerance, p[1] - tolerance}, {p[0] + tolerance, p[1] + tolerance}}, [&](int i) {
         const Segment& s = path[static_cast<std::size_t>(i)];
         if (p != s[0] && p != s[1] && distance(p, s) <= tolerance) found.insert(p);
       });

@@ -6,7 +6,7 @@
 
 #include "harness/measure/chains.h"
 #include "harness/measure/exact.h"
-#include "harness/measure/grids.h"
+#include "harness/measure/search.h"
 
 namespace cutbench::oracle {
 namespace {
@@ -54,22 +54,22 @@ class CornerFinder {
     for (const Segment& s : all)
       for (const Point& p : s) size_ = std::max({size_, std::abs(p[0]), std::abs(p[1])});
     near_ = std::max(coincidence * h, 16 * std::numeric_limits<double>::epsilon() * size_);
-    grid_.emplace(std::move(all));
+    search_.emplace(std::move(all));
   }
 
   std::vector<ForcedCorner> run() {
-    for (const Segment& s : grid_->segments()) visit(s[0]), visit(s[1]);
-    for (std::size_t i = first_path_; i < grid_->segments().size(); ++i) visit_crossings(grid_->segments()[i]);
+    for (const Segment& s : search_->segments()) visit(s[0]), visit(s[1]);
+    for (std::size_t i = first_path_; i < search_->segments().size(); ++i) visit_crossings(search_->segments()[i]);
     return std::move(corners_);
   }
 
  private:
   /// Proper crossings only: all other contacts are at an end point of some segment.
   void visit_crossings(const Segment& s) {
-    const CellGrid::Box box{{std::min(s[0][0], s[1][0]), std::min(s[0][1], s[1][1])},
-                            {std::max(s[0][0], s[1][0]), std::max(s[0][1], s[1][1])}};
-    grid_->for_each_in(box, [&](int i) {
-      const Segment& o = grid_->segments()[i];
+    const BoxTree::Box box{{std::min(s[0][0], s[1][0]), std::min(s[0][1], s[1][1])},
+                           {std::max(s[0][0], s[1][0]), std::max(s[0][1], s[1][1])}};
+    search_->for_each_in(box, [&](int i) {
+      const Segment& o = search_->segments()[i];
       if (orientation(s[0], s[1], o[0]) * orientation(s[0], s[1], o[1]) >= 0) return;
       if (orientation(o[0], o[1], s[0]) * orientation(o[0], o[1], s[1]) >= 0) return;
       const Point along = minus(o[1], o[0]);
@@ -92,8 +92,8 @@ class CornerFinder {
 
   std::vector<Ray> rays_at(const Point& node) const {
     std::vector<int> found;
-    grid_->for_each_in({{node[0] - near_, node[1] - near_}, {node[0] + near_, node[1] + near_}}, [&](int i) {
-      if (distance(node, grid_->segments()[i]) <= near_) found.push_back(i);
+    search_->for_each_in({{node[0] - near_, node[1] - near_}, {node[0] + near_, node[1] + near_}}, [&](int i) {
+      if (distance(node, search_->segments()[i]) <= near_) found.push_back(i);
     });
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
@@ -167,10 +167,10 @@ class CornerFinder {
 
   double h_;
   std::vector<Chain> chains_;
-  TriangleGrid sheet_;
-  std::vector<std::pair<int, int>> owner_;  // chain and segment of each segment of the grid
+  TriangleSearch sheet_;
+  std::vector<std::pair<int, int>> owner_;  // chain and segment of each segment that is searched
   std::size_t first_path_ = 0;              // segments before this one are border
-  std::optional<SegmentGrid> grid_;
+  std::optional<SegmentSearch> search_;
   double size_ = 0;  // largest coordinate
   double near_ = 0;  // points nearer than this are one
   std::vector<ForcedCorner> corners_;

@@ -12,8 +12,8 @@ void sample(const Segment& s, double spacing, Visit visit) {
 
 }  // namespace
 
-IncisionError incision_error(const SegmentGrid& path, const SegmentGrid& edges, const std::vector<Segment>& added,
-                             const TriangleGrid& sheet, double spacing) {
+IncisionError incision_error(const SegmentSearch& path, const SegmentSearch& edges, const std::vector<Segment>& added,
+                             const TriangleSearch& sheet, double spacing) {
   IncisionError error;
   for (const Segment& s : path.segments())
     sample(s, spacing, [&](const Point& p) {

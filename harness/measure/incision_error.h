@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "harness/measure/grids.h"
 #include "harness/measure/plane.h"
+#include "harness/measure/search.h"
 
 namespace cutbench::oracle {
 
@@ -22,7 +22,7 @@ struct IncisionError {
 /// @param added    the new opened edges, one per pair of lips
 /// @param sheet    the sheet before the cut: the path outside does not count
 /// @param spacing  largest distance of two samples, rest units, > 0
-IncisionError incision_error(const SegmentGrid& path, const SegmentGrid& edges, const std::vector<Segment>& added,
-                             const TriangleGrid& sheet, double spacing);
+IncisionError incision_error(const SegmentSearch& path, const SegmentSearch& edges, const std::vector<Segment>& added,
+                             const TriangleSearch& sheet, double spacing);
 
 }  // namespace cutbench::oracle

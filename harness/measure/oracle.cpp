@@ -12,8 +12,8 @@
 #include "harness/measure/exact.h"
 #include "harness/measure/expected_pieces.h"
 #include "harness/measure/flatten.h"
-#include "harness/measure/grids.h"
 #include "harness/measure/incision_error.h"
+#include "harness/measure/search.h"
 #include "harness/measure/sheet_topology.h"
 
 namespace cutbench::oracle {
@@ -179,7 +179,7 @@ class Judge {
   }
 
   void check_borders(const Borders& borders) {
-    const SegmentGrid outline(input_.border), older(input_.incisions);
+    const SegmentSearch outline(input_.border), older(input_.incisions);
     std::vector<Segment> lips;
     for (int e : borders.ambiguous) problems_.add("leak", "not just two lips " + name(segment(after_, e)));
     for (int e : borders.single) {
@@ -192,7 +192,7 @@ class Judge {
       if (!older.covers(lips.back(), input_.on)) added_.push_back(lips.back());
     }
     edges_.insert(edges_.end(), lips.begin(), lips.end());
-    const SegmentGrid open(std::move(lips));
+    const SegmentSearch open(std::move(lips));
     for (const Segment& s : input_.incisions)
       if (!open.covers(s, input_.on)) healed_.push_back(s);
   }
@@ -249,11 +249,11 @@ class Judge {
     std::vector<Segment> lines = input_.border;
     lines.insert(lines.end(), input_.incisions.begin(), input_.incisions.end());
     for (const auto& path : paths) lines.insert(lines.end(), path.begin(), path.end());
-    const SegmentGrid grid(lines);
+    const SegmentSearch search(lines);
     const auto between_two = [&](const Segment& s) {
       const Point p = between(s[0], s[1], 0.5);
       std::set<int> found;
-      grid.for_each_in({{p[0] - near, p[1] - near}, {p[0] + near, p[1] + near}}, [&](int i) {
+      search.for_each_in({{p[0] - near, p[1] - near}, {p[0] + near, p[1] + near}}, [&](int i) {
         if (distance(p, lines[static_cast<std::size_t>(i)]) <= near) found.insert(i);
       });
       return found.size() > 1;
@@ -282,9 +282,9 @@ class Judge {
   }
 
   void check_incision() {
-    const SegmentGrid path(requested_path());
-    const IncisionError error =
-        incision_error(path, SegmentGrid(edges_), added_, TriangleGrid(request_.before), 0.02 * input_.lengths.mean);
+    const SegmentSearch path(requested_path());
+    const IncisionError error = incision_error(path, SegmentSearch(edges_), added_, TriangleSearch(request_.before),
+                                               0.02 * input_.lengths.mean);
     judgement_.incision_error = std::max(error.of_path, error.of_edges);
     const double allowed = allowed_error();
     if (error.of_path > allowed) problems_.add("incision", "path not opened, off by " + number(error.of_path));

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "harness/measure/exact.h"
-#include "harness/measure/grids.h"
+#include "harness/measure/search.h"
 
 namespace cutbench::oracle {
 namespace {
@@ -139,12 +139,12 @@ class Builder {
   }
 
   void intersect() {
-    const SegmentGrid grid(segments_);
+    const SegmentSearch search(segments_);
     std::vector<int> near;
     for (int s = 0; s < static_cast<int>(segments_.size()); ++s) {
       const auto& [a, b] = segments_[s];
       near.clear();
-      grid.for_each_in({{a[0], std::min(a[1], b[1])}, {b[0], std::max(a[1], b[1])}}, [&](int t) {
+      search.for_each_in({{a[0], std::min(a[1], b[1])}, {b[0], std::max(a[1], b[1])}}, [&](int t) {
         if (t > s && boxes_meet(segments_[s], segments_[t])) near.push_back(t);
       });
       std::sort(near.begin(), near.end());

@@ -91,12 +91,36 @@ DeformedIndex Sheet::pending_deformed_left_of(HalfEdge rightmost) const {
   return dot(rest(target(rightmost)) - rest(v), made.along) > 0 ? made.at_left : made.at_right;
 }
 
+/// The deformed vertex that v, an end of h, had before: h is an opened edge, or a piece of one that starts or ends with
+/// v, and the old triangle on its left knows. Invalid where h is a piece in between, or on the cavity's border.
+DeformedIndex Sheet::old_deformed_beside(HalfEdge h, VertexIndex v, std::span<const TriangleIndex> removed) const {
+  const VertexIndex from = origin(h), to = target(h), other = from == v ? to : from;
+  const auto pending = other() < work_.pending_of.size() ? work_.pending_of[other()] : work_.pending.size();
+  const bool is_piece = pending < work_.pending.size() && work_.pending[pending].vertex == other;
+  TriangleIndex left;
+  if (is_piece) {
+    const auto& made = work_.pending[pending];
+    left = dot(rest(to) - rest(from), made.along) > 0 ? made.left : made.right;
+  }
+  for (std::size_t i = 0; i < removed.size(); ++i) {
+    if (is_piece && removed[i] != left) continue;
+    const Triangle& t = work_.old[i];
+    for (std::size_t k = 0; k < 3; ++k)
+      if (t.vertex[k] == v && (is_piece || t.vertex[from == v ? (k + 1) % 3 : (k + 2) % 3] == other))
+        return t.deformed[k];
+  }
+  return {};
+}
+
 /// Gives the corner at the origin of `spoke` the deformed vertex that others of its fan have.
-void Sheet::inherit_round(HalfEdge spoke) {
+void Sheet::inherit_round(HalfEdge spoke, std::span<const TriangleIndex> removed) {
   const auto known = [&](HalfEdge h) { return triangle(triangle_of(h)).deformed[corner(h)]; };
   DeformedIndex d;
   for (HalfEdge h = spoke; h.valid() && !d.valid();) {
-    if (mark(previous(h)) == EdgeMark::incision) break;
+    if (mark(previous(h)) == EdgeMark::incision) {
+      d = old_deformed_beside(previous(h), origin(spoke), removed);
+      break;
+    }
     h = turn_left(h);
     if (h == spoke) break;
     if (h.valid()) d = known(h);
@@ -104,6 +128,7 @@ void Sheet::inherit_round(HalfEdge spoke) {
   for (HalfEdge h = spoke; h.valid() && !d.valid();) {
     if (mark(h) == EdgeMark::incision) {
       d = pending_deformed_left_of(h);
+      if (!d.valid()) d = old_deformed_beside(h, origin(spoke), removed);
       break;
     }
     h = turn_right(h);
@@ -210,7 +235,7 @@ void Sheet::replace_cavity(std::span<const TriangleIndex> removed, std::span<con
       if (o.valid() && !was_removed(o) && !opposite(o).valid())
         if (const HalfEdge inner = work_.edges.pair_or_insert(origin(o), target(o), o); inner.valid()) link(inner, o);
 
-  for (auto spoke : work_.unassigned) inherit_round(spoke);
+  for (auto spoke : work_.unassigned) inherit_round(spoke, removed);
   work_.pending.clear();
 }
 

@@ -152,7 +152,8 @@ class Sheet {
   void put_on_path(VertexIndex v);
   DeformedIndex pending_deformed(VertexIndex v, TriangleIndex parent) const;
   DeformedIndex pending_deformed_left_of(HalfEdge rightmost) const;
-  void inherit_round(HalfEdge spoke);
+  DeformedIndex old_deformed_beside(HalfEdge h, VertexIndex v, std::span<const TriangleIndex> removed) const;
+  void inherit_round(HalfEdge spoke, std::span<const TriangleIndex> removed);
 
   std::vector<Triangle> triangles_;
   std::vector<Point2> rest_;

@@ -19,9 +19,20 @@ struct Tie {
   std::array<double, 3> weights;         ///< barycentric coordinates: of any sign, sum 1; a 0 leaves its master out
 };
 
+/// A penalty on the jump of the normal derivative, sum of jump[k] q[unknown[k]], across an edge that two elements of a
+/// cut triangle's neighbourhood share: jump^2 times `stiffness` times the sheet's stiffness (N/m) is added to q^T K q,
+/// and times `mass` times its density to q^T M q (Burman, Comptes Rendus 348 (2010): ghost penalty).
+struct GhostEdge {
+  std::array<DeformedIndex, 4> unknown;
+  std::array<double, 4> jump;  ///< 1/length
+  double stiffness, mass;      ///< length^2, length^4
+};
+
 struct Ties {
   std::vector<Tie> ties;     ///< each vertex once
   std::size_t phantoms = 0;  ///< unknowns that are no vertex of the sheet
+  std::vector<GhostEdge> ghosts;
+  std::vector<double> lumped;  ///< the area that stands for each unknown's mass, instead of C^T M C; empty: that
   bool empty() const { return ties.empty(); }
 };
 

@@ -270,6 +270,7 @@ class SceneInMotion : public InMotion {
     if (tying == CuttingMethod::Tying::nothing) return {};
     if (scene_.integrator == Integrator::symplectic_euler)
       return "the method ties vertices to others, which symplectic_euler does not take; choose an implicit integrator";
+    if (tying == CuttingMethod::Tying::ghosts) return "the method's ghost penalty does not move; set ghost to 0";
     if (tying == CuttingMethod::Tying::phantoms && scene_.physics.bending != BendingKind::none)
       return "the method's phantom nodes do not bend; set bending to none";
     return {};

@@ -102,9 +102,10 @@ StaticSolve::Solution StaticSolve::solve(const Budget& budget) {
     model_.system().add_product(given_, right_);
     right_ = force_ - right_;
     if (tied_) {
-      tied_->assemble(held_system());
+      tied_->assemble(held_system(), model_.material().stiffness);
       const Field all = right_;
       tied_->reduce(held_, all, right_);
+      tied_->subtract_ghosts(given_, right_);
     }
     assemble_us_ = watch.lap();
   }

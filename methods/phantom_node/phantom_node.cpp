@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "harness/cut/embed_conventionally.h"
@@ -69,10 +70,12 @@ class Doubling {
     join_copies();
   }
 
-  Ties run() {
+  Ties run(const PhantomNode::Options& options) {
     number_phantoms();
     Ties ties;
     ties.phantoms = phantoms_;
+    if (options.lumped_mass) lump(ties.lumped);
+    if (options.ghost > 0) add_ghosts(options.ghost, ties.ghosts);
     std::vector<std::uint8_t> seen(cut_.deformed_slots());
     for (std::size_t i = 0; i < cut_.triangle_slots(); ++i) {
       const TriangleIndex t(i);
@@ -162,6 +165,60 @@ class Doubling {
     }
   }
 
+  /// A third of the mass of each part to each copy of its parent's corners.
+  void lump(std::vector<double>& lumped) {
+    lumped.assign(cut_.deformed_slots() + phantoms_, 0);
+    for (std::size_t i = 0; i < cut_.triangle_slots(); ++i) {
+      const TriangleIndex t(i);
+      if (!cut_.triangle(t).alive()) continue;
+      const auto c = cut_.corners(t);
+      for (std::size_t k = 0; k < 3; ++k) lumped[unknown(copy(t, k))()] += cross(c[1] - c[0], c[2] - c[0]) / 6;
+    }
+  }
+
+  /// Across every edge of the sheet at which two parts are joined, one of them of a divided parent.
+  void add_ghosts(double factor, std::vector<GhostEdge>& ghosts) {
+    constexpr std::size_t none = static_cast<std::size_t>(-1);
+    std::vector<std::size_t> first_part(before_.triangle_slots(), none);
+    std::vector<std::uint8_t> divided(before_.triangle_slots());
+    for (std::size_t i = 0; i < cut_.triangle_slots(); ++i) {
+      if (!cut_.triangle(TriangleIndex(i)).alive()) continue;
+      std::size_t& first = first_part[parent_[i]()];
+      if (first == none) first = parts_.find(i);
+      divided[parent_[i]()] |= first != parts_.find(i);
+    }
+    std::set<std::pair<std::size_t, std::size_t>> done;
+    for_each_joint([&](TriangleIndex t, TriangleIndex u) {
+      const TriangleIndex p = parent_[t()], q = parent_[u()];
+      if (p == q || !(divided[p()] || divided[q()])) return;
+      if (!done.insert(std::minmax(parts_.find(t()), parts_.find(u()))).second) return;
+      const auto& corners = before_.triangle(p).vertex;
+      for (std::size_t k = 0; k < 3; ++k)  // the corner of p opposite the edge that both have
+        if (!corner_at(u, corners[k]) && corner_at(u, corners[(k + 1) % 3]) && corner_at(u, corners[(k + 2) % 3]))
+          ghosts.push_back(ghost_across(t, u, k, factor));
+    });
+  }
+
+  GhostEdge ghost_across(TriangleIndex t, TriangleIndex u, std::size_t k, double factor) {
+    const auto c = before_.corners(parent_[t()]), d = before_.corners(parent_[u()]);
+    const Point2 a = c[(k + 1) % 3], edge = c[(k + 2) % 3] - a;
+    const double length = std::sqrt(squared_length(edge));
+    // A field that is 1 at the corner k alone has the slope 1 / height there, along the normal into the triangle; at
+    // the ends of the edge it is what makes the field of all three constant.
+    const auto& across = before_.triangle(parent_[u()]).vertex;
+    std::size_t far = 0;
+    while (corner_at(t, across[far])) ++far;
+    const double slope_c = length / cross(edge, c[k] - a), slope_d = length / cross(edge, d[far] - a);  // signed
+    const double foot_c = dot(c[k] - a, edge) / (length * length), foot_d = dot(d[far] - a, edge) / (length * length);
+    GhostEdge ghost;
+    ghost.unknown = {unknown(copy(t, k)), unknown(copy(t, (k + 1) % 3)), unknown(copy(t, (k + 2) % 3)),
+                     unknown(copy(u, far))};
+    ghost.jump = {slope_c, (foot_c - 1) * slope_c - (foot_d - 1) * slope_d, foot_d * slope_d - foot_c * slope_c,
+                  -slope_d};
+    ghost.stiffness = factor * length * length, ghost.mass = ghost.stiffness * length * length;
+    return ghost;
+  }
+
   DeformedIndex unknown(std::size_t number) {
     const std::size_t one = copies_.find(number), vertices = cut_.deformed_slots();
     return DeformedIndex(one < vertices ? one : vertices + static_cast<std::size_t>(phantom_[one - vertices]));
@@ -196,6 +253,6 @@ class Doubling {
 
 void PhantomNode::embed(Sheet& sheet, Subdivision& trace) { recovered_ = embed_conventionally(sheet, trace, work_); }
 
-Ties PhantomNode::ties(const Sheet& before, const Sheet& cut) const { return Doubling(before, cut).run(); }
+Ties PhantomNode::ties(const Sheet& before, const Sheet& cut) const { return Doubling(before, cut).run(options_); }
 
 }  // namespace cutbench

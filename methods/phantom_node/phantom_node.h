@@ -14,13 +14,22 @@
 //    nothing.
 //  - Two copies of a vertex of the sheet that belong to the same part are one unknown: there the path ends, too.
 //  - What is held (a pin, a border displacement) is so at the sheet's own vertices and at crossings of the border.
+// A part with next to no material makes unknowns with next to no stiffness and mass. Two variants bound what comes of
+// it:
+//  - `ghost`: a penalty on the jump of the normal derivative across the edges that a part of a divided parent shares
+//  with
+//    its neighbours, `ghost` times edge length squared in K, to the fourth power in M. For static problems alone.
+//  - a lumped mass, a third of a part's to each corner of its parent (Menouillard, Rethore, Combescure and Bung, IJNME
+//  68
+//    (2006)): then no part has a larger eigenvalue than its parent. For the eigenvalue that bounds explicit steps.
 //
 // Source: Hansbo and Hansbo, CMAME 193 (2004); Molino, Bao and Fedkiw, A virtual node algorithm (2004); Song, Areias
 // and Belytschko, IJNME 67 (2006); Richardson, Hegemann, Sifakis, Hellrung and Teran, IJNME 88 (2011) for parts and
-// junctions. Promises: the exact path, area, conforming, no vertex moved; an affine displacement is reproduced exactly.
-// Fails: the opening is too short by up to a triangle at each tip, and along a bend inside a triangle stress is
-// constant. A part that is a thin strip has unknowns with next to no material, no less ill-conditioned than slivers,
-// for nothing is added to bound that (a ghost penalty would). The system is made anew after each cut, not updated.
+// junctions; Burman and Hansbo, Applied Numerical Mathematics 62 (2012) for the ghost penalty. Promises: the exact
+// path, area, conforming, no vertex moved; an affine displacement is reproduced exactly. Fails: the opening is too
+// short by up to a triangle at each tip, and along a bend inside a triangle stress is constant. Without a variant, thin
+// parts are no less ill-conditioned than slivers; no penalty reaches a piece smaller than a triangle. The system is
+// made anew after each cut, not updated.
 #pragma once
 
 #include "harness/cut/cutting_method.h"
@@ -30,12 +39,19 @@ namespace cutbench {
 
 class PhantomNode : public CuttingMethod {
  public:
+  struct Options {
+    double ghost = 0;  ///< dimensionless; 0: no penalty
+    bool lumped_mass = false;
+  };
+  explicit PhantomNode(const Options& options) : options_(options) {}
+
   void embed(Sheet& sheet, Subdivision& trace) override;
-  Tying tying() const override { return Tying::phantoms; }
+  Tying tying() const override { return options_.ghost > 0 ? Tying::ghosts : Tying::phantoms; }
   Ties ties(const Sheet& before, const Sheet& cut) const override;
   int recovered_segments() const override { return recovered_; }
 
  private:
+  Options options_;
   PatchWork work_;
   int recovered_ = 0;
 };
