@@ -56,7 +56,8 @@ bool cut_in_a_row(const MethodRow& row, int n, std::size_t cuts, const std::stri
   Sheet sheet(make_sheet("grid", n));
   Locator locator(sheet);
   Cutter cutter;
-  const auto method = row.make(0);  // Bowyer-Watson without local split: each round would multiply the triangles
+  // Bowyer-Watson without local split: each round would multiply the triangles.
+  const auto method = row.make(row.name == "bowyer_watson" ? 0 : row.knob.value);
   std::size_t failed = 0, wrong = 0, crossed = 0;
   std::vector<double> cost;  // us per crossed triangle
   for (std::size_t i = 0; i < cuts; ++i) {

@@ -265,6 +265,15 @@ TEST_F(CampaignRun, ACaseThatCannotBeSavedIsSaid) {
                  "taken.txt: can't be written; check");
 }
 
+TEST(Mixture, NearlyAllCasesComeNearToSomething) {
+  for (const std::string family : sheet_families()) {
+    const Sheet sheet(make_sheet(family, 6));
+    int near = 0;
+    for (std::size_t i = 0; i < 200; ++i) near += nearest_event(make_mixture_case(8, i, sheet).cuts, sheet) < 1e-9;
+    EXPECT_GE(near, 120) << family << ": of 200; the claim is 30 %";
+  }
+}
+
 TEST(Isolated, EveryPieceHasItsFate) {
   const SharedArray<int> done(40);
   const auto fates = run_isolated(done.size(), {3, 0.2}, [&](std::size_t i) {

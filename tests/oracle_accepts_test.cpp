@@ -40,6 +40,14 @@ TEST(Accepts, NothingOpenedForACurveWithHardlyAnySize) {
   EXPECT_EQ(loop(2.2e-12 / extent).verdict, "incision");
 }
 
+/// Where points may be merged that far, the slit needn't be there; but it may.
+TEST(Accepts, OpenedThoughItAsksForNothing) {
+  const std::vector<Point> slit{{0.25, 0.5}, {0.75, 0.5}};
+  Request r = request(grid(4), {polyline(slit)});
+  r.snap = 0.3;
+  expect_ok({r, open(grid(4), on({slit}))}, 1);
+}
+
 TEST(Accepts, SlitInsideOfOneEdge) {
   const std::vector<Point> slit{{0.25, 0.5}, {0.75, 0.5}};
   expect_ok({request(grid(4), {polyline(slit)}), open(grid(4), on({slit}))}, 1);

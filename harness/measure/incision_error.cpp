@@ -12,10 +12,10 @@ void sample(const Segment& s, double spacing, Visit visit) {
 
 }  // namespace
 
-IncisionError incision_error(const SegmentSearch& path, const SegmentSearch& edges, const std::vector<Segment>& added,
-                             const TriangleSearch& sheet, double spacing) {
+IncisionError incision_error(const std::vector<Segment>& asked, const SegmentSearch& path, const SegmentSearch& edges,
+                             const std::vector<Segment>& added, const TriangleSearch& sheet, double spacing) {
   IncisionError error;
-  for (const Segment& s : path.segments())
+  for (const Segment& s : asked)
     sample(s, spacing, [&](const Point& p) {
       const double d = edges.distance(p);
       if (d > error.of_path && sheet.holds(p)) error.of_path = d;

@@ -16,13 +16,14 @@ struct IncisionError {
 
 /// Both distances by sampling, so each may be short by what happens between two samples; a path segment's or edge's end
 /// points are always sampled.
-/// @param path     flattened requested curves
+/// @param asked    flattened requested curves that must be opened
+/// @param path     all requested ones, along which edges may be opened
 /// @param edges    all opened edges of the result, older incisions and the border included: where the path runs along
 ///                 those there was nothing to do
 /// @param added    the new opened edges, one per pair of lips
 /// @param sheet    the sheet before the cut: the path outside does not count
 /// @param spacing  largest distance of two samples, rest units, > 0
-IncisionError incision_error(const SegmentSearch& path, const SegmentSearch& edges, const std::vector<Segment>& added,
-                             const TriangleSearch& sheet, double spacing);
+IncisionError incision_error(const std::vector<Segment>& asked, const SegmentSearch& path, const SegmentSearch& edges,
+                             const std::vector<Segment>& added, const TriangleSearch& sheet, double spacing);
 
 }  // namespace cutbench::oracle

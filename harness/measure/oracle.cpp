@@ -216,7 +216,7 @@ class Judge {
 
   void check_deletion() {
     const double near = std::min(request_.tolerance, input_.lengths.longest) + slack();
-    const Deletion found = judge_deletion(request_.before, after_, requested_path(), near);
+    const Deletion found = judge_deletion(request_.before, after_, requested_path(asks_for_nothing()), near);
     for (int t : found.invented) problems_.add("deletion", name(after_, t) + " is none of the sheet before");
     for (int t : found.unasked) problems_.add("deletion", name(request_.before, t) + " is gone, and not on the path");
     for (int t : found.left) problems_.add("deletion", name(after_, t) + " is on the path, and still there");
@@ -282,9 +282,9 @@ class Judge {
   }
 
   void check_incision() {
-    const SegmentSearch path(requested_path());
-    const IncisionError error = incision_error(path, SegmentSearch(edges_), added_, TriangleSearch(request_.before),
-                                               0.02 * input_.lengths.mean);
+    const SegmentSearch path(requested_path(0));  // what needn't be cut may be
+    const IncisionError error = incision_error(requested_path(asks_for_nothing()), path, SegmentSearch(edges_), added_,
+                                               TriangleSearch(request_.before), 0.02 * input_.lengths.mean);
     judgement_.incision_error = std::max(error.of_path, error.of_edges);
     const double allowed = allowed_error();
     if (error.of_path > allowed) problems_.add("incision", "path not opened, off by " + number(error.of_path));
@@ -298,9 +298,9 @@ class Judge {
   }
 
   /// Finely flattened, and what of it is near the sheet.
-  std::vector<Segment> requested_path() const {
+  std::vector<Segment> requested_path(double smallest) const {
     std::vector<Segment> all;
-    for (const auto& path : paths(request_.cuts, flattening(), asks_for_nothing()))
+    for (const auto& path : paths(request_.cuts, flattening(), smallest))
       all.insert(all.end(), path.begin(), path.end());
     return near_mesh(all, request_.before);
   }
