@@ -185,12 +185,12 @@ inline std::string different_cut(const Shape& a, const Shape& b, double toleranc
   for (auto edges : {&Shape::opened, &Shape::border}) {
     const std::string what = edges == &Shape::opened ? "incision" : "border";
     const oracle::SegmentSearch in_a(segments(a, a.*edges)), in_b(segments(b, b.*edges));
-    for (const auto& [grid, others] : {std::pair{&in_a, &in_b}, std::pair{&in_b, &in_a}})
+    for (const auto& [search, others] : {std::pair{&in_a, &in_b}, std::pair{&in_b, &in_a}})
       for (const oracle::Segment& s : others->segments())
-        if (!grid->covers(s, tolerance)) {
+        if (!search->covers(s, tolerance)) {
           char text[160];
           std::snprintf(text, sizeof text, " is missing {%.17g, %.17g} - {%.17g, %.17g} the %s time", s[0][0], s[0][1],
-                        s[1][0], s[1][1], grid == &in_a ? "first" : "second");
+                        s[1][0], s[1][1], search == &in_a ? "first" : "second");
           return what + text;
         }
   }

@@ -36,8 +36,8 @@ class CuttingMethod {
   /// one.
   virtual void improve(Sheet&) {}
 
-  /// Whether ties() may give any, of phantoms, too, and ghost penalties on these: to be known before a cut.
-  enum class Tying : std::uint8_t { nothing, vertices, phantoms, ghosts };
+  /// Whether ties() may give any, of phantoms, too, and such as make sense at rest alone: to be known before a cut.
+  enum class Tying : std::uint8_t { nothing, vertices, phantoms, phantoms_at_rest };
   virtual Tying tying() const { return Tying::nothing; }
   /// What is to be solved for on a sheet that this method cut, any number of times; none: every vertex of its own.
   /// Looks at everything, and depends on the two sheets alone. \param before  the sheet that the first cut was made in,

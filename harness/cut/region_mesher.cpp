@@ -5,12 +5,16 @@
 #include <CGAL/Delaunay_mesh_vertex_base_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
-// The mesh generator's own assertions in every build, where it would go on with a midpoint that rounding put beyond
-// both triangles at its edge.
+// The mesh generator's own assertions in every build: without them it goes on, and crashes, with a midpoint that
+// rounding put beyond both triangles at its edge.
 #pragma push_macro("CGAL_assertion")
 #undef CGAL_assertion
 #define CGAL_assertion(EX) ((EX) ? static_cast<void>(0) : CGAL::assertion_fail(#EX, __FILE__, __LINE__))
+#pragma push_macro("CGAL_assume")
+#undef CGAL_assume
+#define CGAL_assume(EX) CGAL_assertion(EX)
 #include <CGAL/Delaunay_mesher_2.h>
+#pragma pop_macro("CGAL_assume")
 #pragma pop_macro("CGAL_assertion")
 
 #include <algorithm>
@@ -116,6 +120,7 @@ struct RegionMesher::Work {
   std::vector<std::uint8_t> use;  // per vertex: left out, used, on an incision
   std::vector<Vertex> handle_of;  // per vertex of the sheet; unset where it isn't in the mesh
   Mesh mesh;
+  bool broken = false;  // the mesh generator gave up half-way
   std::vector<Chain> chains;
   std::vector<Vertex> inner;          // new vertices on no constraint
   std::vector<std::uint32_t> met_in;  // per triangle slot: the search that met it last
@@ -194,16 +199,18 @@ void RegionMesher::Work::mark_domain(const Sheet& sheet) {
 
 bool RegionMesher::refine(const Sheet& sheet, const Limits& limits) {
   Work& w = *work_;
+  w.broken = false;
   w.mark_domain(sheet);
   Mesher mesher(w.mesh, ShapeCriteria(limits));
   mesher.init(true);
+  bool done = false;
+  const std::size_t vertices_before = w.mesh.number_of_vertices();
   std::size_t made = 0;
-  bool done = true;
   try {
     while (made < limits.most_vertices && mesher.step_by_step_refine_mesh()) ++made;
     done = mesher.is_refinement_done();
   } catch (const CGAL::Assertion_exception&) {
-    done = false;  // before it changed anything
+    w.broken = w.mesh.number_of_vertices() != vertices_before + made;  // in the middle of a change
   }
   return w.find_chains(sheet) && done;
 }
@@ -383,7 +390,7 @@ bool RegionMesher::put_back(Sheet& sheet) {
 }
 
 bool RegionMesher::Work::put_back(Sheet& sheet) {
-  if (!locate_inner(sheet) || !collect_triangles(sheet)) return false;
+  if (broken || !locate_inner(sheet) || !collect_triangles(sheet)) return false;
   for (const auto& chain : chains) {
     const Point2 a = sheet.rest(sheet.origin(chain.edge)), along = sheet.rest(sheet.target(chain.edge)) - a;
     for (const Vertex& v : chain.vertices) {

@@ -67,8 +67,8 @@ Step Walk::along(HalfEdge h, VertexIndex v, Point2 target) {
   if (is_at(v, target) || dot(target - rest(v), on_line ? rest(v) - from : target - origin_) > 0)
     return pass_vertex(along_edge(h), v, target);
   if (!attracts(h))
-    for (const HalfEdge side : {h, sheet_.opposite(h)})
-      if (way_to_better({side}, target).valid()) return arrive_on(along_edge(h), side, target);
+    for (const HalfEdge exit : {sheet_.opposite(h), h})
+      if (way_to_better({exit}, target).valid()) return arrive_on(along_edge(h), exit, target);
   return reach(along_edge(h), place_on(h, target));
 }
 

@@ -2,8 +2,8 @@
 // leave, several edges can lie within the snap distance of it; then the walk goes on through the slivers to a vertex or
 // a separating edge, if there is one, so that the path meets older incisions and the border where it should.
 #include <algorithm>
-#include <array>
 #include <utility>
+#include <vector>
 
 #include "harness/cut/walk.h"
 
@@ -76,24 +76,24 @@ bool Walk::is_detour(VertexIndex v, Point2 target) const {
 
 /// Is there a vertex at p, or an edge that attracts it, on the other side of an edge that it lies on, too? There the
 /// slivers of earlier cuts may lie upon each other, dozens of them where these were refined. Through which of the exits
-/// the way is shortest, breadth first; invalid: there is none.
+/// the way is shortest, breadth first; invalid: there is none. Of several exits those count that p lies on.
 HalfEdge Walk::way_to_better(std::initializer_list<HalfEdge> exits, Point2 p) const {
   struct Way {
     HalfEdge exit, entry;  // out of the first triangle, and into the one that it has come to
   };
-  constexpr std::size_t farthest = 128;
-  std::array<Way, farthest> ways;
-  std::size_t count = 0;
+  constexpr std::size_t most = 1024;
+  std::vector<Way> ways;
   const TriangleIndex start = triangle_of(*exits.begin());
   const auto go = [&](HalfEdge exit, HalfEdge h) {
     const HalfEdge entry = sheet_.opposite(h);
     const auto is_there = [&](const Way& way) { return triangle_of(way.entry) == triangle_of(entry); };
-    if (count < farthest && triangle_of(entry) != start && std::none_of(ways.data(), ways.data() + count, is_there))
-      ways[count++] = {exit, entry};
+    if (triangle_of(entry) == start || std::any_of(ways.begin(), ways.end(), is_there)) return;
+    if (ways.size() == most) throw WalkLost();
+    ways.push_back({exit, entry});
   };
   for (const HalfEdge h : exits)
-    if (lies_on(h, p) && !sheet_.separates(h)) go(h, h);
-  for (std::size_t i = 0; i < count; ++i) {
+    if ((exits.size() == 1 || lies_on(h, p)) && !sheet_.separates(h)) go(h, h);
+  for (std::size_t i = 0; i < ways.size(); ++i) {
     const auto [exit, entry] = ways[i];
     if (is_at(sheet_.origin(Sheet::previous(entry)), p)) return exit;
     for (const HalfEdge h : {Sheet::next(entry), Sheet::previous(entry)}) {

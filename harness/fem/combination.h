@@ -35,9 +35,9 @@ class Combination {
   std::size_t phantoms_;
 };
 
-/// C^T A C and its unknowns for a system A of all vertices. Held unknowns of A are data: their rows of C are zero, and
-/// an unknown is held where the vertex is that it places, or where nothing is left that depends on it.
-/// It is assembled anew whenever A is: the pattern once, the values by the blocks of A. A cut wants a new one.
+/// C^T A C, with ghost penalties, and its unknowns for a system A of all vertices. Held unknowns of A are data: their
+/// rows of C are zero, and an unknown is held where the vertex is that it places, or where nothing is left that depends
+/// on it. It is assembled anew whenever A is: the pattern once, the values by the blocks of A. A cut wants a new one.
 template <int D>
 class TiedSystem {
  public:

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -30,7 +31,8 @@ class ScaledStiffness {
     factor(mass, ties.lumped);
   }
 
-  Eigen::Index size() const { return 2 * mass_.rows(); }
+  Eigen::Index size() const { return 2 * static_cast<Eigen::Index>(combination_.unknowns()); }
+  bool is_mass_positive() const { return is_mass_positive_; }
 
   void apply(const VectorXd& x, VectorXd& y) {
     scaled_ = Eigen::Map<const TwoPerUnknown>(x.data(), mass_.rows(), 2);
@@ -76,6 +78,7 @@ class ScaledStiffness {
     Eigen::SparseMatrix<double> matrix(n, n);
     matrix.setFromTriplets(entries.begin(), entries.end());
     mass_.compute(matrix);
+    is_mass_positive_ = mass_.info() == Eigen::Success;
   }
 
   void add_force(const GhostEdge& ghost, VectorXd& y) const {
@@ -107,6 +110,7 @@ class ScaledStiffness {
   Combination combination_;
   std::vector<GhostEdge> ghosts_;
   Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> mass_;
+  bool is_mass_positive_ = true;
   TwoPerUnknown scaled_;
   VectorXd moved_, force_;
 };
@@ -119,6 +123,7 @@ double largest_eigenvalue(const Sheet& sheet, const Ties& ties) {
   ScaledStiffness stiffness(sheet, ties);
   const Eigen::Index n = stiffness.size();
   if (n == 0) return 0;
+  if (!stiffness.is_mass_positive()) return std::numeric_limits<double>::quiet_NaN();
   std::mt19937_64 bits(1);  // its bits, unlike the distributions, are the same everywhere
   VectorXd q(n), before = VectorXd::Zero(n), next;
   for (double& x : q) x = static_cast<double>(bits() >> 11) * 0x1p-53 - 0.5;

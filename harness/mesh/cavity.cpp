@@ -92,7 +92,7 @@ DeformedIndex Sheet::pending_deformed_left_of(HalfEdge rightmost) const {
 }
 
 /// The deformed vertex that v, an end of h, had before: h is an opened edge, or a piece of one that starts or ends with
-/// v, and the old triangle on its left knows. Invalid where h is a piece in between, or on the cavity's border.
+/// v, and the old triangle on its left knows. Invalid where h is a piece in between.
 DeformedIndex Sheet::old_deformed_beside(HalfEdge h, VertexIndex v, std::span<const TriangleIndex> removed) const {
   const VertexIndex from = origin(h), to = target(h), other = from == v ? to : from;
   const auto pending = other() < work_.pending_of.size() ? work_.pending_of[other()] : work_.pending.size();
@@ -116,9 +116,10 @@ DeformedIndex Sheet::old_deformed_beside(HalfEdge h, VertexIndex v, std::span<co
 void Sheet::inherit_round(HalfEdge spoke, std::span<const TriangleIndex> removed) {
   const auto known = [&](HalfEdge h) { return triangle(triangle_of(h)).deformed[corner(h)]; };
   DeformedIndex d;
+  HalfEdge leftmost, rightmost;  // where the fan ends at opened edges
   for (HalfEdge h = spoke; h.valid() && !d.valid();) {
     if (mark(previous(h)) == EdgeMark::incision) {
-      d = old_deformed_beside(previous(h), origin(spoke), removed);
+      leftmost = previous(h);
       break;
     }
     h = turn_left(h);
@@ -127,15 +128,18 @@ void Sheet::inherit_round(HalfEdge spoke, std::span<const TriangleIndex> removed
   }
   for (HalfEdge h = spoke; h.valid() && !d.valid();) {
     if (mark(h) == EdgeMark::incision) {
+      rightmost = h;
       d = pending_deformed_left_of(h);
-      if (!d.valid()) d = old_deformed_beside(h, origin(spoke), removed);
       break;
     }
     h = turn_right(h);
     if (h == spoke) break;
     if (h.valid()) d = known(h);
   }
-  // All triangles of the fan were replaced: the old one in whose corner this one lies knows.
+  // All triangles of the fan were replaced: the old ones beside the opened edges know, else the one in whose corner
+  // this one lies.
+  for (const HalfEdge end : {leftmost, rightmost})
+    if (end.valid() && !d.valid()) d = old_deformed_beside(end, origin(spoke), removed);
   if (!d.valid()) {
     const auto c = corners(triangle_of(spoke));
     const Point2 v = rest(origin(spoke)), inward = c[0] + c[1] + c[2] - 3 * v;

@@ -19,9 +19,9 @@ struct Tie {
   std::array<double, 3> weights;         ///< barycentric coordinates: of any sign, sum 1; a 0 leaves its master out
 };
 
-/// A penalty on the jump of the normal derivative, sum of jump[k] q[unknown[k]], across an edge that two elements of a
-/// cut triangle's neighbourhood share: jump^2 times `stiffness` times the sheet's stiffness (N/m) is added to q^T K q,
-/// and times `mass` times its density to q^T M q (Burman, Comptes Rendus 348 (2010): ghost penalty).
+/// A penalty on the jump of the normal derivative, sum of jump[k] q[unknown[k]], across an edge at which two parts are
+/// joined, one of them of a divided triangle: jump^2 times `stiffness` times the sheet's stiffness (N/m) is added to
+/// q^T K q, and times `mass` times its density to q^T M q (Burman, Comptes Rendus 348 (2010)).
 struct GhostEdge {
   std::array<DeformedIndex, 4> unknown;
   std::array<double, 4> jump;  ///< 1/length

@@ -234,6 +234,7 @@ class SceneInMotion : public InMotion {
                 const CutOptions& options) {
     MotionCut result;
     result.parts = 1;
+    std::optional<std::string> refusal;  // of any of the curves
     if (const std::string reason = why_not(method.tying()); !reason.empty()) {
       result.cut.status = Status::refused, result.cut.reason = result.reason = reason;
       return result;
@@ -244,6 +245,7 @@ class SceneInMotion : public InMotion {
       result.cut.crossed_triangles += run.crossed_triangles;
       result.cut.time_us += run.time_us, result.cut.cpu_us += run.cpu_us;
       result.verdict = run.verdict, result.reason = run.reason;
+      if (run.status == Status::refused) refusal = run.reason;
       if (run.status == Status::noop || run.status == Status::refused) continue;
       if (run.verdict != "ok") return result;
       StopWatch watch;
@@ -262,6 +264,7 @@ class SceneInMotion : public InMotion {
       now.model.tied()->settle(now.model.held(), now.state.v);
       result.pattern_us += watch.lap();
     }
+    if (refusal) result.cut.status = Status::refused, result.reason = *refusal;
     return result;
   }
 
@@ -270,7 +273,8 @@ class SceneInMotion : public InMotion {
     if (tying == CuttingMethod::Tying::nothing) return {};
     if (scene_.integrator == Integrator::symplectic_euler)
       return "the method ties vertices to others, which symplectic_euler does not take; choose an implicit integrator";
-    if (tying == CuttingMethod::Tying::ghosts) return "the method's ghost penalty does not move; set ghost to 0";
+    if (tying == CuttingMethod::Tying::phantoms_at_rest)
+      return "the method's ghost penalty or lumped mass is for sheets at rest; use phantom_node with ghost=0";
     if (tying == CuttingMethod::Tying::phantoms && scene_.physics.bending != BendingKind::none)
       return "the method's phantom nodes do not bend; set bending to none";
     return {};

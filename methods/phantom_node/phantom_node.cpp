@@ -172,7 +172,8 @@ class Doubling {
       const TriangleIndex t(i);
       if (!cut_.triangle(t).alive()) continue;
       const auto c = cut_.corners(t);
-      for (std::size_t k = 0; k < 3; ++k) lumped[unknown(copy(t, k))()] += cross(c[1] - c[0], c[2] - c[0]) / 6;
+      for (std::size_t k = 0; k < 3; ++k)
+        lumped[unknown(copy(t, k))()] += std::max(0.0, cross(c[1] - c[0], c[2] - c[0])) / 6;
     }
   }
 

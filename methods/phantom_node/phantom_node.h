@@ -14,14 +14,14 @@
 //    nothing.
 //  - Two copies of a vertex of the sheet that belong to the same part are one unknown: there the path ends, too.
 //  - What is held (a pin, a border displacement) is so at the sheet's own vertices and at crossings of the border.
-// A part with next to no material makes unknowns with next to no stiffness and mass. Two variants bound what comes of
-// it:
-//  - `ghost`: a penalty on the jump of the normal derivative across the edges that a part of a divided parent shares
-//  with
-//    its neighbours, `ghost` times edge length squared in K, to the fourth power in M. For static problems alone.
-//  - a lumped mass, a third of a part's to each corner of its parent (Menouillard, Rethore, Combescure and Bung, IJNME
-//  68
-//    (2006)): then no part has a larger eigenvalue than its parent. For the eigenvalue that bounds explicit steps.
+//
+// A part with next to no material makes unknowns with next to no stiffness and mass. Two variants, for sheets at rest,
+// bound what comes of it:
+//  - `ghost`: a penalty on the jump of the normal derivative across the edges at which the parts of a divided parent
+//  and
+//    its neighbours are joined, `ghost` times edge length squared in K, to the fourth power in M.
+//  - a lumped mass, a third of a part's to each corner of its parent: then no part has a larger eigenvalue than that
+//    (Menouillard, Rethore, Combescure and Bung, IJNME 68 (2006)).
 //
 // Source: Hansbo and Hansbo, CMAME 193 (2004); Molino, Bao and Fedkiw, A virtual node algorithm (2004); Song, Areias
 // and Belytschko, IJNME 67 (2006); Richardson, Hegemann, Sifakis, Hellrung and Teran, IJNME 88 (2011) for parts and
@@ -46,7 +46,9 @@ class PhantomNode : public CuttingMethod {
   explicit PhantomNode(const Options& options) : options_(options) {}
 
   void embed(Sheet& sheet, Subdivision& trace) override;
-  Tying tying() const override { return options_.ghost > 0 ? Tying::ghosts : Tying::phantoms; }
+  Tying tying() const override {
+    return options_.ghost > 0 || options_.lumped_mass ? Tying::phantoms_at_rest : Tying::phantoms;
+  }
   Ties ties(const Sheet& before, const Sheet& cut) const override;
   int recovered_segments() const override { return recovered_; }
 
