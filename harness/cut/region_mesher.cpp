@@ -105,6 +105,7 @@ struct RegionMesher::Work {
   void mark_domain(const Sheet& sheet);
   bool find_chains(const Sheet& sheet);
   bool follow(Vertex from, Vertex first, Chain& chain) const;
+  static bool goes_along(const Sheet& sheet, const Chain& chain);
   TriangleIndex find(const Sheet& sheet, const Vertex& from, const Vertex& vertex);
   bool locate_inner(const Sheet& sheet);
   bool collect_triangles(const Sheet& sheet);
@@ -120,7 +121,7 @@ struct RegionMesher::Work {
   std::vector<std::uint8_t> use;  // per vertex: left out, used, on an incision
   std::vector<Vertex> handle_of;  // per vertex of the sheet; unset where it isn't in the mesh
   Mesh mesh;
-  bool broken = false;  // the mesh generator gave up half-way
+  bool broken = false;  // the mesh generator gave up half-way, or doubles were too coarse
   std::vector<Chain> chains;
   std::vector<Vertex> inner;          // new vertices on no constraint
   std::vector<std::uint32_t> met_in;  // per triangle slot: the search that met it last
@@ -212,7 +213,8 @@ bool RegionMesher::refine(const Sheet& sheet, const Limits& limits) {
   } catch (const CGAL::Assertion_exception&) {
     w.broken = w.mesh.number_of_vertices() != vertices_before + made;  // in the middle of a change
   }
-  return w.find_chains(sheet) && done;
+  w.broken |= !w.find_chains(sheet);
+  return done && !w.broken;
 }
 
 /// The vertices along a divided constraint, from one vertex of the sheet to the next; false where it gets lost.
@@ -236,6 +238,18 @@ bool RegionMesher::Work::follow(Vertex from, Vertex first, Chain& chain) const {
   }
 }
 
+/// Do the vertices, rounded, follow one another along the edge? Which lip a piece of it belongs to is told by that.
+bool RegionMesher::Work::goes_along(const Sheet& sheet, const Chain& chain) {
+  Point2 before = sheet.rest(sheet.origin(chain.edge));
+  const Point2 end = sheet.rest(sheet.target(chain.edge)), along = end - before;
+  for (const Vertex& vertex : chain.vertices) {
+    const Point2 p = from_cgal(vertex->point());
+    if (!(dot(p - before, along) > 0)) return false;
+    before = p;
+  }
+  return dot(end - before, along) > 0;
+}
+
 bool RegionMesher::Work::find_chains(const Sheet& sheet) {
   chains.clear(), divided.clear();
   for (const VertexIndex v : points) {
@@ -255,7 +269,7 @@ bool RegionMesher::Work::find_chains(const Sheet& sheet) {
         chain.edge = find_spoke(sheet, end, v);
         std::reverse(chain.vertices.begin(), chain.vertices.end());
       }
-      if (!chain.edge.valid()) return false;
+      if (!chain.edge.valid() || !goes_along(sheet, chain)) return false;
       const HalfEdge o = sheet.opposite(chain.edge);
       if (o.valid() && in_region(o) != in_region(chain.edge)) divided.push_back(chain.edge);
       for (const Vertex& vertex : chain.vertices) {
