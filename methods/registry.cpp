@@ -188,10 +188,9 @@ const std::vector<MethodRow>& nameable_methods() {
   static const auto rows = [] {
     std::vector<MethodRow> all = all_methods();
     all.insert(all.end(), ablation_methods().begin(), ablation_methods().end());
-    all.push_back(
-        {"phantom_node:lumped_mass", "phantom_node with a lumped mass", {}, exact_split, [](double) {
-           return std::make_unique<PhantomNode>(PhantomNode::Options{.lumped_mass = true});
-         }});
+    all.push_back({"phantom_node:lumped_mass", "phantom_node with a lumped mass", {}, exact_split, [](double) {
+                     return std::make_unique<PhantomNode>(PhantomNode::Options{.lumped_mass = true});
+                   }});
     return all;
   }();
   return rows;
