@@ -69,7 +69,7 @@ bool cut_in_a_row(const MethodRow& row, int n, std::size_t cuts, const std::stri
       ++failed;
       std::cerr << row.name << ", cut " << i << ": " << outcome.verdict << ": " << outcome.reason << '\n';
       if (!folder.empty()) save(sheet, curve, std::filesystem::path(folder) / (row.name + std::to_string(i)));
-    } else if (judged && !is_sound(before, sheet, curve, row.promises)) {
+    } else if (judged && outcome.status != Status::refused && !is_sound(before, sheet, curve, row.promises)) {
       ++wrong;
       std::cerr << row.name << ", cut " << i << ": wrong\n";
       if (!folder.empty()) save(before, curve, std::filesystem::path(folder) / (row.name + std::to_string(i)));
