@@ -18,8 +18,7 @@
 // A part with next to no material makes unknowns with next to no stiffness and mass. Two variants, for sheets at rest,
 // bound what comes of it:
 //  - `ghost`: a penalty on the jump of the normal derivative across the edges at which the parts of a divided parent
-//  and
-//    its neighbours are joined, `ghost` times edge length squared in K, to the fourth power in M.
+//    are joined to its neighbours, `ghost` times edge length squared in K, to the fourth power in M.
 //  - a lumped mass, a third of a part's to each corner of its parent: then no part has a larger eigenvalue than that
 //    (Menouillard, Rethore, Combescure and Bung, IJNME 68 (2006)).
 //
