@@ -71,8 +71,7 @@ class PartsOfRefinement final : public CuttingMethod {
   void embed(Sheet& sheet, Subdivision& trace) override { embed_plainly(sheet, trace, work_); }
   void improve(Sheet& sheet) override {
     wedges_.find(sheet);
-    find_changed(sheet, region_);
-    grow_region(sheet, 2, region_);
+    region_.clear(sheet), region_.add_changed(sheet), region_.grow(sheet, 2);
     StopWatch watch;
     mesher_.convert(sheet, region_, true);
     us[0] += watch.lap();
@@ -93,7 +92,7 @@ class PartsOfRefinement final : public CuttingMethod {
   PatchWork work_;
   ForcedWedges wedges_;
   RegionMesher mesher_;
-  std::vector<TriangleIndex> region_;
+  Region region_;
 };
 
 void time_part_of_refinement(benchmark::State& state, std::size_t part, int n) {

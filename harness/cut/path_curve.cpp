@@ -10,7 +10,7 @@ namespace cutbench {
 
 void PathCurve::read(const Subdivision& trace) {
   const std::size_t n = trace.nodes.size();
-  ++stamp_;  // no vertex is known yet
+  parameter_of_.clear(0);  // no vertex is known yet
   points_.clear(), goes_on_.assign(n, 0);
   for (const auto& node : trace.nodes) points_.push_back(node.place.point);
   degree_.assign(n, 0);
@@ -30,14 +30,14 @@ void PathCurve::read(const Subdivision& trace) {
 }
 
 void PathCurve::find_vertices(const Sheet& sheet, const Subdivision& trace) {
-  if (of_vertex_.size() < sheet.vertex_slots()) of_vertex_.resize(2 * sheet.vertex_slots());
+  if (parameter_of_.size() < sheet.vertex_slots()) parameter_of_.grow(2 * sheet.vertex_slots());
   std::size_t i = 0;
   for (const auto& node : trace.nodes) {
     std::size_t found = i;  // nodes keep their order, but for some that are left out
     while (found < points_.size() && points_[found] != node.place.point) ++found;
     if (found == points_.size()) continue;
     i = found;
-    of_vertex_[node.vertex()] = {stamp_, static_cast<double>(found)};
+    parameter_of_.set(node.vertex, static_cast<double>(found));
   }
 }
 

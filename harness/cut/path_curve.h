@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "harness/cut/subdivision.h"
+#include "harness/mesh/stamped_table.h"
 
 namespace cutbench {
 
@@ -18,29 +19,22 @@ class PathCurve {
   void find_vertices(const Sheet& sheet, const Subdivision& trace);
 
   /// Where v lies; negative where it is not a vertex of the path, or one that must stay.
-  double parameter(VertexIndex v) const {
-    return v() < of_vertex_.size() && of_vertex_[v()].stamp == stamp_ ? of_vertex_[v()].parameter : -1;
-  }
+  double parameter(VertexIndex v) const { return v() < parameter_of_.size() ? parameter_of_.get(v, -1) : -1; }
   /// v is a new vertex of the path.
   void add(VertexIndex v, double s) {
-    if (of_vertex_.size() <= v()) of_vertex_.resize(2 * v());
-    of_vertex_[v()] = {stamp_, s};
+    if (parameter_of_.size() <= v()) parameter_of_.grow(2 * v());
+    parameter_of_.set(v, s);
   }
-  void set_parameter(VertexIndex v, double s) { of_vertex_[v()].parameter = s; }
+  void set_parameter(VertexIndex v, double s) { parameter_of_.at(v) = s; }
   Point2 at(double s) const;
   /// Is all between two parameters one piece of the curve without ends, and within `tolerance` of the segment a b?
   bool stays_near(double from, double to, Point2 a, Point2 b, double tolerance) const;
 
  private:
-  struct Known {
-    std::uint32_t stamp = 0;
-    double parameter = -1;
-  };
   std::vector<Point2> points_;
   std::vector<std::uint8_t> goes_on_;  // from point i to the next, neither being a crossing of the path with itself
   std::vector<std::uint8_t> degree_;   // of each node
-  std::vector<Known> of_vertex_;
-  std::uint32_t stamp_ = 0;
+  StampedTable<VertexIndex, double> parameter_of_;
 };
 
 }  // namespace cutbench

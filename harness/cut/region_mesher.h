@@ -4,16 +4,16 @@
 
 #include <limits>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "harness/cut/forced_wedges.h"
+#include "harness/cut/region.h"
 #include "harness/mesh/sheet.h"
 
 namespace cutbench {
 
 /// Keeps its working storage from one use to the next. The four steps are called one after the other, refine() also
-/// where it is to add nothing. Each costs the sheet's size, for tables per vertex and triangle.
+/// where it is to add nothing.
 class RegionMesher {
  public:
   RegionMesher();
@@ -28,8 +28,8 @@ class RegionMesher {
   };
 
   /// 1. Reads the triangles of the region: constraints, and vertices, of which those on no constraint and not held
-  /// (Sheet::hold) may be left out.
-  void convert(const Sheet& sheet, std::span<const TriangleIndex> region, bool with_inner_vertices);
+  /// (Sheet::hold) may be left out. The region must stay as it is until the last step.
+  void convert(const Sheet& sheet, const Region& region, bool with_inner_vertices);
   /// 2. The constrained Delaunay triangulation of what was read. False: too close together for doubles,
   /// or two vertices at one place; then there is nothing to go on with.
   bool insert(const Sheet& sheet);
@@ -47,13 +47,5 @@ class RegionMesher {
   struct Work;
   std::unique_ptr<Work> work_;
 };
-
-/// Fills `region` with the triangles that the cut under way has made or changed.
-void find_changed(const Sheet& sheet, std::vector<TriangleIndex>& region);
-
-/// Adds `rings` of neighbours to the region, which may name a triangle twice before, and then whatever else lies across
-/// an edge whose diametral circle holds a corner of one of its triangles, since the mesh generator would divide such an
-/// edge at once.
-void grow_region(const Sheet& sheet, int rings, std::vector<TriangleIndex>& region);
 
 }  // namespace cutbench

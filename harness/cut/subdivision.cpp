@@ -8,9 +8,7 @@ namespace cutbench {
 void Subdivision::reset(const Sheet& sheet) {
   sheet_ = &sheet;
   nodes.clear(), segments.clear(), along.clear(), faces.clear();
-  if (of_triangle_.size() < sheet.triangle_slots()) of_triangle_.resize(sheet.triangle_slots());
-  if (at_vertex_.size() < sheet.vertex_slots()) at_vertex_.resize(sheet.vertex_slots());
-  ++stamp_;
+  face_of_.clear(sheet.triangle_slots()), node_at_.clear(sheet.vertex_slots());
 }
 
 std::size_t Subdivision::crossed_triangles() const {
@@ -19,23 +17,15 @@ std::size_t Subdivision::crossed_triangles() const {
 }
 
 int Subdivision::face_of(TriangleIndex t) {
-  Stamped& entry = of_triangle_[t()];
-  if (entry.stamp != stamp_) {
-    entry = {stamp_, static_cast<int>(faces.size())};
-    faces.emplace_back().triangle = t;
-  }
-  return entry.index;
+  if (face_of_.insert(t, static_cast<int>(faces.size()))) faces.emplace_back().triangle = t;
+  return face_of_.at(t);
 }
 
 int Subdivision::node_of(const Place& place) {
   if (place.kind == Place::Kind::edge) return node_on_edge(place);
   if (place.kind == Place::Kind::face) return node_inside(place);
-  Stamped& entry = at_vertex_[place.vertex()];
-  if (entry.stamp != stamp_) {
-    entry = {stamp_, static_cast<int>(nodes.size())};
-    nodes.push_back({place, place.vertex, -1});
-  }
-  return entry.index;
+  if (node_at_.insert(place.vertex, static_cast<int>(nodes.size()))) nodes.push_back({place, place.vertex, -1});
+  return node_at_.at(place.vertex);
 }
 
 int Subdivision::node_on_edge(Place place) {
@@ -82,8 +72,8 @@ void Subdivision::add_along(int from, int to, HalfEdge edge) {
 }
 
 int Subdivision::first_on(HalfEdge first) const {
-  const Stamped& entry = of_triangle_[triangle_of(first)()];
-  return entry.stamp == stamp_ ? face(entry.index).on_edge[static_cast<std::size_t>(corner_of(first))] : -1;
+  const int f = find_face(triangle_of(first));
+  return f >= 0 ? face(f).on_edge[static_cast<std::size_t>(corner_of(first))] : -1;
 }
 
 std::vector<int> Subdivision::nodes_along(const Along& piece) const {

@@ -8,6 +8,7 @@
 
 #include "harness/cut/walk.h"
 #include "harness/mesh/sheet.h"
+#include "harness/mesh/stamped_table.h"
 
 namespace cutbench {
 
@@ -53,9 +54,9 @@ class Subdivision {
   void reset(const Sheet& sheet);
 
   int face_of(TriangleIndex t);
-  bool has_face(TriangleIndex t) const { return of_triangle_[t()].stamp == stamp_; }
+  bool has_face(TriangleIndex t) const { return face_of_.holds(t); }
   /// The face of t, -1 where there is none.
-  int find_face(TriangleIndex t) const { return has_face(t) ? of_triangle_[t()].index : -1; }
+  int find_face(TriangleIndex t) const { return face_of_.get(t, -1); }
   /// The node at a place; one that lies within the snap distance on the same edge or in the same triangle is taken for
   /// it.
   int node_of(const Place& place);
@@ -66,7 +67,7 @@ class Subdivision {
   /// The nodes of a piece along an edge from end to end, by way of those of others in between.
   std::vector<int> nodes_along(const Along& piece) const;
   /// The node at v, -1 where there is none.
-  int node_at(VertexIndex v) const { return at_vertex_[v()].stamp == stamp_ ? at_vertex_[v()].index : -1; }
+  int node_at(VertexIndex v) const { return node_at_.get(v, -1); }
 
   const Node& node(int i) const { return nodes[static_cast<std::size_t>(i)]; }
   const Face& face(int i) const { return faces[static_cast<std::size_t>(i)]; }
@@ -80,14 +81,9 @@ class Subdivision {
   int node_on_edge(Place place);
   int node_inside(const Place& place);
 
-  /// Per triangle and vertex: its face or node, valid where the stamp is that of this use.
-  struct Stamped {
-    std::uint32_t stamp = 0;
-    int index = -1;
-  };
   const Sheet* sheet_ = nullptr;
-  std::vector<Stamped> of_triangle_, at_vertex_;
-  std::uint32_t stamp_ = 0;
+  StampedTable<TriangleIndex, int> face_of_;
+  StampedTable<VertexIndex, int> node_at_;
 };
 
 }  // namespace cutbench

@@ -8,15 +8,15 @@ namespace cutbench {
 
 void LocalDelaunay::begin(const Sheet& sheet) {
   open_.clear(), changed.clear();
-  ++cut_, made_ = moved_ = 0;
+  noted_.clear(sheet.vertex_slots()), made_ = moved_ = 0;
   note_vertices(sheet);
 }
 
 void LocalDelaunay::note_vertices(const Sheet& sheet) {
   const EditLog& log = sheet.log();
-  if (noted_in_.size() < sheet.vertex_slots()) noted_in_.resize(sheet.vertex_slots());
-  for (; made_ < log.new_vertices.size(); ++made_) noted_in_[log.new_vertices[made_]()] = cut_;
-  for (; moved_ < log.moved.size(); ++moved_) noted_in_[log.moved[moved_].vertex()] = cut_;
+  noted_.grow(sheet.vertex_slots());
+  for (; made_ < log.new_vertices.size(); ++made_) noted_.insert(log.new_vertices[made_]);
+  for (; moved_ < log.moved.size(); ++moved_) noted_.insert(log.moved[moved_].vertex);
 }
 
 void LocalDelaunay::add(TriangleIndex t) {
@@ -31,7 +31,7 @@ void LocalDelaunay::run(Sheet& sheet) {
     if (!o.valid() || sheet.mark(h) != EdgeMark::none) continue;
     const VertexIndex a = sheet.origin(h), b = sheet.target(h);
     const VertexIndex c = sheet.origin(Sheet::previous(h)), d = sheet.origin(Sheet::previous(o));
-    if (!is_noted(a) && !is_noted(b) && !is_noted(c) && !is_noted(d)) continue;
+    if (!noted_.holds(a) && !noted_.holds(b) && !noted_.holds(c) && !noted_.holds(d)) continue;
     if (in_circle(sheet.rest(a), sheet.rest(b), sheet.rest(c), sheet.rest(d)) <= 0 || !sheet.flip(h)) continue;
     // Now a d c in the slot of h, and d b c in that of o.
     const TriangleIndex left = triangle_of(h), right = triangle_of(o);

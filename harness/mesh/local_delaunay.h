@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "harness/mesh/sheet.h"
+#include "harness/mesh/stamped_table.h"
 
 namespace cutbench {
 
@@ -30,11 +31,9 @@ class LocalDelaunay {
 
  private:
   void note_vertices(const Sheet& sheet);
-  bool is_noted(VertexIndex v) const { return v() < noted_in_.size() && noted_in_[v()] == cut_; }
 
   std::vector<HalfEdge> open_;
-  std::vector<std::uint32_t> noted_in_;  // per vertex: the cut that made or moved it last
-  std::uint32_t cut_ = 0;
+  StampedSet<VertexIndex> noted_;     // made or moved by the cut under way
   std::size_t made_ = 0, moved_ = 0;  // entries of the log noted already
 };
 

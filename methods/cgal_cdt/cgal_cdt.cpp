@@ -6,6 +6,7 @@
 
 #include "harness/cut/patch.h"
 #include "harness/mesh/predicates.h"
+#include "harness/mesh/stamped_table.h"
 
 namespace cutbench {
 
@@ -45,9 +46,7 @@ struct CgalCdt::Work {
   std::vector<Constraint> constraints;
   std::size_t expected = 0;  // triangles, by Euler's formula
   std::vector<std::pair<VertexIndex, Point2>> points;
-  std::vector<Triangulation::Vertex_handle> handle_of;  // per vertex of the sheet; unset ones are stale
-  std::vector<std::uint32_t> met_in;                    // per vertex: the round in which it was met last
-  std::uint32_t round = 0;
+  StampedTable<VertexIndex, Triangulation::Vertex_handle> handle_of;  // per vertex of the sheet
   Triangulation triangulation;
   std::vector<Triangulation::Face_handle> front;
   std::vector<TriangleIndex> removed;
@@ -58,16 +57,13 @@ struct CgalCdt::Work {
 void CgalCdt::Work::collect(const Sheet& sheet, const Subdivision& trace) {
   constraints.clear(), points.clear(), removed.clear();
   expected = 0;
-  ++round;
-  handle_of.resize(std::max(handle_of.size(), sheet.vertex_slots()));
-  met_in.resize(handle_of.size());
+  handle_of.clear(sheet.vertex_slots());
   for (int f = 0; f < static_cast<int>(trace.faces.size()); ++f) {
     make_patch(sheet, trace, f, patch);
     removed.push_back(patch.triangle);
     expected += patch.ring.size() - 2 + 2 * patch.inside_count();
     for (std::size_t i = 0; i < patch.points.size(); ++i)
-      if (std::exchange(met_in[patch.vertices[i]()], round) != round)
-        points.emplace_back(patch.vertices[i], patch.points[i]);
+      if (handle_of.insert(patch.vertices[i])) points.emplace_back(patch.vertices[i], patch.points[i]);
     int edge = -1;
     for (std::size_t i = 0; i < patch.ring.size(); ++i) {
       if (patch.ring[i] < 3) ++edge;
@@ -94,11 +90,11 @@ void CgalCdt::Work::triangulate() {
     if (triangulation.number_of_vertices() != ++distinct)
       throw TooClose("CGAL: two points of the path became one, coordinates too close for doubles");
     handle->info() = v;
-    handle_of[v()] = handle;
+    handle_of.at(v) = handle;
     hint = handle->face();
   }
   try {
-    for (const auto& c : constraints) triangulation.insert_constraint(handle_of[c.a()], handle_of[c.b()]);
+    for (const auto& c : constraints) triangulation.insert_constraint(handle_of.at(c.a), handle_of.at(c.b));
   } catch (const Triangulation::Intersection_of_constraints_exception&) {
     throw TooClose("CGAL: constraints cross after rounding, coordinates too close for doubles");
   }
@@ -110,9 +106,9 @@ void CgalCdt::Work::mark_faces() {
   const auto seed = [&](VertexIndex a, VertexIndex b, int parent, EdgeMark mark) {
     Triangulation::Face_handle face;  // is_edge gives the one with a -> b counter-clockwise
     int i = 0;
-    if (!triangulation.is_edge(handle_of[a()], handle_of[b()], face, i))
+    if (!triangulation.is_edge(handle_of.at(a), handle_of.at(b), face, i))
       throw TooClose("CGAL: a constraint is not an edge, coordinates too close for doubles");
-    if (face->vertex(Triangulation::ccw(i)) != handle_of[a()]) {
+    if (face->vertex(Triangulation::ccw(i)) != handle_of.at(a)) {
       const auto other = face->neighbor(i);
       i = triangulation.mirror_index(face, i);
       face = other;
@@ -137,8 +133,8 @@ void CgalCdt::Work::mark_faces() {
   for (const auto& c : constraints) {
     Triangulation::Face_handle face;
     int i = 0;
-    if (!c.bounds || !triangulation.is_edge(handle_of[c.b()], handle_of[c.a()], face, i)) continue;
-    if (face->vertex(Triangulation::ccw(i)) != handle_of[c.b()]) face = face->neighbor(i);
+    if (!c.bounds || !triangulation.is_edge(handle_of.at(c.b), handle_of.at(c.a), face, i)) continue;
+    if (face->vertex(Triangulation::ccw(i)) != handle_of.at(c.b)) face = face->neighbor(i);
     if (face->info().inside) throw TooClose("CGAL: the strip lost its shape, coordinates too close for doubles");
   }
 }

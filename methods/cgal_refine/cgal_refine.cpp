@@ -9,9 +9,9 @@ void CgalRefine::embed(Sheet& sheet, Subdivision& trace) { recovered_ = embed_pl
 
 void CgalRefine::improve(Sheet& sheet) {
   wedges_.find(sheet);
-  find_changed(sheet, region_);
+  region_.clear(sheet), region_.add_changed(sheet);
   stopped_early_ = false;
-  if (region_.empty()) return;
+  if (region_.triangles().empty()) return;
 
   const bool refining = std::isfinite(options_.bound);
   const std::size_t most_vertices =
@@ -20,7 +20,7 @@ void CgalRefine::improve(Sheet& sheet) {
                                     .min_edge = options_.min_edge * sheet.mean_edge(),
                                     .most_vertices = refining ? most_vertices : 0,
                                     .wedges = &wedges_};
-  grow_region(sheet, options_.rings, region_);
+  region_.grow(sheet, options_.rings);
   for (int rings = 1; rings <= options_.most_rings; rings *= 2) {
     mesher_.convert(sheet, region_, true);
     if (!mesher_.insert(sheet)) break;
@@ -29,12 +29,12 @@ void CgalRefine::improve(Sheet& sheet) {
       stopped_early_ = !mesher_.put_back(sheet) || !complete;
       return;
     }
-    across_.clear();  // the region grows where it was too small, each time by more
+    across_.clear(sheet);  // the region grows where it was too small, each time by more
     for (const HalfEdge h : mesher_.divided())
-      for (const HalfEdge side : {h, sheet.opposite(h)}) across_.push_back(triangle_of(side));
-    grow_region(sheet, rings, across_);
-    region_.insert(region_.end(), across_.begin(), across_.end());
-    grow_region(sheet, 0, region_);
+      for (const HalfEdge side : {h, sheet.opposite(h)}) across_.add(triangle_of(side));
+    across_.grow(sheet, rings);
+    for (const TriangleIndex t : across_.triangles()) region_.add(t);
+    region_.grow(sheet, 0);
   }
   stopped_early_ = true;
 }

@@ -44,7 +44,7 @@ class CgalRefine : public CuttingMethod {
   PatchWork work_;
   ForcedWedges wedges_;
   RegionMesher mesher_;
-  std::vector<TriangleIndex> region_, across_;
+  Region region_, across_;
   int recovered_ = 0;
   bool stopped_early_ = false;
 };

@@ -100,8 +100,7 @@ Point2 DelaunayRefine::off_centre(const Sheet& sheet, TriangleIndex t) const {
 /// Fills encroached_ with the edges that separate and would see p, a new vertex in t, at more than a right angle.
 bool DelaunayRefine::find_encroached(const Sheet& sheet, TriangleIndex t, Point2 p) {
   cavity_.assign(1, t), encroached_.clear();
-  if (met_.size() < sheet.triangle_slots()) met_.resize(sheet.triangle_slots());
-  met_[t()] = ++visit_;
+  met_.clear(sheet.triangle_slots()), met_.insert(t);
   for (std::size_t i = 0; i < cavity_.size(); ++i)
     for (int k = 0; k < 3; ++k) {
       const HalfEdge h = half_edge(cavity_[i], k), o = sheet.opposite(h);
@@ -110,9 +109,9 @@ bool DelaunayRefine::find_encroached(const Sheet& sheet, TriangleIndex t, Point2
         continue;
       }
       const TriangleIndex next = triangle_of(o);
-      if (met_[next()] == visit_) continue;
+      if (met_.holds(next)) continue;
       const auto c = sheet.corners(next);
-      if (in_circle(c[0], c[1], c[2], p) > 0) cavity_.push_back(next), met_[next()] = visit_;
+      if (in_circle(c[0], c[1], c[2], p) > 0) cavity_.push_back(next), met_.insert(next);
     }
   return !encroached_.empty();
 }

@@ -26,6 +26,7 @@
 #include "harness/cut/embed_plainly.h"
 #include "harness/cut/forced_wedges.h"
 #include "harness/mesh/local_delaunay.h"
+#include "harness/mesh/stamped_table.h"
 
 namespace cutbench {
 
@@ -67,8 +68,7 @@ class DelaunayRefine : public CuttingMethod {
   LocalDelaunay delaunay_;
   std::vector<Entry> heap_;  // shortest first; each may be mended or changed by the time it is looked at
   std::vector<TriangleIndex> cavity_;
-  std::vector<std::uint32_t> met_;  // per triangle slot: the search that put it in the cavity last
-  std::uint32_t visit_ = 0;
+  StampedSet<TriangleIndex> met_;  // in the cavity
   std::vector<HalfEdge> encroached_;
   int recovered_ = 0;
   bool stopped_early_ = false;

@@ -32,7 +32,7 @@ class GlobalRemesh : public CuttingMethod {
   PatchWork work_;
   ForcedWedges wedges_;
   RegionMesher mesher_;
-  std::vector<TriangleIndex> sheet_;
+  Region sheet_;
   int recovered_ = 0;
   bool stopped_early_ = false;
 };
