@@ -19,8 +19,8 @@ class ForcedWedges {
   explicit ForcedWedges(double share) : share_(share) {}
   /// Looks at the fans round the path's vertices. \pre the path is embedded and still closed.
   void find(const Sheet& sheet);
-  /// Does p lie within 0.25 mean rest edges of a corner, or between its legs where they are closer than 0.3? Legs are
-  /// taken for straight, so that a wedge between curves counts as far as its corner's tangents do.
+  /// Does p lie within 0.25 mean rest edges of a corner, or between its legs where they are closer than 0.3? A leg ends
+  /// where it turns by more than 45 degrees, as in the audit.
   bool hold(Point2 p) const;
   bool hold(const std::array<Point2, 3>& triangle) const {
     return hold(1.0 / 3 * (triangle[0] + triangle[1] + triangle[2]));
@@ -28,10 +28,13 @@ class ForcedWedges {
 
  private:
   struct Corner {
-    Point2 apex, right, left;  // unit vectors along the legs
-    double reach;              // from the apex, to where the legs are too far apart
+    Point2 apex, low, high;  // with the box round all that it holds
+    std::size_t begin, end;  // of its wedge, in polygon_
   };
+  void add(const Sheet& sheet, VertexIndex apex, VertexIndex right, VertexIndex left);
+
   std::vector<Corner> corners_;
+  std::vector<Point2> polygon_, left_;
   double share_ = 1, disc_ = 0;
 };
 

@@ -11,6 +11,7 @@ namespace cutbench {
 void PathCurve::read(const Subdivision& trace) {
   const std::size_t n = trace.nodes.size();
   parameter_of_.clear(0);  // no vertex is known yet
+  chord_tolerance_ = trace.chord_tolerance;
   points_.clear(), goes_on_.assign(n, 0);
   for (const auto& node : trace.nodes) points_.push_back(node.place.point);
   degree_.assign(n, 0);

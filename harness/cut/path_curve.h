@@ -27,10 +27,12 @@ class PathCurve {
   }
   void set_parameter(VertexIndex v, double s) { parameter_of_.at(v) = s; }
   Point2 at(double s) const;
+  double chord_tolerance() const { return chord_tolerance_; }  ///< of the trace
   /// Is all between two parameters one piece of the curve without ends, and within `tolerance` of the segment a b?
   bool stays_near(double from, double to, Point2 a, Point2 b, double tolerance) const;
 
  private:
+  double chord_tolerance_ = 0;
   std::vector<Point2> points_;
   std::vector<std::uint8_t> goes_on_;  // from point i to the next, neither being a crossing of the path with itself
   std::vector<std::uint8_t> degree_;   // of each node

@@ -1,5 +1,7 @@
 #include "harness/cut/region.h"
 
+#include "harness/mesh/star.h"
+
 namespace cutbench {
 
 void Region::clear(const Sheet& sheet) {
@@ -12,11 +14,7 @@ void Region::add(TriangleIndex t) {
 }
 
 void Region::add_changed(const Sheet& sheet) {
-  const EditLog& log = sheet.log();
-  for (const auto& touched : log.touched)
-    if (sheet.triangle(touched.slot).alive()) add(touched.slot);
-  for (std::size_t t = log.triangles_before; t < sheet.triangle_slots(); ++t)
-    if (sheet.triangle(TriangleIndex(t)).alive()) add(TriangleIndex(t));
+  for_each_changed(sheet, [&](TriangleIndex t) { add(t); });
 }
 
 void Region::grow(const Sheet& sheet, int rings) {

@@ -44,6 +44,7 @@ constexpr double good = 0.9;  // of the largest aspect ratio allowed: no need to
 void Reshape::begin(Sheet& sheet, PathCurve& curve) {
   sheet_ = &sheet, curve_ = &curve;
   h_ = sheet.mean_edge();
+  tolerance_ = std::min(options_.tolerance * h_, curve.chord_tolerance());
   wedges_.find(sheet);
 }
 
@@ -55,11 +56,7 @@ bool Reshape::is_ill_shaped(TriangleIndex t) const {
 
 std::vector<TriangleIndex> Reshape::changed_triangles() const {
   std::vector<TriangleIndex> changed;
-  const EditLog& log = sheet_->log();
-  for (const auto& touched : log.touched)
-    if (sheet_->triangle(touched.slot).alive()) changed.push_back(touched.slot);
-  for (std::size_t t = log.triangles_before; t < sheet_->triangle_slots(); ++t)
-    if (sheet_->triangle(TriangleIndex(t)).alive()) changed.emplace_back(t);
+  for_each_changed(*sheet_, [&](TriangleIndex t) { changed.push_back(t); });
   return changed;
 }
 
@@ -120,7 +117,7 @@ bool Reshape::may_leave_out(VertexIndex v, HalfEdge towards) const {
   const double from = curve_->parameter(n.before), s = curve_->parameter(v), to = curve_->parameter(n.after);
   if (s < 0 || (s - from) * (to - s) <= 0) return false;
   if (is_tip(n.before) && is_tip(n.after)) return false;  // a single edge between tips would not open
-  return curve_->stays_near(from, to, sheet_->rest(n.before), sheet_->rest(n.after), options_.tolerance * h_);
+  return curve_->stays_near(from, to, sheet_->rest(n.before), sheet_->rest(n.after), tolerance_);
 }
 
 /// Takes the shortest edge at path vertex v away, if it is too short; false where there is none, or it can't be.
@@ -220,9 +217,8 @@ bool Reshape::slide(VertexIndex v, const Neighbours& neighbours) {
     const double centre = best;
     for (const double s : {centre - step, centre + step}) {
       const Point2 p = curve_->at(s);
-      if (const double w = link.worst(p, least); w < least &&
-                                                 curve_->stays_near(from, s, before, p, options_.tolerance * h_) &&
-                                                 curve_->stays_near(s, to, p, after, options_.tolerance * h_))
+      if (const double w = link.worst(p, least); w < least && curve_->stays_near(from, s, before, p, tolerance_) &&
+                                                 curve_->stays_near(s, to, p, after, tolerance_))
         best = s, least = w;
     }
   }
@@ -315,15 +311,15 @@ void Reshape::mend(bool smoothing) {
   settle(smoothing, 20 * queue_.size());
 }
 
-bool Reshape::refine() {
+/// The moves that keep vertices few, where they help.
+void Reshape::mend_one_by_one() {
   stuck_.clear();
   for (const TriangleIndex t : changed_triangles())
     if (is_ill_shaped(t)) stuck_.push_back(t);
   const std::size_t most = 50 + 4 * stuck_.size();
-  for (std::size_t i = 0; i < stuck_.size(); ++i) {
+  for (std::size_t i = 0; i < std::min(most, stuck_.size()); ++i) {
     const TriangleIndex t = stuck_[i];
     for (int tries = 0; tries < 4 && is_ill_shaped(t); ++tries) {
-      if (i >= most) return false;
       queue_.clear();
       if (!flip_one(t) && !shorten_in(t) && !smooth_round(t) && !split_in(t)) break;
       settle(true, 50);
@@ -331,7 +327,13 @@ bool Reshape::refine() {
         if (u != t && is_ill_shaped(u)) stuck_.push_back(u);
     }
   }
-  return true;
+}
+
+bool Reshape::refine() {
+  mend_one_by_one();
+  refinement_.begin(*sheet_, wedges_);
+  for (const TriangleIndex t : changed_triangles()) refinement_.note(*sheet_, t);
+  return refinement_.run(*sheet_, 20 * sheet_->log().path_vertices.size());
 }
 
 }  // namespace cutbench

@@ -7,6 +7,7 @@
 #include <array>
 #include <vector>
 
+#include "harness/cut/delaunay_refinement.h"
 #include "harness/cut/forced_wedges.h"
 #include "harness/cut/path_curve.h"
 #include "harness/mesh/sheet.h"
@@ -19,9 +20,12 @@ class Reshape {
   struct Options {
     double short_edge = 0.35;  ///< an edge at the path is too short below it, in mean rest edges
     double max_aspect = 3;     ///< a triangle at or beyond it is ill-shaped
-    double tolerance = 0.05;   ///< of the path from the edges that stand for it, in mean rest edges
+    double tolerance = 0.05;   ///< of the path from the edges that stand for it, where the trace has no smaller one;
+                               ///< mean rest edges
+    double min_edge = 1e-3;    ///< no edge of path, incision or border is divided into shorter ones, mean rest edges
   };
-  explicit Reshape(const Options& options) : options_(options) {}
+  explicit Reshape(const Options& options)
+      : options_(options), refinement_({.bound = options.max_aspect, .min_edge = options.min_edge}) {}
 
   /// \pre begin_cut() was called, and the path is embedded; `curve` knows its vertices.
   void begin(Sheet& sheet, PathCurve& curve);
@@ -32,8 +36,9 @@ class Reshape {
   /// Flips an edge of each ill-shaped triangle where that makes the worse of the two better; with `smoothing`, moves
   /// its corners, too: those of the path along the curve, others anywhere.
   void mend(bool smoothing);
-  /// For each triangle that is still ill-shaped: takes a corner out, moves what stands round it, and at last splits an
-  /// edge, a piece of the path at a point of the curve. False where that did not end within a budget.
+  /// For each triangle that is still ill-shaped: takes a corner out, moves what stands round it, or splits an edge, a
+  /// piece of the path at a point of the curve; Delaunay refinement of what that leaves. False where that did not end
+  /// within a budget.
   bool refine();
 
   /// Ill-shaped, and not in a forced wedge.
@@ -58,14 +63,16 @@ class Reshape {
   bool smooth_round(TriangleIndex t);
   bool shorten_in(TriangleIndex t);
   bool split_in(TriangleIndex t);
+  void mend_one_by_one();
   void note_star(VertexIndex v);
   void settle(bool smoothing, std::size_t most);
 
   Options options_;
   Sheet* sheet_ = nullptr;
   PathCurve* curve_ = nullptr;
-  ForcedWedges wedges_{0.7};  // the mesh's legs are chords, and its wedges not quite those of the curves
-  double h_ = 0;
+  ForcedWedges wedges_{0.5};  // the mesh's legs are chords, and its wedges not quite those of the curves
+  DelaunayRefinement refinement_;
+  double h_ = 0, tolerance_ = 0;
   std::vector<TriangleIndex> queue_, stuck_;
   std::vector<VertexIndex> ring_;
 };

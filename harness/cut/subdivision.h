@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "harness/cut/walk.h"
@@ -49,6 +50,8 @@ class Subdivision {
   std::vector<Segment> segments;  ///< those that count are in the faces' lists; others were replaced
   std::vector<Along> along;
   std::vector<Face> faces;
+  /// Of a trace: how far the path may be from its chords, rest units. Methods that change the path keep to it.
+  double chord_tolerance = std::numeric_limits<double>::infinity();
 
   /// Empties it. The sheet must stay as it is until the next reset().
   void reset(const Sheet& sheet);

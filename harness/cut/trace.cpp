@@ -10,7 +10,7 @@ namespace cutbench {
 Subdivision& Tracer::trace(const Sheet& sheet, const Polyline& path, Walk& walk, double chord_tolerance,
                            bool may_begin_elsewhere) {
   sheet_ = &sheet, path_ = &path, chord_tolerance_ = chord_tolerance;
-  trace_.reset(sheet);
+  trace_.reset(sheet), trace_.chord_tolerance = chord_tolerance;
   links_.clear(), links_of_face_.clear();
   from_ = walk.place(), from_node_ = -1;
   first_ = 1, count_ = 0;

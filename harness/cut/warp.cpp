@@ -10,7 +10,7 @@ namespace cutbench {
 
 /// Points of the path that the run leaves out lie close to the new way by `to`.
 bool Warp::stays_near(Point2 to) const {
-  const double most = options_.tolerance * options_.tolerance * mean_edge2_;
+  const double most = tolerance_ * tolerance_;
   for (const int n : run_.nodes) {
     const Point2 p = path_.point(n);
     double nearest = squared_length(p - to);
@@ -39,7 +39,7 @@ bool Warp::move_to_path(Sheet& sheet) {
 }
 
 void Warp::run(Sheet& sheet, Subdivision& trace) {
-  mean_edge2_ = sheet.mean_edge() * sheet.mean_edge();
+  tolerance_ = std::min(options_.tolerance * sheet.mean_edge(), trace.chord_tolerance);
   path_.read(sheet, trace);
   bool moved = false;
   for (const auto& crossing : path_.approaches(options_.reach)) {

@@ -16,7 +16,8 @@ class Warp {
   struct Options {
     double reach = 0.4;       ///< of an edge, from a vertex to the crossing it moves for
     double max_aspect = 4;    ///< no triangle is pressed beyond it
-    double tolerance = 0.05;  ///< of the path that is left out, from the new way; mean rest edges
+    double tolerance = 0.05;  ///< of the path that is left out, from the new way, where the trace has no smaller one;
+                              ///< mean rest edges
   };
   explicit Warp(const Options& options) : options_(options) {}
 
@@ -36,7 +37,7 @@ class Warp {
   PathGraph path_;
   PathGraph::Run run_;
   std::vector<Point2> targets_;
-  double mean_edge2_ = 0;
+  double tolerance_ = 0;  // rest units
 };
 
 }  // namespace cutbench

@@ -42,6 +42,25 @@ void for_each_spoke(const Sheet& sheet, VertexIndex v, Look look) {
   for (h = sheet.turn_right(start); h.valid(); h = sheet.turn_right(h)) look(h);  // the border came in between
 }
 
+/// Calls look(w) for the other end of every edge at v that separates: border, incision or path.
+template <class Look>
+void for_each_separating_end(const Sheet& sheet, VertexIndex v, Look look) {
+  for_each_spoke(sheet, v, [&](HalfEdge h) {
+    if (sheet.separates(h)) look(sheet.target(h));
+    if (sheet.on_border(Sheet::previous(h))) look(sheet.origin(Sheet::previous(h)));
+  });
+}
+
+/// Calls look(t) for every triangle that the cut under way has made or changed.
+template <class Look>
+void for_each_changed(const Sheet& sheet, Look look) {
+  const EditLog& log = sheet.log();
+  for (const auto& touched : log.touched)
+    if (sheet.triangle(touched.slot).alive()) look(touched.slot);
+  for (std::size_t t = log.triangles_before; t < sheet.triangle_slots(); ++t)
+    if (sheet.triangle(TriangleIndex(t)).alive()) look(TriangleIndex(t));
+}
+
 /// The largest aspect ratio of the triangles at v, were it at p; infinite where one would not be positive.
 inline double worst_aspect(const Sheet& sheet, VertexIndex v, Point2 p) {
   double worst = 0;

@@ -6,9 +6,10 @@
 // (harness/cut/reshape.h), wherever the path has no forced wedge: thinning takes edges at the path shorter than 0.35
 // mean rest edges out, where one end is a vertex of the path that it can do without, or one of the sheet beside it;
 // then flips that make the worse of two triangles better, and moves of the corners of ill-shaped ones: those of the
-// path slide along the curve as it was traced, never farther from it than 0.05 mean rest edges between two of them;
-// then refinement of what is left, edge by edge. Every single step is decided by exact predicates and leaves the path
-// embedded, so that what can't be mended is left as the plain split made it.
+// path slide along the curve as it was traced, never farther from it between two of them than the chord tolerance, or
+// 0.05 mean rest edges; then, of what is left, edges are divided, and at last it is refined
+// (harness/cut/delaunay_refinement.h). Every single step is decided by exact predicates and leaves the path embedded,
+// so that what can't be mended is left as the plain split made it.
 //
 // Never moved: held vertices (Sheet::hold: pinned or loaded ones), corners, those on older incisions; one on the border
 // only along a straight part of it. A tip is a vertex where it was asked for, however near to the border: the ligament
