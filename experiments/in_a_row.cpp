@@ -1,8 +1,8 @@
 // A thousand small cuts in a row on one sheet, by every method: failures, what a crossed triangle costs at the start
-// and at the end, and whether the memory is the mesh's. usage: cutbench_in_a_row [TRIANGLES [CUTS [FOLDER]]]   failing
-// cuts are saved in FOLDER, with the sheet before them
+// and at the end, and whether the memory is the mesh's.
 #include <malloc.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
@@ -99,14 +99,27 @@ bool cut_in_a_row(const MethodRow& row, int n, std::size_t cuts, const std::stri
 
 int main(int argc, char** argv) {
   try {
-    const int n = squares_per_side(argc > 1 ? std::stoi(argv[1]) : 12800);
-    const std::size_t cuts = argc > 2 ? std::stoul(argv[2]) : 1000;
+    int triangles = 12800;
+    std::size_t cuts = 1000;
+    std::vector<std::string> methods;
+    std::string folder;
+    CLI::App app("A thousand small cuts in a row on one sheet, by every method");
+    app.add_option("triangles", triangles, "of the uncut grid, 2 n^2")->capture_default_str();
+    app.add_option("cuts", cuts)->capture_default_str()->check(CLI::PositiveNumber);
+    app.add_option("--methods", methods, "these alone")->delimiter(',');
+    app.add_option("--save", folder, "failing cuts in this folder, with the sheet before them")
+        ->check(CLI::ExistingDirectory);
+    CLI11_PARSE(app, argc, argv);
+    const int n = squares_per_side(triangles);
+    std::vector<MethodRow> rows;
+    for (const std::string& name : methods) rows.push_back(find_method(name));
+    if (rows.empty()) rows = all_methods();
     std::printf("%zu cuts in a row on the grid of %d, chord tolerance %g h, seed %lu; every 250th judged\n", cuts,
                 2 * n * n, options.chord_tolerance, seed);
     std::printf("%-20s %7s %6s %10s %10s %10s %10s %6s %10s %10s\n", "method", "failed", "wrong", "crossed",
                 "triangles", "us first", "us last", "ratio", "bytes", "anew");
     bool ok = true;
-    for (const MethodRow& row : all_methods()) ok &= cut_in_a_row(row, n, cuts, argc > 3 ? argv[3] : "");
+    for (const MethodRow& row : rows) ok &= cut_in_a_row(row, n, cuts, folder);
     std::printf(
         "us: geometry per crossed triangle, median of the first and last 50 cuts that cross 20 or more; bytes: "
         "heap per triangle in the end, and of one cut on that sheet begun anew\n");

@@ -21,7 +21,7 @@ void CgalRefine::improve(Sheet& sheet) {
                                     .most_vertices = refining ? most_vertices : 0,
                                     .wedges = &wedges_};
   region_.grow(sheet, options_.rings);
-  for (int rings = 1; rings <= options_.most_rings; rings *= 2) {
+  for (int rings = 2;; rings *= 4) {
     mesher_.convert(sheet, region_, true);
     if (!mesher_.insert(sheet)) break;
     const bool complete = mesher_.refine(sheet, limits) || !refining;
@@ -29,6 +29,7 @@ void CgalRefine::improve(Sheet& sheet) {
       stopped_early_ = !mesher_.put_back(sheet) || !complete;
       return;
     }
+    if (!complete || rings > options_.most_rings) break;
     across_.clear(sheet);  // the region grows where it was too small, each time by more
     for (const HalfEdge h : mesher_.divided())
       for (const HalfEdge side : {h, sheet.opposite(h)}) across_.add(triangle_of(side));
