@@ -106,7 +106,7 @@ int main(int argc, char** argv) {
     CLI::App app("A thousand small cuts in a row on one sheet, by every method");
     app.add_option("triangles", triangles, "of the uncut grid, 2 n^2")->capture_default_str();
     app.add_option("cuts", cuts)->capture_default_str()->check(CLI::PositiveNumber);
-    app.add_option("--methods", methods, "these alone")->delimiter(',');
+    app.add_option("--methods", methods, "these alone, comma-separated")->delimiter(',');
     app.add_option("--save", folder, "failing cuts in this folder, with the sheet before them")
         ->check(CLI::ExistingDirectory);
     CLI11_PARSE(app, argc, argv);

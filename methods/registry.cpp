@@ -74,8 +74,8 @@ const std::vector<MethodRow>& all_methods() {
        [](double bound) {
          if (!(bound == 0 || (bound >= 2 && bound <= 1000)))
            throw InputError("delaunay_refine: bound must be 0, or a number from 2 to 1000");
-         return std::make_unique<DelaunayRefine>(DelaunayRefine::Options{
-             .refinement = {.bound = bound == 0 ? std::numeric_limits<double>::infinity() : bound}});
+         return std::make_unique<DelaunayRefine>(
+             DelaunayRefinement::Options{.bound = bound == 0 ? std::numeric_limits<double>::infinity() : bound});
        }},
       {"global_remesh",
        "the whole sheet meshed anew by CGAL with the path in it",

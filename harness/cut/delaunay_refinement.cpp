@@ -175,16 +175,18 @@ void DelaunayRefinement::begin(const Sheet& sheet, const ForcedWedges& wedges) {
 
 void DelaunayRefinement::flip_at(TriangleIndex t) { delaunay_.add(t), delaunay_.changed.push_back(t); }
 
-bool DelaunayRefinement::run(Sheet& sheet, std::size_t most) {
+bool DelaunayRefinement::run(Sheet& sheet) {
   delaunay_.run(sheet);
   note_changed(sheet);
-  most += sheet.log().new_vertices.size();
+  const EditLog& log = sheet.log();
+  const std::size_t most =
+      log.new_vertices.size() + std::min(options_.per_path_vertex * log.path_vertices.size(), options_.most_vertices);
   while (!heap_.empty()) {
     std::pop_heap(heap_.begin(), heap_.end());
     const TriangleIndex t = heap_.back().triangle;
     heap_.pop_back();
     if (!is_ill_shaped(sheet, t)) continue;
-    if (sheet.log().new_vertices.size() >= most) return false;
+    if (log.new_vertices.size() >= most) return false;
     if (refine(sheet, t)) note(sheet, t);  // a piece of something else, perhaps, was divided
   }
   return true;

@@ -27,8 +27,11 @@ namespace cutbench {
 class DelaunayRefinement {
  public:
   struct Options {
-    double bound = 3;        ///< no aspect ratio beyond it; infinity: flips alone
-    double min_edge = 1e-4;  ///< no edge of path, incision or border is made shorter, in mean rest edges
+    double bound = 3;  ///< no aspect ratio beyond it; infinity: flips alone
+    double min_edge =
+        1e-4;  ///< no piece of path, incision or border shorter than twice that is divided, mean rest edges
+    std::size_t per_path_vertex = 20;  ///< vertices that it may make, for each one of the path
+    std::size_t most_vertices = 5000;  ///< and in all: a path with more to ask for leads across stacks of slivers
   };
   explicit DelaunayRefinement(const Options& options) : options_(options) {}
 
@@ -38,9 +41,9 @@ class DelaunayRefinement {
   void note(const Sheet& sheet, TriangleIndex t);
   /// Asks for flips round t first, and then for vertices where what comes of it is ill-shaped.
   void flip_at(TriangleIndex t);
-  /// Does what was asked for, and what comes of it. False where that would take more than `most` new vertices: an
+  /// Does what was asked for, and what comes of it. False where that would take more vertices than it may make: an
   /// aspect ratio of 3 is beyond what is proved to end.
-  bool run(Sheet& sheet, std::size_t most);
+  bool run(Sheet& sheet);
 
  private:
   bool is_ill_shaped(const Sheet& sheet, TriangleIndex t) const;

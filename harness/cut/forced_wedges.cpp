@@ -16,7 +16,7 @@ double length(Point2 a) { return std::sqrt(squared_length(a)); }
 class Leg {
  public:
   Leg(const Sheet& sheet, VertexIndex apex, VertexIndex next)
-      : sheet_(sheet), from_(apex), to_(next), at_(sheet.rest(apex)) {}
+      : sheet_(sheet), apex_(apex), first_(next), from_(apex), to_(next), at_(sheet.rest(apex)) {}
   Point2 at() const { return at_; }
   /// False where the leg ends before.
   bool advance(double distance) {
@@ -33,7 +33,7 @@ class Leg {
   }
 
  private:
-  /// Goes on straightest.
+  /// Goes on straightest, once round at most.
   bool turn() {
     const Point2 along = sheet_.rest(to_) - sheet_.rest(from_);
     double straightest = std::sqrt(0.5);  // the cosine of 45 degrees
@@ -44,12 +44,13 @@ class Leg {
       if (v != from_ && cosine > straightest) straightest = cosine, next = v;
     });
     from_ = to_, to_ = next;
-    return next.valid();
+    return next.valid() && next != first_ && next != apex_ && ++turns_ < 1000;
   }
 
   const Sheet& sheet_;
-  VertexIndex from_, to_;
+  VertexIndex apex_, first_, from_, to_;
   Point2 at_;
+  int turns_ = 0;
 };
 
 bool lies_within(std::span<const Point2> polygon, Point2 p) {

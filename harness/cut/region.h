@@ -24,8 +24,8 @@ class Region {
 
   std::span<const TriangleIndex> triangles() const { return triangles_; }
   bool holds(TriangleIndex t) const { return place_.holds(t); }
-  /// Where t is in triangles(). \pre holds(t)
-  int place_of(TriangleIndex t) const { return place_.at(t); }
+  /// Where t is in triangles(); -1 where it isn't.
+  int place_of(TriangleIndex t) const { return place_.get(t, -1); }
 
  private:
   std::vector<TriangleIndex> triangles_;

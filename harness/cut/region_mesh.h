@@ -25,6 +25,7 @@ struct RegionVertex {
   HalfEdge divides;        ///< the constraint that a new vertex lies on
   bool served = false;     ///< a new triangle at it has its deformed vertex
 };
+
 /// CGAL's kernel, but where the middle of an edge is, rounded, one of its ends: the mesh generator would look for a
 /// point between them for ever. It ends with CGAL's Assertion_exception instead.
 struct RegionKernel : Kernel {

@@ -1,5 +1,8 @@
 #include "harness/cut/region_mesher.h"
 
+// Before the macros below: what other files include, too, must be the same there.
+#include "harness/cut/region_mesh.h"
+
 // The mesh generator's own assertions in every build: without them it goes on, and crashes, with a midpoint that
 // rounding put beyond both triangles at its edge.
 #pragma push_macro("CGAL_assertion")
@@ -17,7 +20,6 @@
 #include <utility>
 
 #include "harness/cut/patch.h"
-#include "harness/cut/region_mesh.h"
 #include "harness/mesh/quality.h"
 #include "harness/mesh/star.h"
 

@@ -28,7 +28,7 @@ class RegionMesher {
   };
 
   /// 1. Reads the triangles of the region: constraints, and vertices, of which those on no constraint and not held
-  /// (Sheet::hold) may be left out. The region must stay as it is until the last step.
+  /// (Sheet::hold) may be left out. The region must live, and stay as it is, until the last step.
   void convert(const Sheet& sheet, const Region& region, bool with_inner_vertices);
   /// 2. The constrained Delaunay triangulation of what was read. False: too close together for doubles,
   /// or two vertices at one place; then there is nothing to go on with.

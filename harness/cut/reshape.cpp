@@ -332,8 +332,8 @@ void Reshape::mend_one_by_one() {
 bool Reshape::refine() {
   mend_one_by_one();
   refinement_.begin(*sheet_, wedges_);
-  for (const TriangleIndex t : changed_triangles()) refinement_.note(*sheet_, t);
-  return refinement_.run(*sheet_, 20 * sheet_->log().path_vertices.size());
+  for_each_changed(*sheet_, [&](TriangleIndex t) { refinement_.note(*sheet_, t); });
+  return refinement_.run(*sheet_);
 }
 
 }  // namespace cutbench

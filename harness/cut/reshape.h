@@ -1,7 +1,7 @@
 // Better shapes round an embedded path, still closed: short edges at it go, edges are flipped, vertices moved a little,
-// and where all that does not help, edges split. Each step is one of the sheet's editing calls, which the exact
-// orientation of every triangle decides: whatever is done or left undone, the path stays embedded, and separates what
-// it separated.
+// and where all that does not help, edges split and triangles refined. Each step is one of the sheet's editing calls,
+// which the exact orientation of every triangle decides: whatever is done or left undone, the path stays embedded, and
+// separates what it separated.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ class Reshape {
     double max_aspect = 3;     ///< a triangle at or beyond it is ill-shaped
     double tolerance = 0.05;   ///< of the path from the edges that stand for it, where the trace has no smaller one;
                                ///< mean rest edges
-    double min_edge = 1e-3;    ///< no edge of path, incision or border is divided into shorter ones, mean rest edges
+    double min_edge = 1e-3;    ///< no piece of path, incision or border shorter than twice that is divided
   };
   explicit Reshape(const Options& options)
       : options_(options), refinement_({.bound = options.max_aspect, .min_edge = options.min_edge}) {}

@@ -50,10 +50,11 @@ class Subdivision {
   std::vector<Segment> segments;  ///< those that count are in the faces' lists; others were replaced
   std::vector<Along> along;
   std::vector<Face> faces;
-  /// Of a trace: how far the path may be from its chords, rest units. Methods that change the path keep to it.
+  /// Of a trace: how far the path may be from its chords, rest units. Methods that change the path keep to it
+  /// once more.
   double chord_tolerance = std::numeric_limits<double>::infinity();
 
-  /// Empties it. The sheet must stay as it is until the next reset().
+  /// Empties it, but for the tolerance. The sheet must stay as it is until the next reset().
   void reset(const Sheet& sheet);
 
   int face_of(TriangleIndex t);

@@ -15,7 +15,7 @@ class StampedTable {
   /// Empties it. Keys below `size` may be used from now on.
   void clear(std::size_t size) {
     grow(size);
-    ++stamp_;
+    if (++stamp_ == 0) entries_.assign(entries_.size(), {}), stamp_ = 1;
   }
   /// Makes room for keys below `size`, and keeps what is there.
   void grow(std::size_t size) {
@@ -43,7 +43,7 @@ class StampedTable {
     [[no_unique_address]] Value value{};
   };
   std::vector<Entry> entries_;
-  std::uint32_t stamp_ = 0;
+  std::uint32_t stamp_ = 1;
 };
 
 template <class Key>

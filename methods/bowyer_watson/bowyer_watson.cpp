@@ -5,6 +5,7 @@
 
 #include "harness/mesh/predicates.h"
 #include "harness/mesh/quality.h"
+#include "harness/mesh/star.h"
 
 namespace cutbench {
 
@@ -186,10 +187,9 @@ void BowyerWatson::improve(Sheet& sheet) {
   stopped_early_ = false;
   for (int round = 0; round < options_.rounds; ++round) {
     ill_shaped_.clear();
-    for (const auto& touched : sheet.log().touched)
-      if (is_ill_shaped(touched.slot)) ill_shaped_.push_back(touched.slot);
-    for (std::size_t t = sheet.log().triangles_before; t < sheet.triangle_slots(); ++t)
-      if (is_ill_shaped(TriangleIndex(t))) ill_shaped_.emplace_back(t);
+    for_each_changed(sheet, [&](TriangleIndex t) {
+      if (is_ill_shaped(t)) ill_shaped_.push_back(t);
+    });
     for (auto t : ill_shaped_) {
       if (sheet.log().new_vertices.size() > options_.most_vertices) {
         stopped_early_ = true;

@@ -4,8 +4,9 @@
 // neighbours, is triangulated anew by CGAL (constrained Delaunay) and refined by its mesh generator until no triangle
 // has an aspect ratio above `bound`. Path, older incisions and the sheet's border are constraints, which get new points
 // where these want to be (Ruppert's rule, with CGAL's clusters at small angles). Where the refinement would divide the
-// region's border, the region grows by what lies there, and it starts again (harness/cut/region_mesher.h). Triangles
-// shorter than `min_edge` and those in forced wedges (harness/cut/forced_wedges.h) are left alone.
+// region's border, the region grows by what lies there, and it starts again (harness/cut/region_mesher.h), three times
+// at most and while the limit on vertices was not met; else the cut stays as it was divided. Triangles shorter than
+// `min_edge` and those in forced wedges (harness/cut/forced_wedges.h) are left alone.
 //
 // Source: Ruppert, A Delaunay refinement algorithm for quality 2-dimensional mesh generation, 1995; Shewchuk, Delaunay
 // refinement algorithms for triangular mesh generation, 2002; CGAL 5.5, Delaunay_mesher_2 with the Epick kernel.
@@ -28,7 +29,7 @@ class CgalRefine : public CuttingMethod {
     double bound = 3;                  ///< no aspect ratio beyond it; infinity: constrained Delaunay alone
     double min_edge = 1e-3;            ///< triangles with shorter edges alone are left, in mean rest edges
     int rings = 2;                     ///< of neighbours, to begin with
-    int most_rings = 64;               ///< by which it grows at once; then the cut stays as it was divided
+    int most_rings = 32;               ///< by which it grows at once
     std::size_t per_path_vertex = 20;  ///< vertices that the refinement may make, for each one of the path
     std::size_t most_vertices = 5000;  ///< and in all: a path with more to ask for leads across stacks of slivers
   };

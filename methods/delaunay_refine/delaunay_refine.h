@@ -21,12 +21,7 @@ namespace cutbench {
 
 class DelaunayRefine : public CuttingMethod {
  public:
-  struct Options {
-    DelaunayRefinement::Options refinement;
-    std::size_t per_path_vertex = 20;  ///< vertices that the refinement may make, for each one of the path
-    std::size_t most_vertices = 5000;  ///< and in all: a path with more to ask for leads across stacks of slivers
-  };
-  explicit DelaunayRefine(const Options& options) : options_(options), refinement_(options.refinement) {}
+  explicit DelaunayRefine(const DelaunayRefinement::Options& options) : refinement_(options) {}
 
   void embed(Sheet& sheet, Subdivision& trace) override;
   void improve(Sheet& sheet) override;
@@ -34,7 +29,6 @@ class DelaunayRefine : public CuttingMethod {
   bool stopped_early() const override { return stopped_early_; }
 
  private:
-  Options options_;
   PatchWork work_;
   ForcedWedges wedges_;
   DelaunayRefinement refinement_;

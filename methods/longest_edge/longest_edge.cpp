@@ -62,16 +62,11 @@ void LongestEdge::note_changed(const Sheet& sheet) {
 void LongestEdge::improve(Sheet& sheet) {
   wedges_.find(sheet);
   delaunay_.begin(sheet), ill_shaped_.clear();
-  const EditLog& log = sheet.log();
-  const auto changed = [&](TriangleIndex t) {
-    if (sheet.triangle(t).alive()) delaunay_.add(t), delaunay_.changed.push_back(t);
-  };
-  for (const auto& touched : log.touched) changed(touched.slot);
-  for (std::size_t t = log.triangles_before; t < sheet.triangle_slots(); ++t) changed(TriangleIndex(t));
+  for_each_changed(sheet, [&](TriangleIndex t) { delaunay_.add(t), delaunay_.changed.push_back(t); });
   delaunay_.run(sheet);
   note_changed(sheet);
 
-  const double most = options_.cap * static_cast<double>(log.path_vertices.size());
+  const double most = options_.cap * static_cast<double>(sheet.log().path_vertices.size());
   std::size_t made = 0;
   for (std::size_t i = 0; i < ill_shaped_.size() && static_cast<double>(made) < most; ++i) {
     const TriangleIndex t = ill_shaped_[i];

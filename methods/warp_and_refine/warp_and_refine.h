@@ -7,7 +7,7 @@
 // mean rest edges out, where one end is a vertex of the path that it can do without, or one of the sheet beside it;
 // then flips that make the worse of two triangles better, and moves of the corners of ill-shaped ones: those of the
 // path slide along the curve as it was traced, never farther from it between two of them than the chord tolerance, or
-// 0.05 mean rest edges; then, of what is left, edges are divided, and at last it is refined
+// 0.05 mean rest edges, whichever is smaller; then, of what is left, edges are divided, and at last it is refined
 // (harness/cut/delaunay_refinement.h). Every single step is decided by exact predicates and leaves the path embedded,
 // so that what can't be mended is left as the plain split made it.
 //
@@ -22,8 +22,8 @@
 // Promises: area, conforming; pieces as the exact path has them. Neither the exact path (its vertices lie on it, but
 // there are fewer) nor that vertices stay.
 // Fails: an aspect ratio below 3 is not guaranteed, only sought, within a budget; near forced wedges, between cuts that
-// almost meet and where the tolerance is large for the curve it may be missed. It costs about twice a plain split.
-// Flips across old edges change the deformed surface where the sheet is bent.
+// almost meet and where the tolerance is large for the curve it may be missed. It costs two to three times a plain
+// split. Flips across old edges change the deformed surface where the sheet is bent.
 #pragma once
 
 #include "harness/cut/cutting_method.h"
