@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 from matplotlib.lines import Line2D
-from matplotlib.ticker import LogLocator, NullFormatter
+from matplotlib.ticker import LogLocator, NullLocator
 
 import load
 import method_gallery
@@ -85,7 +85,9 @@ def ranking(table, variants, sheets):
     for m in SHAPES:
         per_sheet = pd.DataFrame({s: {v: np.sign(m.worst) * spread(of(table, v, s)[m.column], m.worst)[1] for v in variants}
                                   for s in sheets})
-        ranks[m.column] = per_sheet.rank(na_option="bottom").mean(axis=1).reindex(ranks.index)
+        per_sheet = per_sheet.rank(na_option="bottom")
+        there = pd.DataFrame({s: {v: len(of(table, v, s)) > 0 for v in variants} for s in sheets})
+        ranks[m.column] = per_sheet.where(there).mean(axis=1).reindex(ranks.index)
     ranks["sum"] = ranks.sum(axis=1)
     return ranks.sort_values("sum", kind="stable")
 
@@ -130,8 +132,10 @@ def dot_figure(table, fine, order, sheets, measures):
         ax.grid(axis="y", visible=False)
         ax.tick_params(axis="y", length=0)
         if not m.linear:
-            ax.xaxis.set_major_locator(LogLocator(numticks=4))
-            ax.xaxis.set_minor_formatter(NullFormatter())
+            low, high = ax.get_xlim()
+            decades = int(np.ceil(np.log10(high / low) / 3))  # three labels have room
+            ax.xaxis.set_major_locator(LogLocator(base=10.0 ** max(1, decades)))
+            ax.xaxis.set_minor_locator(NullLocator())
     axes[0, 0].set_yticks(range(len(order)), [label(v) for v in order])
     axes[0, 0].set_ylim(len(order) - 0.5, -0.5)
     return figure, axes[0]
@@ -152,8 +156,9 @@ def caption(what, run, rows):
     sizes = sorted(set(rows["resolution"]))
     size = f"{sizes[0]}" if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]}"
     return (f"{what} Marker: median of the cuts on a sheet (cuts: {scenes}; {size} triangles); line: quartiles. Best "
-            f"shapes on top: by the ranks of the medians of eigenvalue, altitude and angle. Knobs at their defaults. "
-            + style.provenance(run, rows, with_crosses=False))
+            f"shapes on top: by the ranks of the medians of eigenvalue, altitude and angle. Knobs at their defaults. A method that "
+            "refuses a kind of sheet has no marker there. "
+            + style.provenance(run, rows, with_crosses=False, per=["sheet"]))
 
 
 def summary(table, jumps, order, ranks):
@@ -204,7 +209,9 @@ def read_cuts(folder):
     run = load.read(folder, MEASURES).first_repetition()
     table = measured(run)
     table["failed"] = (table["verdict"] != "ok") | table["status"].isin(["failed", "refused"])
-    return run, table
+    # A kind of sheet that a method is not made for says nothing about it.
+    refused = (table["status"] == "refused").groupby([table[c] for c in ("method", "knob", "sheet")]).transform("all")
+    return run, table[~refused]
 
 
 def main():
@@ -247,7 +254,8 @@ def main():
             continue
         swept_run, swept = read_cuts(beside)
         swept_ranks = ranking(swept, sorted(set(zip(swept["method"], swept["knob"]))), style.sheet_order(swept["sheet"]))
-        draw(folder, swept, what + " " + style.provenance(swept_run, swept_run.rows, with_crosses=False))
+        draw(folder, swept, what + " " + style.provenance(
+            swept_run, swept_run.rows, with_crosses=False, per=["sheet"] if kind == "knobs" else []))
         tables[f"{STEM}_{kind}"] = summary(swept, None, list(swept_ranks.index), swept_ranks)
     write_tables(folder, tables)
     method_gallery.draw(folder)

@@ -59,20 +59,21 @@ def draw_knobs(folder, table, caption):
 def draw_ablation(folder, table, caption):
     """What comes before the split, by row, and after it, by column; a panel per measure, its numbers in the cells."""
     measures = [("largest eigenvalue / uncut", lambda rows: median(rows, "eigenvalue_ratio"), "{:.3g}", LogNorm(1, 1e4)),
-                ("share of cuts with AR < 3", below_three, "{:.0%}", Normalize(0, 1)),
-                ("vertices added per crossed tri.", lambda rows: median(rows, "vertices_per_crossed"), "{:.2f}",
+                ("cuts with AR < 3", below_three, "{:.0%}", Normalize(0, 1)),
+                ("vertices per crossed tri.", lambda rows: median(rows, "vertices_per_crossed"), "{:.2f}",
                  Normalize(0, 3)),
                 ("µs per crossed triangle", lambda rows: median(rows, "us_per_crossed"), "{:.2g}", LogNorm(0.3, 10))]
     figure, axes = style.panels(2, 2, 4.4)
     for ax, (label, measure, text, norm) in zip(axes.flat, measures):
         cells = np.array([[measure(table[table["method"] == f"ablation:{before}:{after}"]) for after in AFTER]
                           for before in BEFORE])
-        ax.imshow(cells, norm=norm, cmap="viridis_r" if "share" not in label else "viridis", aspect="auto", alpha=0.55)
+        ax.imshow(cells, norm=norm, cmap="viridis_r" if "AR" not in label else "viridis", aspect="auto", alpha=0.55)
         for i, row in enumerate(cells):
             for j, value in enumerate(row):
-                ax.text(j, i, text.format(value) if np.isfinite(value) else "-", ha="center", va="center", fontsize=5)
+                shown = f"{value / 1000:.0f}k" if value >= 1000 else text.format(value) if np.isfinite(value) else "-"
+                ax.text(j, i, shown, ha="center", va="center", fontsize=5)
         ax.set_title(label, pad=3)
-        ax.set_xticks(range(len(AFTER)), AFTER, fontsize=5, rotation=20)
+        ax.set_xticks(range(len(AFTER)), AFTER, fontsize=5, rotation=30, ha="right", rotation_mode="anchor")
         ax.set_yticks(range(len(BEFORE)), BEFORE, fontsize=5)
         ax.tick_params(length=0)
         ax.grid(False)

@@ -189,10 +189,11 @@ def legend_entry(look):
     return Line2D([], [], label=look.label, **look.drawn())
 
 
-def provenance(run, cases, with_machine=False, with_crosses=True):
-    """The sentences every caption ends with. `cases`: the table of the cuts drawn, for their number per point."""
+def provenance(run, cases, with_machine=False, with_crosses=True, per=("sheet", "resolution")):
+    """The sentences every caption ends with. `cases`: the table of the cuts drawn, for their number per point: those that
+    have variant and `per` in common."""
     context = run.context
-    made = cases.drop_duplicates(VARIANT + CUT).groupby(VARIANT + ["sheet", "resolution"]).size()
+    made = cases.drop_duplicates(VARIANT + CUT).groupby(VARIANT + list(per)).size()
     n = "0" if made.empty else str(made.min()) if made.min() == made.max() else f"{made.min()} to {made.max()}"
     everything = run.everything()
     failed = count(run.failed)
