@@ -19,7 +19,7 @@ import style
 STEM = "method_comparison"
 MEASURES = ["crossed_triangles", "vertices_added", "angle_max_deg_cut", "altitude_min_h_cut", "ar_max_cut", "ar_p99_cut",
             "ar_max_cut_strict", "ar_p99_cut_strict", "ar_max_cut_outside_wedges", "ar_p99_cut_outside_wedges",
-            "wedge_area", "eigenvalue_ratio", "incision_error_h", "geometry_us"]
+            "wedge_area", "eigenvalue_ratio", "incision_error_h", "area_change", "geometry_us"]
 JUMPS = ["membrane_j", "membrane_jump_j", "bending_j", "bending_jump_j", "residual_n", "residual_jump_n", "kinetic_j",
          "kinetic_jump_j", "momentum_jump_kg_m_s"]
 MARKERS = {"grid": ("o", "#0072b2"), "alternating": ("s", "#e69f00"), "delaunay": ("^", "#009e73"),
@@ -53,6 +53,7 @@ def measured(run):
     rows["vertices_per_crossed"] = rows["vertices_added"] / rows["crossed_triangles"]
     shapes = [c for c in MEASURES if c.startswith(("ar_", "angle_", "altitude_"))]
     rows.loc[rows["ar_max_cut"] == 0, shapes] = np.nan  # released edges: no triangle was changed
+    rows.loc[rows["area_change"].abs() > 1e-6, "incision_error_h"] = np.nan  # a band is gone, and there is no incision
     rows["us_per_crossed"] = rows["geometry_us"] / rows["crossed_triangles"]
     failed = run.failed.copy()
     for m in SHAPES + PRICE:
@@ -69,13 +70,13 @@ def jumped(run):
 
 
 def spread(values, worst=np.inf):
-    """q1, median, q3 and the worst; infinities are failures."""
+    """q1, median, q3 and the worst but for failures, which are infinite."""
     values = np.asarray(values.dropna(), float)
     if not len(values):
         return (np.nan,) * 4
     sign = 1 if worst > 0 else -1
     q = sign * np.array(load.with_failures(sign * values))
-    return (*(q if sign > 0 else q[::-1]), (values.max() if sign > 0 else values.min()))
+    return (*(q if sign > 0 else q[::-1]), sign * max(sign * values[np.isfinite(values)], default=-np.inf))
 
 
 def ranking(table, variants, sheets):
@@ -125,7 +126,9 @@ def dot_figure(table, fine, order, sheets, measures):
                     if not hollow:
                         ax.hlines(row + offset, q1, min(q3, 1e30), color=colour, linewidth=0.8, alpha=0.6, zorder=2)
                         if np.isfinite(worst):
-                            ax.plot(worst, row + offset, "|", color=colour, markersize=2.6, markeredgewidth=0.5, alpha=0.8)
+                            failed = np.isinf(of(data, variant, sheet)[m.column]).any()
+                            ax.plot(worst, row + offset, "x" if failed else "|", color=colour, markersize=2.6,
+                                    markeredgewidth=0.5, alpha=0.8)
                     ax.plot(median, row + offset, marker, color="white" if hollow else colour, markersize=2.3,
                             markeredgecolor=colour, markeredgewidth=0.5, zorder=3 if hollow else 4)
         ax.set_xlabel(m.label)
@@ -145,6 +148,7 @@ def legend(sheets, fine):
     entries = [Line2D([], [], linestyle="", marker=MARKERS.get(s, OTHER)[0], color=MARKERS.get(s, OTHER)[1], markersize=3,
                       label=style.sheet_title(s)) for s in sheets]
     entries.append(Line2D([], [], linestyle="", marker="|", color="#444444", markersize=4, label="worst cut"))
+    entries.append(Line2D([], [], linestyle="", marker="x", color="#444444", markersize=3, label="worst but for failed ones"))
     if fine is not None:
         entries.append(Line2D([], [], linestyle="", marker="o", color="white", markeredgecolor="#444444", markersize=3,
                               label="chord tolerance 0.01"))
@@ -232,7 +236,7 @@ def main():
              "geometry (warm).")):
         figure, axes = dot_figure(table, fine, order, sheets, measures)
         if measures is SHAPES:
-            axes[2].set_xlim(90, 180)
+            axes[2].set_xlim(90, 182)
         style.finish(figure, [], caption(what, run, run.rows), legend(sheets, fine))
         style.save(figure, folder, name)
     if jumps is not None:

@@ -100,7 +100,8 @@ def draw_method(ax, name, result, norm):
     ax.plot(*asked.T, color="#0072b2", linewidth=2.2, alpha=0.45, zorder=2, solid_capstyle="butt")
     ax.add_collection(LineCollection(incision(points, triangles), color="#b0001e", linewidth=0.7, zorder=3))
     ratio = report["aspect_ratio"]["cut"]["max"]
-    ax.set_xlabel(f"AR ≤ {load.number(ratio, 2)}, {report['vertices_added']:+d} vertices", fontsize=5.6, labelpad=2)
+    shapes = f"AR ≤ {load.number(ratio, 2)}" if ratio > 0 else "no triangle changed"
+    ax.set_xlabel(f"{shapes}, {report['vertices_added']:+d} vertices", fontsize=5.6, labelpad=2)
     return faces
 
 
@@ -128,7 +129,8 @@ def draw(folder):
         bar.ax.minorticks_off()
     style.finish(figure, [], f"The same cut by every method at its default knob, in rest space, near its tip; the paper's "
                  f"grid of {2 * SQUARES ** 2} triangles, chord tolerance 0.05. Blue: the path asked for; red: the opened "
-                 f"incision. AR: the largest aspect ratio of the triangles the cut made or changed. {style.AR_DEFINITION} "
+                 f"incision. AR: the largest aspect ratio of the triangles the cut made or changed. Ties "
+                 "of unknowns are not drawn. {style.AR_DEFINITION} "
                  "Command: plots/method_gallery.py")
     style.save(figure, folder, "method_gallery")
 

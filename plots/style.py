@@ -196,12 +196,13 @@ def provenance(run, cases, with_machine=False, with_crosses=True, per=("sheet", 
     made = cases.drop_duplicates(VARIANT + CUT).groupby(VARIANT + list(per)).size()
     n = "0" if made.empty else str(made.min()) if made.min() == made.max() else f"{made.min()} to {made.max()}"
     everything = run.everything()
-    failed = count(run.failed)
+    refused = run.failed["status"] == "refused"
+    failed = count(run.failed[~refused])
     commit = str(context.get("commit") or "unknown")[:10]
     state = {True: " with uncommitted changes", None: " (state of the tree unknown)"}.get(context.get("dirty"), "")
     scenes = ", ".join(sorted(set(everything["scene"])))
     text = [f"n = {n} cuts per point ({scenes}), {failed} of {count(everything)} failed"
-            + (" (×, number beside)." if failed and with_crosses else "."),
+            + (f", {count(run.failed[refused])} refused" if refused.any() else "") + (" (×, number beside)." if failed and with_crosses else "."),
             f"Seed {context.get('seed', ', '.join(sorted(set(everything['seed']))))}, commit {commit}{state}."]
     if with_machine:
         text.append(f"{context.get('cpu', 'unknown CPU')}; {context.get('compiler', 'unknown compiler')} "

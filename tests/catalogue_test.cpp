@@ -208,7 +208,7 @@ std::string table_of(const std::vector<CatalogueCase>& cases) {
 TEST(CatalogueTable, HasEveryRow) {
   const std::vector<std::string> names = catalogue_names();
   for (int row = 1; row <= 31; ++row) {
-    char prefix[8];
+    char prefix[16];
     std::snprintf(prefix, sizeof prefix, "G%02d_", row);
     EXPECT_TRUE(std::any_of(names.begin(), names.end(), [&](const auto& name) { return name.starts_with(prefix); }))
         << "no case file for row " << prefix;

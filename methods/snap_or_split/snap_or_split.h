@@ -11,7 +11,7 @@
 // Source: Steinemann et al., Fast arbitrary splitting of deforming objects, 2006, as others describe it; SOFA's
 // snapping thresholds (TriangleSetTopologyAlgorithms). Promises: area, conforming, no vertex moved; not the exact path.
 // Fails: the incision strays from the path by up to `tolerance` of an edge and has kinks. Away from tips and from what
-// may not be snapped, a crossing makes triangles of aspect ratio up to about 1 / tolerance; tips keep their slivers. A
+// may not be snapped, a crossing makes triangles of aspect ratio up to about 2 / tolerance; tips keep their slivers. A
 // path cut twice is two incisions: the second one crosses the first, which is elsewhere; and a later path that meets
 // the kinks at a small angle may cross them more than once, so that bits fall off that nobody asked for.
 #pragma once

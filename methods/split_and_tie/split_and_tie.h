@@ -7,9 +7,10 @@
 //
 // Source: aggregated finite elements (Badia, Verdugo and Martin, The aggregated unfitted finite element method for
 // elliptic problems, CMAME 336, 2018); there the cut cells are integrated and not split. Promises: the exact path,
-// area, conforming, no vertex moved; an affine displacement is reproduced exactly. Fails: pieces of slivers only.
-// Vertices near a cut jump to the field of their triangle at the instant of the cut. The system is made anew after each
-// cut, not updated.
+// area, conforming, no vertex moved; an affine displacement is reproduced exactly. Fails: pieces of slivers only; an
+// explicit integrator, since the mass is no longer lumped; and shapes stay bad, for whatever else looks at the
+// triangles. Vertices near a cut jump to the field of their triangle at the instant of the cut. The system is made anew
+// after each cut, not updated.
 #pragma once
 
 #include "harness/cut/cutting_method.h"

@@ -13,8 +13,8 @@
 // Stappen, A surgery simulation supporting cuts and finite element deformation, 2001 (both as others describe them).
 // Promises: area, conforming; neither the exact path nor that vertices stay.
 // Fails: vertices that move towards each other flatten the triangle between them, and where they may not, the crossing
-// is split after all. The rest mesh is no longer the one the user made: pins and loads tied to vertices move along, and
-// no vertex is spared for them, since a sheet knows nothing of them. Nothing moves to tips and corners of the path,
+// is split after all. The rest mesh is no longer the one the user made; held vertices (Sheet::hold: pinned or loaded
+// ones) stay, and keep their slivers. Nothing moves to tips and corners of the path,
 // which keep their slivers; between moved vertices the incision takes short cuts.
 #pragma once
 

@@ -22,8 +22,10 @@
 // Promises: area, conforming; pieces as the exact path has them. Neither the exact path (its vertices lie on it, but
 // there are fewer) nor that vertices stay.
 // Fails: an aspect ratio below 3 is not guaranteed, only sought, within a budget; near forced wedges, between cuts that
-// almost meet and where the tolerance is large for the curve it may be missed. It costs two to three times a plain
-// split. Flips across old edges change the deformed surface where the sheet is bent.
+// almost meet and where the tolerance is large for the curve it may be missed. It costs three times a plain
+// split, seven times at a chord tolerance of 0.01 mean rest edges. Flips and moves change the deformed surface where
+// the sheet is bent: the bending energy jumps less than by most methods in the median, and most of all in the worst
+// cuts.
 #pragma once
 
 #include "harness/cut/cutting_method.h"
