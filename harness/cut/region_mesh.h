@@ -6,6 +6,8 @@
 #include <CGAL/Delaunay_mesh_vertex_base_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
+#include <cstddef>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -27,12 +29,13 @@ struct RegionVertex {
 };
 
 /// CGAL's kernel, but where the middle of an edge is, rounded, one of its ends: the mesh generator would look for a
-/// point between them for ever. It ends with CGAL's Assertion_exception instead.
+/// point between them for ever. It ends with an exception instead, before it changes anything.
+struct NoMiddle {};
 struct RegionKernel : Kernel {
   struct Construct_midpoint_2 {  // NOLINT(readability-identifier-naming): CGAL's name
     Point_2 operator()(const Point_2& p, const Point_2& q) const {
       const Point_2 middle = CGAL::midpoint(p, q);
-      if (middle == p || middle == q) CGAL::assertion_fail("a point between the ends", __FILE__, __LINE__);
+      if (middle == p || middle == q) throw NoMiddle();
       return middle;
     }
   };
@@ -43,8 +46,35 @@ using RegionVertexBase =
                                       CGAL::Triangulation_vertex_base_with_info_2<RegionVertex, RegionKernel>>;
 using RegionStructure =
     CGAL::Triangulation_data_structure_2<RegionVertexBase, CGAL::Delaunay_mesh_face_base_2<RegionKernel>>;
-using RegionTriangulation =
-    CGAL::Constrained_Delaunay_triangulation_2<RegionKernel, RegionStructure, CGAL::Exact_predicates_tag>;
+/// CGAL's triangulation, but where rounding put the mesh generator's new vertex beyond the triangles that it replaces,
+/// or on their border: a star round it would not be a triangulation any more, and CGAL would walk round it for ever.
+/// The mesh generator ends with CGAL's Assertion_exception instead, in the middle of a change.
+class RegionTriangulation
+    : public CGAL::Constrained_Delaunay_triangulation_2<RegionKernel, RegionStructure, CGAL::Exact_predicates_tag> {
+ public:
+  template <class Edges, class Faces>
+  Vertex_handle star_hole(const Point& p, Edges edges, Edges edges_end, Faces faces, Faces faces_end) {
+    if (!sees_all_round(p, edges, edges_end, std::distance(faces, faces_end)))
+      CGAL::assertion_fail("a vertex that sees the hole's border all round", __FILE__, __LINE__);
+    return Constrained_Delaunay_triangulation_2::star_hole(p, edges, edges_end, faces, faces_end);
+  }
+
+ private:
+  /// Is the border of the hole, whose edges are told by the faces beyond them, one loop about p, and a disk inside?
+  template <class Edges>
+  bool sees_all_round(const Point& p, Edges edges, Edges edges_end, std::ptrdiff_t faces) const {
+    Vertex_handle before = std::prev(edges_end)->first->vertex(ccw(std::prev(edges_end)->second));
+    for (Edges e = edges; e != edges_end; ++e) {
+      const Vertex_handle from = e->first->vertex(cw(e->second)), to = e->first->vertex(ccw(e->second));
+      if (from != before) return false;
+      if (!is_infinite(from) && !is_infinite(to) &&
+          geom_traits().orientation_2_object()(from->point(), to->point(), p) != CGAL::LEFT_TURN)
+        return false;
+      before = to;
+    }
+    return std::distance(edges, edges_end) == faces + 2;
+  }
+};
 
 struct RegionMesher::Work {
   using Vertex = RegionTriangulation::Vertex_handle;
@@ -81,7 +111,7 @@ struct RegionMesher::Work {
   std::vector<std::pair<VertexIndex, DeformedIndex>> left_out;
   StampedTable<VertexIndex, OfVertex> of_vertex;
   RegionTriangulation mesh;
-  bool broken = false;  // the mesh generator gave up half-way, or doubles were too coarse
+  bool broken = false;  // the mesh generator gave up in the middle of a change, or doubles were too coarse
   std::vector<Chain> chains;
   std::vector<Vertex> inner;      // new vertices on no constraint
   StampedSet<TriangleIndex> met;  // by the search under way
