@@ -126,5 +126,14 @@ TEST(ExpectedPieces, ThinPiecesAreUndecided) {
   EXPECT_EQ(p.most, 2);
 }
 
+TEST(ExpectedPieces, ThatAPathTurnsBackAtAnOlderTipIsUndecided) {
+  const std::vector<Segment> square = chain({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}});
+  const ExpectedPieces p = expected_pieces(square, chain({{0, 0.5}, {0.5, 0.5}}),
+                                           {chain({{1, 0.6}, {0.5 + 1e-14, 0.5}, {1, 0.4}})}, {1e-12, 1e-12, 1e-12});
+  EXPECT_EQ(p.expected, 2);
+  EXPECT_EQ(p.least, 2);
+  EXPECT_EQ(p.most, 3);
+}
+
 }  // namespace
 }  // namespace cutbench::oracle

@@ -20,9 +20,9 @@ void add_extension(const Point& end, const Point& before, double length, std::ve
   extensions.push_back({end, beyond});
 }
 
-/// From each end of a segment that lies within `tolerance` of another segment across that one, where one of the two is
-/// of a path (those that have its number; others have -1): what nearly touches does. Segments of one of the
-/// `tiny` paths are left alone with each other.
+/// From each end of a segment that lies within `tolerance` of another segment across that one, or to its end, where one
+/// of the two is of a path (those that have its number; others have -1): what nearly touches does. Segments of one of
+/// the `tiny` paths are left alone with each other.
 void add_near_touches(const std::vector<Segment>& segments, const std::vector<int>& path, const std::vector<char>& tiny,
                       double tolerance, std::vector<Segment>& extensions) {
   const SegmentSearch search(segments);
@@ -34,8 +34,17 @@ void add_near_touches(const std::vector<Segment>& segments, const std::vector<in
         if (p == s[0] || p == s[1] || (path[i] == path[j] && (path[i] < 0 || tiny[path[i]]))) return;
         if (distance(p, s) > tolerance || !done.insert({p, j}).second) return;
         const Point d = direction(s[0], s[1]);
-        for (const double way : {-2 * tolerance, 2 * tolerance})  // two, so that p itself is an end of both
-          extensions.push_back({p, Point{p[0] - way * d[1], p[1] + way * d[0]}});
+        const auto is_beyond = [&](const Point& end, double way) {
+          return way * ((p[0] - end[0]) * d[0] + (p[1] - end[1]) * d[1]) > 0;
+        };
+        if (is_beyond(s[0], -1)) {
+          extensions.push_back({p, s[0]});
+        } else if (is_beyond(s[1], 1)) {
+          extensions.push_back({p, s[1]});
+        } else {
+          for (const double way : {-2 * tolerance, 2 * tolerance})  // two, so that p itself is an end of both
+            extensions.push_back({p, Point{p[0] - way * d[1], p[1] + way * d[0]}});
+        }
       });
 }
 
