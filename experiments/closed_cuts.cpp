@@ -36,6 +36,7 @@ class Closed final : public CuttingMethod {
             sheet.triangle(TriangleIndex(t)).alive() && sheet.mark(h) == EdgeMark::path)
           sheet.set_mark(h, EdgeMark::none);
   }
+  Ties ties(const Sheet& before, const Sheet& cut) const override { return method_->ties(before, cut); }
 
  private:
   std::unique_ptr<CuttingMethod> method_;
@@ -44,8 +45,8 @@ class Closed final : public CuttingMethod {
 bool is_held(Point2 p) { return p.y == 0; }
 
 /// The sheet stands on its lower edge and is pulled up and aside at its upper one.
-StaticSolve load(const Sheet& sheet) {
-  StaticSolve problem(sheet, elastic);
+StaticSolve load(const Sheet& sheet, const Ties& ties) {
+  StaticSolve problem(sheet, elastic, ties);
   for (std::size_t v = 0; v < sheet.vertex_slots(); ++v)
     if (const VertexIndex i(v); sheet.triangle_of_vertex(i).valid() && is_held(sheet.rest(i)))
       for (const int axis : {0, 1}) problem.hold(sheet.rest(i), axis, 0);
@@ -53,8 +54,8 @@ StaticSolve load(const Sheet& sheet) {
   return problem;
 }
 
-Field equilibrium(const Sheet& sheet) {
-  return load(sheet).solve({.solver = {.name = "cholmod"}, .iterations = 0}).displacement;
+Field equilibrium(const Sheet& sheet, const Ties& ties = {}) {
+  return load(sheet, ties).solve({.solver = {.name = "cholmod"}, .iterations = 0}).displacement;
 }
 
 Eigen::Vector2d rest_of(const Sheet& sheet, std::size_t d) {
@@ -62,18 +63,22 @@ Eigen::Vector2d rest_of(const Sheet& sheet, std::size_t d) {
   return {p.x, p.y};
 }
 
-/// Norm of the forces out of balance at displacement u, over that of the load.
-double out_of_balance(const Sheet& sheet, const Field& u) {
+/// Norm of the forces out of balance at displacement u, over that of the load; where vertices are tied, once they are
+/// where their masters are, and of what these bear.
+double out_of_balance(const Sheet& sheet, const Field& u, const Ties& ties) {
   Model<2> model(sheet, {.stiffness = elastic.young, .poisson = elastic.poisson},
                  {.dimension = 2, .strain = Strain::linear, .bending = BendingKind::none}, {}, {});
   Field x = u;
   for (std::size_t d = 0; d < sheet.deformed_slots(); ++d)
     if (sheet.rest_vertex(DeformedIndex(d)).valid())
       x.segment<2>(2 * static_cast<Eigen::Index>(d)) += rest_of(sheet, d);
-  const Field load_on_it = load(sheet).force();
+  const Field load_on_it = load(sheet, ties).force();
   Field force = load_on_it;
+  model.tie(ties);
+  if (model.tied()) model.tied()->settle(model.held(), x);
   model.rotate(x);
   model.add_internal_force(x, force);
+  if (model.tied()) model.tied()->hand_on(model.held(), force);
   double sum = 0;
   for (std::size_t d = 0; d < sheet.deformed_slots(); ++d)
     if (const VertexIndex v = sheet.rest_vertex(DeformedIndex(d)); v.valid() && !is_held(sheet.rest(v)))
@@ -87,7 +92,8 @@ struct Pop {
 
 /// One closed cut of a sheet at rest; nothing where the method failed.
 std::optional<Pop> pop_of(const MethodRow& row, int n, std::size_t i) {
-  Sheet sheet(make_sheet("grid", n));
+  const Sheet uncut(make_sheet("grid", n));
+  Sheet sheet = uncut;
   const Field before = equilibrium(sheet);
   for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) {
     const Eigen::Vector2d x = rest_of(sheet, d) + before.segment<2>(2 * static_cast<Eigen::Index>(d));
@@ -103,7 +109,8 @@ std::optional<Pop> pop_of(const MethodRow& row, int n, std::size_t i) {
     const auto [x, y, z] = sheet.position(DeformedIndex(d));
     carried.segment<2>(2 * static_cast<Eigen::Index>(d)) = Eigen::Vector2d(x, y) - rest_of(sheet, d);
   }
-  const Field moved = equilibrium(sheet) - carried;
+  const Ties ties = method.ties(uncut, sheet);
+  const Field moved = equilibrium(sheet, ties) - carried;
   Pop pop;
   double squares = 0;
   for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) {
@@ -114,7 +121,7 @@ std::optional<Pop> pop_of(const MethodRow& row, int n, std::size_t i) {
   const double scale = before.cwiseAbs().maxCoeff();
   pop.largest /= scale;
   pop.rms = std::sqrt(squares / static_cast<double>(sheet.deformed_count())) / scale;
-  pop.residual = out_of_balance(sheet, carried);
+  pop.residual = out_of_balance(sheet, carried, ties);
   return pop;
 }
 

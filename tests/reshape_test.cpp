@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "harness/run/cases.h"
+#include "harness/run/report.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 
@@ -32,6 +33,30 @@ TEST(Reshape, HeldVerticesStayWhereTheyAre) {
         }
       }
   EXPECT_GT(moved_when_free, scaled(100));
+}
+
+/// Cuts that once left triangles beyond an aspect ratio of 3 where no angle forces them: chords that enclose less than
+/// the curves, and a crossing close beside a vertex of an older incision.
+TEST(Reshape, CornersOfChordsAreAsWideAsThoseOfCurves) {
+  struct Case {
+    int n;
+    std::size_t i;
+    std::uint64_t seed;
+  };
+  for (const Case& c : {Case{20, 14, 28438054750209}, Case{30, 14, 28438054750209}, Case{50, 7, 28438054750209},
+                        Case{20, 16, 12}, Case{20, 24, 11}}) {
+    Sheet sheet(make_sheet("grid", c.n));
+    const Sheet before = sheet;
+    const auto cuts = make_case("several", c.seed, c.i, sheet);
+    Locator locator(sheet);
+    Cutter cutter;
+    const MethodRow& row = find_method("warp_and_refine");
+    const auto method = row.make(row.knob.value);
+    for (const Curve& curve : cuts) EXPECT_EQ(cutter.cut(sheet, locator, curve, *method, {}).status, Status::ok);
+    const Assessment found = assess(before, sheet, cuts, forced_corners_of(before, cuts), row.promises, {});
+    EXPECT_TRUE(found.judgement.ok) << found.judgement.verdict;
+    EXPECT_LT(found.outside_wedges.ar_max, 3) << c.n << " " << c.i;
+  }
 }
 
 /// A path across a square of four triangles round a vertex that it does not meet: its middle vertex can go, its ends

@@ -67,30 +67,8 @@ bool lies_within(std::span<const Point2> polygon, Point2 p) {
 void ForcedWedges::find(const Sheet& sheet) {
   corners_.clear(), polygon_.clear();
   disc_ = share_ * 0.25 * sheet.mean_edge();
-  for (const VertexIndex apex : sheet.log().path_vertices) {
-    if (!sheet.triangle_of_vertex(apex).valid()) continue;  // collapsed
-    VertexIndex first, right;
-    // From one separating spoke to the next: nothing lies between them.
-    const auto meet = [&](VertexIndex left) {
-      if (right.valid()) {
-        const Point2 a = sheet.rest(right) - sheet.rest(apex), b = sheet.rest(left) - sheet.rest(apex);
-        const double sine = cross(a, b) / (length(a) * length(b));
-        if (sine > 0 && sine < 1.0 / 3 && dot(a, b) > 0) add(sheet, apex, right, left);
-      }
-      if (!first.valid()) first = left;
-      right = left;
-    };
-    const HalfEdge start = sheet.first_spoke(apex);
-    HalfEdge h = start;
-    for (;;) {
-      if (sheet.separates(h)) meet(sheet.target(h));
-      const HalfEdge next = sheet.turn_left(h);
-      if (!next.valid()) meet(sheet.origin(Sheet::previous(h)));  // the border
-      if (next == start && first.valid()) meet(first);
-      if (!next.valid() || next == start) break;
-      h = next;
-    }
-  }
+  for_each_sharp_corner(sheet,
+                        [&](VertexIndex apex, VertexIndex right, VertexIndex left) { add(sheet, apex, right, left); });
 }
 
 /// Follows both legs equally far while they are close.

@@ -3,11 +3,44 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "harness/mesh/sheet.h"
+#include "harness/mesh/star.h"
 
 namespace cutbench {
+
+/// Corners of the path with itself, older incisions and the border: calls visit(apex, right, left), neighbours of the
+/// apex that its edges lead to, left counter-clockwise of right by less than asin(1/3) = 19.47 degrees, nothing between
+/// them that separates. \pre the path is embedded and still closed.
+template <class Visit>
+void for_each_sharp_corner(const Sheet& sheet, Visit visit) {
+  for (const VertexIndex apex : sheet.log().path_vertices) {
+    if (!sheet.triangle_of_vertex(apex).valid()) continue;  // collapsed
+    VertexIndex first, right;
+    // From one separating spoke to the next.
+    const auto meet = [&](VertexIndex left) {
+      if (right.valid()) {
+        const Point2 a = sheet.rest(right) - sheet.rest(apex), b = sheet.rest(left) - sheet.rest(apex);
+        const double sine = cross(a, b) / std::sqrt(squared_length(a) * squared_length(b));
+        if (sine > 0 && sine < 1.0 / 3 && dot(a, b) > 0) visit(apex, right, left);
+      }
+      if (!first.valid()) first = left;
+      right = left;
+    };
+    const HalfEdge start = sheet.first_spoke(apex);
+    HalfEdge h = start;
+    for (;;) {
+      if (sheet.separates(h)) meet(sheet.target(h));
+      const HalfEdge next = sheet.turn_left(h);
+      if (!next.valid()) meet(sheet.origin(Sheet::previous(h)));  // the border
+      if (next == start && first.valid()) meet(first);
+      if (!next.valid() || next == start) break;
+      h = next;
+    }
+  }
+}
 
 /// The corners that the path makes with itself, older incisions and the border, at less than asin(1/3) = 19.47 degrees:
 /// the triangle there has an aspect ratio above 3 whatever is done.

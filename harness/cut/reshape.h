@@ -22,7 +22,7 @@ class Reshape {
     double max_aspect = 3;     ///< a triangle at or beyond it is ill-shaped
     double tolerance = 0.05;   ///< of the path from the edges that stand for it, where the trace has no smaller one;
                                ///< mean rest edges
-    double min_edge = 1e-3;    ///< no piece of path, incision or border shorter than twice that is divided
+    double min_edge = 1e-4;    ///< no piece of path, incision or border shorter than twice that is divided
   };
   explicit Reshape(const Options& options)
       : options_(options), refinement_({.bound = options.max_aspect, .min_edge = options.min_edge}) {}
@@ -33,6 +33,11 @@ class Reshape {
   /// Takes one end of each edge at the path that is too short out of the sheet: a vertex of the path, where it goes on
   /// from its neighbours within the tolerance, or one of the sheet beside it that nothing holds.
   void thin();
+  /// At a corner with older incisions, the border or itself where edges enclose less than a good triangle needs: turns
+  /// the first piece of the path away from the other leg, within the tolerance, as chords may enclose less than the
+  /// curves; where these enclose too little, too, makes it follow the curve more closely, so that what is ill-shaped
+  /// for it stays in their wedge.
+  void widen_corners();
   /// Flips an edge of each ill-shaped triangle where that makes the worse of the two better; with `smoothing`, moves
   /// its corners, too: those of the path along the curve, others anywhere.
   void mend(bool smoothing);
@@ -60,6 +65,8 @@ class Reshape {
   bool flip_one(TriangleIndex t);
   bool smooth(VertexIndex v);
   bool slide(VertexIndex v, const Neighbours& neighbours);
+  bool turn_away(VertexIndex v, VertexIndex apex, VertexIndex other);
+  void follow_closely(VertexIndex from, VertexIndex to);
   bool smooth_round(TriangleIndex t);
   bool shorten_in(TriangleIndex t);
   bool split_in(TriangleIndex t);
@@ -75,6 +82,7 @@ class Reshape {
   double h_ = 0, tolerance_ = 0;
   std::vector<TriangleIndex> queue_, stuck_;
   std::vector<VertexIndex> ring_;
+  std::vector<std::array<VertexIndex, 3>> corners_;  // apex, right, left
 };
 
 }  // namespace cutbench

@@ -8,8 +8,10 @@
 // then flips that make the worse of two triangles better, and moves of the corners of ill-shaped ones: those of the
 // path slide along the curve as it was traced, never farther from it between two of them than the chord tolerance, or
 // 0.05 mean rest edges, whichever is smaller; then, of what is left, edges are divided, and at last it is refined
-// (harness/cut/delaunay_refinement.h). Every single step is decided by exact predicates and leaves the path embedded,
-// so that what can't be mended is left as the plain split made it.
+// (harness/cut/delaunay_refinement.h). At a corner with an older incision, the border or itself the first edge of the
+// path is turned, within the tolerance, where it leaves less room for a good triangle than the curve. Every single step
+// is decided by exact predicates and leaves the path embedded, so that what can't be mended is left as the plain split
+// made it.
 //
 // Never moved: held vertices (Sheet::hold: pinned or loaded ones), corners, those on older incisions; one on the border
 // only along a straight part of it. A tip is a vertex where it was asked for, however near to the border: the ligament
@@ -19,13 +21,13 @@
 // near and cuts it elsewhere; universal meshes (Rangarajan and Lew 2014) move the nodes of triangles along a curve onto
 // it; CISAMR (Soghrati, Xiao and Nagarajan 2017) relocates the nodes of a structured grid and divides what is left;
 // snapping by moves (vertex_snap). Flips and moves that lower the worst aspect ratio: Freitag and Ollivier-Gooch 1997.
-// Promises: area, conforming; pieces as the exact path has them. Neither the exact path (its vertices lie on it, but
-// there are fewer) nor that vertices stay.
-// Fails: an aspect ratio below 3 is not guaranteed, only sought, within a budget; near forced wedges, between cuts that
-// almost meet and where the tolerance is large for the curve it may be missed. It costs three times a plain
-// split, seven times at a chord tolerance of 0.01 mean rest edges. Flips and moves change the deformed surface where
-// the sheet is bent: the bending energy jumps less than by most methods in the median, and most of all in the worst
-// cuts.
+// Promises: area, conforming; pieces as the exact path has them in the sheet as it is, whose older incisions lie within
+// the tolerance of theirs. Neither the exact path (its vertices lie on it, but for those beside sharp corners, and
+// there are fewer) nor that vertices stay. Fails: an aspect ratio below 3 is not guaranteed, only sought, within a
+// budget; near forced wedges, between cuts that almost meet and where the tolerance is large for the curve it may be
+// missed. It costs three times a plain split, seven times at a chord tolerance of 0.01 mean rest edges. Flips and moves
+// change the deformed surface where the sheet is bent: the bending energy jumps less than by most methods in the
+// median, and most of all in the worst cuts.
 #pragma once
 
 #include "harness/cut/cutting_method.h"
