@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """All methods on the same cuts: the shapes they make, their price, what jumps at the cut, and a table of it all, ranked
 by largest eigenvalue, smallest altitude and largest angle. Reads results/method_comparison and, where they are there,
-its neighbours method_comparison_fine (a closer chord tolerance), method_comparison_jumps (cuts in a running scene), method_comparison_knobs and
-method_comparison_ablation (parts of warp_and_refine)."""
+its neighbours method_comparison_fine (a closer chord tolerance), method_comparison_accuracy (against exact answers),
+method_comparison_jumps (cuts in a running scene), method_comparison_knobs and method_comparison_ablation (parts of
+warp_and_refine)."""
 
 from dataclasses import dataclass
 
@@ -12,6 +13,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullLocator
 
 import load
+import method_accuracy
 import method_gallery
 import method_sweeps
 import style
@@ -197,13 +199,15 @@ def write_tables(folder, tables):
         for column in shown.columns:
             if shown[column].dtype == float:
                 shown[column] = [f"{x:.3g}" if np.isfinite(x) else "-" for x in shown[column]]
-        parts = [["eigenvalue_ratio", "altitude_min", "angle_max"], ["ar_", "wedge"], ["vertices", "incision", "us_per"],
-                 ["_jump"]]
-        lines.append(f"{name}: medians over the cuts of all families, sheets and resolutions; best shapes first\n")
+        parts = [["excess", "more_"], ["eigenvalue_ratio", "altitude_min", "angle_max"], ["ar_", "wedge"],
+                 ["vertices", "incision", "us_per"], ["_jump"]]
+        what = "medians over the cuts of all families, sheets and resolutions; best shapes first"
+        lines.append(f"{name}: {method_accuracy.WHAT if name == method_accuracy.STEM else what}\n")
+        of_all = [c for c in ("method", "knob", "cuts", "failed", "rank") if c in shown]
         for part in parts:
             columns = [c for c in shown.columns if any(p in c for p in part)]
             if columns:
-                lines.append(shown[["method", "knob", "cuts", "failed", "rank"] + columns].to_string(index=False) + "\n")
+                lines.append(shown[of_all + columns].to_string(index=False) + "\n")
     text = "\n".join(lines)
     (folder / f"{STEM}.txt").write_text(text, encoding="utf-8")
     print(folder / f"{STEM}.txt", text, sep="\n\n")
@@ -261,6 +265,8 @@ def main():
         draw(folder, swept, what + " " + style.provenance(
             swept_run, swept_run.rows, with_crosses=False, per=["sheet"] if kind == "knobs" else []))
         tables[f"{STEM}_{kind}"] = summary(swept, None, list(swept_ranks.index), swept_ranks)
+    if (folder.with_name(method_accuracy.STEM) / "records.csv").is_file():
+        tables[method_accuracy.STEM] = method_accuracy.draw(folder, folder.with_name(method_accuracy.STEM))
     write_tables(folder, tables)
     method_gallery.draw(folder)
 

@@ -1,0 +1,93 @@
+"""What method_comparison.py draws of the accuracy run beside it: the error of every method's cut sheet against what the
+cut costs, and against the error that conjugate gradients stop with."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.lines import Line2D
+
+import style
+from accuracy_ranking import at_equal_unknowns, made_by_all, mean_excess
+from accuracy_records import REFERENCE, Records, of, percent_axis, zero_line
+
+STEM = "method_comparison_accuracy"
+WHAT = ("excess error over that of a mesh made anew to fit the cut, of as many triangles as the uncut sheet, or refined to "
+        "as many unknowns; geometric means of the cases that no method failed; most accurate first")
+BUDGET = 100  # iterations of conjugate gradients
+MARKERS = ["o", "s", "^", "D", "v", "P"]
+
+
+def summary(folder):
+    """The records, and a row per method, most accurate first: geometric means over problems, sheets, sizes and members,
+    of the cases that no method failed."""
+    records = at_equal_unknowns(Records(folder)).ranked()
+    kept = {"all": records.table} | {sheet: records.rows(sheet=sheet) for sheet in records.sheets}
+    rows = []
+    for variant in records.methods:
+        row = {"method": variant[0], "knob": variant[1]}
+        for sheet, table in kept.items():
+            made = of(made_by_all(of_methods_there(table)), variant)
+            direct = made[made["direct"]]
+            stopped = made[~made["direct"] & (made["budget"] == BUDGET)]
+            row[f"excess_percent_{sheet}"] = mean_excess(direct, "ratio_equal")
+            row[f"us_per_crossed_{sheet}"] = (direct["cut_us"] / direct["crossed_triangles"]).median()
+            if sheet == "all":
+                everything = of(table, variant)
+                row |= {"cuts": len(everything[everything["direct"]]),
+                        "failed": int(everything.loc[everything["direct"], "failed"].sum()),
+                        "excess_percent_as_many_triangles": mean_excess(direct, "ratio"),
+                        "more_unknowns_percent": 100 * (direct["more"].median() - 1),
+                        f"excess_percent_cg_{BUDGET}": mean_excess(stopped, "ratio_equal")}
+        rows.append(row)
+    return records, pd.DataFrame(rows).sort_values("excess_percent_all", kind="stable")
+
+
+def of_methods_there(table):
+    """Without the methods that refuse a kind of sheet altogether, which would leave no case that all made."""
+    key = [table[c] for c in ("method", "knob", "sheet")]
+    return table[~table["failed"].groupby(key).transform("all")]
+
+
+def draw(folder, beside):
+    """Left: error against the price of the cut, a small marker per sheet and the name at the mean of all. Right: solved to
+    the end, and by a few iterations."""
+    records, table = summary(beside)
+    figure, axes = style.panels(1, 2, 9.5, width=style.PAGE)
+    left, right = axes[0]
+    looks = style.looks([(name, "") for name in table["method"]])
+    for _, row in table.iterrows():
+        colour = looks[row["method"], ""].colour
+        for sheet, marker in zip(records.sheets, MARKERS):
+            left.plot(row[f"us_per_crossed_{sheet}"], row[f"excess_percent_{sheet}"], marker, color=colour, markersize=2.2,
+                      alpha=0.55, markeredgewidth=0)
+        left.annotate(row["method"].replace("_", " "), (row["us_per_crossed_all"], row["excess_percent_all"]),
+                      fontsize=5, color=colour, ha="center", va="center", zorder=5)
+    left.set_xscale("log")
+    left.set_xlabel("µs per crossed triangle, the cut alone")
+    left.set_ylabel("excess error at equal unknowns, %")
+    order = list(table["method"])
+    for i, (_, row) in enumerate(table.iterrows()):
+        ends = row["excess_percent_all"], row[f"excess_percent_cg_{BUDGET}"]
+        right.plot(ends, (i, i), color="#999999", linewidth=0.8, zorder=1)
+        right.plot(ends[0], i, "o", color="#0072b2", markersize=3.2)
+        right.plot(ends[1], i, "D", color="white", markeredgecolor="#d55e00", markeredgewidth=0.8, markersize=3)
+    right.set_yticks(range(len(order)), [name.replace("_", " ") for name in order], fontsize=5.5)
+    right.set_ylim(len(order) - 0.5, -0.5)
+    right.set_xlabel("excess error at equal unknowns, %")
+    percent_axis(left, table["excess_percent_all"])
+    zero_line(left)
+    right.axvline(0, color="#111111", linewidth=0.6, zorder=0)
+    values = np.concatenate([table["excess_percent_all"], table[f"excess_percent_cg_{BUDGET}"]])
+    if np.nanmax(values) > 100:
+        right.set_xscale("symlog", linthresh=10, linscale=0.7)
+    entries = [Line2D([], [], linestyle="", marker=m, color="#666666", markersize=3, label=style.sheet_title(s))
+               for s, m in zip(records.sheets, MARKERS)]
+    entries += [Line2D([], [], linestyle="", marker="o", color="#0072b2", markersize=3.2, label="solved directly"),
+                Line2D([], [], linestyle="", marker="D", color="white", markeredgecolor="#d55e00", markersize=3,
+                       label=f"{BUDGET} iterations of CG")]
+    style.finish(figure, [], records.caption(
+        f"Left: error against price; lower and to the left is better. Excess error: of each problem's primary measure over "
+        f"that of a mesh made anew to fit the cut and refined to as many unknowns, minus one; geometric means over "
+        f"{len(records.problems)} problems in plane, sizes and members. Right: the same, and what {BUDGET} iterations of "
+        "conjugate gradients (Jacobi) leave."), entries)
+    style.save(figure, folder, STEM)
+    return table
