@@ -53,9 +53,9 @@ def draw(folder, beside):
     records, table = summary(beside)
     figure, axes = style.panels(1, 2, 9.5, width=style.PAGE)
     left, right = axes[0]
-    looks = style.looks([(name, "") for name in table["method"]])
+    looks = style.many_looks(table["method"])
     for _, row in table.iterrows():
-        colour = looks[row["method"], ""].colour
+        colour = looks[row["method"]].colour
         for sheet, marker in zip(records.sheets, MARKERS):
             left.plot(row[f"us_per_crossed_{sheet}"], row[f"excess_percent_{sheet}"], marker, color=colour, markersize=2.2,
                       alpha=0.55, markeredgewidth=0)

@@ -6,6 +6,7 @@ method_comparison_jumps (cuts in a running scene), method_comparison_knobs and m
 warp_and_refine)."""
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -252,9 +253,11 @@ def main():
     tables = {STEM: summary(table, jumps, order, ranks)}
     if fine is not None:
         tables[f"{STEM}_fine"] = summary(fine, None, order, ranks)
+    defaults = set(order)
     for kind, draw, what in (
-            ("knobs", method_sweeps.draw_knobs, "Medians as the knob of each method turns, its first and last setting "
-             "written beside; lower and to the left is better. AR outside forced wedges."),
+            ("knobs", partial(method_sweeps.draw_knobs, defaults=defaults), "Medians as the knob of each method turns, its "
+             "first and last setting written beside, large at the default; lower and to the left is better. AR outside "
+             "forced wedges. A point that no line joins: bound 0, which is none."),
             ("ablation", method_sweeps.draw_ablation, "The parts of warp_and_refine: what is done before the split (rows) "
              "and after it (columns). Medians; AR outside forced wedges.")):
         beside = folder.with_name(f"{folder.name}_{kind}")

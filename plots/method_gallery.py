@@ -77,7 +77,13 @@ def cut_by(method, folder):
     return *read_result(out), json.loads(report.read_text(encoding="utf-8"))
 
 
-def draw_method(ax, name, result, norm):
+def title(method):
+    """Its name, and its knob's default."""
+    knob = f", {method['knob']['name']} {method['knob']['default']:g}" if method["knob"] else ""
+    return method["name"].replace("_", " ") + knob
+
+
+def draw_method(ax, title, result, norm):
     ax.set_xlim(WINDOW[:2])
     ax.set_ylim(WINDOW[2:])
     ax.set_aspect("equal")
@@ -85,7 +91,7 @@ def draw_method(ax, name, result, norm):
     ax.set_yticks([])
     ax.grid(False)
     ax.spines[:].set_visible(True)
-    ax.set_title(name.replace("_", " "), pad=2)
+    ax.set_title(title, pad=2, fontsize=6.2)
     if result is None:
         ax.text(0.5, 0.5, "failed", transform=ax.transAxes, ha="center")
         return None
@@ -108,12 +114,12 @@ def draw_method(ax, name, result, norm):
 def draw(folder):
     """Writes folder/method_gallery.png and .pdf."""
     listed = run("methods", "--json")
-    methods = [m["name"] for m in json.loads(listed.stdout)]
+    methods = json.loads(listed.stdout)
     with tempfile.TemporaryDirectory() as scratch:
         scratch = Path(scratch)
         write_grid(scratch / "sheet.obj")
         (scratch / "path.json").write_text(json.dumps({"cuts": [{"bezier": CURVE}]}), encoding="utf-8")
-        results = {m: cut_by(m, scratch) for m in methods}
+        results = [cut_by(m["name"], scratch) for m in methods]
     columns = 3
     figure, axes = style.panels(-(-len(methods) // columns), columns, 2.75)
     norm = LogNorm(1.2, 60)
@@ -121,7 +127,7 @@ def draw(folder):
     for i, ax in enumerate(axes.flat):
         ax.set_visible(i < len(methods))
         if i < len(methods):
-            faces = draw_method(ax, methods[i], results[methods[i]], norm) or faces
+            faces = draw_method(ax, title(methods[i]), results[i], norm) or faces
     if faces is not None:
         bar = figure.colorbar(faces, ax=list(axes.flat), orientation="horizontal", aspect=50, pad=0.02, extend="max")
         bar.set_label("aspect ratio")
@@ -130,7 +136,7 @@ def draw(folder):
     style.finish(figure, [], f"The same cut by every method at its default knob, in rest space, near its tip; the paper's "
                  f"grid of {2 * SQUARES ** 2} triangles, chord tolerance 0.05. Blue: the path asked for; red: the opened "
                  f"incision. AR: the largest aspect ratio of the triangles the cut made or changed. Ties "
-                 "of unknowns are not drawn. {style.AR_DEFINITION} "
+                 f"of unknowns are not drawn. {style.AR_DEFINITION} "
                  "Command: plots/method_gallery.py")
     style.save(figure, folder, "method_gallery")
 

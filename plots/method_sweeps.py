@@ -8,6 +8,7 @@ import style
 
 BEFORE = ["nothing", "snap", "warp", "thin", "warp+thin"]
 AFTER = ["nothing", "flips", "smoothing", "refine", "tie"]
+OFF_AT_ZERO = {"cgal_refine", "delaunay_refine"}  # their bound 0 is none
 
 
 def median(rows, column):
@@ -21,14 +22,15 @@ def below_three(rows):
     return float((~(rows["ar_max_cut_outside_wedges"] >= 3) & ~rows["failed"]).mean())
 
 
-def draw_knobs(folder, table, caption):
-    """A panel per sheet and measure of shape; a curve per method through the settings of its knob."""
+def draw_knobs(folder, table, caption, defaults):
+    """A panel per sheet and measure of shape; a curve per method through the settings of its knob, large where it is by
+    default. A bound of 0, which is none, has no neighbours."""
     sheets = style.sheet_order(table["sheet"])
     measures = [("eigenvalue_ratio", "largest eigenvalue / uncut"), ("ar_max_cut_outside_wedges", "largest AR")]
     figure, axes = style.panels(len(measures), len(sheets), 4.6, sharex=True, sharey="row")
     variants = sorted(set(zip(table["method"], table["knob"])), key=lambda v: (v[0], style.natural(v[1])))
     names = list(dict.fromkeys(name for name, _ in variants))
-    looks = style.looks([(name, "") for name in names])
+    looks = style.many_looks(names)
     for row, (column, label) in zip(axes, measures):
         for ax, sheet in zip(row, sheets):
             ax.set_xscale("log")
@@ -40,10 +42,13 @@ def draw_knobs(folder, table, caption):
                     rows = table[(table["method"] == name) & (table["knob"] == knob) & (table["sheet"] == sheet)]
                     points.append((median(rows, "us_per_crossed"), median(rows, column)))
                 x, y = np.array(points).T
-                look = looks[name, ""]
-                ax.plot(x, y, color=look.colour, linewidth=0.8, marker=look.marker, markersize=2.6,
-                        markeredgecolor="white", markeredgewidth=0.3)
+                look = looks[name]
+                joined = slice(1 if name in OFF_AT_ZERO else 0, None)
+                ax.plot(x[joined], y[joined], color=look.colour, linewidth=0.8)
                 for (px, py), knob in zip(points, knobs):
+                    is_default = (name, knob) in defaults
+                    ax.plot(px, py, look.marker, color=look.colour, markersize=4.2 if is_default else 2.4, zorder=3,
+                            markeredgecolor="#111111" if is_default else "white", markeredgewidth=0.4)
                     if np.isfinite(px) and np.isfinite(py) and knob in (knobs[0], knobs[-1]):
                         ax.annotate(knob.partition("=")[2], (px, py), xytext=(1.5, 1.5), textcoords="offset points",
                                     fontsize=4.2, color=look.colour)
@@ -52,7 +57,7 @@ def draw_knobs(folder, table, caption):
         ax.set_title(style.sheet_title(sheet))
     for ax in axes[-1]:
         ax.set_xlabel("µs per crossed triangle")
-    style.finish(figure, [looks[name, ""] for name in names], caption)
+    style.finish(figure, [looks[name] for name in names], caption)
     style.save(figure, folder, "method_comparison_knobs")
 
 

@@ -82,6 +82,13 @@ def looks(variants):
     return chosen
 
 
+def many_looks(names):
+    """A Look per name where there are more than have colours of their own: as far apart as the figure allows."""
+    markers = "osD^vPX<>phd8*"
+    return {name: Look(name.replace("_", " "), matplotlib.colors.to_hex(plt.get_cmap("tab20")((2 * i + i // 10) % 20)),
+                       markers[i % len(markers)], width=0.8) for i, name in enumerate(sorted(names))}
+
+
 def natural(knob):
     """Sorts rounds=2 before rounds=10."""
     name, _, value = knob.partition("=")
