@@ -61,6 +61,34 @@ TEST(Invariants, TheLogGivesTheDeformedPositions) {
     }
 }
 
+/// New and moved vertices lie on the deformed sheet where the old map takes them: an affine one shows whether the place
+/// in rest space is the one that was mapped.
+TEST(Invariants, AnAffineStateStaysAffine) {
+  const auto affine = [](Point2 p) {
+    return Point3{1.3 * p.x + 0.2 * p.y, 0.1 * p.x - 0.8 * p.y, 0.5 * p.x + 2 * p.y};
+  };
+  for (const MethodRow& row : all_methods())
+    for (const std::string family : {"curved", "partial", "cut_out", "recut", "several", "u_turn"})
+      for (std::size_t i = 0; i < scaled(4); ++i) {
+        SCOPED_TRACE(row.name + ", " + family + ", " + std::to_string(i));
+        Sheet sheet(make_sheet("grid", 16));
+        for (std::size_t d = 0; d < sheet.deformed_slots(); ++d)
+          sheet.set_position(DeformedIndex(d), affine(sheet.rest(sheet.rest_vertex(DeformedIndex(d)))));
+        Locator locator(sheet);
+        Cutter cutter;
+        const auto cut = row.make(row.knob.value);
+        for (const Curve& curve : make_case(family, 80, i, sheet)) cutter.cut(sheet, locator, curve, *cut, {});
+        double farthest = 0;
+        for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) {
+          if (!sheet.rest_vertex(DeformedIndex(d)).valid()) continue;
+          const auto [x, y, z] = sheet.position(DeformedIndex(d));
+          const auto [u, v, w] = affine(sheet.rest(sheet.rest_vertex(DeformedIndex(d))));
+          farthest = std::max({farthest, std::abs(x - u), std::abs(y - v), std::abs(z - w)});
+        }
+        EXPECT_LT(farthest, 1e-12);
+      }
+}
+
 /// Does its work and fails then.
 class Failing : public CuttingMethod {
  public:

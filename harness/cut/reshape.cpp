@@ -152,6 +152,22 @@ void Reshape::thin() {
   }
 }
 
+/// Splits an edge with a new vertex at p, beside it: there the old map takes it, from where it would lie on the edge.
+/// An invalid index, and the edge is whole, where triangles would not stay positive.
+VertexIndex Reshape::split_at(HalfEdge h, Point2 p) {
+  const Point2 a = sheet_->rest(sheet_->origin(h)), edge = sheet_->rest(sheet_->target(h)) - a;
+  const double lambda = dot(p - a, edge) / squared_length(edge);
+  const Point2 on_edge = a + lambda * edge;
+  const HalfEdge o = sheet_->opposite(h);
+  for (const Point2 q : {on_edge, p})
+    if (!(lambda > 0 && lambda < 1) || !halves_are_positive(*sheet_, h, q) ||
+        (o.valid() && !halves_are_positive(*sheet_, o, q)))
+      return {};
+  const VertexIndex v = sheet_->split_edge(h, lambda, on_edge);
+  if (!(on_edge == p)) sheet_->move(v, p);
+  return v;
+}
+
 // --- corners
 // -----------------------------------------------------------------------------------------------------------
 
@@ -184,10 +200,7 @@ bool Reshape::turn_away(VertexIndex v, VertexIndex apex, VertexIndex other) {
       curve_->set_parameter(v, -1);  // it stays there
       return true;
     }
-    const HalfEdge h = find_spoke(*sheet_, apex, v);
-    if (!halves_are_positive(*sheet_, h, to) || !halves_are_positive(*sheet_, sheet_->opposite(h), to)) continue;
-    sheet_->split_edge(h, share, to);
-    return true;
+    if (split_at(find_spoke(*sheet_, apex, v), to).valid()) return true;
   }
   return false;
 }
@@ -199,8 +212,7 @@ void Reshape::follow_closely(VertexIndex from, VertexIndex to) {
   if (!h.valid() || sheet_->mark(h) != EdgeMark::path || s < 0 || e < 0) return;
   const Point2 a = sheet_->rest(from), b = sheet_->rest(to), middle = curve_->at((s + e) / 2);
   if (squared_length(b - a) < 0.25 * h_ * h_ || !curve_->stays_near(s, e, a, b, h_)) return;
-  if (!halves_are_positive(*sheet_, h, middle) || !halves_are_positive(*sheet_, sheet_->opposite(h), middle)) return;
-  curve_->add(sheet_->split_edge(h, 0.5, middle), (s + e) / 2);
+  if (const VertexIndex v = split_at(h, middle); v.valid()) curve_->add(v, (s + e) / 2);
 }
 
 void Reshape::widen_corners() {
@@ -352,7 +364,8 @@ bool Reshape::split_in(TriangleIndex t) {
       best = h, at = middle, least = worst, parameter = s;
   }
   if (!best.valid()) return false;
-  const VertexIndex v = sheet_->split_edge(best, 0.5, at);
+  const VertexIndex v = split_at(best, at);
+  if (!v.valid()) return false;
   if (parameter >= 0) curve_->add(v, parameter);
   note_star(v);
   return true;

@@ -65,6 +65,7 @@ class Reshape {
   bool flip_one(TriangleIndex t);
   bool smooth(VertexIndex v);
   bool slide(VertexIndex v, const Neighbours& neighbours);
+  VertexIndex split_at(HalfEdge h, Point2 p);
   bool turn_away(VertexIndex v, VertexIndex apex, VertexIndex other);
   void follow_closely(VertexIndex from, VertexIndex to);
   bool smooth_round(TriangleIndex t);
