@@ -52,6 +52,7 @@ class ForcedWedges {
   explicit ForcedWedges(double share) : share_(share) {}
   /// Looks at the fans round the path's vertices. \pre the path is embedded and still closed.
   void find(const Sheet& sheet);
+  bool empty() const { return corners_.empty(); }
   /// Does p lie within 0.25 mean rest edges of a corner, or between its legs where they are closer than 0.3? A leg ends
   /// where it turns by more than 45 degrees, or once round.
   bool hold(Point2 p) const;

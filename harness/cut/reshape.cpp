@@ -46,7 +46,6 @@ void Reshape::begin(Sheet& sheet, PathCurve& curve) {
   sheet_ = &sheet, curve_ = &curve;
   h_ = sheet.mean_edge();
   tolerance_ = std::min(options_.tolerance * h_, curve.chord_tolerance());
-  wedges_.find(sheet);
 }
 
 bool Reshape::is_ill_shaped(TriangleIndex t) const {
@@ -224,6 +223,12 @@ void Reshape::widen_corners() {
     if (turn_away(left, apex, right) || turn_away(right, apex, left)) continue;
     for (const VertexIndex v : {left, right}) follow_closely(apex, v);
   }
+}
+
+void Reshape::find_wedges(bool widen) {
+  wedges_.find(*sheet_);
+  if (!widen || wedges_.empty()) return;
+  widen_corners();
   wedges_.find(*sheet_);
 }
 
@@ -384,6 +389,7 @@ void Reshape::settle(bool smoothing, std::size_t most) {
 }
 
 void Reshape::mend(bool smoothing) {
+  find_wedges(smoothing);
   queue_ = changed_triangles();
   settle(smoothing, 20 * queue_.size());
 }
@@ -408,7 +414,7 @@ void Reshape::mend_one_by_one() {
 
 bool Reshape::refine() {
   mend_one_by_one();
-  widen_corners();  // what was left out, or moved, may have made others
+  if (!stuck_.empty()) find_wedges(true);  // what was left out, or moved, may have made others
   refinement_.begin(*sheet_, wedges_);
   for_each_changed(*sheet_, [&](TriangleIndex t) { refinement_.note(*sheet_, t); });
   return refinement_.run(*sheet_);

@@ -33,13 +33,12 @@ class Reshape {
   /// Takes one end of each edge at the path that is too short out of the sheet: a vertex of the path, where it goes on
   /// from its neighbours within the tolerance, or one of the sheet beside it that nothing holds.
   void thin();
-  /// At a corner with older incisions, the border or itself where edges enclose less than a good triangle needs: turns
-  /// the first piece of the path away from the other leg, within the tolerance, as chords may enclose less than the
-  /// curves; where these enclose too little, too, makes it follow the curve more closely, so that what is ill-shaped
-  /// for it stays in their wedge.
-  void widen_corners();
   /// Flips an edge of each ill-shaped triangle where that makes the worse of the two better; with `smoothing`, moves
-  /// its corners, too: those of the path along the curve, others anywhere.
+  /// its corners, too: those of the path along the curve, others anywhere. Then also, before, at corners with older
+  /// incisions, the border or itself where edges enclose less than a good triangle needs: turns the first piece of the
+  /// path away from the other leg, within the tolerance, as chords may enclose less than the curves; where these
+  /// enclose too little, too, makes it follow the curve more closely, so that what is ill-shaped for it stays in their
+  /// wedge.
   void mend(bool smoothing);
   /// For each triangle that is still ill-shaped: takes a corner out, moves what stands round it, or splits an edge, a
   /// piece of the path at a point of the curve; Delaunay refinement of what that leaves. False where that did not end
@@ -68,6 +67,8 @@ class Reshape {
   VertexIndex split_at(HalfEdge h, Point2 p);
   bool turn_away(VertexIndex v, VertexIndex apex, VertexIndex other);
   void follow_closely(VertexIndex from, VertexIndex to);
+  void widen_corners();
+  void find_wedges(bool widen);
   bool smooth_round(TriangleIndex t);
   bool shorten_in(TriangleIndex t);
   bool split_in(TriangleIndex t);

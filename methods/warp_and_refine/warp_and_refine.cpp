@@ -16,7 +16,6 @@ void WarpAndRefine::improve(Sheet& sheet) {
   stopped_early_ = false;
   reshape_.begin(sheet, curve_);
   if (options_.before == Before::thin || options_.before == Before::warp_and_thin) reshape_.thin();
-  if (options_.after >= After::smoothing && options_.after <= After::refine) reshape_.widen_corners();
   if (options_.after >= After::flips && options_.after <= After::refine)
     reshape_.mend(options_.after >= After::smoothing);
   if (options_.after == After::refine) stopped_early_ = !reshape_.refine();
