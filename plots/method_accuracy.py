@@ -47,6 +47,22 @@ def of_methods_there(table):
     return table[~table["failed"].groupby(key).transform("all")]
 
 
+def write_names(figure, ax, table):
+    """Each method's at the mean of its sheets, upwards of what is written there already. Call it when the axes are set."""
+    figure.draw_without_rendering()
+    taken = []
+    for _, row in table.sort_values("excess_percent_all").iterrows():
+        text = ax.annotate(row["method"].replace("_", " "), (row["us_per_crossed_all"], row["excess_percent_all"]),
+                           xytext=(0, 0), textcoords="offset points", fontsize=5, color="#222222", ha="center",
+                           va="center", zorder=5)
+        for up in range(0, 40):
+            text.set_position((0, up))
+            box = text.get_window_extent()
+            if not any(box.overlaps(other) for other in taken):
+                break
+        taken.append(box)
+
+
 def draw(folder, beside):
     """Left: error against the price of the cut, a small marker per sheet and the name at the mean of all. Right: solved to
     the end, and by a few iterations."""
@@ -59,8 +75,6 @@ def draw(folder, beside):
         for sheet, marker in zip(records.sheets, MARKERS):
             left.plot(row[f"us_per_crossed_{sheet}"], row[f"excess_percent_{sheet}"], marker, color=colour, markersize=2.2,
                       alpha=0.55, markeredgewidth=0)
-        left.annotate(row["method"].replace("_", " "), (row["us_per_crossed_all"], row["excess_percent_all"]),
-                      fontsize=5, color=colour, ha="center", va="center", zorder=5)
     left.set_xscale("log")
     left.set_xlabel("µs per crossed triangle, the cut alone")
     left.set_ylabel("excess error at equal unknowns, %")
@@ -75,10 +89,12 @@ def draw(folder, beside):
     right.set_xlabel("excess error at equal unknowns, %")
     percent_axis(left, table["excess_percent_all"])
     zero_line(left)
+    write_names(figure, left, table)
     right.axvline(0, color="#111111", linewidth=0.6, zorder=0)
     values = np.concatenate([table["excess_percent_all"], table[f"excess_percent_cg_{BUDGET}"]])
     if np.nanmax(values) > 100:
         right.set_xscale("symlog", linthresh=10, linscale=0.7)
+        right.xaxis.set_major_formatter("{x:g}")
     entries = [Line2D([], [], linestyle="", marker=m, color="#666666", markersize=3, label=style.sheet_title(s))
                for s, m in zip(records.sheets, MARKERS)]
     entries += [Line2D([], [], linestyle="", marker="o", color="#0072b2", markersize=3.2, label="solved directly"),

@@ -79,7 +79,7 @@ def cut_by(method, folder):
 
 def title(method):
     """Its name, and its knob's default."""
-    knob = f", {method['knob']['name']} {method['knob']['default']:g}" if method["knob"] else ""
+    knob = f" {method['knob']['default']:g}" if method["knob"] else ""
     return method["name"].replace("_", " ") + knob
 
 
@@ -106,7 +106,7 @@ def draw_method(ax, title, result, norm):
     ax.plot(*asked.T, color="#0072b2", linewidth=2.2, alpha=0.45, zorder=2, solid_capstyle="butt")
     ax.add_collection(LineCollection(incision(points, triangles), color="#b0001e", linewidth=0.7, zorder=3))
     ratio = report["aspect_ratio"]["cut"]["max"]
-    shapes = f"AR ≤ {load.number(ratio, 2)}" if ratio > 0 else "no triangle changed"
+    shapes = f"AR ≤ {load.number(ratio, 2)}" if ratio > 0 else "none changed"
     ax.set_xlabel(f"{shapes}, {report['vertices_added']:+d} vertices", fontsize=5.6, labelpad=2)
     return faces
 
@@ -133,7 +133,7 @@ def draw(folder):
         bar.set_label("aspect ratio")
         bar.set_ticks([2, 3, 5, 10, 20, 50], labels=["2", "3", "5", "10", "20", "50"])
         bar.ax.minorticks_off()
-    style.finish(figure, [], f"The same cut by every method at its default knob, in rest space, near its tip; the paper's "
+    style.finish(figure, [], f"The same cut by every method, its knob (beside the name) at its default, in rest space, near its tip; the paper's "
                  f"grid of {2 * SQUARES ** 2} triangles, chord tolerance 0.05. Blue: the path asked for; red: the opened "
                  f"incision. AR: the largest aspect ratio of the triangles the cut made or changed. Ties "
                  f"of unknowns are not drawn. {style.AR_DEFINITION} "

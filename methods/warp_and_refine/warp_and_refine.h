@@ -26,8 +26,8 @@
 // there are fewer) nor that vertices stay. Fails: an aspect ratio below 3 is not guaranteed, only sought, within a
 // budget; near forced wedges, between cuts that almost meet and where the tolerance is large for the curve it may be
 // missed. It costs three times a plain split, seven times at a chord tolerance of 0.01 mean rest edges. Flips and moves
-// change the deformed surface where the sheet is bent: the bending energy jumps less than by most methods in the
-// median, and most of all in the worst cuts.
+// change the deformed surface where the sheet is bent, and its bending energy, though by less than the slivers of a
+// plain split.
 #pragma once
 
 #include "harness/cut/cutting_method.h"
