@@ -21,11 +21,12 @@ def summary(folder):
     of the cases that no method failed."""
     records = at_equal_unknowns(Records(folder)).ranked()
     kept = {"all": records.table} | {sheet: records.rows(sheet=sheet) for sheet in records.sheets}
+    common = {sheet: made_by_all(of_methods_there(table)) for sheet, table in kept.items()}
     rows = []
     for variant in records.methods:
         row = {"method": variant[0], "knob": variant[1]}
         for sheet, table in kept.items():
-            made = of(made_by_all(of_methods_there(table)), variant)
+            made = of(common[sheet], variant)
             direct = made[made["direct"]]
             stopped = made[~made["direct"] & (made["budget"] == BUDGET)]
             row[f"excess_percent_{sheet}"] = mean_excess(direct, "ratio_equal")

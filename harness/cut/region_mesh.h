@@ -46,6 +46,7 @@ using RegionVertexBase =
                                       CGAL::Triangulation_vertex_base_with_info_2<RegionVertex, RegionKernel>>;
 using RegionStructure =
     CGAL::Triangulation_data_structure_2<RegionVertexBase, CGAL::Delaunay_mesh_face_base_2<RegionKernel>>;
+
 /// CGAL's triangulation, but where rounding put the mesh generator's new vertex beyond the triangles that it replaces,
 /// or on their border: a star round it would not be a triangulation any more, and CGAL would walk round it for ever.
 /// The mesh generator ends with CGAL's Assertion_exception instead, in the middle of a change.
