@@ -12,6 +12,7 @@
 #include "harness/measure/stop_watch.h"
 #include "harness/mesh/mesh_io.h"
 #include "harness/run/interrupt.h"
+#include "harness/run/judged_sheet.h"
 #include "harness/run/report_json.h"
 #include "harness/run/run.h"
 #include "methods/registry.h"
@@ -128,7 +129,8 @@ std::vector<Curve> at_rest(const std::vector<std::variant<Curve, PickedCurve>>& 
 
 int cut(const CutArguments& arguments) {
   const MethodRow& row = find_method(arguments.method);
-  const auto method = row.make(knob_value(row, arguments.set));
+  const double knob = knob_value(row, arguments.set);
+  const auto method = row.make(knob);
   const CutOptions options = options_with(arguments.chord_tolerance);
   check_mesh_place(arguments.out, "--out");
   if (!arguments.report.empty()) check_report_place(arguments);
@@ -148,7 +150,8 @@ int cut(const CutArguments& arguments) {
     std::cerr << "failed (" << run.verdict << "): " << run.reason << '\n';
     return fell_short;
   }
-  const Assessment a = assess(before, sheet, cuts, forced_corners_of(before, cuts), row.promises, options);
+  const Assessment a = assess(before, sheet, judge_one_by_one(before, cuts, row.promises, row.make(knob), options),
+                              forced_corners_of(before, cuts));
   WholeFile out = mesh_file(sheet.to_mesh_data(), arguments.out);
   if (!arguments.report.empty()) report_file(arguments.report, row.name, run, pick_us, a).place();  // both, or neither
   out.place();

@@ -32,7 +32,8 @@ double median(std::span<const double> values) {
 }
 
 bool is_sound(const Sheet& before, const Sheet& sheet, const Curve& curve, const Promises& promises) {
-  return check(sheet).empty() && assess(before, sheet, {&curve, 1}, {}, promises, options).judgement.ok;
+  return check(sheet).empty() &&
+         oracle::judge(request_for(before, {&curve, 1}, promises, options, true), for_oracle(sheet)).ok;
 }
 
 void save(const Sheet& sheet, const Curve& curve, const std::filesystem::path& stem) {

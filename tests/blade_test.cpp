@@ -136,7 +136,7 @@ TEST(Blade, InTheEndTheIncisionIsThatOfTheCutAtOnce) {
         const oracle::Judgement whole =
             oracle::judge(request_for(before, {&curve, 1}, row.promises, options, true), for_oracle(by_parts.sheet));
         EXPECT_TRUE(whole.ok) << where << ": " << whole.problems.front();
-        EXPECT_EQ(whole.pieces, at_once.pieces) << where;
+        EXPECT_EQ(whole.pieces, at_once.judgement.pieces) << where;
         const bool straight = curve.kind == Curve::Kind::polyline;
         EXPECT_LE(hausdorff(lips_of(at_once.sheet), lips_of(by_parts.sheet)),
                   straight ? 1e-12 : (options.chord_tolerance + options.flatten_tolerance) * before.mean_edge())

@@ -63,10 +63,8 @@ bool is_refused(const json& expect, const char* key, Read read) {
 }
 
 /// The audit excuses what the input forces, and says so.
-void check_forced(const json& expect, const Trial& trial, const Sheet& before, const Sheet& after,
-                  const std::vector<Curve>& cuts, double chord) {
-  const std::vector<oracle::ForcedCorner> corners = forced_corners_of(before, cuts);
-  const Assessment found = assess(before, after, cuts, corners, trial.row.promises, {.chord_tolerance = chord});
+void check_forced(const json& expect, const Sheet& before, const Sheet& after, const std::vector<Curve>& cuts) {
+  const Assessment found = assess(before, after, {}, forced_corners_of(before, cuts));
   EXPECT_EQ(found.forced_corners, expect.at("forced_corners").get<std::size_t>());
   EXPECT_EQ(found.strict.ar_max < found.cut.ar_max, expect.at("worst_is_forced").get<bool>())
       << found.strict.ar_max << " without forced corners, " << found.cut.ar_max << " with them";
@@ -112,17 +110,17 @@ void run_member(const CatalogueMember& member, const Trial& trial, double chord)
     // What is nearer than twice the snap distance to an edge goes along it. A Bezier's error is the oracle's affair.
     const bool declared = cuts[i].kind == Curve::Kind::polyline && table.outcome.status == Status::ok;
     if (exact && (expect.contains("incision_error") || declared)) {
-      EXPECT_LE(table.incision_error, expect.value("incision_error", 2 * table.sheet.snap()));
+      EXPECT_LE(table.judgement.incision_error, expect.value("incision_error", 2 * table.sheet.snap()));
     }
   }
   if (whole && (exact || cuts.size() == 1)) {
-    EXPECT_EQ(table.pieces, expect.value("pieces", table.pieces));
+    EXPECT_EQ(table.judgement.pieces, expect.value("pieces", table.judgement.pieces));
   }
   if (!exact) return;
   if (trial.row.promises.keeps_vertices || cuts.size() == 1) {  // else a later cut meets another mesh
     EXPECT_EQ(table.embedded_vertices(), expect.value("new_vertices", table.embedded_vertices()));
   }
-  if (expect.contains("forced_corners")) check_forced(expect, trial, uncut, table.sheet, cuts, chord);
+  if (expect.contains("forced_corners")) check_forced(expect, uncut, table.sheet, cuts);
 }
 
 /// Why a trial is left out; empty: it isn't.

@@ -114,7 +114,7 @@ TEST_P(CornerCases, ComeOutRight) {
           EXPECT_EQ(table.cut(step.curve, chord), "");
           // Cuts that were made elsewhere than asked for meet the next one elsewhere: there the oracle alone judges.
           if (i > 1 && !row.promises.exact_incision) continue;
-          EXPECT_EQ(table.pieces, step.pieces);
+          EXPECT_EQ(table.judgement.pieces, step.pieces);
           EXPECT_STREQ(name_of(table.outcome.status), name_of(step.status));
         }
       }
@@ -131,9 +131,9 @@ TEST_P(CornerCases, SheetWithAHole) {
   const Point2 along{size, 0.1 * size}, aside{-0.1 * size, size};
   Table table(mesh, row, row.knob.value);
   EXPECT_EQ(table.cut({polyline, false, {middle, middle + along}}, 0.05), "");
-  EXPECT_EQ(table.pieces, 1);
+  EXPECT_EQ(table.judgement.pieces, 1);
   EXPECT_EQ(table.cut({polyline, false, {middle - aside, middle + aside}}, 0.05), "");
-  EXPECT_EQ(table.pieces, 3);
+  EXPECT_EQ(table.judgement.pieces, 3);
 }
 
 /// Triangles round a vertex, some of them thin, and in `angles` those of their edges.
@@ -189,7 +189,7 @@ TEST(CornersMetAgain, CloseTheLoop) {
       continue;
     }
     EXPECT_EQ(wrong, "") << i << ": " << text_of(path);
-    EXPECT_GE(table.pieces, 2) << i << ": " << text_of(path);
+    EXPECT_GE(table.judgement.pieces, 2) << i << ": " << text_of(path);
   }
   EXPECT_LE(refused, scaled(3000) / 100) << "declared, but not for many: crossings too close together for doubles";
 }

@@ -44,7 +44,8 @@ TEST_P(InARow, ThousandCutsWithoutFailure) {
       std::string what = outcome.status == Status::failed ? outcome.verdict + ": " + outcome.reason : "";
       if (judged && what.empty()) what = faults(sheet);
       if (judged && what.empty())
-        for (const auto& problem : assess(before, sheet, {&curve, 1}, {}, row().promises, options).judgement.problems)
+        for (const auto& problem :
+             oracle::judge(request_for(before, {&curve, 1}, row().promises, options, true), for_oracle(sheet)).problems)
           what += problem + "; ";
       changed += outcome.status == Status::ok;
       if (what.empty()) continue;

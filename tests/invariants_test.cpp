@@ -184,8 +184,8 @@ TEST(Invariants, ACutSheetCanBeReadAndCutAgain) {
       EXPECT_EQ(again.sheet.deformed_count(), table.sheet.deformed_count());
       EXPECT_EQ(table.cut(cuts[1], 0.05), "");
       EXPECT_EQ(again.cut(cuts[1], 0.05), "");
-      EXPECT_EQ(table.pieces, 4);
-      EXPECT_EQ(again.pieces, 4);
+      EXPECT_EQ(table.judgement.pieces, 4);
+      EXPECT_EQ(again.judgement.pieces, 4);
     }
 }
 

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "harness/run/cases.h"
+#include "harness/run/report.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 
@@ -77,6 +78,25 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod,
                          [](const auto& parameters) {
                            return name_of_variant(std::get<0>(parameters.param)) + "_" + std::get<1>(parameters.param);
                          });
+
+/// Four cuts whose exact curves make four pieces, but whose incisions, each within the tolerance of its curve, five.
+TEST(JudgeOneByOne, ALaterCutMeetsTheIncisionNotTheCurve) {
+  const Sheet before(make_sheet("alternating", 20));
+  const auto cuts = make_case("several", 280895897728382, 0, before);
+  const MethodRow& row = find_method("conventional_split");
+  const CutOptions options;
+  Sheet after = before;
+  Locator locator(after);
+  Cutter cutter;
+  for (const Curve& curve : cuts) cutter.cut(after, locator, curve, *row.make(row.knob.value), options);
+  const oracle::Judgement whole =
+      oracle::judge(request_for(before, cuts, row.promises, options, true), for_oracle(after));
+  EXPECT_EQ(whole.verdict, "wrong_pieces");
+  const oracle::Judgement each = judge_one_by_one(before, cuts, row.promises, row.make(row.knob.value), options);
+  EXPECT_TRUE(each.ok) << each.problems.front();
+  EXPECT_EQ(each.pieces, whole.pieces);
+  EXPECT_NEAR(each.area_change, whole.area_change, 1e-12);
+}
 
 }  // namespace
 }  // namespace cutbench

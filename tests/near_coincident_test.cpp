@@ -48,7 +48,7 @@ void cut_by_method(const MeshData& mesh, const MethodRow& method, const std::arr
     const bool changed = status != Status::refused && status != Status::failed;
     const bool wrong = changed && !what.empty();
     ++row.tried, ++row.outcomes[wrong ? "wrong" : name_of(status)];
-    if (changed) row.incision_error = std::max(row.incision_error, table.incision_error);
+    if (changed) row.incision_error = std::max(row.incision_error, table.judgement.incision_error);
     if (!what.empty() && row.problem.empty()) row.problem = what + "; " + text_of(curve);
     if (wrong) return;
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "harness/run/cases.h"
+#include "harness/run/judged_sheet.h"
 #include "harness/run/report.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
@@ -53,7 +54,9 @@ TEST(Reshape, CornersOfChordsAreAsWideAsThoseOfCurves) {
     const MethodRow& row = find_method("warp_and_refine");
     const auto method = row.make(row.knob.value);
     for (const Curve& curve : cuts) EXPECT_EQ(cutter.cut(sheet, locator, curve, *method, {}).status, Status::ok);
-    const Assessment found = assess(before, sheet, cuts, forced_corners_of(before, cuts), row.promises, {});
+    const Assessment found =
+        assess(before, sheet, judge_one_by_one(before, cuts, row.promises, row.make(row.knob.value), {}),
+               forced_corners_of(before, cuts));
     EXPECT_TRUE(found.judgement.ok) << found.judgement.verdict;
     EXPECT_LT(found.outside_wedges.ar_max, 3) << c.n << " " << c.i;
   }

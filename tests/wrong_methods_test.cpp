@@ -58,7 +58,7 @@ TEST(WrongMethods, AHundredthOfTheIncisionIsMissed) {
       const LosesAHundredth& wrong_method = *method;
       JudgedSheet wrong(Sheet(make_sheet(family, 40)), {true, true, true, true}, std::move(method));
       EXPECT_EQ(wrong.cut(path, {}).verdict, "incision");
-      EXPECT_NEAR(wrong.incision_error, wrong_method.lost * 0.8, 1e-3 * 0.8);
+      EXPECT_NEAR(wrong.judgement.incision_error, wrong_method.lost * 0.8, 1e-3 * 0.8);
       EXPECT_LE(wrong_method.lost, 0.05);
     }
 }

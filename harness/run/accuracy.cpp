@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "harness/run/accuracy_summary.h"
+#include "harness/run/judged_sheet.h"
 #include "harness/run/progress.h"
 #include "harness/run/record.h"
 #include "harness/run/worker.h"
@@ -193,8 +194,10 @@ class AccuracyRun {
     row.set("crossed_triangles", static_cast<std::int64_t>(cut.crossed_triangles));
     bool solvable = cut.status != Status::failed && cut.status != Status::refused;
     if (solvable) {
-      const Promises& promises = worker.variant.row->promises;
-      const Assessment a = assess(base.sheet, worker.sheet, specimen.cuts, {}, promises, cut_options_);
+      const Variant& v = worker.variant;
+      const oracle::Judgement judgement =
+          judge_one_by_one(base.sheet, specimen.cuts, v.row->promises, v.row->make(v.knob), cut_options_);
+      const Assessment a = assess(base.sheet, worker.sheet, judgement, {});
       set_assessment(row, a, base);
       solvable = a.judgement.ok;
     }

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "harness/mesh/mesh_io.h"
+#include "harness/run/judged_sheet.h"
 #include "harness/run/report.h"
 
 namespace cutbench {
@@ -27,8 +28,9 @@ std::string outcome_of_command(const Variant& variant, const std::filesystem::pa
     const CutRun run = cut_all(sheet, locator, cutter, cuts, *method, options);
     if (run.status == Status::failed) return say("failed (" + run.verdict + "): " + run.reason);
     if (run.status == Status::refused) return say("refused: " + run.reason);
-    const oracle::Judgement judgement = assess(before, sheet, cuts, {}, variant.row->promises, options).judgement;
-    say(judgement.ok ? std::string(name_of(run.status)) + ": seen as a whole, the result passes"
+    const oracle::Judgement judgement =
+        judge_one_by_one(before, cuts, variant.row->promises, variant.row->make(variant.knob), options);
+    say(judgement.ok ? std::string(name_of(run.status)) + ": the result passes"
                      : "failed (" + judgement.verdict + "): " + judgement.problems.front());
   };
   switch (run_isolated(1, {1, time_limit_s}, run_command).front()) {

@@ -32,14 +32,32 @@ JudgedSheet::Finding JudgedSheet::cut(const Curve& curve, const CutOptions& opti
   }
   request.snap = std::max(request.snap, 2 * outcome.deviation);
   request.vertex_tolerance += outcome.deviation, request.tolerance += outcome.deviation;
-  const oracle::Judgement judgement = oracle::judge(request, for_oracle(sheet));
-  pieces = judgement.pieces, incision_error = judgement.incision_error;
+  judgement = oracle::judge(request, for_oracle(sheet));
   const auto counts = [status](const std::string& problem) {
     return status != Status::deviated || !problem.starts_with("wrong_pieces");
   };
   const auto problem = std::find_if(judgement.problems.begin(), judgement.problems.end(), counts);
   if (problem == judgement.problems.end()) return {};
   return {problem->substr(0, problem->find(':')), std::string(name_of(status)) + ", but " + *problem};
+}
+
+oracle::Judgement judge_one_by_one(const Sheet& start, std::span<const Curve> cuts, const Promises& promises,
+                                   std::unique_ptr<CuttingMethod> method, const CutOptions& options) {
+  JudgedSheet sheet(start, promises, std::move(method));
+  oracle::Judgement all;
+  for (const Curve& curve : cuts) {
+    sheet.judgement = {};
+    const JudgedSheet::Finding finding = sheet.cut(curve, options);
+    const oracle::Judgement& last = sheet.judgement;
+    all.pieces = last.pieces, all.expected_pieces = last.expected_pieces;
+    all.incision_error = std::max(all.incision_error, last.incision_error);
+    all.area_change = (1 + all.area_change) * (1 + last.area_change) - 1;
+    if (finding.ok()) continue;
+    all.ok = false, all.verdict = finding.verdict;
+    all.problems = last.ok ? std::vector{finding.reason} : last.problems;
+    break;
+  }
+  return all;
 }
 
 }  // namespace cutbench

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -57,9 +58,8 @@ class JudgedSheet {
   std::size_t embedded_vertices() const { return method_.embedded_vertices; }
 
   Sheet sheet;
-  CutOutcome outcome;         ///< of the last cut
-  int pieces = 0;             ///< after the last cut that was judged by the oracle
-  double incision_error = 0;  ///< of that cut, rest units
+  CutOutcome outcome;           ///< of the last cut
+  oracle::Judgement judgement;  ///< of the last cut that the oracle judged; rest units
 
  private:
   Locator locator_;
@@ -67,5 +67,11 @@ class JudgedSheet {
   Watched method_;
   Cutter cutter_;
 };
+
+/// Makes the cuts on a copy of the sheet and judges each on what the one before left: an incision lies within the
+/// tolerance of its curve only, so that a later cut may rightly meet it elsewhere than the curves meet. Ends with the
+/// first that is not ok. Number of pieces of the last cut, largest incision error, change of area in all.
+oracle::Judgement judge_one_by_one(const Sheet& start, std::span<const Curve> cuts, const Promises& promises,
+                                   std::unique_ptr<CuttingMethod> method, const CutOptions& options);
 
 }  // namespace cutbench

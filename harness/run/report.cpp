@@ -175,14 +175,12 @@ std::vector<oracle::ForcedCorner> forced_corners_of(const Sheet& before, std::sp
   return oracle::forced_corners(for_oracle(before), for_oracle(cuts), before.mean_edge());
 }
 
-Assessment assess(const Sheet& before, const Sheet& after, std::span<const Curve> cuts,
-                  std::span<const oracle::ForcedCorner> forced, const Promises& promises, const CutOptions& options) {
-  const double h = before.mean_edge();
+Assessment assess(const Sheet& before, const Sheet& after, const oracle::Judgement& judgement,
+                  std::span<const oracle::ForcedCorner> forced) {
   Assessment result;
+  result.judgement = judgement;
   const oracle::Mesh mesh = for_oracle(after);
-  const oracle::Request request = request_for(before, cuts, promises, options, true);
-  result.judgement = oracle::judge(request, mesh);
-  measure(result, mesh, changed_triangles(request.before, mesh), forced, h);
+  measure(result, mesh, changed_triangles(for_oracle(before), mesh), forced, before.mean_edge());
   result.vertices_added = difference(after.vertex_count(), before.vertex_count());
   result.deformed_vertices_added = difference(after.deformed_count(), before.deformed_count());
   result.triangles_added = difference(after.triangle_count(), before.triangle_count());

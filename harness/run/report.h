@@ -45,9 +45,9 @@ struct Assessment {
   Quality strict, outside_wedges;  ///< over the cut's triangles without the exempted ones
   std::ptrdiff_t vertices_added = 0, deformed_vertices_added = 0, triangles_added = 0;
 };
-/// Looks at everything, by the oracle and the audit: outside the clock. `forced`: forced_corners_of(before, cuts).
-Assessment assess(const Sheet& before, const Sheet& after, std::span<const Curve> cuts,
-                  std::span<const oracle::ForcedCorner> forced, const Promises& promises, const CutOptions& options);
+/// Looks at everything, outside the clock. `forced`: forced_corners_of(before, cuts); `judgement`: judge_one_by_one().
+Assessment assess(const Sheet& before, const Sheet& after, const oracle::Judgement& judgement,
+                  std::span<const oracle::ForcedCorner> forced);
 /// The same for a result that anybody made, broken as it may be: a triangle of the cut is one whose corners, in their
 /// order round it, are not exactly those of a triangle before; rest vertices are counted by their places. Whether the
 /// old vertices must stay what they are (`keeps_vertices`) is the caller's to say.

@@ -17,6 +17,7 @@
 #include "harness/run/chill_caches.h"
 #include "harness/run/every_edge.h"
 #include "harness/run/in_motion.h"
+#include "harness/run/judged_sheet.h"
 #include "harness/run/progress.h"
 #include "harness/run/record.h"
 #include "harness/run/report.h"
@@ -199,7 +200,10 @@ class Runner {
     row.set("recovered_segments", std::int64_t{run.recovered_segments});
     summary.ok = run.verdict == "ok";
     if (run.status == Status::failed || run.status == Status::refused) return;
-    const Assessment a = assess(base_.sheet, worker.sheet, cuts, forced, worker.variant.row->promises, cut_options_);
+    const Variant& v = worker.variant;
+    const Assessment a =
+        assess(base_.sheet, worker.sheet,
+               judge_one_by_one(base_.sheet, cuts, v.row->promises, v.row->make(v.knob), cut_options_), forced);
     row.set("verdict", a.judgement.verdict);
     if (!a.judgement.ok) row.set("reason", a.judgement.problems.front());
     summary.ok = a.judgement.ok, summary.vertices_added = static_cast<double>(a.vertices_added);
