@@ -37,18 +37,22 @@ TEST(Reshape, HeldVerticesStayWhereTheyAre) {
 }
 
 /// Cuts that once left triangles beyond an aspect ratio of 3 where no angle forces them: chords that enclose less than
-/// the curves, and a crossing close beside a vertex of an older incision.
-TEST(Reshape, CornersOfChordsAreAsWideAsThoseOfCurves) {
+/// the curves, a crossing close beside a vertex of an older incision, and triangles whose off-centre left them as they
+/// were, because the mesh between was not Delaunay.
+TEST(WarpAndRefine, LeavesNothingIllShapedThatNothingForces) {
   struct Case {
+    const char* family;
     int n;
     std::size_t i;
     std::uint64_t seed;
   };
-  for (const Case& c : {Case{20, 14, 28438054750209}, Case{30, 14, 28438054750209}, Case{50, 7, 28438054750209},
-                        Case{20, 16, 12}, Case{20, 24, 11}}) {
+  for (const Case& c :
+       {Case{"several", 20, 14, 28438054750209}, Case{"several", 30, 14, 28438054750209},
+        Case{"several", 50, 7, 28438054750209}, Case{"several", 20, 16, 12}, Case{"several", 20, 24, 11},
+        Case{"recut", 20, 0, 15}, Case{"recut", 30, 1, 14}, Case{"recut", 40, 2, 20}, Case{"curved", 80, 4, 13}}) {
     Sheet sheet(make_sheet("grid", c.n));
     const Sheet before = sheet;
-    const auto cuts = make_case("several", c.seed, c.i, sheet);
+    const auto cuts = make_case(c.family, c.seed, c.i, sheet);
     Locator locator(sheet);
     Cutter cutter;
     const MethodRow& row = find_method("warp_and_refine");
@@ -58,7 +62,7 @@ TEST(Reshape, CornersOfChordsAreAsWideAsThoseOfCurves) {
         assess(before, sheet, judge_one_by_one(before, cuts, row.promises, row.make(row.knob.value), {}),
                forced_corners_of(before, cuts));
     EXPECT_TRUE(found.judgement.ok) << found.judgement.verdict;
-    EXPECT_LT(found.outside_wedges.ar_max, 3) << c.n << " " << c.i;
+    EXPECT_LT(found.outside_wedges.ar_max, 3) << c.family << " " << c.n << " " << c.i;
   }
 }
 

@@ -182,8 +182,11 @@ TEST_F(Score, AgreesWithTheReportOfEveryCut) {
         const json by_cut = json::parse(read(folder_ / "cut.json")), scored = json::parse(read(folder_ / "score.json"));
         EXPECT_EQ(scored["problems"], json::array());
         for (const char* key : {"verdict", "pieces", "vertices_added", "deformed_vertices_added", "triangles_added",
-                                "aspect_ratio", "angle_deg", "altitude_min", "forced", "incision_error", "area_change"})
+                                "aspect_ratio", "angle_deg", "altitude_min", "forced"})
           EXPECT_EQ(scored.at(key), by_cut.at(key)) << key << ' ' << name << ' ' << family << ' ' << row.name;
+        // Several cuts `cut` judges one by one, each sampled by itself.
+        EXPECT_NEAR(scored["incision_error"], by_cut["incision_error"], 1e-5);
+        EXPECT_NEAR(scored["area_change"], by_cut["area_change"], 1e-12);
       }
     }
   }

@@ -19,18 +19,25 @@ HalfEdge shortest_edge(const Sheet& sheet, TriangleIndex t) {
   return shortest;
 }
 
+/// Of an edge that does not separate; exact.
+bool is_delaunay(const Sheet& sheet, HalfEdge h) {
+  const auto c = sheet.corners(triangle_of(h));
+  return in_circle(c[0], c[1], c[2], sheet.rest(sheet.origin(Sheet::previous(sheet.opposite(h))))) <= 0;
+}
+
 /// Where the straight way from inside `from` to p ends: in a triangle, at p, or before it, at an edge that separates.
 /// Neither: it got lost, in triangles too thin for doubles.
 struct Arrival {
   TriangleIndex triangle;
   HalfEdge blocked;
+  HalfEdge flippable;  ///< the first edge on the way that is not Delaunay, if there is one
 };
 
 Arrival walk(const Sheet& sheet, TriangleIndex from, Point2 p) {
   constexpr int most_steps = 1000;
   const auto c = sheet.corners(from);
   const Point2 start = 1.0 / 3 * (c[0] + c[1] + c[2]);
-  HalfEdge entered;
+  HalfEdge entered, flippable;
   TriangleIndex t = from;
   for (int step = 0; step < most_steps; ++step) {
     HalfEdge exit;
@@ -43,9 +50,11 @@ Arrival walk(const Sheet& sheet, TriangleIndex from, Point2 p) {
       const bool by_first = !second.valid() || orientation(start, p, sheet.rest(sheet.target(first))) >= 0;
       exit = by_first ? first : second;
     }
-    if (!exit.valid()) return {t, {}};
-    if (sheet.separates(exit)) return {{}, exit};
-    entered = sheet.opposite(exit), t = triangle_of(entered);
+    if (!exit.valid()) return {t, {}, flippable};
+    if (sheet.separates(exit)) return {{}, exit, flippable};
+    entered = sheet.opposite(exit);
+    if (!flippable.valid() && !is_delaunay(sheet, exit)) flippable = exit;
+    t = triangle_of(entered);
   }
   return {};
 }
@@ -128,6 +137,15 @@ bool DelaunayRefinement::split_segment(Sheet& sheet, HalfEdge h) {
   return true;
 }
 
+/// Flips the edge and what that puts in doubt; false where it has to stay.
+bool DelaunayRefinement::flip(Sheet& sheet, HalfEdge h) {
+  delaunay_.add(triangle_of(h));
+  delaunay_.run(sheet);
+  const bool flipped = !delaunay_.changed.empty();
+  note_changed(sheet);
+  return flipped;
+}
+
 void DelaunayRefinement::flip_round(Sheet& sheet, VertexIndex v) {
   for_each_spoke(sheet, v, [&](HalfEdge spoke) {
     delaunay_.add(triangle_of(spoke)), delaunay_.changed.push_back(triangle_of(spoke));
@@ -136,10 +154,13 @@ void DelaunayRefinement::flip_round(Sheet& sheet, VertexIndex v) {
   note_changed(sheet);
 }
 
-/// Makes a vertex for t: at its off-centre, or on what is in its way. False where that was not possible.
+/// Makes a vertex for t: at its off-centre, or on what is in its way, which first becomes Delaunay. False where that
+/// was not possible.
 bool DelaunayRefinement::refine(Sheet& sheet, TriangleIndex t) {
   const Point2 p = off_centre(sheet, t);
   const Arrival arrival = walk(sheet, t, p);
+  // Of a mesh that is not Delaunay p might change other triangles and leave t as it is.
+  if (arrival.flippable.valid() && flip(sheet, arrival.flippable)) return true;
   if (arrival.blocked.valid()) return split_segment(sheet, arrival.blocked);
   if (!arrival.triangle.valid()) return false;
   if (find_encroached(sheet, arrival.triangle, p)) return split_segment(sheet, encroached_.front());

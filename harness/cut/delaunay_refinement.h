@@ -51,6 +51,7 @@ class DelaunayRefinement {
   bool find_encroached(const Sheet& sheet, TriangleIndex t, Point2 p);
   bool refine(Sheet& sheet, TriangleIndex t);
   bool split_segment(Sheet& sheet, HalfEdge h);
+  bool flip(Sheet& sheet, HalfEdge h);
   void flip_round(Sheet& sheet, VertexIndex v);
   void note_changed(const Sheet& sheet);
 

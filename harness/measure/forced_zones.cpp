@@ -12,7 +12,7 @@ namespace cutbench::oracle {
 namespace {
 
 // In units of h, as the README defines them.
-constexpr double wedge_width = 0.3, disc_radius = 0.25;
+constexpr double wedge_width = 0.3, disc_radius = 0.25, wedge_slack = 0.02;
 // Also in units of h: the audit's own resolution.
 constexpr double flattening = 1e-5, step = 0.02, leg_test = 0.05, probe = 1e-4, coincidence = 1e-9;
 
@@ -176,6 +176,25 @@ class CornerFinder {
   std::vector<ForcedCorner> corners_;
 };
 
+/// A wedge with what lies within the slack of it.
+class Zone {
+ public:
+  Zone(const std::vector<Point>& wedge, double slack) : wedge_(wedge), slack_(slack) {
+    for (const Point& p : wedge) reach_ = std::max(reach_, distance(p, wedge.front()) + slack);
+  }
+  bool holds(const Point& p) const {
+    if (distance(p, wedge_.front()) > reach_) return false;
+    if (within(wedge_, p)) return true;
+    for (std::size_t i = 0, j = wedge_.size() - 1; i < wedge_.size(); j = i++)
+      if (distance(p, Segment{wedge_[j], wedge_[i]}) <= slack_) return true;
+    return false;
+  }
+
+ private:
+  const std::vector<Point>& wedge_;  // begins with the apex
+  double slack_, reach_ = 0;
+};
+
 /// Whether the triangle has the apex as a vertex and lies between the legs.
 bool fills_corner(const ForcedCorner& corner, const std::array<Point, 3>& triangle, const Point& centroid) {
   for (const Point& p : triangle) {
@@ -196,13 +215,16 @@ std::vector<ForcedCorner> forced_corners(const Mesh& before, const std::vector<C
 ForcedZones forced_zones(const std::vector<ForcedCorner>& corners, const Mesh& after, double h) {
   const std::size_t count = after.triangles.size();
   ForcedZones zones{std::vector<char>(count, 0), std::vector<char>(count, 0)};
+  std::vector<Zone> wedges;
+  for (const ForcedCorner& corner : corners) wedges.emplace_back(corner.wedge, wedge_slack * h);
   for (std::size_t t = 0; t < count; ++t) {
     const auto& [i, j, k] = after.triangles[t];
     const Point &a = after.rest[i], &b = after.rest[j], &c = after.rest[k];
     const Point centroid{(a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3};
-    for (const ForcedCorner& corner : corners) {
+    for (std::size_t w = 0; w < corners.size(); ++w) {
+      const ForcedCorner& corner = corners[w];
       if (fills_corner(corner, {a, b, c}, centroid)) zones.in_corner[t] = zones.in_zone[t] = 1;
-      if (distance(centroid, corner.apex) < disc_radius * h || within(corner.wedge, centroid)) zones.in_zone[t] = 1;
+      if (distance(centroid, corner.apex) < disc_radius * h || wedges[w].holds(centroid)) zones.in_zone[t] = 1;
     }
     const double area = cross(minus(b, a), minus(c, a)) / 2;
     zones.corner_triangles += zones.in_corner[t];

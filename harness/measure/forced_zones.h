@@ -36,7 +36,8 @@ std::vector<ForcedCorner> forced_corners(const Mesh& before, const std::vector<C
 /// Which triangles of a result are excused.
 struct ForcedZones {
   std::vector<char> in_corner;  ///< #T: has an apex as a vertex and lies between its legs (exempt even when strict)
-  std::vector<char> in_zone;    ///< #T: in_corner, or its centroid lies in a wedge or within 0.25 h of an apex
+  std::vector<char> in_zone;    ///< #T: in_corner, or its centroid lies within 0.25 h of an apex, or in a wedge or
+                                ///< within 0.02 h of one: an incision may lie beside its curve
   int corner_triangles = 0, zone_triangles = 0;
   double corner_area = 0, zone_area = 0;  ///< rest units squared; each triangle counts once
 };

@@ -51,7 +51,7 @@ oracle::Judgement judge_one_by_one(const Sheet& start, std::span<const Curve> cu
     const oracle::Judgement& last = sheet.judgement;
     all.pieces = last.pieces, all.expected_pieces = last.expected_pieces;
     all.incision_error = std::max(all.incision_error, last.incision_error);
-    all.area_change = (1 + all.area_change) * (1 + last.area_change) - 1;
+    all.area_change += (1 + all.area_change) * last.area_change;
     if (finding.ok()) continue;
     all.ok = false, all.verdict = finding.verdict;
     all.problems = last.ok ? std::vector{finding.reason} : last.problems;
