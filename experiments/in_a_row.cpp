@@ -60,11 +60,12 @@ bool cut_in_a_row(const MethodRow& row, int n, std::size_t cuts, const std::stri
   // Bowyer-Watson without local split: each round would multiply the triangles.
   const auto method = row.make(row.name == "bowyer_watson" ? 0 : row.knob.value);
   std::size_t failed = 0, wrong = 0, crossed = 0;
-  std::vector<double> cost;  // us per crossed triangle
+  std::vector<double> cost, made;  // us and triangles added per crossed triangle
   for (std::size_t i = 0; i < cuts; ++i) {
     const Curve curve = make_small_cut(seed, i, sheet);
     const bool judged = i % 250 == 249;
     const Sheet before = judged ? sheet : Sheet();
+    const std::size_t triangles_before = sheet.triangle_count();
     const CutOutcome outcome = cutter.cut(sheet, locator, curve, *method, options);
     if (outcome.status == Status::failed) {
       ++failed;
@@ -77,8 +78,10 @@ bool cut_in_a_row(const MethodRow& row, int n, std::size_t cuts, const std::stri
     }
     crossed += outcome.crossed_triangles;
     // A cut that meets next to nothing costs what it costs to be called.
-    if (outcome.status == Status::ok && outcome.crossed_triangles >= 20)
-      cost.push_back(outcome.time_us.total() / static_cast<double>(outcome.crossed_triangles));
+    if (outcome.status != Status::ok || outcome.crossed_triangles < 20) continue;
+    const auto units = static_cast<double>(outcome.crossed_triangles);
+    cost.push_back(outcome.time_us.total() / units);
+    made.push_back((static_cast<double>(sheet.triangle_count()) - static_cast<double>(triangles_before)) / units);
   }
   if (cost.empty()) {
     std::printf("%-20s %7zu %6zu %10zu %10zu: no cut crossed 20 triangles or more\n", row.name.c_str(), failed, wrong,
@@ -86,12 +89,16 @@ bool cut_in_a_row(const MethodRow& row, int n, std::size_t cuts, const std::stri
     return failed == 0 && wrong == 0;
   }
   const std::size_t sample = std::min<std::size_t>(50, cost.size());
-  const double first = median({cost.data(), sample}), last = median({cost.data() + cost.size() - sample, sample});
+  const auto first_of = [&](const std::vector<double>& all) { return median({all.data(), sample}); };
+  const auto last_of = [&](const std::vector<double>& all) {
+    return median({all.data() + all.size() - sample, sample});
+  };
   const auto triangles = static_cast<double>(sheet.triangle_count());
   const double held = heap_bytes() - heap_before;
   const double anew = bytes_anew(sheet.to_mesh_data(), make_small_cut(seed, cuts, sheet), *method);
-  std::printf("%-20s %7zu %6zu %10zu %10zu %10.3f %10.3f %6.2f %10.0f %10.0f\n", row.name.c_str(), failed, wrong,
-              crossed, sheet.triangle_count(), first, last, last / first, held / triangles, anew / triangles);
+  std::printf("%-20s %7zu %6zu %10zu %10zu %10.3f %10.3f %6.2f %8.2f %8.2f %10.0f %10.0f\n", row.name.c_str(), failed,
+              wrong, crossed, sheet.triangle_count(), first_of(cost), last_of(cost), last_of(cost) / first_of(cost),
+              first_of(made), last_of(made), held / triangles, anew / triangles);
   std::fflush(stdout);
   return failed == 0 && wrong == 0;
 }
@@ -117,12 +124,13 @@ int main(int argc, char** argv) {
     if (rows.empty()) rows = all_methods();
     std::printf("%zu cuts in a row on the grid of %d, chord tolerance %g h, seed %lu; every 250th judged\n", cuts,
                 2 * n * n, options.chord_tolerance, seed);
-    std::printf("%-20s %7s %6s %10s %10s %10s %10s %6s %10s %10s\n", "method", "failed", "wrong", "crossed",
-                "triangles", "us first", "us last", "ratio", "bytes", "anew");
+    std::printf("%-20s %7s %6s %10s %10s %10s %10s %6s %8s %8s %10s %10s\n", "method", "failed", "wrong", "crossed",
+                "triangles", "us first", "us last", "ratio", "made", "last", "bytes", "anew");
     bool ok = true;
     for (const MethodRow& row : rows) ok &= cut_in_a_row(row, n, cuts, folder);
     std::printf(
-        "us: geometry per crossed triangle, median of the first and last 50 cuts that cross 20 or more; bytes: "
+        "us: geometry per crossed triangle, made: triangles added per crossed triangle, median of the first and last "
+        "50 cuts that cross 20 or more; bytes: "
         "heap per triangle in the end, and of one cut on that sheet begun anew\n");
     return ok ? 0 : 1;
   } catch (const std::exception& error) {
