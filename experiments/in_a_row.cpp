@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
+#include <limits>
 #include <span>
 
 #include "harness/mesh/families.h"
@@ -24,7 +25,9 @@ constexpr CutOptions options;
 
 double heap_bytes() { return static_cast<double>(mallinfo2().uordblks); }
 
+/// NaN of nothing.
 double median(std::span<const double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   std::vector<double> sorted(values.begin(), values.end());
   const auto middle = sorted.begin() + std::ssize(sorted) / 2;
   std::nth_element(sorted.begin(), middle, sorted.end());
@@ -41,32 +44,58 @@ void save(const Sheet& sheet, const Curve& curve, const std::filesystem::path& s
   write_path({curve}, stem.string() + ".json");
 }
 
-/// Of a sheet, locator and cutter that begin with `mesh` and make one cut.
-double bytes_anew(const MeshData& mesh, const Curve& curve, CuttingMethod& method) {
-  const double before = heap_bytes();
-  Sheet sheet(mesh);
-  Locator locator(sheet);
-  Cutter cutter;
-  cutter.cut(sheet, locator, curve, method, options);
-  return heap_bytes() - before;
+/// A sheet with all that goes on from one cut to the next.
+class Row {
+ public:
+  explicit Row(const MeshData& mesh) : sheet(mesh), locator_(sheet) {}
+  CutOutcome cut(const Curve& curve, CuttingMethod& method) {
+    const auto before = static_cast<double>(sheet.triangle_count());
+    const CutOutcome outcome = cutter_.cut(sheet, locator_, curve, method, options);
+    // A cut that meets next to nothing costs what it costs to be called.
+    if (outcome.status != Status::ok || outcome.crossed_triangles < 20) return outcome;
+    const auto units = static_cast<double>(outcome.crossed_triangles);
+    cost.push_back(outcome.time_us.total() / units);
+    made.push_back((static_cast<double>(sheet.triangle_count()) - before) / units);
+    return outcome;
+  }
+
+  Sheet sheet;
+  std::vector<double> cost, made;  ///< us and triangles added per crossed triangle, of cuts that cross 20 or more
+
+ private:
+  Locator locator_;
+  Cutter cutter_;
+};
+
+double first_of(const std::vector<double>& all) { return median({all.data(), std::min<std::size_t>(50, all.size())}); }
+double last_of(const std::vector<double>& all) {
+  const std::size_t sample = std::min<std::size_t>(50, all.size());
+  return median({all.data() + all.size() - sample, sample});
 }
 
 /// Prints the method's row; false where a cut failed or a result was wrong.
 bool cut_in_a_row(const MethodRow& row, int n, std::size_t cuts, const std::string& folder) {
   const double heap_before = heap_bytes();
-  Sheet sheet(make_sheet("grid", n));
-  Locator locator(sheet);
-  Cutter cutter;
   // Bowyer-Watson without local split: each round would multiply the triangles.
   const auto method = row.make(row.name == "bowyer_watson" ? 0 : row.knob.value);
+  Row in_a_row(make_sheet("grid", n));
+  const Sheet& sheet = in_a_row.sheet;
   std::size_t failed = 0, wrong = 0, crossed = 0;
-  std::vector<double> cost, made;  // us and triangles added per crossed triangle
+  MeshData late;  // the sheet before the last tenth of the cuts, which are then made on it again
+  std::vector<Curve> late_cuts;
+  const std::size_t last_tenth = cuts - (cuts + 9) / 10;
+  double late_bytes = 0;
   for (std::size_t i = 0; i < cuts; ++i) {
+    if (i == last_tenth) {
+      late_bytes = -heap_bytes();
+      late = sheet.to_mesh_data();
+      late_bytes += heap_bytes();
+    }
     const Curve curve = make_small_cut(seed, i, sheet);
+    if (i >= last_tenth) late_cuts.push_back(curve);
     const bool judged = i % 250 == 249;
     const Sheet before = judged ? sheet : Sheet();
-    const std::size_t triangles_before = sheet.triangle_count();
-    const CutOutcome outcome = cutter.cut(sheet, locator, curve, *method, options);
+    const CutOutcome outcome = in_a_row.cut(curve, *method);
     if (outcome.status == Status::failed) {
       ++failed;
       std::cerr << row.name << ", cut " << i << ": " << outcome.verdict << ": " << outcome.reason << '\n';
@@ -77,28 +106,16 @@ bool cut_in_a_row(const MethodRow& row, int n, std::size_t cuts, const std::stri
       if (!folder.empty()) save(before, curve, std::filesystem::path(folder) / (row.name + std::to_string(i)));
     }
     crossed += outcome.crossed_triangles;
-    // A cut that meets next to nothing costs what it costs to be called.
-    if (outcome.status != Status::ok || outcome.crossed_triangles < 20) continue;
-    const auto units = static_cast<double>(outcome.crossed_triangles);
-    cost.push_back(outcome.time_us.total() / units);
-    made.push_back((static_cast<double>(sheet.triangle_count()) - static_cast<double>(triangles_before)) / units);
   }
-  if (cost.empty()) {
-    std::printf("%-20s %7zu %6zu %10zu %10zu: no cut crossed 20 triangles or more\n", row.name.c_str(), failed, wrong,
-                crossed, sheet.triangle_count());
-    return failed == 0 && wrong == 0;
-  }
-  const std::size_t sample = std::min<std::size_t>(50, cost.size());
-  const auto first_of = [&](const std::vector<double>& all) { return median({all.data(), sample}); };
-  const auto last_of = [&](const std::vector<double>& all) {
-    return median({all.data() + all.size() - sample, sample});
-  };
+  const double heap_after = heap_bytes();
+  Row again(late);
+  for (const Curve& curve : late_cuts) again.cut(curve, *method);
+  std::printf("%-20s %7zu %6zu %10zu %10zu", row.name.c_str(), failed, wrong, crossed, sheet.triangle_count());
+  const std::vector<double>&cost = in_a_row.cost, &made = in_a_row.made;
   const auto triangles = static_cast<double>(sheet.triangle_count());
-  const double held = heap_bytes() - heap_before;
-  const double anew = bytes_anew(sheet.to_mesh_data(), make_small_cut(seed, cuts, sheet), *method);
-  std::printf("%-20s %7zu %6zu %10zu %10zu %10.3f %10.3f %6.2f %8.2f %8.2f %10.0f %10.0f\n", row.name.c_str(), failed,
-              wrong, crossed, sheet.triangle_count(), first_of(cost), last_of(cost), last_of(cost) / first_of(cost),
-              first_of(made), last_of(made), held / triangles, anew / triangles);
+  std::printf(" %8.3f %8.3f %6.2f %8.3f %6.2f %6.2f %8.0f %8.0f\n", first_of(cost), last_of(cost),
+              last_of(cost) / first_of(cost), last_of(again.cost), first_of(made), last_of(made),
+              (heap_after - heap_before - late_bytes) / triangles, (heap_bytes() - heap_after) / triangles);
   std::fflush(stdout);
   return failed == 0 && wrong == 0;
 }
@@ -124,14 +141,15 @@ int main(int argc, char** argv) {
     if (rows.empty()) rows = all_methods();
     std::printf("%zu cuts in a row on the grid of %d, chord tolerance %g h, seed %lu; every 250th judged\n", cuts,
                 2 * n * n, options.chord_tolerance, seed);
-    std::printf("%-20s %7s %6s %10s %10s %10s %10s %6s %8s %8s %10s %10s\n", "method", "failed", "wrong", "crossed",
-                "triangles", "us first", "us last", "ratio", "made", "last", "bytes", "anew");
+    std::printf("%-20s %7s %6s %10s %10s %8s %8s %6s %8s %6s %6s %8s %8s\n", "method", "failed", "wrong", "crossed",
+                "triangles", "us first", "last", "ratio", "anew", "made", "last", "bytes", "anew");
     bool ok = true;
     for (const MethodRow& row : rows) ok &= cut_in_a_row(row, n, cuts, folder);
     std::printf(
-        "us: geometry per crossed triangle, made: triangles added per crossed triangle, median of the first and last "
-        "50 cuts that cross 20 or more; bytes: "
-        "heap per triangle in the end, and of one cut on that sheet begun anew\n");
+        "us: geometry per crossed triangle; made: triangles added per crossed triangle; medians of the first and last "
+        "50 "
+        "cuts that cross 20 or more\nbytes: heap per triangle in the end\nanew: the same, where the last tenth of the "
+        "cuts is made once more on a sheet begun anew with the mesh before them; nan: no such cut\n");
     return ok ? 0 : 1;
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
