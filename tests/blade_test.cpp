@@ -8,6 +8,7 @@
 
 #include "harness/run/in_motion.h"
 #include "harness/run/report.h"
+#include "methods/conventional_split/conventional_split.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 
@@ -175,6 +176,31 @@ TEST(Blade, AdvancesWithTheTime) {
   EXPECT_GE(tips.size(), 10u);
   const std::vector<Lip> asked{{from, to}};
   EXPECT_LE(hausdorff(lips_of(motion->sheet()), asked), 1e-12);
+}
+
+/// A method that takes part of the blade's way only.
+class GivesUp : public ConventionalSplit {
+ public:
+  std::optional<std::string> why_unsupported(const Sheet& sheet) const override {
+    return sheet.vertex_count() > 130 ? std::optional<std::string>("too many vertices") : std::nullopt;
+  }
+};
+
+TEST(Blade, SaysThatItsEndWasRefused) {
+  Scene scene;
+  scene.resolution = 200;
+  scene.step = 0.01;
+  scene.pins.push_back({{}, {.where = {{0, 0}, {0, 1}}}});
+  Scene::Cut& cut = scene.cuts.emplace_back();
+  cut.speed = 2, cut.curve = {Curve::Kind::polyline, false, {{0.2, 0.23}, {0.83, 0.71}}};
+  GivesUp method;
+  const auto motion = InMotion::start(scene);
+  EXPECT_EQ(motion->advance(0.5, method, {}).verdict, "ok");
+  ASSERT_EQ(motion->made_cuts().size(), 1u);
+  const MotionCut& made = motion->made_cuts()[0];
+  EXPECT_GE(made.parts, 1);
+  EXPECT_EQ(made.cut.status, Status::deviated);
+  EXPECT_EQ(made.reason, "its end was refused: too many vertices");
 }
 
 }  // namespace

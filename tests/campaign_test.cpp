@@ -4,6 +4,7 @@
 #include "harness/run/campaign.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -291,6 +292,23 @@ TEST(Isolated, EveryPieceHasItsFate) {
     EXPECT_EQ(done[i], dies || i == 7 ? 0 : 1) << i;
   }
   EXPECT_TRUE(run_isolated(0, {}, [](std::size_t) {}).empty());
+}
+
+/// A user who may start no process is told so; root, who always may, becomes nobody.
+TEST(IsolatedDeathTest, SaysThatNoProcessStarts) {
+  const auto try_it = [] {
+    const rlimit none{0, 0};
+    setrlimit(RLIMIT_NPROC, &none);
+    if (geteuid() == 0 && setuid(65534) != 0) std::_Exit(2);
+    try {
+      run_isolated(1, {1, 1}, [](std::size_t) {});
+    } catch (const std::runtime_error& error) {
+      std::fputs(error.what(), stderr);
+      std::_Exit(1);
+    }
+    std::_Exit(0);
+  };
+  EXPECT_EXIT(try_it(), testing::ExitedWithCode(1), "can't start a process: ");
 }
 
 /// Of three cuts, of a path with many points and of a whole sheet, what it takes is left.
