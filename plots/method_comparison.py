@@ -15,6 +15,7 @@ from matplotlib.ticker import LogLocator, NullLocator
 
 import load
 import method_accuracy
+import method_details
 import method_gallery
 import method_sweeps
 import style
@@ -48,6 +49,7 @@ PRICE = [Measure("vertices_per_crossed", "vertices added\nper crossed tri.", lin
 JUMP = [Measure("membrane_jump", "membrane\nenergy"), Measure("bending_jump", "bending\nenergy"),
         Measure("residual_jump", "residual\nforce")]
 ROUNDING = 1e-12  # a jump below it is none
+BY_SHEET, AGAINST = f"{STEM}_by_sheet", f"{STEM}_against_best"
 
 
 def measured(run):
@@ -203,8 +205,12 @@ def write_tables(folder, tables):
         parts = [["excess", "more_"], ["eigenvalue_ratio", "altitude_min", "angle_max"], ["ar_", "wedge"],
                  ["vertices", "incision", "us_per"], ["_jump"]]
         what = "medians over the cuts of all families, sheets and resolutions; best shapes first"
-        lines.append(f"{name}: {method_accuracy.WHAT if name == method_accuracy.STEM else what}\n")
+        details = {method_accuracy.STEM: method_accuracy.WHAT, BY_SHEET: "shapes by sheet and family; median eigenvalues",
+                   AGAINST: "on the same cuts", f"{AGAINST}_fine": "on the same cuts, chord tolerance 0.01"}
+        lines.append(f"{name}: {details.get(name, what)}\n")
         of_all = [c for c in ("method", "knob", "cuts", "failed", "rank") if c in shown]
+        if name in (BY_SHEET, AGAINST, f"{AGAINST}_fine"):
+            parts = [["AR <", "us,", "failed:"], ["eigenvalue, "], ["pairs", "time over", "no larger", "of several"]]
         for part in parts:
             columns = [c for c in shown.columns if any(p in c for p in part)]
             if columns:
@@ -250,9 +256,11 @@ def main():
             "What jumps at the instant of a cut in a moving sheet, relative to its value before (10⁻¹² or less drawn at "
             "10⁻¹²).", jumps_run, jumps), legend(sheets, None))
         style.save(figure, folder, f"{STEM}_jumps")
-    tables = {STEM: summary(table, jumps, order, ranks)}
+    tables = {STEM: summary(table, jumps, order, ranks), BY_SHEET: method_details.by_sheet_and_family(table, order, sheets),
+              AGAINST: method_details.against(table, order[0], order)}
     if fine is not None:
         tables[f"{STEM}_fine"] = summary(fine, None, order, ranks)
+        tables[f"{AGAINST}_fine"] = method_details.against(fine, order[0], order)
     defaults = set(order)
     for kind, draw, what in (
             ("knobs", partial(method_sweeps.draw_knobs, defaults=defaults), "Medians as the knob of each method turns, its "

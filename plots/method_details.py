@@ -1,0 +1,66 @@
+"""What medians hide: shapes by sheet and by family of cuts, their tails, and cut by cut one method against the others."""
+
+import numpy as np
+import pandas as pd
+
+KEY = ["scene", "sheet", "resolution", "case"]
+
+
+def rows_of(table, variant):
+    return table[(table["method"] == variant[0]) & (table["knob"] == variant[1])]
+
+
+def by_sheet_and_family(table, order, sheets):
+    """A row per method: cuts with every aspect ratio below 3 outside forced wedges, by sheet; eigenvalues by family, on
+    the first sheet's curved cuts, and their tails; the time at the largest resolution."""
+    rows = []
+    families = list(dict.fromkeys(table["scene"]))
+    largest = table["resolution"].max()
+    for variant in order:
+        cuts = rows_of(table, variant)
+        row = {"method": variant[0], "knob": variant[1]}
+        for sheet in sheets:
+            here = cuts[cuts["sheet"] == sheet]
+            below = ~(here["ar_max_cut_outside_wedges"] >= 3) & ~here["failed"]
+            row[f"AR < 3, {sheet}"] = f"{int(below.sum())}/{len(here)}" if len(here) else "-"
+        eigenvalue = cuts["eigenvalue_ratio"]
+        for family in families:
+            row[f"eigenvalue, {family}"] = eigenvalue[cuts["scene"] == family].median()
+        first = cuts["sheet"] == sheets[0]
+        row[f"eigenvalue, {sheets[0]}"] = eigenvalue[first].median()
+        if "curved" in families:
+            row[f"eigenvalue, {sheets[0]}, curved"] = eigenvalue[first & (cuts["scene"] == "curved")].median()
+        for share in (0.9, 0.95):
+            row[f"eigenvalue, {100 * share:g} %"] = eigenvalue.quantile(share)
+        us = cuts.loc[cuts["resolution"] == largest, "us_per_crossed"]
+        for name, share in (("q1", 0.25), ("median", 0.5), ("q3", 0.75)):
+            row[f"us, {largest}, {name}"] = us.quantile(share)
+        for verdict, count in cuts.loc[cuts["failed"], "verdict"].value_counts().items():
+            row[f"failed: {verdict}"] = float(count)
+        rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def against(table, one, order):
+    """A row per other method, of the cuts that both made: its time over that of `one`, and in how many `one` has no
+    larger an eigenvalue."""
+    mine = rows_of(table, one)
+    mine = mine[~mine["failed"]]
+    rows = []
+    for variant in order:
+        if variant == one:
+            continue
+        theirs = rows_of(table, variant)
+        pairs = mine.merge(theirs[~theirs["failed"]], on=KEY, suffixes=("", "_theirs"))
+        ratio = pairs["geometry_us_theirs"] / pairs["geometry_us"]
+        asked = pairs[pairs["eigenvalue_ratio"].notna() & pairs["eigenvalue_ratio_theirs"].notna()]
+        no_larger = asked["eigenvalue_ratio"] <= asked["eigenvalue_ratio_theirs"]
+        row = {"method": variant[0], "knob": variant[1], "pairs": len(pairs)}
+        for share in (0.05, 0.5, 0.95):
+            row[f"time over {one[0]}'s, {100 * share:g} %"] = ratio.quantile(share)
+        row[f"{one[0]}'s eigenvalue no larger, %"] = 100 * no_larger.mean() if len(asked) else np.nan
+        several = asked["scene"] == "several"
+        if several.any():
+            row["of several cuts, %"] = 100 * no_larger[several].mean()
+        rows.append(row)
+    return pd.DataFrame(rows)
