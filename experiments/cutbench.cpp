@@ -150,8 +150,9 @@ int cut(const CutArguments& arguments) {
     std::cerr << "failed (" << run.verdict << "): " << run.reason << '\n';
     return fell_short;
   }
-  const Assessment a = assess(before, sheet, judge_one_by_one(before, cuts, row.promises, row.make(knob), options),
-                              forced_corners_of(before, cuts));
+  const Assessment a =
+      assess(before, sheet, judge_one_by_one(before, sheet, cuts, row.promises, row.make(knob), options),
+             forced_corners_of(before, cuts));
   WholeFile out = mesh_file(sheet.to_mesh_data(), arguments.out);
   if (!arguments.report.empty()) report_file(arguments.report, row.name, run, pick_us, a).place();  // both, or neither
   out.place();

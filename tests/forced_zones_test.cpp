@@ -173,6 +173,16 @@ TEST(ForcedZones, WedgeEndsWhereItIsWide) {
   EXPECT_TRUE(in_zone(0.48, 0.005));  // in the disc
   EXPECT_TRUE(in_zone(0.5, 0.024));
   EXPECT_FALSE(in_zone(0.5, 0.026));
+  const auto near_zone = [&](double x, double y) {
+    return forced_zones(found, small_triangle(x, y), h).near_zone.front() == 1;
+  };
+  const double leg = 0.3 * std::tan(angle * degree);  // above x = 0.8
+  EXPECT_FALSE(in_zone(0.8, leg + 0.0015));
+  EXPECT_TRUE(near_zone(0.8, leg + 0.0015));
+  EXPECT_FALSE(near_zone(0.8, leg + 0.0025));
+  EXPECT_TRUE(near_zone(0.8, 0.01));
+  EXPECT_TRUE(near_zone(0.5, 0.024)) << "in the disc";
+  EXPECT_FALSE(near_zone(0.5, 0.026));
 }
 
 /// The wedge follows a curved leg: between the border and a curve that bends away from it.

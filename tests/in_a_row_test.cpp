@@ -11,8 +11,11 @@
 namespace cutbench {
 namespace {
 
-/// Of the heap, in use; 0 under sanitizers, which have their own.
-std::size_t heap_bytes() { return mallinfo2().uordblks; }
+/// Of the heap, in use, large blocks included; 0 under sanitizers, which have their own.
+std::size_t heap_bytes() {
+  const auto info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+}
 
 class InARow : public testing::TestWithParam<std::size_t> {
  protected:

@@ -92,10 +92,13 @@ TEST(JudgeOneByOne, ALaterCutMeetsTheIncisionNotTheCurve) {
   const oracle::Judgement whole =
       oracle::judge(request_for(before, cuts, row.promises, options, true), for_oracle(after));
   EXPECT_EQ(whole.verdict, "wrong_pieces");
-  const oracle::Judgement each = judge_one_by_one(before, cuts, row.promises, row.make(row.knob.value), options);
+  const oracle::Judgement each = judge_one_by_one(before, after, cuts, row.promises, row.make(row.knob.value), options);
   EXPECT_TRUE(each.ok) << each.problems.front();
   EXPECT_EQ(each.pieces, whole.pieces);
   EXPECT_NEAR(each.area_change, whole.area_change, 1e-12);
+  const oracle::Judgement another =
+      judge_one_by_one(before, before, cuts, row.promises, row.make(row.knob.value), options);
+  EXPECT_EQ(another.verdict, "not_reproduced");
 }
 
 }  // namespace

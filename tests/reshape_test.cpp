@@ -59,10 +59,10 @@ TEST(WarpAndRefine, LeavesNothingIllShapedThatNothingForces) {
     const auto method = row.make(row.knob.value);
     for (const Curve& curve : cuts) EXPECT_EQ(cutter.cut(sheet, locator, curve, *method, {}).status, Status::ok);
     const Assessment found =
-        assess(before, sheet, judge_one_by_one(before, cuts, row.promises, row.make(row.knob.value), {}),
+        assess(before, sheet, judge_one_by_one(before, sheet, cuts, row.promises, row.make(row.knob.value), {}),
                forced_corners_of(before, cuts));
     EXPECT_TRUE(found.judgement.ok) << found.judgement.verdict;
-    EXPECT_LT(found.outside_wedges.ar_max, 3) << c.family << " " << c.n << " " << c.i;
+    EXPECT_LT(found.ar_max_away_from_wedges, 3) << c.family << " " << c.n << " " << c.i;
   }
 }
 

@@ -30,14 +30,15 @@ bool is_delaunay(const Sheet& sheet, HalfEdge h) {
 struct Arrival {
   TriangleIndex triangle;
   HalfEdge blocked;
-  HalfEdge flippable;  ///< the first edge on the way that is not Delaunay, if there is one
 };
 
-Arrival walk(const Sheet& sheet, TriangleIndex from, Point2 p) {
+/// `doubtful` receives the edges on the way that are not Delaunay.
+Arrival walk(const Sheet& sheet, TriangleIndex from, Point2 p, std::vector<HalfEdge>& doubtful) {
   constexpr int most_steps = 1000;
   const auto c = sheet.corners(from);
   const Point2 start = 1.0 / 3 * (c[0] + c[1] + c[2]);
-  HalfEdge entered, flippable;
+  HalfEdge entered;
+  doubtful.clear();
   TriangleIndex t = from;
   for (int step = 0; step < most_steps; ++step) {
     HalfEdge exit;
@@ -50,10 +51,10 @@ Arrival walk(const Sheet& sheet, TriangleIndex from, Point2 p) {
       const bool by_first = !second.valid() || orientation(start, p, sheet.rest(sheet.target(first))) >= 0;
       exit = by_first ? first : second;
     }
-    if (!exit.valid()) return {t, {}, flippable};
-    if (sheet.separates(exit)) return {{}, exit, flippable};
+    if (!exit.valid()) return {t, {}};
+    if (sheet.separates(exit)) return {{}, exit};
     entered = sheet.opposite(exit);
-    if (!flippable.valid() && !is_delaunay(sheet, exit)) flippable = exit;
+    if (!is_delaunay(sheet, exit)) doubtful.push_back(exit);
     t = triangle_of(entered);
   }
   return {};
@@ -137,9 +138,9 @@ bool DelaunayRefinement::split_segment(Sheet& sheet, HalfEdge h) {
   return true;
 }
 
-/// Flips the edge and what that puts in doubt; false where it has to stay.
-bool DelaunayRefinement::flip(Sheet& sheet, HalfEdge h) {
-  delaunay_.add(triangle_of(h));
+/// Flips what it may of the doubtful edges, and those that this puts in doubt; false where all have to stay.
+bool DelaunayRefinement::flip_doubtful(Sheet& sheet) {
+  for (const HalfEdge h : doubtful_) delaunay_.add(triangle_of(h));
   delaunay_.run(sheet);
   const bool flipped = !delaunay_.changed.empty();
   note_changed(sheet);
@@ -154,13 +155,13 @@ void DelaunayRefinement::flip_round(Sheet& sheet, VertexIndex v) {
   note_changed(sheet);
 }
 
-/// Makes a vertex for t: at its off-centre, or on what is in its way, which first becomes Delaunay. False where that
-/// was not possible.
+/// Makes a vertex for t, at its off-centre or on the edge that hides it; or, first, the way there Delaunay. False where
+/// nothing could be done.
 bool DelaunayRefinement::refine(Sheet& sheet, TriangleIndex t) {
   const Point2 p = off_centre(sheet, t);
-  const Arrival arrival = walk(sheet, t, p);
-  // Of a mesh that is not Delaunay p might change other triangles and leave t as it is.
-  if (arrival.flippable.valid() && flip(sheet, arrival.flippable)) return true;
+  const Arrival arrival = walk(sheet, t, p, doubtful_);
+  // Where the mesh on the way is not Delaunay, p might change other triangles and leave t as it is.
+  if (!doubtful_.empty() && flip_doubtful(sheet)) return true;
   if (arrival.blocked.valid()) return split_segment(sheet, arrival.blocked);
   if (!arrival.triangle.valid()) return false;
   if (find_encroached(sheet, arrival.triangle, p)) return split_segment(sheet, encroached_.front());
@@ -208,7 +209,7 @@ bool DelaunayRefinement::run(Sheet& sheet) {
     heap_.pop_back();
     if (!is_ill_shaped(sheet, t)) continue;
     if (log.new_vertices.size() >= most) return false;
-    if (refine(sheet, t)) note(sheet, t);  // a piece of something else, perhaps, was divided
+    if (refine(sheet, t)) note(sheet, t);  // its surroundings, perhaps, were changed only
   }
   return true;
 }

@@ -8,7 +8,9 @@
 // instead: at its middle, or, where it meets another one at less than 60 degrees, at a distance from the corner that is
 // a power of two, so that both legs get their vertices equally far out. No piece is divided before a point asks for it
 // (lazily), though vertices of the sheet may lie in its circle. Triangles with the shortest edges come first. Those in
-// forced wedges are left coarse.
+// forced wedges are left coarse. Where edges between a triangle and its off-centre are not Delaunay, as they may be
+// after other work on shapes, they are flipped first (each lowers the lifted mesh, so that this ends): else the new
+// vertex would leave the triangle as it is.
 //
 // Source: Ruppert, A Delaunay refinement algorithm for quality 2-dimensional mesh generation, J. Algorithms 18, 1995
 // (encroachment, shells); Ungor, Off-centers: a new type of Steiner points for computing size-optimal
@@ -51,7 +53,7 @@ class DelaunayRefinement {
   bool find_encroached(const Sheet& sheet, TriangleIndex t, Point2 p);
   bool refine(Sheet& sheet, TriangleIndex t);
   bool split_segment(Sheet& sheet, HalfEdge h);
-  bool flip(Sheet& sheet, HalfEdge h);
+  bool flip_doubtful(Sheet& sheet);
   void flip_round(Sheet& sheet, VertexIndex v);
   void note_changed(const Sheet& sheet);
 
@@ -68,7 +70,7 @@ class DelaunayRefinement {
   std::vector<Entry> heap_;  // shortest first; each may be mended or changed by the time it is looked at
   std::vector<TriangleIndex> cavity_;
   StampedSet<TriangleIndex> met_;  // in the cavity
-  std::vector<HalfEdge> encroached_;
+  std::vector<HalfEdge> encroached_, doubtful_;
 };
 
 }  // namespace cutbench

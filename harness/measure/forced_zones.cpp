@@ -176,24 +176,18 @@ class CornerFinder {
   std::vector<ForcedCorner> corners_;
 };
 
-/// A wedge with what lies within the slack of it.
-class Zone {
- public:
-  Zone(const std::vector<Point>& wedge, double slack) : wedge_(wedge), slack_(slack) {
-    for (const Point& p : wedge) reach_ = std::max(reach_, distance(p, wedge.front()) + slack);
-  }
-  bool holds(const Point& p) const {
-    if (distance(p, wedge_.front()) > reach_) return false;
-    if (within(wedge_, p)) return true;
-    for (std::size_t i = 0, j = wedge_.size() - 1; i < wedge_.size(); j = i++)
-      if (distance(p, Segment{wedge_[j], wedge_[i]}) <= slack_) return true;
-    return false;
-  }
+bool lies_near(const std::vector<Point>& polygon, const Point& p, double slack) {
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++)
+    if (distance(p, Segment{polygon[j], polygon[i]}) <= slack) return true;
+  return false;
+}
 
- private:
-  const std::vector<Point>& wedge_;  // begins with the apex
-  double slack_, reach_ = 0;
-};
+/// From the apex to the farthest point of its wedge.
+double reach_of(const ForcedCorner& corner) {
+  double reach = 0;
+  for (const Point& p : corner.wedge) reach = std::max(reach, distance(p, corner.apex));
+  return reach;
+}
 
 /// Whether the triangle has the apex as a vertex and lies between the legs.
 bool fills_corner(const ForcedCorner& corner, const std::array<Point, 3>& triangle, const Point& centroid) {
@@ -214,9 +208,11 @@ std::vector<ForcedCorner> forced_corners(const Mesh& before, const std::vector<C
 
 ForcedZones forced_zones(const std::vector<ForcedCorner>& corners, const Mesh& after, double h) {
   const std::size_t count = after.triangles.size();
-  ForcedZones zones{std::vector<char>(count, 0), std::vector<char>(count, 0)};
-  std::vector<Zone> wedges;
-  for (const ForcedCorner& corner : corners) wedges.emplace_back(corner.wedge, wedge_slack * h);
+  const std::vector<char> none(count, 0);
+  ForcedZones zones{none, none, none};
+  std::vector<double> reach;
+  for (const ForcedCorner& corner : corners)
+    reach.push_back(std::max(reach_of(corner) + wedge_slack * h, disc_radius * h));
   for (std::size_t t = 0; t < count; ++t) {
     const auto& [i, j, k] = after.triangles[t];
     const Point &a = after.rest[i], &b = after.rest[j], &c = after.rest[k];
@@ -224,8 +220,12 @@ ForcedZones forced_zones(const std::vector<ForcedCorner>& corners, const Mesh& a
     for (std::size_t w = 0; w < corners.size(); ++w) {
       const ForcedCorner& corner = corners[w];
       if (fills_corner(corner, {a, b, c}, centroid)) zones.in_corner[t] = zones.in_zone[t] = 1;
-      if (distance(centroid, corner.apex) < disc_radius * h || wedges[w].holds(centroid)) zones.in_zone[t] = 1;
+      const double far = distance(centroid, corner.apex);
+      if (far > reach[w]) continue;
+      if (far < disc_radius * h || within(corner.wedge, centroid)) zones.in_zone[t] = 1;
+      if (lies_near(corner.wedge, centroid, wedge_slack * h)) zones.near_zone[t] = 1;
     }
+    if (zones.in_zone[t]) zones.near_zone[t] = 1;
     const double area = cross(minus(b, a), minus(c, a)) / 2;
     zones.corner_triangles += zones.in_corner[t];
     zones.zone_triangles += zones.in_zone[t];

@@ -36,8 +36,9 @@ std::vector<ForcedCorner> forced_corners(const Mesh& before, const std::vector<C
 /// Which triangles of a result are excused.
 struct ForcedZones {
   std::vector<char> in_corner;  ///< #T: has an apex as a vertex and lies between its legs (exempt even when strict)
-  std::vector<char> in_zone;    ///< #T: in_corner, or its centroid lies within 0.25 h of an apex, or in a wedge or
-                                ///< within 0.02 h of one: an incision may lie beside its curve
+  std::vector<char> in_zone;    ///< #T: in_corner, or its centroid lies in a wedge or within 0.25 h of an apex
+  std::vector<char> near_zone;  ///< #T: in_zone, or its centroid lies within 0.02 h of a wedge: between incisions that
+                                ///< lie beside their curves, within the tolerance, where the curves force a needle
   int corner_triangles = 0, zone_triangles = 0;
   double corner_area = 0, zone_area = 0;  ///< rest units squared; each triangle counts once
 };

@@ -196,7 +196,7 @@ class AccuracyRun {
     if (solvable) {
       const Variant& v = worker.variant;
       const oracle::Judgement judgement =
-          judge_one_by_one(base.sheet, specimen.cuts, v.row->promises, v.row->make(v.knob), cut_options_);
+          judge_one_by_one(base.sheet, worker.sheet, specimen.cuts, v.row->promises, v.row->make(v.knob), cut_options_);
       const Assessment a = assess(base.sheet, worker.sheet, judgement, {});
       set_assessment(row, a, base);
       solvable = a.judgement.ok;

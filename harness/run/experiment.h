@@ -13,7 +13,7 @@
 namespace cutbench {
 
 /// The version of meshes, cuts and definitions that records bear.
-constexpr const char* suite_version = "2";
+constexpr const char* suite_version = "3";
 
 struct Experiment {
   /// A method and the values of its knob to run it with; none: its default.

@@ -29,7 +29,7 @@ std::string outcome_of_command(const Variant& variant, const std::filesystem::pa
     if (run.status == Status::failed) return say("failed (" + run.verdict + "): " + run.reason);
     if (run.status == Status::refused) return say("refused: " + run.reason);
     const oracle::Judgement judgement =
-        judge_one_by_one(before, cuts, variant.row->promises, variant.row->make(variant.knob), options);
+        judge_one_by_one(before, sheet, cuts, variant.row->promises, variant.row->make(variant.knob), options);
     say(judgement.ok ? std::string(name_of(run.status)) + ": the result passes"
                      : "failed (" + judgement.verdict + "): " + judgement.problems.front());
   };

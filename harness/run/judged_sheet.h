@@ -1,4 +1,5 @@
-// A sheet under the knife of one method, every cut of which is judged: what the tests and the campaign are made of.
+// A sheet under the knife of one method, every cut of which is judged: what the tests, the campaign and all records are
+// made of.
 #pragma once
 
 #include <memory>
@@ -58,8 +59,9 @@ class JudgedSheet {
   std::size_t embedded_vertices() const { return method_.embedded_vertices; }
 
   Sheet sheet;
-  CutOutcome outcome;           ///< of the last cut
-  oracle::Judgement judgement;  ///< of the last cut that the oracle judged; rest units
+  CutOutcome outcome;  ///< of the last cut
+  oracle::Judgement
+      judgement;  ///< of the last cut, where the oracle was asked, without what `deviated` forgives; rest units
 
  private:
   Locator locator_;
@@ -68,10 +70,13 @@ class JudgedSheet {
   Cutter cutter_;
 };
 
-/// Makes the cuts on a copy of the sheet and judges each on what the one before left: an incision lies within the
-/// tolerance of its curve only, so that a later cut may rightly meet it elsewhere than the curves meet. Ends with the
-/// first that is not ok. Number of pieces of the last cut, largest incision error, change of area in all.
-oracle::Judgement judge_one_by_one(const Sheet& start, std::span<const Curve> cuts, const Promises& promises,
-                                   std::unique_ptr<CuttingMethod> method, const CutOptions& options);
+/// Judges what cuts, none of them refused, made of a sheet: makes them once more, and judges each on what the one
+/// before left. An incision lies within the tolerance of its curve only, so that a later cut may rightly meet it
+/// elsewhere than the curves meet. Ends with the first that is not ok; number of pieces after the last, largest
+/// incision error, change of area in all. Verdict `not_reproduced` where that does not make `result`, bit for bit.
+/// \param method  a new one, of the same kind
+oracle::Judgement judge_one_by_one(const Sheet& start, const Sheet& result, std::span<const Curve> cuts,
+                                   const Promises& promises, std::unique_ptr<CuttingMethod> method,
+                                   const CutOptions& options);
 
 }  // namespace cutbench

@@ -68,6 +68,7 @@ const std::vector<std::string>& column_names() {
                                               "wedge_triangles",
                                               "wedge_area",
                                               "ar_max_cut_outside_wedges",
+                                              "ar_max_cut_away_from_wedges",
                                               "ar_p99_cut_strict",
                                               "ar_p99_cut_outside_wedges",
                                               "eigenvalue_ratio",

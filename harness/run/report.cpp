@@ -78,7 +78,7 @@ void measure(Assessment& result, const oracle::Mesh& mesh, const std::vector<cha
   result.forced_corners = forced.size();
   result.corner_triangles = zones.corner_triangles, result.wedge_triangles = zones.zone_triangles;
   result.wedge_area = zones.zone_area;
-  std::vector<std::array<Point2, 3>> all, cut, strict, outside_wedges;
+  std::vector<std::array<Point2, 3>> all, cut, strict, outside_wedges, away;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     auto& c = all.emplace_back();
     const Corners corners = corners_of(mesh, t);
@@ -89,9 +89,11 @@ void measure(Assessment& result, const oracle::Mesh& mesh, const std::vector<cha
     cut.push_back(c);
     if (!zones.in_corner[t]) strict.push_back(c);
     if (!zones.in_zone[t]) outside_wedges.push_back(c);
+    if (!zones.near_zone[t]) away.push_back(c);
   }
   result.all = quality_in_h(all, h), result.cut = quality_in_h(cut, h);
   result.strict = quality_in_h(strict, h), result.outside_wedges = quality_in_h(outside_wedges, h);
+  result.ar_max_away_from_wedges = quality(away).ar_max;
 }
 
 /// The oracle judges places in rest space; but no simulation goes on from a vertex that is nowhere.

@@ -201,9 +201,9 @@ class Runner {
     summary.ok = run.verdict == "ok";
     if (run.status == Status::failed || run.status == Status::refused) return;
     const Variant& v = worker.variant;
-    const Assessment a =
-        assess(base_.sheet, worker.sheet,
-               judge_one_by_one(base_.sheet, cuts, v.row->promises, v.row->make(v.knob), cut_options_), forced);
+    const oracle::Judgement judgement =
+        judge_one_by_one(base_.sheet, worker.sheet, cuts, v.row->promises, v.row->make(v.knob), cut_options_);
+    const Assessment a = assess(base_.sheet, worker.sheet, judgement, forced);
     row.set("verdict", a.judgement.verdict);
     if (!a.judgement.ok) row.set("reason", a.judgement.problems.front());
     summary.ok = a.judgement.ok, summary.vertices_added = static_cast<double>(a.vertices_added);
@@ -231,6 +231,7 @@ class Runner {
         row.set("wedge_triangles", std::int64_t{a.wedge_triangles});
     row.set("wedge_area", a.wedge_area);
     row.set("ar_max_cut_strict", a.strict.ar_max), row.set("ar_max_cut_outside_wedges", a.outside_wedges.ar_max);
+    row.set("ar_max_cut_away_from_wedges", a.ar_max_away_from_wedges);
     row.set("ar_p99_cut_strict", a.strict.ar_p99), row.set("ar_p99_cut_outside_wedges", a.outside_wedges.ar_p99);
   }
 

@@ -2,9 +2,9 @@
 // but local, so that its cost follows the cut.
 //
 // How it works. embed: crossed triangles are divided along the path. improve: edges round the new vertices are flipped
-// to constrained Delaunay; then triangles that the cut made or changed, and whose aspect ratio exceeds `bound`, are
-// refined by off-centres (harness/cut/delaunay_refinement.h). Those in forced wedges (harness/cut/forced_wedges.h) are
-// left coarse.
+// to constrained Delaunay, as far as they may; then triangles that the cut made or changed, and whose aspect ratio
+// exceeds `bound`, are refined by off-centres (harness/cut/delaunay_refinement.h). Those in forced wedges
+// (harness/cut/forced_wedges.h) are left coarse.
 //
 // Source: Ruppert 1995 and Ungor 2004, as said there.
 // Promises: the exact path, area, conforming, no vertex moved.

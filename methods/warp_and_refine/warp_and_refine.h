@@ -41,8 +41,8 @@ namespace cutbench {
 class WarpAndRefine : public CuttingMethod {
  public:
   /// What happens before the split, and how far the work after it goes: each step includes those before it, but tie
-  /// (harness/cut/tie_slivers.h), which leaves the mesh as it is. The method
-  /// is warp_and_thin with refine; the others are rows of the ablation.
+  /// (harness/cut/tie_slivers.h), which leaves the mesh as it is. The method is warp_and_thin with refine; the others
+  /// are rows of the ablation.
   enum class Before : std::uint8_t { nothing, snap, warp, thin, warp_and_thin };
   enum class After : std::uint8_t { nothing, flips, smoothing, refine, tie };
   struct Options {
