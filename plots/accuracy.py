@@ -12,7 +12,8 @@ import style
 from accuracy_budgets import budgets_figure
 from accuracy_profile import profile_figure
 from accuracy_ranking import at_equal_unknowns, print_ranking
-from accuracy_records import REFERENCE, Records, cells_of, label_edges, log_x_axis, of, percent_axis, zero_line
+from accuracy_records import REFERENCE, Records, cells_of, label_edges, log_x_axis, percent_axis, zero_line
+from load import of
 from accuracy_shape import print_shapes, print_statements, shape_figure
 
 STEM = "accuracy"

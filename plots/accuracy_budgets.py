@@ -2,7 +2,8 @@
 
 import front
 import style
-from accuracy_records import cells_of, label_edges, log_x_axis, of, percent_axis, zero_line
+from accuracy_records import cells_of, label_edges, log_x_axis, percent_axis, zero_line
+from load import of
 
 
 def budgets_figure(records):

@@ -4,7 +4,8 @@ many unknowns as the cut sheet, so that nobody wins by triangles alone."""
 import numpy as np
 
 import load
-from accuracy_records import CASE, REFERENCE, of
+from accuracy_records import CASE, REFERENCE
+from load import of
 
 
 def per_unknown(reference):

@@ -8,6 +8,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 import front
 import load
 import style
+from load import of
 
 REFERENCE = ("body_fitted (reference)", "")
 NEEDED = ["budget", "exact_incision", "cut_us", "total_us", "unknowns", "iterations", "ar_max_cut", "error",
@@ -78,10 +79,6 @@ class Records:
         failed = self.table["failed"]
         drawn = load.Run(self.table[~failed], self.table[failed], self.run.context)
         return " ".join([*sentences, style.provenance(drawn, drawn.rows, with_machine=True, with_crosses=False)])
-
-
-def of(table, variant):
-    return table[(table["method"] == variant[0]) & (table["knob"] == variant[1])]
 
 
 def percent_axis(ax, values):

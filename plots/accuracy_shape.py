@@ -7,7 +7,8 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 import load
 import style
-from accuracy_records import CASE, CONVERGED, REFERENCE, of
+from accuracy_records import CASE, CONVERGED, REFERENCE
+from load import of
 
 
 def shape_columns(records):

@@ -17,6 +17,7 @@ import load
 import style
 import table1_timing as table1
 from accuracy_records import CASE, REFERENCE, Records
+from load import of
 
 HELD, NOT_HELD, UNDECIDED, CONDITION = "held", "not held", "undecided", "held under a condition"
 PAPERS = ("bowyer_watson", "rounds=1")  # with one round of the local split
@@ -41,10 +42,6 @@ class Claim:
 
 def name(variant):
     return style.looks([variant])[variant].label
-
-
-def of(table, variant):
-    return table[(table["method"] == variant[0]) & (table["knob"] == variant[1])]
 
 
 def interval(ratio):

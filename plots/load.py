@@ -125,6 +125,12 @@ def quartiles(table, by, column):
                          "n": groups.size()})
 
 
+def of(table, variant, sheet=None):
+    """The rows of a (method, knob), on one sheet or all."""
+    here = table[(table["method"] == variant[0]) & (table["knob"] == variant[1])]
+    return here if sheet is None else here[here["sheet"] == sheet]
+
+
 def with_failures(values):
     """q1, median, q3 of what may hold infinities, for cases that failed: the value that so many do not exceed."""
     if not len(values):

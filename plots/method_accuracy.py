@@ -7,7 +7,8 @@ from matplotlib.lines import Line2D
 
 import style
 from accuracy_ranking import at_equal_unknowns, made_by_all, mean_excess
-from accuracy_records import REFERENCE, Records, of, percent_axis, zero_line
+from accuracy_records import Records, percent_axis, zero_line
+from load import of
 
 STEM = "method_comparison_accuracy"
 WHAT = ("excess error over that of a mesh made anew to fit the cut, of as many triangles as the uncut sheet, or refined to "

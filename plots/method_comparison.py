@@ -19,10 +19,12 @@ import method_details
 import method_gallery
 import method_sweeps
 import style
+from load import of
 
 STEM = "method_comparison"
 MEASURES = ["crossed_triangles", "vertices_added", "angle_max_deg_cut", "altitude_min_h_cut", "ar_max_cut", "ar_p99_cut",
-            "ar_max_cut_strict", "ar_p99_cut_strict", "ar_max_cut_outside_wedges", "ar_p99_cut_outside_wedges",
+            "ar_max_cut_strict", "ar_p99_cut_strict", "ar_max_cut_outside_wedges", "ar_max_cut_away_from_wedges",
+            "ar_p99_cut_outside_wedges",
             "wedge_area", "eigenvalue_ratio", "incision_error_h", "area_change", "geometry_us"]
 JUMPS = ["membrane_j", "membrane_jump_j", "bending_j", "bending_jump_j", "residual_n", "residual_jump_n", "kinetic_j",
          "kinetic_jump_j", "momentum_jump_kg_m_s"]
@@ -49,7 +51,8 @@ PRICE = [Measure("vertices_per_crossed", "vertices added\nper crossed tri.", lin
 JUMP = [Measure("membrane_jump", "membrane\nenergy"), Measure("bending_jump", "bending\nenergy"),
         Measure("residual_jump", "residual\nforce")]
 ROUNDING = 1e-12  # a jump below it is none
-BY_SHEET, AGAINST = f"{STEM}_by_sheet", f"{STEM}_against_best"
+OURS = "warp_and_refine"  # the project's own
+BY_SHEET, AGAINST = f"{STEM}_by_sheet", f"{STEM}_pairs"
 
 
 def measured(run):
@@ -96,11 +99,6 @@ def ranking(table, variants, sheets):
         ranks[m.column] = per_sheet.where(there).mean(axis=1).reindex(ranks.index)
     ranks["sum"] = ranks.sum(axis=1)
     return ranks.sort_values("sum", kind="stable")
-
-
-def of(table, variant, sheet=None):
-    here = table[(table["method"] == variant[0]) & (table["knob"] == variant[1])]
-    return here if sheet is None else here[here["sheet"] == sheet]
 
 
 def label(variant):
@@ -182,8 +180,9 @@ def summary(table, jumps, order, ranks):
         for kind in ("strict", "outside_wedges"):
             for which in ("max", "p99"):
                 row[f"ar_{which}_{kind}_median"] = spread(cuts[f"ar_{which}_cut_{kind}"])[1]
-            below = ~(cuts[f"ar_max_cut_{kind}"] >= 3) & ~cuts["failed"]
-            row[f"ar_below_3_{kind}"] = f"{int(below.sum())}/{len(cuts)}"
+            of_cuts = cuts[f"ar_max_cut_{kind}"].notna() | cuts["failed"]  # else no triangle was changed
+            below = (cuts[f"ar_max_cut_{kind}"] < 3) & ~cuts["failed"]
+            row[f"ar_below_3_{kind}"] = f"{int(below.sum())}/{int(of_cuts.sum())}"
         row["wedge_area_mean"] = cuts["wedge_area"].mean()
         if jumps is not None:
             for m in JUMP:
@@ -205,8 +204,10 @@ def write_tables(folder, tables):
         parts = [["excess", "more_"], ["eigenvalue_ratio", "altitude_min", "angle_max"], ["ar_", "wedge"],
                  ["vertices", "incision", "us_per"], ["_jump"]]
         what = "medians over the cuts of all families, sheets and resolutions; best shapes first"
-        details = {method_accuracy.STEM: method_accuracy.WHAT, BY_SHEET: "shapes by sheet and family; median eigenvalues",
-                   AGAINST: "on the same cuts", f"{AGAINST}_fine": "on the same cuts, chord tolerance 0.01"}
+        details = {method_accuracy.STEM: method_accuracy.WHAT,
+                   BY_SHEET: "cuts below 3 outside wedges, and farther than 0.02 h from them; median eigenvalues",
+                   AGAINST: f"{OURS}'s cuts and the same ones by others",
+                   f"{AGAINST}_fine": f"{OURS}'s cuts and the same ones by others, chord tolerance 0.01"}
         lines.append(f"{name}: {details.get(name, what)}\n")
         of_all = [c for c in ("method", "knob", "cuts", "failed", "rank") if c in shown]
         if name in (BY_SHEET, AGAINST, f"{AGAINST}_fine"):
@@ -256,11 +257,12 @@ def main():
             "What jumps at the instant of a cut in a moving sheet, relative to its value before (10⁻¹² or less drawn at "
             "10⁻¹²).", jumps_run, jumps), legend(sheets, None))
         style.save(figure, folder, f"{STEM}_jumps")
+    ours = next((v for v in order if v[0] == OURS), order[0])
     tables = {STEM: summary(table, jumps, order, ranks), BY_SHEET: method_details.by_sheet_and_family(table, order, sheets),
-              AGAINST: method_details.against(table, order[0], order)}
+              AGAINST: method_details.against(table, ours, order)}
     if fine is not None:
         tables[f"{STEM}_fine"] = summary(fine, None, order, ranks)
-        tables[f"{AGAINST}_fine"] = method_details.against(fine, order[0], order)
+        tables[f"{AGAINST}_fine"] = method_details.against(fine, ours, order)
     defaults = set(order)
     for kind, draw, what in (
             ("knobs", partial(method_sweeps.draw_knobs, defaults=defaults), "Medians as the knob of each method turns, its "

@@ -1,28 +1,29 @@
-"""What medians hide: shapes by sheet and by family of cuts, their tails, and cut by cut one method against the others."""
+"""What medians hide: shapes by sheet and family of cuts, their tails, and cut by cut one method against the others."""
 
 import numpy as np
 import pandas as pd
 
+from load import of
+
 KEY = ["scene", "sheet", "resolution", "case"]
 
 
-def rows_of(table, variant):
-    return table[(table["method"] == variant[0]) & (table["knob"] == variant[1])]
-
-
 def by_sheet_and_family(table, order, sheets):
-    """A row per method: cuts with every aspect ratio below 3 outside forced wedges, by sheet; eigenvalues by family, on
-    the first sheet's curved cuts, and their tails; the time at the largest resolution."""
+    """A row per method: by sheet the cuts with every aspect ratio below 3 outside forced wedges, and away from them, of
+    those that changed triangles; median eigenvalues by family over all sheets, on the first sheet, and there of curved
+    cuts; their tails; the time at the largest resolution; failures by verdict."""
     rows = []
     families = list(dict.fromkeys(table["scene"]))
     largest = table["resolution"].max()
     for variant in order:
-        cuts = rows_of(table, variant)
+        cuts = of(table, variant)
         row = {"method": variant[0], "knob": variant[1]}
         for sheet in sheets:
             here = cuts[cuts["sheet"] == sheet]
-            below = ~(here["ar_max_cut_outside_wedges"] >= 3) & ~here["failed"]
-            row[f"AR < 3, {sheet}"] = f"{int(below.sum())}/{len(here)}" if len(here) else "-"
+            here = here[here["ar_max_cut_outside_wedges"].notna() | here["failed"]]
+            for name, kind in (("outside wedges", "outside_wedges"), ("away", "away_from_wedges")):
+                below = (here[f"ar_max_cut_{kind}"] < 3) & ~here["failed"]
+                row[f"AR < 3 {name}, {sheet}"] = f"{int(below.sum())}/{len(here)}" if len(here) else "-"
         eigenvalue = cuts["eigenvalue_ratio"]
         for family in families:
             row[f"eigenvalue, {family}"] = eigenvalue[cuts["scene"] == family].median()
@@ -35,7 +36,8 @@ def by_sheet_and_family(table, order, sheets):
         us = cuts.loc[cuts["resolution"] == largest, "us_per_crossed"]
         for name, share in (("q1", 0.25), ("median", 0.5), ("q3", 0.75)):
             row[f"us, {largest}, {name}"] = us.quantile(share)
-        for verdict, count in cuts.loc[cuts["failed"], "verdict"].value_counts().items():
+        failed = cuts[cuts["failed"]]
+        for verdict, count in failed["verdict"].where(failed["status"] != "refused", "refused").value_counts().items():
             row[f"failed: {verdict}"] = float(count)
         rows.append(row)
     return pd.DataFrame(rows)
@@ -44,13 +46,13 @@ def by_sheet_and_family(table, order, sheets):
 def against(table, one, order):
     """A row per other method, of the cuts that both made: its time over that of `one`, and in how many `one` has no
     larger an eigenvalue."""
-    mine = rows_of(table, one)
+    mine = of(table, one)
     mine = mine[~mine["failed"]]
     rows = []
     for variant in order:
         if variant == one:
             continue
-        theirs = rows_of(table, variant)
+        theirs = of(table, variant)
         pairs = mine.merge(theirs[~theirs["failed"]], on=KEY, suffixes=("", "_theirs"))
         ratio = pairs["geometry_us_theirs"] / pairs["geometry_us"]
         asked = pairs[pairs["eigenvalue_ratio"].notna() & pairs["eigenvalue_ratio_theirs"].notna()]

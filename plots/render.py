@@ -5,7 +5,6 @@ darker where little of the sky is seen (ambient occlusion), with a shadow on the
 import json
 import xml.etree.ElementTree as xml
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import matplotlib
 import numpy as np

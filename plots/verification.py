@@ -13,7 +13,8 @@ from scipy import stats
 
 import load
 import style
-from accuracy_records import REFERENCE, Records, label_edges, of
+from accuracy_records import REFERENCE, Records, label_edges
+from load import of
 
 STEM = "verification"
 RATES = {"released_energy": (1, 0.15), "strain_energy": (1, 0.15), "energy_norm": (0.5, 0.1),
