@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "harness/fem/combination.h"
 #include "harness/fem/largest_eigenvalue.h"
@@ -183,6 +184,24 @@ TEST(Ties, CutsStayOpen) {
 }
 
 /// C^T A C and C^T f against dense products, held unknowns among them.
+/// Four cuts after which two slivers' vertices once stood for each other, and the search for a free one went on for
+/// ever.
+TEST(Ties, NoVertexStandsForOneThatStandsForIt) {
+  const Sheet before(make_sheet("alternating", 60));
+  Sheet sheet = before;
+  Locator locator(sheet);
+  Cutter cutter;
+  const auto method = find_method("split_and_tie").make(0.1);
+  for (const Curve& curve : make_case("several", 47203279896981, 12, before))
+    EXPECT_EQ(cutter.cut(sheet, locator, curve, *method, {}).status, Status::ok);
+  const Ties ties = method->ties(before, sheet);
+  EXPECT_GT(ties.ties.size(), 100u);
+  std::set<DeformedIndex> tied;
+  for (const Tie& tie : ties.ties) tied.insert(tie.vertex);
+  for (const Tie& tie : ties.ties)
+    for (const DeformedIndex master : tie.masters) EXPECT_FALSE(tied.contains(master));
+}
+
 TEST(Ties, SystemIsTheDenseProduct) {
   for_each_cut(4, 1, [&](const Cut& cut) {
     const Sheet& sheet = cut.sheet();

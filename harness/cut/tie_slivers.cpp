@@ -116,11 +116,16 @@ class Tying {
       DeformedIndex& stand_in = stands_for_[v.vertex()];
       if (is_free(v.vertex)) continue;
       if (const DeformedIndex nearest = nearest_free(v); nearest.valid()) stand_in = nearest;
-      while (!is_free(stand_in)) stand_in = stands_for_[stand_in()];
+      stand_in = free_for(stand_in);
     }
   }
 
   bool is_free(DeformedIndex d) const { return stands_for_[d()] == d; }
+  /// What stands for d, by way of what has been tied itself since.
+  DeformedIndex free_for(DeformedIndex d) const {
+    while (!is_free(d)) d = stands_for_[d()];
+    return d;
+  }
   Point2 place(DeformedIndex d) const { return sheet_.rest(sheet_.rest_vertex(d)); }
 
   /// The nearest free vertex within a short way of edges.
@@ -179,7 +184,7 @@ class Tying {
 
   void draw(TriangleIndex t, std::array<DeformedIndex, 3>& drawn, std::array<Point2, 3>& corners) const {
     for (std::size_t k = 0; k < 3; ++k) {
-      drawn[k] = stands_for_[triangle(t).deformed[k]()];
+      drawn[k] = free_for(triangle(t).deformed[k]);
       corners[k] = place(drawn[k]);
     }
   }
