@@ -52,6 +52,20 @@ TEST_F(Cli, CutWritesMeshAndReport) {
   }
 }
 
+/// README, "Try it".
+TEST_F(Cli, TheExampleIsCutAndScored) {
+  const fs::path examples = fs::path(CUTBENCH_TEST_CASES) / "../../experiments/examples";
+  const std::string files =
+      " --mesh " + (examples / "sheet.obj").string() + " --path " + (examples / "path.json").string();
+  for (const auto& row : all_methods()) {
+    const std::string out = (folder_ / (row.name + ".obj")).string();
+    const auto made = run("cut" + files + " --method " + row.name + " --out " + out);
+    EXPECT_EQ(made.code, 0) << row.name << made.error;
+    if (!row.promises.exact_incision) continue;
+    EXPECT_EQ(lines_of(run("score" + files + " --result " + out).out).front(), "ok") << row.name;
+  }
+}
+
 TEST_F(Cli, RepeatedPolylineIsANoop) {
   write(folder_ / "path.json", R"({"cuts":[{"polyline":[[-0.1,0.3],[0.4,0.45],[1.1,0.7]]}]})");
   ASSERT_EQ(cut().code, 0);
