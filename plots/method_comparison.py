@@ -25,7 +25,7 @@ STEM = "method_comparison"
 MEASURES = ["crossed_triangles", "vertices_added", "angle_max_deg_cut", "altitude_min_h_cut", "ar_max_cut", "ar_p99_cut",
             "ar_max_cut_strict", "ar_p99_cut_strict", "ar_max_cut_outside_wedges", "ar_max_cut_away_from_wedges",
             "ar_p99_cut_outside_wedges",
-            "wedge_area", "eigenvalue_ratio", "incision_error_h", "area_change", "geometry_us"]
+            "wedge_area", "forced_corners", "eigenvalue_ratio", "incision_error_h", "area_change", "geometry_us"]
 JUMPS = ["membrane_j", "membrane_jump_j", "bending_j", "bending_jump_j", "residual_n", "residual_jump_n", "kinetic_j",
          "kinetic_jump_j", "momentum_jump_kg_m_s"]
 MARKERS = {"grid": ("o", "#0072b2"), "alternating": ("s", "#e69f00"), "delaunay": ("^", "#009e73"),
@@ -206,6 +206,7 @@ def write_tables(folder, tables):
         what = "medians over the cuts of all families, sheets and resolutions; best shapes first"
         details = {method_accuracy.STEM: method_accuracy.WHAT,
                    BY_SHEET: "cuts below 3 outside wedges, and farther than 0.02 h from them; median eigenvalues",
+                   f"{STEM}_jumps": "in a moving sheet, over the value before; 1e-12: none",
                    AGAINST: f"{OURS}'s cuts and the same ones by others",
                    f"{AGAINST}_fine": f"{OURS}'s cuts and the same ones by others, chord tolerance 0.01"}
         lines.append(f"{name}: {details.get(name, what)}\n")
@@ -260,6 +261,8 @@ def main():
     ours = next((v for v in order if v[0] == OURS), order[0])
     tables = {STEM: summary(table, jumps, order, ranks), BY_SHEET: method_details.by_sheet_and_family(table, order, sheets),
               AGAINST: method_details.against(table, ours, order)}
+    if jumps is not None:
+        tables[f"{STEM}_jumps"] = method_details.jumps(jumps, order)
     if fine is not None:
         tables[f"{STEM}_fine"] = summary(fine, None, order, ranks)
         tables[f"{AGAINST}_fine"] = method_details.against(fine, ours, order)

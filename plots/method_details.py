@@ -11,7 +11,8 @@ KEY = ["scene", "sheet", "resolution", "case"]
 def by_sheet_and_family(table, order, sheets):
     """A row per method: by sheet the cuts with every aspect ratio below 3 outside forced wedges, and away from them, of
     those that changed triangles; median eigenvalues by family over all sheets, on the first sheet, and there of curved
-    cuts; their tails; the time at the largest resolution; failures by verdict."""
+    cuts, and of those that meet nothing at less than asin(1/3); their tails; the time at the largest resolution;
+    failures by verdict."""
     rows = []
     families = list(dict.fromkeys(table["scene"]))
     largest = table["resolution"].max()
@@ -30,7 +31,9 @@ def by_sheet_and_family(table, order, sheets):
         first = cuts["sheet"] == sheets[0]
         row[f"eigenvalue, {sheets[0]}"] = eigenvalue[first].median()
         if "curved" in families:
-            row[f"eigenvalue, {sheets[0]}, curved"] = eigenvalue[first & (cuts["scene"] == "curved")].median()
+            curved = first & (cuts["scene"] == "curved")
+            row[f"eigenvalue, {sheets[0]}, curved"] = eigenvalue[curved].median()
+            row["eigenvalue, of these nothing forced"] = eigenvalue[curved & (cuts["forced_corners"] == 0)].median()
         for share in (0.9, 0.95):
             row[f"eigenvalue, {100 * share:g} %"] = eigenvalue.quantile(share)
         us = cuts.loc[cuts["resolution"] == largest, "us_per_crossed"]
@@ -39,6 +42,19 @@ def by_sheet_and_family(table, order, sheets):
         failed = cuts[cuts["failed"]]
         for verdict, count in failed["verdict"].where(failed["status"] != "refused", "refused").value_counts().items():
             row[f"failed: {verdict}"] = float(count)
+        rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def jumps(table, order):
+    """A row per method: what jumped at the cut over its value before; median, 95 % and the worst cut."""
+    rows = []
+    for variant in order:
+        cuts = of(table, variant)
+        row = {"method": variant[0], "knob": variant[1], "cuts": len(cuts)}
+        for column in ("membrane_jump", "bending_jump", "residual_jump"):
+            for name, share in (("median", 0.5), ("95 %", 0.95), ("worst", 1)):
+                row[f"{column}, {name}"] = cuts[column].quantile(share)
         rows.append(row)
     return pd.DataFrame(rows)
 
