@@ -206,7 +206,16 @@ Step Walk::from_vertex(VertexIndex v, Point2 target) {
     h = sheet_.turn_left(h);
   } while (h.valid() && h != first);
   // The line misses all triangles here: it leaves the sheet, or they are narrower than the snap distance. Then the rest
-  // of the line starts here.
+  // of it starts here, unless it leads exactly through a vertex nearly here where it meets an incision or the border.
+  h = first;
+  do {
+    const VertexIndex x = sheet_.target(h);
+    bool separates = false;
+    for_each_separating_end(sheet_, x, [&](VertexIndex) { separates = true; });
+    if (separates && orientation(origin_, target, rest(x)) == 0 && dot(rest(x) - rest(v), target - origin_) > 0)
+      return along(h, x, target);
+    h = sheet_.turn_left(h);
+  } while (h.valid() && h != first);
   const Point2 origin = std::exchange(origin_, rest(v));
   h = first;
   do {
