@@ -21,12 +21,26 @@ bool is_segment(const Patch& patch, int a, int b) {
   return false;
 }
 
+bool is_of_ring(const Patch& patch, int a, int b) {
+  const int i = patch.ring_position[static_cast<std::size_t>(a)], j = patch.ring_position[static_cast<std::size_t>(b)];
+  return i >= 0 && j == (i + 1 == static_cast<int>(patch.ring.size()) ? 0 : i + 1);
+}
+
 /// Mark of edge a -> b of the answer.
 EdgeMark mark_of(const Patch& patch, int a, int b) {
-  const int i = patch.ring_position[static_cast<std::size_t>(a)], j = patch.ring_position[static_cast<std::size_t>(b)];
-  if (i >= 0 && j == (i + 1 == static_cast<int>(patch.ring.size()) ? 0 : i + 1))
-    return patch.ring_marks[static_cast<std::size_t>(i)];
+  if (is_of_ring(patch, a, b))
+    return patch.ring_marks[static_cast<std::size_t>(patch.ring_position[static_cast<std::size_t>(a)])];
   return is_segment(patch, a, b) ? EdgeMark::path : EdgeMark::none;
+}
+
+/// Both on one edge of the triangle: a diagonal between them lies upon that edge, and passes what is between them there
+/// only because it was rounded to the outside.
+bool are_on_one_edge(const Patch& patch, int a, int b) {
+  const auto edges = [&](int p) {
+    if (patch.ring_position[static_cast<std::size_t>(p)] < 0) return 0;
+    return p < 3 ? 1 << p | 1 << previous_corner(p) : 1 << patch.edge_of(p);
+  };
+  return (edges(a) & edges(b)) != 0;
 }
 
 }  // namespace
@@ -158,6 +172,8 @@ void append_answer(const Patch& patch, int parent, std::vector<Sheet::NewTriangl
       const int a = t[k], b = t[k == 2 ? 0 : k + 1];
       made.vertex[k] = patch.vertices[static_cast<std::size_t>(a)];
       made.mark[k] = mark_of(patch, a, b);
+      if (are_on_one_edge(patch, a, b) && !is_of_ring(patch, a, b) && !is_of_ring(patch, b, a))
+        throw TooClose("an edge divided by the path would be one again");
       found += made.mark[k] == EdgeMark::path && is_segment(patch, a, b);
     }
     added.push_back(made);
@@ -258,6 +274,7 @@ std::optional<std::array<int, 2>> flip(Patch& patch, int a, int b) {
   const int c = left[static_cast<std::size_t>(previous_corner(e.corner))];
   const int d = right[static_cast<std::size_t>(previous_corner(o.corner))];
   if (orientation(patch, a, d, c) <= 0 || orientation(patch, d, b, c) <= 0) return {};
+  if (are_on_one_edge(patch, c, d)) return {};
   left = {a, d, c}, right = {d, b, c};
   return std::array{c, d};
 }

@@ -66,9 +66,9 @@ Step Walk::along(HalfEdge h, VertexIndex v, Point2 target) {
   const bool on_line = side(from, rest(v), target).sign == 0;
   if (is_at(v, target) || dot(target - rest(v), on_line ? rest(v) - from : target - origin_) > 0)
     return pass_vertex(along_edge(h), v, target);
-  if (!attracts(h))
-    for (const HalfEdge exit : {sheet_.opposite(h), h})
-      if (way_to_better({exit}, target).valid()) return arrive_on(along_edge(h), exit, target);
+  for (const HalfEdge exit : {sheet_.opposite(h), h})
+    if (exit.valid() && way_to_better({exit}, target, !attracts(h)).valid())
+      return arrive_on(along_edge(h), exit, target);
   return reach(along_edge(h), place_on(h, target));
 }
 

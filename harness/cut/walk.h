@@ -122,7 +122,8 @@ class Walk {
   Step arrive_beyond(HalfEdge entry, Point2 target);
   bool lies_on(HalfEdge h, Point2 p) const;
   bool is_detour(VertexIndex v, Point2 target) const;
-  HalfEdge way_to_better(std::initializer_list<HalfEdge> exits, Point2 p) const;
+  HalfEdge way_to_better(std::initializer_list<HalfEdge> exits, Point2 p, bool edges_too) const;
+  HalfEdge shortest_way(std::initializer_list<HalfEdge> exits, Point2 p, bool to_edge) const;
   Place place_on(HalfEdge h, Point2 p) const;
   Place classify(TriangleIndex t, Point2 p) const;
 

@@ -60,8 +60,8 @@ Step Walk::arrive(TriangleIndex t, Point2 target) {
   const Place place = classify(t, target);
   if (place.kind == Place::Kind::vertex && is_detour(place.vertex, target))
     return pass_vertex(through_face(t), place.vertex, target);
-  if (place.kind == Place::Kind::edge && !attracts(place.edge))
-    if (const HalfEdge exit = way_to_better({edge(0), edge(1), edge(2)}, target); exit.valid())
+  if (place.kind == Place::Kind::edge)
+    if (const HalfEdge exit = way_to_better({edge(0), edge(1), edge(2)}, target, !attracts(place.edge)); exit.valid())
       return arrive_on(through_face(t), exit, target);
   return reach(through_face(t), place);
 }
@@ -74,10 +74,17 @@ bool Walk::is_detour(VertexIndex v, Point2 target) const {
          !(at_.kind == Place::Kind::vertex && std::max(std::abs(from.x), std::abs(from.y)) <= 4 * snap_);
 }
 
-/// Is there a vertex at p, or an edge that attracts it, on the other side of an edge that it lies on, too? There the
-/// slivers of earlier cuts may lie upon each other, dozens of them where these were refined. Through which of the exits
-/// the way is shortest, breadth first; invalid: there is none. Of several exits those count that p lies on.
-HalfEdge Walk::way_to_better(std::initializer_list<HalfEdge> exits, Point2 p) const {
+/// Is there a vertex at p, also behind an incision that it lies on, too, or else, where `edges_too`, an edge that
+/// attracts it, on the other side of an edge that it lies on? There the slivers of earlier cuts may lie upon each
+/// other, dozens of them where these were refined. Through which of the exits the way is shortest, breadth first;
+/// invalid: there is none. Of several exits those count that p lies on.
+HalfEdge Walk::way_to_better(std::initializer_list<HalfEdge> exits, Point2 p, bool edges_too) const {
+  const HalfEdge to_vertex = shortest_way(exits, p, false);
+  return to_vertex.valid() || !edges_too ? to_vertex : shortest_way(exits, p, true);
+}
+
+/// To a vertex, through incisions; or to an edge that attracts.
+HalfEdge Walk::shortest_way(std::initializer_list<HalfEdge> exits, Point2 p, bool to_edge) const {
   struct Way {
     HalfEdge exit, entry;  // out of the first triangle, and into the one that it has come to
   };
@@ -91,15 +98,16 @@ HalfEdge Walk::way_to_better(std::initializer_list<HalfEdge> exits, Point2 p) co
     if (ways.size() == most) throw WalkLost();
     ways.push_back({exit, entry});
   };
+  const auto leads_on = [&](HalfEdge h) { return to_edge ? !sheet_.separates(h) : !sheet_.on_border(h); };
   for (const HalfEdge h : exits)
-    if ((exits.size() == 1 || lies_on(h, p)) && !sheet_.separates(h)) go(h, h);
+    if ((exits.size() == 1 || lies_on(h, p)) && leads_on(h)) go(h, h);
   for (std::size_t i = 0; i < ways.size(); ++i) {
     const auto [exit, entry] = ways[i];
-    if (is_at(sheet_.origin(Sheet::previous(entry)), p)) return exit;
+    if (!to_edge && is_at(sheet_.origin(Sheet::previous(entry)), p)) return exit;
     for (const HalfEdge h : {Sheet::next(entry), Sheet::previous(entry)}) {
       if (!lies_on(h, p)) continue;
-      if (attracts(h)) return exit;
-      go(exit, h);
+      if (to_edge && attracts(h)) return exit;
+      if (leads_on(h)) go(exit, h);
     }
   }
   return {};
@@ -118,10 +126,12 @@ Step Walk::arrive_beyond(HalfEdge entry, Point2 target) {
   const Passage passage = through_face(triangle_of(entry));
   if (const VertexIndex apex = sheet_.origin(Sheet::previous(entry)); is_at(apex, target))
     return reach(passage, place_at(sheet_, apex));
+  HalfEdge on;
   for (HalfEdge h : {Sheet::next(entry), Sheet::previous(entry)})
-    if (lies_on(h, target) && attracts(h)) return reach(passage, place_on(h, target));
-  const HalfEdge exit = way_to_better({Sheet::next(entry), Sheet::previous(entry)}, target);
-  return exit.valid() ? arrive_on(passage, exit, target) : throw WalkLost();
+    if (lies_on(h, target) && attracts(h)) on = h;
+  const HalfEdge exit = way_to_better({Sheet::next(entry), Sheet::previous(entry)}, target, !on.valid());
+  if (exit.valid()) return arrive_on(passage, exit, target);
+  return on.valid() ? reach(passage, place_on(on, target)) : throw WalkLost();
 }
 
 }  // namespace cutbench

@@ -62,6 +62,23 @@ int count_points_on_itself(const std::vector<Segment>& path, double tolerance) {
   return static_cast<int>(found.size());
 }
 
+/// How many ends of an open path lie where an older line ends, and within `tolerance` of another: the path may end at
+/// that one instead.
+int count_ends_between(const std::vector<Segment>& path, const std::vector<Segment>& older, const SegmentSearch& search,
+                       double tolerance) {
+  int count = 0;
+  for (const Point& p : {path.front()[0], path.back()[1]}) {
+    bool at_end = false, beside = false;
+    search.for_each_in({{p[0] - tolerance, p[1] - tolerance}, {p[0] + tolerance, p[1] + tolerance}}, [&](int i) {
+      const Segment& s = older[static_cast<std::size_t>(i)];
+      const bool ends_here = p == s[0] || p == s[1];
+      at_end |= ends_here, beside |= !ends_here && distance(p, s) <= tolerance;
+    });
+    count += at_end && beside;
+  }
+  return count;
+}
+
 /// The longer side of the bounding box.
 double extent(const std::vector<Segment>& path) {
   double longest = 0;
@@ -124,6 +141,8 @@ ExpectedPieces expected_pieces(const std::vector<Segment>& border, const std::ve
                                const std::vector<std::vector<Segment>>& paths, const PieceTolerances& tolerances) {
   std::vector<Segment> segments = border, extensions;
   segments.insert(segments.end(), incisions.begin(), incisions.end());
+  const std::vector<Segment> older = segments;
+  const SegmentSearch search(older);
   std::vector<int> path_of(segments.size(), -1);
   std::vector<char> tiny;
   ExpectedPieces result;
@@ -136,6 +155,7 @@ ExpectedPieces expected_pieces(const std::vector<Segment>& border, const std::ve
     if (tiny.back()) result.most += static_cast<int>(path.size());
     if (!path.empty()) may_fall_short += count_points_on_itself(path, tolerances.tip);
     if (path.empty() || path.front()[0] == path.back()[1] || tolerances.tip == 0) continue;
+    may_fall_short += count_ends_between(path, older, search, tolerances.touch);
     add_extension(path.front()[0], path.front()[1], tolerances.tip, extensions);
     add_extension(path.back()[1], path.back()[0], tolerances.tip, extensions);
   }
