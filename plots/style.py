@@ -204,7 +204,7 @@ def provenance(run, cases, with_machine=False, with_crosses=True, per=("sheet", 
     n = "0" if made.empty else str(made.min()) if made.min() == made.max() else f"{made.min()} to {made.max()}"
     everything = run.everything()
     refused = run.failed["status"] == "refused"
-    failed = count(run.failed[~refused])
+    failed = count(run.failed[(run.failed["verdict"] != "ok") | (run.failed["status"] == "failed")])  # in some row
     commit = str(context.get("commit") or "unknown")[:10]
     state = {True: " with uncommitted changes", None: " (state of the tree unknown)"}.get(context.get("dirty"), "")
     scenes = ", ".join(sorted(set(everything["scene"])))
