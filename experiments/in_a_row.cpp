@@ -75,10 +75,7 @@ class CutSheet {
 constexpr std::size_t sample = 50;
 
 double first_of(const std::vector<double>& all) { return median({all.data(), std::min(sample, all.size())}); }
-double last_of(const std::vector<double>& all) {
-  const std::size_t count = std::min(sample, all.size());
-  return median({all.data() + all.size() - count, count});
-}
+double from(std::size_t first, const std::vector<double>& all) { return median(std::span(all).subspan(first)); }
 
 /// Of the first cuts, made once more: a machine's speed drifts within minutes, and the last cuts have just been timed.
 double first_cost(const MeshData& grid, std::size_t cuts, CuttingMethod& method) {
@@ -90,16 +87,17 @@ double first_cost(const MeshData& grid, std::size_t cuts, CuttingMethod& method)
 
 /// Prints the method's row; false where a cut failed or a result was wrong.
 bool cut_in_a_row(const MethodRow& row, int n, std::size_t cuts, const std::string& folder) {
-  const double heap_before = heap_bytes();
   // Bowyer-Watson without local split: each round would multiply the triangles.
   const auto make = [&row] { return row.make(row.name == "bowyer_watson" ? 0 : row.knob.value); };
   const auto method = make();
   const MeshData grid = make_sheet("grid", n);
+  const double heap_before = heap_bytes();
   CutSheet in_a_row(grid);
   const Sheet& sheet = in_a_row.sheet;
-  std::size_t failed = 0, wrong = 0, crossed = 0;
+  std::size_t failed = 0, judged = 0, wrong = 0, refused = 0, crossed = 0;
   MeshData late;  // the sheet before the last tenth of the cuts, which are then made on it again
   std::vector<Curve> late_cuts;
+  std::size_t late_sample = 0;  // of its costs the first in the last tenth
   const std::size_t last_tenth = cuts - (cuts + 9) / 10;
   double late_bytes = 0;
   for (std::size_t i = 0; i < cuts; ++i) {
@@ -107,17 +105,20 @@ bool cut_in_a_row(const MethodRow& row, int n, std::size_t cuts, const std::stri
       late_bytes = -heap_bytes();
       late = sheet.to_mesh_data();
       late_bytes += heap_bytes();
+      late_sample = in_a_row.cost.size();
     }
     const Curve curve = make_small_cut(seed, i, sheet);
     if (i >= last_tenth) late_cuts.push_back(curve);
-    const bool judged = i % 250 == 249;
-    const Sheet before = judged ? sheet : Sheet();
+    const bool judge = i % 250 == 249 || i + 1 == cuts;
+    const Sheet before = judge ? sheet : Sheet();
     const CutOutcome outcome = in_a_row.cut(curve, *method);
     if (outcome.status == Status::failed) {
       ++failed;
       std::cerr << row.name << ", cut " << i << ": " << outcome.verdict << ": " << outcome.reason << '\n';
       if (!folder.empty()) save(sheet, curve, std::filesystem::path(folder) / (row.name + std::to_string(i)));
-    } else if (judged && outcome.status != Status::refused && !is_sound(before, sheet, curve, row.promises)) {
+    } else if (outcome.status == Status::refused) {
+      ++refused;
+    } else if (judge && ++judged && !is_sound(before, sheet, curve, row.promises)) {
       ++wrong;
       std::cerr << row.name << ", cut " << i << ": wrong\n";
       if (!folder.empty()) save(before, curve, std::filesystem::path(folder) / (row.name + std::to_string(i)));
@@ -128,13 +129,14 @@ bool cut_in_a_row(const MethodRow& row, int n, std::size_t cuts, const std::stri
   CutSheet again(late);
   const auto same_method = make();
   for (const Curve& curve : late_cuts) failed += again.cut(curve, *same_method).status == Status::failed;
-  std::printf("%-20s %7zu %6zu %10zu %10zu", row.name.c_str(), failed, wrong, crossed, sheet.triangle_count());
+  std::printf("%-20s %7zu %7zu %6zu %6zu %8zu %9zu", row.name.c_str(), failed, refused, judged, wrong, crossed,
+              sheet.triangle_count());
   const std::vector<double>& made = in_a_row.made;
   const auto triangles = static_cast<double>(sheet.triangle_count());
   const double bytes_anew = (heap_bytes() - heap_after) / static_cast<double>(again.sheet.triangle_count());
-  const double first = first_cost(grid, cuts, *make()), last = last_of(in_a_row.cost);
-  std::printf(" %8.3f %8.3f %6.2f %8.3f %6.2f %6.2f %8.0f %8.0f\n", first, last, last / first, last_of(again.cost),
-              first_of(made), last_of(made), (heap_after - heap_before - late_bytes) / triangles, bytes_anew);
+  const double first = first_cost(grid, cuts, *make()), last = from(late_sample, in_a_row.cost);
+  std::printf(" %8.3f %8.3f %6.2f %8.3f %6.2f %6.2f %8.0f %8.0f\n", first, last, last / first, from(0, again.cost),
+              first_of(made), from(late_sample, made), (heap_after - heap_before - late_bytes) / triangles, bytes_anew);
   std::fflush(stdout);
   return failed == 0 && wrong == 0;
 }
@@ -158,17 +160,20 @@ int main(int argc, char** argv) {
     std::vector<MethodRow> rows;
     for (const std::string& name : methods) rows.push_back(find_method(name));
     if (rows.empty()) rows = all_methods();
-    std::printf("%zu cuts in a row on the grid of %d, chord tolerance %g h, seed %lu; every 250th judged\n", cuts,
-                2 * n * n, options.chord_tolerance, seed);
-    std::printf("%-20s %7s %6s %10s %10s %8s %8s %6s %8s %6s %6s %8s %8s\n", "method", "failed", "wrong", "crossed",
-                "triangles", "us first", "us last", "ratio", "us anew", "made", "last", "bytes", "B anew");
+    std::printf(
+        "%zu cuts in a row on the grid of %d, chord tolerance %g h, seed %lu; every 250th and the last judged\n", cuts,
+        2 * n * n, options.chord_tolerance, seed);
+    std::printf("%-20s %7s %7s %6s %6s %8s %9s %8s %8s %6s %8s %6s %6s %8s %8s\n", "method", "failed", "refused",
+                "judged", "wrong", "crossed", "triangles", "us first", "us last", "ratio", "us anew", "made", "last",
+                "bytes", "B anew");
     bool ok = true;
     for (const MethodRow& row : rows) ok &= cut_in_a_row(row, n, cuts, folder);
     std::printf(
-        "us: geometry per crossed triangle; made: triangles added per crossed triangle; both medians of the first and "
-        "last 50 cuts that cross 20 or more (nan: none); the first are timed right after the last, on a sheet of their "
-        "own\nbytes: heap per triangle in the end\nanew: the same, where the last tenth of the cuts is made once more "
-        "on a sheet begun anew with the mesh before them: what history costs\n");
+        "us: geometry per crossed triangle; made: triangles added per crossed triangle; both medians of cuts that "
+        "cross 20 "
+        "or more, the first 50 and those in the last tenth (nan: none); the first are timed right after the last, on a "
+        "sheet of their own\nbytes: heap per triangle in the end\nanew: the same, where the last tenth of the cuts is "
+        "made once more on a sheet begun anew with the mesh before them: what history costs\n");
     return ok ? 0 : 1;
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';

@@ -209,7 +209,7 @@ def provenance(run, cases, with_machine=False, with_crosses=True, per=("sheet", 
     state = {True: " with uncommitted changes", None: " (state of the tree unknown)"}.get(context.get("dirty"), "")
     scenes = ", ".join(sorted(set(everything["scene"])))
     text = [f"n = {n} cuts per point ({scenes}), {failed} of {count(everything)} failed"
-            + (f", {count(run.failed[refused])} refused" if refused.any() else "") + (" (×, number beside)." if failed and with_crosses else "."),
+            + (f", {count(run.failed[refused])} refused" if refused.any() else "") + (" (×, number beside)." if len(run.failed) and with_crosses else "."),
             f"Seed {context.get('seed', ', '.join(sorted(set(everything['seed']))))}, commit {commit}{state}."]
     if with_machine:
         text.append(f"{context.get('cpu', 'unknown CPU')}; {context.get('compiler', 'unknown compiler')} "

@@ -66,9 +66,10 @@ Step Walk::along(HalfEdge h, VertexIndex v, Point2 target) {
   const bool on_line = side(from, rest(v), target).sign == 0;
   if (is_at(v, target) || dot(target - rest(v), on_line ? rest(v) - from : target - origin_) > 0)
     return pass_vertex(along_edge(h), v, target);
-  for (const HalfEdge exit : {sheet_.opposite(h), h})
-    if (exit.valid() && way_to_better({exit}, target, !attracts(h)).valid())
-      return arrive_on(along_edge(h), exit, target);
+  for (const bool to_edge : {false, true})
+    for (const HalfEdge exit : {sheet_.opposite(h), h})
+      if (exit.valid() && !(to_edge && attracts(h)) && shortest_way({exit}, target, to_edge).valid())
+        return arrive_on(along_edge(h), exit, target);
   return reach(along_edge(h), place_on(h, target));
 }
 
@@ -207,15 +208,19 @@ Step Walk::from_vertex(VertexIndex v, Point2 target) {
   } while (h.valid() && h != first);
   // The line misses all triangles here: it leaves the sheet, or they are narrower than the snap distance. Then the rest
   // of it starts here, unless it leads exactly through a vertex nearly here where it meets an incision or the border.
-  h = first;
-  do {
-    const VertexIndex x = sheet_.target(h);
+  HalfEdge to_met;
+  VertexIndex met;
+  const auto look_at = [&](HalfEdge spoke, VertexIndex x) {
     bool separates = false;
     for_each_separating_end(sheet_, x, [&](VertexIndex) { separates = true; });
     if (separates && orientation(origin_, target, rest(x)) == 0 && dot(rest(x) - rest(v), target - origin_) > 0)
-      return along(h, x, target);
-    h = sheet_.turn_left(h);
-  } while (h.valid() && h != first);
+      to_met = spoke, met = x;
+  };
+  for_each_spoke(sheet_, v, [&](HalfEdge spoke) {
+    look_at(spoke, sheet_.target(spoke));
+    if (const HalfEdge into = Sheet::previous(spoke); sheet_.on_border(into)) look_at(into, sheet_.origin(into));
+  });
+  if (to_met.valid()) return along(to_met, met, target);
   const Point2 origin = std::exchange(origin_, rest(v));
   h = first;
   do {

@@ -95,6 +95,7 @@ HalfEdge Walk::shortest_way(std::initializer_list<HalfEdge> exits, Point2 p, boo
     const HalfEdge entry = sheet_.opposite(h);
     const auto is_there = [&](const Way& way) { return triangle_of(way.entry) == triangle_of(entry); };
     if (triangle_of(entry) == start || std::any_of(ways.begin(), ways.end(), is_there)) return;
+    if (ways.size() == most && !to_edge) return;  // so far away it isn't missed
     if (ways.size() == most) throw WalkLost();
     ways.push_back({exit, entry});
   };

@@ -62,19 +62,20 @@ int count_points_on_itself(const std::vector<Segment>& path, double tolerance) {
   return static_cast<int>(found.size());
 }
 
-/// How many ends of an open path lie where an older line ends, and within `tolerance` of another: the path may end at
-/// that one instead.
+/// How many ends of an open path are the tip of an older incision, and within `tolerance` of another line: the path may
+/// end at that one instead.
 int count_ends_between(const std::vector<Segment>& path, const std::vector<Segment>& older, const SegmentSearch& search,
                        double tolerance) {
   int count = 0;
   for (const Point& p : {path.front()[0], path.back()[1]}) {
-    bool at_end = false, beside = false;
+    int ends = 0;
+    bool beside = false;
     search.for_each_in({{p[0] - tolerance, p[1] - tolerance}, {p[0] + tolerance, p[1] + tolerance}}, [&](int i) {
       const Segment& s = older[static_cast<std::size_t>(i)];
       const bool ends_here = p == s[0] || p == s[1];
-      at_end |= ends_here, beside |= !ends_here && distance(p, s) <= tolerance;
+      ends += ends_here, beside |= !ends_here && distance(p, s) <= tolerance;
     });
-    count += at_end && beside;
+    count += ends == 1 && beside;
   }
   return count;
 }

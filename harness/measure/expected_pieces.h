@@ -14,7 +14,7 @@ struct ExpectedPieces {
   int least = 0;  ///< pieces thinner than `thin` left out too; and one less for each face, inside the sheet or outside,
                   ///< that is thinner than `touch`: the lines round it may not cross at all; and one
                   ///< less for each point of a path within `tip` of another piece of that path, and for each end of
-                  ///< a path at the end of an older line and within `touch` of another
+                  ///< a path at the tip of an older incision and within `touch` of another line
   int most = 0;   ///< open ends lengthened by `tip`, what passes within `touch` of the path joined
                   ///< to it, however thin the pieces; and one more for each segment of a path
                   ///< so small (8 `touch`) that it nearly touches itself everywhere

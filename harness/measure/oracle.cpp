@@ -314,7 +314,7 @@ class Judge {
   }
 
   /// The size of a curve that needn't be cut. The code under test flattens it more coarsely, by hundredths of its size,
-  /// and may find it smaller.
+  /// and may find it smaller. (Of a path hardly larger round an older incision's tip all lips may lie on that one.)
   double asks_for_nothing() const {
     const bool nothing_done = added_.empty() && after_.triangles.size() == request_.before.triangles.size();
     return (nothing_done ? 1.05 : 1) * 2 * input_.on;
