@@ -7,6 +7,8 @@
 #include <cstring>
 #include <iostream>
 #include <limits>
+#include <set>
+#include <sstream>
 
 #include "harness/cut/cut.h"
 #include "harness/cut/embed_plainly.h"
@@ -149,17 +151,16 @@ int main(int argc, char** argv) {
   for (int n : {20, 80}) {
     const std::string triangles = std::to_string(2 * n * n);
     for (const MethodRow& row : all_methods())
-      for (double knob : {0.0, row.knob.value}) {
-        if (knob == 0.0 && row.knob.name.empty() && row.knob.value != 0.0) continue;
-        const std::string name =
-            row.name +
-            (row.knob.name.empty() ? "" : "(" + row.knob.name + "=" + std::to_string(static_cast<int>(knob)) + ")");
+      for (const double knob : std::set{row.knob.name.empty() ? row.knob.value : 0.0, row.knob.value}) {
+        std::ostringstream name_with_knob;
+        name_with_knob << row.name;
+        if (!row.knob.name.empty()) name_with_knob << '(' << row.knob.name << '=' << knob << ')';
+        const std::string name = name_with_knob.str();
         for (bool cold : {false, true})
           benchmark::RegisterBenchmark(
               (name + "/" + triangles + (cold ? "/cold" : "/warm")).c_str(),
               [&row, knob, n, cold](benchmark::State& s) { time_method(s, row, knob, n, cold); })
               ->UseManualTime();
-        if (row.knob.name.empty()) break;
       }
     for (std::size_t part = 0; part < 4; ++part)
       benchmark::RegisterBenchmark(
