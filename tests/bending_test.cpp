@@ -17,6 +17,7 @@
 #include "harness/mesh/predicates.h"
 #include "harness/run/cases.h"
 #include "methods/registry.h"
+#include "tests/dense_solves.h"
 #include "tests/helpers.h"
 
 namespace cutbench {
@@ -230,7 +231,7 @@ TEST(Bending, NothingElseCostsNothing) {
   const auto check = [](const Sheet& sheet, const std::string& name) {
     SCOPED_TRACE(name);
     const Eigen::MatrixXd k = sparse(patches(sheet).matrix()).toDense();
-    const Field values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues();
+    const Field values = eigenvalues(k);
     const double largest = values.maxCoeff();
     EXPECT_GE(values.minCoeff(), -1e-12 * largest);
     const auto freed = static_cast<long>(sheet.deformed_slots() - sheet.deformed_count());
@@ -529,6 +530,8 @@ TEST(BendingUpdate, IsLikeNewAfterEveryKindOfCut) {
   for (const MethodRow& row : all_methods()) {
     ++turn;
     for (const BendingKind kind : {BendingKind::patches, BendingKind::hinges}) {
+      if (scaled(10) == 1 && (kind == BendingKind::hinges) == (turn % 2 == 0))
+        continue;  // under sanitizers, kinds, too
       const std::string family = sheet_families()[(turn + (kind == BendingKind::hinges)) % sheet_families().size()];
       Sheet sheet(make_sheet(family, 8));
       Bending bending(sheet, kind, rigidity, poisson);
