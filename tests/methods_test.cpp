@@ -79,6 +79,19 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod,
                            return name_of_variant(std::get<0>(parameters.param)) + "_" + std::get<1>(parameters.param);
                          });
 
+/// A path from border to border with corners inside triangles is rounded to edges: nothing is divided.
+TEST(EdgeRelease, LeavesCornersInsideTrianglesOut) {
+  for (const std::string family : sheet_families()) {
+    SCOPED_TRACE(family);
+    Table table(make_sheet(family, 10), find_method("edge_release"), 0);
+    const std::size_t triangles = table.sheet.triangle_count();
+    const Curve path{
+        Curve::Kind::polyline, false, {{-0.1, 0.31}, {0.237, 0.353}, {0.514, 0.468}, {0.787, 0.611}, {1.1, 0.63}}};
+    EXPECT_EQ(table.cut(path, infinite), "");
+    EXPECT_EQ(table.sheet.triangle_count(), triangles);
+  }
+}
+
 /// Four cuts whose exact curves make four pieces, but whose incisions, each within the tolerance of its curve, five.
 TEST(JudgeOneByOne, ALaterCutMeetsTheIncisionNotTheCurve) {
   const Sheet before(make_sheet("alternating", 20));

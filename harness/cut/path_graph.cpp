@@ -143,10 +143,12 @@ bool PathGraph::is_nearest(int node, VertexIndex vertex) const {
   return is_clear(at(node).place.edge, vertex, fraction_from(vertex, at(node).place));
 }
 
-/// A node inside t, other than these two, lies in a part of it.
-bool PathGraph::holds_node(TriangleIndex t, const std::array<Point2, 3>& part, int end1, int end2) const {
+/// A node inside t, other than these, lies in a part of it.
+bool PathGraph::holds_node(TriangleIndex t, const std::array<Point2, 3>& part, std::initializer_list<int> but) const {
   for (int n = trace_->face(trace_->find_face(t)).inside; n >= 0; n = trace_->node(n).next)
-    if (n != end1 && n != end2 && !at(n).gone && in_closed_triangle(part[0], part[1], part[2], point(n))) return true;
+    if (std::find(but.begin(), but.end(), n) == but.end() && !at(n).gone &&
+        in_closed_triangle(part[0], part[1], part[2], point(n)))
+      return true;
   return false;
 }
 
@@ -161,7 +163,7 @@ bool PathGraph::sweep_is_clear(int end, int i, int node, VertexIndex vertex) con
     const double distance = place.kind == Place::Kind::edge ? fraction_from(vertex, place) : 2;
     if (sheet_->separates(edge) || !is_clear(edge, vertex, distance)) return false;
   }
-  return !holds_node(t, {point(end), point(node), sheet_->rest(vertex)}, end, node);
+  return !holds_node(t, {point(end), point(node), sheet_->rest(vertex)}, {end, node});
 }
 
 bool PathGraph::find_run(int node, VertexIndex vertex, double reach, Run& run) const {
@@ -253,10 +255,11 @@ bool PathGraph::straighten(int node) {
   const int kept = n.link[0], dropped = n.link[1];
   const int before = other_end(kept, node), after = other_end(dropped, node);
   if (before == after || (at(before).degree > 2 && at(after).degree > 2)) return false;
+  if (at(before).degree == 1 && at(after).degree == 1) return false;  // a single edge between tips would not open
   const auto& [from, to] = at(before).degree <= 2 ? std::pair{before, after} : std::pair{after, before};
   for (const int known : at(from).link)
     if (known >= 0 && other_end(known, from) == to) return false;  // a loop closes
-  if (holds_node(t, {point(before), point(node), point(after)}, before, after)) return false;
+  if (holds_node(t, {point(before), point(node), point(after)}, {before, node, after})) return false;
   if (const HalfEdge edge = common_edge(*sheet_, t, at(before).place, at(after).place); edge.valid())
     if (sheet_->separates(edge) || !is_clear_between(edge, before, after)) return false;
 

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <initializer_list>
 #include <vector>
 
 #include "harness/cut/subdivision.h"
@@ -52,8 +53,8 @@ class PathGraph {
   /// Makes one node, at the vertex, of the run.
   void contract(const Run& run);
   /// Takes a node inside a triangle out of the path, which goes straight on from the node before to the one after; an
-  /// isotopy, too. False where the node is none of this kind, is a tip or a crossing of the path with itself, or
-  /// something lies between the old way and the new one.
+  /// isotopy, too. False where the node is none of this kind, is a tip or a crossing of the path with itself, or all
+  /// that lies between its tips, or something lies between the old way and the new one.
   bool straighten(int node);
 
   int size() const { return static_cast<int>(nodes_.size()); }  ///< nodes, those that are gone included
@@ -88,7 +89,7 @@ class PathGraph {
   bool is_nearest(int node, VertexIndex vertex) const;
   bool is_clear(HalfEdge edge, VertexIndex from, double up_to) const;
   bool is_clear_between(HalfEdge edge, int a, int b) const;
-  bool holds_node(TriangleIndex t, const std::array<Point2, 3>& part, int end1, int end2) const;
+  bool holds_node(TriangleIndex t, const std::array<Point2, 3>& part, std::initializer_list<int> but) const;
   bool sweep_is_clear(int end, int link, int node, VertexIndex vertex) const;
 
   const Sheet* sheet_ = nullptr;
