@@ -79,6 +79,23 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod,
                            return name_of_variant(std::get<0>(parameters.param)) + "_" + std::get<1>(parameters.param);
                          });
 
+/// What the ablation is made of, which is in no other list of methods.
+TEST(Ablation, EveryCombinationCutsWithoutFault) {
+  for (const MethodRow& row : ablation_methods()) {
+    const auto method = row.make(row.knob.value);
+    bool tied = false;
+    for (const std::string family : sheet_families())
+      for (const std::string cuts : {"curved", "several"}) {
+        SCOPED_TRACE(row.name + ", " + family + ", " + cuts);
+        Table table(make_sheet(family, 10), row, row.knob.value);
+        const Sheet before = table.sheet;
+        for (const Curve& curve : make_case(cuts, seed, 0, before)) EXPECT_EQ(table.cut(curve, 0.05), "");
+        tied |= !method->ties(before, table.sheet).empty();
+      }
+    EXPECT_EQ(tied, method->tying() != CuttingMethod::Tying::nothing) << row.name;
+  }
+}
+
 /// A path from border to border with corners inside triangles is rounded to edges: nothing is divided.
 TEST(EdgeRelease, LeavesCornersInsideTrianglesOut) {
   for (const std::string family : sheet_families()) {
