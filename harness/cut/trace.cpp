@@ -7,6 +7,15 @@
 
 namespace cutbench {
 
+namespace {
+
+/// Of two places on an incision, where different edges a rounding apart may be crossed in the same point.
+bool is_same_on_incision(const Place& a, const Place& b) {
+  return is_same(a, b) && (a.kind == Place::Kind::vertex ? a.vertex == b.vertex : a.edge == b.edge);
+}
+
+}  // namespace
+
 Subdivision& Tracer::trace(const Sheet& sheet, const Polyline& path, Walk& walk, double chord_tolerance,
                            bool may_begin_elsewhere) {
   sheet_ = &sheet, path_ = &path, chord_tolerance_ = chord_tolerance;
@@ -35,7 +44,7 @@ Subdivision& Tracer::trace(const Sheet& sheet, const Polyline& path, Walk& walk,
       arrived = step.arrived;
       if (begun) {
         take(step, i, arrived && i == last && !loop_);
-        if (i == last && i > n && is_same(step.place, start)) arrived = true;
+        if (i == last && i > n && is_same_on_incision(step.place, start)) arrived = true;
       } else if (begun = is_on_incision(step.place); begun) {
         // A loop that may follow an incision is traced from where it meets one first, once round to there.
         excursion_.clear();
