@@ -253,8 +253,14 @@ Step Walk::from_outside(Point2 target) {
   VertexIndex best_vertex;
   std::optional<Place> at_target;  // on the border, where the line comes no nearer to it on the way
   // Two pieces that touch in one point have a vertex each there: from one the line may lead straight into the other.
+  const auto touches_at = [&](VertexIndex v) {
+    if (at_.kind == Place::Kind::vertex) return v != at_.vertex && rest(v) == at_.point;
+    if (at_.kind != Place::Kind::edge || !within(rest(v), at_.point, 8 * snap_)) return false;
+    const VertexIndex a = sheet_.origin(at_.edge), b = sheet_.target(at_.edge);
+    return v != a && v != b && (rest(v) == rest(a) || rest(v) == rest(b));
+  };
   const auto goes_on_at = [&](VertexIndex v) {
-    if (at_.kind != Place::Kind::vertex || v == at_.vertex || rest(v) != at_.point) return false;
+    if (!touches_at(v)) return false;
     HalfEdge h = sheet_.first_spoke(v);
     for (; h.valid(); h = sheet_.turn_left(h))
       if (orientation(origin_, target, rest(sheet_.target(h))) <= 0 &&
