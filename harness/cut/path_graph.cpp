@@ -1,6 +1,7 @@
 #include "harness/cut/path_graph.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "harness/cut/patch.h"
 #include "harness/mesh/predicates.h"
@@ -139,8 +140,20 @@ bool PathGraph::is_clear_between(HalfEdge edge, int a, int b) const {
   return true;
 }
 
+/// No other node lies between the vertex and this one, nor the edge's other end or another node so near behind it that
+/// rounding decides which is nearer: two lines that nearly coincide may cross many times, and contracting one of them
+/// would make large bits of the hairs between.
 bool PathGraph::is_nearest(int node, VertexIndex vertex) const {
-  return is_clear(at(node).place.edge, vertex, fraction_from(vertex, at(node).place));
+  const HalfEdge edge = at(node).place.edge;
+  const double length =
+      std::sqrt(squared_length(sheet_->rest(sheet_->target(edge)) - sheet_->rest(sheet_->origin(edge))));
+  const double behind = fraction_from(vertex, at(node).place) + 16 * sheet_->snap() / length;
+  if (behind > 1) return false;
+  for (int n = trace_->first_on(first_half_edge(*sheet_, edge)); n >= 0; n = trace_->node(n).next)
+    if (n != node && !at(n).gone && at(n).place.kind == Place::Kind::edge &&
+        fraction_from(vertex, at(n).place) < behind)
+      return false;
+  return true;
 }
 
 /// A node inside t, other than these, lies in a part of it.

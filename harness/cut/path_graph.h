@@ -41,7 +41,8 @@ class PathGraph {
   /// What passes `vertex` together with `node`, a crossing of one of its spokes: its neighbours on the path as long as
   /// they are crossings of neighbouring spokes at most `reach` of the spoke away from the vertex. False where the node
   /// is gone, or the run can't be contracted:
-  /// - the path has a node at the vertex already, or another one between the vertex and a node of the run;
+  /// - the path has a node at the vertex already, or another one between the vertex and a node of the run, or that
+  ///   or the spoke's other end a few snap distances behind that;
   /// - it touches an edge there without crossing it, ends there in the open, crosses itself there, or goes round the
   ///   vertex to itself;
   /// - the vertex lies on the border or an older incision, and the run does not meet that exactly once;
