@@ -39,11 +39,13 @@ bool Warp::move_to_path(Sheet& sheet) {
 }
 
 void Warp::run(Sheet& sheet, Subdivision& trace) {
+  constexpr std::size_t most_nodes = 64;  // where a vertex has thousands of spokes, the cube of that would take hours
   tolerance_ = std::min(options_.tolerance * sheet.mean_edge(), trace.chord_tolerance);
   path_.read(sheet, trace);
   bool moved = false;
   for (const auto& crossing : path_.approaches(options_.reach)) {
-    if (!path_.find_run(crossing.node, crossing.vertex, 1, run_) || !path_.has_star_to_itself(run_)) continue;
+    if (!path_.find_run(crossing.node, crossing.vertex, 1, run_)) continue;
+    if (run_.nodes.size() > most_nodes || !path_.has_star_to_itself(run_)) continue;
     if (!move_to_path(sheet)) continue;
     path_.contract(run_);
     moved = true;
