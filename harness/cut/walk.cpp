@@ -248,6 +248,7 @@ Step Walk::from_vertex(VertexIndex v, Point2 target) {
 Step Walk::from_outside(Point2 target) {
   const Point2 line = target - origin_;
   const double length2 = dot(line, line), margin = snap_ / std::sqrt(length2);
+  const bool begins = at_.kind == Place::Kind::edge && outside_from_ == 0;
   double best = 2;
   HalfEdge best_edge;
   VertexIndex best_vertex;
@@ -285,7 +286,11 @@ Step Walk::from_outside(Point2 target) {
         try_vertex(u, left), try_vertex(v, right);
         if (left.sign <= 0 || right.sign >= 0) return;
         const Side from = side(rest(u), rest(v), origin_), to = side(rest(u), rest(v), target);
-        if (to.sign < 0 || from.sign >= 0) return;
+        if (to.sign < 0 || from.sign > 0) return;
+        if (from.sign == 0) {  // the line begins on several edges, and this is the one through which it goes in
+          if (to.sign > 0 && begins && at_.edge != h) best = 0, best_edge = h, best_vertex = {};
+          return;
+        }
         const double at = from.distance / (from.distance - to.distance);
         if (at > outside_from_ && at < best) best = at, best_edge = h, best_vertex = {};
       },
