@@ -135,5 +135,30 @@ TEST(ExpectedPieces, ThatAPathTurnsBackAtAnOlderTipIsUndecided) {
   EXPECT_EQ(p.most, 3);
 }
 
+TEST(ExpectedPieces, OnWhichSideAPathPassesAnOlderTipIsUndecided) {
+  const std::vector<Segment> square = chain({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}});
+  const auto least_at = [&](double x) {
+    const ExpectedPieces p =
+        expected_pieces(square, chain({{0, 0.5}, {0.5, 0.5}}), {chain({{x, -1}, {x, 2}})}, {1e-12, 1e-12, 1e-12});
+    EXPECT_EQ(p.expected, 3);
+    EXPECT_EQ(p.most, 3);
+    return p.least;
+  };
+  EXPECT_EQ(least_at(0.5 - 1e-14), 2);
+  EXPECT_EQ(least_at(0.5 - 1e-11), 3);
+}
+
+TEST(ExpectedPieces, WhetherTwoLinesThatNearlyCoincideCrossIsUndecided) {
+  const std::vector<Segment> square = chain({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}});
+  const auto most_at = [&](double apart) {
+    const ExpectedPieces p = expected_pieces(
+        square, {}, {chain({{-1, 0.5}, {2, 0.5}, {2, 0.5 + apart}, {-1, 0.5 + apart}})}, {1e-14, 1e-6, 1e-6});
+    EXPECT_EQ(p.expected, 3);
+    return p.most;
+  };
+  EXPECT_GT(most_at(1e-7), 3);
+  EXPECT_EQ(most_at(1e-5), 3);
+}
+
 }  // namespace
 }  // namespace cutbench::oracle

@@ -22,17 +22,19 @@ void add_extension(const Point& end, const Point& before, double length, std::ve
 
 /// From each end of a segment that lies within `tolerance` of another segment across that one, or to its end, where one
 /// of the two is of a path (those that have its number; others have -1): what nearly touches does. Segments of one of
-/// the `tiny` paths are left alone with each other.
-void add_near_touches(const std::vector<Segment>& segments, const std::vector<int>& path, const std::vector<char>& tiny,
-                      double tolerance, std::vector<Segment>& extensions) {
+/// the `tiny` paths are left alone with each other. Returns how often a path nearly touches another piece of itself.
+int add_near_touches(const std::vector<Segment>& segments, const std::vector<int>& path, const std::vector<char>& tiny,
+                     double tolerance, std::vector<Segment>& extensions) {
   const SegmentSearch search(segments);
   std::set<std::pair<Point, int>> done;
+  int count = 0;
   for (std::size_t i = 0; i < segments.size(); ++i)
     for (const Point& p : segments[i])
       search.for_each_in({{p[0] - tolerance, p[1] - tolerance}, {p[0] + tolerance, p[1] + tolerance}}, [&](int j) {
         const Segment& s = segments[j];
         if (p == s[0] || p == s[1] || (path[i] == path[j] && (path[i] < 0 || tiny[path[i]]))) return;
         if (distance(p, s) > tolerance || !done.insert({p, j}).second) return;
+        count += path[i] == path[j];
         const Point d = direction(s[0], s[1]);
         const auto is_beyond = [&](const Point& end, double way) {
           return way * ((p[0] - end[0]) * d[0] + (p[1] - end[1]) * d[1]) > 0;
@@ -46,6 +48,37 @@ void add_near_touches(const std::vector<Segment>& segments, const std::vector<in
             extensions.push_back({p, Point{p[0] - way * d[1], p[1] + way * d[0]}});
         }
       });
+  return count;
+}
+
+bool cross_each_other(const Segment& s, const Segment& t) {
+  const auto side = [](const Segment& line, const Point& p) {
+    return cross(minus(line[1], line[0]), minus(p, line[0]));
+  };
+  return side(s, t[0]) * side(s, t[1]) < 0 && side(t, s[0]) * side(t, s[1]) < 0;
+}
+
+/// How many tips of older incisions lie within `tolerance` of the path, which may go round them instead of across: no
+/// more of them than it crosses incisions.
+int count_tips_passed(const std::vector<Segment>& path, const std::vector<Segment>& incisions,
+                      const SegmentSearch& older, double tolerance) {
+  const SegmentSearch search(path);
+  int tips = 0, crossings = 0;
+  for (const Segment& incision : incisions) {
+    search.for_each_in({{std::min(incision[0][0], incision[1][0]), std::min(incision[0][1], incision[1][1])},
+                        {std::max(incision[0][0], incision[1][0]), std::max(incision[0][1], incision[1][1])}},
+                       [&](int i) { crossings += cross_each_other(path[static_cast<std::size_t>(i)], incision); });
+    for (const Point& p : incision) {
+      if (search.distance(p) > tolerance) continue;
+      int ends = 0;
+      older.for_each_in({p, p}, [&](int i) {
+        const Segment& s = older.segments()[static_cast<std::size_t>(i)];
+        ends += p == s[0] || p == s[1];
+      });
+      tips += ends == 1;
+    }
+  }
+  return std::min(tips, crossings);
 }
 
 /// How many of the path's points lie on another piece of it, or within `tolerance`, which is none of their own: they
@@ -157,10 +190,11 @@ ExpectedPieces expected_pieces(const std::vector<Segment>& border, const std::ve
     if (!path.empty()) may_fall_short += count_points_on_itself(path, tolerances.tip);
     if (path.empty() || path.front()[0] == path.back()[1] || tolerances.tip == 0) continue;
     may_fall_short += count_ends_between(path, older, search, tolerances.touch);
+    may_fall_short += count_tips_passed(path, incisions, search, tolerances.touch);
     add_extension(path.front()[0], path.front()[1], tolerances.tip, extensions);
     add_extension(path.back()[1], path.back()[0], tolerances.tip, extensions);
   }
-  if (tolerances.touch > 0) add_near_touches(segments, path_of, tiny, tolerances.touch, extensions);
+  if (tolerances.touch > 0) result.most += add_near_touches(segments, path_of, tiny, tolerances.touch, extensions);
   const std::size_t first_extension = segments.size();
   segments.insert(segments.end(), extensions.begin(), extensions.end());
 

@@ -13,11 +13,13 @@ struct ExpectedPieces {
   int expected = 0;  ///< open ends as they are, pieces thinner than `tip` left out
   int least = 0;  ///< pieces thinner than `thin` left out too; and one less for each face, inside the sheet or outside,
                   ///< that is thinner than `touch`: the lines round it may not cross at all; and one
-                  ///< less for each point of a path within `tip` of another piece of that path, and for each end of
-                  ///< a path at the tip of an older incision and within `touch` of another line
+                  ///< less for each point of a path within `tip` of another piece of that path, for each end of a path
+                  ///< at the tip of an older incision and within `touch` of another line, and for each such tip
+                  ///< within `touch` of the path
   int most = 0;   ///< open ends lengthened by `tip`, what passes within `touch` of the path joined
-                  ///< to it, however thin the pieces; and one more for each segment of a path
-                  ///< so small (8 `touch`) that it nearly touches itself everywhere
+                  ///< to it, however thin the pieces; one more for each such touch of two pieces of a path, which may
+                  ///< cross behind it; and for each segment of a path so small (8 `touch`) that it nearly
+                  ///< touches itself everywhere
 };
 
 /// Rest units.
