@@ -235,18 +235,17 @@ bool Sheet::move(VertexIndex v, Point2 to) {
   } while (h.valid() && h != first);
   // Each fan's deformed vertex follows the fan's own old map: interpolated in the triangle that holds the new place, or
   // comes nearest to holding it.
-  struct Carried {
-    EditLog::Ancestry from;
-    double depth;  // smallest barycentric coordinate: positive inside
-  };
-  std::vector<Carried> carried;
+  auto& carried = work_.carried;
+  carried.clear();
+  h = first;
   do {
-    const Triangle& t = triangle(triangle_of(h = h.valid() ? h : first));
+    const Triangle& t = triangle(triangle_of(h));
     touch(triangle_of(h));
     const DeformedIndex d = t.deformed[corner(h)];
     const auto w = barycentric(corners(triangle_of(h)), to);
     const double depth = std::min({w[0], w[1], w[2]});
-    auto known = std::find_if(carried.begin(), carried.end(), [&](const Carried& c) { return c.from.vertex == d; });
+    auto known =
+        std::find_if(carried.begin(), carried.end(), [&](const Work::Carried& c) { return c.from.vertex == d; });
     if (known == carried.end())
       carried.push_back({{d, t.deformed, w}, depth});
     else if (depth > known->depth)

@@ -195,6 +195,12 @@ class Sheet {
     std::vector<HalfEdge> unassigned;  ///< corners (as spokes) whose deformed vertex is still to be found
     std::vector<TriangleIndex> star;   ///< of a vertex that is collapsed
     std::vector<NewTriangle> rest_of_star;
+    /// What becomes of a deformed vertex when its rest vertex moves.
+    struct Carried {
+      EditLog::Ancestry from;
+      double depth;  ///< smallest barycentric coordinate in the triangle taken: positive inside
+    };
+    std::vector<Carried> carried;
     EdgeTable edges;
     std::uint32_t epoch = 0;
     std::vector<std::uint32_t> touched_in;  ///< per slot: the epoch of the cut that touched it last
