@@ -253,12 +253,12 @@ Step Walk::from_outside(Point2 target) {
   HalfEdge best_edge;
   VertexIndex best_vertex;
   std::optional<Place> at_target;  // on the border, where the line comes no nearer to it on the way
-  // Two pieces that touch in one point have a vertex each there: from one the line may lead straight into the other.
+  // Two pieces that touch in one point have a vertex each there: from one the line may lead straight into the other; so
+  // it may from one side of a notch into the other.
   const auto touches_at = [&](VertexIndex v) {
     if (at_.kind == Place::Kind::vertex) return v != at_.vertex && rest(v) == at_.point;
     if (at_.kind != Place::Kind::edge || !within(rest(v), at_.point, 8 * snap_)) return false;
-    const VertexIndex a = sheet_.origin(at_.edge), b = sheet_.target(at_.edge);
-    return v != a && v != b && (rest(v) == rest(a) || rest(v) == rest(b));
+    return rest(v) == rest(sheet_.origin(at_.edge)) || rest(v) == rest(sheet_.target(at_.edge));
   };
   const auto goes_on_at = [&](VertexIndex v) {
     if (!touches_at(v)) return false;
