@@ -147,13 +147,23 @@ bool PathGraph::is_nearest(int node, VertexIndex vertex) const {
   const HalfEdge edge = at(node).place.edge;
   const double length =
       std::sqrt(squared_length(sheet_->rest(sheet_->target(edge)) - sheet_->rest(sheet_->origin(edge))));
-  const double behind = fraction_from(vertex, at(node).place) + 16 * sheet_->snap() / length;
+  const double behind = fraction_from(vertex, at(node).place) + hair() / length;
   if (behind > 1) return false;
   for (int n = trace_->first_on(first_half_edge(*sheet_, edge)); n >= 0; n = trace_->node(n).next)
     if (n != node && !at(n).gone && at(n).place.kind == Place::Kind::edge &&
         fraction_from(vertex, at(n).place) < behind)
       return false;
   return true;
+}
+
+/// A triangle at the edge is lower than a few snap distances: a path along the edge could enclose nothing but that.
+bool PathGraph::is_beside_hair(HalfEdge edge) const {
+  const Point2 from = sheet_->rest(sheet_->origin(edge)), along = sheet_->rest(sheet_->target(edge)) - from;
+  for (const HalfEdge h : {edge, sheet_->opposite(edge)})
+    if (h.valid() && std::abs(cross(along, sheet_->rest(sheet_->origin(Sheet::previous(h))) - from)) <=
+                         hair() * std::sqrt(squared_length(along)))
+      return true;
+  return false;
 }
 
 /// A node inside t, other than these, lies in a part of it.
@@ -274,7 +284,7 @@ bool PathGraph::straighten(int node) {
     if (known >= 0 && other_end(known, from) == to) return false;  // a loop closes
   if (holds_node(t, {point(before), point(node), point(after)}, {before, node, after})) return false;
   if (const HalfEdge edge = common_edge(*sheet_, t, at(before).place, at(after).place); edge.valid())
-    if (sheet_->separates(edge) || !is_clear_between(edge, before, after)) return false;
+    if (sheet_->separates(edge) || !is_clear_between(edge, before, after) || is_beside_hair(edge)) return false;
 
   Link& link = links_[static_cast<std::size_t>(kept)];
   (link.from == node ? link.from : link.to) = after;

@@ -55,7 +55,7 @@ class PathGraph {
   void contract(const Run& run);
   /// Takes a node inside a triangle out of the path, which goes straight on from the node before to the one after; an
   /// isotopy, too. False where the node is none of this kind, is a tip or a crossing of the path with itself, or all
-  /// that lies between its tips, or something lies between the old way and the new one.
+  /// that lies between its tips, or something lies between the old way and the new one, or that runs beside a sliver.
   bool straighten(int node);
 
   int size() const { return static_cast<int>(nodes_.size()); }  ///< nodes, those that are gone included
@@ -90,6 +90,8 @@ class PathGraph {
   bool is_nearest(int node, VertexIndex vertex) const;
   bool is_clear(HalfEdge edge, VertexIndex from, double up_to) const;
   bool is_clear_between(HalfEdge edge, int a, int b) const;
+  bool is_beside_hair(HalfEdge edge) const;
+  double hair() const { return 16 * sheet_->snap(); }  ///< two lines nearer than this may cross by rounding
   bool holds_node(TriangleIndex t, const std::array<Point2, 3>& part, std::initializer_list<int> but) const;
   bool sweep_is_clear(int end, int link, int node, VertexIndex vertex) const;
 
