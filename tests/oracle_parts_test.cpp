@@ -148,6 +148,20 @@ TEST(ExpectedPieces, OnWhichSideAPathPassesAnOlderTipIsUndecided) {
   EXPECT_EQ(least_at(0.5 - 1e-11), 3);
 }
 
+TEST(ExpectedPieces, WhetherACurveTouchesALineIsUndecided) {
+  const std::vector<Segment> square = chain({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}});
+  const auto least_at = [&](double top) {
+    const ExpectedPieces p =
+        expected_pieces(square, chain({{0, 0.5}, {1, 0.5}}),
+                        {chain({{0, 0}, {0.2, 0.2}, {0.5, top}, {0.8, 0.2}, {1, 0}})}, {1e-14, 1e-6, 1e-6});
+    EXPECT_EQ(p.expected, top < 0.5 ? 3 : top > 0.5 ? 5 : 4);
+    return p.least;
+  };
+  EXPECT_EQ(least_at(0.5 - 1e-5), 3);
+  EXPECT_EQ(least_at(0.5), 3);
+  EXPECT_EQ(least_at(0.6), 5);
+}
+
 TEST(ExpectedPieces, WhetherTwoLinesThatNearlyCoincideCrossIsUndecided) {
   const std::vector<Segment> square = chain({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}});
   const auto most_at = [&](double apart) {

@@ -51,10 +51,10 @@ int add_near_touches(const std::vector<Segment>& segments, const std::vector<int
   return count;
 }
 
+/// Positive to the left of the line.
+double side(const Segment& line, const Point& p) { return cross(minus(line[1], line[0]), minus(p, line[0])); }
+
 bool cross_each_other(const Segment& s, const Segment& t) {
-  const auto side = [](const Segment& line, const Point& p) {
-    return cross(minus(line[1], line[0]), minus(p, line[0]));
-  };
   return side(s, t[0]) * side(s, t[1]) < 0 && side(t, s[0]) * side(t, s[1]) < 0;
 }
 
@@ -79,6 +79,35 @@ int count_tips_passed(const std::vector<Segment>& path, const std::vector<Segmen
     }
   }
   return std::min(tips, crossings);
+}
+
+/// How often the path comes within `tolerance` of an older line and goes back to the side it came from: it may as well
+/// not touch it.
+int count_grazes(const std::vector<Segment>& path, const std::vector<Segment>& older, const SegmentSearch& search,
+                 double tolerance) {
+  const auto nearest_to = [&](const Point& p) {
+    int nearest = -1;
+    double least = tolerance;
+    search.for_each_in({{p[0] - tolerance, p[1] - tolerance}, {p[0] + tolerance, p[1] + tolerance}}, [&](int i) {
+      if (const double d = distance(p, older[static_cast<std::size_t>(i)]); d <= least) nearest = i, least = d;
+    });
+    return nearest;
+  };
+  int count = 0, line = nearest_to(path.front()[0]);
+  const Point* before = line < 0 ? &path.front()[0] : nullptr;  // the last point away from all lines
+  for (const Segment& s : path) {
+    const Point& p = s[1];
+    if (const int now = nearest_to(p); now >= 0) {
+      line = now;
+      continue;
+    }
+    if (line >= 0 && before) {
+      const Segment& met = older[static_cast<std::size_t>(line)];
+      count += side(met, *before) * side(met, p) > 0;
+    }
+    before = &p, line = -1;
+  }
+  return count;
 }
 
 /// How many of the path's points lie on another piece of it, or within `tolerance`, which is none of their own: they
@@ -191,6 +220,7 @@ ExpectedPieces expected_pieces(const std::vector<Segment>& border, const std::ve
     if (path.empty() || path.front()[0] == path.back()[1] || tolerances.tip == 0) continue;
     may_fall_short += count_ends_between(path, older, search, tolerances.touch);
     may_fall_short += count_tips_passed(path, incisions, search, tolerances.touch);
+    if (tolerances.touch > tolerances.tip) may_fall_short += count_grazes(path, older, search, tolerances.touch);
     add_extension(path.front()[0], path.front()[1], tolerances.tip, extensions);
     add_extension(path.back()[1], path.back()[0], tolerances.tip, extensions);
   }

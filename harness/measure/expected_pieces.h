@@ -14,8 +14,9 @@ struct ExpectedPieces {
   int least = 0;  ///< pieces thinner than `thin` left out too; and one less for each face, inside the sheet or outside,
                   ///< that is thinner than `touch`: the lines round it may not cross at all; and one
                   ///< less for each point of a path within `tip` of another piece of that path, for each end of a path
-                  ///< at the tip of an older incision and within `touch` of another line, and for each such tip
-                  ///< within `touch` of the path
+                  ///< at the tip of an older incision and within `touch` of another line, for each such tip within
+                  ///< `touch` of the path, and, where `touch` exceeds `tip`, for each time that a path comes that near
+                  ///< to an older line and turns back
   int most = 0;   ///< open ends lengthened by `tip`, what passes within `touch` of the path joined
                   ///< to it, however thin the pieces; one more for each such touch of two pieces of a path, which may
                   ///< cross behind it; and for each segment of a path so small (8 `touch`) that it nearly
