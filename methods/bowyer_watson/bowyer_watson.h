@@ -6,7 +6,8 @@
 // is always contained; with kept points or several passages a path segment can be missing and is recovered by flips.
 // improve: `rounds` times, each triangle the cut made or changed whose aspect ratio exceeds 3 gets its two longest
 // edges split at their midpoints and is triangulated anew by Bowyer-Watson inside itself; its neighbours across those
-// edges are bisected at the same points. Edges shorter than twice `min_edge` are left alone.
+// edges are bisected at the same points. Edges shorter than twice `min_edge` are left alone, and beyond `most_vertices`
+// it stops where it is.
 //
 // Source: Xin et al. 2018, 4.1.2 and 4.1.3; Bowyer 1981; Watson 1981.
 // Promises: the exact path, area, conforming, no vertex moved.
@@ -25,7 +26,7 @@ namespace cutbench {
 class BowyerWatson : public CuttingMethod {
  public:
   struct Options {
-    int rounds = 0;                       ///< of the local split
+    int rounds = 0;                       ///< of the local split; the registry's knob, there 1 by default
     double max_aspect = 3;                ///< a triangle beyond it is ill-shaped
     double min_edge = 1e-6;               ///< no edge is made shorter than this, in mean rest edges
     std::size_t most_vertices = 200'000;  ///< made by one cut; then the local split stops where it is

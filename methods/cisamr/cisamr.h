@@ -2,9 +2,10 @@
 // pass.
 //
 // How it works: for sheets whose triangles are, half of them at least, halves of equal squares along the axes; others
-// are refused. Each crossing at up to half its edge from an end moves that end to it, nearest first, along the edge
-// (harness/cut/warp.h, with no bound on shapes but that triangles stay positive); the triangles that are crossed after
-// that are divided, and every quadrilateral that the relocation left ill-shaped gets its better diagonal.
+// are refused. Where a crossing lies at up to half its edge from an end, that end moves to the nearest crossing of any
+// of its edges, nearest first (harness/cut/warp.h: where the path stays within the tolerance, nothing else of it meets
+// the vertex's triangles, and no aspect ratio exceeds a million); the triangles that are crossed after that are
+// divided, and where the relocation left a quadrilateral ill-shaped it gets its better diagonal, until none changes.
 //
 // Source: Soghrati, Xiao and Nagarajan, A conforming to interface structured adaptive mesh refinement technique for
 // modeling fracture problems, Computational Mechanics 59, 2017: "non-iterative", with aspect ratios below 3, also where

@@ -12,7 +12,7 @@
 // Fails: costs the sheet and not the cut, and everything that belonged to vertices and triangles is lost: the state is
 // interpolated everywhere, anew with each cut. Crossings near each other on the path stay as near, with small triangles
 // round them. A graded sheet loses its grading. Where doubles are too coarse for the mesh generator, two vertices lie
-// at one place, or it doesn't come to an end within four new vertices a triangle, the plain split stays.
+// at one place, or it doesn't come to an end within four new vertices a triangle and a thousand, the plain split stays.
 #pragma once
 
 #include "harness/cut/cutting_method.h"

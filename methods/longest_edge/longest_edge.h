@@ -5,16 +5,17 @@
 // longest-edge propagation path is followed, from neighbour to neighbour across ever longer edges, to an edge that is
 // the longest of both its triangles or lies on the border. Its midpoint becomes a vertex, edges round that are flipped
 // to Delaunay, never across border, incisions or path, and so on, first come first served, until no triangle is
-// ill-shaped or the split has made `cap` vertices per vertex of the path. Edges shorter than twice
-// `min_edge` stay, and so does what lies in a forced wedge (harness/cut/forced_wedges.h).
+// ill-shaped or the split has made `cap` vertices per vertex of the path. Edges shorter than twice `min_edge` stay, and
+// so does what lies in a forced wedge (harness/cut/forced_wedges.h).
 //
 // Source: Rivara, New longest-edge algorithms for the refinement and/or improvement of unstructured triangulations,
 // 1997 (LEPP-Delaunay); Xin et al. 2018, 4.1.3 for the place it takes. Flips: harness/mesh/local_delaunay.h.
 // Promises: the exact path, area, conforming, no vertex moved.
 // Fails: no bound on the aspect ratio is proved for the midpoint variant, and 3 is beyond it in most cuts: it goes on
 // halving edges beside a constrained edge that a new midpoint encroaches upon. Hence the strict cap, at which it stops
-// and leaves what is left as it is. A vertex close to the path costs it dozens of vertices, and the small feature
-// itself stays. Flips across old edges change the deformed surface where the sheet is bent.
+// and leaves what is left as it is, in most cuts, so that stopping is not reported as anything special. A vertex close
+// to the path costs it dozens of vertices, and the small feature itself stays. Flips across old edges change the
+// deformed surface where the sheet is bent.
 #pragma once
 
 #include "harness/cut/cutting_method.h"

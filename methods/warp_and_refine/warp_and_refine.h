@@ -6,12 +6,12 @@
 // (harness/cut/reshape.h), wherever the path has no forced wedge: thinning takes edges at the path shorter than 0.35
 // mean rest edges out, where one end is a vertex of the path that it can do without, or one of the sheet beside it;
 // then flips that make the worse of two triangles better, and moves of the corners of ill-shaped ones: those of the
-// path slide along the curve as it was traced, never farther from it between two of them than the chord tolerance, or
-// 0.05 mean rest edges, whichever is smaller; then, of what is left, edges are divided, and at last it is refined
-// (harness/cut/delaunay_refinement.h). At a corner with an older incision, the border or itself the first edge of the
-// path is turned, within the tolerance, where it leaves less room for a good triangle than the curve. Every single step
-// is decided by exact predicates and leaves the path embedded, so that what can't be mended is left as the plain split
-// made it.
+// path slide along the curve as it was traced, never farther from that between two of them than the chord tolerance, or
+// 0.05 mean rest edges, whichever is smaller (so from the curve itself by up to twice that); then, of what is left,
+// edges are divided, and at last it is refined (harness/cut/delaunay_refinement.h). At a corner with an older incision,
+// the border or itself the first edge of the path is turned, within the tolerance, where it leaves less room for a good
+// triangle than the curve. Every single step is decided by exact predicates and leaves the path embedded, so that what
+// can't be mended is left as the plain split made it.
 //
 // Never moved: held vertices (Sheet::hold: pinned or loaded ones), corners, those on older incisions; one on the border
 // only along a straight part of it. A tip is a vertex where it was asked for, however near to the border: the ligament
@@ -25,9 +25,10 @@
 // the tolerance of theirs. Neither the exact path (its vertices lie on it, but for those beside sharp corners, and
 // there are fewer) nor that vertices stay. Fails: an aspect ratio below 3 is not guaranteed, only sought, within a
 // budget; near forced wedges, between cuts that almost meet and where the tolerance is large for the curve it may be
-// missed. It costs three times a plain split, seven times at a chord tolerance of 0.01 mean rest edges. Flips and moves
-// change the deformed surface where the sheet is bent, and its bending energy, though by less than the slivers of a
-// plain split.
+// missed; and where an incision meets another, or the border at a small angle, slivers stay, with eigenvalues in the
+// thousands. It costs three times a plain split, seven times at a chord tolerance of 0.01 mean rest edges. Flips and
+// moves change the deformed surface where the sheet is bent, and its bending energy, though by less than the slivers of
+// a plain split.
 #pragma once
 
 #include "harness/cut/cutting_method.h"
