@@ -118,10 +118,11 @@ bool PathGraph::extend(int node, int i, VertexIndex vertex, double reach, int& n
          fraction_from(vertex, place) <= reach;
 }
 
-/// No node lies on the edge less than `up_to` of it away from its end `from`.
-bool PathGraph::is_clear(HalfEdge edge, VertexIndex from, double up_to) const {
+/// No node but `except` lies on the edge less than `up_to` of it away from its end `from`.
+bool PathGraph::is_clear(HalfEdge edge, VertexIndex from, double up_to, int except) const {
   for (int n = trace_->first_on(first_half_edge(*sheet_, edge)); n >= 0; n = trace_->node(n).next)
-    if (!at(n).gone && at(n).place.kind == Place::Kind::edge && fraction_from(from, at(n).place) < up_to) return false;
+    if (n != except && !at(n).gone && at(n).place.kind == Place::Kind::edge && fraction_from(from, at(n).place) < up_to)
+      return false;
   return true;
 }
 
@@ -148,12 +149,7 @@ bool PathGraph::is_nearest(int node, VertexIndex vertex) const {
   const double length =
       std::sqrt(squared_length(sheet_->rest(sheet_->target(edge)) - sheet_->rest(sheet_->origin(edge))));
   const double behind = fraction_from(vertex, at(node).place) + hair() / length;
-  if (behind > 1) return false;
-  for (int n = trace_->first_on(first_half_edge(*sheet_, edge)); n >= 0; n = trace_->node(n).next)
-    if (n != node && !at(n).gone && at(n).place.kind == Place::Kind::edge &&
-        fraction_from(vertex, at(n).place) < behind)
-      return false;
-  return true;
+  return behind <= 1 && is_clear(edge, vertex, behind, node);
 }
 
 /// A triangle at the edge is lower than a few snap distances: a path along the edge could enclose nothing but that.
@@ -184,7 +180,7 @@ bool PathGraph::sweep_is_clear(int end, int i, int node, VertexIndex vertex) con
     return true;  // on along the node's own edge
   if (const HalfEdge edge = common_edge(*sheet_, t, place, place_at(*sheet_, vertex)); edge.valid()) {
     const double distance = place.kind == Place::Kind::edge ? fraction_from(vertex, place) : 2;
-    if (sheet_->separates(edge) || !is_clear(edge, vertex, distance)) return false;
+    if (sheet_->separates(edge) || !is_clear(edge, vertex, distance) || is_beside_hair(edge)) return false;
   }
   return !holds_node(t, {point(end), point(node), sheet_->rest(vertex)}, {end, node});
 }

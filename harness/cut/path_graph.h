@@ -41,8 +41,8 @@ class PathGraph {
   /// What passes `vertex` together with `node`, a crossing of one of its spokes: its neighbours on the path as long as
   /// they are crossings of neighbouring spokes at most `reach` of the spoke away from the vertex. False where the node
   /// is gone, or the run can't be contracted:
-  /// - the path has a node at the vertex already, or another one between the vertex and a node of the run, or that
-  ///   or the spoke's other end a few snap distances behind that;
+  /// - the path has a node at the vertex already, or on a spoke of the run between the vertex and a few snap distances
+  ///   behind the run's node; or the spoke ends within these;
   /// - it touches an edge there without crossing it, ends there in the open, crosses itself there, or goes round the
   ///   vertex to itself;
   /// - the vertex lies on the border or an older incision, and the run does not meet that exactly once;
@@ -55,7 +55,8 @@ class PathGraph {
   void contract(const Run& run);
   /// Takes a node inside a triangle out of the path, which goes straight on from the node before to the one after; an
   /// isotopy, too. False where the node is none of this kind, is a tip or a crossing of the path with itself, or all
-  /// that lies between its tips, or something lies between the old way and the new one, or that runs beside a sliver.
+  /// that lies between its tips, or something lies between the old way and the new one, or the new way runs along an
+  /// edge of a sliver.
   bool straighten(int node);
 
   int size() const { return static_cast<int>(nodes_.size()); }  ///< nodes, those that are gone included
@@ -88,7 +89,7 @@ class PathGraph {
   bool may_move(int node) const;
   bool extend(int node, int link, VertexIndex vertex, double reach, int& next) const;
   bool is_nearest(int node, VertexIndex vertex) const;
-  bool is_clear(HalfEdge edge, VertexIndex from, double up_to) const;
+  bool is_clear(HalfEdge edge, VertexIndex from, double up_to, int except = -1) const;
   bool is_clear_between(HalfEdge edge, int a, int b) const;
   bool is_beside_hair(HalfEdge edge) const;
   double hair() const { return 16 * sheet_->snap(); }  ///< two lines nearer than this may cross by rounding

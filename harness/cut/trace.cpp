@@ -7,15 +7,6 @@
 
 namespace cutbench {
 
-namespace {
-
-/// Of two places on an incision, where different edges a rounding apart may be crossed in the same point.
-bool is_same_on_incision(const Place& a, const Place& b) {
-  return is_same(a, b) && (a.kind == Place::Kind::vertex ? a.vertex == b.vertex : a.edge == b.edge);
-}
-
-}  // namespace
-
 Subdivision& Tracer::trace(const Sheet& sheet, const Polyline& path, Walk& walk, double chord_tolerance,
                            bool may_begin_elsewhere) {
   sheet_ = &sheet, path_ = &path, chord_tolerance_ = chord_tolerance;
@@ -44,7 +35,9 @@ Subdivision& Tracer::trace(const Sheet& sheet, const Polyline& path, Walk& walk,
       arrived = step.arrived;
       if (begun) {
         take(step, i, arrived && i == last && !loop_);
-        if (i == last && i > n && is_same_on_incision(step.place, start)) arrived = true;
+        // Of several edges a rounding apart only the one it started on will do.
+        if (i == last && i > n && step.place.point == start.point && are_together(sheet, step.place, start))
+          arrived = true;
       } else if (begun = is_on_incision(step.place); begun) {
         // A loop that may follow an incision is traced from where it meets one first, once round to there.
         excursion_.clear();
@@ -62,7 +55,7 @@ Subdivision& Tracer::trace(const Sheet& sheet, const Polyline& path, Walk& walk,
   // Back at the first point, from another side, the walk may find it on another of several vertices or edges as near:
   // the path closes only where it begins there, too.
   const bool comes_back = path.closed ? last == n : within(path.points.front(), path.points.back(), sheet.snap());
-  if (comes_back && may_begin_elsewhere && !is_same(walk.place(), begin))
+  if (comes_back && may_begin_elsewhere && !are_together(sheet, walk.place(), begin))
     return trace(sheet, path, walk, chord_tolerance, false);
   if (loop_) close_loop();
   for (int f = 0; f < static_cast<int>(trace_.faces.size()); ++f)

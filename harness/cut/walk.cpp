@@ -17,6 +17,13 @@ constexpr Passage outside{Passage::Kind::outside, {}, {}};
 
 }  // namespace
 
+bool are_together(const Sheet& sheet, const Place& a, const Place& b) {
+  if (a.kind != b.kind) return false;
+  if (a.kind == Place::Kind::vertex) return a.vertex == b.vertex;
+  if (a.kind == Place::Kind::edge) return a.edge == b.edge || a.edge == sheet.opposite(b.edge);
+  return a.point == b.point;
+}
+
 Point2 divide(Point2 a, Point2 b, double from_a, double from_b, double& lambda) {
   lambda = from_a / (from_a + from_b);
   if (from_a == from_b) return 0.5 * a + 0.5 * b;
@@ -271,7 +278,8 @@ Step Walk::from_outside(Point2 target) {
   };
   auto try_vertex = [&](VertexIndex v, const Side& s) {
     const double at = dot(rest(v) - origin_, line) / length2;
-    if (s.sign == 0 && at <= 1 + margin && at < best && (at > outside_from_ + margin || goes_on_at(v)))
+    if (s.sign == 0 && at <= 1 + margin && at < best &&
+        (at > outside_from_ + margin || (at >= outside_from_ - 2 * margin && goes_on_at(v))))
       best = at, best_edge = {}, best_vertex = v;
   };
   locator_.visit_border(
@@ -286,13 +294,11 @@ Step Walk::from_outside(Point2 target) {
         try_vertex(u, left), try_vertex(v, right);
         if (left.sign <= 0 || right.sign >= 0) return;
         const Side from = side(rest(u), rest(v), origin_), to = side(rest(u), rest(v), target);
-        if (to.sign < 0 || from.sign > 0) return;
-        if (from.sign == 0) {  // the line begins on several edges, and this is the one through which it goes in
-          if (to.sign > 0 && begins && at_.edge != h) best = 0, best_edge = h, best_vertex = {};
-          return;
-        }
+        // Where a line begins on several edges, as in a notch, it may leave through one and come in through the other.
+        const bool comes_in = from.sign == 0 && begins && at_.edge != h && from.distance <= 0 && to.sign > 0;
+        if (to.sign < 0 || (from.sign >= 0 && !comes_in)) return;
         const double at = from.distance / (from.distance - to.distance);
-        if (at > outside_from_ && at < best) best = at, best_edge = h, best_vertex = {};
+        if ((comes_in || at > outside_from_) && at < best) best = at, best_edge = h, best_vertex = {};
       },
       [&](double covered) { return best < covered; });
   if (best_vertex.valid()) return pass_vertex(outside, best_vertex, target);
@@ -317,18 +323,12 @@ Step Walk::from_outside(Point2 target) {
 Step Walk::advance(Point2 target, const Place* before) {
   before_ = before;
   Step step = joining_.valid() ? reach(through_face(std::exchange(joining_, {})), *before) : go_on(target);
-  if (step.arrived && before && !are_together(step.place, *before)) {
+  if (step.arrived && before && !are_together(sheet_, step.place, *before)) {
     joining_ = common_triangle(step.place, *before);
     step.arrived = !joining_.valid();
   }
   if (step.arrived) origin_ = target;  // not where it was snapped to, so that the way back is the way there
   return step;
-}
-
-/// On one edge, where the nodes of a path join, or at one vertex.
-bool Walk::are_together(const Place& a, const Place& b) const {
-  if (a.kind != b.kind) return false;
-  return a.kind == Place::Kind::vertex ? a.vertex == b.vertex : a.edge == b.edge || a.edge == sheet_.opposite(b.edge);
 }
 
 /// A triangle that both lie in or on; none where they have none in common.

@@ -27,7 +27,8 @@ struct Place {
   double lambda = 0;  ///< on an edge: fraction from the origin of `edge`
 };
 
-inline bool is_same(const Place& a, const Place& b) { return a.kind == b.kind && a.point == b.point; }
+/// On one edge, where the nodes of a path join, or at one vertex; elsewhere in the same point.
+bool are_together(const Sheet& sheet, const Place& a, const Place& b);
 
 inline Place place_in(TriangleIndex t, Point2 p) {
   Place place;
@@ -111,7 +112,6 @@ class Walk {
   Step along(HalfEdge h, VertexIndex end, Point2 target);
   Step reach(Passage passage, Place place);
   bool is_behind(Point2 p, Point2 target) const;
-  bool are_together(const Place& a, const Place& b) const;
   TriangleIndex common_triangle(const Place& a, const Place& b) const;
   bool touches(TriangleIndex t, const Place& b) const;
 

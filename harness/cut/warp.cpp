@@ -39,7 +39,7 @@ bool Warp::move_to_path(Sheet& sheet) {
 }
 
 void Warp::run(Sheet& sheet, Subdivision& trace) {
-  constexpr std::size_t most_nodes = 64;  // where a vertex has thousands of spokes, the cube of that would take hours
+  constexpr std::size_t most_nodes = 64;  // where a vertex has thousands of spokes, the cube of that would take minutes
   tolerance_ = std::min(options_.tolerance * sheet.mean_edge(), trace.chord_tolerance);
   path_.read(sheet, trace);
   bool moved = false;

@@ -25,8 +25,8 @@ class Warp {
   /// crossings on its edges, points of the exact path, the nearest that presses no triangle too flat; the path goes
   /// through it there, and what was crossed round it is crossed no more. A vertex moves once, only where the path
   /// passes it in one go (PathGraph::find_run, has_star_to_itself); one on the border only along it, where that is
-  /// straight; held ones and those on incisions stay. The deformed position is that of the same material point before
-  /// (Sheet::move). The trace becomes that of the sheet as it is then.
+  /// straight; held ones, those on incisions and those of more than 64 crossed spokes stay. The deformed position is
+  /// that of the same material point before (Sheet::move). The trace becomes that of the sheet as it is then.
   void run(Sheet& sheet, Subdivision& trace);
 
  private:
