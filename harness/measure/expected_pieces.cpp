@@ -22,19 +22,21 @@ void add_extension(const Point& end, const Point& before, double length, std::ve
 
 /// From each end of a segment that lies within `tolerance` of another segment across that one, or to its end, where one
 /// of the two is of a path (those that have its number; others have -1): what nearly touches does. Segments of one of
-/// the `tiny` paths are left alone with each other. Returns how often a path nearly touches another piece of itself.
+/// the `tiny` paths are left alone with each other. Returns how many stretches of paths nearly touch other pieces of
+/// their own path.
 int add_near_touches(const std::vector<Segment>& segments, const std::vector<int>& path, const std::vector<char>& tiny,
                      double tolerance, std::vector<Segment>& extensions) {
   const SegmentSearch search(segments);
   std::set<std::pair<Point, int>> done;
-  int count = 0;
+  int stretches = 0;
+  std::size_t behind_stretch = 0;
   for (std::size_t i = 0; i < segments.size(); ++i)
     for (const Point& p : segments[i])
       search.for_each_in({{p[0] - tolerance, p[1] - tolerance}, {p[0] + tolerance, p[1] + tolerance}}, [&](int j) {
         const Segment& s = segments[j];
         if (p == s[0] || p == s[1] || (path[i] == path[j] && (path[i] < 0 || tiny[path[i]]))) return;
         if (distance(p, s) > tolerance || !done.insert({p, j}).second) return;
-        count += path[i] == path[j];
+        if (path[i] == path[j]) stretches += stretches == 0 || i > behind_stretch, behind_stretch = i + 1;
         const Point d = direction(s[0], s[1]);
         const auto is_beyond = [&](const Point& end, double way) {
           return way * ((p[0] - end[0]) * d[0] + (p[1] - end[1]) * d[1]) > 0;
@@ -48,7 +50,7 @@ int add_near_touches(const std::vector<Segment>& segments, const std::vector<int
             extensions.push_back({p, Point{p[0] - way * d[1], p[1] + way * d[0]}});
         }
       });
-  return count;
+  return stretches;
 }
 
 /// Positive to the left of the line.
@@ -58,10 +60,10 @@ bool cross_each_other(const Segment& s, const Segment& t) {
   return side(s, t[0]) * side(s, t[1]) < 0 && side(t, s[0]) * side(t, s[1]) < 0;
 }
 
-/// How many tips of older incisions lie within `tolerance` of the path, which may go round them instead of across: no
-/// more of them than it crosses incisions.
+/// How many tips of older incisions lie within `touch` of the path, which may go round them instead of across, and not
+/// at its ends: no more of them than it crosses incisions.
 int count_tips_passed(const std::vector<Segment>& path, const std::vector<Segment>& incisions,
-                      const SegmentSearch& older, double tolerance) {
+                      const SegmentSearch& older, const PieceTolerances& tolerances) {
   const SegmentSearch search(path);
   int tips = 0, crossings = 0;
   for (const Segment& incision : incisions) {
@@ -69,7 +71,8 @@ int count_tips_passed(const std::vector<Segment>& path, const std::vector<Segmen
                         {std::max(incision[0][0], incision[1][0]), std::max(incision[0][1], incision[1][1])}},
                        [&](int i) { crossings += cross_each_other(path[static_cast<std::size_t>(i)], incision); });
     for (const Point& p : incision) {
-      if (search.distance(p) > tolerance) continue;
+      if (search.distance(p) > tolerances.touch) continue;
+      if (std::min(distance(p, path.front()[0]), distance(p, path.back()[1])) <= tolerances.tip) continue;
       int ends = 0;
       older.for_each_in({p, p}, [&](int i) {
         const Segment& s = older.segments()[static_cast<std::size_t>(i)];
@@ -81,7 +84,7 @@ int count_tips_passed(const std::vector<Segment>& path, const std::vector<Segmen
   return std::min(tips, crossings);
 }
 
-/// How often the path comes within `tolerance` of an older line and goes back to the side it came from: it may as well
+/// How often the path comes within `tolerance` of an older line and goes back without having crossed it: it may as well
 /// not touch it.
 int count_grazes(const std::vector<Segment>& path, const std::vector<Segment>& older, const SegmentSearch& search,
                  double tolerance) {
@@ -95,17 +98,18 @@ int count_grazes(const std::vector<Segment>& path, const std::vector<Segment>& o
   };
   int count = 0, line = nearest_to(path.front()[0]);
   const Point* before = line < 0 ? &path.front()[0] : nullptr;  // the last point away from all lines
+  bool crosses = false;
   for (const Segment& s : path) {
     const Point& p = s[1];
-    if (const int now = nearest_to(p); now >= 0) {
-      line = now;
-      continue;
-    }
+    const int now = nearest_to(p);
+    if (now >= 0) line = now;
     if (line >= 0 && before) {
       const Segment& met = older[static_cast<std::size_t>(line)];
-      count += side(met, *before) * side(met, p) > 0;
+      crosses |= side(met, *before) * side(met, p) < 0;
     }
-    before = &p, line = -1;
+    if (now >= 0) continue;
+    count += line >= 0 && before && !crosses;
+    before = &p, line = -1, crosses = false;
   }
   return count;
 }
@@ -217,10 +221,11 @@ ExpectedPieces expected_pieces(const std::vector<Segment>& border, const std::ve
     tiny.push_back(extent(path) <= 8 * tolerances.touch);
     if (tiny.back()) result.most += static_cast<int>(path.size());
     if (!path.empty()) may_fall_short += count_points_on_itself(path, tolerances.tip);
-    if (path.empty() || path.front()[0] == path.back()[1] || tolerances.tip == 0) continue;
-    may_fall_short += count_ends_between(path, older, search, tolerances.touch);
-    may_fall_short += count_tips_passed(path, incisions, search, tolerances.touch);
+    if (path.empty() || tolerances.tip == 0) continue;
+    may_fall_short += count_tips_passed(path, incisions, search, tolerances);
     if (tolerances.touch > tolerances.tip) may_fall_short += count_grazes(path, older, search, tolerances.touch);
+    if (path.front()[0] == path.back()[1]) continue;
+    may_fall_short += count_ends_between(path, older, search, tolerances.touch);
     add_extension(path.front()[0], path.front()[1], tolerances.tip, extensions);
     add_extension(path.back()[1], path.back()[0], tolerances.tip, extensions);
   }

@@ -10,17 +10,20 @@ namespace cutbench::oracle {
 /// Numbers of pieces. They differ only where the answer hangs on something smaller than the tolerances: a path that
 /// ends that near to something, or a piece that thin.
 struct ExpectedPieces {
-  int expected = 0;  ///< open ends as they are, pieces thinner than `tip` left out
-  int least = 0;  ///< pieces thinner than `thin` left out too; and one less for each face, inside the sheet or outside,
-                  ///< that is thinner than `touch`: the lines round it may not cross at all; and one
-                  ///< less for each point of a path within `tip` of another piece of that path, for each end of a path
-                  ///< at the tip of an older incision and within `touch` of another line, for each such tip within
-                  ///< `touch` of the path, and, where `touch` exceeds `tip`, for each time that a path comes that near
-                  ///< to an older line and turns back
-  int most = 0;   ///< open ends lengthened by `tip`, what passes within `touch` of the path joined
-                  ///< to it, however thin the pieces; one more for each such touch of two pieces of a path, which may
-                  ///< cross behind it; and for each segment of a path so small (8 `touch`) that it nearly
-                  ///< touches itself everywhere
+  /// Open ends as they are, pieces thinner than `tip` left out.
+  int expected = 0;
+  /// Pieces thinner than `thin` left out, too, and one less for each
+  /// - face, inside the sheet or outside, that is thinner than `touch`: the lines round it may not cross at all;
+  /// - point of a path within `tip` of another piece of that path;
+  /// - end of a path at the tip of an older incision and within `touch` of another line;
+  /// - tip of an older incision within `touch` of a path, but no more of them than crossings of path and incisions;
+  /// - time that a path comes within `touch` of an older line and turns back, where `touch` exceeds `tip`.
+  int least = 0;
+  /// Open ends lengthened by `tip`, what passes within `touch` of the path joined to it, however thin the pieces; and
+  /// one more for each
+  /// - stretch of a path that runs within `touch` of another piece of it: between two such points they may cross;
+  /// - segment of a path so small (8 `touch`) that it nearly touches itself everywhere.
+  int most = 0;
 };
 
 /// Rest units.
