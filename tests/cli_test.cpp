@@ -38,7 +38,7 @@ TEST_F(Cli, CutWritesMeshAndReport) {
     EXPECT_EQ(report["method"], row.name);
     EXPECT_EQ(report["pieces"], 2);
     EXPECT_EQ(report["crossed_triangles"], 2);
-    EXPECT_GT(report["aspect_ratio"]["all"]["max"], 1.15);
+    EXPECT_EQ(report["aspect_ratio"]["cut"]["max"] > 0, row.name != "edge_release") << "which changes no triangle here";
     EXPECT_LT(std::abs(report["area_change"].get<double>()), 1e-12);
     for (const char* key : {"reason", "vertices_added", "deformed_vertices_added", "triangles_added", "angle_deg",
                             "altitude_min", "forced", "incision_error", "time_us"})

@@ -39,10 +39,12 @@ inline std::size_t scaled(std::size_t n) {
 // --- sheets
 // ------------------------------------------------------------------------------------------------------------
 
+inline bool is_small_scale() { return scaled(10) == 1; }
+
 /// All families; under sanitizers, where a dense matrix costs a hundred times as much, one of them, another each time.
 inline std::vector<std::string> families_in_turn(std::size_t& turn) {
   const auto all = sheet_families();
-  if (scaled(10) > 1) return {all.begin(), all.end()};
+  if (!is_small_scale()) return {all.begin(), all.end()};
   return {all[turn++ % all.size()]};
 }
 

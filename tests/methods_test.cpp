@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod,
                            return name_of_variant(std::get<0>(parameters.param)) + "_" + std::get<1>(parameters.param);
                          });
 
-/// What the ablation is made of, which is in no other list of methods.
+/// What the ablation is made of: no experiment with all methods has them.
 TEST(Ablation, EveryCombinationCutsWithoutFault) {
   for (const MethodRow& row : ablation_methods()) {
     const auto method = row.make(row.knob.value);
