@@ -49,13 +49,15 @@ class Locator {
 
 template <class Visit, class Done>
 void Locator::visit_border(const Sheet& sheet, Point2 a, Point2 b, Visit visit, Done done) const {
-  // Column by column in the direction of the segment; one cell more on every side absorbs rounding.
+  // Column by column in the direction of the segment; one cell more on every side absorbs rounding, and each column is
+  // a little wider than its cells, for a segment that runs along their side.
+  const double margin = 4 * sheet.snap();
   const double dx = b.x - a.x;
   const int first = column(a.x), last = column(b.x), step = dx >= 0 ? 1 : -1;
   auto fraction = [&](double x) { return std::min(1.0, std::max(0.0, (x - a.x) / dx)); };
   for (int c = first - step; c != last + 2 * step; c += step) {
     if (c < 0 || c >= columns_) continue;
-    const double left = low_.x + c / per_cell_.x, right = low_.x + (c + 1) / per_cell_.x;
+    const double left = low_.x + c / per_cell_.x - margin, right = low_.x + (c + 1) / per_cell_.x + margin;
     // The outermost columns stand for everything beyond them.
     const double s0 = dx == 0 || c == (step > 0 ? 0 : columns_ - 1) ? 0 : fraction(step > 0 ? left : right);
     const double s1 = dx == 0 || c == (step > 0 ? columns_ - 1 : 0) ? 1 : fraction(step > 0 ? right : left);
@@ -67,7 +69,8 @@ void Locator::visit_border(const Sheet& sheet, Point2 a, Point2 b, Visit visit, 
         if (triangle_of(h)() < sheet.triangle_slots() && sheet.triangle(triangle_of(h)).alive() && sheet.on_border(h))
           visit(h);
       }
-    if (dx != 0 && c != first - step && done(s1)) return;
+    const double covered = s1 < 1 ? fraction(step > 0 ? right - 2 * margin : left + 2 * margin) : 1;
+    if (dx != 0 && c != first - step && done(covered)) return;
   }
 }
 
