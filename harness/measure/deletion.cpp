@@ -32,18 +32,13 @@ bool holds(const std::vector<Corners>& all, Corners c) {
   return std::binary_search(all.begin(), all.end(), c);
 }
 
-bool cross_each_other(const Segment& s, const Segment& r) {
-  return orientation(s[0], s[1], r[0]) * orientation(s[0], s[1], r[1]) <= 0 &&
-         orientation(r[0], r[1], s[0]) * orientation(r[0], r[1], s[1]) <= 0;
-}
-
 double from_path(const Segment& s, const Corners& c) {
   double nearest = std::numeric_limits<double>::infinity();
   bool inside = true;
   for (std::size_t k = 0; k < 3; ++k) {
     const Segment side{c[k], c[(k + 1) % 3]};
     inside &= orientation(side[0], side[1], s[0]) > 0;
-    if (cross_each_other(s, side)) return 0;
+    if (meet(s, side)) return 0;
     nearest =
         std::min({nearest, oracle::distance(s[0], side), oracle::distance(s[1], side), oracle::distance(side[0], s)});
   }

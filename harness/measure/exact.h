@@ -14,6 +14,12 @@ namespace cutbench::oracle {
 /// products under- or overflow. Precondition: all coordinates are finite.
 int orientation(const Point& a, const Point& b, const Point& c);
 
+/// Across each other, or touching. Neither of zero length.
+inline bool meet(const Segment& s, const Segment& t) {
+  return orientation(s[0], s[1], t[0]) * orientation(s[0], s[1], t[1]) <= 0 &&
+         orientation(t[0], t[1], s[0]) * orientation(t[0], t[1], s[1]) <= 0;
+}
+
 /// The same for two directions, each from the segment's start to its end: +1 where the second points to the left of the
 /// first, 0 where they are parallel.
 int turn(const Segment& first, const Segment& second);

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "harness/measure/exact.h"
 #include "harness/measure/planar_map.h"
 #include "harness/measure/search.h"
 
@@ -53,13 +54,6 @@ int add_near_touches(const std::vector<Segment>& segments, const std::vector<int
   return stretches;
 }
 
-/// Positive to the left of the line.
-double side(const Segment& line, const Point& p) { return cross(minus(line[1], line[0]), minus(p, line[0])); }
-
-bool cross_each_other(const Segment& s, const Segment& t) {
-  return side(s, t[0]) * side(s, t[1]) < 0 && side(t, s[0]) * side(t, s[1]) < 0;
-}
-
 /// How many tips of older incisions lie within `touch` of the path, which may go round them instead of across, and not
 /// at its ends: no more of them than it crosses incisions.
 int count_tips_passed(const std::vector<Segment>& path, const std::vector<Segment>& incisions,
@@ -69,7 +63,7 @@ int count_tips_passed(const std::vector<Segment>& path, const std::vector<Segmen
   for (const Segment& incision : incisions) {
     search.for_each_in({{std::min(incision[0][0], incision[1][0]), std::min(incision[0][1], incision[1][1])},
                         {std::max(incision[0][0], incision[1][0]), std::max(incision[0][1], incision[1][1])}},
-                       [&](int i) { crossings += cross_each_other(path[static_cast<std::size_t>(i)], incision); });
+                       [&](int i) { crossings += meet(path[static_cast<std::size_t>(i)], incision); });
     for (const Point& p : incision) {
       if (search.distance(p) > tolerances.touch) continue;
       if (std::min(distance(p, path.front()[0]), distance(p, path.back()[1])) <= tolerances.tip) continue;
@@ -105,7 +99,7 @@ int count_grazes(const std::vector<Segment>& path, const std::vector<Segment>& o
     if (now >= 0) line = now;
     if (line >= 0 && before) {
       const Segment& met = older[static_cast<std::size_t>(line)];
-      crosses |= side(met, *before) * side(met, p) < 0;
+      crosses |= orientation(met[0], met[1], *before) * orientation(met[0], met[1], p) < 0;
     }
     if (now >= 0) continue;
     count += line >= 0 && before && !crosses;
