@@ -57,10 +57,12 @@ void Locator::visit_border(const Sheet& sheet, Point2 a, Point2 b, Visit visit, 
   auto fraction = [&](double x) { return std::min(1.0, std::max(0.0, (x - a.x) / dx)); };
   for (int c = first - step; c != last + 2 * step; c += step) {
     if (c < 0 || c >= columns_) continue;
-    const double left = low_.x + c / per_cell_.x - margin, right = low_.x + (c + 1) / per_cell_.x + margin;
+    const double left = low_.x + c / per_cell_.x, right = low_.x + (c + 1) / per_cell_.x;
     // The outermost columns stand for everything beyond them.
-    const double s0 = dx == 0 || c == (step > 0 ? 0 : columns_ - 1) ? 0 : fraction(step > 0 ? left : right);
-    const double s1 = dx == 0 || c == (step > 0 ? columns_ - 1 : 0) ? 1 : fraction(step > 0 ? right : left);
+    const bool is_first = dx == 0 || c == (step > 0 ? 0 : columns_ - 1);
+    const bool is_last = dx == 0 || c == (step > 0 ? columns_ - 1 : 0);
+    const double s0 = is_first ? 0 : fraction(step > 0 ? left - margin : right + margin);
+    const double s1 = is_last ? 1 : fraction(step > 0 ? right + margin : left - margin);
     const double y0 = a.y + s0 * (b.y - a.y), y1 = a.y + s1 * (b.y - a.y);
     const int bottom = std::max(0, row(std::min(y0, y1)) - 1), top = std::min(rows_ - 1, row(std::max(y0, y1)) + 1);
     for (int r = bottom; r <= top; ++r)
@@ -69,7 +71,7 @@ void Locator::visit_border(const Sheet& sheet, Point2 a, Point2 b, Visit visit, 
         if (triangle_of(h)() < sheet.triangle_slots() && sheet.triangle(triangle_of(h)).alive() && sheet.on_border(h))
           visit(h);
       }
-    const double covered = s1 < 1 ? fraction(step > 0 ? right - 2 * margin : left + 2 * margin) : 1;
+    const double covered = is_last ? 1 : fraction(step > 0 ? right - margin : left + margin);
     if (dx != 0 && c != first - step && done(covered)) return;
   }
 }

@@ -1,0 +1,120 @@
+// Bending that was updated, after any history of cuts and edits, against one made anew.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "harness/cut/open.h"
+#include "harness/fem/bending.h"
+#include "harness/run/cases.h"
+#include "methods/registry.h"
+#include "tests/dense_solves.h"
+#include "tests/helpers.h"
+
+namespace cutbench {
+namespace {
+
+constexpr double rigidity = 0.7, poisson = 0.3;
+
+void expect_like_new(const Sheet& sheet, const Bending& updated, BendingKind kind) {
+  const Bending fresh(sheet, kind, rigidity, poisson);
+  EXPECT_EQ(updated.matrix().rows(), fresh.matrix().rows());
+  EXPECT_EQ(updated.matrix().block_count(), fresh.matrix().block_count());
+  EXPECT_LE(max_difference(updated.matrix(), fresh.matrix()), 1e-12 * max_entry(fresh.matrix()));
+}
+
+TEST(BendingUpdate, IsLikeNewAfterEveryKindOfCut) {
+  std::size_t turn = 0;  // not every family for every method and kind: these take turns
+  for (const MethodRow& row : all_methods()) {
+    ++turn;
+    for (const BendingKind kind : {BendingKind::patches, BendingKind::hinges}) {
+      if (is_small_scale() && (kind == BendingKind::hinges) == (turn % 2 == 0)) continue;
+      const std::string family =
+          sheet_families()[(turn + (turn / 4) + (kind == BendingKind::hinges)) % sheet_families().size()];
+      Sheet sheet(make_sheet(family, 8));
+      Bending bending(sheet, kind, rigidity, poisson);
+      Locator locator(sheet);
+      Cutter cutter;
+      const auto method = row.make(row.knob.value);
+      for (const std::string cut : cut_families())
+        for (const Curve& curve : make_case(cut, 92, 1, sheet)) {
+          SCOPED_TRACE(row.name + ", " + family + ", " + cut);
+          const CutOutcome outcome = cutter.cut(sheet, locator, curve, *method, {});
+          if (outcome.status != Status::ok) continue;
+          bending.update(sheet);
+          expect_like_new(sheet, bending, kind);
+        }
+    }
+  }
+}
+
+/// Splits, flips, moves, collapses and openings at random, many between two updates, so that slots are freed and used
+/// again.
+TEST(BendingUpdate, IsLikeNewAfterStormsOfEdits) {
+  for (std::size_t i = 0; i < scaled(12); ++i) {
+    const BendingKind kind = i % 3 == 2 ? BendingKind::hinges : BendingKind::patches;
+    Random random(500 + i);
+    Sheet sheet(make_sheet(sheet_families()[i % 4], 6));
+    Bending bending(sheet, kind, rigidity, poisson);
+    for (int cut = 0; cut < 12; ++cut) {
+      sheet.begin_cut();
+      for (std::size_t edits = random.below(12); edits-- > 0;) {
+        const HalfEdge h = any_half_edge(sheet, random);
+        const VertexIndex v = sheet.origin(h);
+        const auto c = sheet.corners(triangle_of(h));
+        switch (random.below(6)) {
+          case 0:
+            sheet.split_triangle(triangle_of(h), 0.4 * c[0] + (0.3 * c[1] + 0.3 * c[2]));
+            break;
+          case 1:
+            sheet.flip(h);
+            break;
+          case 2:
+            if (const double step = 0.2 * std::sqrt(squared_length(c[1] - c[0]));
+                !sheet.on_border(sheet.first_spoke(v)))
+              sheet.move(v, sheet.rest(v) + step * random.direction());
+            break;
+          case 3:
+          case 4:
+            sheet.collapse(h);
+            break;
+          default:
+            if (sheet.mark(h) == EdgeMark::none) sheet.set_mark(h, EdgeMark::path);
+        }
+      }
+      open_path(sheet);
+      ASSERT_EQ(faults(sheet), "");
+      if (random.coin(0.2)) {
+        sheet.rollback();  // and no update
+      } else {
+        bending.update(sheet);
+      }
+      SCOPED_TRACE(std::to_string(i) + ", cut " + std::to_string(cut));
+      expect_like_new(sheet, bending, kind);
+    }
+  }
+}
+
+TEST(BendingUpdate, LeavesWhatIsFarFromTheCutWhereItIs) {
+  Sheet sheet(make_sheet("delaunay", 30));
+  Bending bending(sheet, BendingKind::patches, rigidity, poisson);
+  const Bending before = bending;
+  Locator locator(sheet);
+  const auto& row = find_method("conventional_split");
+  Cutter().cut(sheet, locator, {Curve::Kind::polyline, false, {{0.1, 0.1}, {0.2, 0.15}}}, *row.make(row.knob.value),
+               {});
+  bending.update(sheet);
+  std::size_t far = 0;
+  for (std::size_t d = 0; d < before.matrix().rows(); ++d) {
+    const Point2 p = sheet.rest(sheet.rest_vertex(DeformedIndex(d)));
+    if (p.x < 0.4 && p.y < 0.35) continue;
+    ++far;
+    ASSERT_EQ(bending.matrix().first_slot(d), before.matrix().first_slot(d));
+    const auto old_columns = before.matrix().columns(d), columns = bending.matrix().columns(d);
+    ASSERT_TRUE(std::equal(columns.begin(), columns.end(), old_columns.begin(), old_columns.end()));
+  }
+  EXPECT_GT(far, 700u);
+}
+
+}  // namespace
+}  // namespace cutbench
