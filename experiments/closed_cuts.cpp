@@ -7,11 +7,11 @@
 #include <iostream>
 #include <numbers>
 
+#include "harness/cases/cut_families.h"
+#include "harness/judge/assessment.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/predicates.h"
-#include "harness/run/cases.h"
 #include "harness/run/experiment.h"
-#include "harness/run/report.h"
 #include "harness/truth/static_solve.h"
 #include "methods/registry.h"
 

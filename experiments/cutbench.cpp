@@ -8,13 +8,16 @@
 
 #include "experiments/score.h"
 #include "experiments/simulate.h"
-#include "harness/cut/pick.h"
-#include "harness/measure/stop_watch.h"
+#include "harness/base/interrupt.h"
+#include "harness/base/stop_watch.h"
+#include "harness/cut/cut_all.h"
+#include "harness/judge/assessment.h"
+#include "harness/judge/judged_sheet.h"
+#include "harness/mesh/families.h"
 #include "harness/mesh/mesh_io.h"
-#include "harness/run/interrupt.h"
-#include "harness/run/judged_sheet.h"
-#include "harness/run/report_json.h"
-#include "harness/run/run.h"
+#include "harness/path/pick.h"
+#include "harness/records/report_json.h"
+#include "harness/run_experiment.h"
 #include "methods/registry.h"
 
 namespace {
@@ -23,8 +26,7 @@ using namespace cutbench;
 
 enum Exit { done = 0, fell_short = 1, bad_input = 2 };
 
-// --- cutbench methods
-// ----------------------------------------------------------------------------------------------------
+// --- cutbench methods ------------------------------------------------------------------------------------------------
 
 int list_methods(bool as_json) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
@@ -54,8 +56,7 @@ int list_methods(bool as_json) {
   return done;
 }
 
-// --- cutbench cut
-// --------------------------------------------------------------------------------------------------------
+// --- cutbench cut ----------------------------------------------------------------------------------------------------
 
 struct CutArguments {
   std::string mesh, path, method, out, report;
@@ -165,8 +166,7 @@ int cut(const CutArguments& arguments) {
   return fell_short;
 }
 
-// --- cutbench simulate
-// ----------------------------------------------------------------------------------------------------
+// --- cutbench simulate -----------------------------------------------------------------------------------------------
 
 struct SimulateArguments {
   std::string scene, method = "conventional_split", out, frames;
@@ -199,8 +199,7 @@ int simulate(const SimulateArguments& arguments, const std::string& command) {
   return cutbench::simulate(scene, *method, options) ? done : fell_short;
 }
 
-// --- cutbench run
-// --------------------------------------------------------------------------------------------------------
+// --- cutbench run ----------------------------------------------------------------------------------------------------
 
 struct RunArguments {
   std::vector<std::string> experiments, methods;

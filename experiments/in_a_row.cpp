@@ -10,11 +10,11 @@
 #include <limits>
 #include <span>
 
+#include "harness/cases/cut_families.h"
+#include "harness/judge/oracle_request.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/mesh_io.h"
-#include "harness/run/cases.h"
 #include "harness/run/experiment.h"
-#include "harness/run/report.h"
 #include "methods/registry.h"
 
 namespace {

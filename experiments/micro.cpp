@@ -10,15 +10,15 @@
 #include <set>
 #include <sstream>
 
+#include "harness/base/stop_watch.h"
+#include "harness/cases/cut_families.h"
 #include "harness/cut/cut.h"
-#include "harness/cut/embed_plainly.h"
-#include "harness/cut/region_mesher.h"
-#include "harness/measure/stop_watch.h"
 #include "harness/mesh/families.h"
-#include "harness/run/cases.h"
 #include "harness/run/chill_caches.h"
 #include "harness/run/every_edge.h"
 #include "methods/registry.h"
+#include "methods/tools/delaunay_split.h"
+#include "methods/tools/region_mesher.h"
 
 namespace {
 
@@ -70,7 +70,7 @@ class PartsOfRefinement final : public CuttingMethod {
  public:
   static constexpr const char* names[] = {"convert", "insert", "refine", "put_back"};
 
-  void embed(Sheet& sheet, Subdivision& trace) override { embed_plainly(sheet, trace, work_); }
+  void embed(Sheet& sheet, Subdivision& trace) override { embed_by_delaunay_split(sheet, trace, work_); }
   void improve(Sheet& sheet) override {
     wedges_.find(sheet);
     region_.clear(sheet), region_.add_changed(sheet), region_.grow(sheet, 2);

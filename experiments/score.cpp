@@ -3,8 +3,9 @@
 #include <cstdio>
 #include <iostream>
 
+#include "harness/judge/assessment.h"
 #include "harness/mesh/mesh_io.h"
-#include "harness/run/report_json.h"
+#include "harness/records/report_json.h"
 
 namespace cutbench {
 

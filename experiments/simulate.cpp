@@ -8,10 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "harness/cut/cut_all.h"
 #include "harness/mesh/mesh_io.h"
-#include "harness/run/context.h"
-#include "harness/run/frames.h"
-#include "harness/run/in_motion.h"
+#include "harness/records/context.h"
+#include "harness/scene/frame_writer.h"
+#include "harness/scene/simulation.h"
 
 namespace cutbench {
 
@@ -23,13 +24,13 @@ void print_head(const Scene& scene) {
               "total J", "residual N");
 }
 
-void print_balance(InMotion& motion) {
+void print_balance(Simulation& motion) {
   const Balance b = motion.balance();
   std::printf("%9.4f %12.5g %12.5g %12.5g %12.5g %12.5g %12.5g\n", motion.time(), b.energy.membrane, b.energy.bending,
               b.energy.kinetic, b.energy.potential, b.energy.total(), b.residual);
 }
 
-void print_cuts(const InMotion& motion) {
+void print_cuts(const Simulation& motion) {
   for (const MotionCut& cut : motion.made_cuts()) {
     const Energy &a = cut.before.energy, &b = cut.after.energy;
     const std::string parts = cut.parts <= 1 ? "" : ", in " + std::to_string(cut.parts) + " parts";
@@ -59,7 +60,7 @@ const char* name_of(BendingKind bending) {
 }
 
 /// What a caption needs to say of the frames beside it.
-std::string description(const Scene& scene, const InMotion& motion, const SimulateOptions& options,
+std::string description(const Scene& scene, const Simulation& motion, const SimulateOptions& options,
                         const StepReport& report, std::size_t triangles_before) {
   const Context context = gather_context();
   nlohmann::ordered_json document{
@@ -98,8 +99,8 @@ std::string description(const Scene& scene, const InMotion& motion, const Simula
 }  // namespace
 
 bool simulate(const Scene& scene, CuttingMethod& method, const SimulateOptions& options) {
-  const auto motion = InMotion::start(scene);
-  std::optional<Frames> frames;
+  const auto motion = Simulation::start(scene);
+  std::optional<FrameWriter> frames;
   if (!options.frames.empty()) frames.emplace(options.frames), motion->keep_budget();
   const std::size_t triangles_before = motion->sheet().triangle_count();
   const bool static_solve = scene.integrator == Integrator::equilibrium;

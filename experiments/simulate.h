@@ -4,7 +4,7 @@
 #include <string>
 
 #include "harness/cut/cut.h"
-#include "harness/run/scene.h"
+#include "harness/scene/scene.h"
 
 namespace cutbench {
 
@@ -12,8 +12,8 @@ struct SimulateOptions {
   std::string method;   ///< as a caption names it: with its knob
   std::string command;  ///< as given
   std::string out;      ///< the sheet as it ends up; empty: not written
-  std::string frames;   ///< folder of the time series (harness/run/frames.h), with simulation.json and, of backward
-                        ///< Euler, energy.csv (harness/run/energy_budget.h); empty: none
+  std::string frames;   ///< folder of the time series (harness/scene/frame_writer.h), with simulation.json and, of
+                        ///< backward Euler, energy.csv (harness/scene/energy_budget.h); empty: none
   int every = 8;        ///< steps from frame to frame
   CutOptions cut;
 };

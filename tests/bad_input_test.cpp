@@ -5,9 +5,9 @@
 
 #include <random>
 
-#include "harness/cut/path.h"
 #include "harness/mesh/families.h"
-#include "harness/run/context.h"
+#include "harness/path/curve.h"
+#include "harness/records/context.h"
 #include "harness/run/experiment.h"
 #include "tests/mesh_checks.h"
 #include "tests/program.h"

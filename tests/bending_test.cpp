@@ -13,8 +13,9 @@
 #include <map>
 #include <numeric>
 
+#include "harness/cases/cut_families.h"
+#include "harness/mesh/families.h"
 #include "harness/mesh/predicates.h"
-#include "harness/run/cases.h"
 #include "methods/registry.h"
 #include "tests/dense_solves.h"
 #include "tests/helpers.h"
@@ -390,8 +391,7 @@ TEST(Bending, AHingeIsBergous) {
   EXPECT_LE((k - expected).cwiseAbs().maxCoeff(), 1e-13 * expected.cwiseAbs().maxCoeff());
 }
 
-// --- plates that bend like beams
-// --------------------------------------------------------------------------------------
+// --- plates that bend like beams -------------------------------------------------------------------------------------
 
 Field uniform_load(const Sheet& sheet) {
   Field load = Field::Zero(static_cast<Eigen::Index>(sheet.deformed_slots()));

@@ -4,9 +4,10 @@
 
 #include <cmath>
 
+#include "harness/cases/cut_families.h"
 #include "harness/cut/open.h"
 #include "harness/fem/bending.h"
-#include "harness/run/cases.h"
+#include "harness/mesh/families.h"
 #include "methods/registry.h"
 #include "tests/dense_solves.h"
 #include "tests/helpers.h"
@@ -71,7 +72,7 @@ TEST(BendingUpdate, IsLikeNewAfterStormsOfEdits) {
             break;
           case 2:
             if (const double step = 0.2 * std::sqrt(squared_length(c[1] - c[0]));
-                !sheet.on_border(sheet.first_spoke(v)))
+                !sheet.on_border(sheet.first_outgoing(v)))
               sheet.move(v, sheet.rest(v) + step * random.direction());
             break;
           case 3:

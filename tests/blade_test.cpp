@@ -1,13 +1,14 @@
 // A cut made part by part, as a blade advances: the incision in the end is that of the cut made at once.
 
-#include "harness/cut/blade.h"
+#include "harness/path/blade.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "harness/run/in_motion.h"
-#include "harness/run/report.h"
+#include "harness/judge/oracle_request.h"
+#include "harness/mesh/families.h"
+#include "harness/scene/simulation.h"
 #include "methods/conventional_split/conventional_split.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
@@ -158,7 +159,7 @@ TEST(Blade, AdvancesWithTheTime) {
   Scene::Cut& cut = scene.cuts.emplace_back();
   cut.time = start, cut.speed = speed, cut.curve = {Curve::Kind::polyline, false, {from, to}};
   const auto method = find_method("bowyer_watson").make(0);
-  const auto motion = InMotion::start(scene);
+  const auto motion = Simulation::start(scene);
   const double h = motion->sheet().mean_edge();
   std::set<double> tips;
   for (int step = 1; step <= 50; ++step) {
@@ -194,7 +195,7 @@ TEST(Blade, SaysThatItsEndWasRefused) {
   Scene::Cut& cut = scene.cuts.emplace_back();
   cut.speed = 2, cut.curve = {Curve::Kind::polyline, false, {{0.2, 0.23}, {0.83, 0.71}}};
   GivesUp method;
-  const auto motion = InMotion::start(scene);
+  const auto motion = Simulation::start(scene);
   EXPECT_EQ(motion->advance(0.5, method, {}).verdict, "ok");
   ASSERT_EQ(motion->made_cuts().size(), 1u);
   const MotionCut& made = motion->made_cuts()[0];

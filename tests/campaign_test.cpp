@@ -1,7 +1,7 @@
 // The campaign counts, saves and makes small what goes wrong, and a crash or a hang costs one case: tried on methods
 // that do wrong on purpose.
 
-#include "harness/run/campaign.h"
+#include "harness/campaign/campaign.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -13,12 +13,13 @@
 #include <fstream>
 #include <set>
 
-#include "harness/run/campaign_case.h"
-#include "harness/run/failing_case.h"
-#include "harness/run/isolated.h"
-#include "harness/run/mixture.h"
-#include "harness/run/record.h"
-#include "harness/run/shrink.h"
+#include "harness/base/isolated.h"
+#include "harness/campaign/campaign_case.h"
+#include "harness/campaign/failing_case.h"
+#include "harness/campaign/shrink.h"
+#include "harness/cases/mixture.h"
+#include "harness/mesh/families.h"
+#include "harness/records/record.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 #include "tests/mesh_checks.h"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "harness/cut/path.h"
 #include "harness/mesh/mesh_data.h"
+#include "harness/path/curve.h"
 
 namespace cutbench {
 

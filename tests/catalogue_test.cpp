@@ -10,7 +10,7 @@
 #include <sstream>
 #include <tuple>
 
-#include "harness/run/report.h"
+#include "harness/judge/assessment.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 

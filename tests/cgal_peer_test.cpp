@@ -1,10 +1,12 @@
 // The peer must be right where cuts are ordinary: else the campaign would show its mistakes as CGAL's.
 
-#include "harness/measure/cgal_peer.h"
+#include "harness/campaign/cgal_peer.h"
 
 #include <gtest/gtest.h>
 
-#include "harness/run/cases.h"
+#include "harness/cases/cut_families.h"
+#include "harness/judge/oracle_request.h"
+#include "harness/mesh/families.h"
 #include "tests/helpers.h"
 
 namespace cutbench {

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "harness/run/record.h"
+#include "harness/records/record.h"
 #include "tests/helpers.h"
 #include "tests/program.h"
 

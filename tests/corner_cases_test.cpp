@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "harness/mesh/families.h"
 #include "harness/mesh/mesh_data.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"

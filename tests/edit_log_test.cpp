@@ -41,7 +41,7 @@ void edit(Sheet& sheet, Random& random) {
   } else if (kind <= 3) {
     sheet.flip(h);
   } else if (kind == 4) {
-    const HalfEdge first = sheet.first_spoke(v);
+    const HalfEdge first = sheet.first_outgoing(v);
     if (!sheet.on_border(first)) {
       const double step = random.between(0, 0.3) * size;
       sheet.move(v, sheet.rest(v) + step * random.direction());

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "harness/run/random.h"
+#include "harness/base/random.h"
 #include "harness/truth/edge_crack.h"
 #include "harness/truth/lips.h"
 

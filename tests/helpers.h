@@ -14,14 +14,14 @@
 #include <string>
 #include <vector>
 
+#include "harness/base/random.h"
 #include "harness/cut/cut.h"
+#include "harness/judge/judged_sheet.h"
+#include "harness/judge/oracle_request.h"
+#include "harness/judge/same_sheet.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/mesh_io.h"
 #include "harness/mesh/sheet.h"
-#include "harness/run/judged_sheet.h"
-#include "harness/run/random.h"
-#include "harness/run/report.h"
-#include "harness/run/same_sheet.h"
 #include "methods/registry.h"
 
 namespace cutbench {
@@ -36,8 +36,7 @@ inline std::size_t scaled(std::size_t n) {
   return scale == "small" ? std::max<std::size_t>(1, n / 10) : n * std::stoul(scale);
 }
 
-// --- sheets
-// ------------------------------------------------------------------------------------------------------------
+// --- sheets ----------------------------------------------------------------------------------------------------------
 
 inline bool is_small_scale() { return scaled(10) == 1; }
 
@@ -104,8 +103,7 @@ inline HalfEdge any_half_edge(const Sheet& sheet, Random& random) {
   return half_edge(t, static_cast<int>(random.below(3)));
 }
 
-// --- comparison
-// --------------------------------------------------------------------------------------------------------
+// --- comparison ------------------------------------------------------------------------------------------------------
 
 /// What check() found, in one line; empty: nothing.
 inline std::string faults(const Sheet& sheet, bool opened = true) {
@@ -114,8 +112,7 @@ inline std::string faults(const Sheet& sheet, bool opened = true) {
   return all.substr(0, 500);
 }
 
-// --- one cut
-// -----------------------------------------------------------------------------------------------------------
+// --- one cut ---------------------------------------------------------------------------------------------------------
 
 inline oracle::Mesh for_oracle(const MeshData& mesh) {
   oracle::Mesh result;

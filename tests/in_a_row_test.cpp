@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 #include <malloc.h>
 
-#include "harness/run/cases.h"
-#include "harness/run/report.h"
+#include "harness/cases/cut_families.h"
+#include "harness/judge/oracle_request.h"
+#include "harness/mesh/families.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 

@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "harness/run/cases.h"
+#include "harness/cases/cut_families.h"
+#include "harness/mesh/families.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 

@@ -7,7 +7,8 @@
 
 #include <Eigen/LU>
 
-#include "harness/run/cases.h"
+#include "harness/cases/cut_families.h"
+#include "harness/mesh/families.h"
 #include "methods/registry.h"
 #include "tests/dense_solves.h"
 #include "tests/helpers.h"

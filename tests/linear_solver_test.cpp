@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "harness/base/random.h"
 #include "harness/fem/sliver_blocks.h"
 #include "harness/mesh/mesh_data.h"
 #include "harness/mesh/sheet.h"
-#include "harness/run/random.h"
 
 namespace cutbench {
 namespace {

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <set>
 
-#include "harness/cut/walk.h"
+#include "harness/cases/cut_families.h"
 #include "harness/mesh/predicates.h"
-#include "harness/run/cases.h"
+#include "harness/path/walk.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 

@@ -6,7 +6,7 @@
 
 #include <Eigen/Dense>
 
-#include "harness/run/random.h"
+#include "harness/base/random.h"
 #include "tests/dense_solves.h"
 
 namespace cutbench {

@@ -5,9 +5,9 @@
 #include <map>
 #include <set>
 
+#include "harness/cases/cut_families.h"
+#include "harness/cases/mixture.h"
 #include "harness/measure/search.h"
-#include "harness/run/cases.h"
-#include "harness/run/mixture.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 

@@ -6,7 +6,9 @@
 #include <cstdio>
 #include <map>
 
-#include "harness/measure/cgal_peer.h"
+#include "harness/campaign/cgal_peer.h"
+#include "harness/judge/oracle_request.h"
+#include "harness/mesh/families.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 

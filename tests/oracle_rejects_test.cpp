@@ -243,8 +243,7 @@ TEST(Rejects, BadRequests) {
   thrown([](Request& r) { r.cuts[0] = {true, true, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}}; });
 }
 
-// --- deletion
-// ----------------------------------------------------------------------------------------------------------
+// --- deletion --------------------------------------------------------------------------------------------------------
 
 /// What is left of a grid when all triangles with a piece of y = 0.55 in their interior are gone.
 struct Deleted {

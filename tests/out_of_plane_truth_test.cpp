@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "harness/cut/cut.h"
+#include "harness/mesh/families.h"
 #include "harness/truth/bent_sheet.h"
 #include "harness/truth/heavy_elastica.h"
 #include "harness/truth/out_of_plane.h"
@@ -16,8 +17,7 @@
 namespace cutbench {
 namespace {
 
-// --- the heavy elastica
-// ----------------------------------------------------------------------------------------------
+// --- the heavy elastica ----------------------------------------------------------------------------------------------
 
 /// The shape of least energy of a chain of `links` rigid links with springs D / h between them, half of h at the
 /// clamp: sum of D (th_i+1 - th_i)^2 / 2 h and of the links' weights times their heights. Newton's method. Second order
@@ -83,8 +83,7 @@ TEST(HeavyElastica, KeepsItsLength) {
   EXPECT_NEAR(std::hypot(elastica.at(2.5).x - before.x, elastica.at(2.5).z - before.z), 0.5, 1e-12);
 }
 
-// --- the problems
-// ----------------------------------------------------------------------------------------------------
+// --- the problems ----------------------------------------------------------------------------------------------------
 
 Sheet cut_open(const Specimen& specimen, const std::vector<Curve>& cuts, const std::string& method) {
   Sheet sheet(specimen.mesh);
@@ -151,8 +150,7 @@ TEST(OutOfPlane, SpecimensDependOnTheirArgumentsAlone) {
   }
 }
 
-// --- what is wrong is noticed
-// ----------------------------------------------------------------------------------------
+// --- what is wrong is noticed ----------------------------------------------------------------------------------------
 
 double primary_error(const Problem& problem, const Specimen& specimen, const Sheet& sheet) {
   return solved(problem, specimen, sheet).measures.at(0).error;

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <set>
 
-#include "harness/cut/embed_conventionally.h"
-#include "harness/cut/trace.h"
+#include "harness/cases/cut_families.h"
 #include "harness/mesh/predicates.h"
-#include "harness/run/cases.h"
+#include "harness/path/trace.h"
 #include "methods/bowyer_watson/bowyer_watson.h"
+#include "methods/tools/static_split.h"
 #include "tests/helpers.h"
 #include "tests/mesh_checks.h"
 

@@ -1,13 +1,12 @@
 // Flattening held against dense sampling, and every line the reader of paths refuses.
 
-#include "harness/cut/path.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <fstream>
 #include <limits>
 
+#include "harness/path/curve.h"
 #include "tests/helpers.h"
 #include "tests/mesh_checks.h"
 

@@ -1,9 +1,9 @@
 // Picks on the deformed sheet, carried to rest space. The oracle is the way there: a rest point in a triangle whose
 // deformed corners are known is somewhere in space, and picked there it must come back.
-#include "harness/cut/pick.h"
+#include "harness/path/pick.h"
 
 #include "harness/mesh/families.h"
-#include "harness/run/in_motion.h"
+#include "harness/scene/simulation.h"
 #include "methods/registry.h"
 #include "tests/program.h"
 
@@ -160,7 +160,7 @@ bezier = [{origin = [0.53, 0.3, 9], direction = [0, 0, -1]}, [0.73, 0.9, 0.1], [
                                 R"([[cuts]]
 time = 0.05
 bezier = [[0.2, 0.1], [0.4, 0.7], [0.6, 0.1], [0.8, 0.3]])"}) {
-    const auto motion = InMotion::start(scene(cut));
+    const auto motion = Simulation::start(scene(cut));
     ASSERT_EQ(motion->advance(0.1, *method, {}).verdict, "ok");
     results.push_back(motion->posed_sheet().to_mesh_data());
     EXPECT_EQ(motion->made_cuts().at(0).pick_us > 0, results.size() == 1);

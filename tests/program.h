@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/run/record.h"
+#include "harness/records/record.h"
 
 namespace cutbench {
 

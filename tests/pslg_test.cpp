@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "harness/mesh/families.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 

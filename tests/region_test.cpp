@@ -1,15 +1,16 @@
 // The working storage of methods that look at parts of a sheet: what it holds, and that it forgets.
 
-#include "harness/cut/region.h"
+#include "methods/tools/region.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
 #include "harness/cut/cut.h"
-#include "harness/cut/forced_wedges.h"
+#include "harness/mesh/families.h"
 #include "harness/mesh/stamped_table.h"
 #include "methods/registry.h"
+#include "methods/tools/forced_wedges.h"
 #include "tests/helpers.h"
 
 namespace cutbench {

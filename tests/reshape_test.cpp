@@ -2,9 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "harness/run/cases.h"
-#include "harness/run/judged_sheet.h"
-#include "harness/run/report.h"
+#include "harness/cases/cut_families.h"
+#include "harness/judge/assessment.h"
+#include "harness/judge/judged_sheet.h"
+#include "harness/mesh/families.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 
@@ -74,16 +75,16 @@ TEST(Sheet, APathVertexCollapsesAlongThePath) {
   const VertexIndex middle(std::size_t{4});
   ASSERT_EQ(sheet.rest(middle), (Point2{0.5, 0.5}));
   HalfEdge left, right;
-  HalfEdge h = sheet.first_spoke(middle);
-  for (int i = 0; i < 6; ++i, h = sheet.turn_left(h)) {
+  HalfEdge h = sheet.first_outgoing(middle);
+  for (int i = 0; i < 6; ++i, h = sheet.next_outgoing(h)) {
     if (sheet.rest(sheet.target(h)) == Point2{0, 0.5}) left = h;
     if (sheet.rest(sheet.target(h)) == Point2{1, 0.5}) right = h;
   }
   const Point2 on_left{0.25, 0.5};
   const VertexIndex v = sheet.split_edge(left, 0.5, on_left);
-  h = sheet.first_spoke(v);
+  h = sheet.first_outgoing(v);
   HalfEdge towards_border, towards_middle, aside;
-  for (int i = 0; i < 4; ++i, h = sheet.turn_left(h)) {
+  for (int i = 0; i < 4; ++i, h = sheet.next_outgoing(h)) {
     const Point2 to = sheet.rest(sheet.target(h));
     (to == Point2{0, 0.5} ? towards_border : to == Point2{0.5, 0.5} ? towards_middle : aside) = h;
   }
@@ -96,11 +97,11 @@ TEST(Sheet, APathVertexCollapsesAlongThePath) {
   EXPECT_EQ(sheet.vertex_count() + 1, vertices);
   EXPECT_EQ(faults(sheet, false), "");
   bool joined = false;
-  h = sheet.first_spoke(middle);
+  h = sheet.first_outgoing(middle);
   const HalfEdge first = h;
   do {
     if (sheet.rest(sheet.target(h)) == Point2{0, 0.5}) joined = sheet.mark(h) == EdgeMark::path;
-    h = sheet.turn_left(h);
+    h = sheet.next_outgoing(h);
   } while (h.valid() && h != first);
   EXPECT_TRUE(joined);
 }

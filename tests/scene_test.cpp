@@ -1,12 +1,12 @@
 // Scene files: what is written arrives, what makes no sense is refused in one line that says where and why.
-#include "harness/run/scene.h"
+#include "harness/scene/scene.h"
 
 #include <unistd.h>
 
 #include <fstream>
 #include <set>
 
-#include "harness/run/cases.h"
+#include "harness/cases/cut_families.h"
 #include "harness/run/experiment.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"

@@ -8,8 +8,9 @@
 #include <numeric>
 #include <set>
 
-#include "harness/cut/path.h"
-#include "harness/run/cases.h"
+#include "harness/cases/cut_families.h"
+#include "harness/mesh/families.h"
+#include "harness/path/curve.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "harness/cut/open.h"
+#include "harness/mesh/families.h"
 #include "harness/mesh/predicates.h"
 #include "tests/helpers.h"
 
@@ -44,12 +45,13 @@ HalfEdge inner_edge(const Sheet& sheet) {
 
 /// Opens two edges in a row: the vertex between them gets two fans.
 void open_two_edges(Sheet& sheet) {
-  const HalfEdge first = find(
-      sheet, [&](HalfEdge h) { return !sheet.on_border(h) && !sheet.on_border(sheet.first_spoke(sheet.target(h))); });
+  const HalfEdge first = find(sheet, [&](HalfEdge h) {
+    return !sheet.on_border(h) && !sheet.on_border(sheet.first_outgoing(sheet.target(h)));
+  });
   ASSERT_TRUE(first.valid());
   const VertexIndex middle = sheet.target(first);
-  HalfEdge second = sheet.first_spoke(middle);
-  for (int i = 0; i < 2 || sheet.target(second) == sheet.origin(first); ++i) second = sheet.turn_left(second);
+  HalfEdge second = sheet.first_outgoing(middle);
+  for (int i = 0; i < 2 || sheet.target(second) == sheet.origin(first); ++i) second = sheet.next_outgoing(second);
   sheet.set_mark(first, EdgeMark::path);
   sheet.set_mark(second, EdgeMark::path);
   open_path(sheet);
@@ -149,10 +151,10 @@ TEST(Sheet, MovedVertexStaysOnThePlaneOfItsTriangle) {
   Sheet sheet(lifted(make_sheet("grid", 4)));
   sheet.begin_cut();
   const VertexIndex v(12);
-  const HalfEdge spoke = sheet.first_spoke(v);
+  const HalfEdge outgoing = sheet.first_outgoing(v);
   const Sheet before = sheet;
-  ASSERT_TRUE(sheet.move(v, centre(sheet, triangle_of(spoke))));
-  const auto& corners = before.triangle(triangle_of(spoke)).deformed;
+  ASSERT_TRUE(sheet.move(v, centre(sheet, triangle_of(outgoing))));
+  const auto& corners = before.triangle(triangle_of(outgoing)).deformed;
   const Point3 expected = 1.0 / 3 * before.position(corners[0]) +
                           (1.0 / 3 * before.position(corners[1]) + 1.0 / 3 * before.position(corners[2]));
   const Point3 is = sheet.position(sheet.log().displaced[0].vertex);
@@ -194,12 +196,14 @@ TEST(Sheet, NeverCollapsesMarkedOrBorderVertices) {
   ASSERT_EQ(faults(sheet), "");
   for (std::size_t i = 0; i < 3 * sheet.triangle_slots(); ++i) {
     const HalfEdge h = half_edge(TriangleIndex(i / 3), static_cast<int>(i % 3));
-    const HalfEdge first = sheet.first_spoke(sheet.origin(h));
+    const HalfEdge first = sheet.first_outgoing(sheet.origin(h));
     bool fixed = false;
-    HalfEdge spoke = first;
-    do fixed |= sheet.on_border(spoke) || sheet.mark(spoke) != EdgeMark::none, spoke = sheet.turn_left(spoke);
-    while (spoke.valid() && spoke != first);
-    EXPECT_FALSE((fixed || !spoke.valid()) && sheet.collapse(h));
+    HalfEdge outgoing = first;
+    do
+      fixed |= sheet.on_border(outgoing) || sheet.mark(outgoing) != EdgeMark::none,
+          outgoing = sheet.next_outgoing(outgoing);
+    while (outgoing.valid() && outgoing != first);
+    EXPECT_FALSE((fixed || !outgoing.valid()) && sheet.collapse(h));
   }
   EXPECT_EQ(faults(sheet), "");
 }

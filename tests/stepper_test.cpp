@@ -8,7 +8,8 @@
 #include <functional>
 #include <numbers>
 
-#include "harness/run/cases.h"
+#include "harness/cases/cut_families.h"
+#include "harness/mesh/families.h"
 #include "tests/dense_solves.h"
 #include "tests/fem_helpers.h"
 #include "tests/helpers.h"

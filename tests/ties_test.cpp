@@ -9,10 +9,11 @@
 #include <numeric>
 #include <set>
 
+#include "harness/cases/cut_families.h"
 #include "harness/fem/combination.h"
 #include "harness/fem/largest_eigenvalue.h"
 #include "harness/fem/stepper.h"
-#include "harness/run/cases.h"
+#include "harness/mesh/families.h"
 #include "tests/dense_solves.h"
 #include "tests/fem_helpers.h"
 #include "tests/helpers.h"

@@ -1,6 +1,6 @@
 // Traces held against a brute-force intersection in exact rationals, and the cases that walks get lost in.
 
-#include "harness/cut/trace.h"
+#include "harness/path/trace.h"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,9 @@
 #include <cmath>
 #include <map>
 
+#include "harness/cases/cut_families.h"
+#include "harness/mesh/families.h"
 #include "harness/mesh/predicates.h"
-#include "harness/run/cases.h"
 #include "tests/helpers.h"
 
 namespace cutbench {

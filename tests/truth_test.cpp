@@ -8,7 +8,7 @@
 #include <map>
 #include <numbers>
 
-#include "harness/mesh/errors.h"
+#include "harness/base/errors.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/quality.h"
 #include "tests/truth_helpers.h"

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <map>
 
-#include "harness/run/judged_sheet.h"
+#include "harness/judge/judged_sheet.h"
+#include "harness/mesh/families.h"
 #include "methods/conventional_split/conventional_split.h"
 #include "tests/fem_helpers.h"
 #include "tests/helpers.h"
@@ -22,20 +23,21 @@ class LosesAHundredth final : public CuttingMethod {
  public:
   void embed(Sheet& sheet, Subdivision& trace) override { split_.embed(sheet, trace); }
   void improve(Sheet& sheet) override {
-    std::map<VertexIndex, std::vector<HalfEdge>> spokes;
+    std::map<VertexIndex, std::vector<HalfEdge>> outgoing;
     double length = 0;
     for (std::size_t t = 0; t < sheet.triangle_slots(); ++t)
       for (int k = 0; k < 3; ++k)
         if (const HalfEdge h = half_edge(TriangleIndex(t), k); sheet.mark(h) == EdgeMark::path)
-          spokes[sheet.origin(h)].push_back(h), length += length_of(sheet, h) / 2;
-    const auto tip = std::find_if(spokes.begin(), spokes.end(), [](const auto& at) { return at.second.size() == 1; });
-    ASSERT_NE(tip, spokes.end());
+          outgoing[sheet.origin(h)].push_back(h), length += length_of(sheet, h) / 2;
+    const auto tip =
+        std::find_if(outgoing.begin(), outgoing.end(), [](const auto& at) { return at.second.size() == 1; });
+    ASSERT_NE(tip, outgoing.end());
     HalfEdge h = tip->second.front();
     for (;;) {
       sheet.set_mark(h, EdgeMark::none);
       lost += length_of(sheet, h) / length;
       if (lost >= 0.01) return;
-      const auto& next = spokes[sheet.target(h)];
+      const auto& next = outgoing[sheet.target(h)];
       h = sheet.target(next.front()) == sheet.origin(h) ? next.back() : next.front();
     }
   }

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "harness/base/stop_watch.h"
 #include "harness/cut/embed_carefully.h"
 #include "harness/cut/open.h"
 #include "harness/cut/patch.h"
-#include "harness/measure/stop_watch.h"
 
 namespace cutbench {
 

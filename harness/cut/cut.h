@@ -5,9 +5,9 @@
 #include <string>
 
 #include "harness/cut/cutting_method.h"
-#include "harness/cut/path.h"
-#include "harness/cut/trace.h"
 #include "harness/mesh/locator.h"
+#include "harness/path/curve.h"
+#include "harness/path/trace.h"
 
 namespace cutbench {
 

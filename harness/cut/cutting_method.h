@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "harness/cut/subdivision.h"
 #include "harness/mesh/sheet.h"
 #include "harness/mesh/ties.h"
+#include "harness/path/subdivision.h"
 
 namespace cutbench {
 

@@ -53,8 +53,8 @@ class CarefulEmbedding {
 
   /// The half-edge from a to b, or from b to a where that is the only one; none where they are no neighbours.
   HalfEdge find_edge(VertexIndex a, VertexIndex b) const {
-    const HalfEdge h = find_spoke(sheet_, a, b);
-    return h.valid() ? h : find_spoke(sheet_, b, a);
+    const HalfEdge h = find_half_edge(sheet_, a, b);
+    return h.valid() ? h : find_half_edge(sheet_, b, a);
   }
 
   /// The faces and edges of the trace are those of the sheet before: what is needed of them is noted first.
@@ -164,14 +164,14 @@ class CarefulEmbedding {
     const auto straight_on = [&](VertexIndex v) {
       return v == target || (side(v) == 0 && dot(rest(v) - rest(a), rest(target) - rest(a)) > 0);
     };
-    const HalfEdge first = sheet_.first_spoke(a);
+    const HalfEdge first = sheet_.first_outgoing(a);
     HalfEdge h = first;
     do {
       const HalfEdge across = Sheet::next(h), into = Sheet::previous(h);
       if (straight_on(sheet_.target(h))) return take(h, sheet_.target(h));
       if (straight_on(sheet_.origin(into))) return take(into, sheet_.origin(into));
       if (side(sheet_.origin(across)) < 0 && side(sheet_.target(across)) > 0) return cross(a, target, across);
-      h = sheet_.turn_left(h);
+      h = sheet_.next_outgoing(h);
     } while (h.valid() && h != first);
     give_up();  // the straight way leaves the sheet
   }

@@ -2,9 +2,9 @@
 // a rounded crossing falls out of its triangle.
 #pragma once
 
-#include "harness/cut/cut_failed.h"
-#include "harness/cut/subdivision.h"
 #include "harness/mesh/sheet.h"
+#include "harness/path/cut_failed.h"
+#include "harness/path/subdivision.h"
 
 namespace cutbench {
 

@@ -6,21 +6,21 @@ namespace cutbench {
 
 namespace {
 
-/// A spoke of v that separates, looked for counter-clockwise as far as the border; none where there is none.
-HalfEdge some_separating_spoke(const Sheet& sheet, VertexIndex v) {
+/// A outgoing edge of v that separates, looked for counter-clockwise as far as the border; none where there is none.
+HalfEdge some_separating_edge(const Sheet& sheet, VertexIndex v) {
   const TriangleIndex t = sheet.triangle_of_vertex(v);
   const auto& corner = sheet.triangle(t).vertex;
   const HalfEdge start = half_edge(t, corner[0] == v ? 0 : corner[1] == v ? 1 : 2);
   HalfEdge h = start;
   do {
     if (sheet.separates(h)) return h;
-    h = sheet.turn_left(h);
+    h = sheet.next_outgoing(h);
   } while (h.valid() && h != start);
-  return h.valid() ? HalfEdge() : sheet.first_spoke(v);
+  return h.valid() ? HalfEdge() : sheet.first_outgoing(v);
 }
 
-/// Gives the fans from spoke `first` on deformed vertices of their own; false where that ended at the border and not
-/// back at `first`. `seen` is working storage.
+/// Gives the fans from outgoing edge `first` on deformed vertices of their own; false where that ended at the border
+/// and not back at `first`. `seen` is working storage.
 bool separate_fans(Sheet& sheet, HalfEdge first, std::vector<DeformedIndex>& seen) {
   seen.clear();
   bool copied = false;
@@ -51,9 +51,9 @@ void open_path(Sheet& sheet) {
   std::vector<DeformedIndex> seen;
   for (auto v : sheet.log().path_vertices) {
     if (!sheet.triangle_of_vertex(v).valid()) continue;  // collapsed
-    const HalfEdge spoke = some_separating_spoke(sheet, v);
-    if (!spoke.valid() || separate_fans(sheet, spoke, seen) || sheet.on_border(spoke)) continue;
-    separate_fans(sheet, sheet.first_spoke(v), seen);  // a border vertex: once more, from the border on
+    const HalfEdge outgoing = some_separating_edge(sheet, v);
+    if (!outgoing.valid() || separate_fans(sheet, outgoing, seen) || sheet.on_border(outgoing)) continue;
+    separate_fans(sheet, sheet.first_outgoing(v), seen);  // a border vertex: once more, from the border on
   }
 }
 

@@ -8,8 +8,8 @@
 namespace cutbench {
 
 /// Opens the edges marked `path` since begin_cut(): they become incisions. The first fan at a vertex, counter-clockwise
-/// from the first separating spoke, keeps the deformed vertex; each other fan that shared it gets a copy at the same
-/// place. Cost: the triangles at the path's vertices.
+/// from the first separating outgoing edge, keeps the deformed vertex; each other fan that shared it gets a copy at the
+/// same place. Cost: the triangles at the path's vertices.
 void open_path(Sheet& sheet);
 
 }  // namespace cutbench

@@ -45,12 +45,12 @@ bool are_on_one_edge(const Patch& patch, int a, int b) {
 
 }  // namespace
 
-HalfEdge find_spoke(const Sheet& sheet, VertexIndex from, VertexIndex to) {
-  const HalfEdge first = sheet.first_spoke(from);
+HalfEdge find_half_edge(const Sheet& sheet, VertexIndex from, VertexIndex to) {
+  const HalfEdge first = sheet.first_outgoing(from);
   HalfEdge h = first;
   do {
     if (sheet.target(h) == to) return h;
-    h = sheet.turn_left(h);
+    h = sheet.next_outgoing(h);
   } while (h.valid() && h != first);
   return {};
 }
@@ -187,16 +187,15 @@ void mark_along(Sheet& sheet, const Subdivision& subdivision) {
     const std::vector<int> stops = subdivision.nodes_along(along);
     for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
       const VertexIndex a = subdivision.node(stops[i]).vertex, b = subdivision.node(stops[i + 1]).vertex;
-      const HalfEdge h = find_spoke(sheet, a, b);
+      const HalfEdge h = find_half_edge(sheet, a, b);
       if (h.valid() && sheet.mark(h) == EdgeMark::none) sheet.set_mark(h, EdgeMark::path);
-      if (!h.valid() && !find_spoke(sheet, b, a).valid())  // a border edge has one half-edge only
+      if (!h.valid() && !find_half_edge(sheet, b, a).valid())  // a border edge has one half-edge only
         throw TooClose("the path along an edge is not an edge of the result");
     }
   }
 }
 
-// --- moves on a patch's triangles
-// --------------------------------------------------------------------------------------
+// --- moves on a patch's triangles ------------------------------------------------------------------------------------
 
 PatchEdge find_edge(const Patch& patch, int a, int b) {
   for (std::size_t t = 0; t < patch.triangles.size(); ++t)

@@ -6,9 +6,9 @@
 #include <array>
 #include <vector>
 
-#include "harness/cut/cut_failed.h"
-#include "harness/cut/subdivision.h"
 #include "harness/mesh/sheet.h"
+#include "harness/path/cut_failed.h"
+#include "harness/path/subdivision.h"
 
 namespace cutbench {
 
@@ -31,7 +31,7 @@ struct Patch {
 
 /// The half-edge from one vertex to another; none where there is no such edge, or only the other half of one on the
 /// border.
-HalfEdge find_spoke(const Sheet& sheet, VertexIndex from, VertexIndex to);
+HalfEdge find_half_edge(const Sheet& sheet, VertexIndex from, VertexIndex to);
 /// Makes sheet vertices of the nodes that aren't yet.
 void make_vertices(Sheet& sheet, Subdivision& subdivision);
 /// Fills `patch` for face f. \pre make_vertices().
@@ -90,8 +90,7 @@ void embed_patches(Sheet& sheet, Subdivision& subdivision, PatchWork& work, Diag
   sheet.replace_cavity(work.removed, work.added);
 }
 
-// --- moves on a patch's triangles, for methods
-// -------------------------------------------------------------------------
+// --- moves on a patch's triangles, for methods -----------------------------------------------------------------------
 
 /// The whole triangle, before anything is inserted.
 void start_triangulation(Patch& patch);

@@ -42,8 +42,7 @@ void Bending::resize(const Sheet& sheet) {
   work_.stale.clear();
 }
 
-// --- what a cut makes stale
-// ----------------------------------------------------------------------------------------------
+// --- what a cut makes stale ------------------------------------------------------------------------------------------
 
 void Bending::mark_stale(TriangleIndex t, int distance) {
   if (work_.stale_in[t()] == work_.call) return;
@@ -101,8 +100,7 @@ void Bending::fit_patch(const Sheet& sheet, TriangleIndex t) {
   slopes_.set(t(), work_.patch.terms());
 }
 
-// --- matrix
-// --------------------------------------------------------------------------------------------------------------
+// --- matrix ----------------------------------------------------------------------------------------------------------
 
 void Bending::put_on_list(std::int32_t vertex) {
   auto& listed = work_.listed_in[static_cast<std::size_t>(vertex)];

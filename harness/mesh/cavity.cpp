@@ -112,48 +112,48 @@ DeformedIndex Sheet::old_deformed_beside(HalfEdge h, VertexIndex v, std::span<co
   return {};
 }
 
-/// Gives the corner at the origin of `spoke` the deformed vertex that others of its fan have.
-void Sheet::inherit_round(HalfEdge spoke, std::span<const TriangleIndex> removed) {
+/// Gives the corner at the origin of `outgoing edge` the deformed vertex that others of its fan have.
+void Sheet::inherit_round(HalfEdge outgoing, std::span<const TriangleIndex> removed) {
   const auto known = [&](HalfEdge h) { return triangle(triangle_of(h)).deformed[corner(h)]; };
   DeformedIndex d;
   HalfEdge leftmost, rightmost;  // where the fan ends at opened edges
-  for (HalfEdge h = spoke; h.valid() && !d.valid();) {
+  for (HalfEdge h = outgoing; h.valid() && !d.valid();) {
     if (mark(previous(h)) == EdgeMark::incision) {
       leftmost = previous(h);
       break;
     }
-    h = turn_left(h);
-    if (h == spoke) break;
+    h = next_outgoing(h);
+    if (h == outgoing) break;
     if (h.valid()) d = known(h);
   }
-  for (HalfEdge h = spoke; h.valid() && !d.valid();) {
+  for (HalfEdge h = outgoing; h.valid() && !d.valid();) {
     if (mark(h) == EdgeMark::incision) {
       rightmost = h;
       d = pending_deformed_left_of(h);
       break;
     }
-    h = turn_right(h);
-    if (h == spoke) break;
+    h = previous_outgoing(h);
+    if (h == outgoing) break;
     if (h.valid()) d = known(h);
   }
   // All triangles of the fan were replaced: the old ones beside the opened edges know, else the one in whose corner
   // this one lies.
   for (const HalfEdge end : {leftmost, rightmost})
-    if (end.valid() && !d.valid()) d = old_deformed_beside(end, origin(spoke), removed);
+    if (end.valid() && !d.valid()) d = old_deformed_beside(end, origin(outgoing), removed);
   if (!d.valid()) {
-    const auto c = corners(triangle_of(spoke));
-    const Point2 v = rest(origin(spoke)), inward = c[0] + c[1] + c[2] - 3 * v;
+    const auto c = corners(triangle_of(outgoing));
+    const Point2 v = rest(origin(outgoing)), inward = c[0] + c[1] + c[2] - 3 * v;
     double deepest = -1e300;
     for (const Triangle& t : work_.old)
       for (std::size_t k = 0; k < 3; ++k) {
-        if (t.vertex[k] != origin(spoke)) continue;
+        if (t.vertex[k] != origin(outgoing)) continue;
         const Point2 right = rest(t.vertex[k == 2 ? 0 : k + 1]) - v, left = rest(t.vertex[k == 0 ? 2 : k - 1]) - v;
         const double depth = std::min(cross(right, inward) / std::sqrt(squared_length(right)),
                                       cross(inward, left) / std::sqrt(squared_length(left)));
         if (depth > deepest) deepest = depth, d = t.deformed[k];
       }
   }
-  at(triangle_of(spoke)).deformed[corner(spoke)] = d;
+  at(triangle_of(outgoing)).deformed[corner(outgoing)] = d;
 }
 
 /// Fills a slot, with what its parent knows: deformed vertices, and neighbours across edges that stay as they were.
@@ -239,7 +239,7 @@ void Sheet::replace_cavity(std::span<const TriangleIndex> removed, std::span<con
       if (o.valid() && !was_removed(o) && !opposite(o).valid())
         if (const HalfEdge inner = work_.edges.pair_or_insert(origin(o), target(o), o); inner.valid()) link(inner, o);
 
-  for (auto spoke : work_.unassigned) inherit_round(spoke, removed);
+  for (auto outgoing : work_.unassigned) inherit_round(outgoing, removed);
   work_.pending.clear();
 }
 

@@ -71,9 +71,9 @@ class Checker {
       return sheet_.on_border(h) || sheet_.mark(h) == EdgeMark::incision ||
              (opened_ && sheet_.mark(h) == EdgeMark::path);
     };
-    HalfEdge first = sheet_.first_spoke(v), h = first;
-    while (!separates(h)) {  // start a fan at a separating spoke, if there is one
-      h = sheet_.turn_left(h);
+    HalfEdge first = sheet_.first_outgoing(v), h = first;
+    while (!separates(h)) {  // start a fan at a separating outgoing edge, if there is one
+      h = sheet_.next_outgoing(h);
       if (h == first) break;
     }
     first = h;
@@ -89,7 +89,7 @@ class Checker {
         say(name + ": one fan has two deformed vertices");
       }
       fan = d;
-      h = sheet_.turn_left(h);
+      h = sheet_.next_outgoing(h);
     } while (h.valid() && h != first);
   }
 

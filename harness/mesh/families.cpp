@@ -199,4 +199,12 @@ MeshData make_sheet(const std::string& family, int n) {
   throw InputError("sheet family '" + family + "' is unknown; choose one of " + known);
 }
 
+int squares_per_side(std::int64_t triangles) {
+  constexpr std::int64_t most = 1000000;
+  const auto n = triangles < 0 ? 0 : std::lround(std::sqrt(static_cast<double>(std::min(triangles, most)) / 2));
+  if (n >= 1 && 2 * n * n == triangles) return static_cast<int>(n);
+  throw InputError("resolution " + std::to_string(triangles) +
+                   ": a sheet has 2 n^2 triangles, at most 1000000, such as 800, 1800, 3200, 5000, 7200, 9800, 12800");
+}
+
 }  // namespace cutbench

@@ -23,4 +23,7 @@ std::span<const char* const> sheet_families();
 /// \throw InputError for an unknown family or n out of range.
 MeshData make_sheet(const std::string& family, int n);
 
+/// n of the n x n squares that make `triangles`; throws InputError unless there is one, and not too large.
+int squares_per_side(std::int64_t triangles);
+
 }  // namespace cutbench

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/mesh/errors.h"
+#include "harness/base/errors.h"
 #include "harness/mesh/types.h"
 
 namespace cutbench {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "harness/base/whole_file.h"
 #include "harness/mesh/mesh_data.h"
-#include "harness/mesh/whole_file.h"
 
 namespace cutbench {
 

@@ -7,26 +7,26 @@
 namespace cutbench {
 
 /// Each fan of what is left at v gets a vertex of its own, the first one v itself; each side of an incision that ends
-/// in the fan gets deformed vertices of its own. \param spokes  all that v had, counter-clockwise
-void Sheet::mend_vertex(VertexIndex v, std::span<const HalfEdge> spokes) {
+/// in the fan gets deformed vertices of its own. \param outgoing edges  all that v had, counter-clockwise
+void Sheet::mend_vertex(VertexIndex v, std::span<const HalfEdge> outgoing) {
   const auto stays = [&](HalfEdge h) { return triangle(triangle_of(h)).alive(); };
   const auto known = [&](HalfEdge h) { return triangle(triangle_of(h)).deformed[corner(h)]; };
   const auto holds = [](const std::vector<DeformedIndex>& all, DeformedIndex d) {
     return std::find(all.begin(), all.end(), d) != all.end();
   };
   std::vector<DeformedIndex> originals;
-  for (const HalfEdge h : spokes)
+  for (const HalfEdge h : outgoing)
     if (!holds(originals, known(h))) originals.push_back(known(h));
 
-  // Round an inner vertex a fan may go on past the last spoke: begin behind a triangle that is gone.
-  const auto gone = std::find_if_not(spokes.begin(), spokes.end(), stays);
-  const auto begin = static_cast<std::size_t>(gone - spokes.begin());
+  // Round an inner vertex a fan may go on past the last outgoing edge: begin behind a triangle that is gone.
+  const auto gone = std::find_if_not(outgoing.begin(), outgoing.end(), stays);
+  const auto begin = static_cast<std::size_t>(gone - outgoing.begin());
   VertexIndex mine;                                             // of the fan under way
   std::vector<DeformedIndex> taken, kept;                       // originals: by earlier sides, by the one under way
   std::vector<std::pair<DeformedIndex, DeformedIndex>> copies;  // of this side, where it can't have the originals
   bool has_fan = false;
-  for (std::size_t i = 0; i < spokes.size(); ++i) {
-    const HalfEdge h = spokes[(begin + i) % spokes.size()];
+  for (std::size_t i = 0; i < outgoing.size(); ++i) {
+    const HalfEdge h = outgoing[(begin + i) % outgoing.size()];
     if (!stays(h)) continue;
     Triangle& t = at(triangle_of(h));
     if (on_border(h)) {  // a fan begins
@@ -56,18 +56,18 @@ void Sheet::mend_vertex(VertexIndex v, std::span<const HalfEdge> spokes) {
 void Sheet::remove(std::span<const TriangleIndex> removed) {
   struct Star {
     VertexIndex vertex;
-    std::size_t first;  // of its spokes
+    std::size_t first;  // of its outgoing edges
   };
   std::vector<Star> stars;
-  std::vector<HalfEdge> spokes;
+  std::vector<HalfEdge> outgoing;
   std::vector<std::uint8_t> met(vertex_slots());
   for (const TriangleIndex t : removed)
     for (const VertexIndex v : triangle(t).vertex) {
       if (std::exchange(met[v()], 1)) continue;
-      stars.push_back({v, spokes.size()});
-      const HalfEdge first = first_spoke(v);
+      stars.push_back({v, outgoing.size()});
+      const HalfEdge first = first_outgoing(v);
       HalfEdge h = first;
-      do spokes.push_back(h), h = turn_left(h);
+      do outgoing.push_back(h), h = next_outgoing(h);
       while (h.valid() && h != first);
     }
   for (const TriangleIndex t : removed) {
@@ -81,9 +81,9 @@ void Sheet::remove(std::span<const TriangleIndex> removed) {
     at(t).vertex[0] = {};
     freed_triangles_.push_back(t);
   }
-  stars.push_back({{}, spokes.size()});
+  stars.push_back({{}, outgoing.size()});
   for (std::size_t i = 0; i + 1 < stars.size(); ++i)
-    mend_vertex(stars[i].vertex, std::span(spokes).subspan(stars[i].first, stars[i + 1].first - stars[i].first));
+    mend_vertex(stars[i].vertex, std::span(outgoing).subspan(stars[i].first, stars[i + 1].first - stars[i].first));
 }
 
 }  // namespace cutbench

@@ -25,17 +25,16 @@ std::array<Point2, 3> Sheet::corners(TriangleIndex t) const {
   return {rest(v[0]), rest(v[1]), rest(v[2])};
 }
 
-HalfEdge Sheet::first_spoke(VertexIndex v) const {
+HalfEdge Sheet::first_outgoing(VertexIndex v) const {
   const TriangleIndex t = triangle_of_vertex(v);
   const auto& corner = triangle(t).vertex;
   const HalfEdge start = half_edge(t, corner[0] == v ? 0 : corner[1] == v ? 1 : 2);
   HalfEdge h = start;
-  for (HalfEdge right = turn_right(h); right.valid() && right != start; right = turn_right(h)) h = right;
+  for (HalfEdge right = previous_outgoing(h); right.valid() && right != start; right = previous_outgoing(h)) h = right;
   return on_border(h) ? h : start;
 }
 
-// --- the log
-// -----------------------------------------------------------------------------------------------------------
+// --- the log ---------------------------------------------------------------------------------------------------------
 
 void Sheet::begin_cut() {
   auto recycle = [](auto& freed, auto& free) { free.insert(free.end(), freed.begin(), freed.end()), freed.clear(); };
@@ -97,8 +96,7 @@ void Sheet::rollback() {
   log_.clear();
 }
 
-// --- slots
-// -------------------------------------------------------------------------------------------------------------
+// --- slots -----------------------------------------------------------------------------------------------------------
 
 TriangleIndex Sheet::new_triangle() {
   if (free_triangles_.empty()) {
@@ -153,8 +151,7 @@ void Sheet::reserve(std::size_t triangles, std::size_t vertices, std::size_t def
   position_.reserve(deformed), vertex_of_deformed_.reserve(deformed);
 }
 
-// --- new vertices
-// ------------------------------------------------------------------------------------------------------
+// --- new vertices ----------------------------------------------------------------------------------------------------
 
 VertexIndex Sheet::new_vertex(HalfEdge h, double lambda, Point2 p) {
   auto on_side = [&](HalfEdge side, double fraction, VertexIndex v) {
@@ -179,8 +176,7 @@ VertexIndex Sheet::new_vertex(TriangleIndex t, Point2 p) {
   return v;
 }
 
-// --- editing calls made of it
-// ------------------------------------------------------------------------------------------
+// --- editing calls made of it ----------------------------------------------------------------------------------------
 
 VertexIndex Sheet::split_edge(HalfEdge h, double lambda, Point2 p) {
   const HalfEdge o = opposite(h);
@@ -227,11 +223,11 @@ void Sheet::hold(VertexIndex v) {
 
 bool Sheet::move(VertexIndex v, Point2 to) {
   if (is_held(v)) return false;
-  const HalfEdge first = first_spoke(v);
+  const HalfEdge first = first_outgoing(v);
   HalfEdge h = first;
   do {
     if (orientation(to, rest(target(h)), rest(origin(previous(h)))) <= 0) return false;
-    h = turn_left(h);
+    h = next_outgoing(h);
   } while (h.valid() && h != first);
   // Each fan's deformed vertex follows the fan's own old map: interpolated in the triangle that holds the new place, or
   // comes nearest to holding it.
@@ -250,7 +246,7 @@ bool Sheet::move(VertexIndex v, Point2 to) {
       carried.push_back({{d, t.deformed, w}, depth});
     else if (depth > known->depth)
       *known = {{d, t.deformed, w}, depth};
-    h = turn_left(h);
+    h = next_outgoing(h);
   } while (h.valid() && h != first);
   log_.moved.push_back({v, rest(v)});
   rest_[v()] = to;
@@ -279,15 +275,15 @@ bool Sheet::collapse(HalfEdge h) {
   const VertexIndex a = origin(h), b = target(h);
   if (is_held(a)) return false;
   HalfEdge onward;  // the other piece of the path at a
-  HalfEdge spoke = h;
+  HalfEdge outgoing = h;
   do {
-    if (!spoke.valid() || on_border(spoke) || mark(spoke) == EdgeMark::incision) return false;
-    if (mark(spoke) == EdgeMark::path && spoke != h) {
+    if (!outgoing.valid() || on_border(outgoing) || mark(outgoing) == EdgeMark::incision) return false;
+    if (mark(outgoing) == EdgeMark::path && outgoing != h) {
       if (onward.valid()) return false;
-      onward = spoke;
+      onward = outgoing;
     }
-    spoke = turn_left(spoke);
-  } while (spoke != h);
+    outgoing = next_outgoing(outgoing);
+  } while (outgoing != h);
   if ((mark(h) == EdgeMark::path) != onward.valid()) return false;
   const VertexIndex end = onward.valid() ? target(onward) : VertexIndex();
 
@@ -295,7 +291,7 @@ bool Sheet::collapse(HalfEdge h) {
   auto& rest_of_star = work_.rest_of_star;
   star.clear(), rest_of_star.clear();
   do {
-    const VertexIndex c = target(spoke), d = origin(previous(spoke));
+    const VertexIndex c = target(outgoing), d = origin(previous(outgoing));
     if (c != b && d != b) {
       if (orientation(rest(b), rest(c), rest(d)) <= 0) return false;
       const auto mark_to = [&](VertexIndex v) { return v == end ? EdgeMark::path : EdgeMark::none; };
@@ -303,17 +299,16 @@ bool Sheet::collapse(HalfEdge h) {
     } else if (c == end || d == end) {
       return false;
     }
-    star.push_back(triangle_of(spoke));
-    spoke = turn_left(spoke);
-  } while (spoke != h);
+    star.push_back(triangle_of(outgoing));
+    outgoing = next_outgoing(outgoing);
+  } while (outgoing != h);
   const DeformedIndex d = triangle(triangle_of(h)).deformed[corner(h)];
   replace_cavity(star, rest_of_star);
   drop_vertex(a, d);
   return true;
 }
 
-// --- small changes
-// -----------------------------------------------------------------------------------------------------
+// --- small changes ---------------------------------------------------------------------------------------------------
 
 void Sheet::set_mark(HalfEdge h, EdgeMark mark) {
   const HalfEdge o = opposite(h);

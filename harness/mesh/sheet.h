@@ -55,10 +55,10 @@ class Sheet {
   static HalfEdge next(HalfEdge h) { return half_edge(triangle_of(h), next_corner(corner_of(h))); }
   static HalfEdge previous(HalfEdge h) { return half_edge(triangle_of(h), previous_corner(corner_of(h))); }
   /// The next half-edge out of the same origin, counter-clockwise or clockwise; invalid past the border.
-  HalfEdge turn_left(HalfEdge h) const { return opposite(previous(h)); }
-  HalfEdge turn_right(HalfEdge h) const { return on_border(h) ? HalfEdge() : next(opposite(h)); }
-  /// A half-edge out of v; at a border vertex the one with the border on its right, so that turn_left() meets all.
-  HalfEdge first_spoke(VertexIndex v) const;
+  HalfEdge next_outgoing(HalfEdge h) const { return opposite(previous(h)); }
+  HalfEdge previous_outgoing(HalfEdge h) const { return on_border(h) ? HalfEdge() : next(opposite(h)); }
+  /// A half-edge out of v; at a border vertex the one with the border on its right, so that next_outgoing() meets all.
+  HalfEdge first_outgoing(VertexIndex v) const;
 
   double mean_edge() const { return mean_edge_; }  ///< h: mean rest edge of the sheet as constructed
   double size() const { return size_; }            ///< diagonal of its rest bounding box
@@ -143,7 +143,7 @@ class Sheet {
                              const std::array<double, 3>& weights);
   void free_vertex(VertexIndex v);
   void free_deformed(DeformedIndex d);
-  void mend_vertex(VertexIndex v, std::span<const HalfEdge> spokes);
+  void mend_vertex(VertexIndex v, std::span<const HalfEdge> outgoing);
   void link(HalfEdge h, HalfEdge o);
   void join_halves(VertexIndex v, HalfEdge first, HalfEdge second);
   void add_triangle(TriangleIndex slot, const NewTriangle& made, std::span<const TriangleIndex> removed);
@@ -153,7 +153,7 @@ class Sheet {
   DeformedIndex pending_deformed(VertexIndex v, TriangleIndex parent) const;
   DeformedIndex pending_deformed_left_of(HalfEdge rightmost) const;
   DeformedIndex old_deformed_beside(HalfEdge h, VertexIndex v, std::span<const TriangleIndex> removed) const;
-  void inherit_round(HalfEdge spoke, std::span<const TriangleIndex> removed);
+  void inherit_round(HalfEdge outgoing, std::span<const TriangleIndex> removed);
 
   std::vector<Triangle> triangles_;
   std::vector<Point2> rest_;
@@ -192,7 +192,7 @@ class Sheet {
     std::vector<TriangleIndex> slot;        ///< per added triangle
     std::vector<std::uint32_t> removed_in;  ///< per slot: the call that removed it last
     std::uint32_t call = 0;
-    std::vector<HalfEdge> unassigned;  ///< corners (as spokes) whose deformed vertex is still to be found
+    std::vector<HalfEdge> unassigned;  ///< corners (as outgoing edges) whose deformed vertex is still to be found
     std::vector<TriangleIndex> star;   ///< of a vertex that is collapsed
     std::vector<NewTriangle> rest_of_star;
     /// What becomes of a deformed vertex when its rest vertex moves.

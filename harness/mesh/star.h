@@ -28,24 +28,25 @@ inline bool halves_are_positive(const Sheet& sheet, HalfEdge h, Point2 p) {
   return orientation(sheet.rest(sheet.origin(h)), p, apex) > 0 && orientation(p, sheet.rest(sheet.target(h)), apex) > 0;
 }
 
-/// Calls look(spoke) for every spoke of v that has a triangle on its left, in no particular order.
+/// Calls look(outgoing edge) for every outgoing edge of v that has a triangle on its left, in no particular order.
 template <class Look>
-void for_each_spoke(const Sheet& sheet, VertexIndex v, Look look) {
+void for_each_outgoing(const Sheet& sheet, VertexIndex v, Look look) {
   const auto& corner = sheet.triangle(sheet.triangle_of_vertex(v)).vertex;
   const HalfEdge start = half_edge(sheet.triangle_of_vertex(v), corner[0] == v ? 0 : corner[1] == v ? 1 : 2);
   HalfEdge h = start;
   do {
     look(h);
-    h = sheet.turn_left(h);
+    h = sheet.next_outgoing(h);
   } while (h.valid() && h != start);
   if (h.valid()) return;
-  for (h = sheet.turn_right(start); h.valid(); h = sheet.turn_right(h)) look(h);  // the border came in between
+  for (h = sheet.previous_outgoing(start); h.valid(); h = sheet.previous_outgoing(h))
+    look(h);  // the border came in between
 }
 
 /// Calls look(w) for the other end of every edge at v that separates: border, incision or path.
 template <class Look>
 void for_each_separating_end(const Sheet& sheet, VertexIndex v, Look look) {
-  for_each_spoke(sheet, v, [&](HalfEdge h) {
+  for_each_outgoing(sheet, v, [&](HalfEdge h) {
     if (sheet.separates(h)) look(sheet.target(h));
     if (sheet.on_border(Sheet::previous(h))) look(sheet.origin(Sheet::previous(h)));
   });
@@ -64,7 +65,7 @@ void for_each_changed(const Sheet& sheet, Look look) {
 /// The largest aspect ratio of the triangles at v, were it at p; infinite where one would not be positive.
 inline double worst_aspect(const Sheet& sheet, VertexIndex v, Point2 p) {
   double worst = 0;
-  for_each_spoke(sheet, v, [&](HalfEdge h) {
+  for_each_outgoing(sheet, v, [&](HalfEdge h) {
     worst =
         std::max(worst, oriented_aspect(p, sheet.rest(sheet.target(h)), sheet.rest(sheet.origin(Sheet::previous(h)))));
   });
@@ -80,9 +81,9 @@ inline double squared_distance(Point2 p, Point2 a, Point2 b) {
 
 /// Can border vertex v slide along the border without changing the sheet's shape, but for rounding?
 inline bool is_straight_at(const Sheet& sheet, VertexIndex v) {
-  const HalfEdge right = sheet.first_spoke(v);
+  const HalfEdge right = sheet.first_outgoing(v);
   HalfEdge left = right;
-  for (HalfEdge h = right; h.valid(); h = sheet.turn_left(h)) {
+  for (HalfEdge h = right; h.valid(); h = sheet.next_outgoing(h)) {
     if (h != right && sheet.mark(h) != EdgeMark::none) return false;
     left = h;
   }

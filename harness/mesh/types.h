@@ -1,9 +1,11 @@
-// Points and indices. Every index is its own type, so that a triangle can't be used where a vertex is meant.
+// Indices. Every index is its own type, so that a triangle can't be used where a vertex is meant.
 #pragma once
 
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+
+#include "harness/base/points.h"
 
 namespace cutbench {
 
@@ -32,27 +34,5 @@ constexpr TriangleIndex triangle_of(HalfEdge h) { return TriangleIndex(h() >> 2)
 constexpr int corner_of(HalfEdge h) { return static_cast<int>(h() & 3); }
 constexpr int next_corner(int k) { return k == 2 ? 0 : k + 1; }
 constexpr int previous_corner(int k) { return k == 0 ? 2 : k - 1; }
-
-/// A position in rest space: the plane of the undeformed sheet.
-struct Point2 {
-  double x = 0, y = 0;
-  constexpr bool operator==(const Point2&) const = default;
-};
-
-/// A position of the deformed sheet.
-struct Point3 {
-  double x = 0, y = 0, z = 0;
-  constexpr bool operator==(const Point3&) const = default;
-};
-
-constexpr Point2 operator+(Point2 a, Point2 b) { return {a.x + b.x, a.y + b.y}; }
-constexpr Point2 operator-(Point2 a, Point2 b) { return {a.x - b.x, a.y - b.y}; }
-constexpr Point2 operator*(double s, Point2 a) { return {s * a.x, s * a.y}; }
-constexpr double dot(Point2 a, Point2 b) { return a.x * b.x + a.y * b.y; }
-constexpr double cross(Point2 a, Point2 b) { return a.x * b.y - a.y * b.x; }
-constexpr double squared_length(Point2 a) { return dot(a, a); }
-
-constexpr Point3 operator+(Point3 a, Point3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-constexpr Point3 operator*(double s, Point3 a) { return {s * a.x, s * a.y, s * a.z}; }
 
 }  // namespace cutbench

@@ -10,10 +10,13 @@
 #include <optional>
 #include <stdexcept>
 
+#include "harness/base/progress.h"
+#include "harness/cut/cut_all.h"
+#include "harness/judge/assessment.h"
+#include "harness/judge/judged_sheet.h"
+#include "harness/mesh/families.h"
+#include "harness/records/record.h"
 #include "harness/run/accuracy_summary.h"
-#include "harness/run/judged_sheet.h"
-#include "harness/run/progress.h"
-#include "harness/run/record.h"
 #include "harness/run/worker.h"
 #include "harness/truth/problem.h"
 

@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "harness/run/context.h"
+#include "harness/records/context.h"
 #include "harness/run/experiment.h"
-#include "harness/run/run.h"
+#include "harness/run/variant.h"
 
 namespace cutbench {
 
@@ -20,7 +20,7 @@ constexpr const char* reference_method = "body_fitted (reference)";
 bool run_accuracy(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
                   const RunOptions& options);
 
-/// The columns of its records; the first ones as in all records (harness/run/record.h). Solver and budget, too, say
+/// The columns of its records; the first ones as in all records (harness/records/record.h). Solver and budget, too, say
 /// what was measured.
 const std::vector<std::string>& accuracy_columns();
 

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "harness/run/record.h"
+#include "harness/records/record.h"
 
 namespace cutbench {
 

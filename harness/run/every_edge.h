@@ -5,8 +5,8 @@
 
 #include <cstddef>
 
-#include "harness/cut/path.h"
 #include "harness/mesh/sheet.h"
+#include "harness/path/curve.h"
 
 namespace cutbench {
 

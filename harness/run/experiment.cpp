@@ -5,9 +5,9 @@
 #include <fstream>
 #include <iterator>
 
+#include "harness/base/toml_reader.h"
+#include "harness/cases/cut_families.h"
 #include "harness/mesh/families.h"
-#include "harness/run/cases.h"
-#include "harness/run/toml_reader.h"
 #include "harness/truth/problem.h"
 
 namespace cutbench {
@@ -83,14 +83,6 @@ void refuse_repeated(std::vector<T> entries, const std::string& what) {
 }
 
 }  // namespace
-
-int squares_per_side(std::int64_t triangles) {
-  constexpr std::int64_t most = 1000000;
-  const auto n = triangles < 0 ? 0 : std::lround(std::sqrt(static_cast<double>(std::min(triangles, most)) / 2));
-  if (n >= 1 && 2 * n * n == triangles) return static_cast<int>(n);
-  throw InputError("resolution " + std::to_string(triangles) +
-                   ": a sheet has 2 n^2 triangles, at most 1000000, such as 800, 1800, 3200, 5000, 7200, 9800, 12800");
-}
 
 Experiment read_experiment(const std::filesystem::path& file) {
   const std::string name = file.string();

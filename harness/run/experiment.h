@@ -8,12 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "harness/run/scene.h"
+#include "harness/scene/scene.h"
 
 namespace cutbench {
-
-/// The version of meshes, cuts and definitions that records bear.
-constexpr const char* suite_version = "3";
 
 struct Experiment {
   /// A method and the values of its knob to run it with; none: its default.
@@ -22,7 +19,7 @@ struct Experiment {
     std::vector<double> knob_values;
   };
 
-  /// Cuts of the mixture (harness/run/mixture.h) instead of families, counted instead of measured.
+  /// Cuts of the mixture (harness/cases/mixture.h) instead of families, counted instead of measured.
   struct Campaign {
     std::vector<std::filesystem::path> mesh_files;  ///< sheets besides the families
     double time_limit_s = 10;                       ///< processor time of a case, its judgement included
@@ -66,8 +63,5 @@ struct Experiment {
 
 /// Throws InputError: unreadable, not TOML, unknown or missing keys (with the nearest known one), values out of range.
 Experiment read_experiment(const std::filesystem::path& file);
-
-/// n of the n x n squares that make `triangles`; throws InputError unless there is one, and not too large.
-int squares_per_side(std::int64_t triangles);
 
 }  // namespace cutbench

@@ -1,6 +1,6 @@
 #include "harness/run/worker.h"
 
-#include "harness/measure/stop_watch.h"
+#include "harness/base/stop_watch.h"
 #include "harness/run/chill_caches.h"
 
 namespace cutbench {

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "harness/run/report.h"
-#include "harness/run/run.h"
+#include "harness/cut/cut_all.h"
+#include "harness/run/variant.h"
 
 namespace cutbench {
 

@@ -30,7 +30,7 @@ using Chain = std::vector<Point2>;
 /// The straight parts of the border, from corner to corner.
 std::vector<Chain> border_of(const Sheet& sheet) {
   const auto direction = [&](HalfEdge h) { return sheet.rest(sheet.target(h)) - sheet.rest(sheet.origin(h)); };
-  const auto next_on_border = [&](HalfEdge h) { return sheet.first_spoke(sheet.target(h)); };
+  const auto next_on_border = [&](HalfEdge h) { return sheet.first_outgoing(sheet.target(h)); };
   const auto before_on_border = [&](HalfEdge h) {
     do h = Sheet::previous(h);
     while (!sheet.on_border(h) && (h = sheet.opposite(h), true));

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "harness/run/random.h"
+#include "harness/base/random.h"
 #include "harness/truth/elastic_field.h"
 
 namespace cutbench {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "harness/mesh/errors.h"
+#include "harness/base/errors.h"
 #include "harness/truth/edge_crack.h"
 #include "harness/truth/out_of_plane.h"
 #include "harness/truth/window_problem.h"

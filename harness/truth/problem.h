@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "harness/cut/path.h"
 #include "harness/fem/linear_solver.h"
 #include "harness/mesh/mesh_data.h"
 #include "harness/mesh/sheet.h"
 #include "harness/mesh/ties.h"
+#include "harness/path/curve.h"
 
 namespace cutbench {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "harness/measure/stop_watch.h"
+#include "harness/base/stop_watch.h"
 
 namespace cutbench {
 

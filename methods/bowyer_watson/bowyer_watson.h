@@ -19,7 +19,7 @@
 #pragma once
 
 #include "harness/cut/cutting_method.h"
-#include "harness/cut/embed_plainly.h"
+#include "methods/tools/delaunay_split.h"
 
 namespace cutbench {
 

@@ -5,7 +5,7 @@
 
 namespace cutbench {
 
-void CgalRefine::embed(Sheet& sheet, Subdivision& trace) { recovered_ = embed_plainly(sheet, trace, work_); }
+void CgalRefine::embed(Sheet& sheet, Subdivision& trace) { recovered_ = embed_by_delaunay_split(sheet, trace, work_); }
 
 void CgalRefine::improve(Sheet& sheet) {
   wedges_.find(sheet);

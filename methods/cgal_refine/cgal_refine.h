@@ -4,9 +4,9 @@
 // neighbours, is triangulated anew by CGAL (constrained Delaunay) and refined by its mesh generator until no triangle
 // has an aspect ratio above `bound`. Path, older incisions and the sheet's border are constraints, which get new points
 // where these want to be (Ruppert's rule, with CGAL's clusters at small angles). Where the refinement would divide the
-// region's border, the region grows by what lies there, and it starts again (harness/cut/region_mesher.h), three times
-// at most and while the limit on vertices was not met; else the cut stays as it was divided. Triangles shorter than
-// `min_edge` and those in forced wedges (harness/cut/forced_wedges.h) are left alone.
+// region's border, the region grows by what lies there, and it starts again (methods/tools/region_mesher.h), three
+// times at most and while the limit on vertices was not met; else the cut stays as it was divided. Triangles shorter
+// than `min_edge` and those in forced wedges (methods/tools/forced_wedges.h) are left alone.
 //
 // Source: Ruppert, A Delaunay refinement algorithm for quality 2-dimensional mesh generation, 1995; Shewchuk, Delaunay
 // refinement algorithms for triangular mesh generation, 2002; CGAL 5.5, Delaunay_mesher_2 with the Epick kernel.
@@ -18,8 +18,8 @@
 #pragma once
 
 #include "harness/cut/cutting_method.h"
-#include "harness/cut/embed_plainly.h"
-#include "harness/cut/region_mesher.h"
+#include "methods/tools/delaunay_split.h"
+#include "methods/tools/region_mesher.h"
 
 namespace cutbench {
 

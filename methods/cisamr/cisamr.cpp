@@ -38,7 +38,7 @@ std::optional<std::string> Cisamr::why_unsupported(const Sheet& sheet) const {
 void Cisamr::embed(Sheet& sheet, Subdivision& trace) {
   curve_.read(trace);
   warp_.run(sheet, trace);
-  recovered_ = embed_plainly(sheet, trace, work_);
+  recovered_ = embed_by_delaunay_split(sheet, trace, work_);
   curve_.find_vertices(sheet, trace);
 }
 

@@ -3,8 +3,8 @@
 //
 // How it works: for sheets whose triangles are, half of them at least, halves of equal squares along the axes; others
 // are refused. Where a crossing lies at up to half its edge from an end, that end moves to the nearest crossing of any
-// of its edges, nearest first (harness/cut/warp.h: where the path stays within the tolerance, nothing else of it meets
-// the vertex's triangles, and no aspect ratio exceeds a million); the triangles that are crossed after that are
+// of its edges, nearest first (methods/tools/warp.h: where the path stays within the tolerance, nothing else of it
+// meets the vertex's triangles, and no aspect ratio exceeds a million); the triangles that are crossed after that are
 // divided, and where the relocation left a quadrilateral ill-shaped it gets its better diagonal, until none changes.
 //
 // Source: Soghrati, Xiao and Nagarajan, A conforming to interface structured adaptive mesh refinement technique for
@@ -19,10 +19,10 @@
 #pragma once
 
 #include "harness/cut/cutting_method.h"
-#include "harness/cut/embed_plainly.h"
-#include "harness/cut/path_curve.h"
-#include "harness/cut/reshape.h"
-#include "harness/cut/warp.h"
+#include "methods/tools/delaunay_split.h"
+#include "methods/tools/path_curve.h"
+#include "methods/tools/reshape.h"
+#include "methods/tools/warp.h"
 
 namespace cutbench {
 

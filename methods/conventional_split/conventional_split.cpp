@@ -1,11 +1,11 @@
 #include "methods/conventional_split/conventional_split.h"
 
-#include "harness/cut/embed_conventionally.h"
+#include "methods/tools/static_split.h"
 
 namespace cutbench {
 
 void ConventionalSplit::embed(Sheet& sheet, Subdivision& trace) {
-  recovered_ = embed_conventionally(sheet, trace, work_);
+  recovered_ = embed_by_static_split(sheet, trace, work_);
 }
 
 }  // namespace cutbench

@@ -4,7 +4,9 @@
 
 namespace cutbench {
 
-void DelaunayRefine::embed(Sheet& sheet, Subdivision& trace) { recovered_ = embed_plainly(sheet, trace, work_); }
+void DelaunayRefine::embed(Sheet& sheet, Subdivision& trace) {
+  recovered_ = embed_by_delaunay_split(sheet, trace, work_);
+}
 
 void DelaunayRefine::improve(Sheet& sheet) {
   wedges_.find(sheet);

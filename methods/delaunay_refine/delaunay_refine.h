@@ -3,8 +3,8 @@
 //
 // How it works. embed: crossed triangles are divided along the path. improve: edges round the new vertices are flipped
 // to constrained Delaunay, as far as they may; then triangles that the cut made or changed, and whose aspect ratio
-// exceeds `bound`, are refined by off-centres (harness/cut/delaunay_refinement.h). Those in forced wedges
-// (harness/cut/forced_wedges.h) are left coarse.
+// exceeds `bound`, are refined by off-centres (methods/tools/delaunay_refinement.h). Those in forced wedges
+// (methods/tools/forced_wedges.h) are left coarse.
 //
 // Source: Ruppert 1995 and Ungor 2004, as said there.
 // Promises: the exact path, area, conforming, no vertex moved.
@@ -14,8 +14,8 @@
 #pragma once
 
 #include "harness/cut/cutting_method.h"
-#include "harness/cut/delaunay_refinement.h"
-#include "harness/cut/embed_plainly.h"
+#include "methods/tools/delaunay_refinement.h"
+#include "methods/tools/delaunay_split.h"
 
 namespace cutbench {
 

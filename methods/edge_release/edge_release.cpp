@@ -17,7 +17,7 @@ void EdgeRelease::embed(Sheet& sheet, Subdivision& trace) {
     release(crossing.node, crossing.vertex == a ? b : a);
   }
   path_.write(trace);
-  recovered_ = embed_plainly(sheet, trace, work_);
+  recovered_ = embed_by_delaunay_split(sheet, trace, work_);
 }
 
 }  // namespace cutbench

@@ -3,7 +3,7 @@
 // How it works: points of the path inside triangles are left out, and every crossing of an edge goes to one of the
 // edge's ends, the nearer one where possible, nearest first, together with its neighbours on the path that cross other
 // edges of the same vertex. What was a path through triangles is then a chain of edges: a staircase on a regular grid.
-// All of it only where the sheet falls apart as it would by the exact path (harness/cut/path_graph.h): where rounding
+// All of it only where the sheet falls apart as it would by the exact path (methods/tools/path_graph.h): where rounding
 // would make the path touch itself, the border or an older incision, or close up a loop or a cut-off corner, the
 // crossing is split instead. Tips inside triangles or on edges stay, and the triangles there are divided.
 //
@@ -16,8 +16,8 @@
 #pragma once
 
 #include "harness/cut/cutting_method.h"
-#include "harness/cut/embed_plainly.h"
-#include "harness/cut/path_graph.h"
+#include "methods/tools/delaunay_split.h"
+#include "methods/tools/path_graph.h"
 
 namespace cutbench {
 

@@ -1,6 +1,6 @@
 #include "methods/element_deletion/element_deletion.h"
 
-#include "harness/cut/cut_failed.h"
+#include "harness/path/cut_failed.h"
 
 namespace cutbench {
 

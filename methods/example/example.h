@@ -2,7 +2,7 @@
 //
 // How it works: a crossing leaves a quadrilateral of the crossed triangle, which is divided by its shorter diagonal (on
 // a tie by the one from the point the path met first). All other crossed triangles are divided step by step
-// (split_step_by_step() in harness/cut/embed_plainly.h).
+// (split_step_by_step() in methods/tools/delaunay_split.h).
 //
 // Source: the shorter diagonal is what one takes who has no circle test at hand. Promises: the exact path, area,
 // conforming, no vertex moved. Fails: shapes, as any split without new or moved points: a crossing at fraction t of an
@@ -10,7 +10,7 @@
 #pragma once
 
 #include "harness/cut/cutting_method.h"
-#include "harness/cut/embed_plainly.h"
+#include "methods/tools/delaunay_split.h"
 
 namespace cutbench {
 

@@ -2,7 +2,9 @@
 
 namespace cutbench {
 
-void GlobalRemesh::embed(Sheet& sheet, Subdivision& trace) { recovered_ = embed_plainly(sheet, trace, work_); }
+void GlobalRemesh::embed(Sheet& sheet, Subdivision& trace) {
+  recovered_ = embed_by_delaunay_split(sheet, trace, work_);
+}
 
 void GlobalRemesh::improve(Sheet& sheet) {
   // With triangles whose longest edge is at most this, their number comes out near that of the sheet.

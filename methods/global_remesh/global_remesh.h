@@ -3,8 +3,8 @@
 // How it works. embed: crossed triangles are divided along the path. improve: of the whole sheet only the vertices on
 // the border, on older incisions and on the path are kept, and held ones (pinned or loaded); CGAL's mesh generator
 // fills it with new triangles, as large as the sheet's were in the mean and of aspect ratios up to 3, and puts points
-// on border and incisions where it wants them (harness/cut/region_mesher.h). The deformation at a new vertex is that of
-// the old triangle it lies in. The path keeps the points where it crossed the old edges, so that the incision is the
+// on border and incisions where it wants them (methods/tools/region_mesher.h). The deformation at a new vertex is that
+// of the old triangle it lies in. The path keeps the points where it crossed the old edges, so that the incision is the
 // same as every other method's.
 //
 // Source: as harness/truth/body_fitted.cpp; CGAL 5.5, Delaunay_mesher_2.
@@ -16,8 +16,8 @@
 #pragma once
 
 #include "harness/cut/cutting_method.h"
-#include "harness/cut/embed_plainly.h"
-#include "harness/cut/region_mesher.h"
+#include "methods/tools/delaunay_split.h"
+#include "methods/tools/region_mesher.h"
 
 namespace cutbench {
 

@@ -27,7 +27,7 @@ HalfEdge terminal_edge(const Sheet& sheet, TriangleIndex t) {
 
 }  // namespace
 
-void LongestEdge::embed(Sheet& sheet, Subdivision& trace) { recovered_ = embed_plainly(sheet, trace, work_); }
+void LongestEdge::embed(Sheet& sheet, Subdivision& trace) { recovered_ = embed_by_delaunay_split(sheet, trace, work_); }
 
 bool LongestEdge::wants_splitting(const Sheet& sheet, TriangleIndex t) const {
   if (!sheet.triangle(t).alive()) return false;
@@ -43,12 +43,12 @@ bool LongestEdge::split_terminal_edge(Sheet& sheet, TriangleIndex t) {
   const Point2 middle = 0.5 * sheet.rest(sheet.origin(h)) + 0.5 * sheet.rest(sheet.target(h));
   if (!halves_are_positive(sheet, h, middle) || !halves_are_positive(sheet, o, middle)) return false;
   const VertexIndex v = sheet.split_edge(h, 0.5, middle);
-  const HalfEdge first = sheet.first_spoke(v);
-  HalfEdge spoke = first;
+  const HalfEdge first = sheet.first_outgoing(v);
+  HalfEdge outgoing = first;
   do {
-    delaunay_.add(triangle_of(spoke)), delaunay_.changed.push_back(triangle_of(spoke));
-    spoke = sheet.turn_left(spoke);
-  } while (spoke.valid() && spoke != first);
+    delaunay_.add(triangle_of(outgoing)), delaunay_.changed.push_back(triangle_of(outgoing));
+    outgoing = sheet.next_outgoing(outgoing);
+  } while (outgoing.valid() && outgoing != first);
   return true;
 }
 

@@ -6,7 +6,7 @@
 // the longest of both its triangles or lies on the border. Its midpoint becomes a vertex, edges round that are flipped
 // to Delaunay, never across border, incisions or path, and so on, first come first served, until no triangle is
 // ill-shaped or the split has made `cap` vertices per vertex of the path. Edges shorter than twice `min_edge` stay, and
-// so does what lies in a forced wedge (harness/cut/forced_wedges.h).
+// so does what lies in a forced wedge (methods/tools/forced_wedges.h).
 //
 // Source: Rivara, New longest-edge algorithms for the refinement and/or improvement of unstructured triangulations,
 // 1997 (LEPP-Delaunay); Xin et al. 2018, 4.1.3 for the place it takes. Flips: harness/mesh/local_delaunay.h.
@@ -19,9 +19,9 @@
 #pragma once
 
 #include "harness/cut/cutting_method.h"
-#include "harness/cut/embed_plainly.h"
-#include "harness/cut/forced_wedges.h"
 #include "harness/mesh/local_delaunay.h"
+#include "methods/tools/delaunay_split.h"
+#include "methods/tools/forced_wedges.h"
 
 namespace cutbench {
 

@@ -6,9 +6,9 @@
 #include <set>
 #include <utility>
 
-#include "harness/cut/embed_conventionally.h"
 #include "harness/mesh/locator.h"
 #include "harness/mesh/predicates.h"
+#include "methods/tools/static_split.h"
 
 namespace cutbench {
 
@@ -252,7 +252,7 @@ class Doubling {
 
 }  // namespace
 
-void PhantomNode::embed(Sheet& sheet, Subdivision& trace) { recovered_ = embed_conventionally(sheet, trace, work_); }
+void PhantomNode::embed(Sheet& sheet, Subdivision& trace) { recovered_ = embed_by_static_split(sheet, trace, work_); }
 
 Ties PhantomNode::ties(const Sheet& before, const Sheet& cut) const { return Doubling(before, cut).run(options_); }
 

@@ -4,7 +4,7 @@ namespace cutbench {
 
 void SnapOrSplit::embed(Sheet& sheet, Subdivision& trace) {
   snap_to_vertices(sheet, trace, tolerance_, path_);
-  recovered_ = embed_plainly(sheet, trace, work_);
+  recovered_ = embed_by_delaunay_split(sheet, trace, work_);
 }
 
 }  // namespace cutbench

@@ -2,7 +2,7 @@
 //
 // How it works: crossings whose distance to an end of their edge is at most `tolerance` of the edge are taken nearest
 // first, each together with its neighbours on the path that cross other edges of the same vertex as near to it; the
-// path goes through the vertex instead (harness/cut/path_graph.h). What is left is embedded as it is: the Delaunay
+// path goes through the vertex instead (methods/tools/path_graph.h). What is left is embedded as it is: the Delaunay
 // diagonal in each crossed triangle, no flips. Tips, corners and crossings inside triangles stay where they are.
 // A snap that would change how the sheet falls apart is not made, and the crossing is split: where the path would touch
 // itself, the border or an older incision, or leave one; where it would go along the border; where a loop or a cut-off
@@ -17,8 +17,8 @@
 #pragma once
 
 #include "harness/cut/cutting_method.h"
-#include "harness/cut/embed_plainly.h"
-#include "harness/cut/path_graph.h"
+#include "methods/tools/delaunay_split.h"
+#include "methods/tools/path_graph.h"
 
 namespace cutbench {
 

@@ -2,7 +2,7 @@
 //
 // How it works: the cut is that of conventional_split, incision, triangles and all. Vertices that it made are then
 // taken out of the unknowns where they would be stiff, and go where the linear field of a good triangle on their own
-// side of the cut has them. Which ones, and where: harness/cut/tie_slivers.h, with rules for tips, junctions and the
+// side of the cut has them. Which ones, and where: methods/tools/tie_slivers.h, with rules for tips, junctions and the
 // border.
 //
 // Source: aggregated finite elements (Badia, Verdugo and Martin, The aggregated unfitted finite element method for

@@ -19,7 +19,7 @@ Point2 nearest_on_segment(Point2 a, Point2 b, Point2 p) {
 /// Where the vertex of run_ goes; nothing where it must stay.
 std::optional<Point2> VertexSnap::target(const Sheet& sheet) const {
   const VertexIndex v = run_.vertex;
-  if (sheet.on_border(sheet.first_spoke(v))) {
+  if (sheet.on_border(sheet.first_outgoing(v))) {
     if (!is_straight_at(sheet, v)) return {};
     for (const int n : run_.nodes)
       if (sheet.on_border(path_.place(n).edge)) return path_.point(n);
@@ -49,7 +49,7 @@ void VertexSnap::embed(Sheet& sheet, Subdivision& trace) {
       path_.contract(run_);
   }
   if (!near.empty()) path_.write(trace);
-  recovered_ = embed_plainly(sheet, trace, work_);
+  recovered_ = embed_by_delaunay_split(sheet, trace, work_);
 }
 
 }  // namespace cutbench

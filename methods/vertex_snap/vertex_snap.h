@@ -5,7 +5,7 @@
 // and all crossings of its edges are gone; the deformed position is that of the same material point before
 // (Sheet::move). A vertex moves once, and only where the path passes it in one go with nothing else inside its
 // triangles, where none of these is pressed flatter than `max_aspect` (one with all corners on a straight path would
-// be flat), and where the sheet falls apart as before (harness/cut/path_graph.h). A border vertex slides along a
+// be flat), and where the sheet falls apart as before (methods/tools/path_graph.h). A border vertex slides along a
 // straight border to where the path meets that; corners and vertices of older incisions stay. Crossings that are left
 // over are split, with the Delaunay diagonal in each crossed triangle.
 //
@@ -21,8 +21,8 @@
 #include <optional>
 
 #include "harness/cut/cutting_method.h"
-#include "harness/cut/embed_plainly.h"
-#include "harness/cut/path_graph.h"
+#include "methods/tools/delaunay_split.h"
+#include "methods/tools/path_graph.h"
 
 namespace cutbench {
 

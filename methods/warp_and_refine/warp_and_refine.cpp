@@ -1,6 +1,6 @@
 #include "methods/warp_and_refine/warp_and_refine.h"
 
-#include "harness/cut/tie_slivers.h"
+#include "methods/tools/tie_slivers.h"
 
 namespace cutbench {
 
@@ -8,7 +8,7 @@ void WarpAndRefine::embed(Sheet& sheet, Subdivision& trace) {
   curve_.read(trace);
   if (options_.before == Before::snap) snap_to_vertices(sheet, trace, options_.snap, path_);
   if (options_.before == Before::warp || options_.before == Before::warp_and_thin) warp_.run(sheet, trace);
-  recovered_ = embed_plainly(sheet, trace, work_);
+  recovered_ = embed_by_delaunay_split(sheet, trace, work_);
   curve_.find_vertices(sheet, trace);
 }
 

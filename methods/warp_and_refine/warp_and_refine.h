@@ -2,16 +2,16 @@
 // ill-shaped afterwards is mended.
 //
 // How it works. embed: vertices that the path passes within `reach` of an edge move to a point of the exact path
-// (harness/cut/warp.h); every other crossing is split, with the Delaunay diagonal in each crossed triangle. improve
-// (harness/cut/reshape.h), wherever the path has no forced wedge: thinning takes edges at the path shorter than 0.35
+// (methods/tools/warp.h); every other crossing is split, with the Delaunay diagonal in each crossed triangle. improve
+// (methods/tools/reshape.h), wherever the path has no forced wedge: thinning takes edges at the path shorter than 0.35
 // mean rest edges out, where one end is a vertex of the path that it can do without, or one of the sheet beside it;
 // then flips that make the worse of two triangles better, and moves of the corners of ill-shaped ones: those of the
 // path slide along the curve as it was traced, never farther from that between two of them than the chord tolerance, or
 // 0.05 mean rest edges, whichever is smaller (so from the curve itself by up to twice that); then, of what is left,
-// edges are divided, and at last it is refined (harness/cut/delaunay_refinement.h). At a corner with an older incision,
-// the border or itself the first edge of the path is turned, within the tolerance, where it leaves less room for a good
-// triangle than the curve. Every single step is decided by exact predicates and leaves the path embedded, so that what
-// can't be mended is left as the plain split made it.
+// edges are divided, and at last it is refined (methods/tools/delaunay_refinement.h). At a corner with an older
+// incision, the border or itself the first edge of the path is turned, within the tolerance, where it leaves less room
+// for a good triangle than the curve. Every single step is decided by exact predicates and leaves the path embedded, so
+// that what can't be mended is left as the plain split made it.
 //
 // Never moved: held vertices (Sheet::hold: pinned or loaded ones), corners, those on older incisions; one on the border
 // only along a straight part of it. A tip is a vertex where it was asked for, however near to the border: the ligament
@@ -32,17 +32,17 @@
 #pragma once
 
 #include "harness/cut/cutting_method.h"
-#include "harness/cut/embed_plainly.h"
-#include "harness/cut/path_curve.h"
-#include "harness/cut/reshape.h"
-#include "harness/cut/warp.h"
+#include "methods/tools/delaunay_split.h"
+#include "methods/tools/path_curve.h"
+#include "methods/tools/reshape.h"
+#include "methods/tools/warp.h"
 
 namespace cutbench {
 
 class WarpAndRefine : public CuttingMethod {
  public:
   /// What happens before the split, and how far the work after it goes: each step includes those before it, but tie
-  /// (harness/cut/tie_slivers.h), which leaves the mesh as it is. The method is warp_and_thin with refine; the others
+  /// (methods/tools/tie_slivers.h), which leaves the mesh as it is. The method is warp_and_thin with refine; the others
   /// are rows of the ablation.
   enum class Before : std::uint8_t { nothing, snap, warp, thin, warp_and_thin };
   enum class After : std::uint8_t { nothing, flips, smoothing, refine, tie };

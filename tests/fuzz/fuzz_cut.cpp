@@ -11,9 +11,9 @@
 #include <fstream>
 #include <iostream>
 
+#include "harness/judge/judged_sheet.h"
 #include "harness/mesh/mesh_io.h"
 #include "harness/mesh/predicates.h"
-#include "harness/run/judged_sheet.h"
 #include "methods/registry.h"
 
 namespace cutbench {

@@ -1,0 +1,28 @@
+// Positions: in the plane of the undeformed sheet, and in the space of the deformed one.
+#pragma once
+
+namespace cutbench {
+
+/// A position in rest space: the plane of the undeformed sheet.
+struct Point2 {
+  double x = 0, y = 0;
+  constexpr bool operator==(const Point2&) const = default;
+};
+
+/// A position of the deformed sheet.
+struct Point3 {
+  double x = 0, y = 0, z = 0;
+  constexpr bool operator==(const Point3&) const = default;
+};
+
+constexpr Point2 operator+(Point2 a, Point2 b) { return {a.x + b.x, a.y + b.y}; }
+constexpr Point2 operator-(Point2 a, Point2 b) { return {a.x - b.x, a.y - b.y}; }
+constexpr Point2 operator*(double s, Point2 a) { return {s * a.x, s * a.y}; }
+constexpr double dot(Point2 a, Point2 b) { return a.x * b.x + a.y * b.y; }
+constexpr double cross(Point2 a, Point2 b) { return a.x * b.y - a.y * b.x; }
+constexpr double squared_length(Point2 a) { return dot(a, a); }
+
+constexpr Point3 operator+(Point3 a, Point3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+constexpr Point3 operator*(double s, Point3 a) { return {s * a.x, s * a.y, s * a.z}; }
+
+}  // namespace cutbench

@@ -1,0 +1,92 @@
+// What the readers of experiment and scene files share: values with their kind and range checked, and errors that say
+// where one is wrong.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "harness/base/errors.h"
+#include "harness/base/points.h"
+
+namespace cutbench {
+
+/// Throws InputError naming the file and, where it is not TOML, the line.
+toml::table parse_toml(const std::filesystem::path& file);
+
+/// Throws InputError for a key that is not known, naming the nearest one that is.
+void check_keys(const toml::table& table, const std::vector<std::string>& known, const std::string& where);
+
+/// Throws InputError for a name that is not known, listing those that are.
+template <class Known>
+void check_names(const std::vector<std::string>& names, const Known& known, const std::string& what) {
+  for (const auto& name : names) {
+    if (std::find(std::begin(known), std::end(known), name) != std::end(known)) continue;
+    std::string list;
+    for (const auto& k : known) list += std::string(list.empty() ? "" : ", ") + k;
+    throw InputError(what + " \"" + name + "\" is not known; known are " + list);
+  }
+}
+
+/// Reads values of one table, and says where one is wrong. A value without a fallback must be there.
+struct TomlReader {
+  const toml::table& table;
+  std::string where;
+
+  bool has(const char* key) const { return table.contains(key); }
+  [[noreturn]] void refuse(const std::string& what) const { throw InputError(where + ": " + what); }
+
+  template <class T>
+  T value(const char* key, std::optional<T> fallback = {}) const {
+    const auto node = table[key];
+    if (!node && fallback) return *fallback;
+    if (const auto v = node.template value<T>()) return *v;
+    refuse(std::string("\"") + key + (node ? "\" has a value of the wrong kind" : "\" is missing"));
+  }
+
+  template <class T>
+  std::vector<T> list(const char* key) const {
+    std::vector<T> values;
+    for (const auto& node : array(key)) {
+      const auto v = node.value<T>();
+      if (!v) refuse(std::string("\"") + key + "\" has an entry of the wrong kind");
+      values.push_back(*v);
+    }
+    return values;
+  }
+
+  /// One of the names, as what it stands for.
+  template <class E>
+  E choice(const char* key, E fallback, std::initializer_list<std::pair<const char*, E>> choices) const {
+    if (!has(key)) return fallback;
+    const auto name = value<std::string>(key);
+    std::vector<const char*> names;
+    for (const auto& [known, meaning] : choices) {
+      if (name == known) return meaning;
+      names.push_back(known);
+    }
+    check_names({name}, names, where + ": " + key);
+    return fallback;
+  }
+
+  int count(const char* key, int fallback) const;  ///< 1 ... 1000000
+  double finite(const char* key, double fallback) const;
+  double positive(const char* key, double fallback) const;          ///< and finite
+  double positive_or_zero(const char* key, double fallback) const;  ///< and finite
+  const toml::array& array(const char* key) const;                  ///< not empty
+  std::vector<Point2> points(const char* key) const;                ///< [[x, y], ...], infinite ones too
+
+  /// [key], empty where it is not there.
+  TomlReader section(const char* key, const std::vector<std::string>& known) const;
+  /// [[key]], none where it is not there; errors say `name` and the number of the entry, from 0.
+  std::vector<TomlReader> sections(const char* key, const char* name, const std::vector<std::string>& known) const;
+};
+
+}  // namespace cutbench

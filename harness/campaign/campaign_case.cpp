@@ -1,0 +1,113 @@
+#include "harness/campaign/campaign_case.h"
+
+#include <algorithm>
+#include <exception>
+#include <span>
+
+#include "harness/base/stop_watch.h"
+#include "harness/campaign/cgal_peer.h"
+#include "harness/judge/judged_sheet.h"
+#include "harness/judge/oracle_request.h"
+
+namespace cutbench {
+
+namespace {
+
+Count count_of(Status status) {
+  constexpr Count counts[] = {ok, noop, deviated, refused, failed};
+  return counts[static_cast<std::size_t>(status)];
+}
+
+class MethodAtWork : public Subject {
+ public:
+  MethodAtWork(const Variant& variant, const Sheet& start, const CutOptions& options)
+      : sheet_(start, variant.row->promises, variant.row->make(variant.knob)), options_(options) {}
+
+  Result cut(const Curve& curve) override {
+    const JudgedSheet::Finding finding = sheet_.cut(curve, options_);
+    const CutOutcome& outcome = sheet_.outcome;
+    const double us = outcome.time_us.total();
+    if (!finding.ok()) return {wrong, finding.verdict, finding.reason, us, outcome.carefully};
+    return {count_of(outcome.status), outcome.verdict, outcome.reason, us, outcome.carefully};
+  }
+
+ private:
+  JudgedSheet sheet_;
+  CutOptions options_;
+};
+
+class PeerAtWork : public Subject {
+ public:
+  PeerAtWork(const Sheet& start, const CutOptions& options)
+      : start_(start), mesh_(for_oracle(start)), options_(options) {}
+
+  Result cut(const Curve& curve) override {
+    constexpr Promises promises{.exact_incision = true, .keeps_area = true, .conforming = true, .keeps_vertices = true};
+    oracle::Request request = request_for(start_, {&curve, 1}, promises, options_, false);
+    request.before = std::move(mesh_);
+    StopWatch watch;
+    oracle::PeerResult result = oracle::cgal_whole_sheet_cut(request.before, for_oracle(curve),
+                                                             options_.flatten_tolerance * start_.mean_edge());
+    const double us = watch.lap();
+    mesh_ = std::move(result.mesh);
+    if (result.refused) {
+      mesh_ = std::move(request.before);
+      return {refused, "ok", result.reason, us};
+    }
+    const oracle::Judgement judgement = oracle::judge(request, mesh_);
+    if (!judgement.ok) return {wrong, judgement.verdict, judgement.problems.front(), us};
+    return {ok, "ok", "", us};
+  }
+
+ private:
+  const Sheet& start_;  // for its lengths
+  oracle::Mesh mesh_;
+  CutOptions options_;
+};
+
+void note_fault(CaseResult& result, std::int32_t cut, Count fault, const std::string& verdict,
+                const std::string& reason) {
+  if (result.fault != ok) return;
+  const auto put = [](const std::string& text, std::span<char> to) { text.copy(to.data(), to.size() - 1); };
+  result.cut = cut, result.fault = fault;
+  put(verdict, result.verdict), put(reason, result.reason);
+}
+
+}  // namespace
+
+Contender contender_of(const Variant& variant) {
+  return {variant.row->name, variant.knob_text(), variant, [variant](const Sheet& start, const CutOptions& options) {
+            return std::make_unique<MethodAtWork>(variant, start, options);
+          }};
+}
+
+Contender cgal_peer() {
+  return {"cgal_whole_sheet (peer)", "", {}, [](const Sheet& start, const CutOptions& options) {
+            return std::make_unique<PeerAtWork>(start, options);
+          }};
+}
+
+void try_case(const Contender& contender, const Sheet& sheet, const std::vector<Curve>& cuts, const CutOptions& options,
+              CaseResult& result) {
+  const auto subject = contender.start(sheet, options);
+  for (std::size_t k = 0; k < cuts.size(); ++k) {
+    const auto number = static_cast<std::int32_t>(k);
+    if (result.fault == ok) result.cut = number;
+    ++result.count[tried];
+    try {
+      const Subject::Result made = subject->cut(cuts[k]);
+      ++result.count[made.outcome];
+      result.count[carefully] += made.carefully;
+      result.slowest_us = std::max(result.slowest_us, made.us);
+      if (made.outcome == failed || made.outcome == wrong)
+        note_fault(result, number, made.outcome, made.verdict, made.reason);
+      if (made.outcome == wrong) return;
+    } catch (const std::exception& error) {  // the program would end by it
+      ++result.count[crashed];
+      note_fault(result, number, crashed, "exception", error.what());
+      return;
+    }
+  }
+}
+
+}  // namespace cutbench

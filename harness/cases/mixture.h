@@ -1,0 +1,30 @@
+// The mixture of cuts that the robustness campaign draws from: made to meet vertices, edges, older cuts and themselves
+// exactly, or a few units in the last place beside.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "harness/mesh/sheet.h"
+#include "harness/path/curve.h"
+
+namespace cutbench {
+
+struct MixtureCase {
+  std::string family;       ///< how its first cut was drawn: one of mixture_families()
+  std::vector<Curve> cuts;  ///< one to five, made one after the other
+};
+
+std::span<const char* const> mixture_families();
+
+/// Case i: depends on (seed, i) and the uncut sheet alone. Every curve passes check_curve().
+MixtureCase make_mixture_case(std::uint64_t seed, std::size_t i, const Sheet& sheet);
+
+/// The smallest distance, in mean rest edges, at which anything of the case just meets or just misses something: its
+/// lines the sheet's vertices, its tips and corners the sheet's edges, and each cut the corners of those before it. By
+/// brute force. 0 where they meet.
+double nearest_event(const std::vector<Curve>& cuts, const Sheet& sheet);
+
+}  // namespace cutbench

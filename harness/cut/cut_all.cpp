@@ -1,0 +1,37 @@
+#include "harness/cut/cut_all.h"
+
+#include <ctime>
+
+namespace cutbench {
+
+namespace {
+
+double cpu_time_us() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return 1e6 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_nsec);
+}
+
+}  // namespace
+
+CutRun cut_all(Sheet& sheet, Locator& locator, Cutter& cutter, std::span<const Curve> cuts, CuttingMethod& method,
+               const CutOptions& options) {
+  CutRun run;
+  run.status = Status::noop;
+  const double start = cpu_time_us();
+  for (const Curve& curve : cuts) {
+    const CutOutcome outcome = cutter.cut(sheet, locator, curve, method, options);
+    run.time_us += outcome.time_us;
+    run.crossed_triangles += outcome.crossed_triangles;
+    run.recovered_segments += outcome.recovered_segments;
+    run.carefully |= outcome.carefully;
+    run.verdict = outcome.verdict;
+    if (outcome.status != Status::noop || run.status == Status::noop) run.reason = outcome.reason;
+    if (outcome.status != Status::noop) run.status = outcome.status;
+    if (run.status == Status::failed || run.status == Status::refused) break;
+  }
+  run.cpu_us = cpu_time_us() - start;
+  return run;
+}
+
+}  // namespace cutbench

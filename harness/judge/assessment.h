@@ -1,0 +1,37 @@
+// The result of a cut, or of several in a row, measured: what `cutbench cut` reports and what every record holds.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "harness/cut/cut.h"
+#include "harness/measure/forced_zones.h"
+#include "harness/measure/oracle.h"
+#include "harness/mesh/quality.h"
+
+namespace cutbench {
+
+/// What the result is like. Lengths in h = mean rest edge of the uncut sheet, unless a name says otherwise.
+struct Assessment {
+  oracle::Judgement judgement;
+  bool measured = true;  ///< false: the result is too broken for the numbers below, which stay 0
+  Quality all, cut;      ///< over the whole sheet, and over the triangles the cut made or changed; altitude in h
+  std::size_t forced_corners = 0;
+  int corner_triangles = 0, wedge_triangles = 0;
+  double wedge_area = 0;               ///< rest units squared
+  Quality strict, outside_wedges;      ///< over the cut's triangles without the exempted ones
+  double ar_max_away_from_wedges = 0;  ///< of those, farther than 0.02 h from a wedge
+  std::ptrdiff_t vertices_added = 0, deformed_vertices_added = 0, triangles_added = 0;
+};
+/// Measures a result; `judgement` (judge_one_by_one) is passed on. `forced`: forced_corners_of(before, cuts).
+Assessment assess(const Sheet& before, const Sheet& after, const oracle::Judgement& judgement,
+                  std::span<const oracle::ForcedCorner> forced);
+/// Judges a result that anybody made, all of its cuts together, and measures it, broken as it may be: a triangle of the
+/// cut is one whose corners, in their order round it, are not exactly those of a triangle before; rest vertices are
+/// counted by their places. Whether the old vertices must stay what they are (`keeps_vertices`) is the caller's to say.
+/// \throw InputError: the oracle can't use the sheet before.
+Assessment assess_result(const Sheet& before, const MeshData& result, std::span<const Curve> cuts, bool keeps_vertices,
+                         const CutOptions& options);
+std::vector<oracle::ForcedCorner> forced_corners_of(const Sheet& before, std::span<const Curve> cuts);
+
+}  // namespace cutbench

@@ -1,0 +1,58 @@
+#include "harness/judge/oracle_request.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cutbench {
+
+oracle::Mesh for_oracle(const Sheet& sheet) {
+  oracle::Mesh mesh;
+  std::vector<int> number(sheet.deformed_slots(), -1);
+  for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) {
+    const VertexIndex v = sheet.rest_vertex(DeformedIndex(d));
+    if (!v.valid()) continue;
+    number[d] = static_cast<int>(mesh.rest.size());
+    mesh.rest.push_back({sheet.rest(v).x, sheet.rest(v).y});
+  }
+  for (std::size_t t = 0; t < sheet.triangle_slots(); ++t) {
+    const Triangle& triangle = sheet.triangle(TriangleIndex(t));
+    if (!triangle.alive()) continue;
+    mesh.triangles.push_back(
+        {number[triangle.deformed[0]()], number[triangle.deformed[1]()], number[triangle.deformed[2]()]});
+  }
+  return mesh;
+}
+
+oracle::Curve for_oracle(const Curve& cut) {
+  oracle::Curve curve{cut.kind == Curve::Kind::bezier, cut.closed, {}};
+  for (Point2 p : cut.points) curve.points.push_back({p.x, p.y});
+  return curve;
+}
+
+oracle::Request request_for(const Sheet& before, std::span<const Curve> cuts, const Promises& promises,
+                            const CutOptions& options, bool improved) {
+  const double h = before.mean_edge();
+  const bool curved =
+      std::any_of(cuts.begin(), cuts.end(), [](const Curve& c) { return c.kind == Curve::Kind::bezier; });
+  const double flattening = curved ? options.flatten_tolerance * h : 0;
+  oracle::Request request;
+  request.before = for_oracle(before);
+  request.cuts = for_oracle(cuts);
+  // A path may pass within twice the snap distance of what it goes through, and so may the one it meets.
+  request.snap = (cuts.size() > 1 ? 4 : 2) * before.snap();
+  request.tolerance = options.chord_tolerance * h + flattening + request.snap;
+  if (curved && std::isfinite(options.chord_tolerance)) request.thin = request.tolerance;
+  request.keeps_vertices = promises.keeps_vertices;
+  request.exact_incision = promises.exact_incision;
+  request.keeps_area = promises.keeps_area;
+  request.vertex_tolerance = improved ? request.tolerance : flattening + request.snap;
+  return request;
+}
+
+std::vector<oracle::Curve> for_oracle(std::span<const Curve> cuts) {
+  std::vector<oracle::Curve> curves;
+  for (const Curve& cut : cuts) curves.push_back(for_oracle(cut));
+  return curves;
+}
+
+}  // namespace cutbench

@@ -1,0 +1,22 @@
+// A cut put into the oracle's own types, and what the oracle is to hold its result to.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "harness/cut/cut.h"
+#include "harness/measure/oracle.h"
+
+namespace cutbench {
+
+// The oracle knows none of our types.
+oracle::Mesh for_oracle(const Sheet& sheet);
+oracle::Curve for_oracle(const Curve& cut);
+std::vector<oracle::Curve> for_oracle(std::span<const Curve> cuts);
+
+/// What the oracle is to hold a cut to, or several made one after the other.
+/// \param improved  the method may have divided edges of the incision after embedding it
+oracle::Request request_for(const Sheet& before, std::span<const Curve> cuts, const Promises& promises,
+                            const CutOptions& options, bool improved);
+
+}  // namespace cutbench

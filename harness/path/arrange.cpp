@@ -1,0 +1,165 @@
+// Triangles that the path passes through more than once, or turns round in: its pieces are cut at their crossings, so
+// that what is left are nodes and segments that meet in nodes only.
+#include <cmath>
+
+#include "harness/mesh/predicates.h"
+#include "harness/path/trace.h"
+
+namespace cutbench {
+
+namespace {
+
+/// p lies within `snap` of the segment a b, clear of its ends.
+bool on_segment(Point2 a, Point2 b, Point2 p, double snap) {
+  const Point2 ab = b - a;
+  const double length = std::sqrt(squared_length(ab)), along = dot(p - a, ab) / length;
+  return std::abs(cross(ab, p - a)) <= snap * length && along > 0 && along < length;
+}
+
+bool cross_properly(Point2 a, Point2 b, Point2 c, Point2 d) {
+  return orientation(a, b, c) * orientation(a, b, d) < 0 && orientation(c, d, a) * orientation(c, d, b) < 0;
+}
+
+bool touch(Point2 a, Point2 b, Point2 c, Point2 d) {
+  return orientation(a, b, c) * orientation(a, b, d) <= 0 && orientation(c, d, a) * orientation(c, d, b) <= 0;
+}
+
+Point2 intersection(Point2 a, Point2 b, Point2 c, Point2 d) {
+  const double from = cross(d - c, a - c), to = cross(d - c, b - c);
+  return a + from / (from - to) * (b - a);
+}
+
+/// How often two polylines cross; more than once where they touch.
+int count_crossings(const std::vector<Point2>& a, const std::vector<Point2>& b) {
+  int crossings = 0;
+  for (std::size_t i = 0; i + 1 < a.size(); ++i)
+    for (std::size_t j = 0; j + 1 < b.size(); ++j)
+      if (cross_properly(a[i], a[i + 1], b[j], b[j + 1]))
+        ++crossings;
+      else if (touch(a[i], a[i + 1], b[j], b[j + 1]))
+        crossings += 100;
+  return crossings;
+}
+
+}  // namespace
+
+int Tracer::links_of(int face) const {
+  return static_cast<std::size_t>(face) < links_of_face_.size() ? links_of_face_[static_cast<std::size_t>(face)] : -1;
+}
+
+/// One straight passage and nothing else, or only nodes on the edges.
+bool Tracer::is_simple(int f) const {
+  if (links_of(f) < 0) return true;
+  const Link& only = link(links_of(f));
+  if (only.next >= 0 || trace_.segment(trace_.face(f).segments).next >= 0) return false;
+  auto on_edge = [&](int n) { return trace_.node(n).place.kind == Place::Kind::edge ? 1 : 0; };
+  return trace_.face(f).edge_nodes == on_edge(only.from) + on_edge(only.to);
+}
+
+void Tracer::arrange(int face) {
+  if (!chords_tell_the_truth(face)) restore_all_points(face);
+  resolve_crossings(face);
+}
+
+std::vector<Point2> Tracer::link_points(const Link& link, bool all) const {
+  std::vector<Point2> points{trace_.node(link.from).place.point};
+  if (all) {
+    for (std::size_t i = 0; i < link.count; ++i) points.push_back(point(link.first + i));
+    points.push_back(trace_.node(link.to).place.point);
+  } else {
+    for (std::size_t s = link.segments[0]; s < link.segments[1]; ++s)
+      points.push_back(trace_.node(trace_.segments[s].to).place.point);
+  }
+  return points;
+}
+
+/// No simplified link crosses another, nor do the two paths they stand for: else the crossing would be off the path.
+bool Tracer::chords_tell_the_truth(int face) const {
+  for (int i = links_of(face); i >= 0; i = link(i).next)
+    for (int j = link(i).next; j >= 0; j = link(j).next) {
+      const Link &a = link(i), &b = link(j);
+      if (!a.simplified && !b.simplified) continue;
+      const int truth = count_crossings(link_points(a, true), link_points(b, true));
+      if (truth > 0 || truth != count_crossings(link_points(a, false), link_points(b, false))) return false;
+    }
+  return true;
+}
+
+/// Makes nodes of all points of all links.
+void Tracer::restore_all_points(int face) {
+  trace_.face(face).segments = -1;
+  for (int i = links_of(face); i >= 0; i = link(i).next) {
+    int node = link(i).from;
+    for (std::size_t k = 0; k < link(i).count; ++k) {
+      const int next = trace_.node_of(place_in(trace_.face(face).triangle, point(link(i).first + k)));
+      trace_.add_segment(face, node, next);
+      node = next;
+    }
+    trace_.add_segment(face, node, link(i).to);
+  }
+}
+
+/// The nodes of a face: on its edges, inside, and at its corners.
+std::vector<int> Tracer::nodes_of(int f) const {
+  std::vector<int> nodes;
+  const Subdivision::Face& face = trace_.face(f);
+  for (int head : {face.on_edge[0], face.on_edge[1], face.on_edge[2], face.inside})
+    for (int n = head; n >= 0; n = trace_.node(n).next) nodes.push_back(n);
+  for (auto v : sheet_->triangle(face.triangle).vertex)
+    if (const int n = trace_.node_at(v); n >= 0) nodes.push_back(n);
+  return nodes;
+}
+
+void Tracer::resolve_crossings(int f) {
+  const TriangleIndex t = trace_.face(f).triangle;
+  const auto at = [&](int n) { return trace_.node(n).place.point; };
+  const double snap = sheet_->snap();
+
+  std::vector<std::pair<int, int>> open, done;  // segments; those in `done` are clear of each other
+  for (int s = trace_.face(f).segments; s >= 0;) {
+    open.emplace_back(trace_.segment(s).from, trace_.segment(s).to);
+    s = trace_.segment(s).next;
+  }
+  // Each split makes shorter segments or takes out a crossing; the bound is for coordinates that don't resolve.
+  for (std::size_t budget = 1000 + 100 * open.size() * open.size(); !open.empty(); --budget) {
+    if (budget == 0) throw WalkLost();
+    const auto [a, b] = open.back();
+    open.pop_back();
+    if (a == b) continue;
+    bool split = false;
+    for (int n : nodes_of(f)) {  // through a node: two segments
+      if (n == a || n == b || !on_segment(at(a), at(b), at(n), snap)) continue;
+      open.emplace_back(a, n), open.emplace_back(n, b);
+      split = true;
+      break;
+    }
+    for (std::size_t i = 0; i < done.size() && !split; ++i) {  // across another segment: four
+      const auto [c, d] = done[i];
+      if (a == c || a == d || b == c || b == d || !cross_properly(at(a), at(b), at(c), at(d))) continue;
+      const int n = trace_.node_of(place_in(t, intersection(at(a), at(b), at(c), at(d))));
+      done.erase(done.begin() + static_cast<std::ptrdiff_t>(i));
+      for (int end : {a, b, c, d})
+        if (end != n) open.emplace_back(end, n);
+      // A new node may lie on segments that were clear before.
+      open.insert(open.end(), done.begin(), done.end());
+      done.clear();
+      split = true;
+    }
+    if (split) continue;
+    const std::pair forward{a, b}, backward{b, a};
+    const bool known =
+        std::any_of(done.begin(), done.end(), [&](const auto& s) { return s == forward || s == backward; });
+    if (!known) done.emplace_back(a, b);
+  }
+
+  trace_.face(f).segments = -1;
+  for (const auto& [a, b] : done) {
+    const Place from = trace_.node(a).place, to = trace_.node(b).place;
+    if (const int common = common_edge(t, from, to); common >= 0)
+      run_along(from, to, half_edge(t, common));
+    else
+      trace_.add_segment(f, a, b);
+  }
+}
+
+}  // namespace cutbench

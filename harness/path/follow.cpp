@@ -1,0 +1,116 @@
+// A curve made again does not meet the chords that stand for it, but runs beside them, within the chord tolerance, from
+// one of their ends to the next. Where a curved path does so it follows the incision, which is open already; else every
+// repetition would cut a strip off it.
+#include <cmath>
+
+#include "harness/mesh/star.h"
+#include "harness/path/trace.h"
+
+namespace cutbench {
+
+namespace {
+
+bool is_near(Point2 p, const std::vector<Point2>& polyline, double tolerance) {
+  for (std::size_t i = 0; i + 1 < polyline.size(); ++i)
+    if (squared_distance(p, polyline[i], polyline[i + 1]) <= tolerance * tolerance) return true;
+  return false;
+}
+
+}  // namespace
+
+bool Tracer::is_on_incision(const Place& place) const {
+  if (place.kind == Place::Kind::edge) return sheet_->mark(place.edge) == EdgeMark::incision;
+  if (place.kind != Place::Kind::vertex) return false;
+  const HalfEdge first = sheet_->first_outgoing(place.vertex);
+  HalfEdge h = first;
+  do {
+    if (sheet_->mark(h) == EdgeMark::incision) return true;
+    h = sheet_->next_outgoing(h);
+  } while (h.valid() && h != first);
+  return false;
+}
+
+/// Takes in one step of the walk. Those of a curved path are held back from one place on an incision to the next, and
+/// then left out if it followed the incision.
+void Tracer::take(const Step& step, std::size_t point, bool tip) {
+  // Longer excursions are made as they are: the search for a chain beside them is for short ones.
+  constexpr std::size_t longest = 256;
+  const bool may_follow = path_->curved && std::isfinite(chord_tolerance_);
+  if (departed_)
+    excursion_.push_back({step, point, tip});
+  else
+    handle(step, point, tip);
+  if (!may_follow) return;
+  const bool back = is_on_incision(step.place);
+  if (departed_ && back && follows_incision()) {
+    excursion_.clear();
+    from_ = step.place, from_node_ = -1;
+    first_ = step.arrived ? point + 1 : point, count_ = 0;
+  } else if (back || excursion_.size() == longest) {
+    flush();
+    departed_ = false;
+  }
+  if (back) departed_ = true, departure_ = step.place;
+}
+
+void Tracer::flush() {
+  for (const Taken& taken : excursion_) handle(taken.step, taken.point, taken.tip);
+  excursion_.clear();
+}
+
+/// Is there a chain of incision edges from the excursion's start to its end, such that neither strays from the other?
+bool Tracer::follows_incision() {
+  const Place &from = departure_, &to = excursion_.back().step.place;
+  way_.assign(1, from.point);
+  for (const Taken& taken : excursion_) {
+    if (taken.step.passage.kind == Passage::Kind::outside) return false;
+    way_.push_back(taken.step.place.point);
+  }
+  const auto way_is_near = [&] {
+    return std::all_of(way_.begin(), way_.end(), [&](Point2 p) { return is_near(p, chain_, chord_tolerance_); });
+  };
+  chain_.assign(1, from.point);
+  if (from.kind == Place::Kind::vertex) return find_chain(to, {}, from.vertex) && way_is_near();
+  if (to.kind == Place::Kind::edge && (to.edge == from.edge || to.edge == sheet_->opposite(from.edge))) {
+    chain_.push_back(to.point);
+    return way_is_near();
+  }
+  for (HalfEdge h : {from.edge, sheet_->opposite(from.edge)}) {
+    const VertexIndex end = sheet_->target(h);
+    chain_.assign({from.point, sheet_->rest(end)});
+    if (is_near(sheet_->rest(end), way_, chord_tolerance_) && find_chain(to, sheet_->origin(h), end) && way_is_near())
+      return true;
+  }
+  return false;
+}
+
+/// Goes from v, not back to `before`, along incision edges near the way until `to`, and adds where it comes past to
+/// chain_. Of several edges it takes the one that comes nearest to the end.
+bool Tracer::find_chain(const Place& to, VertexIndex before, VertexIndex v) {
+  if (to.kind == Place::Kind::vertex && to.vertex == departure_.vertex) return false;
+  for (std::size_t budget = 32 * way_.size() + 64; budget > 0; --budget) {
+    if (to.kind == Place::Kind::vertex && to.vertex == v) return true;
+    if (to.kind == Place::Kind::edge && (sheet_->origin(to.edge) == v || sheet_->target(to.edge) == v)) {
+      chain_.push_back(to.point);
+      return true;
+    }
+    VertexIndex best;
+    double least = std::numeric_limits<double>::infinity();
+    const HalfEdge first = sheet_->first_outgoing(v);
+    HalfEdge h = first;
+    do {
+      const VertexIndex next = sheet_->target(h);
+      const Point2 p = sheet_->rest(next);
+      if (const double d = squared_length(to.point - p);
+          sheet_->mark(h) == EdgeMark::incision && next != before && d < least && is_near(p, way_, chord_tolerance_))
+        best = next, least = d;
+      h = sheet_->next_outgoing(h);
+    } while (h.valid() && h != first);
+    if (!best.valid()) return false;
+    before = v, v = best;
+    chain_.push_back(sheet_->rest(v));
+  }
+  return false;
+}
+
+}  // namespace cutbench

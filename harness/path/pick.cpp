@@ -1,0 +1,153 @@
+#include "harness/path/pick.h"
+
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "harness/base/errors.h"
+
+namespace cutbench {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using DeformedTriangles = std::vector<Kernel::Triangle_3>;
+using Primitive = CGAL::AABB_triangle_primitive<Kernel, DeformedTriangles::const_iterator>;
+using Boxes = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+
+Kernel::Point_3 point(Point3 p) { return {p.x, p.y, p.z}; }
+Kernel::Vector_3 vector(Point3 p) { return {p.x, p.y, p.z}; }
+
+/// Weights of the triangle's second and third corner.
+struct Weights {
+  double second, third;
+};
+
+/// Of a point in the triangle's plane.
+Weights weights_of(const Kernel::Triangle_3& t, const Kernel::Point_3& p) {
+  const auto u = t[1] - t[0], v = t[2] - t[0], w = p - t[0];
+  const auto n = CGAL::cross_product(u, v);
+  const double n2 = n.squared_length();
+  return {n * CGAL::cross_product(w, v) / n2, n * CGAL::cross_product(u, w) / n2};
+}
+
+/// Of the point where the line meets the triangle's plane, without the point's own rounding (Moeller and Trumbore,
+/// Fast, minimum storage ray/triangle intersection, 1997).
+Weights weights_of(const Kernel::Triangle_3& t, const Kernel::Point_3& origin, const Kernel::Vector_3& direction) {
+  const auto u = t[1] - t[0], v = t[2] - t[0], s = origin - t[0];
+  const auto h = CGAL::cross_product(direction, v), q = CGAL::cross_product(s, u);
+  const double determinant = u * h;
+  return {s * h / determinant, direction * q / determinant};
+}
+
+std::string metres(double length) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g m", length);
+  return text;
+}
+
+bool finite(Point3 p) {
+  return std::abs(p.x) <= 1e60 && std::abs(p.y) <= 1e60 && std::abs(p.z) <= 1e60;  // NaN is not <= anything
+}
+
+}  // namespace
+
+struct Picker::Tree {
+  DeformedTriangles deformed;
+  std::vector<std::array<Point2, 3>> rest;
+  Boxes boxes;
+
+  Point2 at_rest(DeformedTriangles::const_iterator triangle, Weights w) const {
+    const auto& [a, b, c] = rest[static_cast<std::size_t>(triangle - deformed.begin())];
+    // Rounding must not carry a pick on the border out of the sheet's triangle.
+    const double second = std::clamp(w.second, 0.0, 1.0), third = std::clamp(w.third, 0.0, 1.0 - second);
+    return a + second * (b - a) + third * (c - a);
+  }
+  /// Of a ray that meets no triangle: it is nearest at an edge, or where it begins.
+  double distance(const Kernel::Ray_3& ray) const {
+    double best2 = std::numeric_limits<double>::infinity();
+    for (const auto& t : deformed) {
+      best2 = std::min(best2, CGAL::to_double(CGAL::squared_distance(ray.source(), t)));
+      for (int k = 0; k < 3; ++k)
+        best2 = std::min(best2, CGAL::to_double(CGAL::squared_distance(ray, Kernel::Segment_3(t[k], t[k + 1]))));
+    }
+    return std::sqrt(best2);
+  }
+};
+
+Picker::Picker(const Sheet& posed) : tree_(std::make_unique<Tree>()), tolerance_(tolerance * posed.mean_edge()) {
+  for (std::size_t i = 0; i < posed.triangle_slots(); ++i) {
+    const Triangle& t = posed.triangle(TriangleIndex(i));
+    if (!t.alive()) continue;
+    const auto at = [&](std::size_t k) { return point(posed.position(t.deformed[k])); };
+    const Kernel::Triangle_3 triangle(at(0), at(1), at(2));
+    if (triangle.is_degenerate()) continue;  // crumpled to a line: no place in it is one place at rest
+    tree_->deformed.push_back(triangle);
+    tree_->rest.push_back(posed.corners(TriangleIndex(i)));
+  }
+  tree_->boxes.rebuild(tree_->deformed.cbegin(), tree_->deformed.cend());
+}
+
+Picker::~Picker() = default;
+
+Point2 Picker::rest_point(const Pick& pick, const std::string& name) const {
+  if (tree_->deformed.empty()) throw InputError(name + ": the sheet is crumpled to lines; pick earlier");
+  const Kernel::Point_3 origin = point(pick.origin);
+  if (!pick.direction) {
+    const auto [nearest, triangle] = tree_->boxes.closest_point_and_primitive(origin);
+    const double distance = std::sqrt(CGAL::to_double(CGAL::squared_distance(origin, nearest)));
+    if (distance > tolerance_)
+      throw InputError(name + ": the point misses the sheet by " + metres(distance) + " (at most " +
+                       metres(tolerance_) + "); give a ray, or a point on the sheet as it then is");
+    return tree_->at_rest(triangle, weights_of(*triangle, nearest));
+  }
+  const Kernel::Vector_3 direction = vector(*pick.direction);
+  const Kernel::Ray_3 ray(origin, direction);
+  const auto hit = tree_->boxes.first_intersection(ray);
+  if (!hit)
+    throw InputError(name + ": the ray misses the sheet by " + metres(tree_->distance(ray)) +
+                     "; aim at where the sheet then is");
+  if (const auto* along = boost::get<Kernel::Segment_3>(&hit->first)) {
+    const bool first = CGAL::has_smaller_distance_to_point(origin, along->source(), along->target());
+    return tree_->at_rest(hit->second, weights_of(*hit->second, first ? along->source() : along->target()));
+  }
+  const auto& triangle = *hit->second;
+  // In its plane, too, it may meet no more than a corner.
+  if (const auto* at = boost::get<Kernel::Point_3>(&hit->first);
+      at && CGAL::coplanar(triangle[0], triangle[1], triangle[2], origin))
+    return tree_->at_rest(hit->second, weights_of(triangle, *at));
+  return tree_->at_rest(hit->second, weights_of(triangle, origin, direction));
+}
+
+Curve Picker::rest_curve(const PickedCurve& picked, const std::string& name) const {
+  Curve curve{picked.kind, picked.closed, {}};
+  for (std::size_t i = 0; i < picked.picks.size(); ++i)
+    curve.points.push_back(rest_point(picked.picks[i], name + ", point " + std::to_string(i)));
+  // Found once is found alike: the first pick again.
+  if (curve.closed && curve.kind == Curve::Kind::bezier) curve.points.back() = curve.points.front();
+  return curve;
+}
+
+void check_picks(const PickedCurve& curve, const std::string& name) {
+  // What holds for the points of a curve holds for the places that rays start from.
+  for (std::size_t i = 0; i < curve.picks.size(); ++i) {
+    const std::string where = name + ", point " + std::to_string(i) + ": ";
+    const Pick& pick = curve.picks[i];
+    if (!finite(pick.origin) || (pick.direction && !finite(*pick.direction)))
+      throw InputError(where + "coordinates must be finite and below 1e60");
+    if (pick.direction == Point3{}) throw InputError(where + "the direction is zero; give one, of any length");
+  }
+  check_curve({curve.kind, curve.closed, std::vector<Point2>(curve.picks.size())}, name);  // enough of them?
+  if (curve.kind != Curve::Kind::bezier || !curve.closed) return;
+  const Pick &first = curve.picks.front(), &last = curve.picks.back();
+  if (first.origin != last.origin || first.direction != last.direction)
+    throw InputError(name + ": a closed Bezier must end where it began; repeat its first point at the end");
+}
+
+}  // namespace cutbench

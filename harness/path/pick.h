@@ -1,0 +1,61 @@
+// A cut placed on the deformed sheet, as a surgeon places it: its control points are picked where the sheet is at that
+// moment, each carried to rest space through the deformed triangle it lies in by its barycentric coordinates, and the
+// curve is built there (Xin et al. 2018, 4.1.1).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "harness/mesh/sheet.h"
+#include "harness/path/curve.h"
+
+namespace cutbench {
+
+/// A point in space that lies on the sheet, or a ray: the point where it first meets the sheet.
+struct Pick {
+  Point3 origin;                    ///< m
+  std::optional<Point3> direction;  ///< of any length but 0; none: `origin` itself is the point
+};
+
+/// A curve whose points are yet to be found.
+struct PickedCurve {
+  Curve::Kind kind = Curve::Kind::bezier;
+  bool closed = false;
+  std::vector<Pick> picks;  ///< as many as Curve::points would have
+};
+
+/// The deformed sheet of one moment, in CGAL's tree of bounding boxes. Cost: the whole mesh, once.
+class Picker {
+ public:
+  /// How far from the sheet a point may be, in mean rest edges: what is written with six digits is still found.
+  static constexpr double tolerance = 1e-3;
+
+  explicit Picker(const Sheet& posed);
+  ~Picker();
+  Picker(const Picker&) = delete;
+  Picker& operator=(const Picker&) = delete;
+
+  /// Where in rest space the picked point is. A ray that runs within a triangle's plane meets it where it enters.
+  /// Throws InputError, beginning with `name`: a miss, with its distance.
+  Point2 rest_point(const Pick& pick, const std::string& name) const;
+  /// Throws InputError, beginning with `name` and the number of the point.
+  Curve rest_curve(const PickedCurve& curve, const std::string& name) const;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+  double tolerance_;  // m
+};
+
+/// Throws InputError: too few points for the kind, a closed Bezier that doesn't end where it began, no direction, or a
+/// number that is not finite or beyond 1e60. `name` says where the curve comes from.
+void check_picks(const PickedCurve& curve, const std::string& name);
+
+/// Reads a path file like read_path(), in which cuts may have "space": "world"; their points are [x, y, z] or
+/// {"origin": [x, y, z], "direction": [x, y, z]}. Throws InputError.
+std::vector<std::variant<Curve, PickedCurve>> read_path_with_picks(const std::filesystem::path& file);
+
+}  // namespace cutbench

@@ -1,0 +1,29 @@
+// Where and how a run was made: every record travels with it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace cutbench {
+
+struct Context {
+  std::optional<std::string>
+      commit;                 ///< of the source tree, from git or, in an archive, from harness/records/commit.txt
+  std::optional<bool> dirty;  ///< uncommitted changes; unknown in an archive
+  std::string compiler, flags, build_type, cpu;
+  std::map<std::string, std::string> versions;  ///< of libraries
+  std::string date;                             ///< UTC
+  double load = 0;                              ///< one-minute load average at the start
+
+  /// What must agree for records of two runs to belong together: all but date and load.
+  std::string identity() const;
+};
+
+Context gather_context();
+
+/// The seed that a commit's hash stands for. Throws InputError where the commit isn't known.
+std::uint64_t seed_of_commit(const Context& context);
+
+}  // namespace cutbench

@@ -1,0 +1,286 @@
+#include "harness/run/method_runner.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "harness/base/progress.h"
+#include "harness/cases/cut_families.h"
+#include "harness/cut/cut_all.h"
+#include "harness/fem/largest_eigenvalue.h"
+#include "harness/judge/assessment.h"
+#include "harness/judge/judged_sheet.h"
+#include "harness/mesh/families.h"
+#include "harness/records/record.h"
+#include "harness/run/chill_caches.h"
+#include "harness/run/every_edge.h"
+#include "harness/run/summary.h"
+#include "harness/run/worker.h"
+#include "harness/scene/simulation.h"
+
+namespace cutbench {
+
+namespace {
+
+double length(Point3 p) { return std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z); }
+
+class Runner {
+ public:
+  Runner(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
+         const RunOptions& options)
+      : experiment_(experiment),
+        options_(options),
+        file_(std::filesystem::path(options.out) / experiment.stem, identity(experiment, context, options)) {
+    for (const Variant& v : variants_of(experiment, methods)) workers_.emplace_back(v);
+    cut_options_.chord_tolerance = experiment.chord_tolerance;
+  }
+
+  void run() {
+    const auto cases = static_cast<std::size_t>(experiment_.cases);
+    const std::size_t groups =
+        experiment_.sheets.size() * experiment_.resolutions.size() * experiment_.cut_families.size();
+    Progress progress(experiment_.stem, groups * cases, options_.quiet);
+    if (!file_.note().empty() && !options_.quiet)
+      std::fprintf(stderr, "%s: %s\n", experiment_.stem.c_str(), file_.note().c_str());
+    for (const auto& sheet : experiment_.sheets)
+      for (int resolution : experiment_.resolutions) {
+        start_scene(sheet, resolution);
+        base_ = BaseSheet(motion_ ? motion_->sheet() : Sheet(make_sheet(sheet, squares_per_side(resolution))));
+        for (Worker& worker : workers_) worker.forget_base();
+        if (experiment_.eigenvalue_cases > 0) base_eigenvalue_ = largest_eigenvalue(base_.sheet);
+        for (const auto& family : experiment_.cut_families)
+          for (std::size_t i = 0; i < cases; ++i, progress.step())
+            if (static_cast<int>(i % static_cast<std::size_t>(options_.shards)) == options_.shard - 1)
+              run_case(sheet, resolution, family, i);
+      }
+  }
+
+  RecordFile& file() { return file_; }
+  const Summary& summary() const { return summary_; }
+
+ private:
+  /// All that rows depend on, and which rows there are.
+  static std::string identity(const Experiment& e, const Context& context, const RunOptions& options) {
+    nlohmann::json methods;
+    for (const auto& entry : e.methods) methods.push_back({entry.method, entry.knob_values});
+    return nlohmann::json{context.identity(), e.stem,        e.sheets,      e.cut_families,
+                          e.resolutions,      methods,       e.seed,        e.cases,
+                          e.repetitions,      e.cold,        e.quality,     e.every_edge,
+                          e.chord_tolerance,  e.scene_text,  e.cut_time,    e.scene_cases,
+                          e.eigenvalue_cases, options.shard, options.shards}
+        .dump();
+  }
+
+  void run_case(const std::string& sheet, int resolution, const std::string& family, std::size_t i) {
+    const std::vector<Curve> cuts = make_case(family, experiment_.seed, i, base_.sheet);
+    std::vector<oracle::ForcedCorner> forced;
+    const auto start_row = [&](const std::string& method, const std::string& knob, int repetition, const char* cache) {
+      Record row;
+      row.set("suite_version", std::string(suite_version)), row.set("scene", family), row.set("sheet", sheet);
+      row.set("method", method), row.set("knob", knob), row.set("resolution", std::int64_t{resolution});
+      row.set("case", static_cast<std::int64_t>(i)), row.set("repetition", std::int64_t{repetition});
+      row.set("seed", static_cast<std::int64_t>(experiment_.seed)), row.set("cache", std::string(cache));
+      return row;
+    };
+    // A first, unrecorded cut by each method, which is judged and warms up; then the repetitions with the methods in
+    // turn, so that a slow spell of the machine hits all alike.
+    std::vector<Record> judged;
+    std::vector<Summary::Cut> summaries(workers_.size());
+    for (std::size_t w = 0; w < workers_.size(); ++w) {
+      Record& row =
+          judged.emplace_back(start_row(workers_[w].variant.row->name, workers_[w].variant.knob_text(), 0, "warm"));
+      if (file_.has(row.key())) continue;
+      const CutRun run = workers_[w].cut(base_, cuts, cut_options_);
+      if (forced.empty() && experiment_.quality) forced = forced_corners_of(base_.sheet, cuts);
+      judge_into(row, summaries[w], workers_[w], cuts, forced, run);
+      if (static_cast<int>(i) < experiment_.eigenvalue_cases && row.get("verdict") == "ok" &&
+          (run.status == Status::ok || run.status == Status::deviated))
+        row.set("eigenvalue_ratio", eigenvalue_of(workers_[w]) / base_eigenvalue_);
+    }
+    std::size_t crossed = 0;
+    for (int r = 0; r < experiment_.repetitions + (experiment_.cold ? 1 : 0); ++r) {
+      const bool cold = r == experiment_.repetitions;
+      const int repetition = cold ? 0 : r;
+      const char* cache = cold ? "cold" : "warm";
+      for (std::size_t w = 0; w < workers_.size(); ++w) {
+        Worker& worker = workers_[w];
+        Record row = start_row(worker.variant.row->name, worker.variant.knob_text(), repetition, cache);
+        if (file_.has(row.key())) continue;
+        const CutRun run = worker.measure(base_, cuts, cut_options_, cold);
+        if (run.crossed_triangles > 0) crossed = run.crossed_triangles;
+        if (r == 0)
+          row = judged[w];
+        else
+          row.set("status", std::string(name_of(run.status))), row.set("verdict", run.verdict),
+              row.set("reason", run.reason);
+        set_times(row, run);
+        file_.append(row);
+        if (!cold) summarize(resolution, worker.variant, summaries[w], run);
+      }
+      if (experiment_.every_edge && crossed == 0)  // all rows but this one were there
+        for (Worker& worker : workers_)
+          crossed = std::max(crossed, worker.cut(base_, cuts, cut_options_).crossed_triangles);
+      if (experiment_.every_edge)
+        time_every_edge(cuts, start_row("every_edge", "", repetition, cache), resolution, crossed, cold);
+    }
+    if (!motion_ || i >= static_cast<std::size_t>(experiment_.scene_cases)) return;
+    for (Worker& worker : workers_)
+      run_in_motion(cuts, worker, start_row(worker.variant.row->name, worker.variant.knob_text(), 0, "simulation"));
+  }
+
+  double eigenvalue_of(const Worker& worker) const {
+    return largest_eigenvalue(worker.sheet, worker.method->ties(base_.sheet, worker.sheet));
+  }
+
+  /// The experiment's scene on this sheet, brought to the last step before the cut.
+  void start_scene(const std::string& sheet, int resolution) {
+    if (!experiment_.scene) return;
+    Scene scene = *experiment_.scene;
+    scene.family = sheet, scene.resolution = resolution;
+    motion_ = Simulation::start(scene);
+    const StepReport report =
+        motion_->advance(experiment_.cut_time - scene.step, *workers_.front().method, cut_options_);
+    if (report.verdict != "ok")
+      throw InputError(scene.stem + ": the scene fails before its cut (" + report.verdict + "; " + report.reason +
+                       "); mend its step or its solver");
+  }
+
+  /// The cut made in the running scene, where nothing is warmed up for it.
+  void run_in_motion(const std::vector<Curve>& cuts, Worker& worker, Record row) {
+    if (file_.has(row.key())) return;
+    const MotionCut m = motion_->try_cut(cuts, worker.cutter, *worker.method, cut_options_);
+    row.set("status", std::string(name_of(m.cut.status)));
+    row.set("verdict", m.verdict), row.set("reason", m.reason);
+    set_times(row, m.cut);
+    if (m.verdict == "ok" && m.cut.status != Status::noop && m.cut.status != Status::refused) set_motion(row, m);
+    file_.append(row);
+    if (m.verdict != "ok") summary_.add_failure();
+  }
+
+  static void set_motion(Record& row, const MotionCut& m) {
+    row.set("transfer_us", m.transfer_us), row.set("pattern_us", m.pattern_us);
+    row.set("bending_us", m.bending_us), row.set("bending_rebuild_us", m.bending_rebuild_us);
+    const StepTimes& t = m.first_step.time_us;
+    row.set("rotate_us", t.rotate), row.set("assemble_us", t.assemble);
+    row.set("setup_us", t.setup), row.set("solve_us", t.solve);
+    row.set("rebuild_us", m.rebuild_us), row.set("triplets_us", m.triplets_us);
+    row.set("solver_iterations", std::int64_t{m.first_step.iterations});
+    row.set("solver_residual", m.first_step.residual);
+    const auto jump = [&](const std::string& name, const std::string& unit, double before, double after) {
+      row.set(name + "_" + unit, before), row.set(name + "_jump_" + unit, after - before);
+    };
+    jump("membrane", "j", m.before.energy.membrane, m.after.energy.membrane);
+    jump("bending", "j", m.before.energy.bending, m.after.energy.bending);
+    jump("kinetic", "j", m.before.energy.kinetic, m.after.energy.kinetic);
+    jump("residual", "n", m.before.residual, m.after.residual);
+    row.set("momentum_jump_kg_m_s", length(m.after.momentum + -1 * m.before.momentum));
+    row.set("angular_momentum_jump_kg_m2_s", length(m.after.angular_momentum + -1 * m.before.angular_momentum));
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    row.set("max_rss_mb", static_cast<double>(usage.ru_maxrss) / 1024);
+  }
+
+  void summarize(int resolution, const Variant& variant, Summary::Cut cut, const CutRun& run) {
+    cut.geometry_us = run.time_us.total(), cut.crossed_triangles = static_cast<double>(run.crossed_triangles);
+    if (run.status == Status::refused) return;  // in no time
+    cut.ok = cut.ok && run.verdict == "ok";
+    summary_.add(resolution, variant.row->name, variant.knob_text(), cut);
+  }
+
+  void judge_into(Record& row, Summary::Cut& summary, const Worker& worker, const std::vector<Curve>& cuts,
+                  const std::vector<oracle::ForcedCorner>& forced, const CutRun& run) {
+    row.set("status", std::string(name_of(run.status)));
+    row.set("verdict", run.verdict), row.set("reason", run.reason);
+    row.set("recovered_segments", std::int64_t{run.recovered_segments});
+    summary.ok = run.verdict == "ok";
+    if (run.status == Status::failed || run.status == Status::refused) return;
+    const Variant& v = worker.variant;
+    const oracle::Judgement judgement =
+        judge_one_by_one(base_.sheet, worker.sheet, cuts, v.row->promises, v.row->make(v.knob), cut_options_);
+    const Assessment a = assess(base_.sheet, worker.sheet, judgement, forced);
+    row.set("verdict", a.judgement.verdict);
+    if (!a.judgement.ok) row.set("reason", a.judgement.problems.front());
+    summary.ok = a.judgement.ok, summary.vertices_added = static_cast<double>(a.vertices_added);
+    if (experiment_.quality) summary.ar_max_cut = a.cut.ar_max, summary.over_3_cut = static_cast<double>(a.cut.over_3);
+    set_assessment(row, a);
+  }
+
+  void set_assessment(Record& row, const Assessment& a) {
+    row.set("pieces", std::int64_t{a.judgement.pieces});
+    row.set("vertices_added", std::int64_t{a.vertices_added});
+    row.set("deformed_vertices_added", std::int64_t{a.deformed_vertices_added});
+    row.set("triangles_added", std::int64_t{a.triangles_added});
+    row.set("incision_error_h", a.judgement.incision_error / base_.sheet.mean_edge());
+    row.set("area_change", a.judgement.area_change);
+    if (!experiment_.quality) return;
+    for (const auto& [suffix, q] : {std::pair<std::string, const Quality&>{"_all", a.all}, {"_cut", a.cut}}) {
+      row.set("ar_max" + suffix, q.ar_max), row.set("ar_mean" + suffix, q.ar_mean),
+          row.set("ar_p99" + suffix, q.ar_p99);
+      row.set("angle_min_deg" + suffix, q.angle_min_deg), row.set("angle_max_deg" + suffix, q.angle_max_deg);
+      row.set("altitude_min_h" + suffix, q.altitude_min);
+      row.set("over_3" + suffix, static_cast<std::int64_t>(q.over_3));
+    }
+    row.set("forced_corners", static_cast<std::int64_t>(a.forced_corners));
+    row.set("forced_triangles", std::int64_t{a.corner_triangles}),
+        row.set("wedge_triangles", std::int64_t{a.wedge_triangles});
+    row.set("wedge_area", a.wedge_area);
+    row.set("ar_max_cut_strict", a.strict.ar_max), row.set("ar_max_cut_outside_wedges", a.outside_wedges.ar_max);
+    row.set("ar_max_cut_away_from_wedges", a.ar_max_away_from_wedges);
+    row.set("ar_p99_cut_strict", a.strict.ar_p99), row.set("ar_p99_cut_outside_wedges", a.outside_wedges.ar_p99);
+  }
+
+  static void set_times(Record& row, const CutRun& run) {
+    row.set("crossed_triangles", static_cast<std::int64_t>(run.crossed_triangles));
+    const PhaseTimes& t = run.time_us;
+    row.set("locate_us", t.locate), row.set("trace_us", t.trace), row.set("embed_us", t.embed);
+    row.set("improve_us", t.improve), row.set("open_us", t.open);
+    row.set("tie_us", t.tie), row.set("geometry_us", t.total());
+    row.set("cpu_us", run.cpu_us);
+  }
+
+  void time_every_edge(const std::vector<Curve>& cuts, Record row, int resolution, std::size_t crossed, bool cold) {
+    if (file_.has(row.key())) return;
+    if (cold) chill_caches();
+    const auto start = std::chrono::steady_clock::now();
+    std::size_t crossings = 0;
+    for (const Curve& curve : cuts)
+      if (curve.kind == Curve::Kind::bezier) crossings += count_crossings_by_every_edge(base_.sheet, curve);
+    const double us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+    row.set("geometry_us", us);
+    row.set("status", std::string("ok"));
+    row.set("verdict", std::string(crossings > 0 ? "ok" : "not_terminated"));
+    row.set("crossed_triangles", static_cast<std::int64_t>(crossed));  // the cut's, as a unit
+    file_.append(row);
+    Summary::Cut summary;
+    summary.geometry_us = us, summary.crossed_triangles = static_cast<double>(crossed);
+    if (!cold) summary_.add(resolution, "every_edge", "", summary);
+  }
+
+  const Experiment& experiment_;
+  const RunOptions& options_;
+  RecordFile file_;
+  std::vector<Worker> workers_;
+  CutOptions cut_options_;
+  BaseSheet base_;
+  double base_eigenvalue_ = 0;  // of its sheet, where it is asked for
+  std::unique_ptr<Simulation> motion_;
+  Summary summary_;
+};
+
+}  // namespace
+
+bool run_methods(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
+                 const RunOptions& options) {
+  Runner runner(experiment, methods, context, options);
+  runner.run();
+  runner.file().finish(context, experiment.stem, experiment.claim, options.command, experiment.seed);
+  if (!options.quiet) runner.summary().print(experiment.stem);
+  return runner.summary().all_ok();
+}
+
+}  // namespace cutbench

@@ -1,0 +1,17 @@
+// The run loop of cut families: sheets x resolutions x cases x methods x repetitions, a row each.
+#pragma once
+
+#include <vector>
+
+#include "harness/records/context.h"
+#include "harness/run/experiment.h"
+#include "harness/run/variant.h"
+
+namespace cutbench {
+
+/// Writes <out>/<stem>/records.csv and context.json; a killed run goes on where it stopped. Prints the results table.
+/// Returns false where a row's verdict is not ok.
+bool run_methods(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
+                 const RunOptions& options);
+
+}  // namespace cutbench

@@ -1,0 +1,16 @@
+#include "harness/run_experiment.h"
+
+#include "harness/campaign/campaign.h"
+#include "harness/run/accuracy.h"
+#include "harness/run/method_runner.h"
+
+namespace cutbench {
+
+bool run_experiment(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
+                    const RunOptions& options) {
+  if (experiment.campaign) return run_campaign(experiment, methods, context, options);
+  if (experiment.accuracy) return run_accuracy(experiment, methods, context, options);
+  return run_methods(experiment, methods, context, options);
+}
+
+}  // namespace cutbench

@@ -1,0 +1,301 @@
+#include "methods/tools/path_graph.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/cut/patch.h"
+#include "harness/mesh/predicates.h"
+
+namespace cutbench {
+
+namespace {
+
+bool in_closed_triangle(Point2 a, Point2 b, Point2 c, Point2 p) {
+  const int x = orientation(a, b, p), y = orientation(b, c, p), z = orientation(c, a, p);
+  return (x >= 0 && y >= 0 && z >= 0) || (x <= 0 && y <= 0 && z <= 0);
+}
+
+/// The edge of t that two places lie on; none where there is no such edge.
+HalfEdge common_edge(const Sheet& sheet, TriangleIndex t, const Place& a, const Place& b) {
+  const auto lies_on = [&](const Place& place, HalfEdge h) {
+    if (place.kind == Place::Kind::vertex) return place.vertex == sheet.origin(h) || place.vertex == sheet.target(h);
+    return place.kind == Place::Kind::edge && (place.edge == h || place.edge == sheet.opposite(h));
+  };
+  for (int k = 0; k < 3; ++k)
+    if (const HalfEdge h = half_edge(t, k); lies_on(a, h) && lies_on(b, h)) return h;
+  return {};
+}
+
+}  // namespace
+
+// --- reading and writing ---------------------------------------------------------------------------------------------
+
+void PathGraph::read(const Sheet& sheet, const Subdivision& trace) {
+  sheet_ = &sheet, trace_ = &trace;
+  nodes_.clear(), links_.clear(), taken_.clear();
+  for (const auto& node : trace.nodes) nodes_.push_back({node.place, 0, {-1, -1}, false});
+  for (const auto& face : trace.faces)
+    for (int s = face.segments; s >= 0; s = trace.segment(s).next)
+      add_link(trace.segment(s).from, trace.segment(s).to, face.triangle, {});
+  for (const auto& along : trace.along) add_along(along);
+}
+
+/// Once, though the path may go to and fro.
+void PathGraph::add_link(int from, int to, TriangleIndex triangle, HalfEdge edge) {
+  for (const int known : at(from).link)
+    if (known >= 0 && other_end(known, from) == to && link(known).triangle == triangle) return;
+  for (const int node : {from, to}) {
+    Node& n = nodes_[static_cast<std::size_t>(node)];
+    if (n.degree < 2) n.link[static_cast<std::size_t>(n.degree)] = static_cast<int>(links_.size());
+    ++n.degree;
+  }
+  links_.push_back({from, to, triangle, edge, false});
+}
+
+/// From node to node: another passage may cross the edge in between.
+void PathGraph::add_along(const Subdivision::Along& along) {
+  const std::vector<int> stops = trace_->nodes_along(along);
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i) add_link(stops[i], stops[i + 1], {}, along.edge);
+}
+
+void PathGraph::write(Subdivision& trace) const {
+  trace.reset(*sheet_);
+  std::vector<int> number(nodes_.size(), -1);
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    if (!nodes_[i].gone) number[i] = trace.node_of(nodes_[i].place);
+  for (const Link& link : links_) {
+    if (link.gone) continue;
+    const int from = number[static_cast<std::size_t>(link.from)], to = number[static_cast<std::size_t>(link.to)];
+    const HalfEdge edge =
+        link.triangle.valid() ? common_edge(*sheet_, link.triangle, at(link.from).place, at(link.to).place) : link.edge;
+    if (edge.valid())
+      trace.add_along(from, to, edge);
+    else
+      trace.add_segment(trace.face_of(link.triangle), from, to);
+  }
+}
+
+// --- looking round a vertex ------------------------------------------------------------------------------------------
+
+int PathGraph::other_end(int i, int node) const { return link(i).from == node ? link(i).to : link(i).from; }
+
+double PathGraph::fraction_from(VertexIndex v, const Place& place) const {
+  return sheet_->origin(place.edge) == v ? place.lambda : 1 - place.lambda;
+}
+
+/// A plain crossing of an edge, or the path's end on the border or an older incision.
+bool PathGraph::may_move(int node) const {
+  const Node& n = at(node);
+  if (n.gone || n.place.kind != Place::Kind::edge) return false;
+  if (n.degree == 1) return sheet_->separates(n.place.edge);
+  if (n.degree != 2 || sheet_->on_border(n.place.edge)) return false;
+  return link(n.link[0]).triangle != link(n.link[1]).triangle;
+}
+
+std::vector<PathGraph::Approach> PathGraph::approaches(double reach) const {
+  std::vector<Approach> found;
+  for (int i = 0; i < static_cast<int>(nodes_.size()); ++i) {
+    if (!may_move(i)) continue;
+    const Place& place = at(i).place;
+    const bool first = place.lambda <= 0.5;
+    const double fraction = first ? place.lambda : 1 - place.lambda;
+    if (fraction <= reach && reach > 0)
+      found.push_back({i, first ? sheet_->origin(place.edge) : sheet_->target(place.edge), fraction});
+  }
+  std::sort(found.begin(), found.end(), [](const Approach& a, const Approach& b) {
+    return a.fraction < b.fraction || (a.fraction == b.fraction && a.node < b.node);
+  });
+  return found;
+}
+
+/// The next node of a run: beyond `link`, across a corner of a triangle at the vertex.
+bool PathGraph::extend(int node, int i, VertexIndex vertex, double reach, int& next) const {
+  next = other_end(i, node);
+  const Place& place = at(next).place;
+  return link(i).triangle.valid() && may_move(next) && is_end_of(place.edge, vertex) &&
+         fraction_from(vertex, place) <= reach;
+}
+
+/// No node but `except` lies on the edge less than `up_to` of it away from its end `from`.
+bool PathGraph::is_clear(HalfEdge edge, VertexIndex from, double up_to, int except) const {
+  for (int n = trace_->first_on(first_half_edge(*sheet_, edge)); n >= 0; n = trace_->node(n).next)
+    if (n != except && !at(n).gone && at(n).place.kind == Place::Kind::edge && fraction_from(from, at(n).place) < up_to)
+      return false;
+  return true;
+}
+
+/// No node lies on the edge between these two, which do.
+bool PathGraph::is_clear_between(HalfEdge edge, int a, int b) const {
+  const VertexIndex from = sheet_->origin(edge);
+  const auto progress = [&](int n) {
+    const Place& p = at(n).place;
+    return p.kind == Place::Kind::edge ? fraction_from(from, p) : p.vertex == from ? 0.0 : 1.0;
+  };
+  const double low = std::min(progress(a), progress(b)), high = std::max(progress(a), progress(b));
+  for (int n = trace_->first_on(first_half_edge(*sheet_, edge)); n >= 0; n = trace_->node(n).next)
+    if (n != a && n != b && !at(n).gone && at(n).place.kind == Place::Kind::edge && progress(n) >= low &&
+        progress(n) <= high)
+      return false;
+  return true;
+}
+
+/// No other node lies between the vertex and this one, nor the edge's other end or another node so near behind it that
+/// rounding decides which is nearer: two lines that nearly coincide may cross many times, and contracting one of them
+/// would make large bits of the hairs between.
+bool PathGraph::is_nearest(int node, VertexIndex vertex) const {
+  const HalfEdge edge = at(node).place.edge;
+  const double length =
+      std::sqrt(squared_length(sheet_->rest(sheet_->target(edge)) - sheet_->rest(sheet_->origin(edge))));
+  const double behind = fraction_from(vertex, at(node).place) + hair() / length;
+  return behind <= 1 && is_clear(edge, vertex, behind, node);
+}
+
+/// A triangle at the edge is lower than a few snap distances: a path along the edge could enclose nothing but that.
+bool PathGraph::is_beside_hair(HalfEdge edge) const {
+  const Point2 from = sheet_->rest(sheet_->origin(edge)), along = sheet_->rest(sheet_->target(edge)) - from;
+  for (const HalfEdge h : {edge, sheet_->opposite(edge)})
+    if (h.valid() && std::abs(cross(along, sheet_->rest(sheet_->origin(Sheet::previous(h))) - from)) <=
+                         hair() * std::sqrt(squared_length(along)))
+      return true;
+  return false;
+}
+
+/// A node inside t, other than these, lies in a part of it.
+bool PathGraph::holds_node(TriangleIndex t, const std::array<Point2, 3>& part, std::initializer_list<int> but) const {
+  for (int n = trace_->face(trace_->find_face(t)).inside; n >= 0; n = trace_->node(n).next)
+    if (std::find(but.begin(), but.end(), n) == but.end() && !at(n).gone &&
+        in_closed_triangle(part[0], part[1], part[2], point(n)))
+      return true;
+  return false;
+}
+
+/// The link from `node` of the run to `end` becomes one from the vertex to `end`: nothing of the path lies in between,
+/// and no separating edge in the new way.
+bool PathGraph::sweep_is_clear(int end, int i, int node, VertexIndex vertex) const {
+  const TriangleIndex t = link(i).triangle;
+  const Place& place = at(end).place;
+  if (!t.valid() || common_edge(*sheet_, t, place, at(node).place).valid())
+    return true;  // on along the node's own edge
+  if (const HalfEdge edge = common_edge(*sheet_, t, place, place_at(*sheet_, vertex)); edge.valid()) {
+    const double distance = place.kind == Place::Kind::edge ? fraction_from(vertex, place) : 2;
+    if (sheet_->separates(edge) || !is_clear(edge, vertex, distance) || is_beside_hair(edge)) return false;
+  }
+  return !holds_node(t, {point(end), point(node), sheet_->rest(vertex)}, {end, node});
+}
+
+bool PathGraph::find_run(int node, VertexIndex vertex, double reach, Run& run) const {
+  if (!may_move(node) || trace_->node_at(vertex) >= 0 || std::binary_search(taken_.begin(), taken_.end(), vertex))
+    return false;
+  run.vertex = vertex;
+  run.nodes.assign(1, node);
+  const auto follow = [&](int i, int& end, int& end_link) {  // false: the path goes round the vertex to itself
+    end = end_link = -1;
+    for (int from = node; i >= 0;) {
+      int next = -1;
+      if (!extend(from, i, vertex, reach, next)) {
+        end = next, end_link = i;
+        break;
+      }
+      if (next == node) return false;
+      run.nodes.push_back(next);
+      const Node& n = at(next);
+      i = n.degree == 1 ? -1 : n.link[0] == i ? n.link[1] : n.link[0];
+      from = next;
+    }
+    return true;
+  };
+  if (!follow(at(node).link[0], run.before, run.link_before)) return false;
+  std::reverse(run.nodes.begin(), run.nodes.end());
+  if (!follow(at(node).link[1], run.after, run.link_after)) return false;
+  if (run.before == run.after) return false;  // also where neither is there
+
+  std::size_t separating = 0;
+  for (const int n : run.nodes) {
+    separating += sheet_->separates(at(n).place.edge);
+    if (!is_nearest(n, vertex)) return false;
+  }
+  bool on_separator = false;
+  const HalfEdge first = sheet_->first_outgoing(vertex);
+  HalfEdge h = first;
+  do {
+    on_separator |= sheet_->separates(h);
+    h = sheet_->next_outgoing(h);
+  } while (h.valid() && h != first);
+  if (separating != (on_separator ? 1 : 0)) return false;
+  return (run.before < 0 || sweep_is_clear(run.before, run.link_before, run.nodes.front(), vertex)) &&
+         (run.after < 0 || sweep_is_clear(run.after, run.link_after, run.nodes.back(), vertex));
+}
+
+bool PathGraph::has_star_to_itself(const Run& run) const {
+  const auto is_met_by_others = [&](HalfEdge edge) {
+    for (int n = trace_->first_on(first_half_edge(*sheet_, edge)); n >= 0; n = trace_->node(n).next)
+      if (!at(n).gone && at(n).place.kind == Place::Kind::edge &&
+          std::find(run.nodes.begin(), run.nodes.end(), n) == run.nodes.end())
+        return true;
+    return false;
+  };
+  const HalfEdge first = sheet_->first_outgoing(run.vertex);
+  HalfEdge h = first;
+  do {
+    const int face = trace_->find_face(triangle_of(h));
+    for (int n = face >= 0 ? trace_->face(face).inside : -1; n >= 0; n = trace_->node(n).next)
+      if (!at(n).gone) return false;
+    if (is_met_by_others(h) || is_met_by_others(Sheet::previous(h))) return false;
+    h = sheet_->next_outgoing(h);
+  } while (h.valid() && h != first);
+  return true;
+}
+
+void PathGraph::contract(const Run& run) {
+  for (std::size_t i = 1; i < run.nodes.size(); ++i) {
+    for (const int shared : at(run.nodes[i - 1]).link)
+      if (shared >= 0 && shared != run.link_before && other_end(shared, run.nodes[i - 1]) == run.nodes[i])
+        links_[static_cast<std::size_t>(shared)].gone = true;
+    nodes_[static_cast<std::size_t>(run.nodes[i])].gone = true;
+  }
+  const int kept = run.nodes.front(), last = run.nodes.back();
+  if (run.link_after >= 0) {
+    Link& after = links_[static_cast<std::size_t>(run.link_after)];
+    (after.from == last ? after.from : after.to) = kept;
+  }
+  Node& node = nodes_[static_cast<std::size_t>(kept)];
+  node.place = place_at(*sheet_, run.vertex);
+  node.link = {run.link_before, run.link_after};
+  node.degree = (run.link_before >= 0) + (run.link_after >= 0);
+  taken_.insert(std::lower_bound(taken_.begin(), taken_.end(), run.vertex), run.vertex);
+}
+
+bool PathGraph::straighten(int node) {
+  const Node& n = at(node);
+  if (n.gone || n.place.kind != Place::Kind::face || n.degree != 2) return false;
+  const TriangleIndex t = n.place.face;
+  const int kept = n.link[0], dropped = n.link[1];
+  const int before = other_end(kept, node), after = other_end(dropped, node);
+  if (before == after || (at(before).degree > 2 && at(after).degree > 2)) return false;
+  if (at(before).degree == 1 && at(after).degree == 1) return false;  // a single edge between tips would not open
+  const auto& [from, to] = at(before).degree <= 2 ? std::pair{before, after} : std::pair{after, before};
+  for (const int known : at(from).link)
+    if (known >= 0 && other_end(known, from) == to) return false;  // a loop closes
+  if (holds_node(t, {point(before), point(node), point(after)}, {before, node, after})) return false;
+  if (const HalfEdge edge = common_edge(*sheet_, t, at(before).place, at(after).place); edge.valid())
+    if (sheet_->separates(edge) || !is_clear_between(edge, before, after) || is_beside_hair(edge)) return false;
+
+  Link& link = links_[static_cast<std::size_t>(kept)];
+  (link.from == node ? link.from : link.to) = after;
+  links_[static_cast<std::size_t>(dropped)].gone = true;
+  for (int& known : nodes_[static_cast<std::size_t>(after)].link)
+    if (known == dropped) known = kept;
+  nodes_[static_cast<std::size_t>(node)].gone = true;
+  return true;
+}
+
+void snap_to_vertices(const Sheet& sheet, Subdivision& trace, double tolerance, PathGraph& path) {
+  path.read(sheet, trace);
+  const auto near = path.approaches(tolerance);
+  PathGraph::Run run;
+  for (const auto& crossing : near)
+    if (path.find_run(crossing.node, crossing.vertex, tolerance, run)) path.contract(run);
+  if (!near.empty()) path.write(trace);
+}
+
+}  // namespace cutbench

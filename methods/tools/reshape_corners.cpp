@@ -1,0 +1,88 @@
+// What Reshape does where the path meets older incisions, the border or itself at a small angle, before anything else
+// is mended; and how it divides an edge at a point beside it.
+#include <cmath>
+
+#include "harness/cut/patch.h"
+#include "harness/mesh/star.h"
+#include "methods/tools/reshape.h"
+
+namespace cutbench {
+
+/// Splits an edge with a new vertex at p, beside it: there the old map takes it, from where it would lie on the edge.
+/// An invalid index, and the edge is whole, where triangles would not stay positive.
+VertexIndex Reshape::split_at(HalfEdge h, Point2 p) {
+  const Point2 a = sheet_->rest(sheet_->origin(h)), edge = sheet_->rest(sheet_->target(h)) - a;
+  const double lambda = dot(p - a, edge) / squared_length(edge);
+  const Point2 on_edge = a + lambda * edge;
+  const HalfEdge o = sheet_->opposite(h);
+  if (!(lambda > 0 && lambda < 1)) return {};
+  for (const Point2 q : {on_edge, p})
+    if (!halves_are_positive(*sheet_, h, q) || !halves_are_positive(*sheet_, o, q)) return {};
+  const VertexIndex v = sheet_->split_edge(h, lambda, on_edge);
+  if (!(on_edge == p)) sheet_->move(v, p);
+  return v;
+}
+
+/// Turns v, or a new vertex on the piece of path from the apex to it, about the apex until the edges to it and to the
+/// other leg enclose enough; false where it may not go there.
+bool Reshape::turn_away(VertexIndex v, VertexIndex apex, VertexIndex other) {
+  constexpr double enough = 0.37;    // radians; a triangle with two sides this far apart has an aspect ratio of 2.8
+  constexpr double sharpest = 0.17;  // a sine; below it the curves themselves enclose too little
+  Neighbours n;
+  if (freedom(v, n) != Freedom::along || (n.before != apex && n.after != apex)) return false;
+  const VertexIndex beyond = n.before == apex ? n.after : n.before;
+  const double from = curve_->parameter(apex), end = curve_->parameter(v);
+  if (from < 0 || end < 0) return false;
+  const Point2 at = sheet_->rest(apex), along = sheet_->rest(other) - at;
+  const double side = cross(along, sheet_->rest(v) - at) > 0 ? 1 : -1;
+  const double c = std::cos(enough) / std::sqrt(squared_length(along)),
+               s = side * std::sin(enough) / std::sqrt(squared_length(along));
+  const Point2 direction{c * along.x - s * along.y, s * along.x + c * along.y};
+  for (const double share : {1.0, 0.5, 0.25}) {
+    const double here = from + share * (end - from);
+    const Point2 was = curve_->at(here), leg = was - at, to = at + std::sqrt(squared_length(leg)) * direction;
+    if (side * cross(along, leg) < sharpest * std::sqrt(squared_length(along) * squared_length(leg))) continue;
+    const bool whole = share == 1;
+    const VertexIndex next = whole ? beyond : v;
+    if (squared_length(to - was) > tolerance_ * tolerance_ || !curve_->stays_near(from, here, at, to, tolerance_) ||
+        !curve_->stays_near(here, curve_->parameter(next), to, sheet_->rest(next), tolerance_))
+      continue;
+    if (whole) {
+      if (!sheet_->move(v, to)) continue;
+      curve_->set_parameter(v, -1);  // it stays there
+      return true;
+    }
+    if (split_at(find_half_edge(*sheet_, apex, v), to).valid()) return true;
+  }
+  return false;
+}
+
+/// Halves a long piece of the path at a point of the curve.
+void Reshape::follow_closely(VertexIndex from, VertexIndex to) {
+  const HalfEdge h = find_half_edge(*sheet_, from, to);
+  const double s = curve_->parameter(from), e = curve_->parameter(to);
+  if (!h.valid() || sheet_->mark(h) != EdgeMark::path || s < 0 || e < 0) return;
+  const Point2 a = sheet_->rest(from), b = sheet_->rest(to), middle = curve_->at((s + e) / 2);
+  if (squared_length(b - a) < 0.25 * h_ * h_ || !curve_->stays_near(s, e, a, b, h_)) return;
+  if (const VertexIndex v = split_at(h, middle); v.valid()) curve_->add(v, (s + e) / 2);
+}
+
+void Reshape::widen_corners() {
+  corners_.clear();
+  for_each_sharp_corner(*sheet_, [&](VertexIndex apex, VertexIndex right, VertexIndex left) {
+    corners_.push_back({apex, right, left});
+  });
+  for (const auto& [apex, right, left] : corners_) {
+    if (turn_away(left, apex, right) || turn_away(right, apex, left)) continue;
+    for (const VertexIndex v : {left, right}) follow_closely(apex, v);
+  }
+}
+
+void Reshape::find_wedges(bool widen) {
+  wedges_.find(*sheet_);
+  if (!widen || wedges_.empty()) return;
+  widen_corners();
+  wedges_.find(*sheet_);
+}
+
+}  // namespace cutbench

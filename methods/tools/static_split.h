@@ -1,0 +1,21 @@
+// Conventional subdivision: the plain split of methods/conventional_split, and of those methods that leave its geometry
+// as it is.
+//
+// A triangle crossed by the path through two edges becomes three, one in which the path goes from a corner to the
+// opposite edge becomes two, and one in which it ends becomes four. The order of connection is static and looks at no
+// shape: the quadrilateral that a crossing leaves is divided from the point where the path comes in to the far corner,
+// a tip is joined to everything round it. Triangles that hold kept points (corners of the path, curve points, crossings
+// with itself), or that the path passes more than once, are divided step by step.
+#pragma once
+
+#include "methods/tools/delaunay_split.h"
+
+namespace cutbench {
+
+/// Embeds the trace. Returns the number of segments that had to be recovered. Throws CutFailed.
+int embed_by_static_split(Sheet& sheet, Subdivision& trace, PatchWork& work);
+
+/// Fills patch.triangles; returns the number of segments that had to be recovered.
+int split_conventionally(Patch& patch);
+
+}  // namespace cutbench

@@ -1,0 +1,43 @@
+#!/usr/bin/env python3
+"""The rooms of the house: what may include what. A room may include itself and those listed for it; no arrow goes up.
+usage: tests/check_includes.py      exit code 1 and a line per include that breaks the order"""
+
+import pathlib
+import re
+import sys
+
+ROOMS = {  # from the ground up: a room and the rooms below it that it may use
+    "harness/base": [],
+    "harness/mesh": ["base"],
+    "harness/path": ["base", "mesh"],
+    "harness/cut": ["base", "mesh", "path"],
+    "harness/fem": ["base", "mesh"],
+    "harness/measure": [],  # the oracle shares no code with what it judges
+    "harness/judge": ["base", "mesh", "path", "cut", "measure"],
+    "harness/cases": ["base", "mesh", "path"],
+    "harness/truth": ["base", "mesh", "path", "cut", "fem"],
+    "harness/scene": ["base", "mesh", "path", "cut", "fem", "cases"],
+    "harness/records": ["base", "mesh", "cut", "judge"],
+    "harness/run": ["base", "mesh", "path", "cut", "fem", "measure", "judge", "cases", "truth", "scene", "records"],
+    "harness/campaign": ["base", "mesh", "path", "cut", "measure", "judge", "cases", "records", "run"],
+    "harness": ["records", "run", "campaign"],  # run_experiment
+    "methods": ["base", "mesh", "path", "cut"],
+}
+
+root = pathlib.Path(__file__).resolve().parent.parent
+faults = 0
+for file in sorted([*root.glob("harness/**/*.[hc]*"), *root.glob("methods/**/*.[hc]*")]):
+    if file.suffix not in (".h", ".cpp"):
+        continue
+    name = file.relative_to(root)
+    room = "methods" if name.parts[0] == "methods" else str(name.parent)
+    for number, line in enumerate(file.read_text().splitlines(), 1):
+        if not (include := re.match(r'#include "((?:harness|methods|experiments|tests)/.*)/[^/]*"', line)):
+            continue
+        other = include[1]
+        allowed = other == room or (room == "methods" and other.startswith("methods")) or \
+            other in ["harness/" + r for r in ROOMS[room]]
+        if not allowed:
+            print(f"{name}:{number}: {room} must not include {other}; move what is shared to a room below both")
+            faults += 1
+sys.exit(faults > 0)
