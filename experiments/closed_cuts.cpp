@@ -27,9 +27,10 @@ constexpr Elastic elastic{.young = 1000, .poisson = 0.3};  // Young's modulus ti
 class Closed final : public CuttingMethod {
  public:
   explicit Closed(std::unique_ptr<CuttingMethod> method) : method_(std::move(method)) {}
-  void embed(Sheet& sheet, Subdivision& trace) override { method_->embed(sheet, trace); }
-  void improve(Sheet& sheet) override {
-    method_->improve(sheet);
+  void adapt(Sheet& sheet, Subdivision& trace, const Polyline& path) override { method_->adapt(sheet, trace, path); }
+  void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override { method_->embed(sheet, trace, notes); }
+  void improve(Sheet& sheet, MethodNotes& notes) override {
+    method_->improve(sheet, notes);
     for (std::size_t t = 0; t < sheet.triangle_slots(); ++t)
       for (int k = 0; k < 3; ++k)
         if (const HalfEdge h = half_edge(TriangleIndex(t), k);

@@ -40,6 +40,8 @@ int list_methods(bool as_json) {
       if (kept) promises.emplace_back(name);
     if (as_json) {
       nlohmann::ordered_json entry{{"name", m.name}, {"summary", m.summary}, {"knob", nullptr}, {"promises", promises}};
+      entry["incision_bound"] = {{"longest_edges", p.incision_bound.longest_edges},
+                                 {"chord_tolerances", p.incision_bound.chord_tolerances}};
       if (!m.knob.name.empty())
         entry["knob"] = {{"name", m.knob.name}, {"default", m.knob.value}, {"meaning", m.knob.meaning}};
       list.push_back(entry);
@@ -51,6 +53,10 @@ int list_methods(bool as_json) {
     std::string text;
     for (const auto& name : promises) text += (text.empty() ? "" : ", ") + name;
     std::printf("%20s   promises %s\n", "", text.empty() ? "nothing" : text.c_str());
+    std::printf("%20s   incision error at most", "");
+    if (p.incision_bound.longest_edges > 0)
+      std::printf(" %g x the sheet's longest edge +", p.incision_bound.longest_edges);
+    std::printf(" %g x the chord tolerance\n", p.incision_bound.chord_tolerances);
   }
   if (as_json) std::cout << list.dump(2) << '\n';
   return done;

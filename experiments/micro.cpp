@@ -17,7 +17,6 @@
 #include "harness/run/chill_caches.h"
 #include "harness/run/every_edge.h"
 #include "methods/registry.h"
-#include "methods/tools/delaunay_split.h"
 #include "methods/tools/region_mesher.h"
 
 namespace {
@@ -70,8 +69,7 @@ class PartsOfRefinement final : public CuttingMethod {
  public:
   static constexpr const char* names[] = {"convert", "insert", "refine", "put_back"};
 
-  void embed(Sheet& sheet, Subdivision& trace) override { embed_by_delaunay_split(sheet, trace, work_); }
-  void improve(Sheet& sheet) override {
+  void improve(Sheet& sheet, MethodNotes&) override {
     wedges_.find(sheet);
     region_.clear(sheet), region_.add_changed(sheet), region_.grow(sheet, 2);
     StopWatch watch;
@@ -91,7 +89,6 @@ class PartsOfRefinement final : public CuttingMethod {
   std::array<double, 4> us{};
 
  private:
-  PatchWork work_;
   ForcedWedges wedges_;
   RegionMesher mesher_;
   Region region_;

@@ -65,7 +65,11 @@ const std::vector<MethodRow>& all_methods() {
       {"cisamr",
        "structured grids: near nodes move onto the path, then one pass of splits and better diagonals",
        {},
-       {.exact_incision = false, .keeps_area = true, .conforming = true, .keeps_vertices = false},
+       {.exact_incision = false,
+        .keeps_area = true,
+        .conforming = true,
+        .keeps_vertices = false,
+        .incision_bound = {.longest_edges = 0, .chord_tolerances = 3}},
        [](double) { return std::make_unique<Cisamr>(); }},
       {"delaunay_refine",
        "local Delaunay refinement of the cut's surroundings, by off-centres",
@@ -93,12 +97,20 @@ const std::vector<MethodRow>& all_methods() {
       {"edge_release",
        "the path is rounded to existing edges, a staircase",
        {},
-       {.exact_incision = false, .keeps_area = true, .conforming = true, .keeps_vertices = true},
+       {.exact_incision = false,
+        .keeps_area = true,
+        .conforming = true,
+        .keeps_vertices = true,
+        .incision_bound = {.longest_edges = 1, .chord_tolerances = 1}},
        [](double) { return std::make_unique<EdgeRelease>(); }},
       {"element_deletion",
        "crossed triangles are taken out of the sheet",
        {},
-       {.exact_incision = false, .keeps_area = false, .conforming = true, .keeps_vertices = false},
+       {.exact_incision = false,
+        .keeps_area = false,
+        .conforming = true,
+        .keeps_vertices = false,
+        .incision_bound = {.longest_edges = 1, .chord_tolerances = 1}},
        [](double) { return std::make_unique<ElementDeletion>(); }},
       {"example",
        "an example to start from: crossed triangles divided by the shorter diagonal",
@@ -116,7 +128,11 @@ const std::vector<MethodRow>& all_methods() {
       {"snap_or_split",
        "crossings near a vertex go through the vertex, the others are split",
        {"tolerance", 0.25, "fraction of the edge up to which a crossing goes to the vertex, 0 to 0.5"},
-       {.exact_incision = false, .keeps_area = true, .conforming = true, .keeps_vertices = true},
+       {.exact_incision = false,
+        .keeps_area = true,
+        .conforming = true,
+        .keeps_vertices = true,
+        .incision_bound = {.longest_edges = 0.5, .chord_tolerances = 1}},
        [](double tolerance) {
          if (!(tolerance >= 0 && tolerance <= 0.5))
            throw InputError("snap_or_split: tolerance must be a number from 0 to 0.5");
@@ -134,7 +150,11 @@ const std::vector<MethodRow>& all_methods() {
       {"vertex_snap",
        "the nearest vertices move onto the path, crossings left over are split",
        {"reach", 0.5, "fraction of the edge over which a vertex comes to a crossing, 0 to 0.5"},
-       {.exact_incision = false, .keeps_area = true, .conforming = true, .keeps_vertices = false},
+       {.exact_incision = false,
+        .keeps_area = true,
+        .conforming = true,
+        .keeps_vertices = false,
+        .incision_bound = {.longest_edges = 1, .chord_tolerances = 1}},
        [](double reach) {
          if (!(reach >= 0 && reach <= 0.5)) throw InputError("vertex_snap: reach must be a number from 0 to 0.5");
          return std::make_unique<VertexSnap>(VertexSnap::Options{.reach = reach});
@@ -142,7 +162,11 @@ const std::vector<MethodRow>& all_methods() {
       {"warp_and_refine",
        "near vertices move onto the path, short edges go, flips and smoothing, then refinement",
        {"reach", 0.4, "fraction of the edge over which a vertex comes to a crossing, 0 to 0.5"},
-       {.exact_incision = false, .keeps_area = true, .conforming = true, .keeps_vertices = false},
+       {.exact_incision = false,
+        .keeps_area = true,
+        .conforming = true,
+        .keeps_vertices = false,
+        .incision_bound = {.longest_edges = 0, .chord_tolerances = 3}},
        [](double reach) {
          if (!(reach >= 0 && reach <= 0.5)) throw InputError("warp_and_refine: reach must be a number from 0 to 0.5");
          WarpAndRefine::Options options;
@@ -172,7 +196,10 @@ const std::vector<MethodRow>& ablation_methods() {
       for (const auto& [after, then] : afters) {
         WarpAndRefine::Options options;
         options.before = before, options.after = after;
-        const Promises promises{.keeps_area = true, .conforming = true};
+        const Promises promises{
+            .keeps_area = true,
+            .conforming = true,
+            .incision_bound = {.longest_edges = before == Before::snap ? options.snap : 0, .chord_tolerances = 3}};
         made.push_back({std::string("ablation:") + first + ":" + then,
                         "warp_and_refine, in part",
                         {},

@@ -201,8 +201,8 @@ class Saboteur : public CuttingMethod {
   std::optional<std::string> why_unsupported(const Sheet&) const override {
     return refuses_ ? std::optional<std::string>("on purpose") : std::nullopt;
   }
-  void embed(Sheet& sheet, Subdivision& trace) override {
-    method_->embed(sheet, trace);
+  void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override {
+    method_->embed(sheet, trace, notes);
     for (std::size_t t = 0; t < sheet.triangle_slots(); ++t)
       for (int k = 0; k < 3; ++k)
         if (const HalfEdge h = half_edge(TriangleIndex(t), k);

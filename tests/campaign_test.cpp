@@ -35,13 +35,13 @@ class Saboteur : public CuttingMethod {
   enum class Deed { crash, hang, fail, leave_closed, give_up };
   explicit Saboteur(Deed deed) : deed_(deed), method_(find_method("conventional_split").make(0)) {}
 
-  void embed(Sheet& sheet, Subdivision& trace) override {
+  void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override {
     const bool strike = trace.crossed_triangles() % 5 == 0;
     if (strike && deed_ == Deed::crash) std::raise(SIGKILL);  // nobody, a sanitizer neither, can catch it
     if (strike && deed_ == Deed::hang)
       for (volatile bool forever = true; forever;) {
       }
-    method_->embed(sheet, trace);
+    method_->embed(sheet, trace, notes);
     if (strike && deed_ == Deed::give_up) throw TooClose("on purpose");
     if (strike && deed_ == Deed::fail) throw CutFailed("inverted", "on purpose");
     if (strike && deed_ == Deed::leave_closed && !sheet.log().new_vertices.empty()) un_mark(sheet);

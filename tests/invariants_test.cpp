@@ -95,12 +95,13 @@ class Failing : public CuttingMethod {
  public:
   Failing(std::unique_ptr<CuttingMethod> method, bool in_improve)
       : method_(std::move(method)), in_improve_(in_improve) {}
-  void embed(Sheet& sheet, Subdivision& trace) override {
-    method_->embed(sheet, trace);
+  void adapt(Sheet& sheet, Subdivision& trace, const Polyline& path) override { method_->adapt(sheet, trace, path); }
+  void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override {
+    method_->embed(sheet, trace, notes);
     if (!in_improve_) throw CutFailed("inverted", "on purpose");
   }
-  void improve(Sheet& sheet) override {
-    method_->improve(sheet);
+  void improve(Sheet& sheet, MethodNotes& notes) override {
+    method_->improve(sheet, notes);
     throw CutFailed("leak", "on purpose");
   }
 
@@ -142,7 +143,7 @@ TEST(Invariants, AFailedCutLeavesTheSheetAsItWas) {
 TEST(Invariants, ARefusedCutLeavesTheSheetAsItWas) {
   struct Refusing : CuttingMethod {
     std::optional<std::string> why_unsupported(const Sheet&) const override { return "not today"; }
-    void embed(Sheet&, Subdivision&) override {}
+    void embed(Sheet&, Subdivision&, MethodNotes&) override {}
   } refusing;
   Sheet sheet(make_sheet("grid", 3));
   Locator locator(sheet);

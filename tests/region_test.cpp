@@ -71,8 +71,8 @@ TEST(Region, GrowsByRingsAndForgets) {
 class Looks final : public CuttingMethod {
  public:
   explicit Looks(ForcedWedges& wedges) : wedges_(wedges) {}
-  void embed(Sheet& sheet, Subdivision& trace) override { method_->embed(sheet, trace); }
-  void improve(Sheet& sheet) override { wedges_.find(sheet); }
+  void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override { method_->embed(sheet, trace, notes); }
+  void improve(Sheet& sheet, MethodNotes&) override { wedges_.find(sheet); }
 
  private:
   ForcedWedges& wedges_;

@@ -8,6 +8,7 @@
 #include "harness/judge/judged_sheet.h"
 #include "harness/mesh/families.h"
 #include "methods/conventional_split/conventional_split.h"
+#include "methods/edge_release/edge_release.h"
 #include "tests/fem_helpers.h"
 #include "tests/helpers.h"
 
@@ -21,8 +22,8 @@ double length_of(const Sheet& sheet, HalfEdge h) {
 /// Embeds the path, and forgets its last edges: a hundredth of its length, and what is left of an edge.
 class LosesAHundredth final : public CuttingMethod {
  public:
-  void embed(Sheet& sheet, Subdivision& trace) override { split_.embed(sheet, trace); }
-  void improve(Sheet& sheet) override {
+  void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override { split_.embed(sheet, trace, notes); }
+  void improve(Sheet& sheet, MethodNotes&) override {
     std::map<VertexIndex, std::vector<HalfEdge>> outgoing;
     double length = 0;
     for (std::size_t t = 0; t < sheet.triangle_slots(); ++t)
@@ -65,11 +66,29 @@ TEST(WrongMethods, AHundredthOfTheIncisionIsMissed) {
     }
 }
 
+/// edge_release, which strays by most of an edge, under its own bound and under one that it does not keep.
+TEST(WrongMethods, AnIncisionBeyondTheBoundIsNoticed) {
+  const auto judge = [](const std::string& family, double longest_edges) {
+    const Promises promises{.keeps_area = true,
+                            .conforming = true,
+                            .keeps_vertices = true,
+                            .incision_bound = {.longest_edges = longest_edges}};
+    JudgedSheet sheet(Sheet(make_sheet(family, 20)), promises, std::make_unique<EdgeRelease>());
+    const auto finding = sheet.cut(line({0.13, 0.21}, {0.83, 0.62}), {});
+    EXPECT_EQ(sheet.outcome.status, Status::ok);
+    return finding.verdict;
+  };
+  for (const std::string family : sheet_families()) {
+    EXPECT_EQ(judge(family, 1), "ok") << family;
+    EXPECT_EQ(judge(family, 0.1), "incision") << family;
+  }
+}
+
 /// Takes triangles out, but not those that it should.
 class DeletesOthers final : public CuttingMethod {
  public:
   explicit DeletesOthers(bool too_many) : too_many_(too_many) {}
-  void embed(Sheet& sheet, Subdivision& trace) override {
+  void embed(Sheet& sheet, Subdivision& trace, MethodNotes&) override {
     std::vector<TriangleIndex> gone;
     const auto add = [&](TriangleIndex t) {
       if (std::find(gone.begin(), gone.end(), t) == gone.end()) gone.push_back(t);
@@ -102,8 +121,8 @@ TEST(WrongMethods, DeletingNothingOrTooMuchIsNoticed) {
 /// Splits, and moves the vertices of the mesh near the path a little.
 class MovesVertices final : public CuttingMethod {
  public:
-  void embed(Sheet& sheet, Subdivision& trace) override { split_.embed(sheet, trace); }
-  void improve(Sheet& sheet) override {
+  void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override { split_.embed(sheet, trace, notes); }
+  void improve(Sheet& sheet, MethodNotes&) override {
     for (std::size_t v = 0; v < sheet.log().vertices_before; ++v) {
       const Point2 p = sheet.rest(VertexIndex(v));
       if (std::abs(p.x - 0.5) < 0.3 && std::abs(p.y - 0.5) < 0.1) sheet.move(VertexIndex(v), p + Point2{0.01, 0.005});

@@ -63,29 +63,31 @@ CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, Cutti
       return nothing_done(Status::noop, "the path lies outside the sheet, or where it is open already");
     watch.lap();  // counting is no part of a cut
 
+    MethodNotes notes;
     try {
-      method.embed(sheet, trace);
+      method.adapt(sheet, trace, polyline_);
+      method.embed(sheet, trace, notes);
       mark_along(sheet, trace);
     } catch (const TooClose&) {
       sheet.rollback();
       sheet.begin_cut();
-      outcome.carefully = true;
+      notes = {}, outcome.carefully = true;
       outcome.deviation = embed_carefully(sheet, trace);
     }
     outcome.time_us.embed = watch.lap();
-    method.improve(sheet);
+    method.improve(sheet, notes);
     outcome.time_us.improve = watch.lap();
     open_path(sheet);
     outcome.time_us.open = watch.lap();
     locator.update(sheet);
     outcome.time_us.locate += watch.lap();
 
-    if (method.stopped_early()) outcome.reason = "the triangles were improved in part only, up to the method's limit";
+    if (notes.stopped_early) outcome.reason = "the triangles were improved in part only, up to the method's limit";
     if (outcome.deviation > 2 * sheet.snap()) {
       outcome.status = Status::deviated;
       outcome.reason = "a crossing was moved out of a wedge between older cuts that is too thin for doubles";
     }
-    outcome.recovered_segments = method.recovered_segments();
+    outcome.recovered_segments = notes.recovered_segments;
   } catch (const TooClose& reason) {
     sheet.rollback();
     outcome = nothing_done(Status::refused, reason.what());

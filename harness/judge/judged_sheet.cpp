@@ -27,7 +27,9 @@ JudgedSheet::Finding JudgedSheet::cut(const Curve& curve, const CutOptions& opti
   if (status == Status::noop) {  // justified where the path opens nothing
     CutOptions exact = options;  // a curve may follow an older incision, a polyline may not
     if (curve.kind == Curve::Kind::polyline || !std::isfinite(options.chord_tolerance)) exact.chord_tolerance = 0;
-    request = request_for(before, {&curve, 1}, promises_, exact, false);
+    Promises unchanged = promises_;  // the method was not asked
+    unchanged.incision_bound = {};
+    request = request_for(before, {&curve, 1}, unchanged, exact, false);
     request.tolerance += request.snap;
   } else {
     request = request_for(before, {&curve, 1}, promises_, options, method_.improved);

@@ -20,18 +20,17 @@ class Watched : public CuttingMethod {
   std::optional<std::string> why_unsupported(const Sheet& sheet) const override {
     return method_->why_unsupported(sheet);
   }
-  void embed(Sheet& sheet, Subdivision& trace) override {
+  void adapt(Sheet& sheet, Subdivision& trace, const Polyline& path) override { method_->adapt(sheet, trace, path); }
+  void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override {
     improved = false;
-    method_->embed(sheet, trace);
+    method_->embed(sheet, trace, notes);
     embedded_vertices += sheet.log().new_vertices.size();
   }
-  void improve(Sheet& sheet) override {
+  void improve(Sheet& sheet, MethodNotes& notes) override {
     const std::size_t before = sheet.log().new_vertices.size();
-    method_->improve(sheet);
+    method_->improve(sheet, notes);
     improved = sheet.log().new_vertices.size() > before;
   }
-  int recovered_segments() const override { return method_->recovered_segments(); }
-  bool stopped_early() const override { return method_->stopped_early(); }
 
   bool improved = false;              ///< in the last cut
   std::size_t embedded_vertices = 0;  ///< by embed(), of all cuts

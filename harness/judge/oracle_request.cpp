@@ -29,6 +29,24 @@ oracle::Curve for_oracle(const Curve& cut) {
   return curve;
 }
 
+namespace {
+
+/// That the method promises for the sheet, rest units.
+double largest_error(const Sheet& sheet, const IncisionBound& bound, const CutOptions& options) {
+  double longest2 = 0;
+  for (std::size_t t = 0; t < sheet.triangle_slots() && bound.longest_edges > 0; ++t) {
+    if (!sheet.triangle(TriangleIndex(t)).alive()) continue;
+    const auto c = sheet.corners(TriangleIndex(t));
+    for (std::size_t k = 0; k < 3; ++k) longest2 = std::max(longest2, squared_length(c[(k + 1) % 3] - c[k]));
+  }
+  // Zero times an infinite tolerance is no number.
+  const double traced =
+      bound.chord_tolerances > 0 ? bound.chord_tolerances * options.chord_tolerance * sheet.mean_edge() : 0;
+  return bound.longest_edges * std::sqrt(longest2) + traced;
+}
+
+}  // namespace
+
 oracle::Request request_for(const Sheet& before, std::span<const Curve> cuts, const Promises& promises,
                             const CutOptions& options, bool improved) {
   const double h = before.mean_edge();
@@ -40,12 +58,13 @@ oracle::Request request_for(const Sheet& before, std::span<const Curve> cuts, co
   request.cuts = for_oracle(cuts);
   // A path may pass within twice the snap distance of what it goes through, and so may the one it meets.
   request.snap = (cuts.size() > 1 ? 4 : 2) * before.snap();
-  request.tolerance = options.chord_tolerance * h + flattening + request.snap;
-  if (curved && std::isfinite(options.chord_tolerance)) request.thin = request.tolerance;
+  const double traced = options.chord_tolerance * h + flattening + request.snap;
+  request.tolerance = largest_error(before, promises.incision_bound, options) + flattening + request.snap;
+  if (curved && std::isfinite(options.chord_tolerance)) request.thin = traced;
   request.keeps_vertices = promises.keeps_vertices;
   request.exact_incision = promises.exact_incision;
   request.keeps_area = promises.keeps_area;
-  request.vertex_tolerance = improved ? request.tolerance : flattening + request.snap;
+  request.vertex_tolerance = improved ? traced : flattening + request.snap;
   return request;
 }
 

@@ -308,10 +308,7 @@ class Judge {
   double flattening() const { return 1e-5 * input_.lengths.mean; }
   double slack() const { return input_.on + (curved() ? flattening() : 0); }
 
-  double allowed_error() const {
-    const double tolerance = request_.exact_incision ? request_.tolerance : std::numeric_limits<double>::infinity();
-    return std::min(tolerance, input_.lengths.longest) + slack();
-  }
+  double allowed_error() const { return std::min(request_.tolerance, input_.lengths.longest) + slack(); }
 
   /// The size of a curve that needn't be cut. The code under test flattens it more coarsely, by hundredths of its size,
   /// and may find it smaller. (Of a path hardly larger round an older incision's tip all lips may lie on that one.)

@@ -24,7 +24,7 @@ struct Request {
   /// Pieces thinner than this may be missing: a curve may follow an older incision instead of running beside it.
   double thin = 0;
   bool keeps_vertices = true;  ///< the input's rest vertices are bit-equal at the same index
-  bool exact_incision = true;  ///< `tolerance` binds; else only the longest edge does
+  bool exact_incision = true;  ///< the vertices of new opened edges lie on the path (vertex_tolerance)
   /// False: triangles may be taken out, those that the path crosses and no others (deletion.h), and the others stay as
   /// they are. That, and that the result is a manifold, is then all that is judged.
   bool keeps_area = true;

@@ -131,10 +131,9 @@ int triangulate_delaunay(Patch& patch) {
   return recover_segments(patch);
 }
 
-void BowyerWatson::embed(Sheet& sheet, Subdivision& trace) {
-  recovered_ = 0;
-  embed_patches(sheet, trace, work_, is_diagonal_from_p_delaunay,
-                [&](Patch& patch) { recovered_ += triangulate_delaunay(patch); });
+void BowyerWatson::embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) {
+  embed_patches(sheet, trace, patch_work_, is_diagonal_from_p_delaunay,
+                [&](Patch& patch) { notes.recovered_segments += triangulate_delaunay(patch); });
 }
 
 namespace {
@@ -179,12 +178,11 @@ void BowyerWatson::split_long_edges(const Sheet& sheet, TriangleIndex t) {
   }
 }
 
-void BowyerWatson::improve(Sheet& sheet) {
+void BowyerWatson::improve(Sheet& sheet, MethodNotes& notes) {
   const auto is_ill_shaped = [&](TriangleIndex t) {
     const auto c = sheet.corners(t);
     return sheet.triangle(t).alive() && aspect_ratio(c[0], c[1], c[2]) > options_.max_aspect;
   };
-  stopped_early_ = false;
   for (int round = 0; round < options_.rounds; ++round) {
     ill_shaped_.clear();
     for_each_changed(sheet, [&](TriangleIndex t) {
@@ -192,7 +190,7 @@ void BowyerWatson::improve(Sheet& sheet) {
     });
     for (auto t : ill_shaped_) {
       if (sheet.log().new_vertices.size() > options_.most_vertices) {
-        stopped_early_ = true;
+        notes.stopped_early = true;
         return;
       }
       if (!is_ill_shaped(t)) continue;  // a neighbour's split has mended it
@@ -200,7 +198,7 @@ void BowyerWatson::improve(Sheet& sheet) {
       split_long_edges(sheet, t);
       // The triangle itself has two points or one, its neighbours one each: bisected, there is no choice.
       if (!midpoints_.nodes.empty())
-        embed_patches(sheet, midpoints_, work_, is_diagonal_from_p_delaunay, triangulate_delaunay);
+        embed_patches(sheet, midpoints_, patch_work_, is_diagonal_from_p_delaunay, triangulate_delaunay);
     }
   }
 }

@@ -19,7 +19,7 @@
 #pragma once
 
 #include "harness/cut/cutting_method.h"
-#include "methods/tools/delaunay_split.h"
+#include "harness/cut/delaunay_split.h"
 
 namespace cutbench {
 
@@ -33,20 +33,15 @@ class BowyerWatson : public CuttingMethod {
   };
   explicit BowyerWatson(const Options& options) : options_(options) {}
 
-  void embed(Sheet& sheet, Subdivision& trace) override;
-  void improve(Sheet& sheet) override;
-  int recovered_segments() const override { return recovered_; }
-  bool stopped_early() const override { return stopped_early_; }
+  void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
+  void improve(Sheet& sheet, MethodNotes& notes) override;
 
  private:
   void split_long_edges(const Sheet& sheet, TriangleIndex t);
 
   Options options_;
-  PatchWork work_;
   Subdivision midpoints_;
   std::vector<TriangleIndex> ill_shaped_;
-  int recovered_ = 0;
-  bool stopped_early_ = false;
 };
 
 /// Fills patch.triangles with a Delaunay triangulation of the patch's points; returns the number of segments recovered.

@@ -157,7 +157,7 @@ void CgalCdt::Work::add_inside() {
 CgalCdt::CgalCdt() : work_(std::make_unique<Work>()) {}
 CgalCdt::~CgalCdt() = default;
 
-void CgalCdt::embed(Sheet& sheet, Subdivision& trace) {
+void CgalCdt::embed(Sheet& sheet, Subdivision& trace, MethodNotes&) {
   make_vertices(sheet, trace);
   work_->collect(sheet, trace);
   if (work_->removed.empty()) return;  // the path runs along edges only

@@ -21,7 +21,7 @@ class CgalCdt : public CuttingMethod {
  public:
   CgalCdt();
   ~CgalCdt() override;
-  void embed(Sheet& sheet, Subdivision& trace) override;
+  void embed(Sheet& sheet, Subdivision& trace, MethodNotes&) override;
 
  private:
   struct Work;

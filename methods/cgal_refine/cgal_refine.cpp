@@ -5,12 +5,9 @@
 
 namespace cutbench {
 
-void CgalRefine::embed(Sheet& sheet, Subdivision& trace) { recovered_ = embed_by_delaunay_split(sheet, trace, work_); }
-
-void CgalRefine::improve(Sheet& sheet) {
+void CgalRefine::improve(Sheet& sheet, MethodNotes& notes) {
   wedges_.find(sheet);
   region_.clear(sheet), region_.add_changed(sheet);
-  stopped_early_ = false;
   if (region_.triangles().empty()) return;
 
   const bool refining = std::isfinite(options_.bound);
@@ -26,7 +23,7 @@ void CgalRefine::improve(Sheet& sheet) {
     if (!mesher_.insert(sheet)) break;
     const bool complete = mesher_.refine(sheet, limits) || !refining;
     if (mesher_.divided().empty()) {
-      stopped_early_ = !mesher_.put_back(sheet) || !complete;
+      notes.stopped_early = !mesher_.put_back(sheet) || !complete;
       return;
     }
     if (!complete || rings > options_.most_rings) break;
@@ -37,7 +34,7 @@ void CgalRefine::improve(Sheet& sheet) {
     for (const TriangleIndex t : across_.triangles()) region_.add(t);
     region_.grow(sheet, 0);
   }
-  stopped_early_ = true;
+  notes.stopped_early = true;
 }
 
 }  // namespace cutbench

@@ -18,7 +18,6 @@
 #pragma once
 
 #include "harness/cut/cutting_method.h"
-#include "methods/tools/delaunay_split.h"
 #include "methods/tools/region_mesher.h"
 
 namespace cutbench {
@@ -35,19 +34,13 @@ class CgalRefine : public CuttingMethod {
   };
   explicit CgalRefine(const Options& options) : options_(options) {}
 
-  void embed(Sheet& sheet, Subdivision& trace) override;
-  void improve(Sheet& sheet) override;
-  int recovered_segments() const override { return recovered_; }
-  bool stopped_early() const override { return stopped_early_; }
+  void improve(Sheet& sheet, MethodNotes& notes) override;
 
  private:
   Options options_;
-  PatchWork work_;
   ForcedWedges wedges_;
   RegionMesher mesher_;
   Region region_, across_;
-  int recovered_ = 0;
-  bool stopped_early_ = false;
 };
 
 }  // namespace cutbench

@@ -35,14 +35,17 @@ std::optional<std::string> Cisamr::why_unsupported(const Sheet& sheet) const {
   return "the sheet is no structured grid: less than half of its triangles are halves of equal squares along the axes";
 }
 
-void Cisamr::embed(Sheet& sheet, Subdivision& trace) {
+void Cisamr::adapt(Sheet& sheet, Subdivision& trace, const Polyline&) {
   curve_.read(trace);
   warp_.run(sheet, trace);
-  recovered_ = embed_by_delaunay_split(sheet, trace, work_);
+}
+
+void Cisamr::embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) {
+  CuttingMethod::embed(sheet, trace, notes);
   curve_.find_vertices(sheet, trace);
 }
 
-void Cisamr::improve(Sheet& sheet) {
+void Cisamr::improve(Sheet& sheet, MethodNotes&) {
   reshape_.begin(sheet, curve_);
   reshape_.mend(false);
 }

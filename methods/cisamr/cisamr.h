@@ -19,7 +19,6 @@
 #pragma once
 
 #include "harness/cut/cutting_method.h"
-#include "methods/tools/delaunay_split.h"
 #include "methods/tools/path_curve.h"
 #include "methods/tools/reshape.h"
 #include "methods/tools/warp.h"
@@ -29,16 +28,14 @@ namespace cutbench {
 class Cisamr : public CuttingMethod {
  public:
   std::optional<std::string> why_unsupported(const Sheet& sheet) const override;
-  void embed(Sheet& sheet, Subdivision& trace) override;
-  void improve(Sheet& sheet) override;
-  int recovered_segments() const override { return recovered_; }
+  void adapt(Sheet& sheet, Subdivision& trace, const Polyline&) override;
+  void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
+  void improve(Sheet& sheet, MethodNotes&) override;
 
  private:
   Warp warp_{{.reach = 0.5, .max_aspect = 1e6}};
   PathCurve curve_;
   Reshape reshape_{{}};
-  PatchWork work_;
-  int recovered_ = 0;
 };
 
 }  // namespace cutbench

@@ -4,8 +4,8 @@
 
 namespace cutbench {
 
-void ConventionalSplit::embed(Sheet& sheet, Subdivision& trace) {
-  recovered_ = embed_by_static_split(sheet, trace, work_);
+void ConventionalSplit::embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) {
+  notes.recovered_segments = embed_by_static_split(sheet, trace, patch_work_);
 }
 
 }  // namespace cutbench

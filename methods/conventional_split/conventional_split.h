@@ -15,18 +15,14 @@
 #pragma once
 
 #include "harness/cut/cutting_method.h"
-#include "harness/cut/patch.h"
 
 namespace cutbench {
 
 class ConventionalSplit : public CuttingMethod {
  public:
-  void embed(Sheet& sheet, Subdivision& trace) override;
-  int recovered_segments() const override { return recovered_; }
+  void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
 
  private:
-  PatchWork work_;
-  int recovered_ = 0;
 };
 
 }  // namespace cutbench

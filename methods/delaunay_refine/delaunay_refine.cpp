@@ -4,15 +4,11 @@
 
 namespace cutbench {
 
-void DelaunayRefine::embed(Sheet& sheet, Subdivision& trace) {
-  recovered_ = embed_by_delaunay_split(sheet, trace, work_);
-}
-
-void DelaunayRefine::improve(Sheet& sheet) {
+void DelaunayRefine::improve(Sheet& sheet, MethodNotes& notes) {
   wedges_.find(sheet);
   refinement_.begin(sheet, wedges_);
   for_each_changed(sheet, [&](TriangleIndex t) { refinement_.flip_at(t); });
-  stopped_early_ = !refinement_.run(sheet);
+  notes.stopped_early = !refinement_.run(sheet);
 }
 
 }  // namespace cutbench

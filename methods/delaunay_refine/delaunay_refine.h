@@ -15,7 +15,6 @@
 
 #include "harness/cut/cutting_method.h"
 #include "methods/tools/delaunay_refinement.h"
-#include "methods/tools/delaunay_split.h"
 
 namespace cutbench {
 
@@ -23,17 +22,11 @@ class DelaunayRefine : public CuttingMethod {
  public:
   explicit DelaunayRefine(const DelaunayRefinement::Options& options) : refinement_(options) {}
 
-  void embed(Sheet& sheet, Subdivision& trace) override;
-  void improve(Sheet& sheet) override;
-  int recovered_segments() const override { return recovered_; }
-  bool stopped_early() const override { return stopped_early_; }
+  void improve(Sheet& sheet, MethodNotes& notes) override;
 
  private:
-  PatchWork work_;
   ForcedWedges wedges_;
   DelaunayRefinement refinement_;
-  int recovered_ = 0;
-  bool stopped_early_ = false;
 };
 
 }  // namespace cutbench

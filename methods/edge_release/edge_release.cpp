@@ -2,7 +2,7 @@
 
 namespace cutbench {
 
-void EdgeRelease::embed(Sheet& sheet, Subdivision& trace) {
+void EdgeRelease::adapt(Sheet& sheet, Subdivision& trace, const Polyline&) {
   path_.read(sheet, trace);
   for (int n = 0; n < path_.size(); ++n) path_.straighten(n);
   const auto crossings = path_.approaches(0.5);
@@ -17,7 +17,6 @@ void EdgeRelease::embed(Sheet& sheet, Subdivision& trace) {
     release(crossing.node, crossing.vertex == a ? b : a);
   }
   path_.write(trace);
-  recovered_ = embed_by_delaunay_split(sheet, trace, work_);
 }
 
 }  // namespace cutbench

@@ -16,21 +16,17 @@
 #pragma once
 
 #include "harness/cut/cutting_method.h"
-#include "methods/tools/delaunay_split.h"
 #include "methods/tools/path_graph.h"
 
 namespace cutbench {
 
 class EdgeRelease : public CuttingMethod {
  public:
-  void embed(Sheet& sheet, Subdivision& trace) override;
-  int recovered_segments() const override { return recovered_; }
+  void adapt(Sheet& sheet, Subdivision& trace, const Polyline&) override;
 
  private:
   PathGraph path_;
   PathGraph::Run run_;
-  PatchWork work_;
-  int recovered_ = 0;
 };
 
 }  // namespace cutbench

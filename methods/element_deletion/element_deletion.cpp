@@ -4,7 +4,7 @@
 
 namespace cutbench {
 
-void ElementDeletion::embed(Sheet& sheet, Subdivision& trace) {
+void ElementDeletion::embed(Sheet& sheet, Subdivision& trace, MethodNotes&) {
   crossed_.clear();
   for (const Subdivision::Face& face : trace.faces)
     if (face.segments >= 0) crossed_.push_back(face.triangle);

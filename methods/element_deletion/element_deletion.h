@@ -20,7 +20,7 @@ namespace cutbench {
 
 class ElementDeletion : public CuttingMethod {
  public:
-  void embed(Sheet& sheet, Subdivision& trace) override;
+  void embed(Sheet& sheet, Subdivision& trace, MethodNotes&) override;
 
  private:
   std::vector<TriangleIndex> crossed_;

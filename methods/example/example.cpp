@@ -12,10 +12,9 @@ bool is_diagonal_from_p_shorter(const Crossing& crossing) {
 
 }  // namespace
 
-void Example::embed(Sheet& sheet, Subdivision& trace) {
-  recovered_ = 0;
-  embed_patches(sheet, trace, work_, is_diagonal_from_p_shorter,
-                [&](Patch& patch) { recovered_ += split_step_by_step(patch); });
+void Example::embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) {
+  embed_patches(sheet, trace, patch_work_, is_diagonal_from_p_shorter,
+                [&](Patch& patch) { notes.recovered_segments += split_step_by_step(patch); });
 }
 
 }  // namespace cutbench

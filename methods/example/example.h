@@ -2,7 +2,7 @@
 //
 // How it works: a crossing leaves a quadrilateral of the crossed triangle, which is divided by its shorter diagonal (on
 // a tie by the one from the point the path met first). All other crossed triangles are divided step by step
-// (split_step_by_step() in methods/tools/delaunay_split.h).
+// (split_step_by_step() in harness/cut/delaunay_split.h).
 //
 // Source: the shorter diagonal is what one takes who has no circle test at hand. Promises: the exact path, area,
 // conforming, no vertex moved. Fails: shapes, as any split without new or moved points: a crossing at fraction t of an
@@ -10,18 +10,15 @@
 #pragma once
 
 #include "harness/cut/cutting_method.h"
-#include "methods/tools/delaunay_split.h"
+#include "harness/cut/delaunay_split.h"
 
 namespace cutbench {
 
 class Example : public CuttingMethod {
  public:
-  void embed(Sheet& sheet, Subdivision& trace) override;
-  int recovered_segments() const override { return recovered_; }
+  void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
 
  private:
-  PatchWork work_;
-  int recovered_ = 0;
 };
 
 }  // namespace cutbench

@@ -2,11 +2,7 @@
 
 namespace cutbench {
 
-void GlobalRemesh::embed(Sheet& sheet, Subdivision& trace) {
-  recovered_ = embed_by_delaunay_split(sheet, trace, work_);
-}
-
-void GlobalRemesh::improve(Sheet& sheet) {
+void GlobalRemesh::improve(Sheet& sheet, MethodNotes& notes) {
   // With triangles whose longest edge is at most this, their number comes out near that of the sheet.
   constexpr double longest_edge = 1.5;
   wedges_.find(sheet);
@@ -21,7 +17,7 @@ void GlobalRemesh::improve(Sheet& sheet) {
                                                       .min_edge = 1e-3 * h,
                                                       .most_vertices = 4 * sheet_.triangles().size() + 1000,
                                                       .wedges = &wedges_});
-  stopped_early_ = !complete || !mesher_.put_back(sheet);
+  notes.stopped_early = !complete || !mesher_.put_back(sheet);
 }
 
 }  // namespace cutbench

@@ -16,25 +16,18 @@
 #pragma once
 
 #include "harness/cut/cutting_method.h"
-#include "methods/tools/delaunay_split.h"
 #include "methods/tools/region_mesher.h"
 
 namespace cutbench {
 
 class GlobalRemesh : public CuttingMethod {
  public:
-  void embed(Sheet& sheet, Subdivision& trace) override;
-  void improve(Sheet& sheet) override;
-  int recovered_segments() const override { return recovered_; }
-  bool stopped_early() const override { return stopped_early_; }
+  void improve(Sheet& sheet, MethodNotes& notes) override;
 
  private:
-  PatchWork work_;
   ForcedWedges wedges_;
   RegionMesher mesher_;
   Region sheet_;
-  int recovered_ = 0;
-  bool stopped_early_ = false;
 };
 
 }  // namespace cutbench

@@ -27,8 +27,6 @@ HalfEdge terminal_edge(const Sheet& sheet, TriangleIndex t) {
 
 }  // namespace
 
-void LongestEdge::embed(Sheet& sheet, Subdivision& trace) { recovered_ = embed_by_delaunay_split(sheet, trace, work_); }
-
 bool LongestEdge::wants_splitting(const Sheet& sheet, TriangleIndex t) const {
   if (!sheet.triangle(t).alive()) return false;
   const auto c = sheet.corners(t);
@@ -59,7 +57,7 @@ void LongestEdge::note_changed(const Sheet& sheet) {
   delaunay_.changed.clear();
 }
 
-void LongestEdge::improve(Sheet& sheet) {
+void LongestEdge::improve(Sheet& sheet, MethodNotes&) {
   wedges_.find(sheet);
   delaunay_.begin(sheet), ill_shaped_.clear();
   for_each_changed(sheet, [&](TriangleIndex t) { delaunay_.add(t), delaunay_.changed.push_back(t); });

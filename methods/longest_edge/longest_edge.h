@@ -20,7 +20,6 @@
 
 #include "harness/cut/cutting_method.h"
 #include "harness/mesh/local_delaunay.h"
-#include "methods/tools/delaunay_split.h"
 #include "methods/tools/forced_wedges.h"
 
 namespace cutbench {
@@ -34,9 +33,7 @@ class LongestEdge : public CuttingMethod {
   };
   explicit LongestEdge(const Options& options) : options_(options) {}
 
-  void embed(Sheet& sheet, Subdivision& trace) override;
-  void improve(Sheet& sheet) override;
-  int recovered_segments() const override { return recovered_; }
+  void improve(Sheet& sheet, MethodNotes&) override;
 
  private:
   bool wants_splitting(const Sheet& sheet, TriangleIndex t) const;
@@ -44,11 +41,9 @@ class LongestEdge : public CuttingMethod {
   void note_changed(const Sheet& sheet);
 
   Options options_;
-  PatchWork work_;
   ForcedWedges wedges_;
   LocalDelaunay delaunay_;
   std::vector<TriangleIndex> ill_shaped_;  // a queue; each may be mended or changed by the time it is looked at
-  int recovered_ = 0;
 };
 
 }  // namespace cutbench

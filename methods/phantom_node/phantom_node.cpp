@@ -252,7 +252,9 @@ class Doubling {
 
 }  // namespace
 
-void PhantomNode::embed(Sheet& sheet, Subdivision& trace) { recovered_ = embed_by_static_split(sheet, trace, work_); }
+void PhantomNode::embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) {
+  notes.recovered_segments = embed_by_static_split(sheet, trace, patch_work_);
+}
 
 Ties PhantomNode::ties(const Sheet& before, const Sheet& cut) const { return Doubling(before, cut).run(options_); }
 

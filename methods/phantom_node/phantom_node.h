@@ -32,7 +32,6 @@
 #pragma once
 
 #include "harness/cut/cutting_method.h"
-#include "harness/cut/patch.h"
 
 namespace cutbench {
 
@@ -44,17 +43,14 @@ class PhantomNode : public CuttingMethod {
   };
   explicit PhantomNode(const Options& options) : options_(options) {}
 
-  void embed(Sheet& sheet, Subdivision& trace) override;
+  void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
   Tying tying() const override {
     return options_.ghost > 0 || options_.lumped_mass ? Tying::phantoms_at_rest : Tying::phantoms;
   }
   Ties ties(const Sheet& before, const Sheet& cut) const override;
-  int recovered_segments() const override { return recovered_; }
 
  private:
   Options options_;
-  PatchWork work_;
-  int recovered_ = 0;
 };
 
 }  // namespace cutbench

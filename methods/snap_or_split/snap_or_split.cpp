@@ -2,9 +2,8 @@
 
 namespace cutbench {
 
-void SnapOrSplit::embed(Sheet& sheet, Subdivision& trace) {
+void SnapOrSplit::adapt(Sheet& sheet, Subdivision& trace, const Polyline&) {
   snap_to_vertices(sheet, trace, tolerance_, path_);
-  recovered_ = embed_by_delaunay_split(sheet, trace, work_);
 }
 
 }  // namespace cutbench

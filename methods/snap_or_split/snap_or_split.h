@@ -17,7 +17,6 @@
 #pragma once
 
 #include "harness/cut/cutting_method.h"
-#include "methods/tools/delaunay_split.h"
 #include "methods/tools/path_graph.h"
 
 namespace cutbench {
@@ -26,14 +25,11 @@ class SnapOrSplit : public CuttingMethod {
  public:
   explicit SnapOrSplit(double tolerance) : tolerance_(tolerance) {}
 
-  void embed(Sheet& sheet, Subdivision& trace) override;
-  int recovered_segments() const override { return recovered_; }
+  void adapt(Sheet& sheet, Subdivision& trace, const Polyline&) override;
 
  private:
   double tolerance_;  // in edge lengths
   PathGraph path_;
-  PatchWork work_;
-  int recovered_ = 0;
 };
 
 }  // namespace cutbench

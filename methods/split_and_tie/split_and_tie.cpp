@@ -5,7 +5,9 @@
 
 namespace cutbench {
 
-void SplitAndTie::embed(Sheet& sheet, Subdivision& trace) { recovered_ = embed_by_static_split(sheet, trace, work_); }
+void SplitAndTie::embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) {
+  notes.recovered_segments = embed_by_static_split(sheet, trace, patch_work_);
+}
 
 Ties SplitAndTie::ties(const Sheet& before, const Sheet& cut) const {
   return tie_slivers(before, cut, options_.thinness);

@@ -14,7 +14,6 @@
 #pragma once
 
 #include "harness/cut/cutting_method.h"
-#include "harness/cut/patch.h"
 
 namespace cutbench {
 
@@ -25,15 +24,12 @@ class SplitAndTie : public CuttingMethod {
   };
   explicit SplitAndTie(const Options& options) : options_(options) {}
 
-  void embed(Sheet& sheet, Subdivision& trace) override;
+  void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
   Tying tying() const override { return options_.thinness > 0 ? Tying::vertices : Tying::nothing; }
   Ties ties(const Sheet& before, const Sheet& cut) const override;
-  int recovered_segments() const override { return recovered_; }
 
  private:
   Options options_;
-  PatchWork work_;
-  int recovered_ = 0;
 };
 
 }  // namespace cutbench

@@ -8,7 +8,7 @@
 // with itself), or that the path passes more than once, are divided step by step.
 #pragma once
 
-#include "methods/tools/delaunay_split.h"
+#include "harness/cut/delaunay_split.h"
 
 namespace cutbench {
 

@@ -39,7 +39,7 @@ std::optional<Point2> VertexSnap::target(const Sheet& sheet) const {
   return best;
 }
 
-void VertexSnap::embed(Sheet& sheet, Subdivision& trace) {
+void VertexSnap::adapt(Sheet& sheet, Subdivision& trace, const Polyline&) {
   path_.read(sheet, trace);
   const auto near = path_.approaches(options_.reach);
   for (const auto& crossing : near) {
@@ -49,7 +49,6 @@ void VertexSnap::embed(Sheet& sheet, Subdivision& trace) {
       path_.contract(run_);
   }
   if (!near.empty()) path_.write(trace);
-  recovered_ = embed_by_delaunay_split(sheet, trace, work_);
 }
 
 }  // namespace cutbench

@@ -21,7 +21,6 @@
 #include <optional>
 
 #include "harness/cut/cutting_method.h"
-#include "methods/tools/delaunay_split.h"
 #include "methods/tools/path_graph.h"
 
 namespace cutbench {
@@ -34,8 +33,7 @@ class VertexSnap : public CuttingMethod {
   };
   explicit VertexSnap(const Options& options) : options_(options) {}
 
-  void embed(Sheet& sheet, Subdivision& trace) override;
-  int recovered_segments() const override { return recovered_; }
+  void adapt(Sheet& sheet, Subdivision& trace, const Polyline&) override;
 
  private:
   std::optional<Point2> target(const Sheet& sheet) const;
@@ -43,8 +41,6 @@ class VertexSnap : public CuttingMethod {
   Options options_;
   PathGraph path_;
   PathGraph::Run run_;
-  PatchWork work_;
-  int recovered_ = 0;
 };
 
 }  // namespace cutbench

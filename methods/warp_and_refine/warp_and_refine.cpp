@@ -4,21 +4,23 @@
 
 namespace cutbench {
 
-void WarpAndRefine::embed(Sheet& sheet, Subdivision& trace) {
+void WarpAndRefine::adapt(Sheet& sheet, Subdivision& trace, const Polyline&) {
   curve_.read(trace);
   if (options_.before == Before::snap) snap_to_vertices(sheet, trace, options_.snap, path_);
   if (options_.before == Before::warp || options_.before == Before::warp_and_thin) warp_.run(sheet, trace);
-  recovered_ = embed_by_delaunay_split(sheet, trace, work_);
+}
+
+void WarpAndRefine::embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) {
+  CuttingMethod::embed(sheet, trace, notes);
   curve_.find_vertices(sheet, trace);
 }
 
-void WarpAndRefine::improve(Sheet& sheet) {
-  stopped_early_ = false;
+void WarpAndRefine::improve(Sheet& sheet, MethodNotes& notes) {
   reshape_.begin(sheet, curve_);
   if (options_.before == Before::thin || options_.before == Before::warp_and_thin) reshape_.thin();
   if (options_.after >= After::flips && options_.after <= After::refine)
     reshape_.mend(options_.after >= After::smoothing);
-  if (options_.after == After::refine) stopped_early_ = !reshape_.refine();
+  if (options_.after == After::refine) notes.stopped_early = !reshape_.refine();
 }
 
 Ties WarpAndRefine::ties(const Sheet& before, const Sheet& cut) const {

@@ -32,7 +32,6 @@
 #pragma once
 
 #include "harness/cut/cutting_method.h"
-#include "methods/tools/delaunay_split.h"
 #include "methods/tools/path_curve.h"
 #include "methods/tools/reshape.h"
 #include "methods/tools/warp.h"
@@ -57,12 +56,11 @@ class WarpAndRefine : public CuttingMethod {
   explicit WarpAndRefine(const Options& options)
       : options_(options), warp_(options.warping), reshape_(options.reshaping) {}
 
-  void embed(Sheet& sheet, Subdivision& trace) override;
-  void improve(Sheet& sheet) override;
+  void adapt(Sheet& sheet, Subdivision& trace, const Polyline&) override;
+  void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
+  void improve(Sheet& sheet, MethodNotes& notes) override;
   Tying tying() const override { return options_.after == After::tie ? Tying::vertices : Tying::nothing; }
   Ties ties(const Sheet& before, const Sheet& cut) const override;
-  int recovered_segments() const override { return recovered_; }
-  bool stopped_early() const override { return stopped_early_; }
 
  private:
   Options options_;
@@ -70,9 +68,6 @@ class WarpAndRefine : public CuttingMethod {
   Warp warp_;
   PathCurve curve_;
   Reshape reshape_;
-  PatchWork work_;
-  int recovered_ = 0;
-  bool stopped_early_ = false;
 };
 
 }  // namespace cutbench

@@ -1,4 +1,4 @@
-#include "methods/tools/delaunay_split.h"
+#include "harness/cut/delaunay_split.h"
 
 #include "harness/mesh/predicates.h"
 
