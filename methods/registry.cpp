@@ -69,7 +69,7 @@ const std::vector<MethodRow>& all_methods() {
         .keeps_area = true,
         .conforming = true,
         .keeps_vertices = false,
-        .incision_bound = {.longest_edges = 0, .chord_tolerances = 3}},
+        .incision_bound = {.longest_edges = 0, .chord_tolerances = 1}},
        [](double) { return std::make_unique<Cisamr>(); }},
       {"delaunay_refine",
        "local Delaunay refinement of the cut's surroundings, by off-centres",
@@ -166,7 +166,7 @@ const std::vector<MethodRow>& all_methods() {
         .keeps_area = true,
         .conforming = true,
         .keeps_vertices = false,
-        .incision_bound = {.longest_edges = 0, .chord_tolerances = 3}},
+        .incision_bound = {.longest_edges = 0, .chord_tolerances = 1}},
        [](double reach) {
          if (!(reach >= 0 && reach <= 0.5)) throw InputError("warp_and_refine: reach must be a number from 0 to 0.5");
          WarpAndRefine::Options options;
@@ -199,7 +199,7 @@ const std::vector<MethodRow>& ablation_methods() {
         const Promises promises{
             .keeps_area = true,
             .conforming = true,
-            .incision_bound = {.longest_edges = before == Before::snap ? options.snap : 0, .chord_tolerances = 3}};
+            .incision_bound = {.longest_edges = before == Before::snap ? options.snap : 0, .chord_tolerances = 1}};
         made.push_back({std::string("ablation:") + first + ":" + then,
                         "warp_and_refine, in part",
                         {},

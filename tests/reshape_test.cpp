@@ -67,6 +67,29 @@ TEST(WarpAndRefine, LeavesNothingIllShapedThatNothingForces) {
   }
 }
 
+/// The incision of a curved cut is nowhere farther from the requested curve than the chord tolerance: what the trace
+/// leaves out and what later steps move or merge share one budget.
+TEST(WarpAndRefine, KeepsTheChordToleranceOfCurves) {
+  for (const char* name : {"warp_and_refine", "cisamr"})
+    for (const std::string sheet_family : sheet_families())
+      for (const char* family : {"curved", "cut_out"})
+        for (const double tolerance : {0.05, 0.01})
+          for (std::size_t i = 0; i < scaled(6); ++i) {
+            const MethodRow& row = find_method(name);
+            const Sheet before(make_sheet(sheet_family, i % 2 == 0 ? 20 : 33));
+            const CutOptions options{.chord_tolerance = tolerance};
+            JudgedSheet sheet(before, row.promises, row.make(row.knob.value));
+            if (sheet.why_unsupported()) continue;
+            const double allowed = (tolerance + options.flatten_tolerance) * before.mean_edge() + 4 * before.snap();
+            for (const Curve& curve : make_case(family, 7, i, before)) {
+              const auto finding = sheet.cut(curve, options);
+              EXPECT_TRUE(finding.ok()) << finding.reason;
+              EXPECT_LE(sheet.judgement.incision_error, allowed)
+                  << name << ", " << sheet_family << ", " << family << " " << i << ", tolerance " << tolerance;
+            }
+          }
+}
+
 /// A path across a square of four triangles round a vertex that it does not meet: its middle vertex can go, its ends
 /// can't.
 TEST(Sheet, APathVertexCollapsesAlongThePath) {

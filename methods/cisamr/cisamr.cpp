@@ -35,9 +35,9 @@ std::optional<std::string> Cisamr::why_unsupported(const Sheet& sheet) const {
   return "the sheet is no structured grid: less than half of its triangles are halves of equal squares along the axes";
 }
 
-void Cisamr::adapt(Sheet& sheet, Subdivision& trace, const Polyline&) {
-  curve_.read(trace);
-  warp_.run(sheet, trace);
+void Cisamr::adapt(Sheet& sheet, Subdivision& trace, const Polyline& path) {
+  curve_.read(sheet, trace, path);
+  warp_.run(sheet, trace, curve_);
 }
 
 void Cisamr::embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) {

@@ -28,7 +28,7 @@ namespace cutbench {
 class Cisamr : public CuttingMethod {
  public:
   std::optional<std::string> why_unsupported(const Sheet& sheet) const override;
-  void adapt(Sheet& sheet, Subdivision& trace, const Polyline&) override;
+  void adapt(Sheet& sheet, Subdivision& trace, const Polyline& path) override;
   void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
   void improve(Sheet& sheet, MethodNotes&) override;
 

@@ -1,19 +1,23 @@
-// The path as it was traced, remembered while its vertices are moved along it, merged or left out: how far may they go?
+// The requested path, kept while vertices of the incision are moved along it, merged or removed: how far may they go?
 #pragma once
 
 #include <vector>
 
 #include "harness/mesh/stamped_table.h"
+#include "harness/path/curve.h"
 #include "harness/path/subdivision.h"
 
 namespace cutbench {
 
-/// A point of the curve is a number: i + f lies at fraction f between the trace's nodes i and i + 1. Keeps its working
+/// A point of the curve is given by a parameter: i is node i of the trace, i + f lies between the nodes i and i + 1, at
+/// the fraction f of the curve's length there. Where a Bezier is cut with a finite chord tolerance, the curve between
+/// two nodes is the flattened Bezier, whose points the trace left out; otherwise it is the straight segment. So all
+/// deviations, of the trace and of later changes, are measured from one curve and do not add up. Keeps its working
 /// storage from one cut to the next.
 class PathCurve {
  public:
-  /// Remembers the nodes of the trace. \pre nothing is moved or embedded yet.
-  void read(const Subdivision& trace);
+  /// \pre `trace` is that of `path` in the sheet; nothing is moved or embedded yet.
+  void read(const Sheet& sheet, const Subdivision& trace, const Polyline& path);
   /// Learns which vertices of the sheet lie where. \pre `trace` is the one read or what a PathGraph made of it, its
   /// nodes being points of the one read, and is embedded.
   void find_vertices(const Sheet& sheet, const Subdivision& trace);
@@ -27,15 +31,35 @@ class PathCurve {
   }
   void set_parameter(VertexIndex v, double s) { parameter_of_.at(v) = s; }
   Point2 at(double s) const;
-  double chord_tolerance() const { return chord_tolerance_; }  ///< of the trace
-  /// Is all between two parameters one piece of the curve without ends, and within `tolerance` of the segment a b?
+  double chord_tolerance() const { return chord_tolerance_; }  ///< of the trace, rest units; infinity: none
+  /// Whether all between two parameters is one piece of the curve, without ends or crossings of the path with itself,
+  /// and may be replaced by the segment a b: the trace's nodes there lie within `tolerance` of it (rest units), and the
+  /// other points of the curve within the larger of `tolerance` and the chord tolerance.
   bool stays_near(double from, double to, Point2 a, Point2 b, double tolerance) const;
+  /// The same for a piece between the nodes `from` and `to` that may end at a crossing of the path with itself. Where
+  /// the points that the trace left out there are not known, the answer is true if there can be none.
+  bool stays_near_between_nodes(int from, int to, Point2 a, Point2 b, double tolerance) const;
+  /// Whether the trace may have left out points: a Bezier with a finite chord tolerance.
+  bool is_simplified() const { return simplified_; }
 
  private:
+  struct LeftOut {
+    double s;
+    Point2 point;
+  };
+  void locate_nodes(const Polyline& path, double snap);
+  void add_left_out(std::size_t node, const Polyline& path);
+  bool is_within(double from, double to, Point2 a, Point2 b, double tolerance) const;
+  std::size_t first_behind(double s) const;
+
   double chord_tolerance_ = 0;
-  std::vector<Point2> points_;
-  std::vector<std::uint8_t> goes_on_;  // from point i to the next, neither being a crossing of the path with itself
-  std::vector<std::uint8_t> degree_;   // of each node
+  bool simplified_ = false;
+  std::vector<Point2> points_;          // of the nodes
+  std::vector<LeftOut> left_out_;       // in ascending order of s
+  std::vector<std::uint8_t> is_known_;  // node i is joined to node i + 1, and what the trace left out there is known
+  std::vector<std::uint8_t> goes_on_;   // and neither is a crossing of the path with itself
+  std::vector<std::uint8_t> degree_;    // of each node
+  std::vector<double> place_;  // of each node on the polyline: k + f lies between its points k and k + 1; or -1
   StampedTable<VertexIndex, double> parameter_of_;
 };
 

@@ -259,6 +259,13 @@ bool Reshape::shorten_in(TriangleIndex t) {
   return true;
 }
 
+/// Whether the edge a b of the path may be divided at the curve's point halfway between the ends' parameters.
+bool Reshape::may_divide(double from, double to, Point2 a, Point2 b) const {
+  const double s = (from + to) / 2;
+  const Point2 middle = curve_->at(s);
+  return curve_->stays_near(from, s, a, middle, tolerance_) && curve_->stays_near(s, to, middle, b, tolerance_);
+}
+
 /// Halves the edge of t that leaves the best shapes; a piece of the path at a point of the curve.
 bool Reshape::split_in(TriangleIndex t) {
   HalfEdge best;
@@ -272,7 +279,7 @@ bool Reshape::split_in(TriangleIndex t) {
     double s = -1;
     if (sheet_->mark(h) == EdgeMark::path) {
       const double from = curve_->parameter(sheet_->origin(h)), to = curve_->parameter(sheet_->target(h));
-      if (from >= 0 && to >= 0 && curve_->stays_near(from, to, a, b, h_)) s = (from + to) / 2, middle = curve_->at(s);
+      if (from >= 0 && to >= 0 && may_divide(from, to, a, b)) s = (from + to) / 2, middle = curve_->at(s);
     }
     const auto halves = [&](HalfEdge side) {
       if (!side.valid()) return 0.0;

@@ -63,7 +63,7 @@ void Reshape::follow_closely(VertexIndex from, VertexIndex to) {
   const double s = curve_->parameter(from), e = curve_->parameter(to);
   if (!h.valid() || sheet_->mark(h) != EdgeMark::path || s < 0 || e < 0) return;
   const Point2 a = sheet_->rest(from), b = sheet_->rest(to), middle = curve_->at((s + e) / 2);
-  if (squared_length(b - a) < 0.25 * h_ * h_ || !curve_->stays_near(s, e, a, b, h_)) return;
+  if (squared_length(b - a) < 0.25 * h_ * h_ || !may_divide(s, e, a, b)) return;
   if (const VertexIndex v = split_at(h, middle); v.valid()) curve_->add(v, (s + e) / 2);
 }
 

@@ -2,10 +2,10 @@
 // then, and with them the thin triangles that they would have made.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "harness/mesh/sheet.h"
+#include "methods/tools/path_curve.h"
 #include "methods/tools/path_graph.h"
 
 namespace cutbench {
@@ -16,8 +16,8 @@ class Warp {
   struct Options {
     double reach = 0.4;       ///< of an edge, from a vertex to the crossing it moves for
     double max_aspect = 4;    ///< no triangle is pressed beyond it
-    double tolerance = 0.05;  ///< of the path that is left out, from the new way, where the trace has no smaller one;
-                              ///< mean rest edges
+    double tolerance = 0.05;  ///< largest distance of nodes that are left out from the new path, mean rest edges; the
+                              ///< chord tolerance where that is smaller
   };
   explicit Warp(const Options& options) : options_(options) {}
 
@@ -28,17 +28,25 @@ class Warp {
   /// straight; held ones, those on incisions and those of more than 64 crossed outgoing edges stay. The deformed
   /// position is that of the same material point before (Sheet::move). The trace becomes that of the sheet as it is
   /// then.
-  void run(Sheet& sheet, Subdivision& trace);
+  /// \pre curve.read() of the same trace
+  void run(Sheet& sheet, Subdivision& trace, const PathCurve& curve);
 
  private:
-  bool move_to_path(Sheet& sheet);
-  bool stays_near(Point2 to) const;
+  /// Nodes first..last of the trace, which a node of the graph stands for, and the one of them at whose point it lies.
+  struct Share {
+    int first, last, at;
+  };
+  const Share& share(int node) const { return shares_[static_cast<std::size_t>(node)]; }
+  Share share_of_run() const;
+  int move_to_path(Sheet& sheet, const PathCurve& curve);
+  bool stays_near(int target, const PathCurve& curve) const;
 
   Options options_;
   PathGraph path_;
   PathGraph::Run run_;
-  std::vector<Point2> targets_;
-  double tolerance_ = 0;  // rest units
+  std::vector<int> targets_;   // nodes
+  std::vector<Share> shares_;  // per node of the graph
+  double tolerance_ = 0;       // rest units
 };
 
 }  // namespace cutbench

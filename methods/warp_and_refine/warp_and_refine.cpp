@@ -4,10 +4,10 @@
 
 namespace cutbench {
 
-void WarpAndRefine::adapt(Sheet& sheet, Subdivision& trace, const Polyline&) {
-  curve_.read(trace);
+void WarpAndRefine::adapt(Sheet& sheet, Subdivision& trace, const Polyline& path) {
+  curve_.read(sheet, trace, path);
   if (options_.before == Before::snap) snap_to_vertices(sheet, trace, options_.snap, path_);
-  if (options_.before == Before::warp || options_.before == Before::warp_and_thin) warp_.run(sheet, trace);
+  if (options_.before == Before::warp || options_.before == Before::warp_and_thin) warp_.run(sheet, trace, curve_);
 }
 
 void WarpAndRefine::embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) {

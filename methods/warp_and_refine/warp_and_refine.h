@@ -56,7 +56,7 @@ class WarpAndRefine : public CuttingMethod {
   explicit WarpAndRefine(const Options& options)
       : options_(options), warp_(options.warping), reshape_(options.reshaping) {}
 
-  void adapt(Sheet& sheet, Subdivision& trace, const Polyline&) override;
+  void adapt(Sheet& sheet, Subdivision& trace, const Polyline& path) override;
   void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
   void improve(Sheet& sheet, MethodNotes& notes) override;
   Tying tying() const override { return options_.after == After::tie ? Tying::vertices : Tying::nothing; }
