@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "harness/base/names.h"
 #include "harness/mesh/mesh_data.h"
 #include "methods/bowyer_watson/bowyer_watson.h"
 #include "methods/cgal_cdt/cgal_cdt.h"
@@ -227,9 +228,9 @@ const MethodRow& find_method(const std::string& name) {
   const auto& rows = nameable_methods();
   const auto row = std::find_if(rows.begin(), rows.end(), [&](const MethodRow& r) { return r.name == name; });
   if (row != rows.end()) return *row;
-  std::string known;
-  for (const auto& r : all_methods()) known += (known.empty() ? "" : ", ") + r.name;
-  throw InputError("unknown method \"" + name + "\"; known are " + known);
+  std::vector<std::string> known;
+  for (const auto& r : all_methods()) known.push_back(r.name);
+  throw InputError("unknown method \"" + name + "\"; known are " + listed(nearest_first(name, known)));
 }
 
 }  // namespace cutbench

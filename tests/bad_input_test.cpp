@@ -56,13 +56,15 @@ std::string knob(const std::string& method, const std::string& value) {
 }
 
 TEST_F(BadInput, Options) {
-  expect_all({{"", 2, "subcommand"},
-              {"nonsense", 2, "subcommand"},
-              {"cut", 2, "is required"},
+  expect_all({{"", 2, "no subcommand given; known are methods, cut, score, simulate, run; see cutbench --help"},
+              {"nonsense", 2, "unknown subcommand \"nonsense\"; known are "},
+              {"scroe", 2, "unknown subcommand \"scroe\"; known are score, "},
+              {"cut", 2, "is required; see cutbench cut --help"},
+              {"--nonsense", 2, "see cutbench --help"},
               {good + " --nonsense 1", 2, "--nonsense"},
               {good + " --out", 2, "--out"},
               {good + " --mesh sheet.off", 2, "--mesh"},
-              {"cut --method '' --mesh sheet.off --path path.json --out out.obj", 2, "known are conventional_split"},
+              {"cut --method '' --mesh sheet.off --path path.json --out out.obj", 2, "unknown method \"\"; known are "},
               {"cut --method bowyer_watson --set rounds=inf --mesh sheet.off --path path.json --out out.obj", 2,
                "rounds must be a whole number from 0 to 20"},
               {knob("bowyer_watson", "rounds=0.5"), 2, "rounds must be a whole number from 0 to 20"},
@@ -229,16 +231,24 @@ TEST_F(BadInput, PathFiles) {
            {R"({"cuts":[{"polyline":[[0,0],[true,1]]}]})", "cut 0, point 1: a point is [x, y], two numbers"},
            {R"({"cuts":[{"polyline":[[0,0],[null,1]]}]})", "cut 0, point 1: a point is"},
            {R"({"cuts":[{"polyline":[[0,0],[1,1]],"closed":"no"}]})", "\"closed\" must be true or false"},
-           {R"({"cuts":[{"polyline":[[0,0],[NaN,1]]}]})", "not a path file"},
+           {R"({"cuts":[{"polyline":[[0,0],[NaN,1]]}]})",
+            "bad.json: not a path file: line 1: \"NaN\" can't stand here"},
            {R"({"cuts":[{"polyline":[[0,0],[Infinity,1]]}]})", "not a path file"},
-           {R"({"cuts":[{"polyline":[[0,0],[1e400,1]]}]})", "not a path file"},
-           {R"({"cuts":[{"polyline":[[0,0],[1,1]]}]} x)", "not a path file"},
+           {R"({"cuts":[{"polyline":[[0,0],[1e400,1]]}]})", "line 1: the number 1e400 is too large"},
+           {R"({"cuts":[{"polyline":[[0,0],[1,1]]}]} x)", "not a path file: line 1: \"x\" can't stand here"},
+           {"{\"cuts\": [\n{\"polyline\": [[0, 0], [1, 1],]}]}",
+            "line 2: \"]\" can't stand here; delete the comma before it"},
+           {"{\"cuts\": [\n{\"polyline\": [[0, 0]\n[1, 1]]}]}", "line 3: \"[\" can't stand here; is a comma missing"},
+           {"{'cuts': []}", "line 1: \"'\" can't stand here; write \" instead"},
+           {"// a path\n{\"cuts\": []}", "line 1: \"/\" can't stand here; JSON has no comments"},
+           {"{\"cuts\": []\n", "line 2: the file ends too soon; is it complete?"},
+           {" \n", "bad.json: not a path file: it is empty; a path file is {\"cuts\": "},
            {R"({"cuts":[{"polyline":[[0,0],[1,1]],"polyline":[[0,0],[2,2]]}]})", "the key \"polyline\" is there twice"},
            {R"({"cuts":[],"cuts":[]})", "the key \"cuts\" is there twice"},
-           {"{\"cu\nts\":[]}", "not a path file"},
+           {"{\"cu\nts\":[]}", "close the string with \" in its own line"},
            {R"({"cu\nts\u001b":[]})", "unknown key \"cu?ts?\""},
            {"{\"" + std::string(100000, 'x') + "\":1}", "[...]"},
-           {"\"" + std::string(100000, 'x'), "[...]"},
+           {"\"" + std::string(100000, 'x'), "line 1: the file ends too soon"},
            {std::string("\0\1\2\377", 4), "not a path file"},
            {nested(1000000, "[", ""), "not a path file"},
            {nested(1000000, "[", "]"), "must be an object"},
@@ -397,7 +407,8 @@ TEST_F(BadInput, MethodsThatDoNotFit) {
   write_mesh(make_sheet("delaunay", 4), folder_ / "irregular.off");
   expect({"cut --method cisamr --mesh irregular.off --path path.json --out out.obj", 2, "cisamr refuses this cut: "});
   write(folder_ / "of_a_file.toml", scene_of("[sheet]\nfile = \"sheet.off\"\n"));
-  expect({"simulate of_a_file.toml --resolution 200", 2, "this scene's sheet is a file, whose triangles are what"});
+  expect(
+      {"simulate of_a_file.toml --resolution 200", 2, "this scene's sheet is read from a file; leave the option out"});
 
   // In a scene the sheet goes on moving without that cut; the program says so, and that it fell short.
   const std::string cut = "[[cuts]]\ntime = 0\npolyline = [[0.2, 0.3], [0.8, 0.6]]\n[sheet]\nresolution = 200\n";
@@ -452,6 +463,7 @@ TEST_F(BadInput, Experiments) {
     return changed.replace(changed.find(part), part.size(), instead);
   };
   ASSERT_EQ(experiment(text), "no InputError");
+  ASSERT_EQ(experiment(text + "eigenvalue_cases = 0\n"), "no InputError");  // the default
   const std::string head = "claim = \"c\"\nsheets = [\"grid\"]\nresolutions = [200]\nmethods = [\"example\"]\n";
   const std::string campaign = head + "[campaign]\n", accuracy = head + "[accuracy]\n";
   ASSERT_EQ(experiment(campaign), "no InputError");
@@ -475,6 +487,7 @@ TEST_F(BadInput, Experiments) {
            {with("\"grid\"", "\"gird\""), "sheet \"gird\" is not known; known are"},
            {with("\"curved\"", "\"curvy\""), "cut family \"curvy\" is not known; known are"},
            {with("\"curved\"", "\"recut\""), "\"cut_families\" names something twice"},
+           {text + "eigenvalue_cases = -1\n", "\"eigenvalue_cases\" must be between 0 and 1000000"},
            {with("cases = 3", "cases = 0"), "\"cases\" must be between 1 and 1000000"},
            {with("cases = 3", "cases = 3.5"), "\"cases\" has a value of the wrong kind"},
            {with("cases = 3", "cases = 99999999999999999999"), "line 5"},

@@ -29,6 +29,23 @@ TEST_F(Cli, MethodsListsEveryRow) {
   for (const auto& row : all_methods()) EXPECT_NE(text.out.find(row.summary), std::string::npos);
 }
 
+/// --help of each subcommand says what it prints, with an example that runs, and --version what was built.
+TEST_F(Cli, HelpAndVersion) {
+  for (const char* subcommand : {"", "methods ", "cut ", "score ", "simulate ", "run "}) {
+    const auto help = run(std::string(subcommand) + "--help");
+    EXPECT_EQ(help.code, 0) << subcommand;
+    EXPECT_TRUE(help.error.empty()) << help.error;
+    for (const char* part : {"example", "  cutbench ", "exit codes:", "\n  2  bad input"})
+      EXPECT_NE(help.out.find(part), std::string::npos) << subcommand << "lacks " << part << "\n" << help.out;
+  }
+  EXPECT_NE(run("cut --help").out.find("=0.05"), std::string::npos) << "the default of --chord-tolerance";
+  const auto version = run("--version");
+  EXPECT_EQ(version.code, 0) << version.error;
+  for (const std::string& part :
+       {std::string("cutbench, suite version ") + suite_version + "\ncommit ", std::string("\ncompiled by ")})
+    EXPECT_NE(version.out.find(part), std::string::npos) << version.out;
+}
+
 TEST_F(Cli, CutWritesMeshAndReport) {
   for (const auto& row : whole_sheet_methods()) {
     const auto result = cut("--report r.json", row.name);
@@ -76,7 +93,7 @@ TEST_F(Cli, RepeatedPolylineIsANoop) {
 }
 
 TEST_F(Cli, BadOptionsAreRefused) {
-  expect_refused(cut("", "nonsense"), "known are conventional_split");
+  expect_refused(cut("", "conventionl_split"), "unknown method \"conventionl_split\"; known are conventional_split");
   expect_refused(cut("--set rounds=1"), "has no knob");
   expect_refused(cut("--set rounds=x", "bowyer_watson"), "not a number");
   expect_refused(cut("--set depth=1", "bowyer_watson"), "rounds=VALUE");

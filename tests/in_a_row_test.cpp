@@ -90,7 +90,7 @@ TEST_P(InARow, CutsWithoutEffectTakeNoMemory) {
   Locator locator(sheet);
   Cutter cutter;
   const auto method = make();
-  const auto& [low, high, h] = frame_of(sheet);
+  const auto& [low, high, h] = extent_of(sheet);
   const Curve line{Curve::Kind::polyline, false, {{low.x - h, low.y + 0.3 * (high.y - low.y)}, {high.x, high.y}}};
   cutter.cut(sheet, locator, line, *method, CutOptions());
   std::size_t held = 0;

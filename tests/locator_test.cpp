@@ -40,11 +40,11 @@ void with_sheets(Test test) {
 
 TEST(Locator, FindsTheTriangleOfAPoint) {
   with_sheets([](const Sheet& sheet, const Locator& locator) {
-    const Frame frame = frame_of(sheet);
+    const SheetExtent extent = extent_of(sheet);
     Random random(4);
     for (std::size_t i = 0; i < scaled(200); ++i) {
-      const Point2 p{random.between(frame.low.x - 0.1, frame.high.x + 0.1),
-                     random.between(frame.low.y - 0.1, frame.high.y + 0.1)};
+      const Point2 p{random.between(extent.low.x - 0.1, extent.high.x + 0.1),
+                     random.between(extent.low.y - 0.1, extent.high.y + 0.1)};
       EXPECT_TRUE(sheet.triangle(locator.near(sheet, p)).alive());
       Walk walk(sheet, locator);
       const Place place = walk.locate(p);
@@ -80,11 +80,11 @@ TEST(Locator, FindsVerticesAndEdges) {
 /// segments in both directions, from inside, outside and far away.
 TEST(Locator, VisitsTheBorderInOrder) {
   with_sheets([](const Sheet& sheet, const Locator& locator) {
-    const Frame frame = frame_of(sheet);
+    const SheetExtent extent = extent_of(sheet);
     Random random(6);
     const auto point = [&] {
-      return Point2{random.between(frame.low.x - 0.3, frame.high.x + 0.3),
-                    random.between(frame.low.y - 0.3, frame.high.y + 0.3)};
+      return Point2{random.between(extent.low.x - 0.3, extent.high.x + 0.3),
+                    random.between(extent.low.y - 0.3, extent.high.y + 0.3)};
     };
     for (std::size_t i = 0; i < scaled(200); ++i) {
       Point2 a = point(), b = point();

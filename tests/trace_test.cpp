@@ -98,12 +98,12 @@ TEST(Trace, MeetsTheEdgesThatExactIntersectionFinds) {
     SCOPED_TRACE(name);
     Bench bench(mesh);
     const Sheet& sheet = bench.sheet;
-    const Frame frame = frame_of(sheet);
+    const SheetExtent extent = extent_of(sheet);
     Random random(11);
     for (std::size_t i = 0; i < scaled(40); ++i) {
       const auto point = [&] {
-        return Point2{random.between(frame.low.x - 0.2, frame.high.x + 0.2),
-                      random.between(frame.low.y - 0.2, frame.high.y + 0.2)};
+        return Point2{random.between(extent.low.x - 0.2, extent.high.x + 0.2),
+                      random.between(extent.low.y - 0.2, extent.high.y + 0.2)};
       };
       const Point2 a = point(), b = point();
       std::map<HalfEdge, Point2> expected;

@@ -6,7 +6,7 @@
 
 namespace cutbench {
 
-/// What is wrong with a file, option or number the user gave: what, where and the mend.
+/// What is wrong with a file, option or number the user gave: what is wrong, where, and what to do.
 struct InputError : std::runtime_error {
   explicit InputError(const std::string& what);
 };

@@ -12,7 +12,7 @@ namespace {
 
 pid_t explaining_process = 0;
 
-/// Installed to act once: the signal raised again does what it always did.
+/// Installed for one signal (SA_RESETHAND): raised again, the signal has its default effect.
 void explain(int signal) {
   constexpr char text[] = "\ninterrupted; run the same command again to go on\n";
   const std::size_t skipped = isatty(STDERR_FILENO) ? 0 : 1;  // a terminal shows ^C, perhaps on a line of progress

@@ -1,11 +1,11 @@
-// Ctrl-C in the middle of a sweep.
+// What Ctrl-C does during a run.
 #pragma once
 
 namespace cutbench {
 
-/// From now on SIGINT and SIGTERM end the program as ever (a shell sees 130 or 143), but not without one line that says
-/// how to go on. That is safe at any moment: what is on disk is always fit to be resumed, as after SIGKILL. Processes
-/// forked from this one end in silence.
+/// From now on SIGINT and SIGTERM print one line that says how to resume, and then end the program as before (a shell
+/// sees 130 or 143). That is safe at any moment: what is on disk can always be resumed, as after SIGKILL. Processes
+/// forked from this one print nothing.
 void explain_interruption();
 
 }  // namespace cutbench

@@ -22,7 +22,7 @@ namespace cutbench {
 
 namespace {
 
-/// The end of these timers ends the process by a signal, so that nobody has to watch it.
+/// When one of these timers ends, a signal ends the process. 0 stops them.
 void set_timers(double limit_s) {
   const auto set = [](int which, double seconds) {
     itimerval value{};
@@ -35,8 +35,8 @@ void set_timers(double limit_s) {
   set(ITIMER_REAL, 10 * limit_s);
 }
 
-/// Discards what the work prints, leaves no core files, ends when the parent does.
-void settle(pid_t parent) {
+/// In the child: what the work prints is discarded, no core file is written, and the child ends when its parent does.
+void isolate_from(pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(0);  // it has ended already
   for (int signal_number : {SIGPROF, SIGALRM, SIGINT, SIGTERM}) std::signal(signal_number, SIG_DFL);
@@ -52,19 +52,19 @@ std::vector<Fate> run_isolated(std::size_t n, const Isolation& isolation, const 
   const auto cores = std::max(1u, std::thread::hardware_concurrency());
   const std::size_t count =
       std::min(n, isolation.workers > 0 ? static_cast<std::size_t>(isolation.workers) : std::size_t{cores});
-  const SharedArray<Fate> fates(n + 1);         // the last is that of no piece
-  const SharedArray<std::size_t> piece(count);  // per worker: under way or last done
+  const SharedArray<Fate> fates(n + 1);         // the last one is for a worker that has not begun a piece
+  const SharedArray<std::size_t> piece(count);  // per worker: the piece under way, or the last one done
   for (std::size_t w = 0; w < count; ++w) piece[w] = n;
   const SharedArray<std::atomic<std::size_t>> next(1);
   static_assert(std::atomic<std::size_t>::is_always_lock_free);
 
-  // noexcept: else an exception would be caught further up, and two processes go on as the parent.
+  // noexcept: an exception that the child's callers caught would let two processes continue as the parent.
   const auto do_piece = [&work](std::size_t i) noexcept { work(i); };
   const auto begin = [&](std::size_t worker) {
     const pid_t parent = getpid(), child = fork();
     if (child < 0) throw std::runtime_error(std::string("can't start a process: ") + std::strerror(errno));
     if (child > 0) return child;
-    settle(parent);
+    isolate_from(parent);
     for (std::size_t i; (i = next[0].fetch_add(1)) < n;) {
       piece[worker] = i, fates[i] = Fate::under_way;
       set_timers(isolation.time_limit_s);

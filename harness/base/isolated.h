@@ -1,4 +1,4 @@
-// Work that may crash or hang, done piece by piece in processes of its own: a piece that does costs itself alone.
+// Work that may crash or hang, done piece by piece in child processes: the other pieces are not affected.
 #pragma once
 
 #include <sys/mman.h>
@@ -38,14 +38,15 @@ class SharedArray {
 enum class Fate : std::uint8_t { not_begun, under_way, done, crashed, timed_out };
 
 struct Isolation {
-  int workers = 0;           ///< processes at a time; 0: one per core
-  double time_limit_s = 10;  ///< processor time for one piece, which ends it; so do ten times as much by the clock
+  int workers = 0;  ///< processes at a time; 0: one per core
+  double time_limit_s =
+      10;  ///< of processor time; a piece that takes longer, or ten times as long by the clock, is ended
 };
 
-/// Calls work(i) once for each i < n, in forked processes: what it leaves must be in shared memory or in files. Where
-/// it ends its process, by a signal, an exception or otherwise, or overruns the limit, another process goes on behind
-/// it. Standard output and error of the work are discarded. `progress` is called now and then with the number begun.
-/// Throws std::runtime_error where no process can be started.
+/// Calls work(i) once for each i < n, in forked processes: its results must be in shared memory or in files. Where a
+/// piece ends its process, by a signal, an exception or otherwise, or exceeds the limit, another process continues with
+/// the next piece. Standard output and error of the work are discarded. `progress` is called from time to time with the
+/// number of pieces begun. Throws std::runtime_error where no process can be started.
 std::vector<Fate> run_isolated(std::size_t n, const Isolation& isolation, const std::function<void(std::size_t)>& work,
                                const std::function<void(std::size_t)>& progress = {});
 

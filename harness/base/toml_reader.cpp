@@ -2,22 +2,10 @@
 
 #include <cmath>
 #include <fstream>
-#include <numeric>
 
 namespace cutbench {
 
 namespace {
-
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < b.size(); ++j)
-      diagonal = std::exchange(row[j + 1], std::min({row[j] + 1, row[j + 1] + 1, diagonal + (a[i] != b[j])}));
-  }
-  return row.back();
-}
 
 std::string quoted(const char* key) { return std::string("\"") + key + "\""; }
 
@@ -40,16 +28,14 @@ void check_keys(const toml::table& table, const std::vector<std::string>& known,
   for (const auto& [key, value] : table) {
     const std::string name(key.str());
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    const auto nearest = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
-      return edit_distance(a, name) < edit_distance(b, name);
-    });
-    throw InputError(where + ": unknown key \"" + name + "\"; did you mean \"" + *nearest + "\"?");
+    throw InputError(where + ": unknown key \"" + name + "\"; did you mean \"" + nearest_first(name, known).front() +
+                     "\"?");
   }
 }
 
-int TomlReader::count(const char* key, int fallback) const {
+int TomlReader::count(const char* key, int fallback, int least) const {
   const auto n = value<std::int64_t>(key, fallback);
-  if (n < 1 || n > 1000000) refuse(quoted(key) + " must be between 1 and 1000000");
+  if (n < least || n > 1000000) refuse(quoted(key) + " must be between " + std::to_string(least) + " and 1000000");
   return static_cast<int>(n);
 }
 

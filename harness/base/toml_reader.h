@@ -1,5 +1,5 @@
-// What the readers of experiment and scene files share: values with their kind and range checked, and errors that say
-// where one is wrong.
+// What the readers of experiment and scene files share: values whose kind and range are checked, and errors that say
+// which value is wrong.
 #pragma once
 
 #include <toml++/toml.h>
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "harness/base/errors.h"
+#include "harness/base/names.h"
 #include "harness/base/points.h"
 
 namespace cutbench {
@@ -24,18 +25,18 @@ toml::table parse_toml(const std::filesystem::path& file);
 /// Throws InputError for a key that is not known, naming the nearest one that is.
 void check_keys(const toml::table& table, const std::vector<std::string>& known, const std::string& where);
 
-/// Throws InputError for a name that is not known, listing those that are.
+/// Throws InputError for a name that is not known, listing those that are, the nearest first.
 template <class Known>
 void check_names(const std::vector<std::string>& names, const Known& known, const std::string& what) {
   for (const auto& name : names) {
     if (std::find(std::begin(known), std::end(known), name) != std::end(known)) continue;
-    std::string list;
-    for (const auto& k : known) list += std::string(list.empty() ? "" : ", ") + k;
-    throw InputError(what + " \"" + name + "\" is not known; known are " + list);
+    const std::vector<std::string> all(std::begin(known), std::end(known));
+    throw InputError(what + " \"" + name + "\" is not known; known are " + listed(nearest_first(name, all)));
   }
 }
 
-/// Reads values of one table, and says where one is wrong. A value without a fallback must be there.
+/// Reads the values of one table. Throws InputError for a wrong value, and for a missing one that has no fallback; the
+/// message begins with `where`.
 struct TomlReader {
   const toml::table& table;
   std::string where;
@@ -62,7 +63,7 @@ struct TomlReader {
     return values;
   }
 
-  /// One of the names, as what it stands for.
+  /// The value that goes with the name that is given.
   template <class E>
   E choice(const char* key, E fallback, std::initializer_list<std::pair<const char*, E>> choices) const {
     if (!has(key)) return fallback;
@@ -76,7 +77,7 @@ struct TomlReader {
     return fallback;
   }
 
-  int count(const char* key, int fallback) const;  ///< 1 ... 1000000
+  int count(const char* key, int fallback, int least = 1) const;  ///< least ... 1000000
   double finite(const char* key, double fallback) const;
   double positive(const char* key, double fallback) const;          ///< and finite
   double positive_or_zero(const char* key, double fallback) const;  ///< and finite

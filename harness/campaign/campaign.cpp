@@ -95,10 +95,12 @@ class Campaign {
     sheet_name_ = name, mesh_ = mesh, sheet_ = Sheet(mesh);
     drawn_.clear();
     for (const Contender& contender : contenders_) {
-      if (!is_done(contender)) {
-        if (drawn_.empty()) draw();
-        run_contender(contender, progress);
+      if (is_done(contender)) {
+        progress.skip(numbers_.size());
+        continue;
       }
+      if (drawn_.empty()) draw();
+      run_contender(contender, progress);
       progress.step(numbers_.size());
     }
   }

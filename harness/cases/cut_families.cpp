@@ -18,12 +18,12 @@ using Points = std::vector<Point2>;
 Curve bezier(Points points, bool closed = false) { return {Curve::Kind::bezier, closed, std::move(points)}; }
 Curve polyline(Points points, bool closed = false) { return {Curve::Kind::polyline, closed, std::move(points)}; }
 
-/// Curves on the unit square, and how it is laid over the frame. No two random numbers are drawn in one expression but
+/// Curves on the unit square, and how it is laid over the sheet's bounding box. No two random numbers are drawn in one expression but
 /// within braces, where their order is the same for every compiler.
 class Generator {
  public:
   Generator(const Sheet& sheet, std::uint64_t seed, std::size_t i)
-      : sheet_(sheet), frame_(frame_of(sheet)), random_(seed), i_(i) {}
+      : sheet_(sheet), extent_(extent_of(sheet)), random_(seed), i_(i) {}
 
   Curves straight() { return {placed(polyline({beyond(left), beyond(coin_side())}))}; }
   Curves curved() {
@@ -64,12 +64,12 @@ class Generator {
   };
   Curve smooth(Ends ends, bool stays_inside);
   Curve blob(Point2 centre, double radius);
-  Point2 to_frame(Point2 p) const {  // 0 and 1 go to the frame's own coordinates exactly
-    const auto [low, high, h] = frame_;
+  Point2 onto_sheet(Point2 p) const {  // 0 and 1 go to the box's own coordinates exactly
+    const auto [low, high, h] = extent_;
     return {p.x == 1 ? high.x : low.x + p.x * (high.x - low.x), p.y == 1 ? high.y : low.y + p.y * (high.y - low.y)};
   }
   Curve placed(Curve curve) const {
-    for (Point2& p : curve.points) p = to_frame(p);
+    for (Point2& p : curve.points) p = onto_sheet(p);
     return curve;
   }
 
@@ -84,7 +84,7 @@ class Generator {
   Curve ring(Point2 centre, double radius, std::size_t corners, std::size_t step = 1);
 
   const Sheet& sheet_;
-  Frame frame_;
+  SheetExtent extent_;
   Random random_;
   std::size_t i_;
 };
@@ -257,13 +257,13 @@ Curves Generator::u_turn() {
   const bool round = random_.below(3) == 0;
   if (i_ % 2 == 1) {  // just behind an edge; a round turn by more than what flattening may take off it
     constexpr double depths[] = {0.3, 0.1, 1e-2, 1e-4, 1e-6, 1e-9};
-    const double depth = depths[random_.below(round ? 3 : 6)] * frame_.mean_edge;
+    const double depth = depths[random_.below(round ? 3 : 6)] * extent_.mean_edge;
     turn = c[k] + random_.between(0.2, 0.8) * along + depth * out;
     d = out + random_.between(-0.7, 0.7) * along;
     d = 1 / std::sqrt(squared_length(d)) * d;
   }
-  const double length = random_.coin(0.3) ? 2 * sheet_.size() : random_.between(0.2, 3) * frame_.mean_edge;
-  const Point2 side = random_.between(0.02, 0.2) * std::min(length, 3 * frame_.mean_edge) * Point2{-d.y, d.x};
+  const double length = random_.coin(0.3) ? 2 * sheet_.size() : random_.between(0.2, 3) * extent_.mean_edge;
+  const Point2 side = random_.between(0.02, 0.2) * std::min(length, 3 * extent_.mean_edge) * Point2{-d.y, d.x};
   const Point2 a = turn - length * d - side, b = turn - length * d + side;
   if (round) return {bezier({a, a + length / 0.75 * d, b + length / 0.75 * d, b})};
   if (random_.coin()) return {polyline({a, turn, b})};
@@ -282,10 +282,10 @@ Curves Generator::through_vertices() {
     case 0:
       return {polyline({from - 0.5 * line, from + 2 * line})};
     case 1:
-      return {polyline({from - sheet_.size() / frame_.mean_edge * line, points[1] + line})};
+      return {polyline({from - sheet_.size() / extent_.mean_edge * line, points[1] + line})};
     case 2:
-      return {bezier({from, to_frame(inside()), to_frame(inside()), points[1], 2 * points[1] - to_frame(inside()),
-                      to_frame(inside()), to_frame(inside())})};
+      return {bezier({from, onto_sheet(inside()), onto_sheet(inside()), points[1], 2 * points[1] - onto_sheet(inside()),
+                      onto_sheet(inside()), onto_sheet(inside())})};
     case 3:
       if (n > 2) return {polyline(std::move(points), true)};
       [[fallthrough]];
@@ -335,10 +335,10 @@ Curves Generator::along_edges() {
       points.back() = last - random_.between(0.2, 0.8) * step;
       break;  // ends inside an edge
     case 1:
-      points.push_back(to_frame(inside()));
+      points.push_back(onto_sheet(inside()));
       break;
     case 2:
-      points.insert(points.begin(), to_frame(inside()));
+      points.insert(points.begin(), onto_sheet(inside()));
       break;
     default:
       break;
@@ -362,15 +362,15 @@ constexpr Family family_table[] = {
 
 }  // namespace
 
-Frame frame_of(const Sheet& sheet) {
-  Frame frame{{1e300, 1e300}, {-1e300, -1e300}, sheet.mean_edge()};
+SheetExtent extent_of(const Sheet& sheet) {
+  SheetExtent extent{{1e300, 1e300}, {-1e300, -1e300}, sheet.mean_edge()};
   for (std::size_t i = 0; i < sheet.vertex_slots(); ++i) {
     if (!sheet.triangle_of_vertex(VertexIndex(i)).valid()) continue;
     const Point2 p = sheet.rest(VertexIndex(i));
-    frame.low = {std::min(frame.low.x, p.x), std::min(frame.low.y, p.y)};
-    frame.high = {std::max(frame.high.x, p.x), std::max(frame.high.y, p.y)};
+    extent.low = {std::min(extent.low.x, p.x), std::min(extent.low.y, p.y)};
+    extent.high = {std::max(extent.high.x, p.x), std::max(extent.high.y, p.y)};
   }
-  return frame;
+  return extent;
 }
 
 std::span<const char* const> cut_families() {
@@ -400,7 +400,7 @@ Curve make_small_cut(std::uint64_t seed, std::size_t i, const Sheet& sheet) {
   constexpr const char* kinds[] = {"straight", "curved", "partial", "border_inward", "cut_out", "self_crossing"};
   Random random(Random(seed).bits() + i * 0xD1342543DE82EF95u);
   Curve curve = make_case(kinds[random.below(std::size(kinds))], seed, i, sheet).front();
-  const auto [low, high, h] = frame_of(sheet);
+  const auto [low, high, h] = extent_of(sheet);
   Point2 least = curve.points.front(), most = least;
   for (Point2 p : curve.points) {
     least = {std::min(least.x, p.x), std::min(least.y, p.y)};

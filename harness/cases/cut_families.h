@@ -11,12 +11,12 @@
 
 namespace cutbench {
 
-/// Where a sheet lies: what the generators scale by.
-struct Frame {
+/// Where a sheet lies and how fine it is: the generators scale their cuts by it.
+struct SheetExtent {
   Point2 low, high;      ///< rest bounding box
   double mean_edge = 0;  ///< of the sheet as constructed
 };
-Frame frame_of(const Sheet& sheet);
+SheetExtent extent_of(const Sheet& sheet);
 
 /// The names make_case knows; all lengths in sides of the rest bounding box (S) or mean rest edges (h):
 /// - `straight`: a line right across the sheet, its ends on the border or outside.
@@ -34,13 +34,13 @@ Frame frame_of(const Sheet& sheet);
 /// - `along_edges`: polylines along chains of edges, along the border too, some ending inside an edge or leaving it.
 std::span<const char* const> cut_families();
 
-/// Case i of a family: one or more curves, made one after the other. Depends on seed, family, i and the frame alone,
+/// Case i of a family: one or more curves, made one after the other. Depends on seed, family, i and the sheet's extent alone,
 /// and for `tiny_*`, `u_turn`, `through_vertices` and `along_edges` on the sheet's triangles. Throws InputError for an
 /// unknown family, listing the known ones.
 std::vector<Curve> make_case(const std::string& family, std::uint64_t seed, std::size_t i, const Sheet& sheet);
 
 /// Cut i of a row that one sheet is to bear, as in surgery: of the kinds of `several`, or crossing itself, but only 0.1
-/// to 0.3 S long or wide, anywhere, over the border too. Depends on seed, i and the frame alone.
+/// to 0.3 S long or wide, anywhere, over the border too. Depends on seed, i and the sheet's extent alone.
 Curve make_small_cut(std::uint64_t seed, std::size_t i, const Sheet& sheet);
 
 }  // namespace cutbench

@@ -20,6 +20,12 @@ using Points = std::vector<Point2>;
 constexpr const char* families[] = {"on_vertices",  "on_edges",      "few_ulps",   "collinear",      "on_older_cuts",
                                     "sharp_return", "through_point", "tiny_loops", "touches_itself", "ordinary"};
 
+/// The cut families that "ordinary" draws from. A list of its own: a family that is added to cut_families() must not
+/// change the cuts of published seeds, and a change here changes all of them.
+constexpr const char* ordinary_families[] = {
+    "straight",      "curved",    "partial",   "border_inward", "cut_out",          "recut",      "several",
+    "self_crossing", "tiny_loop", "tiny_open", "u_turn",        "through_vertices", "along_edges"};
+
 Point2 moved_by_ulps(Point2 p, int x, int y) {
   const auto step = [](double c, int ulps) {
     const double towards =
@@ -35,7 +41,7 @@ Point2 moved_by_ulps(Point2 p, int x, int y) {
 class Mixture {
  public:
   Mixture(const Sheet& sheet, std::uint64_t seed, std::size_t i)
-      : sheet_(sheet), frame_(frame_of(sheet)), random_(seed * 0x9E3779B97F4A7C15u + i), i_(i) {}
+      : sheet_(sheet), extent_(extent_of(sheet)), random_(seed * 0x9E3779B97F4A7C15u + i), i_(i) {}
 
   MixtureCase make() {
     const std::size_t family = i_ % std::size(families), count = 1 + random_.below(5);
@@ -67,8 +73,8 @@ class Mixture {
     return c[0] + (u * (c[1] - c[0]) + v * (c[2] - c[0]));
   }
   Point2 anywhere() {
-    const Point2 size = frame_.high - frame_.low;
-    return frame_.low + Point2{random_.between(-0.1, 1.1) * size.x, random_.between(-0.1, 1.1) * size.y};
+    const Point2 size = extent_.high - extent_.low;
+    return extent_.low + Point2{random_.between(-0.1, 1.1) * size.x, random_.between(-0.1, 1.1) * size.y};
   }
   /// A point of an older cut: one of its own points, or on the straight line between two of them.
   Point2 on_older() {
@@ -91,7 +97,7 @@ class Mixture {
         return random_.unit();
     }
   }
-  double tiny() { return std::pow(10.0, -random_.between(2, 17)) * frame_.mean_edge; }
+  double tiny() { return std::pow(10.0, -random_.between(2, 17)) * extent_.mean_edge; }
   int some_ulps() { return static_cast<int>(random_.below(33)) - 16; }
   Point2 nudged(Point2 p) {
     switch (random_.below(4)) {
@@ -240,7 +246,7 @@ class Mixture {
   /// Through one point that is the same for all such cuts of the case.
   Curve through_point() {
     if (!common_) common_ = nudged(random_.coin() ? inside() : on_edge());
-    const Point2 d = random_.between(0.5, 3) * frame_.mean_edge * random_.direction();
+    const Point2 d = random_.between(0.5, 3) * extent_.mean_edge * random_.direction();
     switch (random_.below(4)) {
       case 0:
         return {Curve::Kind::polyline, false, {*common_, *common_ + d}};
@@ -255,7 +261,7 @@ class Mixture {
   /// Round a vertex, on an edge, anywhere; down to the size of the rounding.
   Curve tiny_loop() {
     const Point2 centre = any_point();
-    const double radius = random_.coin() ? tiny() : random_.between(0.01, 1.5) * frame_.mean_edge;
+    const double radius = random_.coin() ? tiny() : random_.between(0.01, 1.5) * extent_.mean_edge;
     Points points;
     const std::size_t corners = 3 + random_.below(4);
     while (points.size() < corners) {
@@ -292,8 +298,8 @@ class Mixture {
     return {Curve::Kind::polyline, false, points};
   }
   Curve ordinary() {
-    const auto kinds = cut_families();
-    return make_case(kinds[random_.below(kinds.size())], random_.bits(), i_, sheet_).front();
+    const std::uint64_t seed = random_.bits();
+    return make_case(ordinary_families[random_.below(std::size(ordinary_families))], seed, i_, sheet_).front();
   }
 
   Curve curve_of(std::size_t family) {
@@ -322,7 +328,7 @@ class Mixture {
   }
 
   const Sheet& sheet_;
-  Frame frame_;
+  SheetExtent extent_;
   Random random_;
   std::size_t i_;
   std::vector<Curve> cuts_;
@@ -348,6 +354,7 @@ std::vector<std::array<Point2, 2>> pieces_of(const Curve& curve) {
 }  // namespace
 
 std::span<const char* const> mixture_families() { return families; }
+std::span<const char* const> mixture_cut_families() { return ordinary_families; }
 
 MixtureCase make_mixture_case(std::uint64_t seed, std::size_t i, const Sheet& sheet) {
   return Mixture(sheet, seed, i).make();

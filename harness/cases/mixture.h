@@ -18,6 +18,9 @@ struct MixtureCase {
 };
 
 std::span<const char* const> mixture_families();
+/// The cut families that its ordinary cuts are drawn from: always the same ones, whatever cut_families() gains, so that
+/// a published seed gives the same cases in later versions.
+std::span<const char* const> mixture_cut_families();
 
 /// Case i: depends on (seed, i) and the uncut sheet alone. Every curve passes check_curve().
 MixtureCase make_mixture_case(std::uint64_t seed, std::size_t i, const Sheet& sheet);

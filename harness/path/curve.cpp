@@ -4,9 +4,9 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "harness/base/errors.h"
+#include "harness/base/json_reader.h"
 #include "harness/base/whole_file.h"
 #include "harness/path/pick.h"
 
@@ -76,18 +76,6 @@ void flatten_bezier(const Curve& curve, double tolerance, double snap, Polyline&
 
 using nlohmann::json;
 
-/// The library keeps the last of several equal keys; which of them was meant, nobody knows.
-json parse_without_repeated_keys(const std::string& text, const std::string& name) {
-  std::vector<std::set<std::string>> keys;  // of the objects that are open
-  return json::parse(text, [&](int, json::parse_event_t event, json& value) {
-    if (event == json::parse_event_t::object_start) keys.emplace_back();
-    if (event == json::parse_event_t::object_end) keys.pop_back();
-    if (event == json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
-      throw InputError(name + ": the key " + value.dump() + " is there twice in one place; delete one");
-    return true;
-  });
-}
-
 void check_keys(const json& object, std::initializer_list<const char*> known, const std::string& where) {
   if (!object.is_object()) throw InputError(where + ": must be an object, {...}, not " + object.type_name());
   for (const auto& [key, value] : object.items()) {
@@ -99,7 +87,7 @@ void check_keys(const json& object, std::initializer_list<const char*> known, co
   }
 }
 
-/// `shape` of the coordinates begins an error.
+/// `shape` says how the list is written; it is part of the error.
 template <std::size_t N>
 std::array<double, N> read_numbers(const json& list, const std::string& where, const char* shape) {
   std::array<double, N> numbers{};
@@ -207,16 +195,11 @@ std::vector<std::variant<Curve, PickedCurve>> read_path_with_picks(const std::fi
   std::ifstream in(file, std::ios::binary);
   if (!in || std::filesystem::is_directory(file, ignored))
     throw InputError(name + ": can't be read; check the name and its permissions");
-  json document;
-  try {
-    document = parse_without_repeated_keys(std::string(std::istreambuf_iterator<char>(in), {}), name);
-  } catch (const json::exception& error) {
-    throw InputError(name + ": not a path file (" + error.what() +
-                     "); expected {\"cuts\": [{\"bezier\": [[x,y], ...]}]}");
-  }
+  const std::string text(std::istreambuf_iterator<char>(in), {});
+  const json document = parse_json(text, {name, "a path file", R"({"cuts": [{"polyline": [[x, y], ...]}]})"});
   check_keys(document, {"cuts"}, name);
   if (!document.contains("cuts") || !document["cuts"].is_array())
-    throw InputError(name + ": \"cuts\" must be a list, [{\"bezier\": [[x,y], ...]}]");
+    throw InputError(name + R"(: "cuts" must be a list, [{"polyline": [[x, y], ...]}])");
   std::vector<std::variant<Curve, PickedCurve>> cuts;
   for (const json& entry : document["cuts"])
     cuts.push_back(read_curve(entry, name + ", cut " + std::to_string(cuts.size())));

@@ -74,7 +74,7 @@ Experiment::Accuracy read_accuracy(const TomlReader& reader, const std::vector<i
   return accuracy;
 }
 
-/// Rows that say the same of what was measured can't be told apart.
+/// The records of two equal entries could not be told apart.
 template <class T>
 void refuse_repeated(std::vector<T> entries, const std::string& what) {
   std::sort(entries.begin(), entries.end());
@@ -129,7 +129,7 @@ Experiment read_experiment(const std::filesystem::path& file) {
   e.seed = static_cast<std::uint64_t>(reader.value<std::int64_t>("seed", 1));
   e.cases = reader.count("cases", 1), e.repetitions = reader.count("repetitions", 1);
   e.cold = reader.value<bool>("cold", false), e.quality = reader.value<bool>("quality", true);
-  if (reader.has("eigenvalue_cases")) e.eigenvalue_cases = reader.count("eigenvalue_cases", 1);
+  e.eigenvalue_cases = reader.count("eigenvalue_cases", 0, 0);
   e.every_edge = reader.value<bool>("every_edge", false);
   e.chord_tolerance = reader.value<double>("chord_tolerance", 0.05);  // TOML has inf
   if (!(e.chord_tolerance > 0)) throw InputError(name + ": \"chord_tolerance\" must be positive, or inf");

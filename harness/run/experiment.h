@@ -26,37 +26,37 @@ struct Experiment {
     bool peer = false;                              ///< CGAL's triangulation of the whole sheet cuts, too
   };
 
-  /// Problems with a known answer (harness/truth/problem.h) instead of families of cuts: every cut sheet is loaded,
-  /// solved and compared.
+  /// Problems with a known solution (harness/truth/problem.h) instead of cut families: every cut sheet is loaded, solved
+  /// and compared with it.
   struct Accuracy {
     std::vector<std::string> problems;
-    std::vector<std::string> direct;           ///< solvers that run until solved
-    std::vector<std::string> preconditioners;  ///< solvers that are given so many iterations, each of:
+    std::vector<std::string> direct;           ///< solvers that run until they converge
+    std::vector<std::string> preconditioners;  ///< iterative solvers that stop after each number of `iterations`
     std::vector<int> iterations;
-    std::vector<std::pair<int, int>> members;            ///< resolution, and how many of each problem's ensemble on it
-    std::vector<std::pair<int, int>> members_nonlinear;  ///< the same of problems that take no budgets; may be 0
-    bool reference = true;  ///< the mesh fitted to the cut beside the methods; without it there is no excess error
+    std::vector<std::pair<int, int>> members;            ///< (resolution, number of members of each problem's ensemble)
+    std::vector<std::pair<int, int>> members_nonlinear;  ///< the same for problems that take no budgets; may be 0
+    bool reference = true;  ///< solve on a mesh fitted to the cut too; excess errors are measured against it
   };
 
   std::string stem;   ///< of the file: names the results folder and the plot
-  std::string claim;  ///< what is put to the test
+  std::string claim;  ///< that the experiment tests
   std::vector<std::string> sheets, cut_families;
   std::vector<int> resolutions;   ///< triangles of the uncut sheet, 2 n^2
-  std::vector<Entry> methods;     ///< none: the file says "all", which the caller who knows them puts in
+  std::vector<Entry> methods;     ///< empty: the file says "all", and the caller fills them in
   std::uint64_t seed = 1;         ///< for development; published figures use --seed commit
   int cases = 1;                  ///< per sheet, resolution and cut family; of a campaign per sheet and resolution
   int repetitions = 1;            ///< of each cut, warm
-  bool cold = false;              ///< and once more with cold caches
+  bool cold = false;              ///< cut once more with cold caches
   bool quality = true;            ///< shapes, forced zones; the oracle judges every case either way
-  int eigenvalue_cases = 0;       ///< so many of the cuts with the largest eigenvalue (harness/fem), too
-  bool every_edge = false;        ///< time the paper's wording taken literally, too
+  int eigenvalue_cases = 0;       ///< in so many cases the largest eigenvalue (harness/fem) is computed, too
+  bool every_edge = false;        ///< time the search over every edge too, as the paper words it
   double chord_tolerance = 0.05;  ///< in mean rest edges
   /// Each cut is made once more inside this running scene, after its first step that ends at `cut_time` or later. Sheet
   /// and resolution are the experiment's.
   std::optional<Scene> scene;
   std::string scene_text;  ///< of its file
   double cut_time = 0;     ///< s
-  int scene_cases = 0;     ///< so many of the cuts only
+  int scene_cases = 0;     ///< only so many of the cases are cut in the scene
   std::optional<Campaign> campaign;
   std::optional<Accuracy> accuracy;
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "harness/base/names.h"
+
 namespace cutbench {
 
 std::string Variant::knob_text() const {
@@ -18,9 +20,10 @@ std::vector<Variant> variants_of(const Experiment& experiment, const std::vector
     const auto row =
         std::find_if(methods.begin(), methods.end(), [&](const MethodRow& r) { return r.name == entry.method; });
     if (row == methods.end()) {
-      std::string known;
-      for (const auto& r : methods) known += (known.empty() ? "" : ", ") + r.name;
-      throw InputError(experiment.stem + ": unknown method \"" + entry.method + "\"; known are " + known);
+      std::vector<std::string> known;
+      for (const auto& r : methods) known.push_back(r.name);
+      throw InputError(experiment.stem + ": unknown method \"" + entry.method + "\"; known are " +
+                       listed(nearest_first(entry.method, known)));
     }
     if (!entry.knob_values.empty() && row->knob.name.empty())
       throw InputError(experiment.stem + ": method \"" + entry.method + "\" has no knob");

@@ -1,0 +1,68 @@
+#include "experiments/commands/method_options.h"
+
+#include <cmath>
+#include <iostream>
+
+#include "harness/base/errors.h"
+
+namespace cutbench {
+
+namespace {
+
+double number(const std::string& text, const std::string& what) {
+  std::size_t end = 0;
+  double value = 0;
+  try {
+    value = std::stod(text, &end);
+  } catch (const std::exception&) {
+    end = std::string::npos;
+  }
+  if (end != text.size() || std::isnan(value)) throw InputError(what + ": \"" + text + "\" is not a number");
+  return value;
+}
+
+}  // namespace
+
+void ChordTolerance::add_to(CLI::App& command, const char* meaning) {
+  command.add_option("--chord-tolerance", text, meaning)->capture_default_str();
+}
+
+CutOptions ChordTolerance::cut_options() const {
+  CutOptions options;
+  options.chord_tolerance = number(text, "--chord-tolerance");
+  if (!(options.chord_tolerance > 0)) throw InputError("--chord-tolerance: must be positive, or inf");
+  return options;
+}
+
+void MethodOptions::add_to(CLI::App& command) {
+  auto* option = command.add_option("--method", method, "one of those that `cutbench methods` lists");
+  if (method.empty())
+    option->required();
+  else
+    option->capture_default_str();
+  command.add_option("--set", settings, "KNOB=VALUE of the method; see `cutbench methods` for knobs and defaults");
+  chord_tolerance.add_to(
+      command,
+      "largest distance of the incision from a curved path, in mean rest edges, or inf: a straight piece "
+      "from edge to edge");
+}
+
+double MethodOptions::knob() const {
+  const MethodRow& m = row();
+  double value = m.knob.value;
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    const std::string name = setting.substr(0, equals);
+    if (m.knob.name.empty()) throw InputError("--set " + setting + ": method \"" + m.name + "\" has no knob");
+    if (equals == std::string::npos || name != m.knob.name)
+      throw InputError("--set " + setting + ": the knob of \"" + m.name + "\" is set as " + m.knob.name + "=VALUE");
+    value = number(setting.substr(equals + 1), "--set " + name);
+  }
+  return value;
+}
+
+void print_notes(const MeshData& mesh) {
+  for (const auto& note : mesh.notes) std::cerr << "note: " << note << '\n';
+}
+
+}  // namespace cutbench

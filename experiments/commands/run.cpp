@@ -1,0 +1,117 @@
+// `cutbench run`: runs experiments, or a part of them.
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <memory>
+#include <sstream>
+
+#include "experiments/commands/command.h"
+#include "harness/base/errors.h"
+#include "harness/base/interrupt.h"
+#include "harness/run_experiment.h"
+#include "methods/registry.h"
+
+namespace cutbench {
+
+namespace {
+
+struct RunArguments {
+  std::vector<std::string> experiments, methods;
+  std::vector<int> resolutions;
+  int cases = 0, repetitions = 0;
+  std::string seed, out = "results", shard = "1/1";
+};
+
+/// Keeps the entries of `all` that are named in `wanted`, unless that is empty.
+template <class Entry, class Wanted, class Name>
+void restrict_to(std::vector<Entry>& all, const std::vector<Wanted>& wanted, const std::string& option, Name name) {
+  for (const Wanted& w : wanted)
+    if (std::none_of(all.begin(), all.end(), [&](const Entry& e) { return name(e) == w; })) {
+      std::ostringstream what;
+      what << option << ' ' << w << " is not in the experiment; it has";
+      const char* comma = " ";
+      for (const Entry& e : all) what << std::exchange(comma, ", ") << name(e);
+      throw InputError(what.str());
+    }
+  if (!wanted.empty())
+    std::erase_if(all,
+                  [&](const Entry& e) { return std::find(wanted.begin(), wanted.end(), name(e)) == wanted.end(); });
+}
+
+std::uint64_t seed_in(const std::string& text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && end == text.data() + text.size() && value <= INT64_MAX) return value;
+  throw InputError("--seed " + text + ": give a whole number from 0, or `commit`");
+}
+
+RunOptions run_options(const RunArguments& arguments, const std::string& command_line) {
+  RunOptions options;
+  options.out = arguments.out, options.command = command_line;
+  char more = 0;
+  if (std::sscanf(arguments.shard.c_str(), "%d/%d%c", &options.shard, &options.shards, &more) != 2 ||
+      options.shard < 1 || options.shard > options.shards)
+    throw InputError("--shard " + arguments.shard + ": give i/N with 1 <= i <= N");
+  return options;
+}
+
+Experiment read_part(const std::string& file, const RunArguments& arguments, const Context& context) {
+  Experiment e = read_experiment(file);
+  if (e.methods.empty())
+    for (const MethodRow& row : all_methods()) e.methods.push_back({row.name, {}});
+  std::vector<std::string> methods = arguments.methods;
+  const bool with_peer = e.campaign && std::erase(methods, "peer") > 0;
+  restrict_to(e.methods, methods, "--methods", [](const auto& m) { return m.method; });
+  if (with_peer && methods.empty()) e.methods.clear();
+  restrict_to(e.resolutions, arguments.resolutions, "--resolutions", [](int r) { return r; });
+  if (e.campaign && !arguments.methods.empty()) e.campaign->peer = with_peer;
+  if (e.campaign && !arguments.resolutions.empty()) e.campaign->mesh_files.clear();
+  if (arguments.cases > 0) e.cases = arguments.cases;
+  if (arguments.repetitions > 0) e.repetitions = arguments.repetitions;
+  if (arguments.seed == "commit")
+    e.seed = seed_of_commit(context);
+  else if (!arguments.seed.empty())
+    e.seed = seed_in(arguments.seed);
+  variants_of(e, nameable_methods());  // throws where a method or its knob is wrong
+  return e;
+}
+
+Exit run_all(const RunArguments& arguments, const std::string& command_line) {
+  explain_interruption();
+  const RunOptions options = run_options(arguments, command_line);
+  const Context context = gather_context();
+  std::vector<Experiment> experiments;  // all are read before any is run
+  for (const auto& file : arguments.experiments) experiments.push_back(read_part(file, arguments, context));
+  bool ok = true;
+  for (const Experiment& e : experiments) ok &= run_experiment(e, nameable_methods(), context, options);
+  return ok ? done : fell_short;
+}
+
+}  // namespace
+
+Command add_run(CLI::App& app) {
+  auto arguments = std::make_shared<RunArguments>();
+  auto* command = app.add_subcommand("run", "run experiments; what was interrupted goes on where it stopped");
+  command->add_option("experiments", arguments->experiments, "experiment files (TOML)")->required();
+  command->add_option("--methods", arguments->methods, "only these of the experiment, comma-separated")->delimiter(',');
+  command->add_option("--resolutions", arguments->resolutions, "only these of the experiment (triangles)")
+      ->delimiter(',');
+  command->add_option("--cases", arguments->cases, "number of cases, instead of the experiment's")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--repetitions", arguments->repetitions, "of each cut, instead of the experiment's")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--seed", arguments->seed,
+                      "a number, or `commit`: from the commit's hash; otherwise the experiment's");
+  command->add_option("--out", arguments->out, "results folder")->capture_default_str();
+  command->add_option("--shard", arguments->shard, "i/N: only every N-th case, from the i-th")->capture_default_str();
+  command->footer(
+      "example, which takes less than a minute:\n"
+      "  cutbench run experiments/method_comparison.toml --resolutions 800 --cases 2 --out results/small\n"
+      "exit codes:\n"
+      "  0  all cuts were judged correct\n"
+      "  1  a method failed, a result is wrong, or a file can't be written\n"
+      "  2  bad input: an option or a file");
+  return {command, [arguments](const std::string& line) { return run_all(*arguments, line); }};
+}
+
+}  // namespace cutbench

@@ -1,0 +1,73 @@
+// The options of `cutbench simulate`, whose work is in experiments/simulate.cpp.
+#include "experiments/simulate.h"
+
+#include <cstdio>
+#include <memory>
+
+#include "experiments/commands/command.h"
+#include "experiments/commands/method_options.h"
+#include "harness/base/errors.h"
+#include "harness/mesh/families.h"
+#include "harness/mesh/mesh_io.h"
+
+namespace cutbench {
+
+namespace {
+
+struct SimulateArguments {
+  std::string scene, out, frames;
+  MethodOptions method{.method = "conventional_split", .settings = {}, .chord_tolerance = {}};
+  int resolution = 0, every = 8;
+};
+
+Exit run_scene(const SimulateArguments& arguments, const std::string& command_line) {
+  if (!arguments.out.empty()) check_mesh_place(arguments.out, "--out");
+  Scene scene = read_scene(arguments.scene);
+  const MethodRow& row = arguments.method.row();
+  const double knob = arguments.method.knob();
+  const auto method = row.make(knob);
+  if (arguments.resolution > 0) {
+    squares_per_side(arguments.resolution);
+    if (!scene.mesh_file.empty())
+      throw InputError("--resolution: this scene's sheet is read from a file; leave the option out");
+    scene.resolution = arguments.resolution;
+  }
+  if (!scene.mesh_file.empty()) print_notes(mesh_of(scene));
+  char knob_text[64] = "";
+  if (!row.knob.name.empty()) std::snprintf(knob_text, sizeof knob_text, " %s=%g", row.knob.name.c_str(), knob);
+  const SimulateOptions options{.method = row.name + knob_text,
+                                .command = command_line,
+                                .out = arguments.out,
+                                .frames = arguments.frames,
+                                .every = arguments.every,
+                                .cut = arguments.method.chord_tolerance.cut_options()};
+  return simulate(scene, *method, options) ? done : fell_short;
+}
+
+}  // namespace
+
+Command add_simulate(CLI::App& app) {
+  auto arguments = std::make_shared<SimulateArguments>();
+  auto* command = app.add_subcommand("simulate", "run a scene with its cuts");
+  command->add_option("scene", arguments->scene, "scene file (TOML)")->required();
+  arguments->method.add_to(*command);
+  command->add_option("--resolution", arguments->resolution, "triangles of the sheet; otherwise those of the scene")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--out", arguments->out, "the sheet in the end: OBJ, OFF or VTU; not written otherwise");
+  auto* frames = command->add_option("--frames", arguments->frames,
+                                     "folder for a time series: VTU files, their PVD, and an OBJ in the end");
+  command->add_option("--every", arguments->every, "steps from frame to frame")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber)
+      ->needs(frames);
+  command->footer(
+      "example:\n"
+      "  cutbench simulate experiments/scenes/falling_piece.toml --resolution 800 --frames frames\n"
+      "exit codes:\n"
+      "  0  all steps and cuts were made\n"
+      "  1  a step or a cut failed, a method refused a cut, or a file can't be written\n"
+      "  2  bad input: an option or a file");
+  return {command, [arguments](const std::string& line) { return run_scene(*arguments, line); }};
+}
+
+}  // namespace cutbench
