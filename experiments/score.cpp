@@ -44,7 +44,7 @@ bool score(const ScoreArguments& arguments, const CutOptions& options) {
   const MeshData result = read_mesh_as_is(arguments.result);
   const Sheet before(data);
   const Assessment a = assess_result(before, result, cuts, arguments.keeps_vertices, options);
-  if (!arguments.report.empty()) write_score(arguments.report, a);
+  if (!arguments.report.empty()) write_score(arguments.report, a, before.mean_edge());
   print(a, before.mean_edge());
   return a.judgement.ok;
 }

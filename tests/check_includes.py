@@ -17,7 +17,7 @@ ROOMS = {  # from the ground up: a room and the rooms below it that it may use
     "harness/cases": ["base", "mesh", "path"],
     "harness/truth": ["base", "mesh", "path", "cut", "fem"],
     "harness/scene": ["base", "mesh", "path", "cut", "fem", "cases"],
-    "harness/records": ["base", "mesh", "cut", "judge"],
+    "harness/records": ["base", "mesh", "cut", "fem", "judge", "scene"],
     "harness/run": ["base", "mesh", "path", "cut", "fem", "measure", "judge", "cases", "truth", "scene", "records"],
     "harness/campaign": ["base", "mesh", "path", "cut", "measure", "judge", "cases", "records", "run"],
     "harness": ["records", "run", "campaign"],  # run_experiment

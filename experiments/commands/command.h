@@ -21,5 +21,6 @@ Command add_cut(CLI::App& app);
 Command add_score(CLI::App& app);
 Command add_simulate(CLI::App& app);
 Command add_run(CLI::App& app);
+Command add_columns(CLI::App& app);
 
 }  // namespace cutbench

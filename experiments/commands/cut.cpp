@@ -80,7 +80,8 @@ Exit cut_sheet(const CutArguments& arguments) {
       assess(before, sheet, judge_one_by_one(before, sheet, cuts, row.promises, row.make(knob), options),
              forced_corners_of(before, cuts));
   WholeFile out = mesh_file(sheet.to_mesh_data(), arguments.out);
-  if (!arguments.report.empty()) report_file(arguments.report, row.name, run, pick_us, a).place();  // both, or neither
+  if (!arguments.report.empty())
+    report_file(arguments.report, row.name, run, pick_us, a, before.mean_edge()).place();  // both, or neither
   out.place();
   std::printf("%s: %zu triangles crossed, %td added, %d pieces, max aspect ratio of changed triangles %.3g, %.1f us\n",
               name_of(run.status), run.crossed_triangles, a.triangles_added, a.judgement.pieces, a.cut.ar_max,

@@ -73,7 +73,7 @@ class Campaign {
     for (const std::string& line : file_.lines()) {
       const Record row(campaign_columns(), line);
       CampaignSummary::Row& sum = summary.add();
-      sum.family = row.get("scene"), sum.sheet = row.get("sheet") + " " + row.get("resolution");
+      sum.family = row.get("cut_family"), sum.sheet = row.get("sheet") + " " + row.get("resolution");
       sum.method = row.get("method") + (row.get("knob").empty() ? "" : " " + row.get("knob"));
       sum.ours = std::any_of(contenders_.begin(), contenders_.end(),
                              [&](const Contender& c) { return c.variant && c.method == row.get("method"); });
@@ -107,7 +107,7 @@ class Campaign {
 
   Record start_row(const Contender& contender, const std::string& family) const {
     Record row(campaign_columns());
-    row.set("suite_version", std::string(suite_version)), row.set("scene", family), row.set("sheet", sheet_name_);
+    row.set("suite_version", std::string(suite_version)), row.set("cut_family", family), row.set("sheet", sheet_name_);
     row.set("method", contender.method), row.set("knob", contender.knob);
     row.set("resolution", static_cast<std::int64_t>(sheet_.triangle_count()));
     row.set("seed", static_cast<std::int64_t>(experiment_.seed));

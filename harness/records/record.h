@@ -12,13 +12,14 @@
 namespace cutbench {
 
 /// The version of meshes, cuts and definitions that records bear.
-constexpr const char* suite_version = "3";
+constexpr const char* suite_version = "4";
 
 /// So many of the first columns say what was measured, in every record: up to `cache`.
 constexpr std::size_t key_columns = 10;
-/// Of a measured cut; the first ones, key_column_names(), are those of every record.
+/// The columns of a measured cut (harness/records/metrics.h).
 const std::vector<std::string>& column_names();
-std::vector<std::string> key_column_names();
+/// The first columns of every record. \param subject  what is cut or solved: `cut_family`, or `problem` in accuracy runs
+std::vector<std::string> key_column_names(const std::string& subject = "cut_family");
 
 /// A row: the fields in the order of the columns.
 class Record {
@@ -31,6 +32,7 @@ class Record {
   void set(const std::string& column, double value);
   void set(const std::string& column, std::int64_t value);
   const std::string& get(const std::string& column) const;
+  bool has(const std::string& column) const { return index(column) < columns_->size(); }
   std::string key(std::size_t columns = key_columns) const;  ///< the fields that say what was measured
   std::string line() const;                                  ///< CSV, without the newline
 

@@ -1,6 +1,9 @@
+// The JSON reports of `cutbench cut` and `cutbench score`: the names are those of the columns of records
+// (harness/records/metrics.h), units in the names; null: not measured.
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "harness/base/whole_file.h"
 #include "harness/cut/cut_all.h"
@@ -8,12 +11,13 @@
 
 namespace cutbench {
 
-/// R.json of `cutbench cut`, in its place after place(). `pick_us`: what finding the path in rest space took. Throws
-/// OutputError where it can't be written.
+/// The report of `cutbench cut`, in its place after place(). \param h  mean rest edge of the uncut sheet
+/// \param pick_us  time to find the path in rest space. Throws OutputError where it can't be written.
 [[nodiscard]] WholeFile report_file(const std::filesystem::path& file, const std::string& method, const CutRun& run,
-                                    double pick_us, const Assessment& assessment);
+                                    double pick_us, const Assessment& assessment, double h);
 
-/// R.json of `cutbench score`: the same names where they mean the same, null where the result is too broken to measure.
-void write_score(const std::filesystem::path& file, const Assessment& assessment);
+/// The report of `cutbench score`. All but the verdict and the problems is null where the result is too broken to
+/// measure.
+void write_score(const std::filesystem::path& file, const Assessment& assessment, double h);
 
 }  // namespace cutbench

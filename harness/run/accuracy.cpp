@@ -15,7 +15,7 @@
 #include "harness/judge/assessment.h"
 #include "harness/judge/judged_sheet.h"
 #include "harness/mesh/families.h"
-#include "harness/records/record.h"
+#include "harness/records/metrics.h"
 #include "harness/run/accuracy_summary.h"
 #include "harness/run/worker.h"
 #include "harness/truth/problem.h"
@@ -123,7 +123,7 @@ class AccuracyRun {
 
   void run_member(const Problem& problem, const std::string& family, int resolution, std::size_t i) {
     Record start(accuracy_columns());
-    start.set("suite_version", std::string(suite_version)), start.set("scene", problem.name());
+    start.set("suite_version", std::string(suite_version)), start.set("problem", problem.name());
     start.set("sheet", family), start.set("resolution", std::int64_t{resolution});
     start.set("case", static_cast<std::int64_t>(i)), start.set("repetition", std::int64_t{0});
     start.set("seed", static_cast<std::int64_t>(experiment_.seed)), start.set("cache", std::string("warm"));
@@ -174,7 +174,7 @@ class AccuracyRun {
       chords.chord_tolerance = std::numeric_limits<double>::infinity();
       const Assessment a = assess_result(base.sheet, sheet->to_mesh_data(), specimen.cuts, false, chords);
       row.set("status", std::string("ok"));
-      set_assessment(row, a, base);
+      set_assessment(row, nullptr, a, base);
       if (!a.judgement.ok) sheet.reset();
     } catch (const std::exception& error) {
       set_failure(row, "failed", "crashed", error.what());
@@ -190,18 +190,16 @@ class AccuracyRun {
     const auto start = Clock::now();
     worker.forget_base();
     const CutRun cut = worker.measure(base, specimen.cuts, cut_options_, false);
-    row.set("status", std::string(name_of(cut.status)));
-    row.set("verdict", cut.verdict), row.set("reason", cut.reason);
+    fill(row, {.cut = &cut});
     row.set("exact_incision", std::int64_t{worker.variant.row->promises.exact_incision});
     row.set("cut_us", cut.time_us.total());
-    row.set("crossed_triangles", static_cast<std::int64_t>(cut.crossed_triangles));
     bool solvable = cut.status != Status::failed && cut.status != Status::refused;
     if (solvable) {
       const Variant& v = worker.variant;
       const oracle::Judgement judgement =
           judge_one_by_one(base.sheet, worker.sheet, specimen.cuts, v.row->promises, v.row->make(v.knob), cut_options_);
       const Assessment a = assess(base.sheet, worker.sheet, judgement, {});
-      set_assessment(row, a, base);
+      set_assessment(row, &cut, a, base);
       solvable = a.judgement.ok;
     }
     if (solvable && !worker.ties.empty() && !problem.takes_ties()) {
@@ -217,14 +215,9 @@ class AccuracyRun {
     row.set("status", status), row.set("verdict", verdict), row.set("reason", why);
   }
 
-  static void set_assessment(Record& row, const Assessment& a, const BaseSheet& base) {
-    row.set("verdict", a.judgement.verdict);
-    if (!a.judgement.ok) row.set("reason", a.judgement.problems.front());
+  static void set_assessment(Record& row, const CutRun* cut, const Assessment& a, const BaseSheet& base) {
+    fill(row, {.h = base.sheet.mean_edge(), .cut = cut, .judged = true, .assessment = &a});
     row.set("triangles", static_cast<std::int64_t>(base.sheet.triangle_count()) + a.triangles_added);
-    row.set("vertices_added", std::int64_t{a.vertices_added});
-    row.set("incision_error", a.judgement.incision_error);
-    row.set("ar_max_cut", a.cut.ar_max), row.set("ar_max_all", a.all.ar_max);
-    row.set("angle_max_deg_cut", a.cut.angle_max_deg), row.set("altitude_min_h_cut", a.cut.altitude_min);
   }
 
   /// A row per budget. `sheet`: null where there is nothing to solve, which the row says already. Returns the errors of
@@ -285,7 +278,7 @@ class AccuracyRun {
 
 const std::vector<std::string>& accuracy_columns() {
   static const std::vector<std::string> columns = [] {
-    std::vector<std::string> names = key_column_names(), measures;
+    std::vector<std::string> names = key_column_names("problem"), measures;
     for (const char* name : {"solver",
                              "budget",
                              "status",
@@ -303,7 +296,7 @@ const std::vector<std::string>& accuracy_columns() {
                              "iterations",
                              "residual",
                              "crossed_triangles",
-                             "incision_error",
+                             "incision_error_h",
                              "ar_max_cut",
                              "ar_max_all",
                              "angle_max_deg_cut",

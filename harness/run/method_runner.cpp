@@ -1,7 +1,5 @@
 #include "harness/run/method_runner.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -16,7 +14,7 @@
 #include "harness/judge/assessment.h"
 #include "harness/judge/judged_sheet.h"
 #include "harness/mesh/families.h"
-#include "harness/records/record.h"
+#include "harness/records/metrics.h"
 #include "harness/run/chill_caches.h"
 #include "harness/run/every_edge.h"
 #include "harness/run/summary.h"
@@ -26,8 +24,6 @@
 namespace cutbench {
 
 namespace {
-
-double length(Point3 p) { return std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z); }
 
 class Runner {
  public:
@@ -81,7 +77,7 @@ class Runner {
     std::vector<oracle::ForcedCorner> forced;
     const auto start_row = [&](const std::string& method, const std::string& knob, int repetition, const char* cache) {
       Record row;
-      row.set("suite_version", std::string(suite_version)), row.set("scene", family), row.set("sheet", sheet);
+      row.set("suite_version", std::string(suite_version)), row.set("cut_family", family), row.set("sheet", sheet);
       row.set("method", method), row.set("knob", knob), row.set("resolution", std::int64_t{resolution});
       row.set("case", static_cast<std::int64_t>(i)), row.set("repetition", std::int64_t{repetition});
       row.set("seed", static_cast<std::int64_t>(experiment_.seed)), row.set("cache", std::string(cache));
@@ -100,7 +96,7 @@ class Runner {
       judge_into(row, summaries[w], workers_[w], cuts, forced, run);
       if (static_cast<int>(i) < experiment_.eigenvalue_cases && row.get("verdict") == "ok" &&
           (run.status == Status::ok || run.status == Status::deviated))
-        row.set("eigenvalue_ratio", eigenvalue_of(workers_[w]) / base_eigenvalue_);
+        fill(row, {.eigenvalue_ratio = eigenvalue_of(workers_[w]) / base_eigenvalue_}, {Group::stability});
     }
     std::size_t crossed = 0;
     for (int r = 0; r < experiment_.repetitions + (experiment_.cold ? 1 : 0); ++r) {
@@ -114,11 +110,9 @@ class Runner {
         const CutRun run = worker.measure(base_, cuts, cut_options_, cold);
         if (run.crossed_triangles > 0) crossed = run.crossed_triangles;
         if (r == 0)
-          row = judged[w];
+          fill(row = judged[w], {.cut = &run}, {Group::time});
         else
-          row.set("status", std::string(name_of(run.status))), row.set("verdict", run.verdict),
-              row.set("reason", run.reason);
-        set_times(row, run);
+          fill(row, {.cut = &run});
         file_.append(row);
         if (!cold) summarize(resolution, worker.variant, summaries[w], run);
       }
@@ -154,35 +148,9 @@ class Runner {
   void run_in_motion(const std::vector<Curve>& cuts, Worker& worker, Record row) {
     if (file_.has(row.key())) return;
     const MotionCut m = motion_->try_cut(cuts, worker.cutter, *worker.method, cut_options_);
-    row.set("status", std::string(name_of(m.cut.status)));
-    row.set("verdict", m.verdict), row.set("reason", m.reason);
-    set_times(row, m.cut);
-    if (m.verdict == "ok" && m.cut.status != Status::noop && m.cut.status != Status::refused) set_motion(row, m);
+    fill(row, {.cut = &m.cut, .motion = &m});
     file_.append(row);
     if (m.verdict != "ok") summary_.add_failure();
-  }
-
-  static void set_motion(Record& row, const MotionCut& m) {
-    row.set("transfer_us", m.transfer_us), row.set("pattern_us", m.pattern_us);
-    row.set("bending_us", m.bending_us), row.set("bending_rebuild_us", m.bending_rebuild_us);
-    const StepTimes& t = m.first_step.time_us;
-    row.set("rotate_us", t.rotate), row.set("assemble_us", t.assemble);
-    row.set("setup_us", t.setup), row.set("solve_us", t.solve);
-    row.set("rebuild_us", m.rebuild_us), row.set("triplets_us", m.triplets_us);
-    row.set("solver_iterations", std::int64_t{m.first_step.iterations});
-    row.set("solver_residual", m.first_step.residual);
-    const auto jump = [&](const std::string& name, const std::string& unit, double before, double after) {
-      row.set(name + "_" + unit, before), row.set(name + "_jump_" + unit, after - before);
-    };
-    jump("membrane", "j", m.before.energy.membrane, m.after.energy.membrane);
-    jump("bending", "j", m.before.energy.bending, m.after.energy.bending);
-    jump("kinetic", "j", m.before.energy.kinetic, m.after.energy.kinetic);
-    jump("residual", "n", m.before.residual, m.after.residual);
-    row.set("momentum_jump_kg_m_s", length(m.after.momentum + -1 * m.before.momentum));
-    row.set("angular_momentum_jump_kg_m2_s", length(m.after.angular_momentum + -1 * m.before.angular_momentum));
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    row.set("max_rss_mb", static_cast<double>(usage.ru_maxrss) / 1024);
   }
 
   void summarize(int resolution, const Variant& variant, Summary::Cut cut, const CutRun& run) {
@@ -194,53 +162,17 @@ class Runner {
 
   void judge_into(Record& row, Summary::Cut& summary, const Worker& worker, const std::vector<Curve>& cuts,
                   const std::vector<oracle::ForcedCorner>& forced, const CutRun& run) {
-    row.set("status", std::string(name_of(run.status)));
-    row.set("verdict", run.verdict), row.set("reason", run.reason);
-    row.set("recovered_segments", std::int64_t{run.recovered_segments});
+    fill(row, {.cut = &run, .judged = true});
     summary.ok = run.verdict == "ok";
     if (run.status == Status::failed || run.status == Status::refused) return;
     const Variant& v = worker.variant;
     const oracle::Judgement judgement =
         judge_one_by_one(base_.sheet, worker.sheet, cuts, v.row->promises, v.row->make(v.knob), cut_options_);
     const Assessment a = assess(base_.sheet, worker.sheet, judgement, forced);
-    row.set("verdict", a.judgement.verdict);
-    if (!a.judgement.ok) row.set("reason", a.judgement.problems.front());
+    fill(row,
+         {.h = base_.sheet.mean_edge(), .cut = &run, .judged = true, .assessment = &a, .shapes = experiment_.quality});
     summary.ok = a.judgement.ok, summary.vertices_added = static_cast<double>(a.vertices_added);
     if (experiment_.quality) summary.ar_max_cut = a.cut.ar_max, summary.over_3_cut = static_cast<double>(a.cut.over_3);
-    set_assessment(row, a);
-  }
-
-  void set_assessment(Record& row, const Assessment& a) {
-    row.set("pieces", std::int64_t{a.judgement.pieces});
-    row.set("vertices_added", std::int64_t{a.vertices_added});
-    row.set("deformed_vertices_added", std::int64_t{a.deformed_vertices_added});
-    row.set("triangles_added", std::int64_t{a.triangles_added});
-    row.set("incision_error_h", a.judgement.incision_error / base_.sheet.mean_edge());
-    row.set("area_change", a.judgement.area_change);
-    if (!experiment_.quality) return;
-    for (const auto& [suffix, q] : {std::pair<std::string, const Quality&>{"_all", a.all}, {"_cut", a.cut}}) {
-      row.set("ar_max" + suffix, q.ar_max), row.set("ar_mean" + suffix, q.ar_mean),
-          row.set("ar_p99" + suffix, q.ar_p99);
-      row.set("angle_min_deg" + suffix, q.angle_min_deg), row.set("angle_max_deg" + suffix, q.angle_max_deg);
-      row.set("altitude_min_h" + suffix, q.altitude_min);
-      row.set("over_3" + suffix, static_cast<std::int64_t>(q.over_3));
-    }
-    row.set("forced_corners", static_cast<std::int64_t>(a.forced_corners));
-    row.set("forced_triangles", std::int64_t{a.corner_triangles}),
-        row.set("wedge_triangles", std::int64_t{a.wedge_triangles});
-    row.set("wedge_area", a.wedge_area);
-    row.set("ar_max_cut_strict", a.strict.ar_max), row.set("ar_max_cut_outside_wedges", a.outside_wedges.ar_max);
-    row.set("ar_max_cut_away_from_wedges", a.ar_max_away_from_wedges);
-    row.set("ar_p99_cut_strict", a.strict.ar_p99), row.set("ar_p99_cut_outside_wedges", a.outside_wedges.ar_p99);
-  }
-
-  static void set_times(Record& row, const CutRun& run) {
-    row.set("crossed_triangles", static_cast<std::int64_t>(run.crossed_triangles));
-    const PhaseTimes& t = run.time_us;
-    row.set("locate_us", t.locate), row.set("trace_us", t.trace), row.set("embed_us", t.embed);
-    row.set("improve_us", t.improve), row.set("open_us", t.open);
-    row.set("tie_us", t.tie), row.set("geometry_us", t.total());
-    row.set("cpu_us", run.cpu_us);
   }
 
   void time_every_edge(const std::vector<Curve>& cuts, Record row, int resolution, std::size_t crossed, bool cold) {

@@ -1,0 +1,378 @@
+#include <sys/resource.h>
+
+#include <cmath>
+#include <utility>
+
+#include "harness/records/metrics.h"
+
+namespace cutbench {
+
+namespace {
+
+using enum Group;
+constexpr Direction lower = Direction::lower, higher = Direction::higher, none = Direction::none;
+
+double length(Point3 p) { return std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z); }
+
+// --- where values come from ------------------------------------------------------------------------------------------
+
+using Getter = std::function<Value(const Measured&)>;
+
+/// Of the cut: status and counts.
+template <class Get>
+Getter of_cut(Get get) {
+  return [get](const Measured& m) { return m.cut ? Value(get(*m.cut)) : Value(); };
+}
+
+/// Of the judged result.
+template <class Get>
+Getter of_result(Get get) {
+  return [get](const Measured& m) { return m.assessment ? Value(get(*m.assessment)) : Value(); };
+}
+
+/// Of the shapes in the judged result.
+template <class Get>
+Getter of_shapes(Get get) {
+  return [get](const Measured& m) { return m.assessment && m.shapes ? Value(get(*m.assessment)) : Value(); };
+}
+
+Getter of_phase(double PhaseTimes::*phase) {
+  return of_cut([phase](const CutRun& c) { return c.time_us.*phase; });
+}
+
+/// Of a cut in a running scene that was made.
+template <class Get>
+Getter of_motion(Get get) {
+  return [get](const Measured& m) {
+    const bool made = m.motion && m.motion->verdict == "ok" && m.motion->cut.status != Status::noop &&
+                      m.motion->cut.status != Status::refused;
+    return made ? Value(get(*m.motion)) : Value();
+  };
+}
+
+Getter of_step(double StepTimes::*phase) {
+  return of_motion([phase](const MotionCut& m) { return m.first_step.time_us.*phase; });
+}
+
+template <class Get>
+Getter before_cut(Get get) {
+  return of_motion([get](const MotionCut& m) { return get(m.before); });
+}
+
+template <class Get>
+Getter jump_of(Get get) {
+  return of_motion([get](const MotionCut& m) { return get(m.after) - get(m.before); });
+}
+
+Value verdict(const Measured& m) {
+  if (m.assessment) return m.assessment->judgement.verdict;
+  if (m.motion) return m.motion->verdict;
+  return m.cut ? Value(m.cut->verdict) : Value();
+}
+
+Value reason(const Measured& m) {
+  if (m.assessment && !m.assessment->judgement.ok) return m.assessment->judgement.problems.front();
+  if (m.motion) return m.motion->reason;
+  return m.cut ? Value(m.cut->reason) : Value();
+}
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+double membrane(const Balance& b) { return b.energy.membrane; }
+double bending(const Balance& b) { return b.energy.bending; }
+double kinetic(const Balance& b) { return b.energy.kinetic; }
+double residual(const Balance& b) { return b.residual; }
+
+// --- the table -------------------------------------------------------------------------------------------------------
+
+void add_keys_and_outcome(std::vector<Metric>& t) {
+  t.push_back({"suite_version", "", "suite version", none, key,
+               "Version of meshes, cuts and definitions. Rows of different versions do not compare."});
+  t.push_back(
+      {"cut_family", "", "cut family", none, key, "Family of cuts, such as `curved`: harness/cases/cut_families.h."});
+  t.push_back({"sheet", "", "sheet", none, key,
+               "`grid` (the paper's), `alternating`, `delaunay`, `graded`: harness/mesh/families.h; in a campaign "
+               "also the stem of a mesh file."});
+  t.push_back({"method", "", "method", none, key,
+               "Name of the method. `every_edge` is no method but the paper's wording taken literally: every edge of "
+               "the sheet is tested against the path, and nothing is cut."});
+  t.push_back({"knob", "", "knob", none, key,
+               "The one number of the method that is swept, as `rounds=1`; empty if it has none."});
+  t.push_back({"resolution", "", "triangles, uncut sheet", none, key, "Triangles of the uncut sheet."});
+  t.push_back({"case", "", "case", none, key,
+               "Number of the cut within its family: the same number is the same cut for every method."});
+  t.push_back({"repetition", "", "repetition", none, key,
+               "Of the same cut on a fresh copy of the sheet, from 0. Only the first is judged and has shapes; the "
+               "others have times only."});
+  t.push_back({"seed", "", "seed", none, key, "Seed of the cuts."});
+  t.push_back({"cache", "", "cache", none, key,
+               "`warm`: the same cut was made and undone twice just before. `cold`: other work has driven everything "
+               "out of the caches. `simulation`: made once inside a running scene, right after a step."});
+  t.push_back({"status", "", "status", none, outcome,
+               "`ok`; `noop`: nothing to do; `deviated`: done, but not as requested, by a declared policy; "
+               "`refused`: known before the cut; `failed`. After noop, refused and failed the sheet is "
+               "bit-unchanged.",
+               of_cut([](const CutRun& c) { return std::string(name_of(c.status)); })});
+  t.push_back({"verdict", "", "verdict", none, outcome,
+               "`ok`, or the first thing that is wrong: see the verdicts below.", verdict});
+  t.push_back({"reason", "", "reason", none, outcome, "One line that explains the verdict or the status.", reason});
+  t.push_back({"crossed_triangles", "", "crossed triangles", none, outcome,
+               "Triangles of the sheet before the cut whose interior the path meets: the unit of geometry cost.",
+               of_cut([](const CutRun& c) { return static_cast<std::int64_t>(c.crossed_triangles); })});
+  t.push_back(
+      {"recovered_segments", "", "recovered segments", lower, outcome,
+       "Segments of the path that the method's own triangulation lacked and flips recovered.",
+       [](const Measured& m) { return m.cut && m.judged ? Value(std::int64_t{m.cut->recovered_segments}) : Value(); }});
+}
+
+void add_sizes(std::vector<Metric>& t) {
+  t.push_back({"pieces", "", "pieces", none, size, "Parts that the sheet is in after the cut.",
+               of_result([](const Assessment& a) { return std::int64_t{a.judgement.pieces}; })});
+  t.push_back({"vertices_added", "", "vertices added", lower, size, "Rest vertices after the cut minus those before.",
+               of_result([](const Assessment& a) { return std::int64_t{a.vertices_added}; })});
+  t.push_back({"deformed_vertices_added", "", "deformed vertices added", lower, size,
+               "The same of deformed vertices: after opening, each lip has its own.",
+               of_result([](const Assessment& a) { return std::int64_t{a.deformed_vertices_added}; })});
+  t.push_back({"triangles_added", "", "triangles added", lower, size, "Triangles after the cut minus those before.",
+               of_result([](const Assessment& a) { return std::int64_t{a.triangles_added}; })});
+}
+
+/// The same measures over the whole sheet (`_all`) and over the triangles that the cut made or changed (`_cut`).
+void add_shapes(std::vector<Metric>& t, const std::string& suffix, const std::string& where,
+                const Quality Assessment::*over) {
+  const auto add = [&](const char* name, const char* unit, const char* label, Direction direction,
+                       const char* definition, auto get) {
+    t.push_back({name + suffix, unit, label, direction, shape, definition + where,
+                 of_shapes([over, get](const Assessment& a) { return get(a.*over); })});
+  };
+  add("ar_max", "", "largest aspect ratio", lower,
+      "Largest aspect ratio: longest edge / height on it = l_max^2 / (2 area); equilateral 1.155, right "
+      "isosceles 2",
+      [](const Quality& q) { return q.ar_max; });
+  add("ar_mean", "", "mean aspect ratio", lower, "Mean aspect ratio", [](const Quality& q) { return q.ar_mean; });
+  add("ar_p99", "", "99 % of aspect ratios", lower, "99th percentile of the aspect ratios, by nearest rank",
+      [](const Quality& q) { return q.ar_p99; });
+  add("angle_min_deg", "deg", "smallest angle", higher, "Smallest interior angle",
+      [](const Quality& q) { return q.angle_min_deg; });
+  add("angle_max_deg", "deg", "largest angle", lower, "Largest interior angle",
+      [](const Quality& q) { return q.angle_max_deg; });
+  add("altitude_min_h", "h", "smallest altitude", higher, "Smallest height on a longest edge",
+      [](const Quality& q) { return q.altitude_min; });
+  add("over_3", "", "triangles with AR > 3", lower, "Number of triangles with an aspect ratio above 3",
+      [](const Quality& q) { return static_cast<std::int64_t>(q.over_3); });
+}
+
+void add_forced_zones(std::vector<Metric>& t) {
+  t.push_back({"forced_corners", "", "forced corners", none, forced,
+               "Corners where the input alone (path, border, older incisions) makes an angle below asin(1/3) = 19.47 "
+               "degrees: no method stays below an aspect ratio of 3 there.",
+               of_shapes([](const Assessment& a) { return static_cast<std::int64_t>(a.forced_corners); })});
+  t.push_back({"forced_triangles", "", "triangles in forced corners", none, forced,
+               "Triangles of the result in such a corner.",
+               of_shapes([](const Assessment& a) { return std::int64_t{a.corner_triangles}; })});
+  t.push_back({"ar_max_cut_strict", "", "largest aspect ratio, strict", lower, forced,
+               "ar_max_cut without the triangles in forced corners; 0 if none is left.",
+               of_shapes([](const Assessment& a) { return a.strict.ar_max; })});
+  t.push_back({"wedge_triangles", "", "triangles in forced wedges", none, forced,
+               "Triangles of the result in a forced wedge (between the legs of a forced corner where they are closer "
+               "than 0.3 h, and 0.25 h round the apex) or in a forced corner.",
+               of_shapes([](const Assessment& a) { return std::int64_t{a.wedge_triangles}; })});
+  t.push_back({"wedge_area_rest2", "rest units squared", "area in forced wedges", none, forced,
+               "Area of these triangles.", of_shapes([](const Assessment& a) { return a.wedge_area; })});
+  t.push_back({"ar_max_cut_outside_wedges", "", "largest aspect ratio outside wedges", lower, forced,
+               "ar_max_cut without the triangles in forced wedges and corners; 0 if none is left.",
+               of_shapes([](const Assessment& a) { return a.outside_wedges.ar_max; })});
+  t.push_back({"ar_max_cut_away_from_wedges", "", "largest aspect ratio away from wedges", lower, forced,
+               "ar_max_cut without those and without those within 0.02 h of a wedge, where incisions lie beside "
+               "their curves.",
+               of_shapes([](const Assessment& a) { return a.ar_max_away_from_wedges; })});
+  t.push_back({"ar_p99_cut_strict", "", "99 % of aspect ratios, strict", lower, forced,
+               "ar_p99_cut without the triangles in forced corners.",
+               of_shapes([](const Assessment& a) { return a.strict.ar_p99; })});
+  t.push_back({"ar_p99_cut_outside_wedges", "", "99 % of aspect ratios outside wedges", lower, forced,
+               "ar_p99_cut without the triangles in forced wedges and corners.",
+               of_shapes([](const Assessment& a) { return a.outside_wedges.ar_p99; })});
+}
+
+void add_stability_and_accuracy(std::vector<Metric>& t) {
+  t.push_back({"eigenvalue_ratio", "", "largest eigenvalue / uncut", lower, stability,
+               "Largest eigenvalue of stiffness and lumped mass (harness/fem/largest_eigenvalue.h) over that of the "
+               "uncut sheet, of the first `eigenvalue_cases` cuts only. The largest stable step of an explicit "
+               "integrator shrinks by its root. Where vertices are constrained (x = C q) it is that of C^T K C and "
+               "C^T M C, with ghost penalties where the method has them; that mass is not lumped, and no explicit "
+               "step takes it, except for `phantom_node:lumped_mass`.",
+               [](const Measured& m) { return m.eigenvalue_ratio >= 0 ? Value(m.eigenvalue_ratio) : Value(); }});
+  t.push_back(
+      {"incision_error_h", "h", "incision error", lower, accuracy,
+       "Hausdorff distance between the requested path inside the sheet and the opened edges, both ways; of "
+       "several cuts the largest.",
+       [](const Measured& m) { return m.assessment ? Value(m.assessment->judgement.incision_error / m.h) : Value(); }});
+  t.push_back({"area_change", "", "change of area", none, accuracy,
+               "Change of the rest area, (after - before) / before.",
+               of_result([](const Assessment& a) { return a.judgement.area_change; })});
+}
+
+void add_times(std::vector<Metric>& t) {
+  t.push_back({"locate_us", "us", "locate", lower, time,
+               "Time to find the first triangle and to keep the locator up to date.", of_phase(&PhaseTimes::locate)});
+  t.push_back({"trace_us", "us", "trace", lower, time, "Time of the path through the triangles, flattening included.",
+               of_phase(&PhaseTimes::trace)});
+  t.push_back(
+      {"embed_us", "us", "embed", lower, time, "Time in which the path becomes edges.", of_phase(&PhaseTimes::embed)});
+  t.push_back({"improve_us", "us", "improve", lower, time, "Time in which shapes are improved.",
+               of_phase(&PhaseTimes::improve)});
+  t.push_back(
+      {"open_us", "us", "open", lower, time, "Time in which the incision is opened.", of_phase(&PhaseTimes::open)});
+  t.push_back({"tie_us", "us", "constrain", lower, time,
+               "Time in which vertices are constrained to others, by methods that do so.", of_phase(&PhaseTimes::tie)});
+  t.push_back({"geometry_us", "us", "geometry", lower, time,
+               "Sum of the six phases; for `every_edge` the search alone.",
+               of_cut([](const CutRun& c) { return c.time_us.total(); })});
+  t.push_back({"cpu_us", "us", "processor time", lower, time, "Processor time of the process over the same work.",
+               of_cut([](const CutRun& c) { return c.cpu_us; })});
+}
+
+/// Of cuts made inside a running scene.
+void add_steps(std::vector<Metric>& t) {
+  t.push_back({"transfer_us", "us", "state transfer", lower, step,
+               "Positions and velocities of the vertices that the cut made, from those they came from.",
+               of_motion([](const MotionCut& m) { return m.transfer_us; })});
+  t.push_back({"pattern_us", "us", "pattern update", lower, step,
+               "Element data, mass, loads and the rows of the system matrix, where the cut touched them.",
+               of_motion([](const MotionCut& m) { return m.pattern_us; })});
+  t.push_back({"bending_us", "us", "bending update", lower, step, "Stencils and rows of the bending matrix, likewise.",
+               of_motion([](const MotionCut& m) { return m.bending_us; })});
+  t.push_back({"rotate_us", "us", "rotate", lower, step,
+               "First step after the cut: deformations, forces and right-hand side.", of_step(&StepTimes::rotate)});
+  t.push_back({"assemble_us", "us", "assemble", lower, step,
+               "First step after the cut: element matrices into the system. In accuracy runs: of the static problem.",
+               of_step(&StepTimes::assemble)});
+  t.push_back({"setup_us", "us", "set-up", lower, step,
+               "First step after the cut: preconditioner or factorisation. In accuracy runs: of the static problem.",
+               of_step(&StepTimes::setup)});
+  t.push_back({"solve_us", "us", "solve", lower, step,
+               "First step after the cut: linear solve. In accuracy runs: of the static problem.",
+               of_step(&StepTimes::solve)});
+  t.push_back({"rebuild_us", "us", "rebuild", lower, step,
+               "Instead of the pattern update: everything made anew, in the same run.",
+               of_motion([](const MotionCut& m) { return m.rebuild_us; })});
+  t.push_back({"bending_rebuild_us", "us", "bending rebuild", lower, step,
+               "Instead of the bending update: everything made anew, in the same run.",
+               of_motion([](const MotionCut& m) { return m.bending_rebuild_us; })});
+  t.push_back({"triplets_us", "us", "triplets", lower, step,
+               "Instead of assemble: the same membrane matrix by Eigen's setFromTriplets, the making of the triplets "
+               "included.",
+               of_motion([](const MotionCut& m) { return m.triplets_us; })});
+  t.push_back({"solver_iterations", "", "solver iterations", lower, step,
+               "Iterations of the linear solve of that step.",
+               of_motion([](const MotionCut& m) { return std::int64_t{m.first_step.iterations}; })});
+  t.push_back({"solver_residual", "", "solver residual", lower, step,
+               "True residual of that solve, relative to the right-hand side.",
+               of_motion([](const MotionCut& m) { return m.first_step.residual; })});
+}
+
+/// Before the cut, and after minus before at the instant of the cut.
+void add_jumps(std::vector<Metric>& t) {
+  t.push_back({"membrane_j", "J", "membrane energy", none, jump, "Membrane energy right before the cut.",
+               before_cut(membrane)});
+  t.push_back({"membrane_jump_j", "J", "jump of membrane energy", none, jump,
+               "Jump of the membrane energy at the instant of the cut: after minus before.", jump_of(membrane)});
+  t.push_back(
+      {"bending_j", "J", "bending energy", none, jump, "Bending energy right before the cut.", before_cut(bending)});
+  t.push_back({"bending_jump_j", "J", "jump of bending energy", none, jump,
+               "Jump of the bending energy at the instant of the cut: after minus before.", jump_of(bending)});
+  t.push_back(
+      {"kinetic_j", "J", "kinetic energy", none, jump, "Kinetic energy right before the cut.", before_cut(kinetic)});
+  t.push_back({"kinetic_jump_j", "J", "jump of kinetic energy", none, jump,
+               "Jump of the kinetic energy at the instant of the cut: after minus before.", jump_of(kinetic)});
+  t.push_back({"momentum_jump_kg_m_s", "kg m/s", "jump of momentum", lower, jump, "Norm of the jump of the momentum.",
+               of_motion([](const MotionCut& m) { return length(m.after.momentum + -1 * m.before.momentum); })});
+  t.push_back({"angular_momentum_jump_kg_m2_s", "kg m2/s", "jump of angular momentum", lower, jump,
+               "Norm of the jump of the angular momentum about the origin.", of_motion([](const MotionCut& m) {
+                 return length(m.after.angular_momentum + -1 * m.before.angular_momentum);
+               })});
+  t.push_back({"residual_n", "N", "residual force", none, jump,
+               "Norm of internal and external forces on what is not held, right before the cut.",
+               before_cut(residual)});
+  t.push_back({"residual_jump_n", "N", "jump of residual force", none, jump,
+               "Jump of the residual force at the instant of the cut: after minus before.", jump_of(residual)});
+  t.push_back({"max_rss_mb", "MB", "peak memory", lower, jump, "Peak memory of the whole process so far.",
+               of_motion([](const MotionCut&) { return peak_memory_mb(); })});
+}
+
+/// Of accuracy runs; filled by harness/run/accuracy.cpp.
+void add_accuracy_run(std::vector<Metric>& t) {
+  t.push_back({"problem", "", "problem", none, accuracy_run,
+               "Problem with a known answer, harness/truth/problem.h; takes the place of cut_family. `case` is the "
+               "member of its ensemble."});
+  t.push_back({"solver", "", "solver", none, accuracy_run, "Linear solver: harness/fem/linear_solver.h."});
+  t.push_back({"budget", "", "iterations allowed", none, accuracy_run,
+               "Iterations from zero, whatever is reached by then; 0: until solved."});
+  t.push_back({"exact_incision", "", "exact incision", none, accuracy_run,
+               "1: the method promises to open the requested path itself."});
+  t.push_back({"cut_us", "us", "cut", lower, accuracy_run,
+               "Geometry of the cut, warm. Of the reference: the meshing, with the search for its size."});
+  t.push_back({"total_us", "us", "total time", lower, accuracy_run, "Cut, assembly, set-up and solve."});
+  t.push_back({"unknowns", "", "unknowns", none, accuracy_run, "Free unknowns of the system."});
+  t.push_back({"triangles", "", "triangles", none, accuracy_run, "Triangles of the cut sheet."});
+  t.push_back({"iterations", "", "iterations", lower, accuracy_run, "Iterations that were made."});
+  t.push_back({"residual", "", "residual", lower, accuracy_run, "True residual, relative to the right-hand side."});
+  t.push_back({"primary", "", "primary measure", none, accuracy_run, "Name of the measure that ranks."});
+  t.push_back({"error", "", "error", lower, accuracy_run, "Error of the primary measure."});
+  t.push_back({"excess_error", "", "excess error", lower, accuracy_run,
+               "error / that of the reference solved directly, minus one; empty where the reference's is below 1e-9, "
+               "exact but for rounding."});
+  t.push_back({"value_*", "", "value of a measure", none, accuracy_run,
+               "Value of each measure; the measures of problems are in harness/truth."});
+  t.push_back({"exact_*", "", "exact of a measure", none, accuracy_run, "Its exact value; 0 for a norm of an error."});
+  t.push_back({"error_*", "", "error of a measure", lower, accuracy_run, "Its error."});
+  t.push_back({"excess_*", "", "excess of a measure", lower, accuracy_run, "Its excess error."});
+}
+
+/// Of campaigns, which count instead of measuring; filled by harness/campaign/campaign.cpp.
+void add_campaign(std::vector<Metric>& t) {
+  t.push_back({"tried", "", "cuts", none, campaign, "Cuts; the sum of the next eight."});
+  t.push_back({"ok", "", "ok", none, campaign,
+               "Cuts with status ok, judged by the oracle against the sheet right before each."});
+  t.push_back({"noop", "", "nothing to do", none, campaign, "Cuts with nothing to do, judged likewise."});
+  t.push_back({"deviated", "", "deviated", lower, campaign,
+               "Cuts that deviated by the declared policy, judged likewise, except that the number of pieces may "
+               "differ."});
+  t.push_back(
+      {"refused", "", "refused", lower, campaign, "Cuts that were refused; they are left out, and the case goes on."});
+  t.push_back({"failed", "", "failed", lower, campaign, "Cuts that failed; they are left out, and the case goes on."});
+  t.push_back({"wrong", "", "wrong", lower, campaign,
+               "Whatever the status: refused by the oracle or the sheet's own check, or not bit-unchanged after "
+               "noop, refused, failed. Ends the case."});
+  t.push_back(
+      {"crashed", "", "crashed", lower, campaign, "The process died, by a signal or an exception. Ends the case."});
+  t.push_back({"timed_out", "", "timed out", lower, campaign, "Took longer than `time_limit_s`. Ends the case."});
+  t.push_back({"carefully", "", "embedded carefully", lower, campaign,
+               "Of `tried`: points were too close for the method's own way, so that the harness embedded the path "
+               "(harness/cut/embed_carefully.h)."});
+  t.push_back({"cases", "", "cases", none, campaign, "Cases: one to five cuts, one after the other."});
+  t.push_back(
+      {"near_event_cases", "", "near cases", none, campaign, "Cases with an event nearer than 1e-9 mean edges."});
+  t.push_back({"slowest_us", "us", "slowest cut", lower, campaign, "Time of the slowest cut, without its judgement."});
+}
+
+}  // namespace
+
+const std::vector<Metric>& all_metrics() {
+  static const std::vector<Metric> table = [] {
+    std::vector<Metric> t;
+    add_keys_and_outcome(t), add_sizes(t);
+    add_shapes(t, "_all", ", over the whole sheet after the cut.", &Assessment::all);
+    add_shapes(t, "_cut", ", over the triangles that the cut made or changed.", &Assessment::cut);
+    add_forced_zones(t), add_stability_and_accuracy(t), add_times(t), add_steps(t), add_jumps(t);
+    add_accuracy_run(t), add_campaign(t);
+    return t;
+  }();
+  return table;
+}
+
+}  // namespace cutbench

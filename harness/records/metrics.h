@@ -1,0 +1,75 @@
+// Every column of the records in one table: its name, unit, label, what is better, where it is shown, what it means, and
+// where its value comes from. Records, JSON reports, `cutbench columns`, results/columns.json, the column tables of
+// results/README.md and the labels of figures are made from it. A new metric is one entry here.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "harness/cut/cut_all.h"
+#include "harness/judge/assessment.h"
+#include "harness/records/record.h"
+#include "harness/scene/simulation.h"
+
+namespace cutbench {
+
+/// What has been measured of one cut, or of several in a row. A null pointer: that has not been measured.
+struct Measured {
+  double h = 0;                 ///< mean rest edge of the uncut sheet
+  const CutRun* cut = nullptr;  ///< status and times
+  bool judged = false;          ///< the repetition that was judged: it has what no repetition changes
+  const Assessment* assessment = nullptr;
+  bool shapes = true;                 ///< the assessment's shapes and forced zones are wanted
+  const MotionCut* motion = nullptr;  ///< the cut in a running scene; then `cut` is its `cut`
+  double eigenvalue_ratio = -1;       ///< negative: not measured
+};
+
+/// Not measured: an empty field in CSV, null in JSON.
+using Value = std::variant<std::monostate, std::string, double, std::int64_t>;
+
+enum class Direction : std::uint8_t { none, lower, higher };
+
+/// The tables in which columns are shown together, in this order.
+enum class Group : std::uint8_t {
+  key,
+  outcome,
+  size,
+  shape,
+  forced,
+  stability,
+  accuracy,
+  time,
+  step,
+  jump,
+  accuracy_run,
+  campaign
+};
+
+struct Metric {
+  std::string name;                       ///< of the column; ends with the unit where there is one
+  std::string unit;                       ///< as printed beside a number; empty: a text, a count or a ratio
+  std::string label;                      ///< short, for axes and table heads, without the unit
+  Direction direction = Direction::none;  ///< which values are better
+  Group group = Group::outcome;
+  std::string definition;                          ///< one sentence or two
+  std::function<Value(const Measured&)> get = {};  ///< empty: the runner of the experiment fills the column
+};
+
+/// The columns of all records, in their order.
+const std::vector<Metric>& all_metrics();
+/// Names of the columns of these groups, in the table's order.
+std::vector<std::string> columns_of(std::initializer_list<Group> groups);
+
+/// Enters what has been measured into the columns of these groups that the row has (none given: of all groups). The
+/// others stay as they are.
+void fill(Record& row, const Measured& measured, std::initializer_list<Group> groups = {});
+
+/// The table as Markdown, a section for each group; and as JSON, an object by name.
+std::string columns_as_markdown();
+std::string columns_as_json();
+
+}  // namespace cutbench
