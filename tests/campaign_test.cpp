@@ -112,8 +112,8 @@ class CampaignRun : public testing::Test {
     for (const Record& record : records) lines.push_back(record.line());
     return lines;
   }
-  static std::int64_t count(const Record& record, Count c) { return std::stoll(record.get(count_names[c])); }
-  static std::int64_t sum(const std::vector<Record>& records, Count c) {
+  static std::int64_t count(const Record& record, Count::Kind c) { return std::stoll(record.get(count_names[c])); }
+  static std::int64_t sum(const std::vector<Record>& records, Count::Kind c) {
     std::int64_t n = 0;
     for (const Record& record : records) n += count(record, c);
     return n;
@@ -131,17 +131,17 @@ TEST_F(CampaignRun, RowsAddUpAndDoNotDependOnTheWorkers) {
   EXPECT_EQ(one.size(), 3 * 3 * mixture_families().size());  // sheets x contenders x families
   for (const Record& row : one) {
     std::int64_t outcomes = 0;
-    for (int c = ok; c <= timed_out; ++c) outcomes += count(row, static_cast<Count>(c));
-    EXPECT_EQ(outcomes, count(row, tried)) << row.line();
-    EXPECT_GE(count(row, tried), count(row, cases)) << row.line();
-    EXPECT_LE(count(row, near_event_cases), count(row, cases)) << row.line();
+    for (int c = Count::ok; c <= Count::timed_out; ++c) outcomes += count(row, static_cast<Count::Kind>(c));
+    EXPECT_EQ(outcomes, count(row, Count::tried)) << row.line();
+    EXPECT_GE(count(row, Count::tried), count(row, Count::cases)) << row.line();
+    EXPECT_LE(count(row, Count::near_event_cases), count(row, Count::cases)) << row.line();
   }
-  EXPECT_EQ(sum(one, cases), 3 * 3 * 30);
+  EXPECT_EQ(sum(one, Count::cases), 3 * 3 * 30);
   // Each contender has had the same cases.
   for (const auto& family : mixture_families()) {
     std::set<std::int64_t> numbers;
     for (const Record& row : one)
-      if (row.get("scene") == family && row.get("sheet") == "grid") numbers.insert(count(row, cases));
+      if (row.get("scene") == family && row.get("sheet") == "grid") numbers.insert(count(row, Count::cases));
     EXPECT_EQ(numbers.size(), 1u) << family;
   }
 }
@@ -153,28 +153,29 @@ TEST_F(CampaignRun, ShardsPartTheCases) {
   ASSERT_EQ(first.size(), whole.size());
   ASSERT_EQ(second.size(), whole.size());
   for (std::size_t r = 0; r < whole.size(); ++r)
-    for (int c = tried; c <= near_event_cases; ++c)
-      EXPECT_EQ(count(first[r], static_cast<Count>(c)) + count(second[r], static_cast<Count>(c)),
-                count(whole[r], static_cast<Count>(c)));
+    for (int c = Count::tried; c <= Count::near_event_cases; ++c)
+      EXPECT_EQ(count(first[r], static_cast<Count::Kind>(c)) + count(second[r], static_cast<Count::Kind>(c)),
+                count(whole[r], static_cast<Count::Kind>(c)));
 }
 
 /// The deed of each, how it is counted, and with which verdict it is saved.
 TEST_F(CampaignRun, AFaultCostsOneCaseAndIsSavedAndMadeSmall) {
   struct Row {
     const char* method;
-    Count kind;
+    Count::Kind kind;
     const char* verdict;
   };
-  for (const Row& expected : {Row{"crashing", crashed, "signal"}, Row{"failing", failed, "inverted"},
-                              Row{"wrong", wrong, ""}, Row{"hanging", timed_out, ""}}) {
+  for (const Row& expected : {Row{"crashing", Count::crashed, "signal"}, Row{"failing", Count::failed, "inverted"},
+                              Row{"wrong", Count::wrong, ""}, Row{"hanging", Count::timed_out, ""}}) {
     SCOPED_TRACE(expected.method);
-    Experiment e = experiment({expected.method}, expected.kind == timed_out ? 4 : 14);
-    if (expected.kind == timed_out) e.campaign->time_limit_s = 0.2;  // each trial of making it small takes that long
+    Experiment e = experiment({expected.method}, expected.kind == Count::timed_out ? 4 : 14);
+    if (expected.kind == Count::timed_out)
+      e.campaign->time_limit_s = 0.2;  // each trial of making it small takes that long
     const auto records = run(e, expected.method);
     EXPECT_FALSE(all_ok_);
     EXPECT_GT(sum(records, expected.kind), 0);
-    EXPECT_GT(sum(records, ok), 0);  // and the others went on
-    for (Count other : {failed, wrong, crashed, timed_out})
+    EXPECT_GT(sum(records, Count::ok), 0);  // and the others went on
+    for (Count::Kind other : {Count::failed, Count::wrong, Count::crashed, Count::timed_out})
       EXPECT_EQ(sum(records, other) > 0, other == expected.kind) << count_names[other];
     std::size_t saved = 0;
     for (const auto& file : fs::directory_iterator(folder_ / expected.method / "small" / "failing")) {
@@ -197,7 +198,7 @@ TEST_F(CampaignRun, AFaultCostsOneCaseAndIsSavedAndMadeSmall) {
         EXPECT_EQ(try_in_isolation(contender_of({&*row, 0}), again, {}, e.campaign->time_limit_s).kind, expected.kind);
         triangles.push_back(again.mesh.triangles.size());
       }
-      if (expected.kind != timed_out) {  // there each trial takes its time
+      if (expected.kind != Count::timed_out) {  // there each trial takes its time
         EXPECT_LT(triangles[1], triangles[0]);
       }
     }
@@ -210,8 +211,8 @@ TEST_F(CampaignRun, CountsWhereTheHarnessHadToEmbed) {
   const auto own_way = run(experiment({"conventional_split"}, 20), "own"),
              helped = run(experiment({"giving_up"}, 20), "helped");
   EXPECT_TRUE(all_ok_);
-  EXPECT_GT(sum(helped, carefully), sum(own_way, carefully));
-  EXPECT_LE(sum(helped, carefully), sum(helped, tried));
+  EXPECT_GT(sum(helped, Count::carefully), sum(own_way, Count::carefully));
+  EXPECT_LE(sum(helped, Count::carefully), sum(helped, Count::tried));
 }
 
 TEST_F(CampaignRun, AllOfTheMethodsPass) {

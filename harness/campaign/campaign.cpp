@@ -23,9 +23,9 @@ constexpr std::size_t saved_per_row = 20, saved_per_row_of_peer = 1;
 constexpr double shrinking_s = 10;
 constexpr double near = 1e-9;  // mean edges: nearer than this, an event is near
 
-/// What is known of a case before anybody makes it.
+/// What is known of a case before a contender cuts it.
 struct Drawn {
-  std::int32_t family = 0;  // 1 + its number; 0: the generator did not live to say
+  std::int32_t family = 0;  // 1 + its number; 0: drawing the case crashed or hung
   bool near_event = false;
 };
 
@@ -50,7 +50,7 @@ class Campaign {
     for (std::size_t i = static_cast<std::size_t>(options.shard) - 1; i < static_cast<std::size_t>(experiment.cases);
          i += static_cast<std::size_t>(options.shards))
       numbers_.push_back(i);
-    families_.emplace_back("unknown");  // of a case that the generator did not live to draw
+    families_.emplace_back("unknown");  // of a case whose drawing crashed or hung
     for (const char* family : mixture_families()) families_.emplace_back(family);
   }
 
@@ -67,7 +67,7 @@ class Campaign {
 
   RecordFile& file() { return file_; }
 
-  /// Of the rows, those of before a resumption too.
+  /// Of all rows, also those that an interrupted run had written.
   CampaignSummary summary() const {
     CampaignSummary summary;
     for (const std::string& line : file_.lines()) {
@@ -121,7 +121,7 @@ class Campaign {
 
   MixtureCase mixture_case(std::size_t k) const { return make_mixture_case(experiment_.seed, numbers_[k], sheet_); }
 
-  /// What is the same for all contenders, once per sheet.
+  /// Draws the cases of a sheet, which are the same for all contenders.
   void draw() {
     const SharedArray<Drawn> drawn(numbers_.size());
     run_isolated(numbers_.size(), isolation_, [&](std::size_t k) {
@@ -149,17 +149,17 @@ class Campaign {
       const Fault fault = fault_of(results[k], fates[k]);
       Counts count = results[k].count;
       if (fates[k] != Fate::done) ++count[fault.kind];
-      count[tried] = std::max<std::int64_t>(1, count[tried]);  // it may have died before its first cut
-      count[cases] = 1, count[near_event_cases] = drawn_[k].near_event;
+      count[Count::tried] = std::max<std::int64_t>(1, count[Count::tried]);  // it may have crashed before its first cut
+      count[Count::cases] = 1, count[Count::near_event_cases] = drawn_[k].near_event;
       std::transform(count.begin(), count.end(), sums[family].begin(), sums[family].begin(), std::plus<>());
       slowest[family] = std::max(slowest[family], results[k].slowest_us);
-      if (fault.kind != ok && family > 0 &&
+      if (fault.kind != Count::ok && family > 0 &&
           saved[family]++ < (contender.variant ? saved_per_row : saved_per_row_of_peer))
         failing.push_back(failing_case(contender, k, fault));
     }
     save_all(contender, failing);
     for (std::size_t family = 0; family < families_.size(); ++family) {
-      if (family == 0 && sums[family][cases] == 0) continue;
+      if (family == 0 && sums[family][Count::cases] == 0) continue;
       Record row = start_row(contender, families_[family]);
       if (file_.has(row.key())) continue;
       for (std::size_t c = 0; c < count_names.size(); ++c) row.set(count_names[c], sums[family][c]);
@@ -182,7 +182,7 @@ class Campaign {
             fault};
   }
 
-  /// In processes, too: making a case small takes many trials.
+  /// In child processes too: making a case small takes many trials, each of which may crash.
   void save_all(const Contender& contender, const std::vector<FailingCase>& failing) const {
     if (failing.empty()) return;
     const auto folder = folder_ / "failing";

@@ -13,8 +13,8 @@ namespace cutbench {
 
 namespace {
 
-Count count_of(Status status) {
-  constexpr Count counts[] = {ok, noop, deviated, refused, failed};
+Count::Kind count_of(Status status) {
+  constexpr Count::Kind counts[] = {Count::ok, Count::noop, Count::deviated, Count::refused, Count::failed};
   return counts[static_cast<std::size_t>(status)];
 }
 
@@ -27,7 +27,7 @@ class MethodAtWork : public Subject {
     const JudgedSheet::Finding finding = sheet_.cut(curve, options_);
     const CutOutcome& outcome = sheet_.outcome;
     const double us = outcome.time_us.total();
-    if (!finding.ok()) return {wrong, finding.verdict, finding.reason, us, outcome.carefully};
+    if (!finding.ok()) return {Count::wrong, finding.verdict, finding.reason, us, outcome.carefully};
     return {count_of(outcome.status), outcome.verdict, outcome.reason, us, outcome.carefully};
   }
 
@@ -52,11 +52,11 @@ class PeerAtWork : public Subject {
     mesh_ = std::move(result.mesh);
     if (result.refused) {
       mesh_ = std::move(request.before);
-      return {refused, "ok", result.reason, us};
+      return {Count::refused, "ok", result.reason, us};
     }
     const oracle::Judgement judgement = oracle::judge(request, mesh_);
-    if (!judgement.ok) return {wrong, judgement.verdict, judgement.problems.front(), us};
-    return {ok, "ok", "", us};
+    if (!judgement.ok) return {Count::wrong, judgement.verdict, judgement.problems.front(), us};
+    return {Count::ok, "ok", "", us};
   }
 
  private:
@@ -65,9 +65,9 @@ class PeerAtWork : public Subject {
   CutOptions options_;
 };
 
-void note_fault(CaseResult& result, std::int32_t cut, Count fault, const std::string& verdict,
+void note_fault(CaseResult& result, std::int32_t cut, Count::Kind fault, const std::string& verdict,
                 const std::string& reason) {
-  if (result.fault != ok) return;
+  if (result.fault != Count::ok) return;
   const auto put = [](const std::string& text, std::span<char> to) { text.copy(to.data(), to.size() - 1); };
   result.cut = cut, result.fault = fault;
   put(verdict, result.verdict), put(reason, result.reason);
@@ -92,19 +92,19 @@ void try_case(const Contender& contender, const Sheet& sheet, const std::vector<
   const auto subject = contender.start(sheet, options);
   for (std::size_t k = 0; k < cuts.size(); ++k) {
     const auto number = static_cast<std::int32_t>(k);
-    if (result.fault == ok) result.cut = number;
-    ++result.count[tried];
+    if (result.fault == Count::ok) result.cut = number;
+    ++result.count[Count::tried];
     try {
       const Subject::Result made = subject->cut(cuts[k]);
       ++result.count[made.outcome];
-      result.count[carefully] += made.carefully;
+      result.count[Count::carefully] += made.carefully;
       result.slowest_us = std::max(result.slowest_us, made.us);
-      if (made.outcome == failed || made.outcome == wrong)
+      if (made.outcome == Count::failed || made.outcome == Count::wrong)
         note_fault(result, number, made.outcome, made.verdict, made.reason);
-      if (made.outcome == wrong) return;
+      if (made.outcome == Count::wrong) return;
     } catch (const std::exception& error) {  // the program would end by it
-      ++result.count[crashed];
-      note_fault(result, number, crashed, "exception", error.what());
+      ++result.count[Count::crashed];
+      note_fault(result, number, Count::crashed, "exception", error.what());
       return;
     }
   }

@@ -14,63 +14,67 @@
 namespace cutbench {
 
 /// What is counted, in the order of the record's columns: `tried` is the sum of those from `ok` to `timed_out`.
-/// Of those, `carefully` is how many were not embedded in the method's own way.
-enum Count {
-  tried,
-  ok,
-  noop,
-  deviated,
-  refused,
-  failed,
-  wrong,
-  crashed,
-  timed_out,
-  carefully,
-  cases,
-  near_event_cases
+/// Of those, `carefully` is how many were embedded by the careful way instead of the method's own.
+struct Count {
+  enum Kind {
+    tried,
+    ok,
+    noop,
+    deviated,
+    refused,
+    failed,
+    wrong,
+    crashed,
+    timed_out,
+    carefully,
+    cases,
+    near_event_cases
+  };
 };
 constexpr std::array<const char*, 12> count_names{"tried",     "ok",        "noop",  "deviated",
                                                   "refused",   "failed",    "wrong", "crashed",
                                                   "timed_out", "carefully", "cases", "near_event_cases"};
 using Counts = std::array<std::int64_t, count_names.size()>;
-/// Those that nobody may have.
-inline std::int64_t faults_in(const Counts& c) { return c[failed] + c[wrong] + c[crashed] + c[timed_out]; }
+/// How many cuts had a fault: none may.
+inline std::int64_t faults_in(const Counts& c) {
+  return c[Count::failed] + c[Count::wrong] + c[Count::crashed] + c[Count::timed_out];
+}
 
 /// A sheet being cut by one contender.
 class Subject {
  public:
   virtual ~Subject() = default;
   struct Result {
-    Count outcome = ok;           ///< ok ... wrong
-    std::string verdict, reason;  ///< of failed and wrong
-    double us = 0;                ///< the cut's own time
-    bool carefully = false;       ///< CutOutcome::carefully
+    Count::Kind outcome = Count::ok;  ///< ok ... wrong
+    std::string verdict, reason;      ///< of failed and wrong
+    double us = 0;                    ///< the cut's own time
+    bool carefully = false;           ///< CutOutcome::carefully
   };
   virtual Result cut(const Curve& curve) = 0;
 };
 
-/// Who cuts: a method with a value of its knob, or the peer.
+/// A method with a value of its knob, or the peer.
 struct Contender {
   std::string method, knob;        ///< as in the records
-  std::optional<Variant> variant;  ///< none: the peer, whose faults don't count against us
+  std::optional<Variant> variant;  ///< none: the peer, whose faults do not make the run fail
   std::function<std::unique_ptr<Subject>(const Sheet& start, const CutOptions& options)> start;
 };
 Contender contender_of(const Variant& variant);
-/// CGAL's constrained triangulation of the whole sheet, made anew for every cut.
+/// CGAL's constrained triangulation of the whole sheet, computed again for every cut.
 Contender cgal_peer();
 
 /// The result of a case, in memory that is shared between processes. The first fault is kept in full.
 struct CaseResult {
   Counts count{};
   double slowest_us = 0;
-  std::int32_t cut = 0;  ///< under way; where there is a fault, the one that has it
-  Count fault = ok;      ///< failed, wrong or crashed (here: by an exception); ok: none
+  std::int32_t cut = 0;           ///< under way; where there is a fault, the one that has it
+  Count::Kind fault = Count::ok;  ///< failed, wrong or crashed (here: by an exception); ok: none
   std::array<char, 24> verdict{};
   std::array<char, 400> reason{};
 };
 
-/// Makes the cuts and counts what came of them, as it goes. What is refused or failed is left out; the case ends with a
-/// cut that is wrong or throws.
+/// Makes the cuts and counts their outcomes as it goes. A cut that is refused or fails changes nothing, and the next
+/// one follows. The case ends with a cut that is wrong or throws.
 void try_case(const Contender& contender, const Sheet& sheet, const std::vector<Curve>& cuts, const CutOptions& options,
               CaseResult& result);
 

@@ -24,13 +24,13 @@ Counts& sum_of(Sums& sums, const std::string& name) {
 
 void print_sums(const char* by, const Sums& sums) {
   std::printf("%-28s", by);
-  for (int c = tried; c <= carefully; ++c) std::printf(" %9s", count_names[static_cast<std::size_t>(c)]);
+  for (int c = Count::tried; c <= Count::carefully; ++c) std::printf(" %9s", count_names[static_cast<std::size_t>(c)]);
   std::printf("  near cases\n");
   for (const auto& [name, count] : sums) {
     std::printf("%-28s", name.c_str());
-    for (int c = tried; c <= carefully; ++c)
+    for (int c = Count::tried; c <= Count::carefully; ++c)
       std::printf(" %9lld", static_cast<long long>(count[static_cast<std::size_t>(c)]));
-    std::printf(" %9.1f %%\n", percent(count[near_event_cases], count[cases]));
+    std::printf(" %9.1f %%\n", percent(count[Count::near_event_cases], count[Count::cases]));
   }
 }
 
@@ -54,13 +54,13 @@ void CampaignSummary::print(const std::string& stem, std::uint64_t seed) const {
   print_sums("method", methods);
   print_sums("sheet (without the peer)", sheets);
   print_sums("family (without the peer)", families);
-  const std::int64_t good = ours[tried] - faults_in(ours);
+  const std::int64_t good = ours[Count::tried] - faults_in(ours);
   std::printf(
       "%lld of %lld cuts ok, noop, deviated or refused, in %lld cases drawn from make_mixture_case, seed %llu\n",
-      static_cast<long long>(good), static_cast<long long>(ours[tried]), static_cast<long long>(ours[cases]),
-      static_cast<unsigned long long>(seed));
+      static_cast<long long>(good), static_cast<long long>(ours[Count::tried]),
+      static_cast<long long>(ours[Count::cases]), static_cast<unsigned long long>(seed));
   std::printf("%.1f %% of the cases have an event nearer than 1e-9 mean edges\n",
-              percent(ours[near_event_cases], ours[cases]));
+              percent(ours[Count::near_event_cases], ours[Count::cases]));
 }
 
 }  // namespace cutbench

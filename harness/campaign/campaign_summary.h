@@ -1,4 +1,4 @@
-// What a campaign shows in the end: who cut how often and what came of it, by method, by sheet and by family.
+// The summary that a campaign prints: numbers of cuts by outcome, for each method, sheet and family.
 #pragma once
 
 #include <map>

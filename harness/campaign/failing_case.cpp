@@ -60,8 +60,8 @@ std::string Fault::text() const {
 }
 
 Fault fault_of(const CaseResult& result, Fate fate) {
-  if (fate == Fate::timed_out) return {timed_out, "", "", result.cut};
-  if (fate != Fate::done) return {crashed, "signal", "", result.cut};
+  if (fate == Fate::timed_out) return {Count::timed_out, "", "", result.cut};
+  if (fate != Fate::done) return {Count::crashed, "signal", "", result.cut};
   return {result.fault, result.verdict.data(), result.reason.data(), result.cut};
 }
 

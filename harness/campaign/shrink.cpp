@@ -31,17 +31,18 @@ CutCase shrunk(CutCase cut_case, const std::function<bool(const CutCase&)>& stil
     if (bezier && curve.closed) continue;
     leave_out(curve.points, bezier ? 3 : 1, bezier ? 4 : curve.closed ? 3 : 2, [&] { return still_fails(cut_case); });
   }
-  // What is tried is what reading the file would give: unused vertices dropped, fans parted.
+  // Each part is tried as a reader of its file would get it: without unused vertices, and with fans of triangles that
+  // share only a vertex separated.
   const std::vector<std::array<std::int32_t, 3>> all = cut_case.mesh.triangles;
   MeshData whole = cut_case.mesh;
-  const auto mended = [&] {
+  const auto repaired = [&] {
     MeshData mesh = whole;
     mesh.notes.clear();
     check_and_repair(mesh, "a part of the sheet");
     return mesh;
   };
-  leave_out(whole.triangles, 1, 1, [&] { return still_fails({mended(), cut_case.cuts}); });
-  if (whole.triangles != all) cut_case.mesh = mended();
+  leave_out(whole.triangles, 1, 1, [&] { return still_fails({repaired(), cut_case.cuts}); });
+  if (whole.triangles != all) cut_case.mesh = repaired();
   return cut_case;
 }
 

@@ -15,8 +15,8 @@ struct CutCase {
   std::vector<Curve> cuts;
 };
 
-/// Leaves out cuts, points or pieces of their curves, and triangles, for as long as still_fails() holds for what is
-/// left: greedily, in ever smaller runs. Stops early when still_fails() says no to all, as it may when time is up.
+/// Leaves out cuts, points or pieces of their curves, and triangles, greedily and in ever smaller runs, as long as
+/// still_fails() holds for the rest. To stop early, for example when time is up, still_fails() returns false.
 /// \pre still_fails(cut_case)
 CutCase shrunk(CutCase cut_case, const std::function<bool(const CutCase&)>& still_fails);
 

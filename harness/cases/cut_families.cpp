@@ -18,8 +18,8 @@ using Points = std::vector<Point2>;
 Curve bezier(Points points, bool closed = false) { return {Curve::Kind::bezier, closed, std::move(points)}; }
 Curve polyline(Points points, bool closed = false) { return {Curve::Kind::polyline, closed, std::move(points)}; }
 
-/// Curves on the unit square, and how it is laid over the sheet's bounding box. No two random numbers are drawn in one expression but
-/// within braces, where their order is the same for every compiler.
+/// Draws curves on the unit square and maps them to the sheet's bounding box. No two random numbers are drawn in one
+/// expression, except within braces, where their order is the same for every compiler.
 class Generator {
  public:
   Generator(const Sheet& sheet, std::uint64_t seed, std::size_t i)

@@ -34,13 +34,14 @@ SheetExtent extent_of(const Sheet& sheet);
 /// - `along_edges`: polylines along chains of edges, along the border too, some ending inside an edge or leaving it.
 std::span<const char* const> cut_families();
 
-/// Case i of a family: one or more curves, made one after the other. Depends on seed, family, i and the sheet's extent alone,
-/// and for `tiny_*`, `u_turn`, `through_vertices` and `along_edges` on the sheet's triangles. Throws InputError for an
-/// unknown family, listing the known ones.
+/// Case i of a family: one or more curves, to be cut one after the other. Depends on seed, family, i and the sheet's
+/// extent alone, and for `tiny_*`, `u_turn`, `through_vertices` and `along_edges` on the sheet's triangles. Throws
+/// InputError for an unknown family, listing the known ones.
 std::vector<Curve> make_case(const std::string& family, std::uint64_t seed, std::size_t i, const Sheet& sheet);
 
-/// Cut i of a row that one sheet is to bear, as in surgery: of the kinds of `several`, or crossing itself, but only 0.1
-/// to 0.3 S long or wide, anywhere, over the border too. Depends on seed, i and the sheet's extent alone.
+/// Cut i of many that are made one after the other in one sheet, as in surgery: of the kinds of `several`, or crossing
+/// itself, but only 0.1 to 0.3 S long or wide, anywhere, across the border too. Depends on seed, i and the
+/// sheet's extent alone.
 Curve make_small_cut(std::uint64_t seed, std::size_t i, const Sheet& sheet);
 
 }  // namespace cutbench

@@ -36,8 +36,8 @@ Point2 moved_by_ulps(Point2 p, int x, int y) {
   return {step(p.x, x), step(p.y, y)};
 }
 
-/// Draws the curves of one case. No two random numbers are drawn in one expression but within braces, where their order
-/// is the same for every compiler.
+/// Draws the curves of one case. No two random numbers are drawn in one expression, except within braces, where their
+/// order is the same for every compiler.
 class Mixture {
  public:
   Mixture(const Sheet& sheet, std::uint64_t seed, std::size_t i)

@@ -1,5 +1,5 @@
-// The mixture of cuts that the robustness campaign draws from: made to meet vertices, edges, older cuts and themselves
-// exactly, or a few units in the last place beside.
+// The mixture of cuts that the robustness campaign draws from. They meet vertices, edges, older cuts and themselves
+// exactly, or miss them by a few units in the last place.
 #pragma once
 
 #include <cstdint>
