@@ -2,6 +2,7 @@
 statistics that the figures share. Whatever can't be read ends the program with one line and exit code 2."""
 
 import argparse
+import functools
 import json
 import sys
 from dataclasses import dataclass
@@ -11,11 +12,12 @@ import numpy as np
 import pandas as pd
 
 REPOSITORY = Path(__file__).resolve().parent.parent
-TEXT = ["suite_version", "scene", "sheet", "method", "knob", "seed", "cache", "status", "verdict", "reason"]
-TEXT_OF_SOME = ["solver", "primary"]  # text, too, in records that have them
+SUITE_VERSIONS = ["3", "4"]  # that can be read; older names are renamed on reading
+TEXT = ["suite_version", "cut_family", "sheet", "method", "knob", "seed", "cache", "status", "verdict", "reason"]
+TEXT_OF_SOME = ["problem", "solver", "primary"]  # text, too, in records that have them
 COUNTS = ["resolution", "case", "repetition"]
 VARIANT = ["method", "knob"]
-CUT = ["suite_version", "scene", "sheet", "resolution", "case"]  # names one cut, whatever the method
+CUT = ["suite_version", "cut_family", "sheet", "resolution", "case"]  # names one cut, whatever the method
 
 
 def stop(message):
@@ -81,11 +83,14 @@ def read_records(path, columns, all_columns=False):
             start = 0
             while (line := file.readline()).startswith("#"):
                 start = file.tell()
-            missing = [c for c in columns if c not in line.strip().split(",")]
+            names = new_names(line.strip().split(","))
+            missing = [c for c in columns if c not in names.values()]
             if missing and line:
                 stop(f"{path} lacks the column{'s' * (len(missing) > 1)} {', '.join(missing)}")
             file.seek(start)
-            table = pd.read_csv(file, usecols=None if all_columns else columns, dtype=str, keep_default_na=False)
+            table = pd.read_csv(file, dtype=str, keep_default_na=False).rename(columns=names)
+            if not all_columns:
+                table = table[columns]
         for column in table.columns.difference(TEXT + TEXT_OF_SOME):
             table[column] = table[column].replace("", "nan").astype(float)
         table = table.astype({column: int for column in COUNTS})
@@ -93,7 +98,34 @@ def read_records(path, columns, all_columns=False):
         stop(f"{path} can't be read: {' '.join(str(error).split())}")
     if table.empty:
         stop(f"{path} has no rows")
+    unknown = sorted(set(table["suite_version"]) - set(SUITE_VERSIONS)) if "suite_version" in table else []
+    if unknown:
+        stop(f"{path} is of suite version {', '.join(unknown)}; known are {', '.join(SUITE_VERSIONS)}: run it anew")
     return table
+
+
+def new_names(columns):
+    """The names that the columns of a record have today, by the name in the file: version 3 had others."""
+    old = {"scene": "problem" if "solver" in columns else "cut_family", "wedge_area": "wedge_area_rest2",
+           "incision_error": "incision_error_rest"}
+    return {c: old.get(c, c) for c in columns}
+
+
+@functools.cache
+def columns():
+    """Of each column of the records: unit, label, direction ("lower", "higher" or "": which values are better), group and
+    definition. The table of `cutbench columns --json`."""
+    path = REPOSITORY / "results" / "columns.json"
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        stop(f"{path} can't be read: {error}; `cutbench columns --json` makes it")
+
+
+def axis_label(column):
+    """The label of a column with its unit."""
+    about = columns()[column]
+    return f"{about['label']} ({about['unit']})" if about["unit"] else about["label"]
 
 
 def read_context(path):
