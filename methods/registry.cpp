@@ -35,7 +35,7 @@ constexpr Promises exact_split{.exact_incision = true, .keeps_area = true, .conf
 const std::vector<MethodRow>& all_methods() {
   static const std::vector<MethodRow> rows{
       {"conventional_split",
-       "crossed triangles into two, three or four in a static order",
+       "crossed triangles are divided into two, three or four, in a static order",
        {},
        exact_split,
        [](double) { return std::make_unique<ConventionalSplit>(); }},
@@ -54,8 +54,8 @@ const std::vector<MethodRow>& all_methods() {
        exact_split,
        [](double) { return std::make_unique<CgalCdt>(); }},
       {"cgal_refine",
-       "CGAL's Delaunay refinement of the cut's surroundings",
-       {"bound", 3, "largest aspect ratio that is left outside forced wedges; 0: constrained Delaunay alone"},
+       "CGAL's Delaunay refinement round the cut",
+       {"bound", 3, "largest aspect ratio allowed outside forced wedges; 0: constrained Delaunay alone"},
        exact_split,
        [](double bound) {
          if (!(bound == 0 || (bound >= 2 && bound <= 1000)))
@@ -64,7 +64,7 @@ const std::vector<MethodRow>& all_methods() {
              CgalRefine::Options{.bound = bound == 0 ? std::numeric_limits<double>::infinity() : bound});
        }},
       {"cisamr",
-       "structured grids: near nodes move onto the path, then one pass of splits and better diagonals",
+       "structured grids: vertices near the path move onto it, then one pass of splits and better diagonals",
        {},
        {.exact_incision = false,
         .keeps_area = true,
@@ -73,8 +73,8 @@ const std::vector<MethodRow>& all_methods() {
         .incision_bound = {.longest_edges = 0, .chord_tolerances = 1}},
        [](double) { return std::make_unique<Cisamr>(); }},
       {"delaunay_refine",
-       "local Delaunay refinement of the cut's surroundings, by off-centres",
-       {"bound", 3, "largest aspect ratio that is left outside forced wedges; 0: flips alone"},
+       "local Delaunay refinement round the cut, by off-centres",
+       {"bound", 3, "largest aspect ratio allowed outside forced wedges; 0: flips alone"},
        exact_split,
        [](double bound) {
          if (!(bound == 0 || (bound >= 2 && bound <= 1000)))
@@ -83,7 +83,7 @@ const std::vector<MethodRow>& all_methods() {
              DelaunayRefinement::Options{.bound = bound == 0 ? std::numeric_limits<double>::infinity() : bound});
        }},
       {"global_remesh",
-       "the whole sheet meshed anew by CGAL with the path in it",
+       "the whole sheet is meshed again by CGAL with the path in it",
        {},
        {.exact_incision = true, .keeps_area = true, .conforming = true, .keeps_vertices = false},
        [](double) { return std::make_unique<GlobalRemesh>(); }},
@@ -96,7 +96,7 @@ const std::vector<MethodRow>& all_methods() {
          return std::make_unique<LongestEdge>(LongestEdge::Options{.cap = cap});
        }},
       {"edge_release",
-       "the path is rounded to existing edges, a staircase",
+       "the path is rounded to existing edges, which are opened: a staircase",
        {},
        {.exact_incision = false,
         .keeps_area = true,
@@ -105,7 +105,7 @@ const std::vector<MethodRow>& all_methods() {
         .incision_bound = {.longest_edges = 1, .chord_tolerances = 1}},
        [](double) { return std::make_unique<EdgeRelease>(); }},
       {"element_deletion",
-       "crossed triangles are taken out of the sheet",
+       "crossed triangles are removed from the sheet",
        {},
        {.exact_incision = false,
         .keeps_area = false,
@@ -114,12 +114,12 @@ const std::vector<MethodRow>& all_methods() {
         .incision_bound = {.longest_edges = 1, .chord_tolerances = 1}},
        [](double) { return std::make_unique<ElementDeletion>(); }},
       {"example",
-       "an example to start from: crossed triangles divided by the shorter diagonal",
+       "an example to start from: crossed triangles are divided by the shorter diagonal",
        {},
        exact_split,
        [](double) { return std::make_unique<Example>(); }},
       {"phantom_node",
-       "crossed triangles are doubled, and the field is linear in every part",
+       "crossed triangles are doubled with phantom nodes, and the field is linear in each part",
        {"ghost", 0, "ghost penalty, dimensionless, for statics: usually 0.01 to 1; 0: none"},
        exact_split,
        [](double ghost) {
@@ -127,7 +127,7 @@ const std::vector<MethodRow>& all_methods() {
          return std::make_unique<PhantomNode>(PhantomNode::Options{.ghost = ghost});
        }},
       {"snap_or_split",
-       "crossings near a vertex go through the vertex, the others are split",
+       "crossings near a vertex move to the vertex, the others are split",
        {"tolerance", 0.25, "fraction of the edge up to which a crossing goes to the vertex, 0 to 0.5"},
        {.exact_incision = false,
         .keeps_area = true,
@@ -140,7 +140,7 @@ const std::vector<MethodRow>& all_methods() {
          return std::make_unique<SnapOrSplit>(tolerance);
        }},
       {"split_and_tie",
-       "conventional split whose slivers' vertices follow good triangles on their side",
+       "conventional split; vertices of slivers are constrained to well-shaped triangles on their side",
        {"thinness", 0.1, "altitude over the longest edge nearby below which a triangle is a sliver, 0 to 0.3"},
        exact_split,
        [](double thinness) {
@@ -149,7 +149,7 @@ const std::vector<MethodRow>& all_methods() {
          return std::make_unique<SplitAndTie>(SplitAndTie::Options{.thinness = thinness});
        }},
       {"vertex_snap",
-       "the nearest vertices move onto the path, crossings left over are split",
+       "the nearest vertices move onto the path, the remaining crossings are split",
        {"reach", 0.5, "fraction of the edge over which a vertex comes to a crossing, 0 to 0.5"},
        {.exact_incision = false,
         .keeps_area = true,
@@ -161,7 +161,7 @@ const std::vector<MethodRow>& all_methods() {
          return std::make_unique<VertexSnap>(VertexSnap::Options{.reach = reach});
        }},
       {"warp_and_refine",
-       "near vertices move onto the path, short edges go, flips and smoothing, then refinement",
+       "vertices near the path move onto it, short edges are removed, flips and smoothing, then refinement",
        {"reach", 0.4, "fraction of the edge over which a vertex comes to a crossing, 0 to 0.5"},
        {.exact_incision = false,
         .keeps_area = true,

@@ -9,12 +9,12 @@ namespace cutbench {
 
 const std::vector<MethodRow>& all_methods();
 
-/// What warp_and_refine consists of, in every combination: "ablation:BEFORE:AFTER", where BEFORE the split comes
-/// nothing, snap, warp, thin or warp+thin, and AFTER it nothing, flips, smoothing (flips, too), refine (all of them) or
-/// tie. For experiments that name them; not in the table.
+/// The steps of warp_and_refine in every combination, named "ablation:BEFORE:AFTER". BEFORE is the step before the
+/// split: nothing, snap, warp, thin or warp+thin. AFTER is the last step after it: nothing, flips, smoothing (with
+/// flips), refine (with both) or tie. For experiments that name them; not in all_methods().
 const std::vector<MethodRow>& ablation_methods();
 
-/// Both: whatever may be named.
+/// Both, and variants of phantom_node: every name that find_method() knows.
 const std::vector<MethodRow>& nameable_methods();
 
 /// Throws InputError that lists the names in the table.

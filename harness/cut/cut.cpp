@@ -12,7 +12,7 @@ namespace cutbench {
 
 namespace {
 
-// Farther away a point's own rounding is as large as the snap distance.
+// In sizes of the sheet: beyond it the rounding of a point is as large as the snap distance.
 constexpr double longest_reach = 1000;
 
 /// The longer side of the points' bounding box.

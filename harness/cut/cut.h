@@ -1,5 +1,5 @@
-// A cut, in the steps that every method shares: locate, trace, embed, improve, open. The times are taken here, for all
-// methods alike, and a cut that fails leaves the sheet bit-unchanged.
+// A cut, in the steps that every method shares: locate, trace, embed (with adapt), improve, open. The times are taken
+// here, for all methods alike, and a cut that fails leaves the sheet bit-unchanged.
 #pragma once
 
 #include <string>
@@ -30,7 +30,7 @@ struct CutOptions {
 /// the locator up to date.
 struct PhaseTimes {
   double locate = 0, trace = 0, embed = 0, improve = 0, open = 0;
-  double tie = 0;  ///< CuttingMethod::ties(), which is for those who solve on the sheet to call: Cutter leaves it 0
+  double tie = 0;  ///< CuttingMethod::ties(), which a solver calls after the cut: Cutter leaves it 0
   double total() const { return locate + trace + embed + improve + open + tie; }
   PhaseTimes& operator+=(const PhaseTimes& o) {
     locate += o.locate, trace += o.trace, embed += o.embed, improve += o.improve, open += o.open;
@@ -42,10 +42,11 @@ struct PhaseTimes {
 struct CutOutcome {
   Status status = Status::ok;
   std::string verdict = "ok", reason;  ///< of a failure; the reason of a refusal or a noop, a note on what was done
-  std::size_t crossed_triangles = 0;   ///< of the mesh before the cut, whose interior the path meets
+  std::size_t crossed_triangles = 0;   ///< of the mesh before the cut: those whose interior the path meets
   int recovered_segments = 0;
-  bool carefully = false;  ///< the method's own way failed, and embed_carefully() took its place
-  double deviation = 0;    ///< how far it moved a crossing at most, rest units; deviated beyond twice the snap distance
+  bool carefully = false;  ///< the method could not embed the path, and embed_carefully() did
+  double deviation = 0;    ///< largest move of a crossing by embed_carefully(), rest units; beyond twice the snap
+                           ///< distance the status is `deviated`
   PhaseTimes time_us;
 };
 

@@ -8,15 +8,15 @@
 
 namespace cutbench {
 
-/// Several curves cut one after the other. A failure ends it; what came before stays.
+/// Result of several cuts. It ends with the first failed or refused cut; the cuts before it stay.
 struct CutRun {
   Status status = Status::ok;
   std::string verdict = "ok", reason;
   std::size_t crossed_triangles = 0;
   int recovered_segments = 0;
-  bool carefully = false;  ///< one of them, at least: see CutOutcome
+  bool carefully = false;  ///< at least one of them (CutOutcome::carefully)
   PhaseTimes time_us;
-  double cpu_us = 0;  ///< process CPU time of the whole
+  double cpu_us = 0;  ///< process CPU time of all cuts
 };
 CutRun cut_all(Sheet& sheet, Locator& locator, Cutter& cutter, std::span<const Curve> cuts, CuttingMethod& method,
                const CutOptions& options);

@@ -74,8 +74,8 @@ struct Knob {
   std::string meaning;
 };
 
-/// The largest incision error that a method promises: the sum of the terms. The tolerance of flattening and twice the
-/// snap distance come on top, for every method.
+/// The largest incision error that a method promises: the sum of the terms, and at most the longest edge. The tolerance
+/// of flattening and twice the snap distance come on top, for every method.
 struct IncisionBound {
   double longest_edges = 0;     ///< times the longest rest edge of the sheet before the cut
   double chord_tolerances = 1;  ///< times the chord tolerance that the cut asks for

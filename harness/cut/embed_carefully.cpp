@@ -33,7 +33,7 @@ class CarefulEmbedding {
     for (std::size_t i = 0; i < vertex_.size(); ++i) {
       if (vertex_[i].valid()) continue;
       const Point2 p = trace_.nodes[i].place.point;
-      // Across a stack of slivers the path's nodes may fall upon each other: then they are one.
+      // Across a stack of slivers consecutive nodes may coincide: then they are one vertex.
       const bool again = i > 0 && within(p, rest(vertex_[i - 1]), snap_);
       vertex_[i] = again ? vertex_[i - 1] : insert(p, triangle_of_node_[i]);
     }
@@ -57,7 +57,7 @@ class CarefulEmbedding {
     return h.valid() ? h : find_half_edge(sheet_, b, a);
   }
 
-  /// The faces and edges of the trace are those of the sheet before: what is needed of them is noted first.
+  /// The faces and edges of the trace are those of the sheet before any edit: what is needed of them is stored first.
   void collect() {
     vertex_.assign(trace_.nodes.size(), {}), triangle_of_node_.assign(trace_.nodes.size(), {});
     for (std::size_t i = 0; i < trace_.nodes.size(); ++i) {
@@ -83,7 +83,8 @@ class CarefulEmbedding {
     }
   }
 
-  /// A vertex at p on the edge a - b; the nearer end where that is near, or where p falls out of its triangles.
+  /// A vertex at p on the edge a - b; the nearer end where that is within the snap distance, or where p would invert a
+  /// triangle beside the edge.
   VertexIndex split(VertexIndex a, VertexIndex b, Point2 p) {
     const VertexIndex nearest = squared_length(p - rest(a)) < squared_length(p - rest(b)) ? a : b;
     if (within(p, rest(nearest), snap_)) return nearest;
@@ -97,8 +98,8 @@ class CarefulEmbedding {
     return nearest;
   }
 
-  /// The edge a - b, once p on it leaves the triangles beside it positive. A sliver beside it, three vertices in a row,
-  /// is flipped away where its longest edge is free.
+  /// The edge a - b, after flips of slivers beside it that a vertex at p would invert; an invalid half-edge where a
+  /// sliver's other edges may not be flipped.
   HalfEdge make_room(VertexIndex a, VertexIndex b, Point2 p) {
     for (int tries = 0; tries < 8; ++tries) {
       const HalfEdge h = find_edge(a, b);
@@ -111,7 +112,7 @@ class CarefulEmbedding {
     return {};
   }
 
-  /// The half-edge itself where p on it would turn its triangle over.
+  /// The half-edge itself where a vertex at p on it would invert its triangle; otherwise an invalid one.
   HalfEdge in_the_way(HalfEdge h, Point2 p) const {
     if (!h.valid()) return {};
     const Point2 apex = rest(sheet_.origin(Sheet::previous(h)));
@@ -158,7 +159,7 @@ class CarefulEmbedding {
     }
   }
 
-  /// One edge nearer to the target, or a nearer target first.
+  /// Goes one edge towards the target, or sets a nearer target and stays.
   VertexIndex go_towards(VertexIndex a, VertexIndex target) {
     const auto side = [&](VertexIndex v) { return orientation(rest(a), rest(target), rest(v)); };
     const auto straight_on = [&](VertexIndex v) {
@@ -243,7 +244,7 @@ class CarefulEmbedding {
   std::vector<VertexIndex> vertex_;              // per node
   std::vector<TriangleIndex> triangle_of_node_;  // of the sheet before: its first child has its slot
   std::vector<Separating> separating_;
-  std::vector<VertexIndex> targets_;  // what connect() is on the way to, the nearest last
+  std::vector<VertexIndex> targets_;  // of connect(), the nearest last
   std::vector<Chain> crossed_;
 };
 

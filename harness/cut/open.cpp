@@ -6,7 +6,8 @@ namespace cutbench {
 
 namespace {
 
-/// A outgoing edge of v that separates, looked for counter-clockwise as far as the border; none where there is none.
+/// The first outgoing edge of v, counter-clockwise, that separates; on the border the first outgoing one of all; none
+/// where nothing separates.
 HalfEdge some_separating_edge(const Sheet& sheet, VertexIndex v) {
   const TriangleIndex t = sheet.triangle_of_vertex(v);
   const auto& corner = sheet.triangle(t).vertex;
@@ -19,8 +20,8 @@ HalfEdge some_separating_edge(const Sheet& sheet, VertexIndex v) {
   return h.valid() ? HalfEdge() : sheet.first_outgoing(v);
 }
 
-/// Gives the fans from outgoing edge `first` on deformed vertices of their own; false where that ended at the border
-/// and not back at `first`. `seen` is working storage.
+/// Gives each fan from outgoing edge `first` on a deformed vertex of its own. False where that ended at the border and
+/// not back at `first`. `seen` is working storage.
 bool separate_fans(Sheet& sheet, HalfEdge first, std::vector<DeformedIndex>& seen) {
   seen.clear();
   bool copied = false;
@@ -53,7 +54,7 @@ void open_path(Sheet& sheet) {
     if (!sheet.triangle_of_vertex(v).valid()) continue;  // collapsed
     const HalfEdge outgoing = some_separating_edge(sheet, v);
     if (!outgoing.valid() || separate_fans(sheet, outgoing, seen) || sheet.on_border(outgoing)) continue;
-    separate_fans(sheet, sheet.first_outgoing(v), seen);  // a border vertex: once more, from the border on
+    separate_fans(sheet, sheet.first_outgoing(v), seen);  // a border vertex: again, from the border on
   }
 }
 

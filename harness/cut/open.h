@@ -1,6 +1,6 @@
-// Opening an incision: every fan of triangles round a vertex, between border, older incisions and the new path, becomes
-// a vertex of the deformed sheet of its own. Counting fans, not sides, makes tips (one fan), ends at the border (two),
-// crossings of incisions (four) and junctions come out by themselves.
+// Opening an incision: every fan of triangles round a vertex, between border, older incisions and the new path, gets a
+// vertex of the deformed sheet of its own. Since fans are counted and not sides, tips (one fan), ends at the border
+// (two), crossings of incisions (four) and junctions need no special cases.
 #pragma once
 
 #include "harness/mesh/sheet.h"

@@ -1,6 +1,6 @@
-// One triangle of the mesh with what a subdivision inserts into it, as a small problem of its own: points numbered from
-// 0, the ring of its boundary, the segments that must become edges. Methods that work triangle by triangle solve
-// patches; embed_patches() cuts the mesh into them and puts the answers back.
+// One triangle of the mesh with the points and segments that a subdivision inserts into it, as a small problem of its
+// own: points numbered from 0, the ring of its boundary, the segments that must become edges. Methods that work
+// triangle by triangle solve patches; embed_patches() takes them from the mesh and puts the answers back.
 #pragma once
 
 #include <array>

@@ -27,7 +27,7 @@ JudgedSheet::Finding JudgedSheet::cut(const Curve& curve, const CutOptions& opti
   if (status == Status::noop) {  // justified where the path opens nothing
     CutOptions exact = options;  // a curve may follow an older incision, a polyline may not
     if (curve.kind == Curve::Kind::polyline || !std::isfinite(options.chord_tolerance)) exact.chord_tolerance = 0;
-    Promises unchanged = promises_;  // the method was not asked
+    Promises unchanged = promises_;  // the method did nothing: its own bound does not apply
     unchanged.incision_bound = {};
     request = request_for(before, {&curve, 1}, unchanged, exact, false);
     request.tolerance += request.snap;

@@ -1,5 +1,4 @@
-// A sheet under the knife of one method, every cut of which is judged: what the tests, the campaign and all records are
-// made of.
+// A sheet that one method cuts, with a judgement of every cut. Tests, the campaign and all records are made with it.
 #pragma once
 
 #include <memory>
@@ -13,7 +12,7 @@
 
 namespace cutbench {
 
-/// Passes everything that a cut asks for on to a method, and notes which of the two steps made vertices.
+/// Forwards every call of a cut to a method, and records whether embed() or improve() made vertices.
 class Watched : public CuttingMethod {
  public:
   explicit Watched(std::unique_ptr<CuttingMethod> method) : method_(std::move(method)) {}
@@ -47,12 +46,12 @@ class JudgedSheet {
     std::string verdict = "ok", reason;  ///< `changed`, `check`, or the oracle's
     bool ok() const { return verdict == "ok"; }
   };
-  /// Cuts, and judges what came out whatever the status says: after noop, refused and failed the sheet must be
-  /// bit-unchanged, and a noop must be justified; after ok it must pass check() and the oracle, and after deviated all
-  /// of it but the number of pieces.
+  /// Cuts, and judges the result for every status: after noop, refused and failed the sheet must be bit-unchanged, and
+  /// a noop must be justified; after ok it must pass check() and the oracle; after deviated the same, except for the
+  /// number of pieces.
   Finding cut(const Curve& curve, const CutOptions& options);
 
-  /// Why the method refuses the sheet as it is; empty: it doesn't.
+  /// Why the method refuses the sheet as it is; empty if it does not.
   std::optional<std::string> why_unsupported() const { return method_.why_unsupported(sheet); }
 
   std::size_t embedded_vertices() const { return method_.embedded_vertices; }
@@ -69,10 +68,11 @@ class JudgedSheet {
   Cutter cutter_;
 };
 
-/// Judges what cuts, none of them refused, made of a sheet: makes them once more, and judges each on what the one
-/// before left. An incision lies within the tolerance of its curve only, so that a later cut may rightly meet it
-/// elsewhere than the curves meet. Ends with the first that is not ok; number of pieces after the last, largest
-/// incision error, change of area in all. Verdict `not_reproduced` where that does not make `result`, bit for bit.
+/// Judges a sheet that was cut several times, no cut refused: makes the cuts once more, and judges each on the sheet
+/// that the one before left. (An incision lies only within the tolerance of its curve, so a later cut may rightly meet
+/// it elsewhere than the curves meet.) Stops at the first cut that is not ok. Returns the number of pieces after the
+/// last cut, the largest incision error and the total change of area. Verdict `not_reproduced` where the cuts do not
+/// make `result`, bit for bit.
 /// \param method  a new one, of the same kind
 oracle::Judgement judge_one_by_one(const Sheet& start, const Sheet& result, std::span<const Curve> cuts,
                                    const Promises& promises, std::unique_ptr<CuttingMethod> method,

@@ -31,7 +31,7 @@ oracle::Curve for_oracle(const Curve& cut) {
 
 namespace {
 
-/// That the method promises for the sheet, rest units.
+/// The largest incision error that the bound allows in the sheet, rest units.
 double largest_error(const Sheet& sheet, const IncisionBound& bound, const CutOptions& options) {
   double longest2 = 0;
   for (std::size_t t = 0; t < sheet.triangle_slots() && bound.longest_edges > 0; ++t) {

@@ -89,8 +89,8 @@ class Insertion {
            is_in(find_edge(patch_, a, c).triangle);
   }
 
-  /// Collects the rim. Where the point doesn't see an edge of it (rounded points on the ring), the cavity is mended and
-  /// the answer is no.
+  /// Collects the rim. Where an edge of it is not visible from the point (rounded points on the ring), the cavity is
+  /// corrected, and the answer is no.
   bool star_shaped() {
     rim_.clear();
     for (std::size_t t = 0; t < patch_.triangles.size(); ++t) {
@@ -193,7 +193,7 @@ void BowyerWatson::improve(Sheet& sheet, MethodNotes& notes) {
         notes.stopped_early = true;
         return;
       }
-      if (!is_ill_shaped(t)) continue;  // a neighbour's split has mended it
+      if (!is_ill_shaped(t)) continue;  // a neighbour's split has improved it
       midpoints_.reset(sheet);
       split_long_edges(sheet, t);
       // The triangle itself has two points or one, its neighbours one each: bisected, there is no choice.

@@ -1,21 +1,21 @@
-// The paper's method: Delaunay re-triangulation of each crossed triangle, then local split of the ill-shaped ones.
+// The paper's method: Delaunay triangulation of each crossed triangle, then local split of the ill-shaped triangles.
 //
 // How it works. embed: the path's points are inserted into the crossed triangle one after the other by Bowyer-Watson:
-// the triangles whose circumcircle holds the point are removed and the cavity is joined to the point. All stays inside
-// the crossed triangle. With two crossings that leaves a single choice, the diagonal of one quadrilateral, and the path
-// is always contained; with kept points or several passages a path segment can be missing and is recovered by flips.
-// improve: `rounds` times, each triangle the cut made or changed whose aspect ratio exceeds 3 gets its two longest
-// edges split at their midpoints and is triangulated anew by Bowyer-Watson inside itself; its neighbours across those
-// edges are bisected at the same points. Edges shorter than twice `min_edge` are left alone, and beyond `most_vertices`
-// it stops where it is.
+// the triangles whose circumcircle holds the point are removed and the cavity is joined to the point. All changes stay
+// inside the crossed triangle. With two crossings there is a single choice, the diagonal of one quadrilateral, and the
+// path is always an edge. With points inside the triangle, or several passages, a path segment can be missing and is
+// recovered by flips. improve: `rounds` times, each triangle that the cut made or changed and whose aspect ratio
+// exceeds 3 gets its two longest edges split at their midpoints and is triangulated again by Bowyer-Watson inside
+// itself; its neighbours across these edges are bisected at the same points. Edges shorter than twice `min_edge` are
+// not split, and the split stops after `most_vertices` new vertices.
 //
 // Source: Xin et al. 2018, 4.1.2 and 4.1.3; Bowyer 1981; Watson 1981.
 // Promises: the exact path, area, conforming, no vertex moved.
-// Fails: the local split, read literally, cannot bring the largest aspect ratio down. The circle through a corner A and
-// the midpoints P, Q of the two long edges at A meets each of these edges only in A and its midpoint, so it holds no
-// other point of the triangle: A P Q is always Delaunay, and it is the triangle itself at half the size. Each round
-// leaves a copy of every ill-shaped triangle and bisects its neighbours, some of them into worse ones: their number
-// grows, by a factor of about 3.8 a round (experiments/local_split_rounds.toml).
+// Where it fails: the local split, read literally, cannot lower the largest aspect ratio. The circle through a corner A
+// and the midpoints P, Q of the two long edges at A meets each of these edges only in A and its midpoint, so it holds
+// no other point of the triangle: A P Q is always Delaunay, and it is the triangle itself at half the size. Each round
+// leaves a copy of every ill-shaped triangle and bisects its neighbours, some of them into worse ones. The number of
+// ill-shaped triangles grows by a factor of about 3.8 a round (experiments/local_split_rounds.toml).
 #pragma once
 
 #include "harness/cut/cutting_method.h"

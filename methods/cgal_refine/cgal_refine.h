@@ -1,20 +1,22 @@
-// Delaunay refinement by CGAL round the cut: the textbook answer to bad triangles.
+// Delaunay refinement by CGAL round the cut: the textbook answer to ill-shaped triangles.
 //
-// How it works. embed: crossed triangles are divided along the path. improve: what the cut changed, with two rings of
-// neighbours, is triangulated anew by CGAL (constrained Delaunay) and refined by its mesh generator until no triangle
-// has an aspect ratio above `bound`. Path, older incisions and the sheet's border are constraints, which get new points
-// where these want to be (Ruppert's rule, with CGAL's clusters at small angles). Where the refinement would divide the
-// region's border, the region grows by what lies there, and it starts again (methods/tools/region_mesher.h), three
-// times at most and while the limit on vertices was not met; else the cut stays as it was divided. Triangles shorter
-// than `min_edge` and those in forced wedges (methods/tools/forced_wedges.h) are left alone.
+// How it works. embed: the Delaunay split. improve: the triangles that the cut changed, with two rings of neighbours,
+// are triangulated again by CGAL (constrained Delaunay) and refined by its mesh generator until no triangle has an
+// aspect ratio above `bound`. Path, older incisions and the sheet's border are constraints; they get new points where
+// the refinement asks for them (Ruppert's rule, with CGAL's clusters at small angles). Where the refinement would
+// divide the region's border, the region grows by the triangles there and the refinement starts again
+// (methods/tools/region_mesher.h), three times at most and only while the limit on vertices is not reached. Otherwise
+// the triangles of the Delaunay split stay. Triangles all of whose edges are shorter than `min_edge`, and those in
+// forced wedges (methods/tools/forced_wedges.h), are not refined.
 //
 // Source: Ruppert, A Delaunay refinement algorithm for quality 2-dimensional mesh generation, 1995; Shewchuk, Delaunay
 // refinement algorithms for triangular mesh generation, 2002; CGAL 5.5, Delaunay_mesher_2 with the Epick kernel.
 // Promises: the exact path, area, conforming, no vertex moved.
-// Fails: an aspect ratio of 3 is beyond what is proved to end (20.7 degrees), so that a limit on vertices is needed,
-// at which it stops and leaves the rest. A vertex close to the path stays where it is and costs dozens of vertices
-// round it, the smallest of them as near to each other as it is to the path: the step of an explicit integrator shrinks
-// as by a plain split. Flips across old edges change the deformed surface where the sheet is bent.
+// Where it fails: termination is proved for smallest angles up to 20.7 degrees, which an aspect ratio of 3 exceeds. So
+// there is a limit on vertices, at which it stops and leaves the remaining triangles. A vertex close to the path stays
+// and costs dozens of vertices round it, the smallest triangles as small as its distance from the path: the step of an
+// explicit integrator shrinks as it does after the conventional split. Flips of old edges change the deformed surface
+// where the sheet is bent.
 #pragma once
 
 #include "harness/cut/cutting_method.h"

@@ -47,7 +47,7 @@ void Cisamr::embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) {
 
 void Cisamr::improve(Sheet& sheet, MethodNotes&) {
   reshape_.begin(sheet, curve_);
-  reshape_.mend(false);
+  reshape_.flip_and_smooth(false);
 }
 
 }  // namespace cutbench

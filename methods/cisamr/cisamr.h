@@ -1,21 +1,23 @@
-// CISAMR at one level: on a structured grid, near nodes move onto the path and what is still crossed is divided, in one
-// pass.
+// CISAMR at one level: on a structured grid, vertices near the path move onto it, and the triangles that are still
+// crossed are divided, in one pass.
 //
-// How it works: for sheets whose triangles are, half of them at least, halves of equal squares along the axes; others
-// are refused. Where a crossing lies at up to half its edge from an end, that end moves to the nearest crossing of any
-// of its edges, nearest first (methods/tools/warp.h: where the path stays within the tolerance, nothing else of it
-// meets the vertex's triangles, and no aspect ratio exceeds a million); the triangles that are crossed after that are
-// divided, and where the relocation left a quadrilateral ill-shaped it gets its better diagonal, until none changes.
+// How it works: for sheets of which at least half of the triangles are halves of equal squares along the axes; others
+// are refused. adapt: where a crossing lies at up to half its edge from an end, that end moves to the nearest crossing
+// of any of its edges, nearest first (methods/tools/warp.h: where the incision stays within the tolerance of the
+// requested curve, nothing else of the path meets the vertex's triangles, and no aspect ratio exceeds a million).
+// embed: the Delaunay split of the triangles that are still crossed. improve: a quadrilateral that the moves left
+// ill-shaped gets its better diagonal, until none changes.
 //
 // Source: Soghrati, Xiao and Nagarajan, A conforming to interface structured adaptive mesh refinement technique for
 // modeling fracture problems, Computational Mechanics 59, 2017: "non-iterative", with aspect ratios below 3, also where
-// cracks branch. Built from descriptions of it, the text itself was not to be had: its definition of the aspect ratio
-// and its rules for the order of diagonals are unknown to us, and its first stage, the refinement of the squares along
-// the interface, is left out, for that is about resolution and not about shapes. results/ has the largest longest edge
-// over altitude and the largest angle; by either the bound is missed where two relocated nodes face each other.
-// Promises: area, conforming; neither the exact path (between nodes it takes short cuts) nor that vertices stay.
-// Fails: on any other sheet; at tips and corners of the path, which nothing moves to; beside older incisions, whose
-// vertices stay.
+// cracks branch. Built from descriptions of it, since we could not get the text: its definition of the aspect ratio and
+// its order of diagonals are unknown to us. Its first stage, the refinement of the squares along the interface, is left
+// out, since it concerns resolution and not shape. results/ has the largest longest edge over altitude and the largest
+// angle; both exceed the bound where two moved vertices face each other.
+// Promises: area, conforming; neither the exact path (between moved vertices it takes short cuts) nor that vertices
+// stay. The incision error is at most the chord tolerance, since every move is checked against the requested curve.
+// Where it fails: on any other sheet; at tips and corners of the path, to which nothing moves; beside older incisions,
+// whose vertices stay.
 #pragma once
 
 #include "harness/cut/cutting_method.h"

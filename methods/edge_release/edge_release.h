@@ -1,17 +1,20 @@
-// Edge release: the path is rounded to existing edges, which then come apart. A baseline.
+// Edge release: the path is rounded to existing edges, which are then opened. A baseline.
 //
-// How it works: points of the path inside triangles are left out, and every crossing of an edge goes to one of the
-// edge's ends, the nearer one where possible, nearest first, together with its neighbours on the path that cross other
-// edges of the same vertex. What was a path through triangles is then a chain of edges: a staircase on a regular grid.
-// All of it only where the sheet falls apart as it would by the exact path (methods/tools/path_graph.h): where rounding
-// would make the path touch itself, the border or an older incision, or close up a loop or a cut-off corner, the
-// crossing is split instead. Tips inside triangles or on edges stay, and the triangles there are divided.
+// How it works. adapt: points of the path inside triangles are left out, and every crossing of an edge goes to one of
+// the edge's ends, the nearer one where possible, nearest first, together with its neighbours on the path that cross
+// other edges of the same vertex. The path is then a chain of edges: a staircase on a regular grid. A step is made only
+// where the sheet keeps the pieces that the exact path makes (methods/tools/path_graph.h): where rounding would make
+// the path touch itself, the border or an older incision, or would close a loop or a corner that is cut off, the
+// crossing is split instead. Tips inside triangles or on edges stay. embed: the Delaunay split of the triangles that
+// are still crossed.
 //
 // Source: libigl's cut_mesh and cloth tearing, which release edges and nothing else.
-// Promises: area, conforming, no vertex moved; not the exact path.
-// Fails: the incision strays from the path by up to an edge, and is longer than it by a factor that no finer sheet
-// takes away (up to the square root of 2 on a grid). A later path that meets its stairs at a small angle crosses them
-// more than once, and bits fall off that nobody asked for. Shapes are those of the sheet but where something had to be
+// Promises: area, conforming, no vertex moved; not the exact path. The incision error is at most the sheet's longest
+// edge plus the chord tolerance, since a crossing moves along its own edge at most to that edge's other end. Measured:
+// at most 1.6 mean edges on sheets whose edges differ in length.
+// Where it fails: the incision is longer than the path by a factor that a finer sheet does not reduce (up to the square
+// root of 2 on a grid). A later path that meets the staircase at a small angle crosses it more than once, so that small
+// pieces come off that the exact paths do not cut off. Shapes are those of the sheet except where a crossing had to be
 // split.
 #pragma once
 

@@ -1,12 +1,13 @@
-// An example of a method, written by the checklist in the README ("Add a method"): start yours from a copy.
+// An example of a method, the smallest one with an embedding of its own: start yours from a copy.
 //
-// How it works: a crossing leaves a quadrilateral of the crossed triangle, which is divided by its shorter diagonal (on
-// a tie by the one from the point the path met first). All other crossed triangles are divided step by step
-// (split_step_by_step() in harness/cut/delaunay_split.h).
+// How it works: a crossing leaves a quadrilateral of the crossed triangle, which is divided by its shorter diagonal
+// (where both are equally long, by the one from the point that the path met first). All other crossed triangles are
+// divided step by step (split_step_by_step() in harness/cut/delaunay_split.h).
 //
-// Source: the shorter diagonal is what one takes who has no circle test at hand. Promises: the exact path, area,
-// conforming, no vertex moved. Fails: shapes, as any split without new or moved points: a crossing at fraction t of an
-// edge makes triangles of aspect ratio about 1/t. The shorter diagonal isn't always that of the larger smallest angle.
+// Source: the shorter diagonal is the usual choice without a circumcircle test.
+// Promises: the exact path, area, conforming, no vertex moved.
+// Where it fails: shapes, as every split without new or moved vertices: a crossing at fraction t of an edge makes
+// triangles of aspect ratio about 1/t. The shorter diagonal is not always the one with the larger smallest angle.
 #pragma once
 
 #include "harness/cut/cutting_method.h"

@@ -1,21 +1,20 @@
-// Local split by longest edges (LEPP-Delaunay), the best behaved reading of the paper's local split.
+// Local split by longest edges (LEPP-Delaunay), the reading of the paper's local split that works best.
 //
-// How it works. embed: crossed triangles are divided along the path. improve: edges round the new vertices are flipped
-// to constrained Delaunay; then, for each triangle that the cut made or changed and whose aspect ratio exceeds 3, the
-// longest-edge propagation path is followed, from neighbour to neighbour across ever longer edges, to an edge that is
-// the longest of both its triangles or lies on the border. Its midpoint becomes a vertex, edges round that are flipped
-// to Delaunay, never across border, incisions or path, and so on, first come first served, until no triangle is
-// ill-shaped or the split has made `cap` vertices per vertex of the path. Edges shorter than twice `min_edge` stay, and
-// so does what lies in a forced wedge (methods/tools/forced_wedges.h).
+// How it works. embed: the Delaunay split. improve: edges round the new vertices are flipped to constrained Delaunay.
+// Then, for each triangle that the cut made or changed and whose aspect ratio exceeds 3, the longest-edge propagation
+// path is followed, from neighbour to neighbour across ever longer edges, to an edge that is the longest of both its
+// triangles or lies on the border. Its midpoint becomes a vertex, and edges round that are flipped to Delaunay, never
+// border, incisions or path. This goes on in the order in which triangles were found, until no triangle is ill-shaped
+// or the split has made `cap` vertices per vertex of the path. Edges shorter than twice `min_edge` are not split, nor
+// are triangles in a forced wedge (methods/tools/forced_wedges.h).
 //
 // Source: Rivara, New longest-edge algorithms for the refinement and/or improvement of unstructured triangulations,
-// 1997 (LEPP-Delaunay); Xin et al. 2018, 4.1.3 for the place it takes. Flips: harness/mesh/local_delaunay.h.
+// 1997 (LEPP-Delaunay); Xin et al. 2018, 4.1.3, for the step that it replaces. Flips: harness/mesh/local_delaunay.h.
 // Promises: the exact path, area, conforming, no vertex moved.
-// Fails: no bound on the aspect ratio is proved for the midpoint variant, and 3 is beyond it in most cuts: it goes on
-// halving edges beside a constrained edge that a new midpoint encroaches upon. Hence the strict cap, at which it stops
-// and leaves what is left as it is, in most cuts, so that stopping is not reported as anything special. A vertex close
-// to the path costs it dozens of vertices, and the small feature itself stays. Flips across old edges change the
-// deformed surface where the sheet is bent.
+// Where it fails: no bound on the aspect ratio is proved for the midpoint variant, and 3 is not reached in most cuts:
+// it goes on halving edges beside a constrained edge that a new midpoint encroaches upon. Hence the strict cap. It is
+// reached in most cuts, so it is not reported as stopping early. A vertex close to the path costs dozens of vertices,
+// and the small distance itself stays. Flips of old edges change the deformed surface where the sheet is bent.
 #pragma once
 
 #include "harness/cut/cutting_method.h"
@@ -43,7 +42,7 @@ class LongestEdge : public CuttingMethod {
   Options options_;
   ForcedWedges wedges_;
   LocalDelaunay delaunay_;
-  std::vector<TriangleIndex> ill_shaped_;  // a queue; each may be mended or changed by the time it is looked at
+  std::vector<TriangleIndex> ill_shaped_;  // a queue; a triangle may be well-shaped or gone when its turn comes
 };
 
 }  // namespace cutbench

@@ -1,34 +1,32 @@
-// Phantom nodes: the sheet is not re-meshed, its triangles are doubled where the path crosses them.
+// Phantom nodes: for the unknowns the sheet is not divided; its triangles are doubled where the path crosses them.
 //
-// How it works: the incision, and the triangles that integrals are taken over, are those of conventional_split; but the
-// field on them is linear in each part into which the cuts divide a triangle of the sheet as it was before the first
-// one (a parent). A part has a copy of its parent's three corners as its unknowns: where a corner of the parent belongs
-// to the part it is that vertex of the sheet, else a phantom. Parts on either side of an edge of the sheet that are
-// joined along it, be it in a piece, share the copies of its two ends. All vertices that cuts made are tied to the
-// corners of their part by their barycentric coordinates (Ties, harness/mesh/ties.h), so that each copy counts with the
-// material that is there, whatever the number of cuts, junctions and loops: sums over the triangles of a part are exact
-// integrals over it.
-//  - Tip rule: a parent that is not divided all through, because the path ends inside it, has one part and a continuous
-//    field. So for the unknowns the incision ends at the edge where the last parent that it crosses completely ends;
-//    the lips are drawn up to the tip, and lie on one another from there on. What does not cross a parent opens
-//    nothing.
+// How it works: the incision, and the triangles that integrals are taken over, are those of conventional_split. The
+// field on them is linear in each part into which the cuts divide a parent, which is a triangle of the sheet before the
+// first cut. A part has its own copy of its parent's three corners as its unknowns: a corner that belongs to the part
+// is that vertex of the sheet, any other is a phantom node. Parts on the two sides of an edge of the sheet that are
+// joined along it, or along a piece of it, share the copies of its two ends. All vertices that cuts made are
+// constrained to the corners of their part by their barycentric coordinates (Ties, harness/mesh/ties.h). So sums over
+// the triangles of a part are exact integrals over it, for any number of cuts, junctions and loops.
+//  - Tip rule: a parent that is not completely divided, because the path ends inside it, has one part and a continuous
+//    field. So for the unknowns the incision ends at the edge where the last completely crossed parent ends; the lips
+//    reach up to the tip, but coincide beyond that edge. A path that crosses no parent completely opens nothing.
 //  - Two copies of a vertex of the sheet that belong to the same part are one unknown: there the path ends, too.
-//  - What is held (a pin, a border displacement) is so at the sheet's own vertices and at crossings of the border.
+//  - Supports (pins, border displacements) act on the sheet's own vertices and on crossings of the border.
 //
-// A part with next to no material makes unknowns with next to no stiffness and mass. Two variants, for sheets at rest,
-// bound what comes of it:
+// A part with almost no material makes unknowns with almost no stiffness and mass. Two variants, for sheets at rest,
+// bound the consequences:
 //  - `ghost`: a penalty on the jump of the normal derivative across the edges at which the parts of a divided parent
 //    are joined to its neighbours, `ghost` times edge length squared in K, to the fourth power in M.
-//  - a lumped mass, a third of a part's to each corner of its parent: then no part has a larger eigenvalue than that
-//    (Menouillard, Rethore, Combescure and Bung, IJNME 68 (2006)).
+//  - a lumped mass, a third of a part's to each corner of its parent: then no part has a larger eigenvalue than its
+//    parent (Menouillard, Rethore, Combescure and Bung, IJNME 68 (2006)).
 //
 // Source: Hansbo and Hansbo, CMAME 193 (2004); Molino, Bao and Fedkiw, A virtual node algorithm (2004); Song, Areias
 // and Belytschko, IJNME 67 (2006); Richardson, Hegemann, Sifakis, Hellrung and Teran, IJNME 88 (2011) for parts and
-// junctions; Burman and Hansbo, Applied Numerical Mathematics 62 (2012) for the ghost penalty. Promises: the exact
-// path, area, conforming, no vertex moved; an affine displacement is reproduced exactly. Fails: the opening is too
-// short by up to a triangle at each tip, and along a bend inside a triangle stress is constant. Without a variant, thin
-// parts are no less ill-conditioned than slivers; no penalty reaches a piece smaller than a triangle. The system is
-// made anew after each cut, not updated.
+// junctions; Burman and Hansbo, Applied Numerical Mathematics 62 (2012) for the ghost penalty.
+// Promises: the exact path, area, conforming, no vertex moved; an affine displacement is reproduced exactly.
+// Where it fails: the opening is too short by up to a triangle at each tip, and at a bend of the path inside a triangle
+// the stress is constant. Without a variant, thin parts are as ill-conditioned as slivers; no penalty reaches a piece
+// smaller than a triangle. The system is assembled again after each cut, not updated.
 #pragma once
 
 #include "harness/cut/cutting_method.h"

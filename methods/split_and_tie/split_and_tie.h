@@ -1,16 +1,17 @@
-// Conventional split whose slivers are tied: the triangles stay as bad as they are, the unknowns do not.
+// Conventional split with constrained slivers: the triangles keep their bad shapes, but the unknowns that make them
+// stiff are eliminated.
 //
-// How it works: the cut is that of conventional_split, incision, triangles and all. Vertices that it made are then
-// taken out of the unknowns where they would be stiff, and go where the linear field of a good triangle on their own
-// side of the cut has them. Which ones, and where: methods/tools/tie_slivers.h, with rules for tips, junctions and the
-// border.
+// How it works: the cut is that of conventional_split, incision and triangles alike. Vertices of slivers that it made
+// are then constrained: each is extrapolated from a well-shaped master triangle on its own side of the cut, by the
+// linear field of that triangle. Which vertices, and which masters: methods/tools/tie_slivers.h, with rules for tips,
+// junctions and the border.
 //
 // Source: aggregated finite elements (Badia, Verdugo and Martin, The aggregated unfitted finite element method for
-// elliptic problems, CMAME 336, 2018); there the cut cells are integrated and not split. Promises: the exact path,
-// area, conforming, no vertex moved; an affine displacement is reproduced exactly. Fails: pieces of slivers only; an
-// explicit integrator, since the mass is no longer lumped; and shapes stay bad, for whatever else looks at the
-// triangles. Vertices near a cut jump to the field of their triangle at the instant of the cut. The system is made anew
-// after each cut, not updated.
+// elliptic problems, CMAME 336, 2018); there the cut cells are integrated and not split.
+// Promises: the exact path, area, conforming, no vertex moved; an affine displacement is reproduced exactly.
+// Where it fails: on pieces that consist of slivers only, and with an explicit integrator, since the mass is no longer
+// lumped. The triangles stay ill-shaped for every other use. Vertices near a cut jump to the field of their master
+// triangle at the instant of the cut. The system is assembled again after each cut, not updated.
 #pragma once
 
 #include "harness/cut/cutting_method.h"

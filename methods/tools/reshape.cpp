@@ -12,10 +12,10 @@ namespace cutbench {
 
 namespace {
 
-/// The edges opposite to a vertex in its triangles: what decides where it may go.
-class Link {
+/// The edges opposite to a vertex in its triangles, which decide where it may move.
+class VertexLink {
  public:
-  Link(const Sheet& sheet, VertexIndex v) {
+  VertexLink(const Sheet& sheet, VertexIndex v) {
     for_each_outgoing(sheet, v, [&](HalfEdge h) {
       if (size_ < edges_.size())
         edges_[size_] = {sheet.rest(sheet.target(h)), sheet.rest(sheet.origin(Sheet::previous(h)))};
@@ -23,7 +23,7 @@ class Link {
     });
   }
   bool is_whole() const { return size_ <= edges_.size(); }
-  /// The largest aspect ratio with the vertex at p, once it is known not to be below `enough`.
+  /// The largest aspect ratio with the vertex at p; any value of at least `enough` where it is not below that.
   double worst(Point2 p, double enough) const {
     double worst = 0;
     for (std::size_t i = 0; i < size_ && worst < enough; ++i)
@@ -37,7 +37,7 @@ class Link {
 };
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double good = 0.9;  // of the largest aspect ratio allowed: no need to look for better
+constexpr double good = 0.9;  // times the largest aspect ratio allowed: the search stops below it
 
 }  // namespace
 
@@ -59,8 +59,8 @@ std::vector<TriangleIndex> Reshape::changed_triangles() const {
   return changed;
 }
 
-/// Path vertices may go along the curve where they have two pieces of path and nothing else, sheet vertices anywhere
-/// where they have nothing of the kind.
+/// A vertex of the path may move along the curve if it has two pieces of path and neither border nor older incision; a
+/// vertex with none of these may move freely.
 Reshape::Freedom Reshape::freedom(VertexIndex v, Neighbours& neighbours) const {
   if (sheet_->is_held(v)) return Freedom::none;
   int pieces = 0;
@@ -93,8 +93,8 @@ bool Reshape::is_tip(VertexIndex v) const {
 
 // --- thinning --------------------------------------------------------------------------------------------------------
 
-/// The largest aspect ratio of the triangles that take the place of those round the origin of h; infinite where that
-/// can't be.
+/// The largest aspect ratio of the triangles that replace those round the origin of h; infinite where one would not be
+/// positive.
 double Reshape::worst_after_collapse(HalfEdge h) const {
   const VertexIndex b = sheet_->target(h);
   const Point2 to = sheet_->rest(b);
@@ -106,7 +106,7 @@ double Reshape::worst_after_collapse(HalfEdge h) const {
   return worst;
 }
 
-/// May the origin of `towards` go onto its target, as far as the path is concerned?
+/// Whether the path allows that the edge `towards` is collapsed, by moving its origin v to its target.
 bool Reshape::may_leave_out(VertexIndex v, HalfEdge towards) const {
   Neighbours n;
   const Freedom how = freedom(v, n);
@@ -118,7 +118,7 @@ bool Reshape::may_leave_out(VertexIndex v, HalfEdge towards) const {
   return curve_->stays_near(from, to, sheet_->rest(n.before), sheet_->rest(n.after), tolerance_);
 }
 
-/// Takes the shortest edge at path vertex v away, if it is too short; false where there is none, or it can't be.
+/// Collapses the shortest edge at path vertex v if it is too short; false where there is none, or it may not be.
 bool Reshape::shorten_at(VertexIndex v) {
   const double most = options_.short_edge * options_.short_edge * h_ * h_;
   HalfEdge shortest;
@@ -182,7 +182,7 @@ bool Reshape::smooth(VertexIndex v) {
   if (how == Freedom::none) return false;
   if (how == Freedom::along) return slide(v, neighbours);
   const Point2 start = sheet_->rest(v);
-  const Link link(*sheet_, v);
+  const VertexLink link(*sheet_, v);
   if (!link.is_whole()) return false;
   const double worst = link.worst(start, infinity);
   Point2 best = start;
@@ -206,7 +206,7 @@ bool Reshape::slide(VertexIndex v, const Neighbours& neighbours) {
   const double start = curve_->parameter(v);
   if (start < 0 || from < 0 || to < 0 || (start - from) * (to - start) <= 0) return false;
   const Point2 before = sheet_->rest(neighbours.before), after = sheet_->rest(neighbours.after);
-  const Link link(*sheet_, v);
+  const VertexLink link(*sheet_, v);
   if (!link.is_whole()) return false;
   const double worst = link.worst(sheet_->rest(v), infinity);
   double best = start, least = worst;
@@ -225,7 +225,7 @@ bool Reshape::slide(VertexIndex v, const Neighbours& neighbours) {
   return true;
 }
 
-/// Moves a corner of t, or what stands in the way of that: the vertices round it.
+/// Moves the corners of t, and where that is not enough the vertices round them.
 bool Reshape::smooth_round(TriangleIndex t) {
   const std::array<VertexIndex, 3> corners = sheet_->triangle(t).vertex;
   bool moved = false;
@@ -242,7 +242,7 @@ bool Reshape::smooth_round(TriangleIndex t) {
   return moved;
 }
 
-/// Takes the corner of t out whose edges leave the best shapes, where they are better than t.
+/// Collapses the edge at a corner of t that leaves the best shapes, where these are better than t.
 bool Reshape::shorten_in(TriangleIndex t) {
   const auto c = sheet_->corners(t);
   double least = aspect_ratio(c[0], c[1], c[2]);
@@ -299,9 +299,9 @@ bool Reshape::split_in(TriangleIndex t) {
   return true;
 }
 
-/// Flips and moves round the ill-shaped triangles of the queue, and those that this puts in doubt, until all is well or
-/// `most` were looked at.
-void Reshape::settle(bool smoothing, std::size_t most) {
+/// Flips edges and moves corners of the ill-shaped triangles in the queue, which gets the triangles that this changes,
+/// until the queue is empty or `most` triangles were processed.
+void Reshape::process_queue(bool smoothing, std::size_t most) {
   for (std::size_t i = 0; i < queue_.size() && i < most; ++i) {
     const TriangleIndex t = queue_[i];
     if (!is_ill_shaped(t) || flip_one(t) || !smoothing) continue;
@@ -311,14 +311,14 @@ void Reshape::settle(bool smoothing, std::size_t most) {
   }
 }
 
-void Reshape::mend(bool smoothing) {
+void Reshape::flip_and_smooth(bool smoothing) {
   find_wedges(smoothing);
   queue_ = changed_triangles();
-  settle(smoothing, 20 * queue_.size());
+  process_queue(smoothing, 20 * queue_.size());
 }
 
-/// The moves that keep vertices few, where they help.
-void Reshape::mend_one_by_one() {
+/// Tries, for each ill-shaped triangle, the steps that add no or few vertices.
+void Reshape::improve_one_by_one() {
   stuck_.clear();
   for (const TriangleIndex t : changed_triangles())
     if (is_ill_shaped(t)) stuck_.push_back(t);
@@ -328,7 +328,7 @@ void Reshape::mend_one_by_one() {
     for (int tries = 0; tries < 4 && is_ill_shaped(t); ++tries) {
       queue_.clear();
       if (!flip_one(t) && !shorten_in(t) && !smooth_round(t) && !split_in(t)) break;
-      settle(true, 50);
+      process_queue(true, 50);
       for (const TriangleIndex u : queue_)
         if (u != t && is_ill_shaped(u)) stuck_.push_back(u);
     }
@@ -336,8 +336,8 @@ void Reshape::mend_one_by_one() {
 }
 
 bool Reshape::refine() {
-  mend_one_by_one();
-  if (!stuck_.empty()) find_wedges(true);  // what was left out, or moved, may have made others
+  improve_one_by_one();
+  if (!stuck_.empty()) find_wedges(true);  // removed and moved vertices may have made new ones
   refinement_.begin(*sheet_, wedges_);
   for_each_changed(*sheet_, [&](TriangleIndex t) { refinement_.note(*sheet_, t); });
   return refinement_.run(*sheet_);

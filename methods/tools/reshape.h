@@ -1,6 +1,6 @@
-// Better shapes round an embedded path, still closed: short edges at it go, edges are flipped, vertices moved a little,
-// and where all that does not help, edges split and triangles refined. Each step is one of the sheet's editing calls,
-// which the exact orientation of every triangle decides: whatever is done or left undone, the path stays embedded, and
+// Improves the triangles round an embedded path that is still closed: removes short edges at the path, flips edges,
+// moves vertices, and where that is not enough splits edges and refines triangles. Each step is one of the sheet's
+// editing calls, which exact orientation tests accept or refuse. So whatever is done, the path stays embedded and
 // separates what it separated.
 #pragma once
 
@@ -20,8 +20,8 @@ class Reshape {
   struct Options {
     double short_edge = 0.35;  ///< an edge at the path is too short below it, in mean rest edges
     double max_aspect = 3;     ///< a triangle at or beyond it is ill-shaped
-    double tolerance = 0.05;   ///< of the path from the edges that stand for it, where the trace has no smaller one;
-                               ///< mean rest edges
+    double tolerance = 0.05;   ///< largest distance of the trace's nodes from the edges that replace them, mean rest
+                               ///< edges; the chord tolerance where that is smaller
     double min_edge = 1e-4;    ///< no piece of path, incision or border shorter than twice that is divided
   };
   explicit Reshape(const Options& options)
@@ -30,24 +30,24 @@ class Reshape {
   /// \pre begin_cut() was called, and the path is embedded; `curve` knows its vertices.
   void begin(Sheet& sheet, PathCurve& curve);
 
-  /// Takes one end of each edge at the path that is too short out of the sheet: a vertex of the path, where it goes on
-  /// from its neighbours within the tolerance, or one of the sheet beside it that nothing holds.
+  /// Removes one end of each edge at the path that is too short: a vertex of the path, where the edge that replaces it
+  /// stays within the tolerance of the curve, or a vertex beside the path that may move.
   void thin();
-  /// Flips an edge of each ill-shaped triangle where that makes the worse of the two better; with `smoothing`, moves
-  /// its corners, too: those of the path along the curve, others anywhere. Then also, before, at corners with older
-  /// incisions, the border or itself where edges enclose less than a good triangle needs: turns the first piece of the
-  /// path away from the other leg, within the tolerance, as chords may enclose less than the curves; where these
-  /// enclose too little, too, makes it follow the curve more closely, so that what is ill-shaped for it stays in their
-  /// wedge.
-  void mend(bool smoothing);
-  /// For each triangle that is still ill-shaped: takes a corner out, moves what stands round it, or splits an edge, a
-  /// piece of the path at a point of the curve; Delaunay refinement of what that leaves. False where that did not end
-  /// within a budget.
+  /// Flips an edge of each ill-shaped triangle where that makes the worse of the two triangles better. With
+  /// `smoothing`, also moves its corners, those on the path along the curve, others freely; and first treats sharp
+  /// corners, where the path and an older incision, the border or the path itself enclose a smaller angle than a
+  /// well-shaped triangle needs. Chords may enclose less than the curves: then the first piece of the path is turned
+  /// away from the other leg, within the tolerance. Where the curves themselves enclose too little, the path is made to
+  /// follow its curve more closely, so that the triangles that have to be ill-shaped stay in the wedge of the curves.
+  void flip_and_smooth(bool smoothing);
+  /// For each triangle that is still ill-shaped: removes a corner, moves the vertices round it, or splits an edge (a
+  /// piece of the path at a point of the curve); then refines the remaining ones by Delaunay refinement. False where
+  /// that did not end within a budget.
   bool refine();
 
   /// Ill-shaped, and not in a forced wedge.
   bool is_ill_shaped(TriangleIndex t) const;
-  /// Triangles that the cut made or changed, as yet.
+  /// Triangles that the cut has made or changed so far.
   std::vector<TriangleIndex> changed_triangles() const;
 
  private:
@@ -73,14 +73,14 @@ class Reshape {
   bool shorten_in(TriangleIndex t);
   bool may_divide(double from, double to, Point2 a, Point2 b) const;
   bool split_in(TriangleIndex t);
-  void mend_one_by_one();
+  void improve_one_by_one();
   void note_star(VertexIndex v);
-  void settle(bool smoothing, std::size_t most);
+  void process_queue(bool smoothing, std::size_t most);
 
   Options options_;
   Sheet* sheet_ = nullptr;
   PathCurve* curve_ = nullptr;
-  ForcedWedges wedges_{0.5};  // the mesh's legs are chords, and its wedges not quite those of the curves
+  ForcedWedges wedges_{0.5};  // wider than default: the mesh's legs are chords, which differ from the curves
   DelaunayRefinement refinement_;
   double h_ = 0, tolerance_ = 0;
   std::vector<TriangleIndex> queue_, stuck_;

@@ -1,5 +1,5 @@
-// What Reshape does where the path meets older incisions, the border or itself at a small angle, before anything else
-// is mended; and how it divides an edge at a point beside it.
+// The part of Reshape for corners where the path meets older incisions, the border or itself at a small angle, and its
+// way of dividing an edge at a point beside it.
 #include <cmath>
 
 #include "harness/cut/patch.h"
@@ -8,8 +8,9 @@
 
 namespace cutbench {
 
-/// Splits an edge with a new vertex at p, beside it: there the old map takes it, from where it would lie on the edge.
-/// An invalid index, and the edge is whole, where triangles would not stay positive.
+/// Splits an edge with a new vertex at p, which may lie beside it. The vertex is made on the edge and then moved, so
+/// that its deformed position is interpolated in the old triangles. Where a triangle would not stay positive the edge
+/// is left whole, and the index is invalid.
 VertexIndex Reshape::split_at(HalfEdge h, Point2 p) {
   const Point2 a = sheet_->rest(sheet_->origin(h)), edge = sheet_->rest(sheet_->target(h)) - a;
   const double lambda = dot(p - a, edge) / squared_length(edge);
@@ -23,8 +24,8 @@ VertexIndex Reshape::split_at(HalfEdge h, Point2 p) {
   return v;
 }
 
-/// Turns v, or a new vertex on the piece of path from the apex to it, about the apex until the edges to it and to the
-/// other leg enclose enough; false where it may not go there.
+/// Turns the first piece of the path, from the apex to v or to a new vertex before v, about the apex, until it encloses
+/// a large enough angle with the other leg. False where that is not allowed.
 bool Reshape::turn_away(VertexIndex v, VertexIndex apex, VertexIndex other) {
   constexpr double enough = 0.37;    // radians; a triangle with two sides this far apart has an aspect ratio of 2.8
   constexpr double sharpest = 0.17;  // a sine; below it the curves themselves enclose too little
@@ -49,7 +50,7 @@ bool Reshape::turn_away(VertexIndex v, VertexIndex apex, VertexIndex other) {
       continue;
     if (whole) {
       if (!sheet_->move(v, to)) continue;
-      curve_->set_parameter(v, -1);  // it stays there
+      curve_->set_parameter(v, -1);  // off the curve: it must stay there
       return true;
     }
     if (split_at(find_half_edge(*sheet_, apex, v), to).valid()) return true;

@@ -1,11 +1,11 @@
-// Conventional subdivision: the plain split of methods/conventional_split, and of those methods that leave its geometry
-// as it is.
+// The conventional split, used by conventional_split and by methods that keep its triangles.
 //
 // A triangle crossed by the path through two edges becomes three, one in which the path goes from a corner to the
-// opposite edge becomes two, and one in which it ends becomes four. The order of connection is static and looks at no
-// shape: the quadrilateral that a crossing leaves is divided from the point where the path comes in to the far corner,
-// a tip is joined to everything round it. Triangles that hold kept points (corners of the path, curve points, crossings
-// with itself), or that the path passes more than once, are divided step by step.
+// opposite edge becomes two, and one in which it ends becomes four. The order of connection is static and does not
+// depend on the shapes: the quadrilateral that a crossing leaves is divided from the point where the path comes in to
+// the far corner, and a tip is joined to all points round it. Triangles that hold other points (corners of the path,
+// curve points, crossings of the path with itself), or that the path passes more than once, are divided step by step
+// (split_step_by_step()).
 #pragma once
 
 #include "harness/cut/delaunay_split.h"

@@ -1,5 +1,5 @@
-// Moves vertices that the path passes closely onto it, before anything is split: all crossings of their edges are gone
-// then, and with them the thin triangles that they would have made.
+// Moves vertices that the path passes closely onto it, before anything is split. Their edges are then no longer
+// crossed, so the thin triangles that the split would make there do not arise.
 #pragma once
 
 #include <vector>
@@ -15,19 +15,19 @@ class Warp {
  public:
   struct Options {
     double reach = 0.4;       ///< of an edge, from a vertex to the crossing it moves for
-    double max_aspect = 4;    ///< no triangle is pressed beyond it
+    double max_aspect = 4;    ///< no triangle round a moved vertex may exceed it
     double tolerance = 0.05;  ///< largest distance of nodes that are left out from the new path, mean rest edges; the
                               ///< chord tolerance where that is smaller
   };
   explicit Warp(const Options& options) : options_(options) {}
 
-  /// Crossings at most `reach` of their edge from its end are taken nearest first. That end goes to one of the
-  /// crossings on its edges, points of the exact path, the nearest that presses no triangle too flat; the path goes
-  /// through it there, and what was crossed round it is crossed no more. A vertex moves once, only where the path
-  /// passes it in one go (PathGraph::find_run, has_star_to_itself); one on the border only along it, where that is
-  /// straight; held ones, those on incisions and those of more than 64 crossed outgoing edges stay. The deformed
-  /// position is that of the same material point before (Sheet::move). The trace becomes that of the sheet as it is
-  /// then.
+  /// Crossings at most `reach` of their edge from its end are taken nearest first. That end moves to one of the
+  /// crossings on its edges, which are points of the exact path: the nearest for which no aspect ratio exceeds
+  /// `max_aspect` and the new path stays within the tolerances of the curve. The path then goes through the vertex,
+  /// whose edges are no longer crossed. A vertex moves once, and only where the path passes it in one piece
+  /// (PathGraph::find_run, has_star_to_itself). A vertex on the border moves only along it, where that is straight;
+  /// held vertices, those on incisions and those of more than 64 crossed outgoing edges stay. The deformed position is
+  /// that of the same material point before (Sheet::move). On return the trace is that of the sheet as it then is.
   /// \pre curve.read() of the same trace
   void run(Sheet& sheet, Subdivision& trace, const PathCurve& curve);
 

@@ -19,7 +19,7 @@ void WarpAndRefine::improve(Sheet& sheet, MethodNotes& notes) {
   reshape_.begin(sheet, curve_);
   if (options_.before == Before::thin || options_.before == Before::warp_and_thin) reshape_.thin();
   if (options_.after >= After::flips && options_.after <= After::refine)
-    reshape_.mend(options_.after >= After::smoothing);
+    reshape_.flip_and_smooth(options_.after >= After::smoothing);
   if (options_.after == After::refine) notes.stopped_early = !reshape_.refine();
 }
 
