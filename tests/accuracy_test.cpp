@@ -59,7 +59,7 @@ TEST_F(Accuracy, EveryRowIsThereAndAddsUp) {
   std::map<std::string, const Record*> reference;
   std::map<std::string, double> direct;
   const auto place = [](const Record& row) {
-    return row.get("scene") + row.get("sheet") + row.get("resolution") + "," + row.get("case");
+    return row.get("problem") + row.get("sheet") + row.get("resolution") + "," + row.get("case");
   };
   for (const Record& row : rows)
     if (row.get("method") == reference_method && row.get("budget") == "0") reference[place(row)] = &row;
@@ -74,10 +74,10 @@ TEST_F(Accuracy, EveryRowIsThereAndAddsUp) {
     EXPECT_GT(number(row, "unknowns"), 0);
     EXPECT_GE(number(row, "triangles"), row.get("method") == reference_method ? 1 : number(row, "resolution"));
     EXPECT_LE(number(row, "iterations"), number(row, "budget"));
-    EXPECT_EQ(row.get("primary"), find_problem(row.get("scene")).measures().front());
+    EXPECT_EQ(row.get("primary"), find_problem(row.get("problem")).measures().front());
     EXPECT_EQ(row.get("error"), row.get("error_" + row.get("primary")));
     EXPECT_EQ(row.get("excess_error"), row.get("excess_" + row.get("primary")));
-    for (const std::string& measure : find_problem(row.get("scene")).measures()) {
+    for (const std::string& measure : find_problem(row.get("problem")).measures()) {
       const double of_reference = number(*reference.at(place(row)), "error_" + measure);
       const std::string& excess = row.get("excess_" + measure);
       EXPECT_EQ(excess.empty(), of_reference <= 1e-9) << measure;  // an exact answer is no measuring stick
@@ -87,7 +87,7 @@ TEST_F(Accuracy, EveryRowIsThereAndAddsUp) {
     }
     for (const std::string& column : accuracy_columns())
       if (column.starts_with("error_") && !row.get(column).empty()) {
-        const auto measures = find_problem(row.get("scene")).measures();
+        const auto measures = find_problem(row.get("problem")).measures();
         EXPECT_NE(std::find(measures.begin(), measures.end(), column.substr(6)), measures.end()) << column;
       }
     // So many iterations reach on these small sheets what the direct solve does; a few do not.
@@ -125,7 +125,7 @@ TEST_F(Accuracy, ProblemsOfManySolvesHaveMembersOfTheirOwn) {
   const auto rows = run_and_read("--methods conventional_split", "r");
   ASSERT_EQ(rows.size(), 3 * 2 * budgets + 2);  // by the reference and the method; the patch is solved directly alone
   for (const Record& row : rows) {
-    EXPECT_TRUE(row.get("scene") == "centre_crack" || row.get("resolution") == "72");
+    EXPECT_TRUE(row.get("problem") == "centre_crack" || row.get("resolution") == "72");
     EXPECT_EQ(row.get("verdict"), "ok") << row.line();
   }
 }
@@ -239,7 +239,7 @@ TEST_F(Accuracy, AFailureIsARow) {
     EXPECT_EQ(row.get("reason").empty(), method != "closing" && method != "refusing");
     EXPECT_EQ(row.get("error").empty(), method == "closing" || method == "refusing");
     if (method == "closing") {
-      EXPECT_GT(number(row, "incision_error"), 0.01);
+      EXPECT_GT(number(row, "incision_error_h"), 0.01);
     }
   }
 }

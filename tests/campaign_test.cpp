@@ -141,7 +141,7 @@ TEST_F(CampaignRun, RowsAddUpAndDoNotDependOnTheWorkers) {
   for (const auto& family : mixture_families()) {
     std::set<std::int64_t> numbers;
     for (const Record& row : one)
-      if (row.get("scene") == family && row.get("sheet") == "grid") numbers.insert(count(row, Count::cases));
+      if (row.get("cut_family") == family && row.get("sheet") == "grid") numbers.insert(count(row, Count::cases));
     EXPECT_EQ(numbers.size(), 1u) << family;
   }
 }

@@ -31,7 +31,7 @@ TEST_F(Cli, MethodsListsEveryRow) {
 
 /// --help of each subcommand says what it prints, with an example that runs, and --version what was built.
 TEST_F(Cli, HelpAndVersion) {
-  for (const char* subcommand : {"", "methods ", "cut ", "score ", "simulate ", "run "}) {
+  for (const char* subcommand : {"", "methods ", "cut ", "score ", "simulate ", "run ", "columns "}) {
     const auto help = run(std::string(subcommand) + "--help");
     EXPECT_EQ(help.code, 0) << subcommand;
     EXPECT_TRUE(help.error.empty()) << help.error;
@@ -55,10 +55,11 @@ TEST_F(Cli, CutWritesMeshAndReport) {
     EXPECT_EQ(report["method"], row.name);
     EXPECT_EQ(report["pieces"], 2);
     EXPECT_EQ(report["crossed_triangles"], 2);
-    EXPECT_EQ(report["aspect_ratio"]["cut"]["max"] > 0, row.name != "edge_release") << "which changes no triangle here";
+    EXPECT_EQ(report["ar_max_cut"] > 0, row.name != "edge_release") << "which changes no triangle here";
     EXPECT_LT(std::abs(report["area_change"].get<double>()), 1e-12);
-    for (const char* key : {"reason", "vertices_added", "deformed_vertices_added", "triangles_added", "angle_deg",
-                            "altitude_min", "forced", "incision_error", "time_us"})
+    for (const char* key :
+         {"reason", "vertices_added", "deformed_vertices_added", "triangles_added", "angle_max_deg_cut",
+          "altitude_min_h_all", "forced_corners", "incision_error_h", "geometry_us", "pick_us"})
       EXPECT_TRUE(report.contains(key)) << key;
     // What was written is a sheet again, with its incision, which a second cut crosses.
     write(folder_ / "across.json", R"({"cuts":[{"polyline":[[0.45,-0.1],[0.55,1.1]]}]})");
@@ -67,6 +68,17 @@ TEST_F(Cli, CutWritesMeshAndReport) {
     EXPECT_EQ(again.code, 0) << again.error;
     EXPECT_EQ(nlohmann::json::parse(read(folder_ / "r.json"))["pieces"], 4);
   }
+}
+
+/// The documents that are made of the table of metrics are those of this program.
+TEST_F(Cli, ColumnsAreThoseOfTheDocuments) {
+  const fs::path results = fs::path(CUTBENCH_TEST_CASES) / "../../results";
+  EXPECT_EQ(run("columns --json").out, read(results / "columns.json")) << "write it anew: cutbench columns --json";
+  const std::string page = read(results / "README.md"), begin = "<!-- begin of columns -->\n";
+  const std::size_t from = page.find(begin), to = page.find("<!-- end of columns -->");
+  ASSERT_LT(from, to);
+  EXPECT_EQ(run("columns").out, page.substr(from + begin.size(), to - from - begin.size()))
+      << "write it anew: cutbench columns";
 }
 
 /// README, "Try it".

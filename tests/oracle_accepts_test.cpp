@@ -212,8 +212,10 @@ TEST(Accepts, BezierWithinTolerance) {
   EXPECT_NEAR(j.incision_error, 0.25 * (std::numbers::sqrt2 - 1), 2e-4);  // at the corners of the square
   r.tolerance = 0.1;
   EXPECT_EQ(judge(r, after).verdict, "incision");
-  r.exact_incision = false;
+  r.exact_incision = false, r.tolerance = 0.11;  // what the method promises
   EXPECT_TRUE(judge(r, after).ok);
+  r.tolerance = 0.1;
+  EXPECT_EQ(judge(r, after).verdict, "incision");
 }
 
 /// No assertion: prints what a judgement costs on the paper's largest sheet.

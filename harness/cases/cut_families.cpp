@@ -7,6 +7,7 @@
 
 #include "harness/base/random.h"
 #include "harness/mesh/mesh_data.h"
+#include "harness/mesh/one_ring.h"
 
 namespace cutbench {
 
@@ -296,10 +297,7 @@ Curves Generator::through_vertices() {
 
 std::vector<HalfEdge> outgoing(const Sheet& sheet, VertexIndex v) {
   std::vector<HalfEdge> all;
-  const HalfEdge first = sheet.first_outgoing(v);
-  HalfEdge h = first;
-  do all.push_back(h), h = sheet.next_outgoing(h);
-  while (h.valid() && h != first);
+  for (const HalfEdge h : outgoing_edges(sheet, v)) all.push_back(h);
   return all;
 }
 

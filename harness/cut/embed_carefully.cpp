@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "harness/cut/patch.h"
+#include "harness/mesh/one_ring.h"
 #include "harness/mesh/predicates.h"
 
 namespace cutbench {
@@ -165,15 +166,12 @@ class CarefulEmbedding {
     const auto straight_on = [&](VertexIndex v) {
       return v == target || (side(v) == 0 && dot(rest(v) - rest(a), rest(target) - rest(a)) > 0);
     };
-    const HalfEdge first = sheet_.first_outgoing(a);
-    HalfEdge h = first;
-    do {
+    for (const HalfEdge h : outgoing_edges(sheet_, a)) {
       const HalfEdge across = Sheet::next(h), into = Sheet::previous(h);
       if (straight_on(sheet_.target(h))) return take(h, sheet_.target(h));
       if (straight_on(sheet_.origin(into))) return take(into, sheet_.origin(into));
       if (side(sheet_.origin(across)) < 0 && side(sheet_.target(across)) > 0) return cross(a, target, across);
-      h = sheet_.next_outgoing(h);
-    } while (h.valid() && h != first);
+    }
     give_up();  // the straight way leaves the sheet
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "harness/mesh/one_ring.h"
 #include "harness/mesh/predicates.h"
 
 namespace cutbench {
@@ -46,12 +47,9 @@ bool are_on_one_edge(const Patch& patch, int a, int b) {
 }  // namespace
 
 HalfEdge find_half_edge(const Sheet& sheet, VertexIndex from, VertexIndex to) {
-  const HalfEdge first = sheet.first_outgoing(from);
-  HalfEdge h = first;
-  do {
+  for (const HalfEdge h : outgoing_edges(sheet, from)) {
     if (sheet.target(h) == to) return h;
-    h = sheet.next_outgoing(h);
-  } while (h.valid() && h != first);
+  }
   return {};
 }
 

@@ -8,16 +8,6 @@
 namespace cutbench {
 
 template <int D>
-std::int32_t SliverBlocks<D>::root(std::int32_t i) {
-  const auto parent = [&](std::int32_t v) -> std::int32_t& { return parent_[static_cast<std::size_t>(v)]; };
-  while (parent(i) >= 0) {
-    if (parent(parent(i)) >= 0) parent(i) = parent(parent(i));
-    i = parent(i);
-  }
-  return i;
-}
-
-template <int D>
 void SliverBlocks<D>::find_groups(const ElementTable& elements) {
   joins_.clear();
   for (const Element& e : elements) {
@@ -36,11 +26,8 @@ void SliverBlocks<D>::find_groups(const ElementTable& elements) {
     return std::tuple(-one.weight, one.a, one.b) < std::tuple(-other.weight, other.a, other.b);
   });
   for (const Join& join : joins_) {
-    const std::int32_t a = root(join.a), b = root(join.b);
-    auto &at_a = parent_[static_cast<std::size_t>(a)], &at_b = parent_[static_cast<std::size_t>(b)];
-    if (a == b || -(at_a + at_b) > largest_group) continue;
-    at_a += at_b;
-    at_b = a;
+    if (joined_.find(join.a) != joined_.find(join.b) && joined_.size(join.a) + joined_.size(join.b) <= largest_group)
+      joined_.join(join.a, join.b);
   }
 }
 
@@ -49,15 +36,15 @@ void SliverBlocks<D>::setup(const SystemMatrix<D>& a) {
   groups_.clear();
   gathered_.resize(D * largest_group);
   if (!a.elements) return;
-  parent_.assign(a.vertices(), -1), group_.assign(a.vertices(), -1), place_.resize(a.vertices());
+  joined_.reset(a.vertices()), group_.assign(a.vertices(), -1), place_.resize(a.vertices());
   find_groups(*a.elements);
   for (const Join& join : joins_)
     for (const std::int32_t v : {join.a, join.b}) {
-      const std::int32_t top = root(v);
-      if (parent_[static_cast<std::size_t>(top)] == -1) continue;  // every join was left out
+      const std::int32_t top = joined_.find(v);
+      if (joined_.size(v) == 1) continue;  // every join was left out
       auto& group = group_[static_cast<std::size_t>(top)];
       if (group < 0) group = static_cast<std::int32_t>(groups_.size()), groups_.emplace_back();
-      // The root's entry numbers its group before the root itself is met.
+      // The entry of the smallest vertex of the class numbers the group before that vertex itself is met.
       auto& vertices = groups_[static_cast<std::size_t>(group)].vertices;
       group_[static_cast<std::size_t>(v)] = group;
       vertices.push_back(v);

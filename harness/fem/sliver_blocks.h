@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "harness/base/union_find.h"
 #include "harness/fem/system_matrix.h"
 
 namespace cutbench {
@@ -35,7 +36,6 @@ class SliverBlocks {
 
  private:
   void find_groups(const ElementTable& elements);
-  std::int32_t root(std::int32_t i);
   void factor(const SystemMatrix<D>& a, Group& group);
 
   struct Join {
@@ -44,9 +44,9 @@ class SliverBlocks {
   };
   std::vector<Group> groups_;
   // Working storage. Per vertex:
-  std::vector<std::int32_t> parent_;  ///< of a union-find forest; at a root minus the number of vertices
-  std::vector<std::int32_t> group_;   ///< -1: in none
-  std::vector<std::int32_t> place_;   ///< in its group
+  UnionFind joined_;                 ///< the groups
+  std::vector<std::int32_t> group_;  ///< -1: in none
+  std::vector<std::int32_t> place_;  ///< in its group
   std::vector<Join> joins_;
   Eigen::MatrixXd block_;
   Eigen::VectorXd gathered_;

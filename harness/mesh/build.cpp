@@ -6,6 +6,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "harness/base/union_find.h"
 #include "harness/mesh/sheet.h"
 
 namespace cutbench {
@@ -23,20 +24,6 @@ struct RestEdgeHash {
     for (double c : {e.a.x, e.a.y, e.b.x, e.b.y})
       hash = (hash ^ std::bit_cast<std::uint64_t>(c + 0.0)) * 0x9E3779B97F4A7C15u, hash ^= hash >> 29;
     return hash;
-  }
-};
-
-/// Union-find over vertex numbers; the smallest number stands for its class.
-struct Classes {
-  std::vector<std::int32_t> parent;
-  explicit Classes(std::size_t n) : parent(n) { std::iota(parent.begin(), parent.end(), 0); }
-  std::int32_t find(std::int32_t v) {
-    auto& p = parent[static_cast<std::size_t>(v)];
-    return p == v ? v : p = find(p);
-  }
-  void join(std::int32_t a, std::int32_t b) {
-    a = find(a), b = find(b);
-    parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
   }
 };
 
@@ -65,7 +52,7 @@ Sheet::Sheet(const MeshData& data) {
     }
 
   // The lips of an incision: border edges with bit-equal ends in opposite directions.
-  Classes welded(data.rest.size());
+  UnionFind welded(data.rest.size());
   std::unordered_map<RestEdge, HalfEdge, RestEdgeHash> lips;
   for (std::size_t t = 0; t < n; ++t)
     for (int k = 0; k < 3; ++k) {

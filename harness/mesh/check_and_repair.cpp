@@ -4,6 +4,7 @@
 #include <optional>
 #include <sstream>
 
+#include "harness/base/union_find.h"
 #include "harness/mesh/mesh_io.h"
 #include "harness/mesh/predicates.h"
 
@@ -25,22 +26,7 @@ struct EdgeUse {
   std::size_t triangle() const { return half_edge / 3; }
 };
 
-/// Union-find over corners; the smallest number stands for its class.
-class Fans {
- public:
-  explicit Fans(std::size_t corners) : parent_(corners) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-  std::size_t find(std::size_t c) {
-    while (parent_[c] != c) c = parent_[c] = parent_[parent_[c]];
-    return c;
-  }
-  void join(std::size_t a, std::size_t b) {
-    a = find(a), b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
+std::int32_t as_number(std::size_t corner) { return static_cast<std::int32_t>(corner); }
 
 std::size_t next_half_edge(std::size_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
 
@@ -211,16 +197,16 @@ class Repair {
   /// Corners are joined across shared edges; the first fan at a vertex keeps it, every other gets a copy.
   void split_bow_ties() {
     const std::vector<EdgeUse> uses = edges([](std::int32_t v) { return v; });
-    Fans fans(corners());
+    UnionFind fans(corners());  // corners that share a triangle fan
     for (std::size_t i = 1; i < uses.size(); ++i)
       if (uses[i].same_edge(uses[i - 1])) {
-        fans.join(uses[i].half_edge, next_half_edge(uses[i - 1].half_edge));
-        fans.join(next_half_edge(uses[i].half_edge), uses[i - 1].half_edge);
+        fans.join(as_number(uses[i].half_edge), as_number(next_half_edge(uses[i - 1].half_edge)));
+        fans.join(as_number(next_half_edge(uses[i].half_edge)), as_number(uses[i - 1].half_edge));
       }
     const std::size_t before = mesh_.rest.size();
     std::vector<bool> taken(before, false);
     for (std::size_t c = 0; c < corners(); ++c) {
-      if (const std::size_t first = fans.find(c); first != c) {
+      if (const auto first = static_cast<std::size_t>(fans.find(as_number(c))); first != c) {
         vertex(c) = vertex(first);
       } else if (const std::size_t v = at(vertex(c)); !taken[v]) {
         taken[v] = true;

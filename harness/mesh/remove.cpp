@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "harness/mesh/one_ring.h"
 #include "harness/mesh/sheet.h"
 
 namespace cutbench {
@@ -65,10 +66,7 @@ void Sheet::remove(std::span<const TriangleIndex> removed) {
     for (const VertexIndex v : triangle(t).vertex) {
       if (std::exchange(met[v()], 1)) continue;
       stars.push_back({v, outgoing.size()});
-      const HalfEdge first = first_outgoing(v);
-      HalfEdge h = first;
-      do outgoing.push_back(h), h = next_outgoing(h);
-      while (h.valid() && h != first);
+      for (const HalfEdge h : outgoing_edges(*this, v)) outgoing.push_back(h);
     }
   for (const TriangleIndex t : removed) {
     touch(t);

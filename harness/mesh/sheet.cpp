@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "harness/mesh/one_ring.h"
 #include "harness/mesh/predicates.h"
 
 namespace cutbench {
@@ -223,18 +224,13 @@ void Sheet::hold(VertexIndex v) {
 
 bool Sheet::move(VertexIndex v, Point2 to) {
   if (is_held(v)) return false;
-  const HalfEdge first = first_outgoing(v);
-  HalfEdge h = first;
-  do {
+  for (const HalfEdge h : outgoing_edges(*this, v))
     if (orientation(to, rest(target(h)), rest(origin(previous(h)))) <= 0) return false;
-    h = next_outgoing(h);
-  } while (h.valid() && h != first);
   // Each fan's deformed vertex follows the fan's own old map: interpolated in the triangle that holds the new place, or
   // comes nearest to holding it.
   auto& carried = work_.carried;
   carried.clear();
-  h = first;
-  do {
+  for (const HalfEdge h : outgoing_edges(*this, v)) {
     const Triangle& t = triangle(triangle_of(h));
     touch(triangle_of(h));
     const DeformedIndex d = t.deformed[corner(h)];
@@ -246,8 +242,7 @@ bool Sheet::move(VertexIndex v, Point2 to) {
       carried.push_back({{d, t.deformed, w}, depth});
     else if (depth > known->depth)
       *known = {{d, t.deformed, w}, depth};
-    h = next_outgoing(h);
-  } while (h.valid() && h != first);
+  }
   log_.moved.push_back({v, rest(v)});
   rest_[v()] = to;
   for (const auto& [from, depth] : carried) {

@@ -3,7 +3,7 @@
 // repetition would cut a strip off it.
 #include <cmath>
 
-#include "harness/mesh/star.h"
+#include "harness/mesh/one_ring.h"
 #include "harness/path/trace.h"
 
 namespace cutbench {
@@ -21,12 +21,9 @@ bool is_near(Point2 p, const std::vector<Point2>& polyline, double tolerance) {
 bool Tracer::is_on_incision(const Place& place) const {
   if (place.kind == Place::Kind::edge) return sheet_->mark(place.edge) == EdgeMark::incision;
   if (place.kind != Place::Kind::vertex) return false;
-  const HalfEdge first = sheet_->first_outgoing(place.vertex);
-  HalfEdge h = first;
-  do {
+  for (const HalfEdge h : outgoing_edges(*sheet_, place.vertex)) {
     if (sheet_->mark(h) == EdgeMark::incision) return true;
-    h = sheet_->next_outgoing(h);
-  } while (h.valid() && h != first);
+  }
   return false;
 }
 
@@ -96,16 +93,13 @@ bool Tracer::find_chain(const Place& to, VertexIndex before, VertexIndex v) {
     }
     VertexIndex best;
     double least = std::numeric_limits<double>::infinity();
-    const HalfEdge first = sheet_->first_outgoing(v);
-    HalfEdge h = first;
-    do {
+    for (const HalfEdge h : outgoing_edges(*sheet_, v)) {
       const VertexIndex next = sheet_->target(h);
       const Point2 p = sheet_->rest(next);
       if (const double d = squared_length(to.point - p);
           sheet_->mark(h) == EdgeMark::incision && next != before && d < least && is_near(p, way_, chord_tolerance_))
         best = next, least = d;
-      h = sheet_->next_outgoing(h);
-    } while (h.valid() && h != first);
+    }
     if (!best.valid()) return false;
     before = v, v = best;
     chain_.push_back(sheet_->rest(v));

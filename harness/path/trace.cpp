@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/mesh/one_ring.h"
 #include "harness/mesh/predicates.h"
 
 namespace cutbench {
@@ -79,12 +80,9 @@ const Place* Tracer::found_before(Point2 p) const {
 bool Tracer::is_free(const Place& place) const {
   if (place.kind == Place::Kind::face) return true;
   if (place.kind == Place::Kind::edge) return !sheet_->separates(place.edge);
-  const HalfEdge first = sheet_->first_outgoing(place.vertex);
-  HalfEdge h = first;
-  do {
+  for (const HalfEdge h : outgoing_edges(*sheet_, place.vertex)) {
     if (sheet_->separates(h)) return false;
-    h = sheet_->next_outgoing(h);
-  } while (h != first);
+  }
   return true;
 }
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "harness/mesh/one_ring.h"
 #include "harness/mesh/predicates.h"
-#include "harness/mesh/star.h"
 
 namespace cutbench {
 

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "harness/base/stop_watch.h"
-#include "harness/mesh/star.h"
+#include "harness/mesh/one_ring.h"
 #include "harness/path/blade.h"
 
 namespace cutbench {

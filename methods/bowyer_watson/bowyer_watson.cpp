@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "harness/mesh/one_ring.h"
 #include "harness/mesh/predicates.h"
 #include "harness/mesh/quality.h"
-#include "harness/mesh/star.h"
 
 namespace cutbench {
 

@@ -1,7 +1,7 @@
 #include "methods/longest_edge/longest_edge.h"
 
+#include "harness/mesh/one_ring.h"
 #include "harness/mesh/quality.h"
-#include "harness/mesh/star.h"
 
 namespace cutbench {
 
@@ -41,12 +41,9 @@ bool LongestEdge::split_terminal_edge(Sheet& sheet, TriangleIndex t) {
   const Point2 middle = 0.5 * sheet.rest(sheet.origin(h)) + 0.5 * sheet.rest(sheet.target(h));
   if (!halves_are_positive(sheet, h, middle) || !halves_are_positive(sheet, o, middle)) return false;
   const VertexIndex v = sheet.split_edge(h, 0.5, middle);
-  const HalfEdge first = sheet.first_outgoing(v);
-  HalfEdge outgoing = first;
-  do {
+  for (const HalfEdge outgoing : outgoing_edges(sheet, v)) {
     delaunay_.add(triangle_of(outgoing)), delaunay_.changed.push_back(triangle_of(outgoing));
-    outgoing = sheet.next_outgoing(outgoing);
-  } while (outgoing.valid() && outgoing != first);
+  }
   return true;
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "harness/mesh/star.h"
+#include "harness/mesh/one_ring.h"
 
 namespace cutbench {
 

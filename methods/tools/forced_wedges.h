@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "harness/mesh/sheet.h"
-#include "harness/mesh/star.h"
+#include "harness/mesh/one_ring.h"
 
 namespace cutbench {
 

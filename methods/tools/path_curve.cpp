@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "harness/mesh/star.h"
+#include "harness/mesh/one_ring.h"
 
 namespace cutbench {
 

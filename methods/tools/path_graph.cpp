@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "harness/cut/patch.h"
+#include "harness/mesh/one_ring.h"
 #include "harness/mesh/predicates.h"
 
 namespace cutbench {
@@ -215,12 +216,9 @@ bool PathGraph::find_run(int node, VertexIndex vertex, double reach, Run& run) c
     if (!is_nearest(n, vertex)) return false;
   }
   bool on_separator = false;
-  const HalfEdge first = sheet_->first_outgoing(vertex);
-  HalfEdge h = first;
-  do {
+  for (const HalfEdge h : outgoing_edges(*sheet_, vertex)) {
     on_separator |= sheet_->separates(h);
-    h = sheet_->next_outgoing(h);
-  } while (h.valid() && h != first);
+  }
   if (separating != (on_separator ? 1 : 0)) return false;
   return (run.before < 0 || sweep_is_clear(run.before, run.link_before, run.nodes.front(), vertex)) &&
          (run.after < 0 || sweep_is_clear(run.after, run.link_after, run.nodes.back(), vertex));
@@ -234,15 +232,12 @@ bool PathGraph::has_star_to_itself(const Run& run) const {
         return true;
     return false;
   };
-  const HalfEdge first = sheet_->first_outgoing(run.vertex);
-  HalfEdge h = first;
-  do {
+  for (const HalfEdge h : outgoing_edges(*sheet_, run.vertex)) {
     const int face = trace_->find_face(triangle_of(h));
     for (int n = face >= 0 ? trace_->face(face).inside : -1; n >= 0; n = trace_->node(n).next)
       if (!at(n).gone) return false;
     if (is_met_by_others(h) || is_met_by_others(Sheet::previous(h))) return false;
-    h = sheet_->next_outgoing(h);
-  } while (h.valid() && h != first);
+  }
   return true;
 }
 

@@ -1,6 +1,6 @@
 #include "methods/tools/region.h"
 
-#include "harness/mesh/star.h"
+#include "harness/mesh/one_ring.h"
 
 namespace cutbench {
 

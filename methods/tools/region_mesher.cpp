@@ -20,8 +20,8 @@
 #include <utility>
 
 #include "harness/cut/patch.h"
+#include "harness/mesh/one_ring.h"
 #include "harness/mesh/quality.h"
-#include "harness/mesh/star.h"
 
 namespace cutbench {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "harness/cut/patch.h"
-#include "harness/mesh/star.h"
+#include "harness/mesh/one_ring.h"
 #include "methods/tools/region_mesh.h"
 
 namespace cutbench {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "harness/mesh/one_ring.h"
 #include "harness/mesh/predicates.h"
 #include "harness/mesh/quality.h"
-#include "harness/mesh/star.h"
 
 namespace cutbench {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "harness/cut/patch.h"
-#include "harness/mesh/star.h"
+#include "harness/mesh/one_ring.h"
 #include "methods/tools/reshape.h"
 
 namespace cutbench {

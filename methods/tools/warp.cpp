@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/mesh/one_ring.h"
 #include "harness/mesh/quality.h"
-#include "harness/mesh/star.h"
 
 namespace cutbench {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "harness/mesh/star.h"
+#include "harness/mesh/one_ring.h"
 
 namespace cutbench {
 

@@ -1,8 +1,9 @@
-// The triangles round a vertex, looked at where the vertex is or might be.
+// The one-ring of a vertex: its outgoing half-edges and triangles, looked at where the vertex is or might be.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "harness/mesh/predicates.h"
@@ -28,7 +29,39 @@ inline bool halves_are_positive(const Sheet& sheet, HalfEdge h, Point2 p) {
   return orientation(sheet.rest(sheet.origin(h)), p, apex) > 0 && orientation(p, sheet.rest(sheet.target(h)), apex) > 0;
 }
 
-/// Calls look(outgoing edge) for every outgoing edge of v that has a triangle on its left, in no particular order.
+/// The outgoing half-edges of a vertex that have a triangle on their left, counter-clockwise from the first to the border
+/// or once round.
+class OutgoingEdges {
+ public:
+  class Iterator {
+   public:
+    Iterator(const Sheet& sheet, HalfEdge first) : sheet_(&sheet), first_(first), at_(first) {}
+    HalfEdge operator*() const { return at_; }
+    Iterator& operator++() {
+      at_ = sheet_->next_outgoing(at_);
+      if (at_ == first_) at_ = {};
+      return *this;
+    }
+    bool operator==(std::default_sentinel_t) const { return !at_.valid(); }
+
+   private:
+    const Sheet* sheet_;
+    HalfEdge first_, at_;
+  };
+
+  OutgoingEdges(const Sheet& sheet, HalfEdge first) : sheet_(&sheet), first_(first) {}
+  Iterator begin() const { return {*sheet_, first_}; }
+  std::default_sentinel_t end() const { return {}; }
+
+ private:
+  const Sheet* sheet_;
+  HalfEdge first_;
+};
+
+/// In the order of Sheet::first_outgoing(). The mesh must stay as it is meanwhile.
+inline OutgoingEdges outgoing_edges(const Sheet& sheet, VertexIndex v) { return {sheet, sheet.first_outgoing(v)}; }
+
+/// Calls look(outgoing edge) for every outgoing edge of v that has a triangle on its left, in no particular order: without the search for the border that outgoing_edges() begins with.
 template <class Look>
 void for_each_outgoing(const Sheet& sheet, VertexIndex v, Look look) {
   const auto& corner = sheet.triangle(sheet.triangle_of_vertex(v)).vertex;
