@@ -55,10 +55,6 @@ void judge_budget(const EnergyBudget& budget, StepReport& report) {
   report.verdict = "energy_growth", report.reason = text;
 }
 
-const char* name_of(BendingKind bending) {
-  return bending == BendingKind::none ? "none" : bending == BendingKind::patches ? "patches" : "hinges";
-}
-
 /// What a caption needs to say of the frames beside it.
 std::string description(const Scene& scene, const Simulation& motion, const SimulateOptions& options,
                         const StepReport& report, std::size_t triangles_before) {
@@ -73,7 +69,7 @@ std::string description(const Scene& scene, const Simulation& motion, const Simu
       {"unknowns", scene.physics.dimension * static_cast<int>(motion.sheet().deformed_count())},
       {"size_m", scene.size},
       {"step_s", scene.step},
-      {"bending", name_of(scene.physics.bending)},
+      {"bending", name_of(bending_names, scene.physics.bending)},
       {"solver", scene.solver.name},
       {"solver_tolerance", scene.solver.tolerance},
       {"newton", scene.newton},

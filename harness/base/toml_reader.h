@@ -7,12 +7,13 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "harness/base/enum_names.h"
 #include "harness/base/errors.h"
 #include "harness/base/names.h"
 #include "harness/base/points.h"
@@ -65,13 +66,13 @@ struct TomlReader {
 
   /// The value that goes with the name that is given.
   template <class E>
-  E choice(const char* key, E fallback, std::initializer_list<std::pair<const char*, E>> choices) const {
+  E choice(const char* key, E fallback, std::span<const EnumName<E>> choices) const {
     if (!has(key)) return fallback;
     const auto name = value<std::string>(key);
     std::vector<const char*> names;
-    for (const auto& [known, meaning] : choices) {
-      if (name == known) return meaning;
-      names.push_back(known);
+    for (const EnumName<E>& choice : choices) {
+      if (name == choice.name) return choice.value;
+      names.push_back(choice.name);
     }
     check_names({name}, names, where + ": " + key);
     return fallback;

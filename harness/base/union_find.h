@@ -3,9 +3,10 @@
 // The oracle (harness/measure) has one of its own: it shares no code with what it judges.
 #pragma once
 
-#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace cutbench {

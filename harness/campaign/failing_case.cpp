@@ -38,9 +38,12 @@ std::string outcome_of_command(const Variant& variant, const std::filesystem::pa
       return said[0].data();
     case Fate::timed_out:
       return "(does not end)";
-    default:
-      return "(crashes)";
+    case Fate::crashed:
+    case Fate::not_begun:
+    case Fate::under_way:
+      break;
   }
+  return "(crashes)";
 }
 
 std::string command(const Variant& variant, const std::filesystem::path& stem, const CutOptions& options) {

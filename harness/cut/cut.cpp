@@ -7,13 +7,11 @@
 #include "harness/cut/embed_carefully.h"
 #include "harness/cut/open.h"
 #include "harness/cut/patch.h"
+#include "harness/mesh/tolerances.h"
 
 namespace cutbench {
 
 namespace {
-
-// In sizes of the sheet: beyond it the rounding of a point is as large as the snap distance.
-constexpr double longest_reach = 1000;
 
 /// The longer side of the points' bounding box.
 double reach_of(const std::vector<Point2>& points) {
@@ -47,8 +45,8 @@ CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, Cutti
   try {
     flatten(curve, std::numeric_limits<double>::infinity(), 0, polyline_);  // to a hundredth of its own size
     const double reach = reach_of(polyline_.points);
-    if (reach <= 4 * sheet.snap()) return nothing_done(Status::noop, "the path has no length");
-    if (reach > longest_reach * sheet.size())
+    if (reach <= meeting_tolerance * sheet.snap()) return nothing_done(Status::noop, "the path has no length");
+    if (reach > longest_path_reach * sheet.size())
       return nothing_done(Status::refused, "the path reaches over 1000 times the sheet's size; cut it off nearer");
     flatten(curve, options.flatten_tolerance * sheet.mean_edge(), sheet.snap(), polyline_);
     outcome.time_us.trace = watch.lap();
@@ -83,7 +81,7 @@ CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, Cutti
     outcome.time_us.locate += watch.lap();
 
     if (notes.stopped_early) outcome.reason = "the triangles were improved in part only, up to the method's limit";
-    if (outcome.deviation > 2 * sheet.snap()) {
+    if (outcome.deviation > line_tolerance * sheet.snap()) {
       outcome.status = Status::deviated;
       outcome.reason = "a crossing was moved out of a wedge between older cuts that is too thin for doubles";
     }

@@ -6,6 +6,7 @@
 
 #include "harness/cut/cutting_method.h"
 #include "harness/mesh/locator.h"
+#include "harness/mesh/tolerances.h"
 #include "harness/path/curve.h"
 #include "harness/path/trace.h"
 
@@ -22,8 +23,9 @@ const char* name_of(Status status);
 
 struct CutOptions {
   // In mean rest edges of the sheet as constructed.
-  double flatten_tolerance = 1e-3;  ///< Bezier to polyline, for tracing only
-  double chord_tolerance = 0.05;  ///< curve points inside triangles become vertices beyond it; infinity: crossings only
+  double flatten_tolerance = default_flatten_tolerance;  ///< Bezier to polyline, for tracing only
+  double chord_tolerance =
+      default_chord_tolerance;  ///< curve points inside triangles become vertices beyond it; infinity: crossings only
 };
 
 /// Microseconds (steady clock) per phase. `trace` includes flattening; `locate` finding the first triangle and keeping
@@ -45,8 +47,8 @@ struct CutOutcome {
   std::size_t crossed_triangles = 0;   ///< of the mesh before the cut: those whose interior the path meets
   int recovered_segments = 0;
   bool carefully = false;  ///< the method could not embed the path, and embed_carefully() did
-  double deviation = 0;    ///< largest move of a crossing by embed_carefully(), rest units; beyond twice the snap
-                           ///< distance the status is `deviated`
+  double deviation = 0;    ///< largest move of a crossing by embed_carefully(), rest units; beyond `line_tolerance`
+                           ///< the status is `deviated`
   PhaseTimes time_us;
 };
 

@@ -6,13 +6,11 @@
 #include "harness/cut/patch.h"
 #include "harness/mesh/one_ring.h"
 #include "harness/mesh/predicates.h"
+#include "harness/mesh/tolerances.h"
 
 namespace cutbench {
 
 namespace {
-
-// How far a crossing may be moved at most, in mean rest edges.
-constexpr double farthest_move = 1e-4;
 
 [[noreturn]] void give_up() {
   throw TooClose(
@@ -94,7 +92,7 @@ class CarefulEmbedding {
       return sheet_.split_edge(h, std::clamp(dot(p - from, along) / squared_length(along), 0.0, 1.0), p);
     }
     const double moved = std::sqrt(squared_length(p - rest(nearest)));
-    if (moved > farthest_move * sheet_.mean_edge()) give_up();
+    if (moved > careful_move_tolerance * sheet_.mean_edge()) give_up();
     moved_ = std::max(moved_, moved);
     return nearest;
   }

@@ -14,7 +14,7 @@ namespace cutbench {
 /// it crosses a border, an incision or an earlier piece, the crossing becomes a vertex there. Where two incisions are
 /// closer than doubles can distinguish, in the tip of a thin wedge, the crossing is moved along one of them to the
 /// nearest vertex. Returns the largest such move (rest units). \pre the sheet is as it was traced. Throws TooClose
-/// where a move would exceed 1e-4 mean rest edges.
+/// where a move would exceed `careful_move_tolerance` (harness/mesh/tolerances.h).
 double embed_carefully(Sheet& sheet, const Subdivision& trace);
 
 }  // namespace cutbench

@@ -80,15 +80,21 @@ void Bending::rebuild(const Sheet& sheet) {
   for (const auto& [t, distance] : work_.stale) {
     if (!stencil_is_stale(sheet, t)) continue;
     work_.terms.clear();
-    if (!sheet.triangle(t).alive()) {
-    } else if (kind_ == BendingKind::patches) {
-      patch_rows(sheet, t);
-    } else {
-      hinge_rows(sheet, t);
-    }
+    if (sheet.triangle(t).alive()) add_rows(sheet, t);
     replace_stencil(t());
   }
   for (const std::int32_t vertex : work_.rows) write_row(static_cast<std::size_t>(vertex));
+}
+
+void Bending::add_rows(const Sheet& sheet, TriangleIndex t) {
+  switch (kind_) {
+    case BendingKind::none:
+      return;
+    case BendingKind::patches:
+      return patch_rows(sheet, t);
+    case BendingKind::hinges:
+      return hinge_rows(sheet, t);
+  }
 }
 
 void Bending::fit_patch(const Sheet& sheet, TriangleIndex t) {

@@ -54,6 +54,7 @@ class Bending {
 
   // Terms of t's stencil, summed up in work_.
   std::array<double, 3>& term_of(std::int32_t vertex);
+  void add_rows(const Sheet& sheet, TriangleIndex t);
   void patch_rows(const Sheet& sheet, TriangleIndex t);
   void hinge_rows(const Sheet& sheet, TriangleIndex t);
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "harness/base/enum_names.h"
 #include "harness/mesh/types.h"
 
 namespace cutbench {
@@ -20,11 +21,27 @@ struct Material {
   double stiffness_damping = 0;  ///< Rayleigh beta, s
 };
 
+// A new value is entered in the table of names below its enum; the compiler then names every switch that lacks it.
+
 enum class Plane : std::uint8_t { stress, strain };
+constexpr EnumNames<Plane, 2> plane_names{{{Plane::stress, "stress"}, {Plane::strain, "strain"}}};
+
 enum class Strain : std::uint8_t { linear, corotational };
+constexpr EnumNames<Strain, 2> strain_names{{{Strain::linear, "linear"}, {Strain::corotational, "corotational"}}};
+
+/// A new kind: its three rows of a triangle go to harness/fem/bending_rows.cpp, its case to Bending::rebuild().
 enum class BendingKind : std::uint8_t { none, patches, hinges };
+constexpr EnumNames<BendingKind, 3> bending_names{
+    {{BendingKind::none, "none"}, {BendingKind::patches, "patches"}, {BendingKind::hinges, "hinges"}}};
+
 enum class Mass : std::uint8_t { lumped, consistent };
+constexpr EnumNames<Mass, 2> mass_names{{{Mass::lumped, "lumped"}, {Mass::consistent, "consistent"}}};
+
 enum class Integrator : std::uint8_t { backward_euler, midpoint, symplectic_euler, equilibrium };
+constexpr EnumNames<Integrator, 4> integrator_names{{{Integrator::backward_euler, "backward_euler"},
+                                                     {Integrator::midpoint, "midpoint"},
+                                                     {Integrator::symplectic_euler, "symplectic_euler"},
+                                                     {Integrator::equilibrium, "equilibrium"}}};
 
 /// A scene builds only what it names.
 struct Physics {

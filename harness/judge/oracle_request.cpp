@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/mesh/tolerances.h"
+
 namespace cutbench {
 
 oracle::Mesh for_oracle(const Sheet& sheet) {
@@ -56,8 +58,8 @@ oracle::Request request_for(const Sheet& before, std::span<const Curve> cuts, co
   oracle::Request request;
   request.before = for_oracle(before);
   request.cuts = for_oracle(cuts);
-  // A path may pass within twice the snap distance of what it goes through, and so may the one it meets.
-  request.snap = (cuts.size() > 1 ? 4 : 2) * before.snap();
+  // A path may pass within `line_tolerance` of what it goes through, and so may the one it meets.
+  request.snap = (cuts.size() > 1 ? meeting_tolerance : line_tolerance) * before.snap();
   const double traced = options.chord_tolerance * h + flattening + request.snap;
   request.tolerance = largest_error(before, promises.incision_bound, options) + flattening + request.snap;
   if (curved && std::isfinite(options.chord_tolerance)) request.thin = traced;

@@ -8,6 +8,7 @@
 
 #include "harness/base/union_find.h"
 #include "harness/mesh/sheet.h"
+#include "harness/mesh/tolerances.h"
 
 namespace cutbench {
 
@@ -99,7 +100,7 @@ Sheet::Sheet(const MeshData& data) {
     }
   mean_edge_ = length / count;
   size_ = std::hypot(high.x - low.x, high.y - low.y);
-  snap_ = std::max(1e-12 * size_, 8 * ulp(largest));
+  snap_ = snap_distance(size_, ulp(largest));
 }
 
 MeshData Sheet::to_mesh_data() const {

@@ -71,7 +71,7 @@ class Repair {
       const auto [a, b, c] = mesh_.triangles[t];
       for (std::int32_t v : {a, b, c}) {
         if (v < 0 || v >= count)
-          fail(triangle_name(t) + " has a corner beyond the " + std::to_string(count) + " vertices; mend its indices");
+          fail(triangle_name(t) + " has a corner beyond the " + std::to_string(count) + " vertices; correct its indices");
         used_[at(v)] = true;
       }
       if (a == b || b == c || c == a) fail(triangle_name(t) + " has the same corner twice; delete it");
@@ -86,7 +86,7 @@ class Repair {
       const Point2 r = mesh_.rest.empty() ? Point2{} : mesh_.rest[v];
       if (!good(p.x) || !good(p.y) || !good(p.z) || !good(r.x) || !good(r.y))
         fail("vertex " + std::to_string(v + 1) + " of " + std::to_string(mesh_.deformed.size()) +
-             " has a coordinate that is not finite or beyond 1e60; mend or rescale it");
+             " has a coordinate that is not finite or beyond 1e60; correct or rescale it");
     }
   }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "harness/mesh/sheet.h"
+#include "harness/mesh/tolerances.h"
 
 namespace cutbench {
 
@@ -51,7 +52,7 @@ template <class Visit, class Done>
 void Locator::visit_border(const Sheet& sheet, Point2 a, Point2 b, Visit visit, Done done) const {
   // Column by column in the direction of the segment; one cell more on every side absorbs rounding, and each column is
   // a little wider than its cells, for a segment that runs along their side.
-  const double margin = 4 * sheet.snap();
+  const double margin = meeting_tolerance * sheet.snap();
   const double dx = b.x - a.x;
   const int first = column(a.x), last = column(b.x), step = dx >= 0 ? 1 : -1;
   auto fraction = [&](double x) { return std::min(1.0, std::max(0.0, (x - a.x) / dx)); };

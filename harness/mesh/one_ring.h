@@ -8,6 +8,7 @@
 
 #include "harness/mesh/predicates.h"
 #include "harness/mesh/sheet.h"
+#include "harness/mesh/tolerances.h"
 
 namespace cutbench {
 
@@ -121,7 +122,8 @@ inline bool is_straight_at(const Sheet& sheet, VertexIndex v) {
     left = h;
   }
   const Point2 a = sheet.rest(sheet.target(right)), b = sheet.rest(sheet.origin(Sheet::previous(left)));
-  return std::abs(cross(b - a, sheet.rest(v) - a)) <= 1e-3 * sheet.snap() * std::sqrt(squared_length(b - a));
+  return std::abs(cross(b - a, sheet.rest(v) - a)) <=
+         straight_border_tolerance * sheet.snap() * std::sqrt(squared_length(b - a));
 }
 
 }  // namespace cutbench

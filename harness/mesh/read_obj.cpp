@@ -87,7 +87,7 @@ class ObjReader {
     double value = 0;
     const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
     if (error != std::errc() || end != token.data() + token.size() || !(as_is_ || std::isfinite(value)))
-      fail(line_, "'" + shown + "' is not a finite number; mend it");
+      fail(line_, "'" + shown + "' is not a finite number; correct it");
     return value;
   }
 

@@ -62,8 +62,7 @@ class Sheet {
 
   double mean_edge() const { return mean_edge_; }  ///< h: mean rest edge of the sheet as constructed
   double size() const { return size_; }            ///< diagonal of its rest bounding box
-  /// Nearer than this the path goes through a vertex or along an edge: max(1e-12 of the size, 8 ulp of the largest
-  /// coordinate). Far above what rounding an intersection to doubles can move it.
+  /// The snap distance, the unit of the tolerances in harness/mesh/tolerances.h, rest units.
   double snap() const { return snap_; }
 
   // --- editing -------------------------------------------------------------------------------------------------------

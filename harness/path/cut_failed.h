@@ -14,7 +14,7 @@ struct CutFailed : std::runtime_error {
 };
 
 /// What a method can't be asked for, as it finds while it cuts: the sheet is rolled back and the cut is refused.
-/// `why`: one line, with the mend.
+/// `why`: one line that also says what to do.
 struct CutRefused : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

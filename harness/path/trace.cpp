@@ -134,7 +134,8 @@ void Tracer::handle(const Step& step, std::size_t point, bool tip) {
         to_node = finish(trace_.face_of(face_), from_, first_, count_, to);
       }
       break;
-    default:
+    case Passage::Kind::nothing:
+    case Passage::Kind::outside:
       break;
   }
   from_ = to, from_node_ = to_node;

@@ -8,6 +8,7 @@
 
 #include "harness/mesh/one_ring.h"
 #include "harness/mesh/predicates.h"
+#include "harness/mesh/tolerances.h"
 
 namespace cutbench {
 
@@ -36,7 +37,7 @@ Point2 divide(Point2 a, Point2 b, double from_a, double from_b, double& lambda) 
 Walk::Side Walk::side(Point2 a, Point2 b, Point2 p) const {
   const Point2 ab = b - a;
   const double area = cross(ab, p - a);
-  if (std::abs(area) <= 2 * snap_ * std::max(std::abs(ab.x), std::abs(ab.y))) return {area, 0};
+  if (std::abs(area) <= line_tolerance * snap_ * std::max(std::abs(ab.x), std::abs(ab.y))) return {area, 0};
   const int sign = area > 0 ? 1 : -1;
   assert(sign == orientation(a, b, p));
   return {area, sign};
@@ -95,7 +96,7 @@ Step Walk::leave(HalfEdge exit, double right, double left, Passage passage) {
 /// From the edge of a sliver, the line meets its others behind the place where it begins: then it leaves there.
 bool Walk::is_behind(Point2 p, Point2 target) const {
   const Point2 line = target - origin_;
-  return dot(p - origin_, line) < -2 * snap_ * std::max(std::abs(line.x), std::abs(line.y));
+  return dot(p - origin_, line) < -line_tolerance * snap_ * std::max(std::abs(line.x), std::abs(line.y));
 }
 
 Step Walk::leave_at_origin(HalfEdge exit) {
@@ -174,7 +175,8 @@ Step Walk::from_edge(Place at, Point2 target) {
 
 Step Walk::from_vertex(VertexIndex v, Point2 target) {
   if (is_at(v, target)) return reach({}, place_at(sheet_, v));
-  if (within(rest(v), target, 8 * snap_)) origin_ = rest(v);  // so near, the target may lie behind the line's origin
+  if (within(rest(v), target, direction_tolerance * snap_))
+    origin_ = rest(v);  // so near, the target may lie behind the line's origin
   const HalfEdge first = sheet_.first_outgoing(v);
   // Along a outgoing edge? At a border vertex the last one has no half-edge out of v, but its triangle's edge into v. A
   // vertex that is nearly here tells nothing of the way, unless it lies on it exactly.
@@ -182,8 +184,9 @@ Step Walk::from_vertex(VertexIndex v, Point2 target) {
     if (near(rest(x), target)) return true;
     const Point2 outgoing = rest(x) - rest(v);
     if (dot(outgoing, target - origin_) <= 0) return false;
-    return squared_length(outgoing) > 64 * snap_ * snap_ ? side(origin_, target, rest(x)).sign == 0
-                                                         : orientation(rest(v), target, rest(x)) == 0;
+    return squared_length(outgoing) > direction_tolerance * direction_tolerance * snap_ * snap_
+               ? side(origin_, target, rest(x)).sign == 0
+               : orientation(rest(v), target, rest(x)) == 0;
   };
   HalfEdge h = first;
   do {
@@ -264,7 +267,7 @@ Step Walk::from_outside(Point2 target) {
   // it may from one side of a notch into the other.
   const auto touches_at = [&](VertexIndex v) {
     if (at_.kind == Place::Kind::vertex) return v != at_.vertex && rest(v) == at_.point;
-    if (at_.kind != Place::Kind::edge || !within(rest(v), at_.point, 8 * snap_)) return false;
+    if (at_.kind != Place::Kind::edge || !within(rest(v), at_.point, direction_tolerance * snap_)) return false;
     return rest(v) == rest(sheet_.origin(at_.edge)) || rest(v) == rest(sheet_.target(at_.edge));
   };
   const auto goes_on_at = [&](VertexIndex v) {

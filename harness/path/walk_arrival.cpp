@@ -5,16 +5,17 @@
 #include <utility>
 #include <vector>
 
+#include "harness/mesh/tolerances.h"
 #include "harness/path/walk.h"
 
 namespace cutbench {
 
-/// Whether p lies on the edge, or past its end no farther than twice the snap distance from there.
+/// Whether p lies on the edge, or past its end no farther than `line_tolerance` from there.
 bool Walk::lies_on(HalfEdge h, Point2 p) const {
   const Point2 a = rest(sheet_.origin(h)), b = rest(sheet_.target(h)), ab = b - a;
   if (side(a, b, p).sign != 0) return false;
-  if (dot(p - a, ab) < 0) return squared_length(p - a) <= 4 * snap_ * snap_;
-  if (dot(b - p, ab) < 0) return squared_length(p - b) <= 4 * snap_ * snap_;
+  if (dot(p - a, ab) < 0) return squared_length(p - a) <= line_tolerance * line_tolerance * snap_ * snap_;
+  if (dot(b - p, ab) < 0) return squared_length(p - b) <= line_tolerance * line_tolerance * snap_ * snap_;
   return true;
 }
 
@@ -70,8 +71,8 @@ Step Walk::arrive(TriangleIndex t, Point2 target) {
 /// a nearer one beyond it, where the walk hasn't looked yet.
 bool Walk::is_detour(VertexIndex v, Point2 target) const {
   const Point2 from = at_.point - target;
-  return !is_at(v, target) &&
-         !(at_.kind == Place::Kind::vertex && std::max(std::abs(from.x), std::abs(from.y)) <= 4 * snap_);
+  return !is_at(v, target) && !(at_.kind == Place::Kind::vertex &&
+                                std::max(std::abs(from.x), std::abs(from.y)) <= meeting_tolerance * snap_);
 }
 
 /// Is there a vertex at p, also behind an incision that it lies on, too, or else, where `edges_too`, an edge that

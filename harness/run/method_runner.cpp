@@ -141,7 +141,7 @@ class Runner {
         motion_->advance(experiment_.cut_time - scene.step, *workers_.front().method, cut_options_);
     if (report.verdict != "ok")
       throw InputError(scene.stem + ": the scene fails before its cut (" + report.verdict + "; " + report.reason +
-                       "); mend its step or its solver");
+                       "); change its step or its solver");
   }
 
   /// The cut made in the running scene, where nothing is warmed up for it.

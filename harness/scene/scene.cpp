@@ -70,12 +70,10 @@ Physics read_physics(const TomlReader& file) {
   Physics p;
   p.dimension = reader.count("dimension", p.dimension);
   if (p.dimension != 2 && p.dimension != 3) reader.refuse("\"dimension\" is 2 (in the plane) or 3");
-  p.plane = reader.choice("plane", p.plane, {{"stress", Plane::stress}, {"strain", Plane::strain}});
-  p.strain = reader.choice("strain", p.strain, {{"linear", Strain::linear}, {"corotational", Strain::corotational}});
-  p.bending =
-      reader.choice("bending", p.bending,
-                    {{"none", BendingKind::none}, {"patches", BendingKind::patches}, {"hinges", BendingKind::hinges}});
-  p.mass = reader.choice("mass", p.mass, {{"lumped", Mass::lumped}, {"consistent", Mass::consistent}});
+  p.plane = reader.choice<Plane>("plane", p.plane, plane_names);
+  p.strain = reader.choice<Strain>("strain", p.strain, strain_names);
+  p.bending = reader.choice<BendingKind>("bending", p.bending, bending_names);
+  p.mass = reader.choice<Mass>("mass", p.mass, mass_names);
   p.gravity = read_vector(reader, "gravity", p);
   if (p.bending != BendingKind::none && p.dimension == 2)
     reader.refuse("a 2D scene does not bend; set bending = \"none\", or dimension = 3");
@@ -175,7 +173,8 @@ Scene::Cut read_cut(const TomlReader& reader) {
   cut.time = reader.positive_or_zero("time", 0);
   if (!seeded) {
     if (reader.has("speed")) cut.speed = reader.positive("speed", 0);
-    const bool world = reader.choice("space", false, {{"rest", false}, {"world", true}});
+    constexpr EnumNames<bool, 2> spaces{{{false, "rest"}, {true, "world"}}};
+    const bool world = reader.choice<bool>("space", false, spaces);
     if (world) cut.picked = read_picks(reader, bezier ? "bezier" : "polyline");
     if (!world) cut.curve = read_curve(reader, bezier);
     return cut;
@@ -192,11 +191,7 @@ Scene::Cut read_cut(const TomlReader& reader) {
 
 void read_integrator(const TomlReader& file, Scene& scene) {
   const TomlReader reader = file.section("integrator", {"name", "step", "newton"});
-  scene.integrator = reader.choice("name", scene.integrator,
-                                   {{"backward_euler", Integrator::backward_euler},
-                                    {"midpoint", Integrator::midpoint},
-                                    {"symplectic_euler", Integrator::symplectic_euler},
-                                    {"equilibrium", Integrator::equilibrium}});
+  scene.integrator = reader.choice<Integrator>("name", scene.integrator, integrator_names);
   scene.step = reader.positive("step", scene.step);
   scene.newton = reader.count("newton", scene.newton);
   if (scene.integrator == Integrator::symplectic_euler && scene.physics.mass == Mass::consistent)

@@ -8,6 +8,7 @@
 
 #include "harness/mesh/locator.h"
 #include "harness/mesh/predicates.h"
+#include "harness/mesh/tolerances.h"
 #include "methods/tools/static_split.h"
 
 namespace cutbench {
@@ -235,7 +236,7 @@ class Doubling {
       const Point2 from = c[(k + 1) % 3], to = c[(k + 2) % 3];
       const double area = cross(from - p, to - p);
       // A path that is no farther from an edge goes along it, so this is the rounding of a crossing.
-      const bool on_edge = std::abs(area) <= before_.snap() / 2 * std::sqrt(squared_length(to - from));
+      const bool on_edge = std::abs(area) <= rounding_tolerance * before_.snap() * std::sqrt(squared_length(to - from));
       tie.weights[k] = on_edge ? 0 : area / twice;
     }
     *std::max_element(tie.weights.begin(), tie.weights.end()) += 1 - (tie.weights[0] + tie.weights[1] + tie.weights[2]);

@@ -67,7 +67,7 @@ class DelaunayRefinement {
   Options options_;
   const ForcedWedges* wedges_ = nullptr;
   LocalDelaunay delaunay_;
-  std::vector<Entry> heap_;  // shortest first; each may be mended or changed by the time it is looked at
+  std::vector<Entry> heap_;  // shortest first; each may be improved or changed by the time it is looked at
   std::vector<TriangleIndex> cavity_;
   StampedSet<TriangleIndex> met_;  // in the cavity
   std::vector<HalfEdge> encroached_, doubtful_;

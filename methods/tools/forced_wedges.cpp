@@ -5,6 +5,7 @@
 #include <span>
 
 #include "harness/mesh/one_ring.h"
+#include "harness/mesh/tolerances.h"
 
 namespace cutbench {
 
@@ -66,7 +67,7 @@ bool lies_within(std::span<const Point2> polygon, Point2 p) {
 
 void ForcedWedges::find(const Sheet& sheet) {
   corners_.clear(), polygon_.clear();
-  disc_ = share_ * 0.25 * sheet.mean_edge();
+  disc_ = share_ * forced_wedge_disc * sheet.mean_edge();
   for_each_sharp_corner(sheet,
                         [&](VertexIndex apex, VertexIndex right, VertexIndex left) { add(sheet, apex, right, left); });
 }
@@ -74,7 +75,7 @@ void ForcedWedges::find(const Sheet& sheet) {
 /// Follows both legs equally far while they are close.
 void ForcedWedges::add(const Sheet& sheet, VertexIndex apex, VertexIndex right, VertexIndex left) {
   constexpr int most_steps = 1000;
-  const double step = 0.05 * sheet.mean_edge(), width = share_ * 0.3 * sheet.mean_edge();
+  const double step = 0.05 * sheet.mean_edge(), width = share_ * forced_wedge_width * sheet.mean_edge();
   const Point2 p = sheet.rest(apex);
   Leg along_right(sheet, apex, right), along_left(sheet, apex, left);
   Corner corner{p, {p.x - disc_, p.y - disc_}, {p.x + disc_, p.y + disc_}, polygon_.size(), 0};

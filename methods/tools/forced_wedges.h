@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "harness/mesh/sheet.h"
 #include "harness/mesh/one_ring.h"
+#include "harness/mesh/sheet.h"
 
 namespace cutbench {
 

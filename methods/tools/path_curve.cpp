@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "harness/mesh/one_ring.h"
+#include "harness/mesh/tolerances.h"
 
 namespace cutbench {
 
@@ -49,8 +50,8 @@ void PathCurve::read(const Sheet& sheet, const Subdivision& trace, const Polylin
 /// Finds the nodes on the polyline, one after the other in its direction. Nodes on an older incision that the path
 /// follows are not on it.
 void PathCurve::locate_nodes(const Polyline& path, double snap) {
-  constexpr std::size_t most = 4096;      // points of the polyline between two nodes that are looked at
-  const double near2 = 16 * snap * snap;  // the trace may go through what is within twice the snap distance
+  constexpr std::size_t most = 4096;  // points of the polyline between two nodes that are looked at
+  const double near2 = meeting_tolerance * meeting_tolerance * snap * snap;
   const std::size_t pieces = path.closed ? 2 * path.points.size() : path.points.size() - 1;
   place_.assign(points_.size(), -1);
   double last = 0;

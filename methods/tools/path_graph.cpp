@@ -142,21 +142,21 @@ bool PathGraph::is_clear_between(HalfEdge edge, int a, int b) const {
 
 /// No other node lies between the vertex and this one, nor the edge's other end or another node so near behind it that
 /// rounding decides which is nearer: two lines that nearly coincide may cross many times, and contracting one of them
-/// would make large bits of the hairs between.
+/// would enlarge the thin pieces that they enclose.
 bool PathGraph::is_nearest(int node, VertexIndex vertex) const {
   const HalfEdge edge = at(node).place.edge;
   const double length =
       std::sqrt(squared_length(sheet_->rest(sheet_->target(edge)) - sheet_->rest(sheet_->origin(edge))));
-  const double behind = fraction_from(vertex, at(node).place) + hair() / length;
+  const double behind = fraction_from(vertex, at(node).place) + coincidence() / length;
   return behind <= 1 && is_clear(edge, vertex, behind, node);
 }
 
 /// A triangle at the edge is lower than a few snap distances: a path along the edge could enclose nothing but that.
-bool PathGraph::is_beside_hair(HalfEdge edge) const {
+bool PathGraph::is_beside_flat_triangle(HalfEdge edge) const {
   const Point2 from = sheet_->rest(sheet_->origin(edge)), along = sheet_->rest(sheet_->target(edge)) - from;
   for (const HalfEdge h : {edge, sheet_->opposite(edge)})
     if (h.valid() && std::abs(cross(along, sheet_->rest(sheet_->origin(Sheet::previous(h))) - from)) <=
-                         hair() * std::sqrt(squared_length(along)))
+                         coincidence() * std::sqrt(squared_length(along)))
       return true;
   return false;
 }
@@ -179,7 +179,7 @@ bool PathGraph::sweep_is_clear(int end, int i, int node, VertexIndex vertex) con
     return true;  // on along the node's own edge
   if (const HalfEdge edge = common_edge(*sheet_, t, place, place_at(*sheet_, vertex)); edge.valid()) {
     const double distance = place.kind == Place::Kind::edge ? fraction_from(vertex, place) : 2;
-    if (sheet_->separates(edge) || !is_clear(edge, vertex, distance) || is_beside_hair(edge)) return false;
+    if (sheet_->separates(edge) || !is_clear(edge, vertex, distance) || is_beside_flat_triangle(edge)) return false;
   }
   return !holds_node(t, {point(end), point(node), sheet_->rest(vertex)}, {end, node});
 }
@@ -273,7 +273,8 @@ bool PathGraph::straighten(int node) {
     if (known >= 0 && other_end(known, from) == to) return false;  // a loop closes
   if (holds_node(t, {point(before), point(node), point(after)}, {before, node, after})) return false;
   if (const HalfEdge edge = common_edge(*sheet_, t, at(before).place, at(after).place); edge.valid())
-    if (sheet_->separates(edge) || !is_clear_between(edge, before, after) || is_beside_hair(edge)) return false;
+    if (sheet_->separates(edge) || !is_clear_between(edge, before, after) || is_beside_flat_triangle(edge))
+      return false;
 
   Link& link = links_[static_cast<std::size_t>(kept)];
   (link.from == node ? link.from : link.to) = after;

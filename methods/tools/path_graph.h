@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "harness/mesh/sheet.h"
+#include "harness/mesh/tolerances.h"
 #include "harness/path/subdivision.h"
 
 namespace cutbench {
@@ -92,8 +93,8 @@ class PathGraph {
   bool is_nearest(int node, VertexIndex vertex) const;
   bool is_clear(HalfEdge edge, VertexIndex from, double up_to, int except = -1) const;
   bool is_clear_between(HalfEdge edge, int a, int b) const;
-  bool is_beside_hair(HalfEdge edge) const;
-  double hair() const { return 16 * sheet_->snap(); }  ///< two lines nearer than this may cross by rounding
+  bool is_beside_flat_triangle(HalfEdge edge) const;
+  double coincidence() const { return coincidence_tolerance * sheet_->snap(); }
   bool holds_node(TriangleIndex t, const std::array<Point2, 3>& part, std::initializer_list<int> but) const;
   bool sweep_is_clear(int end, int link, int node, VertexIndex vertex) const;
 
