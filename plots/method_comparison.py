@@ -13,19 +13,18 @@ import pandas as pd
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullLocator
 
-import load
-import method_accuracy
-import method_details
 import method_gallery
-import method_sweeps
-import style
-from load import of
+from common import load, style
+from common.load import of
+from method_parts import accuracy as method_accuracy
+from method_parts import details as method_details
+from method_parts import sweeps as method_sweeps
 
 STEM = "method_comparison"
 MEASURES = ["crossed_triangles", "vertices_added", "angle_max_deg_cut", "altitude_min_h_cut", "ar_max_cut", "ar_p99_cut",
             "ar_max_cut_strict", "ar_p99_cut_strict", "ar_max_cut_outside_wedges", "ar_max_cut_away_from_wedges",
             "ar_p99_cut_outside_wedges",
-            "wedge_area", "forced_corners", "eigenvalue_ratio", "incision_error_h", "area_change", "geometry_us"]
+            "wedge_area_rest2", "forced_corners", "eigenvalue_ratio", "incision_error_h", "area_change", "geometry_us"]
 JUMPS = ["membrane_j", "membrane_jump_j", "bending_j", "bending_jump_j", "residual_n", "residual_jump_n", "kinetic_j",
          "kinetic_jump_j", "momentum_jump_kg_m_s"]
 MARKERS = {"grid": ("o", "#0072b2"), "alternating": ("s", "#e69f00"), "delaunay": ("^", "#009e73"),
@@ -159,10 +158,10 @@ def legend(sheets, fine):
 
 
 def caption(what, run, rows):
-    scenes = ", ".join(sorted(set(rows["scene"])))
+    families = ", ".join(sorted(set(rows["cut_family"])))
     sizes = sorted(set(rows["resolution"]))
     size = f"{sizes[0]}" if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]}"
-    return (f"{what} Marker: median of the cuts on a sheet (cuts: {scenes}; {size} triangles); line: quartiles. Best "
+    return (f"{what} Marker: median of the cuts on a sheet (cuts: {families}; {size} triangles); line: quartiles. Best "
             f"shapes on top: by the ranks of the medians of eigenvalue, altitude and angle. Knobs at their defaults. A method that "
             "refuses a kind of sheet has no marker there. "
             + style.provenance(run, rows, with_crosses=False, per=["sheet"]))
@@ -183,7 +182,7 @@ def summary(table, jumps, order, ranks):
             of_cuts = cuts[f"ar_max_cut_{kind}"].notna() | cuts["failed"]  # else no triangle was changed
             below = (cuts[f"ar_max_cut_{kind}"] < 3) & ~cuts["failed"]
             row[f"ar_below_3_{kind}"] = f"{int(below.sum())}/{int(of_cuts.sum())}"
-        row["wedge_area_mean"] = cuts["wedge_area"].mean()
+        row["wedge_area_rest2_mean"] = cuts["wedge_area_rest2"].mean()
         if jumps is not None:
             for m in JUMP:
                 row[f"{m.column}_median"] = of(jumps, variant)[m.column].median()

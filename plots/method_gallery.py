@@ -10,8 +10,7 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import LogNorm
 
-import load
-import style
+from common import load, style
 
 STEM = "method_comparison"
 PROGRAM = load.REPOSITORY / "build/release/cutbench"

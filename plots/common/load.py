@@ -11,13 +11,23 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-REPOSITORY = Path(__file__).resolve().parent.parent
+REPOSITORY = Path(__file__).resolve().parents[2]
 SUITE_VERSIONS = ["3", "4"]  # that can be read; older names are renamed on reading
-TEXT = ["suite_version", "cut_family", "sheet", "method", "knob", "seed", "cache", "status", "verdict", "reason"]
-TEXT_OF_SOME = ["problem", "solver", "primary"]  # text, too, in records that have them
+TEXT = ["suite_version", "sheet", "method", "knob", "seed", "cache", "status", "verdict", "reason"]
+TEXT_OF_SOME = ["cut_family", "problem", "solver", "primary"]  # text in the records that have them
 COUNTS = ["resolution", "case", "repetition"]
 VARIANT = ["method", "knob"]
 CUT = ["suite_version", "cut_family", "sheet", "resolution", "case"]  # names one cut, whatever the method
+
+
+def family_column(table):
+    """The column that says what was cut: accuracy records name a problem, all others a cut family."""
+    return "problem" if "problem" in table else "cut_family"
+
+
+def cut_columns(table):
+    """CUT, with the name that the table has for its second column."""
+    return [family_column(table) if c == "cut_family" else c for c in CUT]
 
 
 def stop(message):
@@ -54,7 +64,7 @@ class Run:
 
     def first_repetition(self):
         """For measures that no repetition changes: each cut once."""
-        return Run(*(t.drop_duplicates(VARIANT + CUT) for t in (self.rows, self.failed)), self.context)
+        return Run(*(t.drop_duplicates(VARIANT + cut_columns(t)) for t in (self.rows, self.failed)), self.context)
 
     def variants(self, column):
         """(method, knob) of the rows that have `column`, and of those with nothing but failures."""
@@ -66,9 +76,9 @@ class Run:
 
 def read(folder, measures):
     """The run in `folder`; `measures` are the numeric columns the figure needs, beside the identifying ones."""
-    table = read_records(folder / "records.csv", TEXT + COUNTS + measures)
+    table = read_records(folder / "records.csv", TEXT + ["cut_family"] + COUNTS + measures)
     row_made = (table["verdict"] == "ok") & ~table["status"].isin(["failed", "refused"])
-    made = row_made.groupby([table[c] for c in VARIANT + CUT]).transform("all")
+    made = row_made.groupby([table[c] for c in VARIANT + cut_columns(table)]).transform("all")
     return Run(table[made], table[~made], read_context(folder / "context.json"))
 
 
@@ -189,7 +199,7 @@ def front_layers(x, y):
 
 def median_repetition(table, columns):
     """A row per method, knob and cut: the medians over its repetitions."""
-    return table.groupby(VARIANT + CUT)[columns].median().reset_index()
+    return table.groupby(VARIANT + cut_columns(table))[columns].median().reset_index()
 
 
 def ratio(numerator, denominator, draws=10000):
@@ -206,7 +216,7 @@ def ratio(numerator, denominator, draws=10000):
 
 def count(table):
     """Cuts in the table, each counted once however often it was repeated."""
-    return len(table[VARIANT + CUT].drop_duplicates())
+    return len(table[VARIANT + cut_columns(table)].drop_duplicates())
 
 
 def number(value, digits=3):
