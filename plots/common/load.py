@@ -3,6 +3,7 @@ statistics that the figures share. Whatever can't be read ends the program with 
 
 import argparse
 import functools
+import gzip
 import json
 import sys
 from dataclasses import dataclass
@@ -76,10 +77,20 @@ class Run:
 
 def read(folder, measures):
     """The run in `folder`; `measures` are the numeric columns the figure needs, beside the identifying ones."""
-    table = read_records(folder / "records.csv", TEXT + ["cut_family"] + COUNTS + measures)
+    return run_of(folder / "records.csv", folder / "context.json", measures)
+
+
+def read_reference(stem, measures):
+    """The same of the records that results/reference holds."""
+    folder = REPOSITORY / "results/reference"
+    return run_of(folder / f"{stem}.records.csv.gz", folder / f"{stem}.context.json", measures)
+
+
+def run_of(records, context, measures):
+    table = read_records(records, TEXT + ["cut_family"] + COUNTS + measures)
     row_made = (table["verdict"] == "ok") & ~table["status"].isin(["failed", "refused"])
     made = row_made.groupby([table[c] for c in VARIANT + cut_columns(table)]).transform("all")
-    return Run(table[made], table[~made], read_context(folder / "context.json"))
+    return Run(table[made], table[~made], read_context(context))
 
 
 def read_records(path, columns, all_columns=False):
@@ -89,7 +100,7 @@ def read_records(path, columns, all_columns=False):
         stop(f"{unfinished} is of a run that has not ended; the same command goes on with it" if unfinished.is_file()
              else f"{path} is missing; `cutbench run experiments/{path.parent.name}.toml --out results` makes it")
     try:
-        with open(path, encoding="utf-8", newline="") as file:
+        with (gzip.open if path.suffix == ".gz" else open)(path, "rt", encoding="utf-8", newline="") as file:
             start = 0
             while (line := file.readline()).startswith("#"):
                 start = file.tell()
