@@ -149,6 +149,13 @@ def axis_label(column):
     return f"{about['label']} ({about['unit']})" if about["unit"] else about["label"]
 
 
+def group(name, derived):
+    """The group of a column of a table, such as `eigenvalue_ratio_median`: that of the longest name in results/columns.json
+    or `derived` ({name: group}, of what is computed from the records) that it begins with; "" where there is none."""
+    groups = {"": ""} | {column: about["group"] for column, about in columns().items()} | derived
+    return groups[max((column for column in groups if name.startswith(column)), key=len)]
+
+
 def read_context(path):
     try:
         context = json.loads(path.read_text(encoding="utf-8"))

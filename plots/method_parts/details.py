@@ -5,6 +5,10 @@ import pandas as pd
 
 from common.load import of
 
+GROUPS = {  # of the columns below, by the beginning of their names (load.group)
+    "AR < 3": "forced", "eigenvalue, ": "stability", "us, ": "time", "failed: ": "outcome", "pairs": "pairs",
+    "time over": "pairs", "of several cuts": "pairs", "no larger eigenvalue": "pairs",
+}
 KEY = ["cut_family", "sheet", "resolution", "case"]
 
 
@@ -76,7 +80,7 @@ def against(table, one, order):
         row = {"method": variant[0], "knob": variant[1], "pairs": len(pairs)}
         for share in (0.05, 0.5, 0.95):
             row[f"time over {one[0]}'s, {100 * share:g} %"] = ratio.quantile(share)
-        row[f"{one[0]}'s eigenvalue no larger, %"] = 100 * no_larger.mean() if len(asked) else np.nan
+        row[f"no larger eigenvalue by {one[0]}, %"] = 100 * no_larger.mean() if len(asked) else np.nan
         several = asked["cut_family"] == "several"
         if several.any():
             row["of several cuts, %"] = 100 * no_larger[several].mean()
