@@ -6,15 +6,13 @@ it depends on the shape of the triangles; and which share of all cases is solved
 import contextlib
 import io
 
-import front
-import load
-import style
-from accuracy_budgets import budgets_figure
-from accuracy_profile import profile_figure
-from accuracy_ranking import at_equal_unknowns, print_ranking
-from accuracy_records import REFERENCE, Records, cells_of, label_edges, log_x_axis, percent_axis, zero_line
-from load import of
-from accuracy_shape import print_shapes, print_statements, shape_figure
+from accuracy_parts.budgets import budgets_figure
+from accuracy_parts.profile import profile_figure
+from accuracy_parts.ranking import at_equal_unknowns, print_ranking
+from accuracy_parts.records import REFERENCE, Records, cells_of, label_edges, log_x_axis, percent_axis, zero_line
+from accuracy_parts.shape import print_shapes, print_statements, shape_figure
+from common import front, load, style
+from common.load import of
 
 STEM = "accuracy"
 
@@ -53,13 +51,13 @@ def excess_figure(records, x, y, label, zero):
 def problems_figure(records):
     """Work and precision: a panel per problem, the error itself against time, all sheets."""
     direct = records.rows(direct=True)
-    cells = cells_of(direct, "ms", "error", ["scene", "method", "knob", "resolution"], ["scene"])
+    cells = cells_of(direct, "ms", "error", ["problem", "method", "knob", "resolution"], ["problem"])
     columns = min(4, len(records.problems))
     figure, axes = style.panels(-(-len(records.problems) // columns), columns, 3.9, sharex=True, width=style.PAGE)
     for i, ax in enumerate(axes.flat):
         ax.set_visible(i < len(records.problems))
     for problem, ax in zip(records.problems, axes.flat):
-        here = cells[cells["scene"] == problem]
+        here = cells[cells["problem"] == problem]
         for variant, look in records.looks.items():
             front.draw(ax, of(here, variant).sort_values("resolution"), look)
         front.draw_front(ax, here)
@@ -68,7 +66,7 @@ def problems_figure(records):
         if (here["y"] > 0).any():
             ax.set_yscale("log")
             style.plain_numbers(ax)
-        primary = records.rows(scene=problem)["primary"].iloc[0]
+        primary = records.rows(problem=problem)["primary"].iloc[0]
         ax.set_title(f"{problem}:\n{primary}".replace("_", " "), loc="left", fontsize=6.3)
     label_edges(axes, "total time, ms", "relative error")
     style.finish(figure, records.looks.values(), records.caption(

@@ -10,8 +10,7 @@ import matplotlib.pyplot as plt
 from PIL import Image
 
 import contact_sheet
-import load
-import render
+from common import load, render
 
 WIDTH, HEADER, DPI = 3.2, 0.24, 200  # inches
 LAST = 1000  # ms that the end is held

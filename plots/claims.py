@@ -10,14 +10,13 @@ from pathlib import Path
 
 import numpy as np
 
-import accuracy_profile
-import accuracy_shape
 import fig9_aspect_ratio as fig9
-import load
-import style
 import table1_timing as table1
-from accuracy_records import CASE, REFERENCE, Records
-from load import of
+from accuracy_parts import profile as accuracy_profile
+from accuracy_parts import shape as accuracy_shape
+from accuracy_parts.records import CASE, REFERENCE, Records
+from common import load, style
+from common.load import of
 
 HELD, NOT_HELD, UNDECIDED, CONDITION = "held", "not held", "undecided", "held under a condition"
 PAPERS = ("bowyer_watson", "rounds=1")  # with one round of the local split

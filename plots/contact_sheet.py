@@ -7,10 +7,7 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 
-import load
-import render
-import scene_panels
-import style
+from common import load, render, scene_panels, style
 
 METHOD = "bowyer_watson rounds=1"
 MOMENTS = 4

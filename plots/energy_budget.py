@@ -13,10 +13,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 import contact_sheet
-import load
-import render
-import scene_panels
-import style
+from common import load, render, scene_panels, style
 
 PARTS = {"kinetic": "#56b4e9", "elastic": "#009e73", "damping": "#d9b38c", "numerical loss": "#b9b9b9"}
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """A disc cut out of a sheet that is held all round falls, and nothing holds it."""
 
-import fall
-from render import Camera
-from scene_panels import Shot, folders, main
+from common import fall
+from common.render import Camera
+from common.scene_panels import Shot, folders, main
 
 if __name__ == "__main__":
     main("falling_piece", __doc__,

@@ -6,13 +6,9 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-import lips
-import load
-import render
-import scene_panels
-import style
-from render import Camera
-from scene_panels import Shot
+from common import lips, load, render, scene_panels, style
+from common.render import Camera
+from common.scene_panels import Shot
 
 STEM = "fig10_level_of_detail"
 TOLERANCES = {"0.05": ("-", "chord tolerance 0.05 h (default)"), "0.005": ("--", "0.005 h")}

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Figure 6 of the paper: a cut from a side, and a part cut out, which falls."""
 
-import fall
-from render import Camera
-from scene_panels import Shot, folders, main
+from common import fall
+from common.render import Camera
+from common.scene_panels import Shot, folders, main
 
 if __name__ == "__main__":
     main("fig6_partial_and_cutout", __doc__,

@@ -8,13 +8,9 @@ import functools
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-import lips
-import load
-import render
-import scene_panels
-import style
-from render import Camera
-from scene_panels import Shot
+from common import lips, load, render, scene_panels, style
+from common.render import Camera
+from common.scene_panels import Shot
 
 STEM = "fig8_edge_quality"
 SCENES = {"patches": "bending: patches;\nsolver: direct", "hinges": "bending: hinges;\nsolver: direct",

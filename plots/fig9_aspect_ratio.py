@@ -4,8 +4,7 @@ figure, the mean and the 99th percentile over the sheet, because the paper's tex
 
 from matplotlib.lines import Line2D
 
-import load
-import style
+from common import load, style
 
 STEM = "fig9_aspect_ratio"
 LIMIT = 3

@@ -13,19 +13,18 @@ import pandas as pd
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullLocator
 
-import load
-import method_accuracy
-import method_details
 import method_gallery
-import method_sweeps
-import style
-from load import of
+from common import load, style
+from common.load import of
+from method_parts import accuracy as method_accuracy
+from method_parts import details as method_details
+from method_parts import sweeps as method_sweeps
 
 STEM = "method_comparison"
 MEASURES = ["crossed_triangles", "vertices_added", "angle_max_deg_cut", "altitude_min_h_cut", "ar_max_cut", "ar_p99_cut",
             "ar_max_cut_strict", "ar_p99_cut_strict", "ar_max_cut_outside_wedges", "ar_max_cut_away_from_wedges",
             "ar_p99_cut_outside_wedges",
-            "wedge_area", "forced_corners", "eigenvalue_ratio", "incision_error_h", "area_change", "geometry_us"]
+            "wedge_area_rest2", "forced_corners", "eigenvalue_ratio", "incision_error_h", "area_change", "geometry_us"]
 JUMPS = ["membrane_j", "membrane_jump_j", "bending_j", "bending_jump_j", "residual_n", "residual_jump_n", "kinetic_j",
          "kinetic_jump_j", "momentum_jump_kg_m_s"]
 MARKERS = {"grid": ("o", "#0072b2"), "alternating": ("s", "#e69f00"), "delaunay": ("^", "#009e73"),
@@ -53,6 +52,19 @@ JUMP = [Measure("membrane_jump", "membrane\nenergy"), Measure("bending_jump", "b
 ROUNDING = 1e-12  # a jump below it is none
 OURS = "warp_and_refine"  # the project's own
 BY_SHEET, AGAINST = f"{STEM}_by_sheet", f"{STEM}_pairs"
+TITLES = {  # of the tables that are not medians over all cuts
+    method_accuracy.STEM: method_accuracy.WHAT,
+    BY_SHEET: "cuts with every AR < 3 outside forced wedges, and farther than 0.02 h from them; median largest eigenvalues",
+    f"{STEM}_jumps": "jumps at a cut in a moving sheet, over the value before the cut; 1e-12 stands for no jump",
+    AGAINST: f"the cuts of {OURS} and the same cuts by each other method",
+    f"{AGAINST}_fine": f"the cuts of {OURS} and the same cuts by each other method, chord tolerance 0.01",
+}
+DERIVED = {  # groups of the columns that are computed from those of the records
+    "vertices_per_crossed": "size", "us_per_crossed": "time", "ar_below_3": "forced", "excess_percent": "accuracy_run",
+    "more_unknowns_percent": "accuracy_run", **{f"{name}_jump": "jump" for name in ("membrane", "bending", "residual")},
+    **method_details.GROUPS,
+}
+BLOCKS = [["accuracy_run"], ["stability", "shape"], ["forced"], ["size", "accuracy", "time", "outcome"], ["jump"], ["pairs"]]
 
 
 def measured(run):
@@ -159,10 +171,10 @@ def legend(sheets, fine):
 
 
 def caption(what, run, rows):
-    scenes = ", ".join(sorted(set(rows["scene"])))
+    families = ", ".join(sorted(set(rows["cut_family"])))
     sizes = sorted(set(rows["resolution"]))
     size = f"{sizes[0]}" if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]}"
-    return (f"{what} Marker: median of the cuts on a sheet (cuts: {scenes}; {size} triangles); line: quartiles. Best "
+    return (f"{what} Marker: median of the cuts on a sheet (cuts: {families}; {size} triangles); line: quartiles. Best "
             f"shapes on top: by the ranks of the medians of eigenvalue, altitude and angle. Knobs at their defaults. A method that "
             "refuses a kind of sheet has no marker there. "
             + style.provenance(run, rows, with_crosses=False, per=["sheet"]))
@@ -179,11 +191,11 @@ def summary(table, jumps, order, ranks):
             _, row[f"{m.column}_median"], _, row[f"{m.column}_worst"] = spread(cuts[m.column], m.worst)
         for kind in ("strict", "outside_wedges"):
             for which in ("max", "p99"):
-                row[f"ar_{which}_{kind}_median"] = spread(cuts[f"ar_{which}_cut_{kind}"])[1]
+                row[f"ar_{which}_cut_{kind}_median"] = spread(cuts[f"ar_{which}_cut_{kind}"])[1]
             of_cuts = cuts[f"ar_max_cut_{kind}"].notna() | cuts["failed"]  # else no triangle was changed
             below = (cuts[f"ar_max_cut_{kind}"] < 3) & ~cuts["failed"]
             row[f"ar_below_3_{kind}"] = f"{int(below.sum())}/{int(of_cuts.sum())}"
-        row["wedge_area_mean"] = cuts["wedge_area"].mean()
+        row["wedge_area_rest2_mean"] = cuts["wedge_area_rest2"].mean()
         if jumps is not None:
             for m in JUMP:
                 row[f"{m.column}_median"] = of(jumps, variant)[m.column].median()
@@ -191,33 +203,29 @@ def summary(table, jumps, order, ranks):
     return pd.DataFrame(rows)
 
 
+def blocks(table):
+    """The columns of a table, in blocks that fit beside the method's name: one for each of BLOCKS."""
+    groups = {column: load.group(column, DERIVED) for column in table.columns}
+    return [found for block in BLOCKS if (found := [c for c, group in groups.items() if group in block])]
+
+
+def as_text(name, table):
+    """The title of the table and its blocks, numbers with three digits."""
+    shown = table.copy()
+    for column in shown.columns[shown.dtypes == float]:
+        shown[column] = [f"{x:.3g}" if np.isfinite(x) else "-" for x in shown[column]]
+    of_all = [c for c in ("method", "knob", "cuts", "failed", "rank") if c in shown]
+    what = TITLES.get(name, "medians over the cuts of all families, sheets and sizes; the best shapes first")
+    return "\n".join([f"{name}: {what}\n"] + [shown[of_all + block].to_string(index=False) + "\n"
+                                               for block in blocks(shown[shown.columns.difference(of_all, sort=False)])])
+
+
 def write_tables(folder, tables):
-    """{name: table}: the text of all, and a CSV of each."""
-    lines = []
+    """A CSV of each table of {name: table}, and one text of all."""
     for name, table in tables.items():
         table.to_csv(folder / f"{name}.csv", index=False, float_format="%.6g")
         print(folder / f"{name}.csv")
-        shown = table.copy()
-        for column in shown.columns:
-            if shown[column].dtype == float:
-                shown[column] = [f"{x:.3g}" if np.isfinite(x) else "-" for x in shown[column]]
-        parts = [["excess", "more_"], ["eigenvalue_ratio", "altitude_min", "angle_max"], ["ar_", "wedge"],
-                 ["vertices", "incision", "us_per"], ["_jump"]]
-        what = "medians over the cuts of all families, sheets and resolutions; best shapes first"
-        details = {method_accuracy.STEM: method_accuracy.WHAT,
-                   BY_SHEET: "cuts below 3 outside wedges, and farther than 0.02 h from them; median eigenvalues",
-                   f"{STEM}_jumps": "in a moving sheet, over the value before; 1e-12: none",
-                   AGAINST: f"{OURS}'s cuts and the same ones by others",
-                   f"{AGAINST}_fine": f"{OURS}'s cuts and the same ones by others, chord tolerance 0.01"}
-        lines.append(f"{name}: {details.get(name, what)}\n")
-        of_all = [c for c in ("method", "knob", "cuts", "failed", "rank") if c in shown]
-        if name in (BY_SHEET, AGAINST, f"{AGAINST}_fine"):
-            parts = [["AR <", "us,", "failed:"], ["eigenvalue, "], ["pairs", "time over", "no larger", "of several"]]
-        for part in parts:
-            columns = [c for c in shown.columns if any(p in c for p in part)]
-            if columns:
-                lines.append(shown[of_all + columns].to_string(index=False) + "\n")
-    text = "\n".join(lines)
+    text = "\n".join(as_text(name, table) for name, table in tables.items())
     (folder / f"{STEM}.txt").write_text(text, encoding="utf-8")
     print(folder / f"{STEM}.txt", text, sep="\n\n")
 

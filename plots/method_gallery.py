@@ -10,8 +10,7 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import LogNorm
 
-import load
-import style
+from common import load, style
 
 STEM = "method_comparison"
 PROGRAM = load.REPOSITORY / "build/release/cutbench"
@@ -41,6 +40,13 @@ def read_result(path):
         elif kind == "f":
             triangles.append([int(corner.split("/")[1]) - 1 for corner in rest])
     return np.array(points), np.array(triangles)
+
+
+def requested():
+    """Points of the requested path."""
+    t = np.linspace(0, 1, 200)[:, None]
+    a, b, c, d = np.array(CURVE)
+    return (1 - t) ** 3 * a + 3 * t * (1 - t) ** 2 * b + 3 * t ** 2 * (1 - t) * c + t ** 3 * d
 
 
 def incision(points, triangles):
@@ -76,6 +82,20 @@ def cut_by(method, folder):
     return *read_result(out), json.loads(report.read_text(encoding="utf-8"))
 
 
+def all_methods():
+    """What the program says of its methods: names, knobs, promises."""
+    return json.loads(run("methods", "--json").stdout)
+
+
+def cut_by_all(methods):
+    """cut_by() of each."""
+    with tempfile.TemporaryDirectory() as scratch:
+        scratch = Path(scratch)
+        write_grid(scratch / "sheet.obj")
+        (scratch / "path.json").write_text(json.dumps({"cuts": [{"bezier": CURVE}]}), encoding="utf-8")
+        return [cut_by(m["name"], scratch) for m in methods]
+
+
 def title(method):
     """Its name, and its knob's default."""
     knob = f" {method['knob']['default']:g}" if method["knob"] else ""
@@ -99,12 +119,9 @@ def draw_method(ax, title, result, norm):
     faces = PolyCollection(corners, array=aspect_ratio(corners), cmap=COLOURS, norm=norm, edgecolor="#555555",
                            linewidth=0.25)
     ax.add_collection(faces)
-    t = np.linspace(0, 1, 200)[:, None]
-    a, b, c, d = np.array(CURVE)
-    asked = (1 - t) ** 3 * a + 3 * t * (1 - t) ** 2 * b + 3 * t ** 2 * (1 - t) * c + t ** 3 * d
-    ax.plot(*asked.T, color="#0072b2", linewidth=2.2, alpha=0.45, zorder=2, solid_capstyle="butt")
+    ax.plot(*requested().T, color="#0072b2", linewidth=2.2, alpha=0.45, zorder=2, solid_capstyle="butt")
     ax.add_collection(LineCollection(incision(points, triangles), color="#b0001e", linewidth=0.7, zorder=3))
-    ratio = report["aspect_ratio"]["cut"]["max"]
+    ratio = report["ar_max_cut"]
     shapes = f"AR ≤ {load.number(ratio, 2)}" if ratio > 0 else "none changed"
     ax.set_xlabel(f"{shapes}, {report['vertices_added']:+d} vertices", fontsize=5.6, labelpad=2)
     return faces
@@ -112,13 +129,8 @@ def draw_method(ax, title, result, norm):
 
 def draw(folder):
     """Writes folder/method_gallery.png and .pdf."""
-    listed = run("methods", "--json")
-    methods = json.loads(listed.stdout)
-    with tempfile.TemporaryDirectory() as scratch:
-        scratch = Path(scratch)
-        write_grid(scratch / "sheet.obj")
-        (scratch / "path.json").write_text(json.dumps({"cuts": [{"bezier": CURVE}]}), encoding="utf-8")
-        results = [cut_by(m["name"], scratch) for m in methods]
+    methods = all_methods()
+    results = cut_by_all(methods)
     columns = 3
     figure, axes = style.panels(-(-len(methods) // columns), columns, 2.75)
     norm = LogNorm(1.2, 60)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Any two recorded columns against each other for one scene: a panel per sheet, a curve per method over the resolutions
-(and per solver and budget where the records have them), the Pareto front, and a ranking table. `scene` is a family of
-cuts or a problem."""
+"""Any two recorded columns against each other, for one cut family or, of accuracy records, one problem. Draws a panel
+for each sheet, a curve for each method over the resolutions (and for each solver and budget where the records have them)
+and the Pareto front, and prints a ranking."""
 
 import argparse
 import difflib
@@ -10,9 +10,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.lines import Line2D
 
-import front
-import load
-import style
+from common import front, load, style
 
 LINES = ["-", "--", ":", "-."]
 
@@ -30,20 +28,24 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--x", required=True, metavar="COLUMN", help="horizontal, such as total_us")
     parser.add_argument("--y", required=True, metavar="COLUMN", help="vertical, such as excess_error")
-    parser.add_argument("--scene", required=True, metavar="NAME", help="of the column `scene`")
+    chosen = parser.add_mutually_exclusive_group(required=True)
+    chosen.add_argument("--problem", metavar="NAME", help="the problem of accuracy records, such as centre_crack")
+    chosen.add_argument("--cut-family", metavar="NAME", help="the cut family of other records, such as curved")
     parser.add_argument("--records", type=Path, metavar="FILE",
                         default=load.REPOSITORY / "results" / "accuracy" / "records.csv",
                         help="context.json is read beside it (default: results/accuracy/records.csv)")
     parser.add_argument("--out", type=Path, metavar="FILE", help="without suffix: .png and .pdf are written (default: "
-                        "pareto_SCENE_X_Y beside the records)")
+                        "pareto_NAME_X_Y beside the records)")
     parser.add_argument("--where", action="append", default=[], metavar="COLUMN=VALUE",
                         help="only these rows, such as solver=cholmod; may be repeated")
-    parser.add_argument("--maximise", action="append", default=[], metavar="COLUMN", help="more of it is better")
-    return parser.parse_args()
+    parser.add_argument("--maximise", action="append", default=[], metavar="COLUMN", help="larger values of it are better")
+    args = parser.parse_args()
+    args.column, args.name = ("problem", args.problem) if args.problem else ("cut_family", args.cut_family)
+    return args
 
 
 def chosen_rows(table, args):
-    conditions = [("scene", args.scene)]
+    conditions = [(nearest(args.column, table.columns, "the column"), args.name)]
     for text in args.where:
         column, equals, value = text.partition("=")
         if not equals:
@@ -51,7 +53,7 @@ def chosen_rows(table, args):
         conditions.append((nearest(column, table.columns, "--where: column"), value))
     for column, value in conditions:
         texts = table[column].map(lambda v: v if isinstance(v, str) else f"{v:g}")
-        nearest(value, set(texts), f"--{column}" if column == "scene" else f"--where: {column}")
+        nearest(value, set(texts), f"--{column.replace('_', '-')}" if column == args.column else f"--where: {column}")
         table = table[texts == value]
         if table.empty:
             load.stop(f"no row is left with {', '.join('='.join(c) for c in conditions)}")
@@ -111,7 +113,7 @@ def figure_of(cells, run, args, x, y, present):
     where = f" Rows with {', '.join(args.where)}." if args.where else ""
     more = " Larger marks: more iterations (0: until solved)." if len(budgets) > 1 else ""
     style.finish(figure, looks.values(), " ".join([
-        f"{y.column} against {x.column}, {args.scene}: medians of the ensemble at each resolution, bars: quartiles; a "
+        f"{y.column} against {x.column}, {args.name}: medians of the ensemble at each resolution, bars: quartiles; a "
         f"failed case counts as infinitely bad (×: failed/tried).{where}{more}",
         style.provenance(run, run.rows, with_machine="_us" in x.column + y.column, with_crosses=False)]),
         front.legend_entries() + entries)
@@ -142,10 +144,10 @@ def main():
         table = table.astype({"budget": int})
     cells = front.cells(table, x, y, ["sheet", "method", "knob", *present, "resolution"], ["sheet"])
     if cells.empty or not cells["layer"].any():
-        load.stop(f"no row of {args.scene} has both {x.column} and {y.column}")
+        load.stop(f"no row of {args.name} has both {x.column} and {y.column}")
     failed = front.failed_rows(table)
     run = load.Run(table[~failed], table[failed], load.read_context(args.records.with_name("context.json")))
-    out = args.out or args.records.with_name(f"pareto_{args.scene}_{x.column}_{y.column}")
+    out = args.out or args.records.with_name(f"pareto_{args.name}_{x.column}_{y.column}")
     out = out.with_suffix("") if out.suffix in (".png", ".pdf") else out
     style.save(figure_of(cells, run, args, x, y, present), out.parent, out.name)
     print_ranking(cells, x, y, present)

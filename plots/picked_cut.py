@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """A cut whose four control points were picked on the moving sheet, by rays from an eye above it (the paper's 4.1.1)."""
 
-from render import Camera
-from scene_panels import Shot, main
+from common.render import Camera
+from common.scene_panels import Shot, main
 
 if __name__ == "__main__":
     main("picked_cut", __doc__,

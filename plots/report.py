@@ -16,11 +16,8 @@ from PIL import Image
 
 import claims
 import contact_sheet
-import fall
 import fig8_edge_quality as fig8
-import load
-import render
-import style
+from common import fall, load, render, style
 
 STYLE = """
 body{font:16px/1.5 system-ui,sans-serif;margin:0 auto;padding:1rem;max-width:64rem;color:#1c1c1c;background:#fff}

@@ -7,8 +7,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.patches import Patch
 
-import load
-import style
+from common import load, style
 
 STEM = "table1_timing"
 PHASES = {"locate_us": "#bdbdbd", "trace_us": "#737373", "embed_us": "#0072b2", "improve_us": "#e69f00",

@@ -11,10 +11,9 @@ import pandas as pd
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter, NullLocator
 from scipy import stats
 
-import load
-import style
-from accuracy_records import REFERENCE, Records, label_edges
-from load import of
+from accuracy_parts.records import REFERENCE, Records, label_edges
+from common import load, style
+from common.load import of
 
 STEM = "verification"
 RATES = {"released_energy": (1, 0.15), "strain_energy": (1, 0.15), "energy_norm": (0.5, 0.1),
@@ -90,7 +89,7 @@ def findings(records):
     direct = direct[(direct["exact_incision"] == 1) & (direct["method"] != REFERENCE[0])]
     rows = []
     for problem in records.problems:
-        here = direct[direct["scene"] == problem]
+        here = direct[direct["problem"] == problem]
         measures = [c[len("error_"):] for c in here.columns if c.startswith("error_") and here[c].notna().any()]
         at_tips = "opening" in measures or "k1" in measures
         for measure in measures:
@@ -130,7 +129,7 @@ def figure_of(records, table):
         ax.set_visible(i < len(problems))
     direct = records.rows(direct=True, failed=False)
     for problem, ax in zip(problems, axes.flat):
-        here = direct[(direct["scene"] == problem) & (direct["exact_incision"] == 1)]
+        here = direct[(direct["problem"] == problem) & (direct["exact_incision"] == 1)]
         primary = here["primary"].iloc[0]
         for variant, look in records.methods.items():
             rows = of(here, variant)

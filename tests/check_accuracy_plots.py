@@ -64,7 +64,7 @@ def check_all_there(results):
         expect(f"the verification lacks {label}", label in done.stdout)
     expect("the fitted mesh, no method, is verified", FITTED not in done.stdout)
     expect("verification.png is not there", (folder / "verification.png").is_file())
-    done = run("pareto.py", "--x", "total_us", "--y", "error", "--scene", "centre_crack", "--records",
+    done = run("pareto.py", "--x", "total_us", "--y", "error", "--problem", "centre_crack", "--records",
                folder / "records.csv")
     expect(f"pareto.py: {done.returncode} {done.stderr}", done.returncode == 0 and not done.stderr)
     expect("no Pareto figure", (folder / "pareto_centre_crack_total_us_error.png").is_file())
@@ -83,20 +83,20 @@ def check_all_there(results):
 def check_equal_unknowns(folder):
     """Worked out anew for one case: by the power law through the two sizes' fitted meshes."""
     sys.path.insert(0, str(PLOTS))
-    import accuracy_ranking
-    from accuracy_records import REFERENCE, Records
+    from accuracy_parts import ranking
+    from accuracy_parts.records import REFERENCE, Records
     records = Records(folder)
-    rows = accuracy_ranking.at_equal_unknowns(records).rows(direct=True)
+    rows = ranking.at_equal_unknowns(records).rows(direct=True)
     fitted = rows[(rows["method"] == REFERENCE[0])]
     expect("the fitted mesh is not its own measure", (abs(fitted["ratio_equal"] - 1) < 1e-12).all())
     # Were all fitted meshes on one power law, error = c N^-0.5, that of as many unknowns would be that of N.
     table = records.table.copy()
     is_fitted = table["method"] == REFERENCE[0]
     table.loc[is_fitted, "error"] = 3 * table.loc[is_fitted, "unknowns"] ** -0.5
-    keys = ["scene", "sheet", "resolution", "case"]
+    keys = ["problem", "sheet", "resolution", "case"]
     error = table[is_fitted & table["direct"]].set_index(keys)["error"]
     table["ratio"] = table["error"] / error.reindex(table.set_index(keys).index).to_numpy()
-    rows = accuracy_ranking.at_equal_unknowns(records.with_rows(table)).rows(direct=True)
+    rows = ranking.at_equal_unknowns(records.with_rows(table)).rows(direct=True)
     expected = rows["error"] / (3 * rows["unknowns"] ** -0.5)
     expect("errors at equal unknowns are not those of the power law",
            (abs(rows["ratio_equal"] / expected - 1) < 1e-9).all())
@@ -115,8 +115,8 @@ def check_failures(results):
                     row[column] = ""
     write(folder / "records.csv", rows)
     import accuracy
-    from accuracy_ranking import at_equal_unknowns, print_ranking
-    from accuracy_records import Records
+    from accuracy_parts.ranking import at_equal_unknowns, print_ranking
+    from accuracy_parts.records import Records
     records = at_equal_unknowns(Records(folder))
     for x, y in (("ms", "excess_percent"), ("unknowns", "excess_equal_percent")):
         figure = accuracy.excess_figure(records, x, y, x, "nothing")
@@ -132,7 +132,7 @@ def check_failures(results):
 
 def check_ranked_cases(records):
     """Who failed the hardest cases is not the better for it: means are over the cases that all made."""
-    from accuracy_ranking import made_by_all
+    from accuracy_parts.ranking import made_by_all
     made = made_by_all(records.rows(direct=True))
     expect(f"cases that somebody failed are ranked: {set(made['case'])}", set(made["case"]) == {1, 2})
     sizes = made.groupby(["method", "knob"]).size()
@@ -143,11 +143,11 @@ def check_factor(folder):
     """Errors that follow a power of the aspect ratio, with levels of their own for every sheet and for even members; a
     case that is alone on its level says nothing."""
     import numpy as np
-    from accuracy_records import Records
-    from accuracy_shape import factor_per_decade
+    from accuracy_parts.records import Records
+    from accuracy_parts.shape import factor_per_decade
     table = Records(folder).rows(direct=True)
     table = table[table["method"] == "conventional_split"].copy()
-    level = (1 + table["resolution"] / 1000) * table["scene"].map(len) * np.where(table["case"] % 2 == 0, 1, 3)
+    level = (1 + table["resolution"] / 1000) * table["problem"].map(len) * np.where(table["case"] % 2 == 0, 1, 3)
     table["ratio"] = level * table["ar_max_cut"] ** 0.1
     factor, low, high, n = factor_per_decade(table)
     expect(f"the factor of a power law: {factor} [{low}, {high}] {n}",
@@ -165,7 +165,7 @@ def check_missing_columns(results):
     for script, arguments in (("accuracy.py", ["--results", folder / "accuracy"]),
                               ("verification.py", ["--results", folder / "accuracy"]),
                               ("claims.py", ["--results", folder]),
-                              ("pareto.py", ["--x", "unknowns", "--y", "error", "--scene", "centre_crack", "--records",
+                              ("pareto.py", ["--x", "unknowns", "--y", "error", "--problem", "centre_crack", "--records",
                                              folder / "accuracy/records.csv"])):
         done = run(script, *arguments)
         expect(f"{script} without a column: {done.returncode} {done.stderr}",

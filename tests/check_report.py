@@ -66,7 +66,7 @@ def check_page(results):
 
 
 def check_lips():
-    import lips
+    from common import lips
     along = np.linspace(0, 2, 60)
     truth = np.stack([along, 0.1 * np.sin(3 * along), 0 * along], axis=1)
     length = along[-1]

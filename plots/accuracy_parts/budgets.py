@@ -1,9 +1,8 @@
 """A fixed number of iterations of conjugate gradients against the direct solve."""
 
-import front
-import style
-from accuracy_records import cells_of, label_edges, log_x_axis, percent_axis, zero_line
-from load import of
+from accuracy_parts.records import cells_of, label_edges, log_x_axis, percent_axis, zero_line
+from common import front, style
+from common.load import of
 
 
 def budgets_figure(records):

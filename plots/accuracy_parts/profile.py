@@ -2,8 +2,8 @@
 
 import numpy as np
 
-import style
-from accuracy_records import label_edges, log_x_axis
+from accuracy_parts.records import label_edges, log_x_axis
+from common import style
 
 TOLERANCES = (0.2, 0.1, 0.05, 0.02)
 
@@ -13,16 +13,16 @@ def solved_times(records, variant, tolerance):
     tolerance; infinity where none gives it. A case: problem, sheet, member. Index: the problem."""
     table = members_throughout(records).rows(variant)
     good = table["ms"].where((table["error"] <= tolerance) & ~table["failed"], np.inf)
-    return good.groupby([table[c] for c in ("scene", "sheet", "case")]).min().droplevel(["sheet", "case"])
+    return good.groupby([table[c] for c in ("problem", "sheet", "case")]).min().droplevel(["sheet", "case"])
 
 
 def members_throughout(records):
     """Those on all of their problem's resolutions, or all but one, of problems that are not exact anyway."""
     table = records.ranked().table
-    sizes = table.groupby(["scene", "case"])["resolution"].nunique().rename("sizes").reset_index()
-    sizes["most"] = sizes.groupby("scene")["sizes"].transform("max")
-    kept = sizes[sizes["sizes"] >= np.maximum(sizes["most"] - 1, 1)].set_index(["scene", "case"]).index
-    return records.with_rows(table[table.set_index(["scene", "case"]).index.isin(kept)])
+    sizes = table.groupby(["problem", "case"])["resolution"].nunique().rename("sizes").reset_index()
+    sizes["most"] = sizes.groupby("problem")["sizes"].transform("max")
+    kept = sizes[sizes["sizes"] >= np.maximum(sizes["most"] - 1, 1)].set_index(["problem", "case"]).index
+    return records.with_rows(table[table.set_index(["problem", "case"]).index.isin(kept)])
 
 
 def profile_figure(records):

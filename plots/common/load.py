@@ -3,6 +3,7 @@ statistics that the figures share. Whatever can't be read ends the program with 
 
 import argparse
 import functools
+import gzip
 import json
 import sys
 from dataclasses import dataclass
@@ -11,13 +12,23 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-REPOSITORY = Path(__file__).resolve().parent.parent
+REPOSITORY = Path(__file__).resolve().parents[2]
 SUITE_VERSIONS = ["3", "4"]  # that can be read; older names are renamed on reading
-TEXT = ["suite_version", "cut_family", "sheet", "method", "knob", "seed", "cache", "status", "verdict", "reason"]
-TEXT_OF_SOME = ["problem", "solver", "primary"]  # text, too, in records that have them
+TEXT = ["suite_version", "sheet", "method", "knob", "seed", "cache", "status", "verdict", "reason"]
+TEXT_OF_SOME = ["cut_family", "problem", "solver", "primary"]  # text in the records that have them
 COUNTS = ["resolution", "case", "repetition"]
 VARIANT = ["method", "knob"]
 CUT = ["suite_version", "cut_family", "sheet", "resolution", "case"]  # names one cut, whatever the method
+
+
+def family_column(table):
+    """The column that says what was cut: accuracy records name a problem, all others a cut family."""
+    return "problem" if "problem" in table else "cut_family"
+
+
+def cut_columns(table):
+    """CUT, with the name that the table has for its second column."""
+    return [family_column(table) if c == "cut_family" else c for c in CUT]
 
 
 def stop(message):
@@ -54,7 +65,7 @@ class Run:
 
     def first_repetition(self):
         """For measures that no repetition changes: each cut once."""
-        return Run(*(t.drop_duplicates(VARIANT + CUT) for t in (self.rows, self.failed)), self.context)
+        return Run(*(t.drop_duplicates(VARIANT + cut_columns(t)) for t in (self.rows, self.failed)), self.context)
 
     def variants(self, column):
         """(method, knob) of the rows that have `column`, and of those with nothing but failures."""
@@ -66,10 +77,20 @@ class Run:
 
 def read(folder, measures):
     """The run in `folder`; `measures` are the numeric columns the figure needs, beside the identifying ones."""
-    table = read_records(folder / "records.csv", TEXT + COUNTS + measures)
+    return run_of(folder / "records.csv", folder / "context.json", measures)
+
+
+def read_reference(stem, measures):
+    """The same of the records that results/reference holds."""
+    folder = REPOSITORY / "results/reference"
+    return run_of(folder / f"{stem}.records.csv.gz", folder / f"{stem}.context.json", measures)
+
+
+def run_of(records, context, measures):
+    table = read_records(records, TEXT + ["cut_family"] + COUNTS + measures)
     row_made = (table["verdict"] == "ok") & ~table["status"].isin(["failed", "refused"])
-    made = row_made.groupby([table[c] for c in VARIANT + CUT]).transform("all")
-    return Run(table[made], table[~made], read_context(folder / "context.json"))
+    made = row_made.groupby([table[c] for c in VARIANT + cut_columns(table)]).transform("all")
+    return Run(table[made], table[~made], read_context(context))
 
 
 def read_records(path, columns, all_columns=False):
@@ -79,7 +100,7 @@ def read_records(path, columns, all_columns=False):
         stop(f"{unfinished} is of a run that has not ended; the same command goes on with it" if unfinished.is_file()
              else f"{path} is missing; `cutbench run experiments/{path.parent.name}.toml --out results` makes it")
     try:
-        with open(path, encoding="utf-8", newline="") as file:
+        with (gzip.open if path.suffix == ".gz" else open)(path, "rt", encoding="utf-8", newline="") as file:
             start = 0
             while (line := file.readline()).startswith("#"):
                 start = file.tell()
@@ -126,6 +147,13 @@ def axis_label(column):
     """The label of a column with its unit."""
     about = columns()[column]
     return f"{about['label']} ({about['unit']})" if about["unit"] else about["label"]
+
+
+def group(name, derived):
+    """The group of a column of a table, such as `eigenvalue_ratio_median`: that of the longest name in results/columns.json
+    or `derived` ({name: group}, of what is computed from the records) that it begins with; "" where there is none."""
+    groups = {"": ""} | {column: about["group"] for column, about in columns().items()} | derived
+    return groups[max((column for column in groups if name.startswith(column)), key=len)]
 
 
 def read_context(path):
@@ -189,7 +217,7 @@ def front_layers(x, y):
 
 def median_repetition(table, columns):
     """A row per method, knob and cut: the medians over its repetitions."""
-    return table.groupby(VARIANT + CUT)[columns].median().reset_index()
+    return table.groupby(VARIANT + cut_columns(table))[columns].median().reset_index()
 
 
 def ratio(numerator, denominator, draws=10000):
@@ -206,7 +234,7 @@ def ratio(numerator, denominator, draws=10000):
 
 def count(table):
     """Cuts in the table, each counted once however often it was repeated."""
-    return len(table[VARIANT + CUT].drop_duplicates())
+    return len(table[VARIANT + cut_columns(table)].drop_duplicates())
 
 
 def number(value, digits=3):

@@ -5,10 +5,9 @@ import pandas as pd
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
 
-import load
-import style
-from accuracy_records import CASE, CONVERGED, REFERENCE
-from load import of
+from accuracy_parts.records import CASE, CONVERGED, REFERENCE
+from common import load, style
+from common.load import of
 
 
 def shape_columns(records):
@@ -76,7 +75,7 @@ def factor_per_decade(table, draws=2000):
     if table.empty:
         return np.nan, np.nan, np.nan, 0
     x, y = within(np.log10(table["ar_max_cut"]), table), within(np.log(table["ratio"]), table)
-    sums = pd.DataFrame({"xy": x * y, "xx": x * x}).groupby(table["scene"]).sum().to_numpy()
+    sums = pd.DataFrame({"xy": x * y, "xx": x * x}).groupby(table["problem"]).sum().to_numpy()
     sums = sums[sums[:, 1] > 1e-9]
     if not len(sums):
         return np.nan, np.nan, np.nan, len(table)
@@ -90,7 +89,7 @@ def factor_per_decade(table, draws=2000):
 def within(values, table):
     """The values without the two levels of factor_per_decade(), by taking the means of either out in turns."""
     levels = [table.groupby([table[c] for c in (*CASE[:3], "method", "knob")]).ngroup(),
-              table.groupby([table[c] for c in ("scene", "sheet", "method", "knob")] + [table["case"] % 2]).ngroup()]
+              table.groupby([table[c] for c in ("problem", "sheet", "method", "knob")] + [table["case"] % 2]).ngroup()]
     for _ in range(50):
         for level in levels:
             values = values - values.groupby(level).transform("mean")

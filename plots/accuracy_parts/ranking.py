@@ -3,9 +3,9 @@ many unknowns as the cut sheet, so that nobody wins by triangles alone."""
 
 import numpy as np
 
-import load
-from accuracy_records import CASE, REFERENCE
-from load import of
+from accuracy_parts.records import CASE, REFERENCE
+from common import load
+from common.load import of
 
 
 def per_unknown(reference):
@@ -22,9 +22,9 @@ def at_equal_unknowns(records):
     """The records with `ratio_equal`: error over that of a fitted mesh with as many unknowns, the case's own fitted mesh
     refined as the problem's and sheet's fitted meshes converge; and `more`, unknowns over the fitted mesh's."""
     reference = of(records.rows(direct=True, failed=False), REFERENCE)
-    powers = {key: per_unknown(rows) for key, rows in reference.groupby(["scene", "sheet"])}
+    powers = {key: per_unknown(rows) for key, rows in reference.groupby(["problem", "sheet"])}
     table = records.table.merge(reference[CASE + ["unknowns"]], on=CASE, how="left", suffixes=("", "_fitted"))
-    power = np.array([powers.get(key, np.nan) for key in zip(table["scene"], table["sheet"])])
+    power = np.array([powers.get(key, np.nan) for key in zip(table["problem"], table["sheet"])])
     more = table["unknowns"] / table["unknowns_fitted"]
     return records.with_rows(table.assign(more=more, ratio_equal=table["ratio"] * more**power,
                                           excess_equal_percent=100 * (table["ratio"] * more**power - 1)))

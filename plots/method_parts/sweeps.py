@@ -4,7 +4,7 @@
 import numpy as np
 from matplotlib.colors import LogNorm, Normalize
 
-import style
+from common import style
 
 BEFORE = ["nothing", "snap", "warp", "thin", "warp+thin"]
 AFTER = ["nothing", "flips", "smoothing", "refine", "tie"]

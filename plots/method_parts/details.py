@@ -3,9 +3,13 @@
 import numpy as np
 import pandas as pd
 
-from load import of
+from common.load import of
 
-KEY = ["scene", "sheet", "resolution", "case"]
+GROUPS = {  # of the columns below, by the beginning of their names (load.group)
+    "AR < 3": "forced", "eigenvalue, ": "stability", "us, ": "time", "failed: ": "outcome", "pairs": "pairs",
+    "time over": "pairs", "of several cuts": "pairs", "no larger eigenvalue": "pairs",
+}
+KEY = ["cut_family", "sheet", "resolution", "case"]
 
 
 def by_sheet_and_family(table, order, sheets):
@@ -14,7 +18,7 @@ def by_sheet_and_family(table, order, sheets):
     cuts, and of those that meet nothing at less than asin(1/3); their tails; the time at the largest resolution;
     failures by verdict."""
     rows = []
-    families = list(dict.fromkeys(table["scene"]))
+    families = list(dict.fromkeys(table["cut_family"]))
     largest = table["resolution"].max()
     for variant in order:
         cuts = of(table, variant)
@@ -27,11 +31,11 @@ def by_sheet_and_family(table, order, sheets):
                 row[f"AR < 3 {name}, {sheet}"] = f"{int(below.sum())}/{len(here)}" if len(here) else "-"
         eigenvalue = cuts["eigenvalue_ratio"]
         for family in families:
-            row[f"eigenvalue, {family}"] = eigenvalue[cuts["scene"] == family].median()
+            row[f"eigenvalue, {family}"] = eigenvalue[cuts["cut_family"] == family].median()
         first = cuts["sheet"] == sheets[0]
         row[f"eigenvalue, {sheets[0]}"] = eigenvalue[first].median()
         if "curved" in families:
-            curved = first & (cuts["scene"] == "curved")
+            curved = first & (cuts["cut_family"] == "curved")
             row[f"eigenvalue, {sheets[0]}, curved"] = eigenvalue[curved].median()
             row["eigenvalue, of these nothing forced"] = eigenvalue[curved & (cuts["forced_corners"] == 0)].median()
         for share in (0.9, 0.95):
@@ -76,8 +80,8 @@ def against(table, one, order):
         row = {"method": variant[0], "knob": variant[1], "pairs": len(pairs)}
         for share in (0.05, 0.5, 0.95):
             row[f"time over {one[0]}'s, {100 * share:g} %"] = ratio.quantile(share)
-        row[f"{one[0]}'s eigenvalue no larger, %"] = 100 * no_larger.mean() if len(asked) else np.nan
-        several = asked["scene"] == "several"
+        row[f"no larger eigenvalue by {one[0]}, %"] = 100 * no_larger.mean() if len(asked) else np.nan
+        several = asked["cut_family"] == "several"
         if several.any():
             row["of several cuts, %"] = 100 * no_larger[several].mean()
         rows.append(row)

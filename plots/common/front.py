@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.lines import Line2D
 
-import load
+from common import load
 
 SOLVE = ["solver", "budget"]  # columns of records whose cuts were solved
 FRONT_LINE = dict(color="#111111", linewidth=0.7, linestyle=(0, (1, 1)), zorder=2.5)

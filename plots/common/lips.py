@@ -6,7 +6,7 @@ import tomllib
 import numpy as np
 from scipy.spatial import cKDTree
 
-import load
+from common import load
 
 TIPS = 0.02  # of the curve, at either end: left out where lips are compared
 

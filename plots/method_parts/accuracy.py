@@ -5,10 +5,10 @@ import numpy as np
 import pandas as pd
 from matplotlib.lines import Line2D
 
-import style
-from accuracy_ranking import at_equal_unknowns, made_by_all, mean_excess
-from accuracy_records import Records, percent_axis, zero_line
-from load import of
+from accuracy_parts.ranking import at_equal_unknowns, made_by_all, mean_excess
+from accuracy_parts.records import Records, percent_axis, zero_line
+from common import style
+from common.load import of
 
 STEM = "method_comparison_accuracy"
 WHAT = ("excess error over that of a mesh made anew to fit the cut, of as many triangles as the uncut sheet, or refined to "

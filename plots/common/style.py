@@ -13,7 +13,7 @@ from matplotlib.colors import to_rgb
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter
 
-from load import CUT, VARIANT, count, stop
+from common.load import VARIANT, count, cut_columns, family_column, stop
 
 WIDTH = 8.5 / 2.54  # inches, of a column
 PAGE = 17.4 / 2.54  # of two, and the space between them
@@ -200,15 +200,15 @@ def provenance(run, cases, with_machine=False, with_crosses=True, per=("sheet", 
     """The sentences every caption ends with. `cases`: the table of the cuts drawn, for their number per point: those that
     have variant and `per` in common."""
     context = run.context
-    made = cases.drop_duplicates(VARIANT + CUT).groupby(VARIANT + list(per)).size()
+    made = cases.drop_duplicates(VARIANT + cut_columns(cases)).groupby(VARIANT + list(per)).size()
     n = "0" if made.empty else str(made.min()) if made.min() == made.max() else f"{made.min()} to {made.max()}"
     everything = run.everything()
     refused = run.failed["status"] == "refused"
     failed = count(run.failed[(run.failed["verdict"] != "ok") | (run.failed["status"] == "failed")])  # in some row
     commit = str(context.get("commit") or "unknown")[:10]
     state = {True: " with uncommitted changes", None: " (state of the tree unknown)"}.get(context.get("dirty"), "")
-    scenes = ", ".join(sorted(set(everything["scene"])))
-    text = [f"n = {n} cuts per point ({scenes}), {failed} of {count(everything)} failed"
+    families = ", ".join(sorted(set(everything[family_column(everything)])))
+    text = [f"n = {n} cuts per point ({families}), {failed} of {count(everything)} failed"
             + (f", {count(run.failed[refused])} refused" if refused.any() else "") + (" (×, number beside)." if len(run.failed) and with_crosses else "."),
             f"Seed {context.get('seed', ', '.join(sorted(set(everything['seed']))))}, commit {commit}{state}."]
     if with_machine:

@@ -5,8 +5,7 @@ import tomllib
 
 import numpy as np
 
-import load
-import render
+from common import load, render
 
 
 def centre_of_smaller_piece(frame):

@@ -5,15 +5,13 @@ import copy
 import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-import front
-import load
-import style
-from load import of
+from common import front, load, style
+from common.load import of
 
 REFERENCE = ("body_fitted (reference)", "")
 NEEDED = ["budget", "exact_incision", "cut_us", "total_us", "unknowns", "iterations", "ar_max_cut", "error",
           "excess_error"]
-CASE = ["scene", "sheet", "resolution", "case"]
+CASE = ["problem", "sheet", "resolution", "case"]
 CONVERGED = 1.05  # of the direct solve's error: the iterations no longer matter
 EXACT = 1e-5  # a fitted mesh that errs less is exact but for rounding: there is nothing to compare with, or to rank
 
@@ -22,19 +20,19 @@ class Records:
     """The rows with: failed, ratio (error over the reference's), ms, variant columns, direct (solved to the end)."""
 
     def __init__(self, folder):
-        table = load.read_records(folder / "records.csv", load.TEXT + load.TEXT_OF_SOME + load.COUNTS + NEEDED,
+        table = load.read_records(folder / "records.csv", load.TEXT + ["problem", "solver", "primary"] + load.COUNTS + NEEDED,
                                   all_columns=True)
         failed = front.failed_rows(table)
-        fitted = table[(table["method"] == REFERENCE[0]) & ~failed].groupby("scene")["error"].median()
+        fitted = table[(table["method"] == REFERENCE[0]) & ~failed].groupby("problem")["error"].median()
         self.exact = set(fitted[fitted < EXACT].index)
-        table.loc[table["scene"].isin(self.exact), "excess_error"] = np.nan
+        table.loc[table["problem"].isin(self.exact), "excess_error"] = np.nan
         self.table = table.assign(failed=failed, ratio=1 + table["excess_error"], ms=table["total_us"] / 1000,
                                   excess_percent=100 * table["excess_error"], direct=table["budget"] == 0)
         self.run = load.Run(table[~failed], table[failed], load.read_context(folder / "context.json"))
         self.looks = style.looks(set(zip(table["method"], table["knob"])))
         self.methods = {v: look for v, look in self.looks.items() if v != REFERENCE}
         self.sheets = style.sheet_order(table["sheet"])
-        self.problems = list(dict.fromkeys(table["scene"]))
+        self.problems = list(dict.fromkeys(table["problem"]))
         self.resolutions = sorted(set(table["resolution"]))
         self.solvers = list(dict.fromkeys(table.loc[~self.table["direct"], "solver"]))
         self.budgets = sorted(set(table.loc[~self.table["direct"], "budget"].astype(int)))
@@ -49,28 +47,28 @@ class Records:
         """The same with other rows."""
         other = copy.copy(self)
         other.table = table
-        other.problems = [p for p in self.problems if p in set(table["scene"])]
+        other.problems = [p for p in self.problems if p in set(table["problem"])]
         return other
 
     def in_plane(self):
         """Without the problems that take no budgets: those, out of plane, are on few sizes. The direct solve and all
         budgets are then of the same cases. All, where there are no budgets."""
-        budgeted = set(self.table.loc[~self.table["direct"], "scene"])
-        return self.with_rows(self.table[self.table["scene"].isin(budgeted)]) if budgeted else self
+        budgeted = set(self.table.loc[~self.table["direct"], "problem"])
+        return self.with_rows(self.table[self.table["problem"].isin(budgeted)]) if budgeted else self
 
     def out_of_plane(self):
-        return self.with_rows(self.table[~self.table["scene"].isin(set(self.in_plane().problems))])
+        return self.with_rows(self.table[~self.table["problem"].isin(set(self.in_plane().problems))])
 
     def ranked(self):
         """Without the problems that even the fitted mesh solves exactly."""
-        return self.with_rows(self.table[~self.table["scene"].isin(self.exact)])
+        return self.with_rows(self.table[~self.table["problem"].isin(self.exact)])
 
     def enough(self):
         """The fewest iterations of the first solver after which the reference mesh has converged on the largest sheet, in
         each problem's median; the most there are if it never does, None without any."""
         for budget in self.budgets:
             here = self.ranked().rows(REFERENCE, solver=self.solvers[0], budget=budget, resolution=self.resolutions[-1])
-            if len(here) and (here.groupby("scene")["ratio"].median() <= CONVERGED).all():
+            if len(here) and (here.groupby("problem")["ratio"].median() <= CONVERGED).all():
                 return budget
         return self.budgets[-1] if self.budgets else None
 

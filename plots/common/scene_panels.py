@@ -8,9 +8,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 from matplotlib.cm import ScalarMappable
 
-import load
-import render
-import style
+from common import load, render, style
 
 GAP, TITLE = 0.04, 0.25  # inches
 

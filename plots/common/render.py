@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import LogNorm, Normalize
 
-import load
+from common import load
 
 FRONT, BACK = np.array([0.93, 0.74, 0.62]), np.array([0.55, 0.66, 0.78])
 LIP = "#b0001e"
