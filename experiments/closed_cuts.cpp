@@ -76,10 +76,10 @@ double out_of_balance(const Sheet& sheet, const Field& u, const Ties& ties) {
   const Field load_on_it = load(sheet, ties).force();
   Field force = load_on_it;
   model.tie(ties);
-  if (model.tied()) model.tied()->settle(model.held(), x);
+  if (model.tied()) model.tied()->satisfy(model.held(), x);
   model.rotate(x);
   model.add_internal_force(x, force);
-  if (model.tied()) model.tied()->hand_on(model.held(), force);
+  if (model.tied()) model.tied()->transfer_forces(model.held(), force);
   double sum = 0;
   for (std::size_t d = 0; d < sheet.deformed_slots(); ++d)
     if (const VertexIndex v = sheet.rest_vertex(DeformedIndex(d)); v.valid() && !is_held(sheet.rest(v)))

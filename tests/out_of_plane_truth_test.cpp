@@ -223,7 +223,7 @@ TEST(BentSheet, SettlesInTheSameShapeFromFlat) {
                      return Start{flat && !held ? Point3{p.x, p.y, 0} : Point3{s.x, p.y, s.z}, {held, held, held}};
                    });
     Answer answer;
-    ASSERT_TRUE(bent.settle({.name = "cholmod"}, answer)) << answer.reason;
+    ASSERT_TRUE(bent.solve_to_equilibrium({.name = "cholmod"}, answer)) << answer.reason;
     for (const DeformedIndex d : vertices_in_use(sheet)) ends.push_back(bent.position(d));
     std::printf("%d Newton iterations from %s\n", answer.iterations, flat ? "flat" : "the exact shape");
   }

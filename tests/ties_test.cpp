@@ -148,7 +148,7 @@ TEST(Ties, PatchTest) {
     SystemMatrix<2> system = model.system();
     system.held = &held;
     TiedSystem<2> tying(cut.ties, model.vertices());
-    tying.follow(held, given);
+    tying.extrapolate(held, given);
     system.add_product(-given, force);
     tying.assemble(system, 1000);
     const SystemMatrix<2> small = tying.system();

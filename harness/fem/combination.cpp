@@ -155,7 +155,7 @@ void TiedSystem<D>::expand(const Field& q, Field& x) const {
 }
 
 template <int D>
-void TiedSystem<D>::follow(std::int32_t tied, const std::vector<std::uint8_t>& held, Field& x) const {
+void TiedSystem<D>::extrapolate(std::int32_t tied, const std::vector<std::uint8_t>& held, Field& x) const {
   const auto& row = combination_.row(static_cast<std::size_t>(tied));
   for (std::int32_t k = 0; k < D; ++k) {
     if (held[static_cast<std::size_t>(D * tied + k)]) continue;
@@ -167,12 +167,12 @@ void TiedSystem<D>::follow(std::int32_t tied, const std::vector<std::uint8_t>& h
 }
 
 template <int D>
-void TiedSystem<D>::follow(const std::vector<std::uint8_t>& held, Field& x) const {
-  for (const std::int32_t v : combination_.tied()) follow(v, held, x);
+void TiedSystem<D>::extrapolate(const std::vector<std::uint8_t>& held, Field& x) const {
+  for (const std::int32_t v : combination_.tied()) extrapolate(v, held, x);
 }
 
 template <int D>
-void TiedSystem<D>::hand_on(const std::vector<std::uint8_t>& held, Field& f) const {
+void TiedSystem<D>::transfer_forces(const std::vector<std::uint8_t>& held, Field& f) const {
   for (const std::int32_t v : combination_.tied()) {
     const auto& row = combination_.row(static_cast<std::size_t>(v));
     for (std::int32_t k = 0; k < D; ++k) {
@@ -185,12 +185,12 @@ void TiedSystem<D>::hand_on(const std::vector<std::uint8_t>& held, Field& f) con
 }
 
 template <int D>
-void TiedSystem<D>::settle(const std::vector<std::uint8_t>& held, Field& x) const {
+void TiedSystem<D>::satisfy(const std::vector<std::uint8_t>& held, Field& x) const {
   for (const std::int32_t v : combination_.tied()) {
     const auto& row = combination_.row(static_cast<std::size_t>(v));
     const auto end = row.unknown.begin() + static_cast<std::ptrdiff_t>(row.size);
     if (std::none_of(row.unknown.begin(), end, [&](std::int32_t u) { return combination_.is_phantom(u); }))
-      follow(v, held, x);
+      extrapolate(v, held, x);
   }
 }
 

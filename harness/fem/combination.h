@@ -1,5 +1,6 @@
-// x = C q: the places of the sheet's vertices as affine combinations of unknowns (harness/mesh/ties.h), and the linear
-// system of these unknowns.
+// x = C q: the positions of the sheet's vertices as affine combinations of the unknowns q, where some vertices are
+// constrained (harness/mesh/ties.h), and the linear system of q. A constrained vertex is no unknown: it is extrapolated
+// from its masters, three unconstrained vertices or phantom nodes.
 #pragma once
 
 #include <span>
@@ -9,7 +10,7 @@
 
 namespace cutbench {
 
-/// C. Unknown i < vertices() is the place of vertex i, where that is not tied; phantoms come after.
+/// The matrix C. Unknown i < vertices() is the position of vertex i where that is not constrained; phantom nodes follow.
 class Combination {
  public:
   struct Row {
@@ -23,9 +24,9 @@ class Combination {
   std::size_t unknowns() const { return rows_.size() + phantoms_; }
   const Row& row(std::size_t vertex) const { return rows_[vertex]; }
   bool is_phantom(std::int32_t unknown) const { return static_cast<std::size_t>(unknown) >= vertices(); }
-  const std::vector<std::int32_t>& tied() const { return tied_; }  ///< in rising order
+  const std::vector<std::int32_t>& tied() const { return tied_; }  ///< constrained vertices, in rising order
 
-  /// x = C q and r = C^T f, for `dimension` values per vertex and unknown. Unknowns of tied vertices count for nothing.
+  /// x = C q and r = C^T f, for `dimension` values per vertex and unknown. Unknowns of constrained vertices are ignored.
   void expand(int dimension, const Field& q, Field& x) const;
   void reduce(int dimension, const Field& f, Field& r) const;
 
@@ -35,9 +36,9 @@ class Combination {
   std::size_t phantoms_;
 };
 
-/// C^T A C, with ghost penalties, and its unknowns for a system A of all vertices. Held unknowns of A are data: their
-/// rows of C are zero, and an unknown is held where the vertex is that it places, or where nothing is left that depends
-/// on it. It is assembled anew whenever A is: the pattern once, the values by the blocks of A. A cut wants a new one.
+/// The system C^T A C with ghost penalties, for a system A of all vertices. Held unknowns of A are data: their rows of C
+/// are zero. An unknown of q is held where its vertex is held, and where nothing depends on it. Assemble it whenever A
+/// changes: the pattern is built once, the values each time from the blocks of A. After a cut, make a new one.
 template <int D>
 class TiedSystem {
  public:
@@ -46,24 +47,24 @@ class TiedSystem {
   const Combination& combination() const { return combination_; }
   /// \pre the pattern of `a` is that of the first call. \param stiffness  N/m, of the sheet: for ghost penalties
   void assemble(const SystemMatrix<D>& a, double stiffness = 0);
-  /// Of the last assemble(); refers to this. No element table: preconditioners see no slivers, which were tied.
+  /// Of the last assemble(); refers to this. No element table: preconditioners find no slivers, whose vertices are constrained.
   SystemMatrix<D> system() const;
-  /// r = C^T f, zero where a vertex is held, and without what pulls at held ones.
+  /// r = C^T f, without the forces at held vertices, and zero where an unknown is held.
   void reduce(const std::vector<std::uint8_t>& held, const Field& f, Field& r) const;
-  /// Takes what the ghost penalties of the last assemble() do to given values of held vertices off the right side.
+  /// Subtracts the ghost penalties of the given values of held vertices, of the last assemble(), from the right side.
   void subtract_ghosts(const Field& given, Field& r) const;
   /// x = C q, zero where A is held. \pre q is zero where system() is held.
   void expand(const Field& q, Field& x) const;
-  /// Tied vertices of x go where their masters are, but for phantoms, which add nothing, and on axes that are held.
-  void follow(const std::vector<std::uint8_t>& held, Field& x) const;
-  /// Forces at tied vertices go to their masters, as in C^T f, but for phantoms' shares; on axes that are held they
-  /// stay.
-  void hand_on(const std::vector<std::uint8_t>& held, Field& f) const;
-  /// Those all of whose masters are vertices: what brings a state to where it satisfies the ties.
-  void settle(const std::vector<std::uint8_t>& held, Field& x) const;
+  /// Extrapolates each constrained vertex of x from its masters; phantom nodes contribute nothing, and held axes stay.
+  void extrapolate(const std::vector<std::uint8_t>& held, Field& x) const;
+  /// Moves the forces at constrained vertices to their masters, as C^T f does, without the shares of phantom nodes; on
+  /// held axes they stay.
+  void transfer_forces(const std::vector<std::uint8_t>& held, Field& f) const;
+  /// Extrapolates the constrained vertices whose masters are all vertices, so that a state satisfies the constraints.
+  void satisfy(const std::vector<std::uint8_t>& held, Field& x) const;
 
  private:
-  void follow(std::int32_t tied, const std::vector<std::uint8_t>& held, Field& x) const;
+  void extrapolate(std::int32_t tied, const std::vector<std::uint8_t>& held, Field& x) const;
   void set_pattern(const SystemMatrix<D>& a);
   bool acts(const GhostEdge& ghost, std::size_t axis) const;
   void add(std::size_t i, std::size_t j, typename BlockMatrix<D>::Block block);

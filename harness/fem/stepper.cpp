@@ -128,7 +128,7 @@ void Stepper<D>::hold(Model<D>& model, const State& state, double h) {
   }
   if (!tied) return;
   v_ -= product_;
-  tied->follow(model.held(), v_);
+  tied->extrapolate(model.held(), v_);
   v_ += product_;
 }
 
@@ -211,7 +211,7 @@ void Stepper<D>::equilibrium(Model<D>& model, State& state, StepReport& report) 
           state.anchor[static_cast<Eigen::Index>(i)] + model.held_displacement(i, state.time + options_.step);
   if (tied) {
     state.x -= x_;
-    tied->follow(model.held(), state.x);
+    tied->extrapolate(model.held(), state.x);
     state.x += x_;
   }
   state.v.setZero();

@@ -71,7 +71,8 @@ class Repair {
       const auto [a, b, c] = mesh_.triangles[t];
       for (std::int32_t v : {a, b, c}) {
         if (v < 0 || v >= count)
-          fail(triangle_name(t) + " has a corner beyond the " + std::to_string(count) + " vertices; correct its indices");
+          fail(triangle_name(t) + " has a corner beyond the " + std::to_string(count) +
+               " vertices; correct its indices");
         used_[at(v)] = true;
       }
       if (a == b || b == c || c == a) fail(triangle_name(t) + " has the same corner twice; delete it");

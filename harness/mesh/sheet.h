@@ -110,7 +110,7 @@ class Sheet {
   /// other side is border. \pre `removed` names each triangle once; no path is embedded.
   void remove(std::span<const TriangleIndex> removed);
 
-  /// A held vertex stays where it is in rest space, for something is tied to it: a pin, a load, a mark of the user's.
+  /// A held vertex does not move in rest space, because something is attached to it: a pin, a load, a mark of the user.
   void hold(VertexIndex v);
   bool is_held(VertexIndex v) const { return v() < held_.size() && held_[v()] != 0; }
 

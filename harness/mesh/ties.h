@@ -1,6 +1,6 @@
-// Unknowns that are fewer than the sheet's vertices: what a method that leaves the geometry as it is can do about the
-// finite elements on it. x = C q, a row of C per vertex of the opened sheet, and the system of the unknowns q is
-// C^T K C, C^T M C, C^T f (harness/fem/combination.h).
+// Constraints on the vertices of an opened sheet: how a method can improve the finite elements without changing the
+// geometry. x = C q has a row of C for each vertex; the unknowns q have the system C^T K C, C^T M C, C^T f
+// (harness/fem/combination.h).
 #pragma once
 
 #include <array>
@@ -11,12 +11,13 @@
 
 namespace cutbench {
 
-/// A vertex of the opened sheet that is no unknown: it goes where the linear field goes that three unknowns span. On an
-/// axis on which it is held it stays where it is held.
+/// A constrained vertex of the opened sheet: it is no unknown, but is extrapolated linearly from three masters. On an axis
+/// on which it is held, it stays there.
 struct Tie {
   DeformedIndex vertex;
-  std::array<DeformedIndex, 3> masters;  ///< untied vertices, or phantom i as Sheet::deformed_slots() + i
-  std::array<double, 3> weights;         ///< barycentric coordinates: of any sign, sum 1; a 0 leaves its master out
+  std::array<DeformedIndex, 3> masters;  ///< unconstrained vertices, or phantom node i as Sheet::deformed_slots() + i
+  std::array<double, 3>
+      weights;  ///< barycentric coordinates of the vertex, of any sign, with sum 1; 0 leaves the master out
 };
 
 /// A penalty on the jump of the normal derivative, sum of jump[k] q[unknown[k]], across an edge at which two parts are

@@ -43,14 +43,15 @@ int count_crossings(const std::vector<Point2>& a, const std::vector<Point2>& b) 
 
 }  // namespace
 
-int Tracer::links_of(int face) const {
-  return static_cast<std::size_t>(face) < links_of_face_.size() ? links_of_face_[static_cast<std::size_t>(face)] : -1;
+int Tracer::passages_of(int face) const {
+  return static_cast<std::size_t>(face) < passages_of_face_.size() ? passages_of_face_[static_cast<std::size_t>(face)]
+                                                                   : -1;
 }
 
 /// One straight passage and nothing else, or only nodes on the edges.
 bool Tracer::is_simple(int f) const {
-  if (links_of(f) < 0) return true;
-  const Link& only = link(links_of(f));
+  if (passages_of(f) < 0) return true;
+  const TrianglePassage& only = passage(passages_of(f));
   if (only.next >= 0 || trace_.segment(trace_.face(f).segments).next >= 0) return false;
   auto on_edge = [&](int n) { return trace_.node(n).place.kind == Place::Kind::edge ? 1 : 0; };
   return trace_.face(f).edge_nodes == on_edge(only.from) + on_edge(only.to);
@@ -61,41 +62,41 @@ void Tracer::arrange(int face) {
   resolve_crossings(face);
 }
 
-std::vector<Point2> Tracer::link_points(const Link& link, bool all) const {
-  std::vector<Point2> points{trace_.node(link.from).place.point};
+std::vector<Point2> Tracer::passage_points(const TrianglePassage& passage, bool all) const {
+  std::vector<Point2> points{trace_.node(passage.from).place.point};
   if (all) {
-    for (std::size_t i = 0; i < link.count; ++i) points.push_back(point(link.first + i));
-    points.push_back(trace_.node(link.to).place.point);
+    for (std::size_t i = 0; i < passage.count; ++i) points.push_back(point(passage.first + i));
+    points.push_back(trace_.node(passage.to).place.point);
   } else {
-    for (std::size_t s = link.segments[0]; s < link.segments[1]; ++s)
+    for (std::size_t s = passage.segments[0]; s < passage.segments[1]; ++s)
       points.push_back(trace_.node(trace_.segments[s].to).place.point);
   }
   return points;
 }
 
-/// No simplified link crosses another, nor do the two paths they stand for: else the crossing would be off the path.
+/// No simplified passage crosses another, nor do the two paths they stand for: else the crossing would be off the path.
 bool Tracer::chords_tell_the_truth(int face) const {
-  for (int i = links_of(face); i >= 0; i = link(i).next)
-    for (int j = link(i).next; j >= 0; j = link(j).next) {
-      const Link &a = link(i), &b = link(j);
+  for (int i = passages_of(face); i >= 0; i = passage(i).next)
+    for (int j = passage(i).next; j >= 0; j = passage(j).next) {
+      const TrianglePassage &a = passage(i), &b = passage(j);
       if (!a.simplified && !b.simplified) continue;
-      const int truth = count_crossings(link_points(a, true), link_points(b, true));
-      if (truth > 0 || truth != count_crossings(link_points(a, false), link_points(b, false))) return false;
+      const int truth = count_crossings(passage_points(a, true), passage_points(b, true));
+      if (truth > 0 || truth != count_crossings(passage_points(a, false), passage_points(b, false))) return false;
     }
   return true;
 }
 
-/// Makes nodes of all points of all links.
+/// Makes nodes of all points of all passages.
 void Tracer::restore_all_points(int face) {
   trace_.face(face).segments = -1;
-  for (int i = links_of(face); i >= 0; i = link(i).next) {
-    int node = link(i).from;
-    for (std::size_t k = 0; k < link(i).count; ++k) {
-      const int next = trace_.node_of(place_in(trace_.face(face).triangle, point(link(i).first + k)));
+  for (int i = passages_of(face); i >= 0; i = passage(i).next) {
+    int node = passage(i).from;
+    for (std::size_t k = 0; k < passage(i).count; ++k) {
+      const int next = trace_.node_of(place_in(trace_.face(face).triangle, point(passage(i).first + k)));
       trace_.add_segment(face, node, next);
       node = next;
     }
-    trace_.add_segment(face, node, link(i).to);
+    trace_.add_segment(face, node, passage(i).to);
   }
 }
 

@@ -12,7 +12,7 @@ Subdivision& Tracer::trace(const Sheet& sheet, const Polyline& path, Walk& walk,
                            bool may_begin_elsewhere) {
   sheet_ = &sheet, path_ = &path, chord_tolerance_ = chord_tolerance;
   trace_.reset(sheet), trace_.chord_tolerance = chord_tolerance;
-  links_.clear(), links_of_face_.clear();
+  passages_.clear(), passages_of_face_.clear();
   from_ = walk.place(), from_node_ = -1;
   first_ = 1, count_ = 0;
   loop_ = head_open_ = path.closed && !path.kept[0] && from_.kind == Place::Kind::face;
@@ -99,7 +99,7 @@ void Tracer::split_lone_piece() {
     place.lambda = dot(middle - from, edge) / dot(edge, edge), place.point = from + place.lambda * edge;
     trace_.node_of(place);
   } else if (!trace_.segments.empty()) {
-    const Link& only = links_.front();
+    const TrianglePassage& only = passages_.front();
     const auto crossed = std::find_if(trace_.faces.begin(), trace_.faces.end(),
                                       [](const Subdivision::Face& face) { return face.segments >= 0; });
     const TriangleIndex t = crossed->triangle;
@@ -139,12 +139,12 @@ void Tracer::handle(const Step& step, std::size_t point, bool tip) {
       break;
   }
   from_ = to, from_node_ = to_node;
-  // The next link's points start behind this place.
+  // The next passage's points start behind this place.
   first_ = step.arrived ? point + 1 : point;
   count_ = 0;
 }
 
-/// A closed path that began inside a triangle: its last link goes on into its first.
+/// A closed path that began inside a triangle: its last passage goes on into its first.
 void Tracer::close_loop() {
   if (head_open_) {  // it never left that triangle: break the loop at its first point
     const Place start = place_in(face_, point(0));
@@ -152,7 +152,7 @@ void Tracer::close_loop() {
     return;
   }
   if (face_ != head_face_) throw WalkLost();
-  // The last link ends with the first point itself, with which the head begins.
+  // The last passage ends with the first point itself, with which the head begins.
   finish(trace_.face_of(face_), from_, first_, count_ + head_count_ - 1, head_to_);
 }
 
@@ -186,14 +186,14 @@ int Tracer::finish(int face, const Place& from, std::size_t first, std::size_t c
   }
   const int end = trace_.node_of(to);
   trace_.add_segment(face, node, end);
-  links_of_face_.resize(trace_.faces.size(), -1);
-  int& head = links_of_face_[static_cast<std::size_t>(face)];
-  links_.push_back({start, end, first, count, kept < count, {segments, trace_.segments.size()}, head});
-  head = static_cast<int>(links_.size() - 1);
+  passages_of_face_.resize(trace_.faces.size(), -1);
+  int& head = passages_of_face_[static_cast<std::size_t>(face)];
+  passages_.push_back({start, end, first, count, kept < count, {segments, trace_.segments.size()}, head});
+  head = static_cast<int>(passages_.size() - 1);
   return end;
 }
 
-/// Which points of a link become nodes.
+/// Which points of a passage become nodes.
 void Tracer::choose(bool on_one_edge, const Place& from, std::size_t first, std::size_t count, const Place& to) {
   for (std::size_t i = 0; i < count; ++i) chosen_[i] = path_->kept[wrapped(first + i)];
   if (within(from.point, to.point, sheet_->snap())) choose_on_loop(from.point, first, count);
@@ -234,7 +234,7 @@ void Tracer::choose(bool on_one_edge, const Place& from, std::size_t first, std:
   if (crosses_itself(all_points_) || crosses_itself(chosen_points_)) chosen_.assign(count, 1);
 }
 
-/// A link that ends where it starts: the point farthest from there, and on both ways the one farthest from that line.
+/// A passage that ends where it starts: the point farthest from there, and on both ways the one farthest from that line.
 void Tracer::choose_on_loop(Point2 start, std::size_t first, std::size_t count) {
   auto farthest = [&](std::size_t begin, std::size_t end, auto distance) {
     std::size_t best = begin;

@@ -34,12 +34,12 @@ class Tracer {
   Subdivision& trace(const Sheet& sheet, const Polyline& path, Walk& walk, double chord_tolerance,
                      bool may_begin_elsewhere);
   /// One passage of the path through one triangle: the polyline's points between two nodes.
-  struct Link {
+  struct TrianglePassage {
     int from, to;
     std::size_t first, count;             // of the polyline's points, counted on past its end
     bool simplified;                      // some of them did not become nodes
     std::array<std::size_t, 2> segments;  // of the subdivision, that it became: the first, past the last
-    int next;                             // next link of the same triangle
+    int next;                             // next passage of the same triangle
   };
   void take(const Step& step, std::size_t point, bool tip);
   void handle(const Step& step, std::size_t point, bool tip);
@@ -76,19 +76,20 @@ class Tracer {
   int edges_of(TriangleIndex t, const Place& place) const;
 
   // arrange.cpp
-  int links_of(int face) const;
-  const Link& link(int i) const { return links_[static_cast<std::size_t>(i)]; }
+  int passages_of(int face) const;
+  const TrianglePassage& passage(int i) const { return passages_[static_cast<std::size_t>(i)]; }
   bool is_simple(int face) const;
   void arrange(int face);
   bool chords_tell_the_truth(int face) const;
-  std::vector<Point2> link_points(const Link& link, bool all) const;  // not all: those that became nodes
+  std::vector<Point2> passage_points(const TrianglePassage& passage,
+                                     bool all) const;  // not all: those that became nodes
   void restore_all_points(int face);
   void resolve_crossings(int face);
   std::vector<int> nodes_of(int face) const;
 
   Subdivision trace_;
-  std::vector<Link> links_;
-  std::vector<int> links_of_face_;               // per face: its first link
+  std::vector<TrianglePassage> passages_;
+  std::vector<int> passages_of_face_;            // per face: its first passage
   std::vector<std::pair<Point2, Place>> found_;  // points of the path, and the edges and vertices they were found on
   const Sheet* sheet_ = nullptr;
   const Polyline* path_ = nullptr;
@@ -101,17 +102,17 @@ class Tracer {
   std::vector<Taken> excursion_;
   std::vector<Point2> way_, chain_;
 
-  // The link under way: from a place, through the points [first_, first_ + count_) of the polyline.
+  // The passage under way: from a place, through the points [first_, first_ + count_) of the polyline.
   Place from_;
   int from_node_ = -1;  // once it has one
   std::size_t first_ = 0, count_ = 0;
-  // A closed path that starts inside a triangle: its first link, which ends at head_to_, is joined to the last one.
+  // A closed path that starts inside a triangle: its first passage, which ends at head_to_, is joined to the last one.
   bool loop_ = false, head_open_ = false;
   TriangleIndex head_face_;
   Place head_to_;
   std::size_t head_count_ = 0;
   TriangleIndex face_;                // that the path is in
-  std::vector<std::uint8_t> chosen_;  // per point of the link: becomes a node
+  std::vector<std::uint8_t> chosen_;  // per point of the passage: becomes a node
   std::vector<Point2> all_points_, chosen_points_;
 };
 

@@ -36,7 +36,7 @@ void EnergyBudget::add_step(Model<D>& model, const State& before, const State& a
   model.add_internal_force(after.x, force);
   model.add_external_force(force);
   Field pin_force = mass_dv / step + alpha * mass_v + beta * stiffness_v - force;
-  if (model.tied()) model.tied()->hand_on(model.held(), pin_force);
+  if (model.tied()) model.tied()->transfer_forces(model.held(), pin_force);
   for (std::size_t i = 0; i < model.held().size(); ++i)
     if (model.pinned(i))
       row.pin_work += step * v[static_cast<Eigen::Index>(i)] * pin_force[static_cast<Eigen::Index>(i)];

@@ -260,8 +260,8 @@ class SceneInMotion : public Simulation {
       result.cut.time_us.tie += watch.lap();
       if (ties.empty()) continue;
       now.model.tie(ties);
-      now.model.tied()->settle(now.model.held(), now.state.x);  // to where it satisfies the ties, too
-      now.model.tied()->settle(now.model.held(), now.state.v);
+      now.model.tied()->satisfy(now.model.held(), now.state.x);  // the state of before the cut need not
+      now.model.tied()->satisfy(now.model.held(), now.state.v);
       result.pattern_us += watch.lap();
     }
     if (refusal) result.cut.status = Status::refused, result.reason = *refusal;

@@ -50,7 +50,7 @@ class BendingPatchSlit : public Problem {
         return Start{exact(d), {held, held, held}};
       });
       Answer& answer = answers.emplace_back();
-      if (!bent.settle(budget.solver, answer)) continue;
+      if (!bent.solve_to_equilibrium(budget.solver, answer)) continue;
       double squares = 0, mass = 0, largest = 0;
       for (const DeformedIndex d : vertices_in_use(sheet)) {
         if (bent.held(d)) continue;

@@ -32,7 +32,7 @@ BentSheet::BentSheet(const Sheet& sheet, const Material& material, BendingKind b
   state_.anchor = state_.x;
 }
 
-bool BentSheet::settle(const SolverOptions& solver, Answer& answer) {
+bool BentSheet::solve_to_equilibrium(const SolverOptions& solver, Answer& answer) {
   Stepper<3> stepper({.integrator = Integrator::equilibrium, .newton = 100, .solver = solver});
   const StepReport report = stepper.step(model_, state_);
   answer.verdict = report.verdict, answer.reason = report.reason;

@@ -25,9 +25,9 @@ class BentSheet {
 
   /// Adds what it took to `answer`: `iterations` are Newton's, `residual` is the last one's, of the forces. False where
   /// there is no equilibrium, which is then the verdict.
-  bool settle(const SolverOptions& solver, Answer& answer);
+  bool solve_to_equilibrium(const SolverOptions& solver, Answer& answer);
 
-  // --- after settle() ------------------------------------------------------------------------------------------------
+  // --- after solve_to_equilibrium() ------------------------------------------------------------------------------------------------
   Point3 position(DeformedIndex d) const;  ///< m
   Energy energy() const;
   /// N: what holds the vertex on its held axes, with the sheet's weight there.

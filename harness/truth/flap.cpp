@@ -56,7 +56,7 @@ class Flap : public Problem {
       Answer& answer = answers.emplace_back();
       BentSheet bent(sheet, {.density = 1, .stiffness = stiffness, .poisson = 0, .bending = 1}, bending_, weight,
                      start);
-      if (!bent.settle(budget.solver, answer)) continue;
+      if (!bent.solve_to_equilibrium(budget.solver, answer)) continue;
       double squares = 0, mass = 0, tip = 0, tip_mass = 0;
       for (const DeformedIndex d : vertices_in_use(sheet)) {
         if (!in_flap(d) || bent.held(d)) continue;

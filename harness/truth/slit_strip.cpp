@@ -45,8 +45,8 @@ class SlitStrip : public Problem {
       Answer& answer = answers.emplace_back();
       Answer of_whole;
       BentSheet slit = hung(sheet), uncut = hung(whole);
-      if (!slit.settle(budget.solver, answer)) continue;
-      if (!uncut.settle(budget.solver, of_whole)) {
+      if (!slit.solve_to_equilibrium(budget.solver, answer)) continue;
+      if (!uncut.solve_to_equilibrium(budget.solver, of_whole)) {
         answer.verdict = of_whole.verdict, answer.reason = "the sheet before the cut: " + of_whole.reason;
         continue;
       }

@@ -98,7 +98,7 @@ StaticSolve::Solution StaticSolve::solve(const Budget& budget) {
     model_.rotate(Field::Zero(given_.size()));
     model_.assemble(0, 1);
     right_ = Field::Zero(given_.size());
-    if (tied_) tied_->follow(held_, given_);
+    if (tied_) tied_->extrapolate(held_, given_);
     model_.system().add_product(given_, right_);
     right_ = force_ - right_;
     if (tied_) {

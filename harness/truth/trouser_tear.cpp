@@ -140,7 +140,7 @@ class TrouserTear : public Problem {
     };
     Pulled result{};
     BentSheet bent(sheet, {.stiffness = 1e3, .poisson = 0.3, .bending = 1}, bending_, 0, place);
-    if (!bent.settle(solver, answer)) return result;
+    if (!bent.solve_to_equilibrium(solver, answer)) return result;
     for (const DeformedIndex d : vertices_in_use(sheet))
       if (sheet.rest(sheet.rest_vertex(d)).x == 0) result.force += leg(d) * bent.support(d).z / 2;
     result.energy = bent.energy().total();

@@ -33,30 +33,30 @@ HalfEdge common_edge(const Sheet& sheet, TriangleIndex t, const Place& a, const 
 
 void PathGraph::read(const Sheet& sheet, const Subdivision& trace) {
   sheet_ = &sheet, trace_ = &trace;
-  nodes_.clear(), links_.clear(), taken_.clear();
+  nodes_.clear(), pieces_.clear(), taken_.clear();
   for (const auto& node : trace.nodes) nodes_.push_back({node.place, 0, {-1, -1}, false});
   for (const auto& face : trace.faces)
     for (int s = face.segments; s >= 0; s = trace.segment(s).next)
-      add_link(trace.segment(s).from, trace.segment(s).to, face.triangle, {});
+      add_piece(trace.segment(s).from, trace.segment(s).to, face.triangle, {});
   for (const auto& along : trace.along) add_along(along);
 }
 
 /// Once, though the path may go to and fro.
-void PathGraph::add_link(int from, int to, TriangleIndex triangle, HalfEdge edge) {
-  for (const int known : at(from).link)
-    if (known >= 0 && other_end(known, from) == to && link(known).triangle == triangle) return;
+void PathGraph::add_piece(int from, int to, TriangleIndex triangle, HalfEdge edge) {
+  for (const int known : at(from).piece)
+    if (known >= 0 && other_end(known, from) == to && piece(known).triangle == triangle) return;
   for (const int node : {from, to}) {
     Node& n = nodes_[static_cast<std::size_t>(node)];
-    if (n.degree < 2) n.link[static_cast<std::size_t>(n.degree)] = static_cast<int>(links_.size());
+    if (n.degree < 2) n.piece[static_cast<std::size_t>(n.degree)] = static_cast<int>(pieces_.size());
     ++n.degree;
   }
-  links_.push_back({from, to, triangle, edge, false});
+  pieces_.push_back({from, to, triangle, edge, false});
 }
 
 /// From node to node: another passage may cross the edge in between.
 void PathGraph::add_along(const Subdivision::Along& along) {
   const std::vector<int> stops = trace_->nodes_along(along);
-  for (std::size_t i = 0; i + 1 < stops.size(); ++i) add_link(stops[i], stops[i + 1], {}, along.edge);
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i) add_piece(stops[i], stops[i + 1], {}, along.edge);
 }
 
 void PathGraph::write(Subdivision& trace) const {
@@ -64,21 +64,22 @@ void PathGraph::write(Subdivision& trace) const {
   std::vector<int> number(nodes_.size(), -1);
   for (std::size_t i = 0; i < nodes_.size(); ++i)
     if (!nodes_[i].gone) number[i] = trace.node_of(nodes_[i].place);
-  for (const Link& link : links_) {
-    if (link.gone) continue;
-    const int from = number[static_cast<std::size_t>(link.from)], to = number[static_cast<std::size_t>(link.to)];
-    const HalfEdge edge =
-        link.triangle.valid() ? common_edge(*sheet_, link.triangle, at(link.from).place, at(link.to).place) : link.edge;
+  for (const Piece& piece : pieces_) {
+    if (piece.gone) continue;
+    const int from = number[static_cast<std::size_t>(piece.from)], to = number[static_cast<std::size_t>(piece.to)];
+    const HalfEdge edge = piece.triangle.valid()
+                              ? common_edge(*sheet_, piece.triangle, at(piece.from).place, at(piece.to).place)
+                              : piece.edge;
     if (edge.valid())
       trace.add_along(from, to, edge);
     else
-      trace.add_segment(trace.face_of(link.triangle), from, to);
+      trace.add_segment(trace.face_of(piece.triangle), from, to);
   }
 }
 
 // --- looking round a vertex ------------------------------------------------------------------------------------------
 
-int PathGraph::other_end(int i, int node) const { return link(i).from == node ? link(i).to : link(i).from; }
+int PathGraph::other_end(int i, int node) const { return piece(i).from == node ? piece(i).to : piece(i).from; }
 
 double PathGraph::fraction_from(VertexIndex v, const Place& place) const {
   return sheet_->origin(place.edge) == v ? place.lambda : 1 - place.lambda;
@@ -90,7 +91,7 @@ bool PathGraph::may_move(int node) const {
   if (n.gone || n.place.kind != Place::Kind::edge) return false;
   if (n.degree == 1) return sheet_->separates(n.place.edge);
   if (n.degree != 2 || sheet_->on_border(n.place.edge)) return false;
-  return link(n.link[0]).triangle != link(n.link[1]).triangle;
+  return piece(n.piece[0]).triangle != piece(n.piece[1]).triangle;
 }
 
 std::vector<PathGraph::Approach> PathGraph::approaches(double reach) const {
@@ -109,11 +110,11 @@ std::vector<PathGraph::Approach> PathGraph::approaches(double reach) const {
   return found;
 }
 
-/// The next node of a run: beyond `link`, across a corner of a triangle at the vertex.
+/// The next node of a run: beyond `piece`, across a corner of a triangle at the vertex.
 bool PathGraph::extend(int node, int i, VertexIndex vertex, double reach, int& next) const {
   next = other_end(i, node);
   const Place& place = at(next).place;
-  return link(i).triangle.valid() && may_move(next) && is_end_of(place.edge, vertex) &&
+  return piece(i).triangle.valid() && may_move(next) && is_end_of(place.edge, vertex) &&
          fraction_from(vertex, place) <= reach;
 }
 
@@ -170,10 +171,10 @@ bool PathGraph::holds_node(TriangleIndex t, const std::array<Point2, 3>& part, s
   return false;
 }
 
-/// The link from `node` of the run to `end` becomes one from the vertex to `end`: nothing of the path lies in between,
+/// The piece from `node` of the run to `end` becomes one from the vertex to `end`: nothing of the path lies in between,
 /// and no separating edge in the new way.
 bool PathGraph::sweep_is_clear(int end, int i, int node, VertexIndex vertex) const {
-  const TriangleIndex t = link(i).triangle;
+  const TriangleIndex t = piece(i).triangle;
   const Place& place = at(end).place;
   if (!t.valid() || common_edge(*sheet_, t, place, at(node).place).valid())
     return true;  // on along the node's own edge
@@ -189,25 +190,25 @@ bool PathGraph::find_run(int node, VertexIndex vertex, double reach, Run& run) c
     return false;
   run.vertex = vertex;
   run.nodes.assign(1, node);
-  const auto follow = [&](int i, int& end, int& end_link) {  // false: the path goes round the vertex to itself
-    end = end_link = -1;
+  const auto follow = [&](int i, int& end, int& end_piece) {  // false: the path goes round the vertex to itself
+    end = end_piece = -1;
     for (int from = node; i >= 0;) {
       int next = -1;
       if (!extend(from, i, vertex, reach, next)) {
-        end = next, end_link = i;
+        end = next, end_piece = i;
         break;
       }
       if (next == node) return false;
       run.nodes.push_back(next);
       const Node& n = at(next);
-      i = n.degree == 1 ? -1 : n.link[0] == i ? n.link[1] : n.link[0];
+      i = n.degree == 1 ? -1 : n.piece[0] == i ? n.piece[1] : n.piece[0];
       from = next;
     }
     return true;
   };
-  if (!follow(at(node).link[0], run.before, run.link_before)) return false;
+  if (!follow(at(node).piece[0], run.before, run.piece_before)) return false;
   std::reverse(run.nodes.begin(), run.nodes.end());
-  if (!follow(at(node).link[1], run.after, run.link_after)) return false;
+  if (!follow(at(node).piece[1], run.after, run.piece_after)) return false;
   if (run.before == run.after) return false;  // also where neither is there
 
   std::size_t separating = 0;
@@ -220,8 +221,8 @@ bool PathGraph::find_run(int node, VertexIndex vertex, double reach, Run& run) c
     on_separator |= sheet_->separates(h);
   }
   if (separating != (on_separator ? 1 : 0)) return false;
-  return (run.before < 0 || sweep_is_clear(run.before, run.link_before, run.nodes.front(), vertex)) &&
-         (run.after < 0 || sweep_is_clear(run.after, run.link_after, run.nodes.back(), vertex));
+  return (run.before < 0 || sweep_is_clear(run.before, run.piece_before, run.nodes.front(), vertex)) &&
+         (run.after < 0 || sweep_is_clear(run.after, run.piece_after, run.nodes.back(), vertex));
 }
 
 bool PathGraph::has_star_to_itself(const Run& run) const {
@@ -243,20 +244,20 @@ bool PathGraph::has_star_to_itself(const Run& run) const {
 
 void PathGraph::contract(const Run& run) {
   for (std::size_t i = 1; i < run.nodes.size(); ++i) {
-    for (const int shared : at(run.nodes[i - 1]).link)
-      if (shared >= 0 && shared != run.link_before && other_end(shared, run.nodes[i - 1]) == run.nodes[i])
-        links_[static_cast<std::size_t>(shared)].gone = true;
+    for (const int shared : at(run.nodes[i - 1]).piece)
+      if (shared >= 0 && shared != run.piece_before && other_end(shared, run.nodes[i - 1]) == run.nodes[i])
+        pieces_[static_cast<std::size_t>(shared)].gone = true;
     nodes_[static_cast<std::size_t>(run.nodes[i])].gone = true;
   }
   const int kept = run.nodes.front(), last = run.nodes.back();
-  if (run.link_after >= 0) {
-    Link& after = links_[static_cast<std::size_t>(run.link_after)];
+  if (run.piece_after >= 0) {
+    Piece& after = pieces_[static_cast<std::size_t>(run.piece_after)];
     (after.from == last ? after.from : after.to) = kept;
   }
   Node& node = nodes_[static_cast<std::size_t>(kept)];
   node.place = place_at(*sheet_, run.vertex);
-  node.link = {run.link_before, run.link_after};
-  node.degree = (run.link_before >= 0) + (run.link_after >= 0);
+  node.piece = {run.piece_before, run.piece_after};
+  node.degree = (run.piece_before >= 0) + (run.piece_after >= 0);
   taken_.insert(std::lower_bound(taken_.begin(), taken_.end(), run.vertex), run.vertex);
 }
 
@@ -264,22 +265,22 @@ bool PathGraph::straighten(int node) {
   const Node& n = at(node);
   if (n.gone || n.place.kind != Place::Kind::face || n.degree != 2) return false;
   const TriangleIndex t = n.place.face;
-  const int kept = n.link[0], dropped = n.link[1];
+  const int kept = n.piece[0], dropped = n.piece[1];
   const int before = other_end(kept, node), after = other_end(dropped, node);
   if (before == after || (at(before).degree > 2 && at(after).degree > 2)) return false;
   if (at(before).degree == 1 && at(after).degree == 1) return false;  // a single edge between tips would not open
   const auto& [from, to] = at(before).degree <= 2 ? std::pair{before, after} : std::pair{after, before};
-  for (const int known : at(from).link)
+  for (const int known : at(from).piece)
     if (known >= 0 && other_end(known, from) == to) return false;  // a loop closes
   if (holds_node(t, {point(before), point(node), point(after)}, {before, node, after})) return false;
   if (const HalfEdge edge = common_edge(*sheet_, t, at(before).place, at(after).place); edge.valid())
     if (sheet_->separates(edge) || !is_clear_between(edge, before, after) || is_beside_flat_triangle(edge))
       return false;
 
-  Link& link = links_[static_cast<std::size_t>(kept)];
-  (link.from == node ? link.from : link.to) = after;
-  links_[static_cast<std::size_t>(dropped)].gone = true;
-  for (int& known : nodes_[static_cast<std::size_t>(after)].link)
+  Piece& piece = pieces_[static_cast<std::size_t>(kept)];
+  (piece.from == node ? piece.from : piece.to) = after;
+  pieces_[static_cast<std::size_t>(dropped)].gone = true;
+  for (int& known : nodes_[static_cast<std::size_t>(after)].piece)
     if (known == dropped) known = kept;
   nodes_[static_cast<std::size_t>(node)].gone = true;
   return true;

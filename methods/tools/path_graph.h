@@ -1,4 +1,4 @@
-// A trace as a graph of nodes and links, and the changes that methods with an inexact incision make to it: what of the
+// A trace as a graph of nodes and pieces, and the changes that methods with an inexact incision make to it: what of the
 // path passes close by a vertex is contracted to that vertex, and points inside triangles are left out.
 //
 // Each of these is an isotopy of the path: it is refused wherever the path would touch itself, the border or an
@@ -25,7 +25,7 @@ class PathGraph {
     VertexIndex vertex;
     std::vector<int> nodes;
     int before = -1, after = -1;  ///< -1: the path ends with the run, on the border or an older incision
-    int link_before = -1, link_after = -1;
+    int piece_before = -1, piece_after = -1;
   };
   /// A crossing and how near it is to the nearer end of its edge.
   struct Approach {
@@ -71,10 +71,10 @@ class PathGraph {
   struct Node {
     Place place;
     int degree = 0;
-    std::array<int, 2> link{-1, -1};  // where the degree is at most 2
+    std::array<int, 2> piece{-1, -1};  // where the degree is at most 2
     bool gone = false;
   };
-  struct Link {
+  struct Piece {
     int from, to;
     TriangleIndex triangle;  // that it crosses; invalid: it runs along an edge
     HalfEdge edge;
@@ -82,26 +82,26 @@ class PathGraph {
   };
 
   const Node& at(int node) const { return nodes_[static_cast<std::size_t>(node)]; }
-  const Link& link(int i) const { return links_[static_cast<std::size_t>(i)]; }
-  void add_link(int from, int to, TriangleIndex triangle, HalfEdge edge);
+  const Piece& piece(int i) const { return pieces_[static_cast<std::size_t>(i)]; }
+  void add_piece(int from, int to, TriangleIndex triangle, HalfEdge edge);
   void add_along(const Subdivision::Along& along);
-  int other_end(int link, int node) const;
+  int other_end(int piece, int node) const;
   bool is_end_of(HalfEdge h, VertexIndex v) const { return sheet_->origin(h) == v || sheet_->target(h) == v; }
   double fraction_from(VertexIndex v, const Place& place) const;
   bool may_move(int node) const;
-  bool extend(int node, int link, VertexIndex vertex, double reach, int& next) const;
+  bool extend(int node, int piece, VertexIndex vertex, double reach, int& next) const;
   bool is_nearest(int node, VertexIndex vertex) const;
   bool is_clear(HalfEdge edge, VertexIndex from, double up_to, int except = -1) const;
   bool is_clear_between(HalfEdge edge, int a, int b) const;
   bool is_beside_flat_triangle(HalfEdge edge) const;
   double coincidence() const { return coincidence_tolerance * sheet_->snap(); }
   bool holds_node(TriangleIndex t, const std::array<Point2, 3>& part, std::initializer_list<int> but) const;
-  bool sweep_is_clear(int end, int link, int node, VertexIndex vertex) const;
+  bool sweep_is_clear(int end, int piece, int node, VertexIndex vertex) const;
 
   const Sheet* sheet_ = nullptr;
   const Subdivision* trace_ = nullptr;
   std::vector<Node> nodes_;
-  std::vector<Link> links_;
+  std::vector<Piece> pieces_;
   std::vector<VertexIndex> taken_;  // vertices that runs were contracted to, sorted
 };
 

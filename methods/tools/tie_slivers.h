@@ -1,26 +1,29 @@
-// Which vertices of a cut sheet are better no unknowns: those of slivers, each of which goes where the linear field of
-// a good triangle on its own side of the cut has it.
+// Constrains the vertices of slivers: each is extrapolated from a master triangle, a good triangle on its own side of the
+// cut.
 //
-// With L the longest edge of the triangles round a triangle's corners, a length is short where it is below `thinness`
-// L, and a triangle with a short altitude is a sliver. The rules:
-//  - Vertices of the sheet before its first cut are free, those on its border and on both lips too.
-//  - Of those that cuts made, each is tied (a) where a free vertex is a short way off, along edges: they are taken in
-//    turns, tips first, then by the smallest of their altitudes, the largest first. Of what is left, each is tied (b)
-//    where it is a short way off the opposite edge of a triangle, shortest first, unless a corner there was tied for
-//    its sake. Tied vertices count as being where the nearest free one is, which stands for them.
-//  - A tied vertex follows a triangle that is no sliver when what is tied is drawn to what stands for it, and that has
-//    its own stand-in for a corner, and those of the other stiff corners of its thinnest triangle if one has all: of
-//    these the one that it is farthest inside of, or least outside (by its smallest barycentric coordinate). Looked for
-//    on its own side, by way of triangles with a corner nearer than L. Masters are free, so there are no chains.
-//  - So no tie reaches across the cut. Both lips share a tip; where a tip is tied, it is to the nearest edge or vertex,
-//    and so are vertices of the lips that are a short way off a tip. A fan of a junction or of a crossing is a side of
+// L is the longest edge of the triangles round a triangle's corners. A length is short where it is below `thinness` times
+// L; a triangle with a short altitude is a sliver. The rules:
+//  - Vertices of the sheet before its first cut stay free, also those on its border and on both lips.
+//  - Of the vertices that cuts made, one is constrained (a) where an edge path to a free vertex is short. Candidates are
+//    taken in turns: tips first, then by their smallest altitude, the largest first. Of the rest, one is constrained
+//    (b) where it is a short distance from the opposite edge of a triangle, the shortest first, unless a corner of that
+//    triangle was constrained for this reason. A constrained vertex counts as lying at the nearest free vertex, its
+//    stand-in.
+//  - The master triangle is no sliver when constrained corners are replaced by their stand-ins. It has the vertex's
+//    stand-in for a corner and, where one triangle has them all, the stand-ins of the other stiff corners of the vertex's
+//    thinnest triangle. Of several, the one is taken in which the vertex lies farthest inside, or least outside (by its
+//    smallest barycentric coordinate). The search stays on the vertex's side, among triangles with a corner nearer than L.
+//    Masters are free, so there are no chains of constraints.
+//  - No constraint reaches across the cut. Both lips share a tip; a tip is constrained to the nearest edge or vertex, and
+//    so are vertices of the lips that are a short distance from a tip. Each fan at a junction or a crossing is a side of
 //    its own, and so is each lip at the border.
-//  - Where there is no such triangle (a piece, or a strip between cuts, that consists of slivers only), the vertex
-//    stays free, and as stiff as it was.
-//  - What is held (a pin, a border displacement) is not tied on that axis; loads on tied vertices go to their masters.
+//  - Where there is no such triangle (a piece, or a strip between cuts, that has slivers only), the vertex stays free,
+//    and as stiff as it was.
+//  - A vertex that is held on an axis (a pin, a border displacement) is not constrained on that axis. Loads on constrained
+//    vertices go to their masters.
 //
 // Source: aggregated finite elements (Badia, Verdugo and Martin, The aggregated unfitted finite element method for
-// elliptic problems, CMAME 336, 2018), where whole cut cells follow a good one.
+// elliptic problems, CMAME 336, 2018), where whole cut cells are extrapolated from a good one.
 #pragma once
 
 #include "harness/mesh/sheet.h"
@@ -28,8 +31,8 @@
 
 namespace cutbench {
 
-/// Looks at everything. \param before  the sheet before its first cut: its vertices are never tied.
-/// \param thinness  of a sliver: altitude over L, >= 0; 0 ties nothing
+/// Cost: the whole sheet. \param before  the sheet before its first cut: its vertices are never constrained.
+/// \param thinness  of a sliver: altitude over L, >= 0; 0 constrains nothing
 Ties tie_slivers(const Sheet& before, const Sheet& cut, double thinness);
 
 }  // namespace cutbench
