@@ -56,7 +56,7 @@ def same(values, what):
     """The one value that all panels share: a figure compares nothing else."""
     values = list(dict.fromkeys(values))
     if len(values) > 1:
-        load.stop(f"the panels differ in {what}: {', '.join(map(str, values))}; simulate the scenes anew")
+        load.stop(f"the panels differ in {what}: {', '.join(map(str, values))}; simulate the scenes again")
     return values[0]
 
 
@@ -91,7 +91,7 @@ def caption(stem, shots, panels, extra, colour=None):
         *extra, f"n = {n} triangles before the cut, 1 m square, the skin of paper_table1; time: {times}. Red: lips of "
         f"the incision. Backward Euler, {same((1 / d['step_s'] for d in described), 'the step'):.0f} steps per s, "
         f"{solvers(shots, panels)}; chord tolerance {tolerance} h.",
-        f"Seed: {', '.join(map(str, seeds)) if seeds else 'none, the cuts are in the scene files'}; "
+        f"{'Seed: ' + ', '.join(map(str, seeds)) if seeds else 'No seed: the cuts are in the scene files'}; "
         f"{commits(described)}.",
         *([f"FAILED: {'; '.join(failed)}."] if failed else []),
         f"Command: experiments/reproduce {stem}" + (f"; plots/{stem}.py --colour {colour}" if colour else "")])
