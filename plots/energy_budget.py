@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """The energy budget of each scene. Stacked areas: kinetic energy, elastic energy (membrane and bending), and the losses by
 damping and by backward Euler. Line: work of gravity and of the pinned vertices. The gap between the line and the areas is
-the remainder, which is the error of the linearisation, and the jumps at cuts. Dotted: time of a cut, or of a blade's first
-contact. The title of each panel states remainder and jumps, and the largest ones by any method."""
+the remainder, which is the error of the linearisation, and the jumps at cuts. Dotted: time of a cut, or start of a blade's
+cut. The title of each panel states remainder and jumps, and the largest ones by any method."""
 
 import argparse
 from pathlib import Path

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Verification, not a ranking: energies and stress intensities extrapolated to h = 0 against the exact ones, and rates of
-convergence, of all methods that promise the exact incision, solved directly. It says that the code is right, not that a
-method is good: every such method has nearly the same error."""
+"""Verification, not a ranking: energies and stress intensities extrapolated to h = 0 are compared with the exact ones, and
+rates of convergence with the expected ones, for all methods that promise the exact incision and with the direct solver. This
+checks the code, not the methods: all of these methods have nearly the same error."""
 
 import contextlib
 import io
@@ -151,9 +151,9 @@ def figure_of(records, table):
         ax.xaxis.set_minor_formatter(NullFormatter())
     label_edges(axes, "n (squares per side)", "relative error")
     style.finish(figure, records.methods.values(), records.caption(
-        "Verification, not a ranking: error of the primary measure over the resolution, solved directly (geometric mean "
-        "over sheets and ensemble), for the methods that promise the exact incision. It shows that the code is right; "
-        "every such method has nearly the same error."))
+        "Verification, not a ranking: error of the primary measure over the resolution, direct solver, geometric mean over "
+        "sheets and ensemble, for the methods that promise the exact incision. This checks the code: all of these methods "
+        "have nearly the same error."))
     return figure
 
 
@@ -182,9 +182,9 @@ def extrapolation_figure(records, table):
     ax.grid(axis="y", visible=False)
     ax.set_xlabel("deviation at h = 0, %")
     style.finish(figure, records.methods.values(), records.caption(
-        "Verification, not a ranking: energies and stress intensities extrapolated to h = 0 against the exact ones, bars: "
-        f"95 %. Green: the {WITHIN:g} % asked for; edge cracks are compared with a handbook's fit, good to {WITHIN_FIT:g} % "
-        "(marks)."))
+        "Verification, not a ranking: deviation of energies and stress intensities, extrapolated to h = 0, from the exact "
+        f"ones. Bars: 95 % intervals. Green: required accuracy, {WITHIN:g} %. Edge cracks are compared with a fit from a "
+        f"handbook, which is accurate to {WITHIN_FIT:g} % (short vertical lines)."))
     return figure
 
 
