@@ -41,7 +41,7 @@ def excess_figure(records, x, y, label, zero):
         ax.set_title(style.sheet_title(sheet), loc="left")
     label_edges(axes, label, "excess error, %")
     style.finish(figure, looks.values(), records.caption(
-        f"Excess error against {label}, direct solve. Excess error: the error of the primary measure over that of a "
+        f"Excess error against {label.partition(',')[0]}, direct solve. Excess error: the error of the primary measure over that of a "
         f"body-fitted mesh, minus one. Zero is the error of {zero}. Marker: median over {len(records.problems)} plane "
         "problems and their ensembles at one resolution; bars: quartiles. ×: failed/tried; a failed case counts as "
         "infinitely bad."),

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """All methods on the same cuts: the shapes of their triangles, their cost, the jumps of energy and residual at the cut,
-and tables of all of these, ranked by largest eigenvalue, smallest altitude and largest angle. Reads results/method_comparison and, where they are there,
-its neighbours method_comparison_fine (a closer chord tolerance), method_comparison_accuracy (against exact answers),
-method_comparison_jumps (cuts in a running scene), method_comparison_knobs and method_comparison_ablation (parts of
+and tables of all of these, ranked by largest eigenvalue, smallest altitude and largest angle. Reads
+results/method_comparison and, where they exist, its neighbours method_comparison_fine (a smaller chord tolerance),
+method_comparison_accuracy (against exact solutions), method_comparison_jumps (cuts in a running scene),
+method_comparison_knobs and method_comparison_ablation (parts of
 warp_and_refine)."""
 
 from dataclasses import dataclass
@@ -73,7 +74,7 @@ def measured(run):
     rows["vertices_per_crossed"] = rows["vertices_added"] / rows["crossed_triangles"]
     shapes = [c for c in MEASURES if c.startswith(("ar_", "angle_", "altitude_"))]
     rows.loc[rows["ar_max_cut"] == 0, shapes] = np.nan  # edges were released and no triangle was changed
-    rows.loc[rows["area_change"].abs() > 1e-6, "incision_error_h"] = np.nan  # triangles were removed, so that there is no incision
+    rows.loc[rows["area_change"].abs() > 1e-6, "incision_error_h"] = np.nan  # removed triangles: no incision
     rows["us_per_crossed"] = rows["geometry_us"] / rows["crossed_triangles"]
     failed = run.failed.copy()
     for m in SHAPES + PRICE:

@@ -122,7 +122,8 @@ def read_records(path, columns, all_columns=False):
         stop(f"{path} has no rows")
     unknown = sorted(set(table["suite_version"]) - set(SUITE_VERSIONS)) if "suite_version" in table else []
     if unknown:
-        stop(f"{path} is of suite version {', '.join(unknown)}; this program reads {', '.join(SUITE_VERSIONS)}; run the experiment again")
+        stop(f"{path} is of suite version {', '.join(unknown)}; this program reads {', '.join(SUITE_VERSIONS)}; run the "
+             "experiment again")
     return table
 
 
