@@ -51,7 +51,8 @@ def line(table, x, y, scatter):
 
 
 def rate(table, measure):
-    """Of the error over n, and the half-width of its interval; the logarithms scatter alike at all sizes."""
+    """The rate of convergence of the error over n, and the half-width of its interval. The logarithms are taken to have the
+    same variance at all sizes."""
     table = table[table[f"error_{measure}"] > ROUNDING]
     table = table.assign(x=0.5 * np.log(table["resolution"] / 2), y=np.log(table[f"error_{measure}"]))
     (_, slope), (_, width) = line(table, "x", "y", np.ones_like)
@@ -59,10 +60,10 @@ def rate(table, measure):
 
 
 def extrapolated(table, measure, order):
-    """100 log(value / exact) at h = 0, percent, and the half-width of its interval. The logarithm, because a mesh makes
-    a cut shorter by a length like h, which multiplies; what tips at other places in their triangles scatter goes like h,
-    too. K1 and K2 are parts of one intensity, of which their deviations are. Where there is no tip (`order` 2) it is the
-    square of h instead."""
+    """100 log(value / exact) extrapolated to h = 0, in percent, and the half-width of its interval. The logarithm is used
+    because a mesh shortens a cut by a length proportional to h, which multiplies the value; the scatter due to the position
+    of the tip in its triangle is proportional to h, too. Deviations of K1 and K2 are relative to the intensity of both
+    together. Without a tip (`order` 2) the square of h takes the place of h."""
     exact = table[f"exact_{measure}"]
     if measure in ("k1", "k2"):
         scale = np.hypot(table["exact_k1"], table["exact_k2"].fillna(0))
