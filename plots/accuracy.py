@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""How accurate a cut sheet is, and what that costs: the error of each problem's primary measure over that of a mesh made
-anew to fit the cut, against time and unknowns, solved directly and by so many iterations of conjugate gradients; whether
-it depends on the shape of the triangles; and which share of all cases is solved within a given time."""
+"""How accurate a cut sheet is, and what the accuracy costs: the error of each problem's primary measure over that of a
+body-fitted mesh, against time and unknowns, for the direct solve and for fixed numbers of iterations of conjugate gradients.
+Also: whether the error depends on the shape of the triangles, and which share of all cases is solved within a given time."""
 
 import contextlib
 import io
@@ -41,15 +41,16 @@ def excess_figure(records, x, y, label, zero):
         ax.set_title(style.sheet_title(sheet), loc="left")
     label_edges(axes, label, "excess error, %")
     style.finish(figure, looks.values(), records.caption(
-        f"Excess error (of the primary measure, over that of a mesh made anew to fit the cut, minus one) against "
-        f"{label}, solved directly: medians over {len(records.problems)} problems in plane and their ensembles, a point "
-        f"per resolution; bars: quartiles; zero: {zero}. ×: failed/tried, each counted as infinitely bad."),
+        f"Excess error against {label.partition(',')[0]}, direct solve. Excess error: the error of the primary measure over that of a "
+        f"body-fitted mesh, minus one. Zero is the error of {zero}. Marker: median over {len(records.problems)} plane "
+        "problems and their ensembles at one resolution; bars: quartiles. ×: failed/tried; a failed case counts as "
+        "infinitely bad."),
         front.legend_entries())
     return figure
 
 
 def problems_figure(records):
-    """Work and precision: a panel per problem, the error itself against time, all sheets."""
+    """A panel for each problem: its error against time, over all sheets."""
     direct = records.rows(direct=True)
     cells = cells_of(direct, "ms", "error", ["problem", "method", "knob", "resolution"], ["problem"])
     columns = min(4, len(records.problems))
@@ -70,14 +71,14 @@ def problems_figure(records):
         ax.set_title(f"{problem}:\n{primary}".replace("_", " "), loc="left", fontsize=6.3)
     label_edges(axes, "total time, ms", "relative error")
     style.finish(figure, records.looks.values(), records.caption(
-        "Error of each problem's primary measure against the total time (cut, assembly, direct solve): medians over all "
-        "sheets and the ensemble, a point per resolution; bars: quartiles. The reference's cut is the meshing of the "
-        "whole sheet. ×: failed/tried."), front.legend_entries())
+        "Error of each problem's primary measure against the total time (cut, assembly, direct solve). Marker: median "
+        "over all sheets and the ensemble at one resolution; bars: quartiles. The time of the body-fitted mesh includes "
+        "the meshing of the whole sheet. ×: failed/tried."), front.legend_entries())
     return figure
 
 
 def write_text(folder, records):
-    """Printed, and kept beside the figures."""
+    """Prints the tables and writes them beside the figures."""
     text = io.StringIO()
     with contextlib.redirect_stdout(text):
         print_ranking(records.in_plane(), "in plane")
@@ -91,10 +92,10 @@ def write_text(folder, records):
 def main():
     folder = load.results_folder(STEM, __doc__)
     records = at_equal_unknowns(Records(folder))
-    by_time = excess_figure(records, "ms", "excess_percent", "total time, ms", "the fitted mesh, which has as many "
-                            "triangles as the uncut sheet, so that methods which add many can fall below")
-    by_unknowns = excess_figure(records, "unknowns", "excess_equal_percent", "unknowns", "a fitted mesh refined to as many "
-                                "unknowns as the cut sheet has")
+    by_time = excess_figure(records, "ms", "excess_percent", "total time, ms", "the body-fitted mesh with as many "
+                            "triangles as the uncut sheet; methods that add many triangles can have a smaller error")
+    by_unknowns = excess_figure(records, "unknowns", "excess_equal_percent", "unknowns", "a body-fitted mesh "
+                                "with as many unknowns as the cut sheet")
     figures = {STEM: by_time, f"{STEM}_unknowns": by_unknowns,
                f"{STEM}_problems": problems_figure(records), f"{STEM}_budgets": budgets_figure(records),
                f"{STEM}_shape": shape_figure(records), f"{STEM}_profile": profile_figure(records)}

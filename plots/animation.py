@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Animated WebP of every scene that has frames, by the paper's method: results/<stem>/<scene>.webp. One camera and one
-box for all of a scene; as fast as it was simulated."""
+"""Animated WebP of every scene that has frames, cut by the paper's method: results/<stem>/<scene>.webp. Camera and limits
+stay the same throughout a scene; the animation runs at the speed of the simulated time."""
 
 import argparse
 import io

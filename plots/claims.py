@@ -92,8 +92,8 @@ def local_split_lowers(run):
     ratio = load.ratio(pairs["ar_max_cut_x"], pairs["ar_max_cut_y"])
     if not ratio[3]:
         return None
-    return Finding(by_interval(ratio), f"Maximum AR by conventional split over that by {name(PAPERS)}, same cuts: "
-                   f"{interval(ratio)} (above 1: the paper's is better).", "fig9_aspect_ratio")
+    return Finding(by_interval(ratio), f"Largest AR of the conventional split over that of {name(PAPERS)}, same "
+                   f"cuts: {interval(ratio)} (above 1: the paper's method is better).", "fig9_aspect_ratio")
 
 
 def few_vertices(run):
@@ -103,8 +103,8 @@ def few_vertices(run):
     share = (pairs["vertices_added_y"] - pairs["vertices_added_x"]) / (pairs["resolution"] / 2)
     by_size = share.groupby(pairs["resolution"]).median()
     verdicts = {f"{r} triangles": HELD if s <= FEW else NOT_HELD for r, s in by_size.items()}
-    return Finding(summed_up(verdicts), f"Vertices {name(PAPERS)} adds beyond the conventional split, of the sheet's own "
-                   f"(medians; few: at most {100 * FEW:g} %): " +
+    return Finding(summed_up(verdicts), f"Vertices that {name(PAPERS)} adds in excess of the conventional split, in percent of "
+                   f"the vertices of the uncut sheet (medians; held: at most {100 * FEW:g} %): " +
                    ", ".join(f"{100 * s:.1f} % at {r}" for r, s in by_size.items()) + ".", "fig9_aspect_ratio")
 
 
@@ -122,8 +122,8 @@ def real_time(run):
     cuts = cuts[cuts["resolution"] == cuts["resolution"].max()]
     limit = table1.REAL_TIME_US
     sums = {"geometry": cuts["geometry_us"], "geometry and update without bending": cuts["geometry_us"] + cuts["update_us"],
-            "with the bending's update": cuts["geometry_us"] + cuts["update_us"] + cuts["bending_us"],
-            "with the first step, too": cuts["total_us"]}
+            "geometry and update": cuts["geometry_us"] + cuts["update_us"] + cuts["bending_us"],
+            "geometry, update and first step": cuts["total_us"]}
     medians = {what: values.median() for what, values in sums.items()}
     verdicts = {what: HELD if value < limit else NOT_HELD for what, value in medians.items()}
     return Finding(summed_up(verdicts), f"{name(PAPERS)} in the running simulation at {cuts['resolution'].max()} triangles (not the "
@@ -143,8 +143,9 @@ def growth(run):
     if not parts:
         return None
     paper = table1.published()
-    return Finding(summed_up(verdicts), f"Geometry at {high} over that at {low} triangles ({high / low:.3g} times as many; "
-                   f"held: below the power 0.75 of it, {(high / low) ** 0.75:.1f}): {', '.join(parts)}; the paper's own "
+    return Finding(summed_up(verdicts), f"Time of the geometry at {high} triangles over that at {low} ({high / low:.3g} times "
+                   f"as many; held: the ratio is below their ratio to the power 0.75, {(high / low) ** 0.75:.1f}): "
+                   f"{', '.join(parts)}; in the paper "
                    f"{paper.get(high, np.nan) / paper.get(low, np.nan):.1f}.", "table1_timing")
 
 
@@ -174,8 +175,8 @@ def incremental(run):
             parts.append(f"{load.number(ratio[0])} at {resolution}")
     if not parts:
         return None
-    return Finding(summed_up(verdicts), "All made anew takes so many times as long as the update of the rows the cut touched: "
-                   f"{', '.join(parts)} (geometric means; each interval was asked).", "table1_timing_in_motion")
+    return Finding(summed_up(verdicts), "Time of a complete rebuild over that of an update of the rows that the cut changed: "
+                   f"{', '.join(parts)} (geometric means; the verdict takes the interval of each).", "table1_timing_in_motion")
 
 
 # --- accuracy ------------------------------------------------------------------------------------------------------
@@ -207,9 +208,9 @@ def physically_accurate(records):
     if not parts:
         return None
     fitted = load.ratio(of(records.rows(direct=True, failed=False), PAPERS)["ratio"], 1)
-    return Finding(summed_up(verdicts), "Error by conventional split over that by "
-                   f"{name(PAPERS)}, same cases (above 1: the paper's is better): {'; '.join(parts)}. Its error over that "
-                   f"of a mesh fitted to the cut, solved directly: {interval(fitted)}. {failures(records)}.", "accuracy")
+    return Finding(summed_up(verdicts), "Error of the conventional split over that of "
+                   f"{name(PAPERS)}, same cases (above 1: the paper's method is better): {'; '.join(parts)}. Error of the "
+                   f"paper's method over that of a body-fitted mesh, direct solver: {interval(fitted)}. {failures(records)}.", "accuracy")
 
 
 def shapes_cost_accuracy(records):
@@ -224,8 +225,8 @@ def shapes_cost_accuracy(records):
             parts.append(f"{title}: {factor:.3f} [{low:.3f}, {high:.3f}] (n = {n})")
     if not parts:
         return None
-    return Finding(summed_up(verdicts), "A tenfold largest aspect ratio multiplies the error, within one problem, sheet and "
-                   f"resolution, by: {'; '.join(parts)} (held: all of the interval above 1.02).", "accuracy_shape")
+    return Finding(summed_up(verdicts), "Factor of the error when the largest aspect ratio grows tenfold, within one problem, "
+                   f"sheet and resolution: {'; '.join(parts)} (held: the whole interval is above 1.02).", "accuracy_shape")
 
 
 def median(times):
@@ -233,7 +234,7 @@ def median(times):
 
 
 def share_of_draws(slower, faster, draws=1000):
-    """In how many of all draws of problems the second median is below the first; ties count half."""
+    """The share of the bootstrap draws of problems in which the median of `faster` is below that of `slower`; ties count half."""
     problems = sorted(set(slower.index))
     of_problem = [(slower[p].to_numpy(), faster[p].to_numpy()) for p in problems]
     picks = np.random.default_rng(1).integers(0, len(problems), (draws, len(problems)))
@@ -261,8 +262,8 @@ def refined_is_slower(records):
             f"; faster in {100 * faster:.0f} % of the draws")
     if not parts:
         return None
-    return Finding(summed_up(verdicts), "Time to an error, by the best resolution, solver and number of iterations (held: "
-                   "faster in 97.5 % of the draws of a bootstrap over problems): " + "; ".join(parts) + ".",
+    return Finding(summed_up(verdicts), "Time to reach an error, by the best resolution, solver and number of iterations "
+                   "(held: the paper's method is faster in 97.5 % of the draws of a bootstrap over problems): " + "; ".join(parts) + ".",
                    "accuracy_profile")
 
 
@@ -307,14 +308,14 @@ def context_of(records):
 def text_of(results):
     records = records_of(results)
     lines = ["# The paper's claims", "",
-             "Xin et al. 2018, put to the test. Made by `plots/claims.py` from the records named below: nothing here is "
-             "written by hand, and a claim without records is not judged.", "",
+             "Claims of Xin et al. 2018 and what the records say about them. `plots/claims.py` computes all verdicts and "
+             "numbers from the records named below. A claim without records is not judged.", "",
              "| claim | verdict | what was found | figure |", "|---|---|---|---|"]
     for claim in CLAIMS:
         found = claim.find(records[claim.stem]) if records[claim.stem] is not None else None
         if found is None:
             why = f"`experiments/reproduce {claim.stem}` makes the records" if records[claim.stem] is None else \
-                f"the records of {claim.stem} that are there don't tell"
+                f"the records of {claim.stem} lack the rows for it"
             lines.append(f"| {claim.words} | untested | {why} | |")
             continue
         figure = f"{claim.stem}/{found.figure}.png"

@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""Every scene that has frames, four moments of each, by the paper's method: one picture to see at a glance what is
-simulated."""
+"""An overview of all scenes that have frames: four moments of each, cut by the paper's method."""
 
 import argparse
 from pathlib import Path
@@ -44,8 +43,8 @@ def draw(folders, results):
     descriptions = [render.read_description(d) for d in folders]
     n = sorted({d["triangles_before"] for d in descriptions})
     figure = plt.figure(figsize=(style.PAGE, 1))
-    lines = style.wrapped(figure, f"Every scene, by {METHOD}, from just before the first cut to the end. n = "
-                          f"{', '.join(map(str, n))} triangles before the cuts; lips red. Seed: none, the cuts are in "
+    lines = style.wrapped(figure, f"Every scene, cut by {METHOD}, from just before the first cut to the end. n = "
+                          f"{', '.join(map(str, n))} triangles before the cuts. Red: lips. No seed: the cuts are in "
                           f"experiments/scenes; {scene_panels.commits(descriptions)}. Command: plots/contact_sheet.py", style.PAGE - 0.1)
     below, row = 0.115 * len(lines) + 0.08, height + 0.24
     total = below + row * rows

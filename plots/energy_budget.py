@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Where the energy of each scene goes. Areas, one on the other: kinetic, elastic (membrane and bending), lost to
-damping, lost by backward Euler. Line: what gravity has given. Between them: the remainder, the error of the
-linearisation, and the jumps at cuts (dotted: when, or from when on a blade cuts). Over each: those, and the largest by
-any method."""
+"""The energy budget of each scene. Stacked areas: kinetic energy, elastic energy (membrane and bending), and the losses by
+damping and by backward Euler. Line: work of gravity and of the pinned vertices. The gap between the line and the areas is
+the remainder, which is the error of the linearisation, and the jumps at cuts. Dotted: time of a cut, or start of a blade's
+cut. The title of each panel states remainder and jumps, and the largest ones by any method."""
 
 import argparse
 from pathlib import Path
@@ -40,7 +40,7 @@ def panel(ax, folder, description):
     end = b.iloc[-1]
     worst = {c: max((o[c] for o in others), key=abs) for c in ("remainder_j", "jumps_j")}
     ax.set_title(f"{description['scene'].replace('_', ' ')}{': ' if verdicts else ''}{', '.join(verdicts)}\nremainder "
-                 f"{end['remainder_j']:.2g} J, the largest {worst['remainder_j']:.2g}\njumps {end['jumps_j']:.2g} J, the "
+                 f"{end['remainder_j']:.2g} J, largest {worst['remainder_j']:.2g}\njumps {end['jumps_j']:.2g} J, "
                  f"largest {worst['jumps_j']:.2g}", fontsize=4.8, pad=2, color="#b0001e" if verdicts else "black")
 
 
@@ -64,10 +64,10 @@ def main():
         if i + 2 >= len(folders):
             ax.set_xlabel("time, s")
     style.finish(figure, [], f"{' '.join(__doc__.split())} By {contact_sheet.METHOD}; n = {n} triangles before the cuts, "
-                 f"{' or '.join(sorted({d['solver'] for d in descriptions}))}, as in the scene files; seed: none, the cuts are in experiments/scenes; {scene_panels.commits(descriptions)}. "
+                 f"{' or '.join(sorted({d['solver'] for d in descriptions}))}, as the scene files state. No seed: the cuts are in experiments/scenes; {scene_panels.commits(descriptions)}. "
                  "Command: plots/energy_budget.py",
                  [Patch(color=c, label=name) for name, c in PARTS.items()]
-                 + [Line2D([], [], color="black", linewidth=0.8, label="given by gravity")])
+                 + [Line2D([], [], color="black", linewidth=0.8, label="work of gravity and pins")])
     style.save(figure, results, "energy_budget")
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A disc cut out of a sheet that is held all round falls, and nothing holds it."""
+"""A disc is cut out of a sheet that is held at its whole border, and falls freely."""
 
 from common import fall
 from common.render import Camera

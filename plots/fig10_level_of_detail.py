@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Figure 10 of the paper: the detail round an incision. Over each picture: unknowns, and the distance between the
-requested curve and the incision (Hausdorff, at rest; the sheet is 1 m wide)."""
+"""Figure 10 of the paper: the detail round an incision. Above each picture: the unknowns, and the Hausdorff distance at
+rest between the requested curve and the incision. The sheet is 1 m wide."""
 
 import numpy as np
 from matplotlib.lines import Line2D
@@ -54,7 +54,7 @@ def read_levels(folder):
 
 
 def error_figure(levels, described):
-    """Error over unknowns: the same cut, just made, at several resolutions."""
+    """Error over unknowns of the same cut at several resolutions, in the first frame after the cut."""
     figure, axes = style.panels(1, 1, 5, layout="constrained")
     ax, looks = axes[0, 0], style.looks(levels)
     for variant, look in looks.items():
@@ -69,10 +69,10 @@ def error_figure(levels, described):
     ax.set_xlabel("unknowns after the cut")
     ax.set_ylabel("incision error, mm")
     n = sorted({d["triangles_before"] for d in described})
-    style.finish(figure, looks.values(), "Figure 10 of the paper, in numbers: the distance between the requested curve and the "
-                 "incision (Hausdorff, at rest; the sheet is 1 m wide) over the unknowns of the cut sheet. Every method cuts "
-                 "through the same points, so that the error is that of the resolution and the tolerance; methods differ in "
-                 f"the unknowns they need for it. n = {', '.join(map(str, n))} triangles before the cut, one cut; seed: none, "
+    style.finish(figure, looks.values(), "Figure 10 of the paper, measured: Hausdorff distance at rest between the requested curve and "
+                 "the incision, over the unknowns of the cut sheet, which is 1 m wide. Every method cuts through the same "
+                 "points, so that resolution and chord tolerance alone determine the error. The methods differ in the "
+                 f"unknowns that they need. n = {', '.join(map(str, n))} triangles before the cut, one cut. No seed: "
                  f"the cut is in the scene file; {scene_panels.commits(described)}. Command: experiments/reproduce {STEM}",
                  [Line2D([], [], color="#444444", linestyle=line, label=name) for line, name in TOLERANCES.values()])
     return figure

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Figure 8 of the paper: the cut edge, there a "swirling" one by the conventional split. Over each picture: the largest
-aspect ratio; how far the lips are from those of the same scene on a fine sheet, in mm, and by how many degrees they turn
-away from them (root mean squares)."""
+"""Figure 8 of the paper: the edge of a cut, which the paper calls "swirling" for the conventional split. Above each picture:
+the largest aspect ratio, and the root mean square distance (mm) and angle (degrees) between the lips and those of the same
+scene on a fine sheet."""
 
 import functools
 
@@ -17,7 +17,7 @@ SCENES = {"patches": "bending: patches;\nsolver: direct", "hinges": "bending: hi
           "cg": "bending: patches;\nCG to 0.01", "unconverged": "bending: patches;\nCG to 0.3"}
 TIMES = (0.7, 1.5)  # s
 FINE, COARSER = 7442, 3362  # triangles of the reference, and of another that shows what it is worth
-COLUMNS = ["scene", "time, s", "method", "off by, mm", "turned by, degrees", f"{COARSER} triangles: mm", "degrees", "verdict"]
+COLUMNS = ["scene", "time, s", "method", "distance, mm", "angle, degrees", f"{COARSER} triangles: mm", "degrees", "verdict"]
 FROM_ABOVE = Camera(centre=(0.5, 0.5, -0.2), azimuth=25, elevation=42)
 BOX = (-0.45, 0.42, -0.36, 0.3)
 
@@ -92,11 +92,11 @@ def lips_figure(rows, worth, described):
             ax.xaxis.set_minor_formatter(NullFormatter())
     n = scene_panels.same((d["triangles_before"] for d in described), "the number of triangles")
     style.finish(figure, looks.values(), " ".join([
-        "Figure 8 of the paper, in numbers: is a swirling cut edge made by the mesh, by the bending or by the solver?", answer(rows),
-        f"Root mean squares along both lips against a sheet of {FINE} triangles (same scene, bending element, integrator "
-        f"and step; direct solver), of the same triangles' own edges. n = {n} triangles before the cut at 0.5 s; one cut; "
-        f"seed: none, it is in the scene files; {scene_panels.commits(described)}. Command: experiments/reproduce {STEM}"]),
-        [Line2D([], [], color="black", linewidth=0.7, linestyle=":", label=f"of a sheet of {COARSER} triangles")])
+        "Figure 8 of the paper, measured: do the mesh, the bending element or the solver cause a swirling cut edge?", answer(rows),
+        f"Root mean square differences along both lips from those on a sheet of {FINE} triangles (same scene, bending "
+        f"element, integrator and step; direct solver). n = {n} triangles before the cut at 0.5 s; one cut. No seed: the "
+        f"cut is in the scene files; {scene_panels.commits(described)}. Command: experiments/reproduce {STEM}"]),
+        [Line2D([], [], color="black", linewidth=0.7, linestyle=":", label=f"difference of a sheet of {COARSER} triangles")])
     return figure
 
 
@@ -106,23 +106,25 @@ def turns_of(rows, scene, of_conventional):
 
 
 def swirls(rows):
-    """Whether, solved directly, the conventional split's lips turn away half as much again as any other's."""
+    """Whether, with the direct solver, the angle of the conventional split's lips is more than 1.5 times that of any other
+    method's."""
     return any(max(turns_of(rows, scene, True)) > 1.5 * max(turns_of(rows, scene, False)) for scene in ("patches", "hinges"))
 
 
 def answer(rows):
-    """In a few sentences, with ranges over the methods and times, of the turns."""
+    """The answer for the caption, with the ranges of the angles over methods and times."""
     def range_of(values):
         return f"{min(values):.1f}° to {max(values):.1f}°"
-    direct = [f"{range_of(turns_of(rows, scene, True))} (bending by {scene}), lips cut by the others by "
+    direct = [f"{range_of(turns_of(rows, scene, True))} (bending by {scene}), those of the other methods by "
               f"{range_of(turns_of(rows, scene, False))}" for scene in ("patches", "hinges")]
     scene, time, method, off, *_ = max((r for r in rows if r[0] in ("patches", "hinges")), key=lambda r: r[3])
     cg, early = (range_of(turns_of(rows, scene, True) + turns_of(rows, scene, False)) for scene in ("cg", "unconverged"))
     gained = sorted({" ".join(method).strip() for *_, method, _, _, verdict in rows if verdict == "energy_growth"})
-    return (f"Solved directly, lips cut by the conventional split turn away by {'; '.join(direct)}: it "
-            f"{'swirls more than they do' if swirls(rows) else 'does not swirl more than they do'}. Farthest off are those by "
-            f"{' '.join(method).strip()} after {time:g} s (bending by {scene}): {off:.0f} mm. By CG to 0.01: {cg}; "
-            f"by CG stopped at 0.3: {early}" + (f", and energy grows by over 1 % ({', '.join(gained)})." if gained else "."))
+    return (f"With the direct solver, the lips of the conventional split differ in angle by {'; '.join(direct)}. The conventional "
+            f"split {'swirls' if swirls(rows) else 'does not swirl'} more than the other methods. The largest distance is "
+            f"that of {' '.join(method).strip()} after {time:g} s (bending by {scene}): {off:.0f} mm. By CG to a residual of "
+            f"0.01: {cg}; by CG stopped at 0.3: {early}"
+            + (f", and the energy grows by more than 1 % ({', '.join(gained)})." if gained else "."))
 
 
 def print_numbers(rows, worth):
@@ -134,9 +136,9 @@ def print_numbers(rows, worth):
 def main():
     def label(description, frame):
         offset, turn = Reference(options.results).difference(description, frame)
-        return f"max AR {frame.cell['aspect_ratio'].max():.0f}; off by {offset:.1f} mm, {turn:.1f}°"
+        return f"max AR {frame.cell['aspect_ratio'].max():.0f}; differs by {offset:.1f} mm, {turn:.1f}°"
     options = scene_panels.arguments(STEM, __doc__)
-    scene_panels.main(STEM, __doc__, [Shot(f"{STEM}_patches", "solved directly", TIMES[0], FROM_ABOVE, box=BOX),
+    scene_panels.main(STEM, __doc__, [Shot(f"{STEM}_patches", "direct solver", TIMES[0], FROM_ABOVE, box=BOX),
                                       Shot(f"{STEM}_unconverged", "CG stopped at 0.3", TIMES[0], FROM_ABOVE, box=BOX)],
                       label=label)
     rows, worth = measured(options.results)

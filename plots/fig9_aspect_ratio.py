@@ -32,7 +32,7 @@ def maximum_figure(run):
     style.plain_numbers(axes[0])
     style.failures(axes, [run.select(sheet=s) for s in sheets], looks)
     style.finish(figure, looks.values(), " ".join([
-        "Maximum aspect ratio over the triangles that a cut made or changed: median of the cuts, band: quartiles.",
+        "Largest aspect ratio of the triangles that a cut made or changed. Line: median of the cuts; band: quartiles.",
         claim_sentence(run), style.AR_DEFINITION, style.provenance(run, run.rows)]), [Line2D([], [], **LIMIT_LINE)])
     return figure
 
@@ -55,8 +55,8 @@ def average_figure(run):
     for ax_column in axes.T:
         style.failures(list(ax_column), [run.select(sheet=s) for s in sheets], looks)
     style.finish(figure, looks.values(), " ".join([
-        "Aspect ratio over the whole sheet after a cut, mean and 99th percentile (p99): median of the cuts, band: "
-        "quartiles.",
+        "Mean and 99th percentile (p99) of the aspect ratios of the whole sheet after a cut. Line: median of the cuts; "
+        "band: quartiles.",
         average_sentence(run), style.AR_DEFINITION, style.provenance(run, run.rows)]), [Line2D([], [], **LIMIT_LINE)])
     return figure
 

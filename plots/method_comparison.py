@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""All methods on the same cuts: the shapes they make, their price, what jumps at the cut, and a table of it all, ranked
-by largest eigenvalue, smallest altitude and largest angle. Reads results/method_comparison and, where they are there,
-its neighbours method_comparison_fine (a closer chord tolerance), method_comparison_accuracy (against exact answers),
-method_comparison_jumps (cuts in a running scene), method_comparison_knobs and method_comparison_ablation (parts of
+"""All methods on the same cuts: the shapes of their triangles, their cost, the jumps of energy and residual at the cut,
+and tables of all of these, ranked by largest eigenvalue, smallest altitude and largest angle. Reads
+results/method_comparison and, where they exist, its neighbours method_comparison_fine (a smaller chord tolerance),
+method_comparison_accuracy (against exact solutions), method_comparison_jumps (cuts in a running scene),
+method_comparison_knobs and method_comparison_ablation (parts of
 warp_and_refine)."""
 
 from dataclasses import dataclass
@@ -34,7 +35,7 @@ OTHER = ("P", "#666666")
 
 @dataclass(frozen=True)
 class Measure:
-    """A column, what it is called, and which end of it is bad."""
+    """A column, its label on the axis, and whether large or small values are bad."""
     column: str
     label: str
     worst: float = np.inf  # what a failed cut counts as
@@ -49,8 +50,8 @@ PRICE = [Measure("vertices_per_crossed", "vertices added\nper crossed tri.", lin
          Measure("us_per_crossed", "µs per\ncrossed tri.")]
 JUMP = [Measure("membrane_jump", "membrane\nenergy"), Measure("bending_jump", "bending\nenergy"),
         Measure("residual_jump", "residual\nforce")]
-ROUNDING = 1e-12  # a jump below it is none
-OURS = "warp_and_refine"  # the project's own
+ROUNDING = 1e-12  # relative jumps below it are rounding errors
+OURS = "warp_and_refine"  # the project's own method
 BY_SHEET, AGAINST = f"{STEM}_by_sheet", f"{STEM}_pairs"
 TITLES = {  # of the tables that are not medians over all cuts
     method_accuracy.STEM: method_accuracy.WHAT,
@@ -68,17 +69,17 @@ BLOCKS = [["accuracy_run"], ["stability", "shape"], ["forced"], ["size", "accura
 
 
 def measured(run):
-    """Every cut once, with what is derived of its columns; a failed one as bad as can be."""
+    """Each cut once, with the columns that are computed from others. A failed cut gets the worst value of each measure."""
     rows = run.rows[run.rows["status"] != "noop"].copy()
     rows["vertices_per_crossed"] = rows["vertices_added"] / rows["crossed_triangles"]
     shapes = [c for c in MEASURES if c.startswith(("ar_", "angle_", "altitude_"))]
-    rows.loc[rows["ar_max_cut"] == 0, shapes] = np.nan  # released edges: no triangle was changed
-    rows.loc[rows["area_change"].abs() > 1e-6, "incision_error_h"] = np.nan  # a band is gone, and there is no incision
+    rows.loc[rows["ar_max_cut"] == 0, shapes] = np.nan  # edges were released and no triangle was changed
+    rows.loc[rows["area_change"].abs() > 1e-6, "incision_error_h"] = np.nan  # removed triangles: no incision
     rows["us_per_crossed"] = rows["geometry_us"] / rows["crossed_triangles"]
     failed = run.failed.copy()
     for m in SHAPES + PRICE:
         failed[m.column] = m.worst
-    failed["eigenvalue_ratio"] = np.nan  # asked of some cuts only
+    failed["eigenvalue_ratio"] = np.nan  # computed for some cuts only
     return pd.concat([rows, failed], ignore_index=True)
 
 
@@ -90,7 +91,7 @@ def jumped(run):
 
 
 def spread(values, worst=np.inf):
-    """q1, median, q3 and the worst but for failures, which are infinite."""
+    """q1, median and q3, in which a failed cut is infinitely bad, and the worst of the cuts that did not fail."""
     values = np.asarray(values.dropna(), float)
     if not len(values):
         return (np.nan,) * 4
@@ -163,7 +164,7 @@ def legend(sheets, fine):
     entries = [Line2D([], [], linestyle="", marker=MARKERS.get(s, OTHER)[0], color=MARKERS.get(s, OTHER)[1], markersize=3,
                       label=style.sheet_title(s)) for s in sheets]
     entries.append(Line2D([], [], linestyle="", marker="|", color="#444444", markersize=4, label="worst cut"))
-    entries.append(Line2D([], [], linestyle="", marker="x", color="#444444", markersize=3, label="worst but for failed ones"))
+    entries.append(Line2D([], [], linestyle="", marker="x", color="#444444", markersize=3, label="worst cut that did not fail"))
     if fine is not None:
         entries.append(Line2D([], [], linestyle="", marker="o", color="white", markeredgecolor="#444444", markersize=3,
                               label="chord tolerance 0.01"))
@@ -174,9 +175,9 @@ def caption(what, run, rows):
     families = ", ".join(sorted(set(rows["cut_family"])))
     sizes = sorted(set(rows["resolution"]))
     size = f"{sizes[0]}" if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]}"
-    return (f"{what} Marker: median of the cuts on a sheet (cuts: {families}; {size} triangles); line: quartiles. Best "
-            f"shapes on top: by the ranks of the medians of eigenvalue, altitude and angle. Knobs at their defaults. A method that "
-            "refuses a kind of sheet has no marker there. "
+    return (f"{what} Marker: median of the cuts on one kind of sheet (cut families: {families}; {size} triangles). Line: "
+            "quartiles. The method with the best shapes is on top, by the sum of the ranks of its median eigenvalue, "
+            "altitude and angle. All knobs have their defaults. A method has no marker for a kind of sheet that it refuses. "
             + style.provenance(run, rows, with_crosses=False, per=["sheet"]))
 
 
@@ -251,10 +252,11 @@ def main():
     order = list(ranks.index)
 
     for name, measures, what in (
-            (f"{STEM}_shapes", SHAPES, "Shapes after a cut, by method. Altitude and angle over the triangles the cut made "
-             "or changed, where there are any; eigenvalue: largest of stiffness and lumped mass, by whose root an explicit step shrinks."),
-            (f"{STEM}_price", PRICE, "The price: rest vertices added, distance between path and incision, and time of the "
-             "geometry (warm).")):
+            (f"{STEM}_shapes", SHAPES, "Shapes of triangles after a cut, by method. Altitude and angle: of the triangles "
+             "that the cut made or changed, where there are any. Eigenvalue: the largest one of stiffness and lumped mass; "
+             "the largest stable step of an explicit integrator shrinks by its square root."),
+            (f"{STEM}_price", PRICE, "The cost of a cut, by method: vertices added at rest, distance between the "
+             "requested path and the incision, and time of the geometry (warm caches).")):
         figure, axes = dot_figure(table, fine, order, sheets, measures)
         if measures is SHAPES:
             axes[2].set_xlim(90, 182)
@@ -263,8 +265,8 @@ def main():
     if jumps is not None:
         figure, _ = dot_figure(jumps, None, order, sheets, JUMP)
         style.finish(figure, [], caption(
-            "What jumps at the instant of a cut in a moving sheet, relative to its value before (10⁻¹² or less drawn at "
-            "10⁻¹²).", jumps_run, jumps), legend(sheets, None))
+            "Jumps of energies and of the residual force at the instant of a cut in a moving sheet, relative to the value "
+            "before the cut. Jumps below 10⁻¹² are drawn at 10⁻¹².", jumps_run, jumps), legend(sheets, None))
         style.save(figure, folder, f"{STEM}_jumps")
     ours = next((v for v in order if v[0] == OURS), order[0])
     tables = {STEM: summary(table, jumps, order, ranks), BY_SHEET: method_details.by_sheet_and_family(table, order, sheets),
@@ -276,11 +278,11 @@ def main():
         tables[f"{AGAINST}_fine"] = method_details.against(fine, ours, order)
     defaults = set(order)
     for kind, draw, what in (
-            ("knobs", partial(method_sweeps.draw_knobs, defaults=defaults), "Medians as the knob of each method turns, its "
-             "first and last setting written beside, large at the default; lower and to the left is better. AR outside "
-             "forced wedges. A point that no line joins: bound 0, which is none."),
-            ("ablation", method_sweeps.draw_ablation, "The parts of warp_and_refine: what is done before the split (rows) "
-             "and after it (columns). Medians; AR outside forced wedges.")):
+            ("knobs", partial(method_sweeps.draw_knobs, defaults=defaults), "Medians for each setting of each method's knob. "
+             "The first and the last setting are written beside their markers; the default has a large marker. Lower left "
+             "is better. AR: of the triangles outside forced wedges. A marker without a line: bound 0, which sets no bound."),
+            ("ablation", method_sweeps.draw_ablation, "The parts of warp_and_refine: the steps before the split "
+             "(rows) and after it (columns). Medians. AR: of the triangles outside forced wedges.")):
         beside = folder.with_name(f"{folder.name}_{kind}")
         if not (beside / "records.csv").is_file():
             continue

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The same cut by every method, zoomed at the incision: runs the program that experiments/reproduce builds."""
+"""The same cut by every method, a detail near its tip. Runs the program that experiments/reproduce builds."""
 
 import json
 import subprocess
@@ -73,7 +73,7 @@ def run(*arguments):
 
 
 def cut_by(method, folder):
-    """What came of it and the program's report; nothing where the method failed or refused."""
+    """Rest points, triangles and the program's report; None where the method failed or refused the cut."""
     out, report = folder / f"{method}.obj", folder / f"{method}.json"
     run("cut", "--mesh", str(folder / "sheet.obj"), "--path", str(folder / "path.json"), "--method", method,
         "--out", str(out), "--report", str(report))
@@ -144,10 +144,10 @@ def draw(folder):
         bar.set_label("aspect ratio")
         bar.set_ticks([2, 3, 5, 10, 20, 50], labels=["2", "3", "5", "10", "20", "50"])
         bar.ax.minorticks_off()
-    style.finish(figure, [], f"The same cut by every method, its knob (beside the name) at its default, in rest space, near its tip; the paper's "
-                 f"grid of {2 * SQUARES ** 2} triangles, chord tolerance 0.05. Blue: the path asked for; red: the opened "
-                 f"incision. AR: the largest aspect ratio of the triangles the cut made or changed. Ties "
-                 f"of unknowns are not drawn. {style.AR_DEFINITION} "
+    style.finish(figure, [], f"The same cut by every method, at rest, near the tip of the cut. Each knob (the number beside "
+                 f"the name) has its default. The sheet is the paper's grid of {2 * SQUARES ** 2} triangles; the chord "
+                 "tolerance is 0.05 h. Blue: requested path. Red: incision. AR: largest aspect ratio of the triangles that "
+                 f"the cut made or changed. Constrained vertices are not marked. {style.AR_DEFINITION} "
                  "Command: plots/method_gallery.py")
     style.save(figure, folder, "method_gallery")
 

@@ -26,8 +26,8 @@ def nearest(wanted, known, what):
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--x", required=True, metavar="COLUMN", help="horizontal, such as total_us")
-    parser.add_argument("--y", required=True, metavar="COLUMN", help="vertical, such as excess_error")
+    parser.add_argument("--x", required=True, metavar="COLUMN", help="column on the horizontal axis, such as total_us")
+    parser.add_argument("--y", required=True, metavar="COLUMN", help="column on the vertical axis, such as excess_error")
     chosen = parser.add_mutually_exclusive_group(required=True)
     chosen.add_argument("--problem", metavar="NAME", help="the problem of accuracy records, such as centre_crack")
     chosen.add_argument("--cut-family", metavar="NAME", help="the cut family of other records, such as curved")
@@ -83,6 +83,11 @@ def curve_looks(cells, present):
     return looks, lines, entries
 
 
+def axis_label(axis):
+    """That of results/columns.json; a file may have columns that it does not list."""
+    return load.axis_label(axis.column) if axis.column in load.columns() else axis.column
+
+
 def figure_of(cells, run, args, x, y, present):
     sheets = style.sheet_order(cells["sheet"])
     looks, lines, entries = curve_looks(cells, present)
@@ -108,13 +113,13 @@ def figure_of(cells, run, args, x, y, present):
             style.plain_numbers(ax)
         front.draw_front(ax, here)
         front.draw_failures(ax, here, looks)
-        ax.set_xlabel(x.column if i + columns >= len(sheets) else "")
-        ax.set_ylabel("" if i % columns else y.column)
+        ax.set_xlabel(axis_label(x) if i + columns >= len(sheets) else "")
+        ax.set_ylabel("" if i % columns else axis_label(y))
     where = f" Rows with {', '.join(args.where)}." if args.where else ""
-    more = " Larger marks: more iterations (0: until solved)." if len(budgets) > 1 else ""
+    more = " Larger markers: more iterations (0: direct solve)." if len(budgets) > 1 else ""
     style.finish(figure, looks.values(), " ".join([
-        f"{y.column} against {x.column}, {args.name}: medians of the ensemble at each resolution, bars: quartiles; a "
-        f"failed case counts as infinitely bad (×: failed/tried).{where}{more}",
+        f"{args.name}: {axis_label(y)} against {axis_label(x)}. Marker: median of the ensemble at one resolution; bars: "
+        f"quartiles. A failed case counts as infinitely bad (×: failed/tried).{where}{more}",
         style.provenance(run, run.rows, with_machine="_us" in x.column + y.column, with_crosses=False)]),
         front.legend_entries() + entries)
     return figure

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A blade that advances while the sheet moves: on its way, and after it has arrived."""
+"""A blade that advances while the sheet moves: during its advance and after its end."""
 
 from common.render import Camera
 from common.scene_panels import Shot, main

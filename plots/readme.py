@@ -30,10 +30,10 @@ GROUPS = {  # of the methods, by what they promise: colour, marker, words
     "moved": ("#d55e00", "s", "incision moved by up to one edge length"),
     "removed": ("#777777", "X", "triangles removed, no incision"),
 }
-PLACES = {  # of the names in the chart: the side of the name at the marker, points upwards; others: to the right
-    "example": ("right", 5), "conventional_split": ("right", -7), "bowyer_watson": ("right", 0), "cgal_refine": ("right", 0),
-    "global_remesh": ("right", 0), "edge_release": ("right", 0), "snap_or_split": ("right", 0), "vertex_snap": ("right", -11),
-    "phantom_node": ("left", -5),
+PLACES = {  # of the names in the chart: which side of the name is at the marker, and how many points higher; others: left, 0
+    "example": ("right", 5), "conventional_split": ("right", -7), "bowyer_watson": ("right", 0),
+    "cgal_refine": ("right", 0), "global_remesh": ("right", 0), "edge_release": ("right", 0),
+    "snap_or_split": ("right", 0), "vertex_snap": ("right", -11), "phantom_node": ("left", -5),
 }
 
 
@@ -140,8 +140,9 @@ def chart(methods):
     sheets = rows.groupby("method")["sheet"].nunique()
     some = "".join(f"{method} cuts {n} of the {sheets.max()} kinds of sheets. " for method, n in sheets.items()
                    if n < sheets.max())
+    made = f"{load.count(rows)} cuts, eigenvalues of {rows['eigenvalue_ratio'].count()} of them"
     figure.text(0.075, 0.014, "Lower left is better. Marker: median over the cuts of all sheets, sizes and cut families. "
-                f"Bar: up to the 95 % quantile.\n{some}{load.count(rows)} cuts, eigenvalues of {rows['eigenvalue_ratio'].count()} of them, commit {str(run.context['commit'])[:10]}.",
+                f"Bar: up to the 95 % quantile.\n{some}{made}, commit {str(run.context['commit'])[:10]}.",
                 fontsize=9, color="#555555", linespacing=1.35)
     return figure
 

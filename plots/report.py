@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""results/report.html: every figure and table of the project beside what the paper shows and claims, with what was
-found, whether it held, and the command. One file that opens from disk. It takes what there is in results/, else the
-project's own runs in results/reference/, and says what has not been run."""
+"""Writes results/report.html, one file without links to others: every figure and table of the project beside the paper's
+claims, with the findings, the verdicts and the commands. It uses the runs in results/, or else the project's own runs in
+results/reference/, and states what has not been run."""
 
 import argparse
 import base64
@@ -135,8 +135,8 @@ def simulations(results, stem):
 
 
 def runs_of(stem, extra=lambda results: ""):
-    """Whether all simulations of a stem came to their ends, and what they are like. No verdict on what the paper says of
-    them: that asks for a measure."""
+    """Whether all simulations of a stem ran to the end, and a table of them. There is no verdict on the paper's words about
+    them, which name no measure."""
     def find(results):
         made = simulations(results, stem)
         if not made:
@@ -145,8 +145,8 @@ def runs_of(stem, extra=lambda results: ""):
                  str(d["triangles_after"]), str(d["unknowns"]), d["verdict"]] for _, d in made]
         failed = sum(d["verdict"] != "ok" for _, d in made)
         return ("failed" if failed else "ran to the end",
-                f"{len(made) - failed} of {len(made)} simulations came to their end without a failure (solver, inverted "
-                f"triangles, energy growth over 1 %). {extra(results)}".strip(),
+                f"{len(made) - failed} of {len(made)} simulations ran to the end without a failure (solver, inverted "
+                f"triangles, energy growth above 1 %). {extra(results)}".strip(),
                 table_of(["scene", "method", "cuts", "triangles after", "unknowns", "verdict"], rows))
     return find
 
@@ -165,8 +165,8 @@ def swirl(results):
     table = [[fig8.SCENES[scene].replace("\n", " "), f"{time:g}", " ".join(method).strip(), mm, degrees, worth[scene, time][1],
               verdict] for scene, time, method, mm, degrees, verdict in rows]
     return ("held" if fig8.swirls(rows) else "not held", fig8.answer(rows),
-            table_of(["scene", "time, s", "method", "lips off by, mm", "turned by, degrees",
-                      f"of {fig8.COARSER} triangles, degrees", "verdict"], table))
+            table_of(["scene", "time, s", "method", "distance of the lips, mm", "angle, degrees",
+                      f"sheet of {fig8.COARSER} triangles, degrees", "verdict"], table))
 
 
 def level_of_detail(results):
@@ -178,9 +178,9 @@ def level_of_detail(results):
     uncut = 3 * (round((before / 2) ** 0.5) + 1) ** 2
     share = (ours - plain) / uncut
     return ("held" if share <= claims.FEW else "not held",
-            f"The paper's method with one round of local split takes {ours} unknowns, the conventional split {plain}: "
-            f"{100 * share:.0f} % more of the uncut sheet's {uncut} (few: at most {100 * claims.FEW:g} %). Every exact method cuts "
-            "through the same points, so that none shows a finer incision.",
+            f"The paper's method with one round of local split needs {ours} unknowns, the conventional split {plain}: the difference is "
+            f"{100 * share:.0f} % of the {uncut} unknowns of the uncut sheet ('small' here: at most {100 * claims.FEW:g} %). All "
+            "exact methods cut through the same points, so that no incision is finer than another.",
             table_of(["method", "triangles", "unknowns"], [[m, str(d["triangles_after"]), str(d["unknowns"])]
                                                            for m, d in made.items()]))
 
@@ -225,17 +225,17 @@ SECTIONS = [
     Section("Figure 10: level of detail", "Shows finer triangles round the incision than by conventional subdivision, 'with a "
             "small number of additional DOFs'.", "fig10_level_of_detail",
             ("fig10_level_of_detail", "fig10_level_of_detail_error"), level_of_detail),
-    Section("Accuracy", "'A stable and physically accurate incision': no measure is given. Here: problems with exact answers.",
+    Section("Accuracy", "'A stable and physically accurate incision'; it gives no measure. Here: problems with exact solutions.",
             "accuracy", ("accuracy", "accuracy_budgets", "accuracy_problems", "accuracy_profile", "accuracy_shape",
                          "accuracy_unknowns")),
-    Section("Verification", "The code is not held against exact answers.", "verification", ("verification_extrapolated", "verification")),
+    Section("Verification", "No comparison with exact solutions.", "verification", ("verification_extrapolated", "verification")),
     Section("Progressive cut", "4.2: the path passes through one element in step i and through the next in step i + 1.",
             "progressive_cut", ("progressive_cut", "progressive_cut_mesh"), runs_of("progressive_cut")),
     Section("Cut picked on the deformed sheet", "4.1.1: control points are picked on the surface and carried to the rest shape.",
             "picked_cut", ("picked_cut", "picked_cut_mesh"), runs_of("picked_cut")),
-    Section("Falling piece", "Pieces separate and move on their own.", "falling_piece", ("falling_piece", "falling_piece_mesh"),
+    Section("Falling piece", "Pieces separate and move independently.", "falling_piece", ("falling_piece", "falling_piece_mesh"),
             runs_of("falling_piece", fall_of("falling_piece"))),
-    Section("All scenes, and where their energy goes", "The paper shows a video and no energies.", "",
+    Section("All scenes and their energy budgets", "The paper shows a video and no energies.", "",
             ("contact_sheet", "energy_budget")),
     Section("Robustness", "'Robust simulation of complex cuts': no number of trials is given.", "robustness", (),
             text_file("robustness.txt")),
@@ -258,7 +258,7 @@ def section_of(results, number, section):
     if table:
         parts.append(table)
     if not (found or pictures):
-        parts.append(f"<p>{badge('not run')} There are no results of it here.</p>")
+        parts.append(f"<p>{badge('not run')} There are no results.</p>")
     shown = [figure_of(file, " (the project's own run)" if reference else "") for file, reference in pictures]
     parts.append(f'<div class="figures">{"".join(shown + [figure_of(a, ", animated") for a in animations])}</div>')
     if found and cells:
@@ -267,7 +267,7 @@ def section_of(results, number, section):
 
 
 def other_figures(results, used):
-    """Whatever else was drawn, so that nothing that was run is missing here."""
+    """All other figures in the results, so that the page shows everything that was run."""
     files = [f for folder in sorted(results.glob("*/")) for f in sorted(folder.glob("*.png"))]
     names = {f.name for f in used}
     more = [f for f in files if f not in used and f.name not in names]
@@ -305,9 +305,10 @@ def page(results):
         f"<title>cutbench: the paper, put to the test</title><style>{STYLE}</style></head><body>",
         "<h1>cutbench: the paper, put to the test</h1>",
         "<p>Xin, Marris, Mihut, Ushaw, Morgan: <i>Accurate Real-time Complex Cutting in Finite Element Modeling</i>, 2018. "
-        "Each of its figures and its table, and what this project adds, with what was found and the command that makes it. "
-        "Every number and verdict is computed from records; nothing here is written by hand but what the paper says.</p>",
-        f"<p>{escape(style.AR_DEFINITION)} Other terms: <code>README.md</code>, Rules of measuring.</p>",
+        "This page shows each figure and the table of the paper, and further experiments of this project, with the findings and "
+        "the commands. All numbers and verdicts are computed from records; only the descriptions of the paper are written by "
+        "hand.</p>",
+        f"<p>{escape(style.AR_DEFINITION)} Other terms: <code>docs/measuring.md</code>.</p>",
         f"<nav>{links}</nav>",
         f"<h2>The paper's claims</h2>{claims_table(results)}",
         *sections, other_figures(results, used),

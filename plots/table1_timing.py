@@ -83,9 +83,9 @@ def time_figure(timings, paper, others):
     style.failures([upper], [timings.run], looks)
     repetitions = timings.run.rows["repetition"].nunique()
     style.finish(figure, looks.values(), " ".join([
-        f"Geometry cost of a cut ({', '.join(PHASES).replace('_us', '')}) on {style.sheet_title(timings.sheet)}, "
-        f"{timings.cache}: median of {repetitions} repetitions, then median of the cuts; band: quartiles. "
-        f"'Every edge tested' finds the crossings and cuts nothing.",
+        f"Time of the geometry of a cut ({', '.join(PHASES).replace('_us', '')}) on {style.sheet_title(timings.sheet)}, "
+        f"{timings.cache} caches. Line: median over the cuts of the median of {repetitions} repetitions; band: quartiles. "
+        f"'Every edge tested' finds the crossings but does not cut.",
         *statements(timings, paper), *others, style.provenance(timings.run, timings.cuts, with_machine=True)]))
     return figure
 
@@ -113,8 +113,8 @@ def sheets_figure(run, timings):
     style.plain_numbers(axes[0])
     style.failures(axes, [t.run for t in timings], looks)
     style.finish(figure, looks.values(), " ".join([
-        "Geometry cost of a cut per crossed triangle on every sheet: median of the repetitions, then median of the "
-        "cuts; band: quartiles.", style.provenance(run, pd.concat([t.cuts for t in timings]), with_machine=True)]))
+        "Time of the geometry per crossed triangle on every sheet. Line: median over the cuts of the median of the "
+        "repetitions; band: quartiles.", style.provenance(run, pd.concat([t.cuts for t in timings]), with_machine=True)]))
     return figure
 
 
@@ -136,8 +136,8 @@ def phases_figure(timings):
     axes.flat[-1].set_xlabel("ns per crossed triangle")
     patches = [Patch(color=colour, label=phase[:-3]) for phase, colour in PHASES.items()]
     style.finish(figure, [], " ".join([
-        f"Where the time of a cut goes on {style.sheet_title(timings.sheet)}, {timings.cache}: bars, median of the "
-        "cuts for each phase; black: median and quartiles of the whole.",
+        f"Time of a cut by phase on {style.sheet_title(timings.sheet)}, {timings.cache} caches. Bars: median of the cuts "
+        "for each phase. Black: median and quartiles of the total.",
         style.provenance(timings.run, cuts, with_machine=True, with_crosses=False)]), patches)
     return figure
 
@@ -263,9 +263,9 @@ def motion_figure(run, sheet):
     for ax in axes.flat:
         style.plain_numbers(ax)
     style.finish(figure, legend, " ".join([
-        f"A cut inside the running simulation on {style.sheet_title(sheet)}, cold: median of the cuts, band: quartiles. "
-        "Hollow, dash-dotted: the paper's Table 1 (other CPU, unknown cut, material and solver tolerance); its 'solver' "
-        "column is drawn as the update, which it grows like. The first step is one backward Euler step by conjugate "
+        f"A cut inside the running simulation on {style.sheet_title(sheet)}, cold caches. Line: median of the cuts; band: quartiles. "
+        "Hollow markers, dash-dotted: the paper's Table 1 (another CPU; cut, material and solver tolerance are unknown). Its "
+        "'solver' column is drawn beside the update, which grows in the same way. The first step is one backward Euler step by conjugate "
         "gradients to 1e-2, of experiments/scenes/paper_table1.toml.",
         *motion_statements(cuts), style.provenance(run, cuts, with_machine=True, with_crosses=False)]))
     return figure
@@ -277,8 +277,8 @@ def motion_statements(cuts):
     def ratio(upper, lower):
         return interval(load.ratio(top[upper], top[lower]))
     return [f"At {top['resolution'].max()} triangles the incremental update of the pattern is "
-            f"{ratio('rebuild_us', 'pattern_us')} times faster than making it anew and "
-            f"{ratio('triplets_us', 'pattern_us')} times faster than Eigen's setFromTriplets; the bending update {ratio('bending_rebuild_us', 'bending_us')} times faster than anew; "
+            f"{ratio('rebuild_us', 'pattern_us')} times faster than a new one and "
+            f"{ratio('triplets_us', 'pattern_us')} times faster than Eigen's setFromTriplets; the bending update {ratio('bending_rebuild_us', 'bending_us')} times faster than a new one; "
             f"assembly {ratio('triplets_us', 'assemble_us')} times faster than setFromTriplets (geometric means, 95 % "
             "intervals)."]
 

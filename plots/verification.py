@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Verification, not a ranking: energies and stress intensities extrapolated to h = 0 against the exact ones, and rates of
-convergence, of all methods that promise the exact incision, solved directly. It says that the code is right, not that a
-method is good: every such method has nearly the same error."""
+"""Verification, not a ranking: energies and stress intensities extrapolated to h = 0 are compared with the exact ones, and
+rates of convergence with the expected ones, for all methods that promise the exact incision and with the direct solver. This
+checks the code, not the methods: all of these methods have nearly the same error."""
 
 import contextlib
 import io
@@ -51,7 +51,8 @@ def line(table, x, y, scatter):
 
 
 def rate(table, measure):
-    """Of the error over n, and the half-width of its interval; the logarithms scatter alike at all sizes."""
+    """The rate of convergence of the error over n, and the half-width of its interval. The logarithms are taken to have the
+    same variance at all sizes."""
     table = table[table[f"error_{measure}"] > ROUNDING]
     table = table.assign(x=0.5 * np.log(table["resolution"] / 2), y=np.log(table[f"error_{measure}"]))
     (_, slope), (_, width) = line(table, "x", "y", np.ones_like)
@@ -59,10 +60,10 @@ def rate(table, measure):
 
 
 def extrapolated(table, measure, order):
-    """100 log(value / exact) at h = 0, percent, and the half-width of its interval. The logarithm, because a mesh makes
-    a cut shorter by a length like h, which multiplies; what tips at other places in their triangles scatter goes like h,
-    too. K1 and K2 are parts of one intensity, of which their deviations are. Where there is no tip (`order` 2) it is the
-    square of h instead."""
+    """100 log(value / exact) extrapolated to h = 0, in percent, and the half-width of its interval. The logarithm is used
+    because a mesh shortens a cut by a length proportional to h, which multiplies the value; the scatter due to the position
+    of the tip in its triangle is proportional to h, too. Deviations of K1 and K2 are relative to the intensity of both
+    together. Without a tip (`order` 2) the square of h takes the place of h."""
     exact = table[f"exact_{measure}"]
     if measure in ("k1", "k2"):
         scale = np.hypot(table["exact_k1"], table["exact_k2"].fillna(0))
@@ -151,9 +152,9 @@ def figure_of(records, table):
         ax.xaxis.set_minor_formatter(NullFormatter())
     label_edges(axes, "n (squares per side)", "relative error")
     style.finish(figure, records.methods.values(), records.caption(
-        "Verification, not a ranking: error of the primary measure over the resolution, solved directly (geometric mean "
-        "over sheets and ensemble), for the methods that promise the exact incision. It shows that the code is right; "
-        "every such method has nearly the same error."))
+        "Verification, not a ranking: error of the primary measure over the resolution, direct solver, geometric mean over "
+        "sheets and ensemble, for the methods that promise the exact incision. This checks the code: all of these methods "
+        "have nearly the same error."))
     return figure
 
 
@@ -182,9 +183,9 @@ def extrapolation_figure(records, table):
     ax.grid(axis="y", visible=False)
     ax.set_xlabel("deviation at h = 0, %")
     style.finish(figure, records.methods.values(), records.caption(
-        "Verification, not a ranking: energies and stress intensities extrapolated to h = 0 against the exact ones, bars: "
-        f"95 %. Green: the {WITHIN:g} % asked for; edge cracks are compared with a handbook's fit, good to {WITHIN_FIT:g} % "
-        "(marks)."))
+        "Verification, not a ranking: deviation of energies and stress intensities, extrapolated to h = 0, from the exact "
+        f"ones. Bars: 95 % intervals. Green: required accuracy, {WITHIN:g} %. Edge cracks are compared with a fit from a "
+        f"handbook, which is accurate to {WITHIN_FIT:g} % (short vertical lines)."))
     return figure
 
 

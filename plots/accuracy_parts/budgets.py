@@ -39,8 +39,8 @@ def budgets_figure(records):
     for row, sheet in zip(axes, records.sheets):
         row[0].set_ylabel(f"{style.sheet_title(sheet)}\nexcess error, %")
     style.finish(figure, records.looks.values(), records.caption(
-        f"Excess error against total time at {top} triangles, by {', '.join(map(str, records.budgets))} iterations of "
-        "conjugate gradients from zero (filled) and by the direct solve (hollow), preconditioned by the vertices' own "
-        "blocks (cg) and by joint blocks round slivers (cg sliver blocks): medians over problems and ensembles, bars: "
-        "quartiles."), front.legend_entries())
+        f"Excess error against total time at {top} triangles, after {', '.join(map(str, records.budgets))} iterations of "
+        "conjugate gradients that start from zero (filled markers) and after the direct solve (hollow markers). "
+        "Preconditioner: the diagonal block of each vertex (cg), or joint blocks of the vertices round slivers (cg sliver "
+        "blocks). Marker: median over problems and ensembles; bars: quartiles."), front.legend_entries())
     return figure

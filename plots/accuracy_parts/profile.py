@@ -1,4 +1,4 @@
-"""Which share of all cases is solved to an error within a time."""
+"""The share of all cases that are solved to a tolerance within a time."""
 
 import numpy as np
 
@@ -9,15 +9,16 @@ TOLERANCES = (0.2, 0.1, 0.05, 0.02)
 
 
 def solved_times(records, variant, tolerance):
-    """Per case of the ensemble the least time, by whatever resolution, solver and budget, to an error within the
-    tolerance; infinity where none gives it. A case: problem, sheet, member. Index: the problem."""
+    """For each case of the ensemble, the least time over all resolutions, solvers and budgets to an error within the
+    tolerance; infinity where no solve reaches it. A case: problem, sheet, member. Index: the problem."""
     table = members_throughout(records).rows(variant)
     good = table["ms"].where((table["error"] <= tolerance) & ~table["failed"], np.inf)
     return good.groupby([table[c] for c in ("problem", "sheet", "case")]).min().droplevel(["sheet", "case"])
 
 
 def members_throughout(records):
-    """Those on all of their problem's resolutions, or all but one, of problems that are not exact anyway."""
+    """The members that ran on all resolutions of their problem, or on all but one; without the problems that even the
+    body-fitted mesh solves exactly."""
     table = records.ranked().table
     sizes = table.groupby(["problem", "case"])["resolution"].nunique().rename("sizes").reset_index()
     sizes["most"] = sizes.groupby("problem")["sizes"].transform("max")
@@ -45,7 +46,8 @@ def profile_figure(records):
     drawn = members_throughout(records)
     style.finish(figure, records.looks.values(), drawn.caption(
         f"Performance profile over {len(drawn.problems)} problems and {len(records.sheets)} sheets: share of the "
-        f"{len(solved_times(records, next(iter(records.looks)), 1))} cases (problem, sheet, member) whose primary measure is within the tolerance after so much time for cut, "
-        "assembly and solve, by the best resolution, solver and number of iterations for each. Failed cases, and those "
-        "that no resolution solves, are never reached."))
+        f"{len(solved_times(records, next(iter(records.looks)), 1))} cases (problem, sheet, member) whose primary measure "
+        "is within the tolerance, against the time of cut, assembly and solve. Each case is solved by the resolution, "
+        "solver and number of iterations that need the least time. Cases that failed, or that no resolution solves to "
+        "the tolerance, count as unsolved."))
     return figure

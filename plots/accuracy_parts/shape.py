@@ -47,8 +47,8 @@ def shape_figure(records):
             for look in records.methods.values()]
     line = Line2D([], [], color="#c00000", linewidth=1.1, label="median per decade of AR")
     style.finish(figure, [], records.caption(
-        "Does the error depend on the shape of the triangles? Error over that of the fitted mesh solved directly, against "
-        "the largest aspect ratio among the triangles the cut made or changed; problems in plane, a dot per case. "
+        "Does the error depend on the shape of the triangles? Error over that of the body-fitted mesh, direct solver, "
+        "against the largest aspect ratio of the triangles that the cut made or changed; plane problems, a dot for each case. "
         f"{' '.join(shape_statements(records))} {style.AR_DEFINITION}"), [*dots, line])
     return figure
 
@@ -137,7 +137,8 @@ def by_decade(lags):
 
 
 def starts_at(medians):
-    """The lowest decade that does worse than a rounder one: how slow the solver is at any shape is not shape's doing."""
+    """The lowest decade of the aspect ratio whose median is worse than that of a lower decade. Comparing decades separates
+    the effect of shape from the error that the solver leaves at any shape."""
     best = np.inf
     for decade, median in medians.items():
         if median > CONVERGED * best:
@@ -147,7 +148,7 @@ def starts_at(medians):
 
 
 def print_shapes(records):
-    """By how much shape holds the solver up, and where each method's starts to."""
+    """Prints how much the shape of the triangles slows the solver, and from which decade on, for each method."""
     lags = {(solver, budget): lags_of(records, solver, budget) for solver in records.solvers for budget in records.budgets}
     rows = [[solver, str(budget), *(by_decade(table).get(d, np.nan) for d in range(7))]
             for (solver, budget), table in lags.items()]
@@ -160,8 +161,8 @@ def print_shapes(records):
                                                                 "1e3-1e4", "1e4-1e5", "1e5-1e6", "1e6-1e7"], rows)
     starts = [[look.label, solver, *(starts_at(by_decade(of(lags[solver, budget], variant))) for budget in records.budgets)]
               for variant, look in records.methods.items() if variant[0] != REFERENCE[0] for solver in records.solvers]
-    load.print_table(f"Where each method's shape starts to cost: the decade of AR from which that median is above {CONVERGED} "
-                     "times a rounder one's, by iterations", ["method", "solver", *map(str, records.budgets)], starts)
+    load.print_table(f"From which decade of AR on shape slows the solver: the first whose median is above {CONVERGED} times that of a "
+                     "lower decade, by iterations", ["method", "solver", *map(str, records.budgets)], starts)
 
 
 def print_statements(records):

@@ -1,5 +1,5 @@
-"""Whether a cut-out falls as it must: its centre of mass, by backward Euler with mass damping alpha, by
-v+ = (v - g h) / (1 + alpha h) every step, from the frames of a simulation."""
+"""Checks the fall of a cut-out in the frames of a simulation: by backward Euler with mass damping alpha, the velocity of its
+centre of mass must follow v+ = (v - g h) / (1 + alpha h) in every step."""
 
 import tomllib
 
@@ -36,7 +36,7 @@ def deviation(folder):
 
 
 def sentence(column):
-    """For a caption: of the panels of a scene, given their folders."""
+    """A sentence for the caption, about all panels of a scene, whose folders are given."""
     found = [deviation(folder) for folder in column]
-    return (f"Centre of mass of the cut-out: off the law v+ = (v - g h) / (1 + alpha h) by at most "
+    return (f"Centre of mass of the cut-out: differs from the law v+ = (v - g h) / (1 + alpha h) by at most "
             f"{max(d for d, _ in found):.0e} m/s in {sum(n for _, n in found)} spans between frames, all methods.")

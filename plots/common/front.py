@@ -1,4 +1,4 @@
-"""Points of two measures, each the median of an ensemble, and the front of those that none beats in both."""
+"""Points of two measures, each the median of an ensemble, and the Pareto front: the points that no other beats in both."""
 
 from dataclasses import dataclass
 
@@ -99,7 +99,7 @@ def _of(points, variant):
 
 
 def legend_entries():
-    return [Line2D([], [], label="Pareto front (behind it: pale)", **FRONT_LINE)]
+    return [Line2D([], [], label="Pareto front (other points: pale)", **FRONT_LINE)]
 
 
 def scale(axis, values):

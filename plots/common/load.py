@@ -1,5 +1,5 @@
-"""Records of a run, read-only: results/<stem>/records.csv and context.json (columns: results/README.md), and the few
-statistics that the figures share. Whatever can't be read ends the program with one line and exit code 2."""
+"""Reads the records of a run, results/<stem>/records.csv and context.json (columns: results/README.md), and computes the
+statistics that several figures use. A file that can't be read ends the program with one line and exit code 2."""
 
 import argparse
 import functools
@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-SUITE_VERSIONS = ["3", "4"]  # that can be read; older names are renamed on reading
+SUITE_VERSIONS = ["2", "3", "4"]  # that can be read; older column names are renamed on reading
 TEXT = ["suite_version", "sheet", "method", "knob", "seed", "cache", "status", "verdict", "reason"]
 TEXT_OF_SOME = ["cut_family", "problem", "solver", "primary"]  # text in the records that have them
 COUNTS = ["resolution", "case", "repetition"]
@@ -81,7 +81,7 @@ def read(folder, measures):
 
 
 def read_reference(stem, measures):
-    """The same of the records that results/reference holds."""
+    """The same, from the records in results/reference."""
     folder = REPOSITORY / "results/reference"
     return run_of(folder / f"{stem}.records.csv.gz", folder / f"{stem}.context.json", measures)
 
@@ -94,10 +94,11 @@ def run_of(records, context, measures):
 
 
 def read_records(path, columns, all_columns=False):
-    """The table with `columns`, or with all there are, which must include these."""
+    """The table with `columns`, or with all columns of the file, which must include `columns`. Names of older versions are
+    replaced by those of today."""
     if not path.is_file():
         unfinished = path.with_name(path.name + ".part")
-        stop(f"{unfinished} is of a run that has not ended; the same command goes on with it" if unfinished.is_file()
+        stop(f"{unfinished} is of a run that has not ended; give the same command again to continue it" if unfinished.is_file()
              else f"{path} is missing; `cutbench run experiments/{path.parent.name}.toml --out results` makes it")
     try:
         with (gzip.open if path.suffix == ".gz" else open)(path, "rt", encoding="utf-8", newline="") as file:
@@ -121,12 +122,13 @@ def read_records(path, columns, all_columns=False):
         stop(f"{path} has no rows")
     unknown = sorted(set(table["suite_version"]) - set(SUITE_VERSIONS)) if "suite_version" in table else []
     if unknown:
-        stop(f"{path} is of suite version {', '.join(unknown)}; known are {', '.join(SUITE_VERSIONS)}: run it anew")
+        stop(f"{path} is of suite version {', '.join(unknown)}; this program reads {', '.join(SUITE_VERSIONS)}; run the "
+             "experiment again")
     return table
 
 
 def new_names(columns):
-    """The names that the columns of a record have today, by the name in the file: version 3 had others."""
+    """The names that the columns of a record have today, by the name in the file: versions before 4 had others."""
     old = {"scene": "problem" if "solver" in columns else "cut_family", "wedge_area": "wedge_area_rest2",
            "incision_error": "incision_error_rest"}
     return {c: old.get(c, c) for c in columns}
@@ -146,7 +148,8 @@ def columns():
 def axis_label(column):
     """The label of a column with its unit."""
     about = columns()[column]
-    return f"{about['label']} ({about['unit']})" if about["unit"] else about["label"]
+    unit = {"us": "µs", "deg": "°"}.get(about["unit"], about["unit"])
+    return f"{about['label']} ({unit})" if unit else about["label"]
 
 
 def group(name, derived):
@@ -160,7 +163,7 @@ def read_context(path):
     try:
         context = json.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
-        stop(f"{path} is missing; a figure without its commit, seed and machine is not drawn")
+        stop(f"{path} is missing; no figure is drawn without its commit, seed and machine")
     except (OSError, ValueError) as error:
         stop(f"{path} can't be read: {error}")
     if not isinstance(context, dict):
@@ -169,7 +172,7 @@ def read_context(path):
 
 
 def write_beside(path, text):
-    """Writes what a script says into a file beside its figures, and prints it."""
+    """Writes the text of a script to a file beside its figures, and prints it."""
     try:
         path.write_text(text.lstrip("\n"), encoding="utf-8")
     except OSError as error:
@@ -192,7 +195,8 @@ def of(table, variant, sheet=None):
 
 
 def with_failures(values):
-    """q1, median, q3 of what may hold infinities, for cases that failed: the value that so many do not exceed."""
+    """q1, median and q3 of values that may be infinite, for cases that failed, so without interpolation: each is the smallest
+    value that is not exceeded by its share of the values."""
     if not len(values):
         return np.nan, np.nan, np.nan
     return tuple(np.quantile(np.asarray(values, float), [0.25, 0.5, 0.75], method="inverted_cdf"))

@@ -1,6 +1,7 @@
-"""Pictures of a moving sheet from the frames that `cutbench simulate --frames` writes, by matplotlib alone: triangles
-are projected, sorted back to front and drawn as one collection of polygons, front and back in colours of their own,
-darker where little of the sky is seen (ambient occlusion), with a shadow on the ground and the lips of the incision."""
+"""Pictures of a moving sheet from the frames that `cutbench simulate --frames` writes, drawn by matplotlib alone:
+triangles are projected, sorted back to front and drawn as one collection of polygons. The two sides of the sheet have
+different colours, which are darker where less of the sky is visible (ambient occlusion). A shadow on the ground and the
+lips of the incision are drawn too."""
 
 import json
 import xml.etree.ElementTree as xml
@@ -22,13 +23,13 @@ LIGHT = np.array([-0.32, -0.22, 0.92])
 
 @dataclass
 class Frame:
-    """One moment: an opened sheet, the two lips of an incision being different vertices at the same rest place."""
+    """An opened sheet at one time. The lips of an incision have different vertices at the same rest positions."""
     time: float
     deformed: np.ndarray  # (vertices, 3), m
     rest: np.ndarray  # (vertices, 2), m
     triangles: np.ndarray  # (triangles, 3)
     cell: dict = field(default_factory=dict)  # per triangle: piece, aspect_ratio, strain
-    sky: np.ndarray = None  # of sky_seen(), once it was asked for
+    sky: np.ndarray = None  # the result of sky_seen() after its first call
 
     def lips(self):
         """(edges, 2): border edges that lie, in rest space, on another border edge; with the triangle of each."""
@@ -170,7 +171,7 @@ def sky_seen(frame, normals):
 
 
 def finer(points, triangles, values, parts):
-    """Each triangle in parts^2, with positions, vertex values and parent: smooth shading of few triangles."""
+    """Divides each triangle into parts^2, for smooth shading of few triangles: positions, vertex values and parents."""
     corner_points, corner_values = points[triangles], values[triangles]
     grid = [(i, j) for i in range(parts + 1) for j in range(parts + 1 - i)]
     number = {ij: n for n, ij in enumerate(grid)}
@@ -211,7 +212,7 @@ def draw(ax, frame, camera, wireframe=False, colour=None, ground=None, lips=True
     points, values, parent = finer(frame.deformed, frame.triangles, np.hstack([normals, sky]), parts)
     middle = points.mean(axis=1)
     mean = values.mean(axis=1)
-    # Which side is seen is the triangle's own matter; how it is lit may be smooth.
+    # The visible side follows from the normal of the triangle itself; the light may use smooth normals.
     own = np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])
     to_eye = camera.eye() - middle
     smooth = mean[:, :3] / np.maximum(np.linalg.norm(mean[:, :3], axis=1, keepdims=True), 1e-12)
@@ -232,7 +233,7 @@ def draw(ax, frame, camera, wireframe=False, colour=None, ground=None, lips=True
         edges, owner = frame.lips()
         ends, near = camera.project(frame.deformed[edges])
         lift = np.linalg.norm(frame.deformed[edges[:, 0]] - frame.deformed[edges[:, 1]], axis=1)
-        nearest = np.full(len(frame.triangles), -np.inf)  # a lip is in front of its own triangle, whatever its parts
+        nearest = np.full(len(frame.triangles), -np.inf)  # a lip is drawn in front of all parts of its own triangle
         np.maximum.at(nearest, parent, nearness)
         for pair, depth, up, of in zip(ends, near.mean(axis=1), lift, owner):
             polygons.append(np.array([pair[0], pair[1], pair[0]]))
@@ -245,7 +246,7 @@ def draw(ax, frame, camera, wireframe=False, colour=None, ground=None, lips=True
 
 
 def draw_shadow(ax, frame, camera, ground):
-    """Soft: the sheet's outline on the ground, wider and lighter below, narrower and darker above."""
+    """A soft shadow: copies of the sheet's outline on the ground, from wide and light to narrow and dark."""
     height = frame.deformed[:, 2:] - ground
     fall = frame.deformed - height * LIGHT / LIGHT[2]
     for spread, grey in ((0.05, 0.955), (0.032, 0.93), (0.016, 0.90), (0.0, 0.865)):

@@ -1,5 +1,5 @@
-"""Figures of scenes: a column per scene, a row per method, all of a column from the same camera at the same time. Their
-frames are in results/<stem>/<scene>/<method>, one folder per `cutbench simulate --frames`."""
+"""Figures of scenes: a column for each scene, a row for each method. All panels of a column have the same camera and time.
+The frames are in results/<stem>/<scene>/<method>, one folder per `cutbench simulate --frames`."""
 
 import argparse
 from dataclasses import dataclass
@@ -37,7 +37,7 @@ def look_of(description):
 
 
 def folders(results, scene):
-    """With the frames of each method."""
+    """The folders with the frames of each method."""
     found = sorted(d.parent for d in (results / scene).glob("*/simulation.json"))
     if not found:
         load.stop(f"{results / scene} has no frames; experiments/reproduce {results.name} makes them")
@@ -53,10 +53,10 @@ def read_shot(folder, shot):
 
 
 def same(values, what):
-    """The one value that all panels share: a figure compares nothing else."""
+    """The value that all panels share. Panels with different values are not compared: the program ends."""
     values = list(dict.fromkeys(values))
     if len(values) > 1:
-        load.stop(f"the panels differ in {what}: {', '.join(map(str, values))}; simulate the scenes anew")
+        load.stop(f"the panels differ in {what}: {', '.join(map(str, values))}; simulate the scenes again")
     return values[0]
 
 
@@ -77,7 +77,7 @@ def solvers(shots, panels):
 
 
 def caption(stem, shots, panels, extra, colour=None):
-    """What the picture does not say: n, material, time, seed, tolerance, commit, command."""
+    """n, material, times, seed, tolerance, commit and command of the figure."""
     described = [d for column in panels for d, _ in column]
     n = same((d["triangles_before"] for d in described), "the number of triangles")
     same((d["commit"] for d in described), "the commit")
@@ -91,7 +91,7 @@ def caption(stem, shots, panels, extra, colour=None):
         *extra, f"n = {n} triangles before the cut, 1 m square, the skin of paper_table1; time: {times}. Red: lips of "
         f"the incision. Backward Euler, {same((1 / d['step_s'] for d in described), 'the step'):.0f} steps per s, "
         f"{solvers(shots, panels)}; chord tolerance {tolerance} h.",
-        f"Seed: {', '.join(map(str, seeds)) if seeds else 'none, the cuts are in the scene files'}; "
+        f"{'Seed: ' + ', '.join(map(str, seeds)) if seeds else 'No seed: the cuts are in the scene files'}; "
         f"{commits(described)}.",
         *([f"FAILED: {'; '.join(failed)}."] if failed else []),
         f"Command: experiments/reproduce {stem}" + (f"; plots/{stem}.py --colour {colour}" if colour else "")])

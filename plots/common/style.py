@@ -1,5 +1,5 @@
-"""The look of every figure: one colour, marker and line per method and knob, sizes made for a column of 8.5 cm, the
-caption under the axes, and files that are the same bytes for the same data."""
+"""The style of every figure: one colour, marker and line for each method and knob, sizes for a column of 8.5 cm, the
+caption below the axes. The same data give the same bytes."""
 
 import zlib
 from dataclasses import dataclass
@@ -38,7 +38,7 @@ class Look:
     colour: str
     marker: str
     line: str = "-"
-    width: float = 1.0  # points; what is drawn first is wider, so that curves that coincide are all seen
+    width: float = 1.0  # points; curves drawn first are wider, so that one hidden behind another can still be seen
 
     def drawn(self):
         """Keywords for plot()."""
@@ -83,7 +83,7 @@ def looks(variants):
 
 
 def many_looks(names):
-    """A Look per name where there are more than have colours of their own: as far apart as the figure allows."""
+    """A Look for each name, for figures with more methods than FREE_COLOURS: colours as different as possible."""
     markers = "osD^vPX<>phd8*"
     return {name: Look(name.replace("_", " "), matplotlib.colors.to_hex(plt.get_cmap("tab20")((2 * i + i // 10) % 20)),
                        markers[i % len(markers)], width=0.8) for i, name in enumerate(sorted(names))}
@@ -143,8 +143,8 @@ def curve(ax, look, table):
 
 
 def failures(axes, runs, looks):
-    """At the top of each panel, a row per method that failed in any: a cross at the resolution, beside it how many
-    cuts. Call it last; it makes room above the curves of logarithmic panels that share their y axis, or of one."""
+    """At the top of each panel, a row for each method that failed anywhere: a cross at the resolution and the number of
+    failed cuts. Call it last: it raises the upper limit of the logarithmic y axis, which all panels must share."""
     failed = {(method, knob): look for (method, knob), look in looks.items()
               if any(len(run.select(method=method, knob=knob).failed) for run in runs)}
     if not failed:
@@ -162,7 +162,7 @@ def failures(axes, runs, looks):
 
 
 def resolution_axis(ax, resolutions, scale="sqrt", labelled=True):
-    """A tick at every resolution, numbers at as many as have room. On the "sqrt" scale sheets of n x n squares, and
+    """A tick at every resolution, a number where there is room for one. On the "sqrt" scale sheets of n x n squares, and
     with them the triangles that a cut crosses, are evenly spaced; "log" makes powers straight."""
     to_axis, back = {"sqrt": (np.sqrt, np.square), "log": (np.log, np.exp)}[scale]
     ax.set_xscale("function", functions=(lambda x: to_axis(np.maximum(x, 1e-9)), back))
@@ -197,8 +197,8 @@ def legend_entry(look):
 
 
 def provenance(run, cases, with_machine=False, with_crosses=True, per=("sheet", "resolution")):
-    """The sentences every caption ends with. `cases`: the table of the cuts drawn, for their number per point: those that
-    have variant and `per` in common."""
+    """The sentences at the end of every caption. `cases`: the table of the cuts drawn; those with equal variant and `per`
+    make one point."""
     context = run.context
     made = cases.drop_duplicates(VARIANT + cut_columns(cases)).groupby(VARIANT + list(per)).size()
     n = "0" if made.empty else str(made.min()) if made.min() == made.max() else f"{made.min()} to {made.max()}"
@@ -208,8 +208,8 @@ def provenance(run, cases, with_machine=False, with_crosses=True, per=("sheet", 
     commit = str(context.get("commit") or "unknown")[:10]
     state = {True: " with uncommitted changes", None: " (state of the tree unknown)"}.get(context.get("dirty"), "")
     families = ", ".join(sorted(set(everything[family_column(everything)])))
-    text = [f"n = {n} cuts per point ({families}), {failed} of {count(everything)} failed"
-            + (f", {count(run.failed[refused])} refused" if refused.any() else "") + (" (×, number beside)." if len(run.failed) and with_crosses else "."),
+    text = [f"n = {n} cuts per point ({families}); {failed} of {count(everything)} cuts failed"
+            + (f", {count(run.failed[refused])} refused" if refused.any() else "") + (" (×, with their number)." if len(run.failed) and with_crosses else "."),
             f"Seed {context.get('seed', ', '.join(sorted(set(everything['seed']))))}, commit {commit}{state}."]
     if with_machine:
         text.append(f"{context.get('cpu', 'unknown CPU')}; {context.get('compiler', 'unknown compiler')} "
@@ -218,7 +218,7 @@ def provenance(run, cases, with_machine=False, with_crosses=True, per=("sheet", 
 
 
 def finish(figure, looks_drawn, caption, extra=()):
-    """Legend above the panels, caption below, the figure made so much higher."""
+    """Puts the legend above the panels and the caption below, and makes the figure higher by their heights."""
     renderer, (width, height) = figure.canvas.get_renderer(), figure.get_size_inches()
     text = figure.text(0.05 / width, 0, "\n".join(wrapped(figure, caption, width - 0.1)), fontsize=CAPTION_SIZE,
                        va="bottom", linespacing=1.2, parse_math=False, in_layout=False)
@@ -236,7 +236,7 @@ def finish(figure, looks_drawn, caption, extra=()):
     text.set_y(0.04 / total)
     figure.set_layout_engine("constrained", rect=(0, caption_height / total, 1, height / total), h_pad=0.03, w_pad=0.03)
     figure.draw_without_rendering()
-    figure.set_layout_engine("none")  # settled: the same in every file
+    figure.set_layout_engine("none")  # so that the PDF and the PNG have the same layout
 
 
 def wrapped(figure, text, width):

@@ -1,5 +1,5 @@
-"""What method_comparison.py draws of the accuracy run beside it: the error of every method's cut sheet against what the
-cut costs, and against the error that conjugate gradients stop with."""
+"""The accuracy figure and table of method_comparison.py: the error of every method's cut sheet against the cost of the
+cut, after a direct solve and after a fixed number of iterations of conjugate gradients."""
 
 import numpy as np
 import pandas as pd
@@ -11,8 +11,8 @@ from common import style
 from common.load import of
 
 STEM = "method_comparison_accuracy"
-WHAT = ("excess error over that of a mesh made anew to fit the cut, of as many triangles as the uncut sheet, or refined to "
-        "as many unknowns; geometric means of the cases that no method failed; most accurate first")
+WHAT = ("error over that of a body-fitted mesh, minus one: of a mesh with as many triangles as the uncut sheet, or with as "
+        "many unknowns as the cut sheet; geometric means over the cases that no method failed; the most accurate first")
 BUDGET = 100  # iterations of conjugate gradients
 MARKERS = ["o", "s", "^", "D", "v", "P"]
 
@@ -50,7 +50,7 @@ def of_methods_there(table):
 
 
 def write_names(figure, ax, table):
-    """Each method's at the mean of its sheets, upwards of what is written there already. Call it when the axes are set."""
+    """Each method's name at the mean of its sheets, moved up until it covers no other. The limits of the axes must be set."""
     figure.draw_without_rendering()
     taken = []
     for _, row in table.sort_values("excess_percent_all").iterrows():
@@ -103,9 +103,9 @@ def draw(folder, beside):
                 Line2D([], [], linestyle="", marker="D", color="white", markeredgecolor="#d55e00", markersize=3,
                        label=f"{BUDGET} iterations of CG")]
     style.finish(figure, [], records.caption(
-        f"Left: error against price; lower and to the left is better. Excess error: of each problem's primary measure over "
-        f"that of a mesh made anew to fit the cut and refined to as many unknowns, minus one; geometric means over "
-        f"{len(records.problems)} problems in plane, sizes and members. Right: the same, and what {BUDGET} iterations of "
-        "conjugate gradients (Jacobi) leave."), entries)
+        "Left: error against the cost of the cut; lower left is better. Excess error: the error of each problem's primary "
+        "measure over that of a body-fitted mesh with as many unknowns, minus one; geometric means over "
+        f"{len(records.problems)} plane problems, all sizes and members. Right: the same after a direct solve, and after "
+        f"{BUDGET} iterations of conjugate gradients (Jacobi preconditioner)."), entries)
     style.save(figure, folder, STEM)
     return table

@@ -1,4 +1,5 @@
-"""What medians hide: shapes by sheet and family of cuts, their tails, and cut by cut one method against the others."""
+"""What medians over all cuts do not show: shapes by sheet and cut family, tails of the distributions, and one method
+against each other one on the same cuts."""
 
 import numpy as np
 import pandas as pd
@@ -51,7 +52,7 @@ def by_sheet_and_family(table, order, sheets):
 
 
 def jumps(table, order):
-    """A row per method: what jumped at the cut over its value before; median, 95 % and the worst cut."""
+    """A row per method: the jumps at the cut relative to the value before; median, 95 % quantile and worst cut."""
     rows = []
     for variant in order:
         cuts = of(table, variant)
@@ -64,8 +65,8 @@ def jumps(table, order):
 
 
 def against(table, one, order):
-    """A row per other method, of the cuts that both made: its time over that of `one`, and in how many `one` has no
-    larger an eigenvalue."""
+    """A row for each other method, over the cuts that neither failed: its time over that of `one`, and the share of cuts
+    after which the largest eigenvalue of `one` is not the larger."""
     mine = of(table, one)
     mine = mine[~mine["failed"]]
     rows = []

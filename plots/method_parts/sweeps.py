@@ -1,5 +1,5 @@
-"""What method_comparison.py draws of its neighbours: shapes against price as the knob of each method turns
-(method_comparison_knobs), and what each part of warp_and_refine does (method_comparison_ablation)."""
+"""Two more figures of method_comparison.py: shapes against cost for each setting of each method's knob
+(method_comparison_knobs), and the effect of each part of warp_and_refine (method_comparison_ablation)."""
 
 import numpy as np
 from matplotlib.colors import LogNorm, Normalize
@@ -8,11 +8,11 @@ from common import style
 
 BEFORE = ["nothing", "snap", "warp", "thin", "warp+thin"]
 AFTER = ["nothing", "flips", "smoothing", "refine", "tie"]
-OFF_AT_ZERO = {"cgal_refine", "delaunay_refine"}  # their bound 0 is none
+OFF_AT_ZERO = {"cgal_refine", "delaunay_refine"}  # bound=0 sets no bound
 
 
 def median(rows, column):
-    """Failed cuts as bad as can be; NaN: never measured."""
+    """The median, in which a failed cut is infinitely bad; NaN if nothing was measured."""
     values = np.where(rows["failed"], np.inf, rows[column].to_numpy(float))
     values = values[~np.isnan(values)]
     return float(np.quantile(values, 0.5, method="inverted_cdf")) if len(values) else np.nan
@@ -23,8 +23,8 @@ def below_three(rows):
 
 
 def draw_knobs(folder, table, caption, defaults):
-    """A panel per sheet and measure of shape; a curve per method through the settings of its knob, large where it is by
-    default. A bound of 0, which is none, has no neighbours."""
+    """A panel for each sheet and measure of shape; in it a curve for each method through the settings of its knob, with a
+    large marker at the default. The setting bound=0 is not joined to the others."""
     sheets = style.sheet_order(table["sheet"])
     measures = [("eigenvalue_ratio", "largest eigenvalue / uncut"), ("ar_max_cut_outside_wedges", "largest AR")]
     figure, axes = style.panels(len(measures), len(sheets), 4.6, sharex=True, sharey="row")
