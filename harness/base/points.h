@@ -1,6 +1,8 @@
 // Positions: in the plane of the undeformed sheet, and in the space of the deformed one.
 #pragma once
 
+#include <cmath>
+
 namespace cutbench {
 
 /// A position in rest space: the plane of the undeformed sheet.
@@ -21,8 +23,10 @@ constexpr Point2 operator*(double s, Point2 a) { return {s * a.x, s * a.y}; }
 constexpr double dot(Point2 a, Point2 b) { return a.x * b.x + a.y * b.y; }
 constexpr double cross(Point2 a, Point2 b) { return a.x * b.y - a.y * b.x; }
 constexpr double squared_length(Point2 a) { return dot(a, a); }
+inline double length(Point2 a) { return std::sqrt(squared_length(a)); }
 
 constexpr Point3 operator+(Point3 a, Point3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 constexpr Point3 operator*(double s, Point3 a) { return {s * a.x, s * a.y, s * a.z}; }
+inline double length(Point3 a) { return std::sqrt(a.x * a.x + a.y * a.y + a.z * a.z); }
 
 }  // namespace cutbench

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <string>
 #include <utility>
@@ -16,7 +17,7 @@ namespace cutbench {
 inline std::string time_left(double seconds, std::size_t done, std::size_t total) {
   if (seconds < 5 || done == 0 || done >= total || 20 * done < total) return "";
   const double left = seconds * static_cast<double>(total - done) / static_cast<double>(done);
-  const auto rounded = [](double value) { return std::to_string(static_cast<long long>(value + 0.5)); };
+  const auto rounded = [](double value) { return std::to_string(std::lround(value)); };
   return ", about " +
          (left < 90     ? rounded(left) + " s"
           : left < 5400 ? rounded(left / 60) + " min"

@@ -9,11 +9,6 @@ namespace cutbench {
 
 namespace {
 
-using enum Group;
-constexpr Direction lower = Direction::lower, higher = Direction::higher, none = Direction::none;
-
-double length(Point3 p) { return std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z); }
-
 // --- where values come from ------------------------------------------------------------------------------------------
 
 using Getter = std::function<Value(const Measured&)>;
@@ -90,54 +85,58 @@ double residual(const Balance& b) { return b.residual; }
 // --- the table -------------------------------------------------------------------------------------------------------
 
 void add_keys_and_outcome(std::vector<Metric>& t) {
-  t.push_back({"suite_version", "", "suite version", none, key,
+  t.push_back({"suite_version", "", "suite version", Direction::none, Group::key,
                "Version of meshes, cuts and definitions. Rows of different versions do not compare."});
-  t.push_back(
-      {"cut_family", "", "cut family", none, key, "Family of cuts, such as `curved`: harness/cases/cut_families.h."});
-  t.push_back({"sheet", "", "sheet", none, key,
+  t.push_back({"cut_family", "", "cut family", Direction::none, Group::key,
+               "Family of cuts, such as `curved`: harness/cases/cut_families.h."});
+  t.push_back({"sheet", "", "sheet", Direction::none, Group::key,
                "`grid` (the paper's), `alternating`, `delaunay`, `graded`: harness/mesh/families.h; in a campaign "
                "also the stem of a mesh file."});
-  t.push_back({"method", "", "method", none, key,
+  t.push_back({"method", "", "method", Direction::none, Group::key,
                "Name of the method. `every_edge` is no method but the paper's wording taken literally: every edge of "
                "the sheet is tested against the path, and nothing is cut."});
-  t.push_back({"knob", "", "knob", none, key,
+  t.push_back({"knob", "", "knob", Direction::none, Group::key,
                "The one number of the method that is swept, as `rounds=1`; empty if it has none."});
-  t.push_back({"resolution", "", "triangles, uncut sheet", none, key, "Triangles of the uncut sheet."});
-  t.push_back({"case", "", "case", none, key,
+  t.push_back(
+      {"resolution", "", "triangles, uncut sheet", Direction::none, Group::key, "Triangles of the uncut sheet."});
+  t.push_back({"case", "", "case", Direction::none, Group::key,
                "Number of the cut within its family: the same number is the same cut for every method."});
-  t.push_back({"repetition", "", "repetition", none, key,
+  t.push_back({"repetition", "", "repetition", Direction::none, Group::key,
                "Of the same cut on a fresh copy of the sheet, from 0. Only the first is judged and has shapes; the "
                "others have times only."});
-  t.push_back({"seed", "", "seed", none, key, "Seed of the cuts."});
-  t.push_back({"cache", "", "cache", none, key,
+  t.push_back({"seed", "", "seed", Direction::none, Group::key, "Seed of the cuts."});
+  t.push_back({"cache", "", "cache", Direction::none, Group::key,
                "`warm`: the same cut was made and undone twice just before. `cold`: other work has driven everything "
                "out of the caches. `simulation`: made once inside a running scene, right after a step."});
-  t.push_back({"status", "", "status", none, outcome,
+  t.push_back({"status", "", "status", Direction::none, Group::outcome,
                "`ok`; `noop`: nothing to do; `deviated`: done, but not as requested, by a declared policy; "
                "`refused`: known before the cut; `failed`. After noop, refused and failed the sheet is "
                "bit-unchanged.",
                of_cut([](const CutRun& c) { return std::string(name_of(c.status)); })});
-  t.push_back({"verdict", "", "verdict", none, outcome,
+  t.push_back({"verdict", "", "verdict", Direction::none, Group::outcome,
                "`ok`, or the first thing that is wrong: see the verdicts below.", verdict});
-  t.push_back({"reason", "", "reason", none, outcome, "One line that explains the verdict or the status.", reason});
-  t.push_back({"crossed_triangles", "", "crossed triangles", none, outcome,
+  t.push_back({"reason", "", "reason", Direction::none, Group::outcome,
+               "One line that explains the verdict or the status.", reason});
+  t.push_back({"crossed_triangles", "", "crossed triangles", Direction::none, Group::outcome,
                "Triangles of the sheet before the cut whose interior the path meets: the unit of geometry cost.",
                of_cut([](const CutRun& c) { return static_cast<std::int64_t>(c.crossed_triangles); })});
   t.push_back(
-      {"recovered_segments", "", "recovered segments", lower, outcome,
+      {"recovered_segments", "", "recovered segments", Direction::lower, Group::outcome,
        "Segments of the path that the method's own triangulation lacked and flips recovered.",
        [](const Measured& m) { return m.cut && m.judged ? Value(std::int64_t{m.cut->recovered_segments}) : Value(); }});
 }
 
 void add_sizes(std::vector<Metric>& t) {
-  t.push_back({"pieces", "", "pieces", none, size, "Parts that the sheet is in after the cut.",
+  t.push_back({"pieces", "", "pieces", Direction::none, Group::size, "Parts that the sheet is in after the cut.",
                of_result([](const Assessment& a) { return std::int64_t{a.judgement.pieces}; })});
-  t.push_back({"vertices_added", "", "vertices added", lower, size, "Rest vertices after the cut minus those before.",
+  t.push_back({"vertices_added", "", "vertices added", Direction::lower, Group::size,
+               "Rest vertices after the cut minus those before.",
                of_result([](const Assessment& a) { return std::int64_t{a.vertices_added}; })});
-  t.push_back({"deformed_vertices_added", "", "deformed vertices added", lower, size,
+  t.push_back({"deformed_vertices_added", "", "deformed vertices added", Direction::lower, Group::size,
                "The same of deformed vertices: after opening, each lip has its own.",
                of_result([](const Assessment& a) { return std::int64_t{a.deformed_vertices_added}; })});
-  t.push_back({"triangles_added", "", "triangles added", lower, size, "Triangles after the cut minus those before.",
+  t.push_back({"triangles_added", "", "triangles added", Direction::lower, Group::size,
+               "Triangles after the cut minus those before.",
                of_result([](const Assessment& a) { return std::int64_t{a.triangles_added}; })});
 }
 
@@ -146,60 +145,62 @@ void add_shapes(std::vector<Metric>& t, const std::string& suffix, const std::st
                 const Quality Assessment::*over) {
   const auto add = [&](const char* name, const char* unit, const char* label, Direction direction,
                        const char* definition, auto get) {
-    t.push_back({name + suffix, unit, label, direction, shape, definition + where,
+    t.push_back({name + suffix, unit, label, direction, Group::shape, definition + where,
                  of_shapes([over, get](const Assessment& a) { return get(a.*over); })});
   };
-  add("ar_max", "", "largest aspect ratio", lower,
+  add("ar_max", "", "largest aspect ratio", Direction::lower,
       "Largest aspect ratio: longest edge / height on it = l_max^2 / (2 area); equilateral 1.155, right "
       "isosceles 2",
       [](const Quality& q) { return q.ar_max; });
-  add("ar_mean", "", "mean aspect ratio", lower, "Mean aspect ratio", [](const Quality& q) { return q.ar_mean; });
-  add("ar_p99", "", "99 % of aspect ratios", lower, "99th percentile of the aspect ratios, by nearest rank",
+  add("ar_mean", "", "mean aspect ratio", Direction::lower, "Mean aspect ratio",
+      [](const Quality& q) { return q.ar_mean; });
+  add("ar_p99", "", "99 % of aspect ratios", Direction::lower, "99th percentile of the aspect ratios, by nearest rank",
       [](const Quality& q) { return q.ar_p99; });
-  add("angle_min_deg", "deg", "smallest angle", higher, "Smallest interior angle",
+  add("angle_min_deg", "deg", "smallest angle", Direction::higher, "Smallest interior angle",
       [](const Quality& q) { return q.angle_min_deg; });
-  add("angle_max_deg", "deg", "largest angle", lower, "Largest interior angle",
+  add("angle_max_deg", "deg", "largest angle", Direction::lower, "Largest interior angle",
       [](const Quality& q) { return q.angle_max_deg; });
-  add("altitude_min_h", "h", "smallest altitude", higher, "Smallest height on a longest edge",
+  add("altitude_min_h", "h", "smallest altitude", Direction::higher, "Smallest height on a longest edge",
       [](const Quality& q) { return q.altitude_min; });
-  add("over_3", "", "triangles with AR > 3", lower, "Number of triangles with an aspect ratio above 3",
+  add("over_3", "", "triangles with AR > 3", Direction::lower, "Number of triangles with an aspect ratio above 3",
       [](const Quality& q) { return static_cast<std::int64_t>(q.over_3); });
 }
 
 void add_forced_zones(std::vector<Metric>& t) {
-  t.push_back({"forced_corners", "", "forced corners", none, forced,
+  t.push_back({"forced_corners", "", "forced corners", Direction::none, Group::forced,
                "Corners where the input alone (path, border, older incisions) makes an angle below asin(1/3) = 19.47 "
                "degrees: no method stays below an aspect ratio of 3 there.",
                of_shapes([](const Assessment& a) { return static_cast<std::int64_t>(a.forced_corners); })});
-  t.push_back({"forced_triangles", "", "triangles in forced corners", none, forced,
+  t.push_back({"forced_triangles", "", "triangles in forced corners", Direction::none, Group::forced,
                "Triangles of the result in such a corner.",
                of_shapes([](const Assessment& a) { return std::int64_t{a.corner_triangles}; })});
-  t.push_back({"ar_max_cut_strict", "", "largest aspect ratio, strict", lower, forced,
+  t.push_back({"ar_max_cut_strict", "", "largest aspect ratio, strict", Direction::lower, Group::forced,
                "ar_max_cut without the triangles in forced corners; 0 if none is left.",
                of_shapes([](const Assessment& a) { return a.strict.ar_max; })});
-  t.push_back({"wedge_triangles", "", "triangles in forced wedges", none, forced,
+  t.push_back({"wedge_triangles", "", "triangles in forced wedges", Direction::none, Group::forced,
                "Triangles of the result in a forced wedge (between the legs of a forced corner where they are closer "
                "than 0.3 h, and 0.25 h round the apex) or in a forced corner.",
                of_shapes([](const Assessment& a) { return std::int64_t{a.wedge_triangles}; })});
-  t.push_back({"wedge_area_rest2", "rest units squared", "area in forced wedges", none, forced,
+  t.push_back({"wedge_area_rest2", "rest units squared", "area in forced wedges", Direction::none, Group::forced,
                "Area of these triangles.", of_shapes([](const Assessment& a) { return a.wedge_area; })});
-  t.push_back({"ar_max_cut_outside_wedges", "", "largest aspect ratio outside wedges", lower, forced,
+  t.push_back({"ar_max_cut_outside_wedges", "", "largest aspect ratio outside wedges", Direction::lower, Group::forced,
                "ar_max_cut without the triangles in forced wedges and corners; 0 if none is left.",
                of_shapes([](const Assessment& a) { return a.outside_wedges.ar_max; })});
-  t.push_back({"ar_max_cut_away_from_wedges", "", "largest aspect ratio away from wedges", lower, forced,
+  t.push_back({"ar_max_cut_away_from_wedges", "", "largest aspect ratio away from wedges", Direction::lower,
+               Group::forced,
                "ar_max_cut without those and without those within 0.02 h of a wedge, where incisions lie beside "
                "their curves.",
                of_shapes([](const Assessment& a) { return a.ar_max_away_from_wedges; })});
-  t.push_back({"ar_p99_cut_strict", "", "99 % of aspect ratios, strict", lower, forced,
+  t.push_back({"ar_p99_cut_strict", "", "99 % of aspect ratios, strict", Direction::lower, Group::forced,
                "ar_p99_cut without the triangles in forced corners.",
                of_shapes([](const Assessment& a) { return a.strict.ar_p99; })});
-  t.push_back({"ar_p99_cut_outside_wedges", "", "99 % of aspect ratios outside wedges", lower, forced,
+  t.push_back({"ar_p99_cut_outside_wedges", "", "99 % of aspect ratios outside wedges", Direction::lower, Group::forced,
                "ar_p99_cut without the triangles in forced wedges and corners.",
                of_shapes([](const Assessment& a) { return a.outside_wedges.ar_p99; })});
 }
 
 void add_stability_and_accuracy(std::vector<Metric>& t) {
-  t.push_back({"eigenvalue_ratio", "", "largest eigenvalue / uncut", lower, stability,
+  t.push_back({"eigenvalue_ratio", "", "largest eigenvalue / uncut", Direction::lower, Group::stability,
                "Largest eigenvalue of stiffness and lumped mass (harness/fem/largest_eigenvalue.h) over that of the "
                "uncut sheet, of the first `eigenvalue_cases` cuts only. The largest stable step of an explicit "
                "integrator shrinks by its root. Where vertices are constrained (x = C q) it is that of C^T K C and "
@@ -207,157 +208,170 @@ void add_stability_and_accuracy(std::vector<Metric>& t) {
                "step takes it, except for `phantom_node:lumped_mass`.",
                [](const Measured& m) { return m.eigenvalue_ratio >= 0 ? Value(m.eigenvalue_ratio) : Value(); }});
   t.push_back(
-      {"incision_error_h", "h", "incision error", lower, accuracy,
+      {"incision_error_h", "h", "incision error", Direction::lower, Group::accuracy,
        "Hausdorff distance between the requested path inside the sheet and the opened edges, both ways; of "
        "several cuts the largest.",
        [](const Measured& m) { return m.assessment ? Value(m.assessment->judgement.incision_error / m.h) : Value(); }});
-  t.push_back({"area_change", "", "change of area", none, accuracy,
+  t.push_back({"area_change", "", "change of area", Direction::none, Group::accuracy,
                "Change of the rest area, (after - before) / before.",
                of_result([](const Assessment& a) { return a.judgement.area_change; })});
 }
 
 void add_times(std::vector<Metric>& t) {
-  t.push_back({"locate_us", "us", "locate", lower, time,
+  t.push_back({"locate_us", "us", "locate", Direction::lower, Group::time,
                "Time to find the first triangle and to keep the locator up to date.", of_phase(&PhaseTimes::locate)});
-  t.push_back({"trace_us", "us", "trace", lower, time, "Time of the path through the triangles, flattening included.",
-               of_phase(&PhaseTimes::trace)});
-  t.push_back(
-      {"embed_us", "us", "embed", lower, time, "Time in which the path becomes edges.", of_phase(&PhaseTimes::embed)});
-  t.push_back({"improve_us", "us", "improve", lower, time, "Time in which shapes are improved.",
+  t.push_back({"trace_us", "us", "trace", Direction::lower, Group::time,
+               "Time of the path through the triangles, flattening included.", of_phase(&PhaseTimes::trace)});
+  t.push_back({"embed_us", "us", "embed", Direction::lower, Group::time, "Time in which the path becomes edges.",
+               of_phase(&PhaseTimes::embed)});
+  t.push_back({"improve_us", "us", "improve", Direction::lower, Group::time, "Time in which shapes are improved.",
                of_phase(&PhaseTimes::improve)});
-  t.push_back(
-      {"open_us", "us", "open", lower, time, "Time in which the incision is opened.", of_phase(&PhaseTimes::open)});
-  t.push_back({"tie_us", "us", "constrain", lower, time,
+  t.push_back({"open_us", "us", "open", Direction::lower, Group::time, "Time in which the incision is opened.",
+               of_phase(&PhaseTimes::open)});
+  t.push_back({"tie_us", "us", "constrain", Direction::lower, Group::time,
                "Time in which vertices are constrained to others, by methods that do so.", of_phase(&PhaseTimes::tie)});
-  t.push_back({"geometry_us", "us", "geometry", lower, time,
+  t.push_back({"geometry_us", "us", "geometry", Direction::lower, Group::time,
                "Sum of the six phases; for `every_edge` the search alone.",
                of_cut([](const CutRun& c) { return c.time_us.total(); })});
-  t.push_back({"cpu_us", "us", "processor time", lower, time, "Processor time of the process over the same work.",
-               of_cut([](const CutRun& c) { return c.cpu_us; })});
+  t.push_back({"cpu_us", "us", "processor time", Direction::lower, Group::time,
+               "Processor time of the process over the same work.", of_cut([](const CutRun& c) { return c.cpu_us; })});
 }
 
 /// Of cuts made inside a running scene.
 void add_steps(std::vector<Metric>& t) {
-  t.push_back({"transfer_us", "us", "state transfer", lower, step,
+  t.push_back({"transfer_us", "us", "state transfer", Direction::lower, Group::step,
                "Positions and velocities of the vertices that the cut made, from those they came from.",
                of_motion([](const MotionCut& m) { return m.transfer_us; })});
-  t.push_back({"pattern_us", "us", "pattern update", lower, step,
+  t.push_back({"pattern_us", "us", "pattern update", Direction::lower, Group::step,
                "Element data, mass, loads and the rows of the system matrix, where the cut touched them.",
                of_motion([](const MotionCut& m) { return m.pattern_us; })});
-  t.push_back({"bending_us", "us", "bending update", lower, step, "Stencils and rows of the bending matrix, likewise.",
+  t.push_back({"bending_us", "us", "bending update", Direction::lower, Group::step,
+               "Stencils and rows of the bending matrix, likewise.",
                of_motion([](const MotionCut& m) { return m.bending_us; })});
-  t.push_back({"rotate_us", "us", "rotate", lower, step,
+  t.push_back({"rotate_us", "us", "rotate", Direction::lower, Group::step,
                "First step after the cut: deformations, forces and right-hand side.", of_step(&StepTimes::rotate)});
-  t.push_back({"assemble_us", "us", "assemble", lower, step,
+  t.push_back({"assemble_us", "us", "assemble", Direction::lower, Group::step,
                "First step after the cut: element matrices into the system. In accuracy runs: of the static problem.",
                of_step(&StepTimes::assemble)});
-  t.push_back({"setup_us", "us", "set-up", lower, step,
+  t.push_back({"setup_us", "us", "set-up", Direction::lower, Group::step,
                "First step after the cut: preconditioner or factorisation. In accuracy runs: of the static problem.",
                of_step(&StepTimes::setup)});
-  t.push_back({"solve_us", "us", "solve", lower, step,
+  t.push_back({"solve_us", "us", "solve", Direction::lower, Group::step,
                "First step after the cut: linear solve. In accuracy runs: of the static problem.",
                of_step(&StepTimes::solve)});
-  t.push_back({"rebuild_us", "us", "rebuild", lower, step,
+  t.push_back({"rebuild_us", "us", "rebuild", Direction::lower, Group::step,
                "Instead of the pattern update: everything made anew, in the same run.",
                of_motion([](const MotionCut& m) { return m.rebuild_us; })});
-  t.push_back({"bending_rebuild_us", "us", "bending rebuild", lower, step,
+  t.push_back({"bending_rebuild_us", "us", "bending rebuild", Direction::lower, Group::step,
                "Instead of the bending update: everything made anew, in the same run.",
                of_motion([](const MotionCut& m) { return m.bending_rebuild_us; })});
-  t.push_back({"triplets_us", "us", "triplets", lower, step,
+  t.push_back({"triplets_us", "us", "triplets", Direction::lower, Group::step,
                "Instead of assemble: the same membrane matrix by Eigen's setFromTriplets, the making of the triplets "
                "included.",
                of_motion([](const MotionCut& m) { return m.triplets_us; })});
-  t.push_back({"solver_iterations", "", "solver iterations", lower, step,
+  t.push_back({"solver_iterations", "", "solver iterations", Direction::lower, Group::step,
                "Iterations of the linear solve of that step.",
                of_motion([](const MotionCut& m) { return std::int64_t{m.first_step.iterations}; })});
-  t.push_back({"solver_residual", "", "solver residual", lower, step,
+  t.push_back({"solver_residual", "", "solver residual", Direction::lower, Group::step,
                "True residual of that solve, relative to the right-hand side.",
                of_motion([](const MotionCut& m) { return m.first_step.residual; })});
 }
 
 /// Before the cut, and after minus before at the instant of the cut.
 void add_jumps(std::vector<Metric>& t) {
-  t.push_back({"membrane_j", "J", "membrane energy", none, jump, "Membrane energy right before the cut.",
-               before_cut(membrane)});
-  t.push_back({"membrane_jump_j", "J", "jump of membrane energy", none, jump,
+  t.push_back({"membrane_j", "J", "membrane energy", Direction::none, Group::jump,
+               "Membrane energy right before the cut.", before_cut(membrane)});
+  t.push_back({"membrane_jump_j", "J", "jump of membrane energy", Direction::none, Group::jump,
                "Jump of the membrane energy at the instant of the cut: after minus before.", jump_of(membrane)});
-  t.push_back(
-      {"bending_j", "J", "bending energy", none, jump, "Bending energy right before the cut.", before_cut(bending)});
-  t.push_back({"bending_jump_j", "J", "jump of bending energy", none, jump,
+  t.push_back({"bending_j", "J", "bending energy", Direction::none, Group::jump, "Bending energy right before the cut.",
+               before_cut(bending)});
+  t.push_back({"bending_jump_j", "J", "jump of bending energy", Direction::none, Group::jump,
                "Jump of the bending energy at the instant of the cut: after minus before.", jump_of(bending)});
-  t.push_back(
-      {"kinetic_j", "J", "kinetic energy", none, jump, "Kinetic energy right before the cut.", before_cut(kinetic)});
-  t.push_back({"kinetic_jump_j", "J", "jump of kinetic energy", none, jump,
+  t.push_back({"kinetic_j", "J", "kinetic energy", Direction::none, Group::jump, "Kinetic energy right before the cut.",
+               before_cut(kinetic)});
+  t.push_back({"kinetic_jump_j", "J", "jump of kinetic energy", Direction::none, Group::jump,
                "Jump of the kinetic energy at the instant of the cut: after minus before.", jump_of(kinetic)});
-  t.push_back({"momentum_jump_kg_m_s", "kg m/s", "jump of momentum", lower, jump, "Norm of the jump of the momentum.",
+  t.push_back({"momentum_jump_kg_m_s", "kg m/s", "jump of momentum", Direction::lower, Group::jump,
+               "Norm of the jump of the momentum.",
                of_motion([](const MotionCut& m) { return length(m.after.momentum + -1 * m.before.momentum); })});
-  t.push_back({"angular_momentum_jump_kg_m2_s", "kg m2/s", "jump of angular momentum", lower, jump,
+  t.push_back({"angular_momentum_jump_kg_m2_s", "kg m2/s", "jump of angular momentum", Direction::lower, Group::jump,
                "Norm of the jump of the angular momentum about the origin.", of_motion([](const MotionCut& m) {
                  return length(m.after.angular_momentum + -1 * m.before.angular_momentum);
                })});
-  t.push_back({"residual_n", "N", "residual force", none, jump,
+  t.push_back({"residual_n", "N", "residual force", Direction::none, Group::jump,
                "Norm of internal and external forces on what is not held, right before the cut.",
                before_cut(residual)});
-  t.push_back({"residual_jump_n", "N", "jump of residual force", none, jump,
+  t.push_back({"residual_jump_n", "N", "jump of residual force", Direction::none, Group::jump,
                "Jump of the residual force at the instant of the cut: after minus before.", jump_of(residual)});
-  t.push_back({"max_rss_mb", "MB", "peak memory", lower, jump, "Peak memory of the whole process so far.",
+  t.push_back({"max_rss_mb", "MB", "peak memory", Direction::lower, Group::jump,
+               "Peak memory of the whole process so far.",
                of_motion([](const MotionCut&) { return peak_memory_mb(); })});
 }
 
 /// Of accuracy runs; filled by harness/run/accuracy.cpp.
 void add_accuracy_run(std::vector<Metric>& t) {
-  t.push_back({"problem", "", "problem", none, accuracy_run,
+  t.push_back({"problem", "", "problem", Direction::none, Group::accuracy_run,
                "Problem with a known answer, harness/truth/problem.h; takes the place of cut_family. `case` is the "
                "member of its ensemble."});
-  t.push_back({"solver", "", "solver", none, accuracy_run, "Linear solver: harness/fem/linear_solver.h."});
-  t.push_back({"budget", "", "iterations allowed", none, accuracy_run,
+  t.push_back(
+      {"solver", "", "solver", Direction::none, Group::accuracy_run, "Linear solver: harness/fem/linear_solver.h."});
+  t.push_back({"budget", "", "iterations allowed", Direction::none, Group::accuracy_run,
                "Iterations from zero, whatever is reached by then; 0: until solved."});
-  t.push_back({"exact_incision", "", "exact incision", none, accuracy_run,
+  t.push_back({"exact_incision", "", "exact incision", Direction::none, Group::accuracy_run,
                "1: the method promises to open the requested path itself."});
-  t.push_back({"cut_us", "us", "cut", lower, accuracy_run,
+  t.push_back({"cut_us", "us", "cut", Direction::lower, Group::accuracy_run,
                "Geometry of the cut, warm. Of the reference: the meshing, with the search for its size."});
-  t.push_back({"total_us", "us", "total time", lower, accuracy_run, "Cut, assembly, set-up and solve."});
-  t.push_back({"unknowns", "", "unknowns", none, accuracy_run, "Free unknowns of the system."});
-  t.push_back({"triangles", "", "triangles", none, accuracy_run, "Triangles of the cut sheet."});
-  t.push_back({"iterations", "", "iterations", lower, accuracy_run, "Iterations that were made."});
-  t.push_back({"residual", "", "residual", lower, accuracy_run, "True residual, relative to the right-hand side."});
-  t.push_back({"primary", "", "primary measure", none, accuracy_run, "Name of the measure that ranks."});
-  t.push_back({"error", "", "error", lower, accuracy_run, "Error of the primary measure."});
-  t.push_back({"excess_error", "", "excess error", lower, accuracy_run,
+  t.push_back(
+      {"total_us", "us", "total time", Direction::lower, Group::accuracy_run, "Cut, assembly, set-up and solve."});
+  t.push_back({"unknowns", "", "unknowns", Direction::none, Group::accuracy_run, "Free unknowns of the system."});
+  t.push_back({"triangles", "", "triangles", Direction::none, Group::accuracy_run, "Triangles of the cut sheet."});
+  t.push_back({"iterations", "", "iterations", Direction::lower, Group::accuracy_run, "Iterations that were made."});
+  t.push_back({"residual", "", "residual", Direction::lower, Group::accuracy_run,
+               "True residual, relative to the right-hand side."});
+  t.push_back(
+      {"primary", "", "primary measure", Direction::none, Group::accuracy_run, "Name of the measure that ranks."});
+  t.push_back({"error", "", "error", Direction::lower, Group::accuracy_run, "Error of the primary measure."});
+  t.push_back({"excess_error", "", "excess error", Direction::lower, Group::accuracy_run,
                "error / that of the reference solved directly, minus one; empty where the reference's is below 1e-9, "
                "exact but for rounding."});
-  t.push_back({"value_*", "", "value of a measure", none, accuracy_run,
+  t.push_back({"value_*", "", "value of a measure", Direction::none, Group::accuracy_run,
                "Value of each measure; the measures of problems are in harness/truth."});
-  t.push_back({"exact_*", "", "exact of a measure", none, accuracy_run, "Its exact value; 0 for a norm of an error."});
-  t.push_back({"error_*", "", "error of a measure", lower, accuracy_run, "Its error."});
-  t.push_back({"excess_*", "", "excess of a measure", lower, accuracy_run, "Its excess error."});
+  t.push_back({"exact_*", "", "exact of a measure", Direction::none, Group::accuracy_run,
+               "Its exact value; 0 for a norm of an error."});
+  t.push_back({"error_*", "", "error of a measure", Direction::lower, Group::accuracy_run, "Its error."});
+  t.push_back({"excess_*", "", "excess of a measure", Direction::lower, Group::accuracy_run, "Its excess error."});
 }
 
 /// Of campaigns, which count instead of measuring; filled by harness/campaign/campaign.cpp.
 void add_campaign(std::vector<Metric>& t) {
-  t.push_back({"tried", "", "cuts", none, campaign, "Cuts; the sum of the next eight."});
-  t.push_back({"ok", "", "ok", none, campaign,
+  t.push_back({"tried", "", "cuts", Direction::none, Group::campaign, "Cuts; the sum of the next eight."});
+  t.push_back({"ok", "", "ok", Direction::none, Group::campaign,
                "Cuts with status ok, judged by the oracle against the sheet right before each."});
-  t.push_back({"noop", "", "nothing to do", none, campaign, "Cuts with nothing to do, judged likewise."});
-  t.push_back({"deviated", "", "deviated", lower, campaign,
+  t.push_back(
+      {"noop", "", "nothing to do", Direction::none, Group::campaign, "Cuts with nothing to do, judged likewise."});
+  t.push_back({"deviated", "", "deviated", Direction::lower, Group::campaign,
                "Cuts that deviated by the declared policy, judged likewise, except that the number of pieces may "
                "differ."});
-  t.push_back(
-      {"refused", "", "refused", lower, campaign, "Cuts that were refused; they are left out, and the case goes on."});
-  t.push_back({"failed", "", "failed", lower, campaign, "Cuts that failed; they are left out, and the case goes on."});
-  t.push_back({"wrong", "", "wrong", lower, campaign,
+  t.push_back({"refused", "", "refused", Direction::lower, Group::campaign,
+               "Cuts that were refused; they are left out, and the case goes on."});
+  t.push_back({"failed", "", "failed", Direction::lower, Group::campaign,
+               "Cuts that failed; they are left out, and the case goes on."});
+  t.push_back({"wrong", "", "wrong", Direction::lower, Group::campaign,
                "Whatever the status: refused by the oracle or the sheet's own check, or not bit-unchanged after "
                "noop, refused, failed. Ends the case."});
-  t.push_back(
-      {"crashed", "", "crashed", lower, campaign, "The process died, by a signal or an exception. Ends the case."});
-  t.push_back({"timed_out", "", "timed out", lower, campaign, "Took longer than `time_limit_s`. Ends the case."});
-  t.push_back({"carefully", "", "embedded carefully", lower, campaign,
+  t.push_back({"crashed", "", "crashed", Direction::lower, Group::campaign,
+               "The process died, by a signal or an exception. Ends the case."});
+  t.push_back({"timed_out", "", "timed out", Direction::lower, Group::campaign,
+               "Took longer than `time_limit_s`. Ends the case."});
+  t.push_back({"carefully", "", "embedded carefully", Direction::lower, Group::campaign,
                "Of `tried`: points were too close for the method's own way, so that the harness embedded the path "
                "(harness/cut/embed_carefully.h)."});
-  t.push_back({"cases", "", "cases", none, campaign, "Cases: one to five cuts, one after the other."});
   t.push_back(
-      {"near_event_cases", "", "near cases", none, campaign, "Cases with an event nearer than 1e-9 mean edges."});
-  t.push_back({"slowest_us", "us", "slowest cut", lower, campaign, "Time of the slowest cut, without its judgement."});
+      {"cases", "", "cases", Direction::none, Group::campaign, "Cases: one to five cuts, one after the other."});
+  t.push_back({"near_event_cases", "", "near cases", Direction::none, Group::campaign,
+               "Cases with an event nearer than 1e-9 mean edges."});
+  t.push_back({"slowest_us", "us", "slowest cut", Direction::lower, Group::campaign,
+               "Time of the slowest cut, without its judgement."});
 }
 
 }  // namespace

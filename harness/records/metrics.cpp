@@ -8,8 +8,6 @@ namespace cutbench {
 
 namespace {
 
-using enum Group;
-
 const char* name_of(Direction direction) {
   switch (direction) {
     case Direction::none:
@@ -27,18 +25,18 @@ struct GroupText {
   const char *name, *title;
 };
 constexpr std::array<GroupText, 12> group_texts{{
-    {key, "key", "What was measured"},
-    {outcome, "outcome", "What came of it"},
-    {size, "size", "Sizes"},
-    {shape, "shape", "Shapes"},
-    {forced, "forced", "Forced corners and wedges"},
-    {stability, "stability", "Stability"},
-    {accuracy, "accuracy", "Accuracy of the incision"},
-    {time, "time", "Time of the cut"},
-    {step, "step", "Only of cuts inside a running scene: the update and the first step"},
+    {Group::key, "key", "What was measured"},
+    {Group::outcome, "outcome", "What came of it"},
+    {Group::size, "size", "Sizes"},
+    {Group::shape, "shape", "Shapes"},
+    {Group::forced, "forced", "Forced corners and wedges"},
+    {Group::stability, "stability", "Stability"},
+    {Group::accuracy, "accuracy", "Accuracy of the incision"},
+    {Group::time, "time", "Time of the cut"},
+    {Group::step, "step", "Only of cuts inside a running scene: the update and the first step"},
     {Group::jump, "jump", "Only of cuts inside a running scene: energies, forces and their jumps"},
-    {accuracy_run, "accuracy_run", "Only of accuracy runs"},
-    {campaign, "campaign", "Only of campaigns"},
+    {Group::accuracy_run, "accuracy_run", "Only of accuracy runs"},
+    {Group::campaign, "campaign", "Only of campaigns"},
 }};
 
 const char* name_of(Group group) { return group_texts[static_cast<std::size_t>(group)].name; }
@@ -54,12 +52,13 @@ std::vector<std::string> columns_of(std::initializer_list<Group> groups) {
 
 const std::vector<std::string>& column_names() {
   static const std::vector<std::string> names =
-      columns_of({key, outcome, size, shape, forced, stability, accuracy, time, step, Group::jump});
+      columns_of({Group::key, Group::outcome, Group::size, Group::shape, Group::forced, Group::stability,
+                  Group::accuracy, Group::time, Group::step, Group::jump});
   return names;
 }
 
 std::vector<std::string> key_column_names(const std::string& subject) {
-  std::vector<std::string> names = columns_of({key});
+  std::vector<std::string> names = columns_of({Group::key});
   std::replace(names.begin(), names.end(), std::string("cut_family"), subject);
   return names;
 }

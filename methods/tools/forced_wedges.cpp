@@ -11,8 +11,6 @@ namespace cutbench {
 
 namespace {
 
-double length(Point2 a) { return std::sqrt(squared_length(a)); }
-
 /// A point that goes along border, incision or path, away from a corner.
 class Leg {
  public:

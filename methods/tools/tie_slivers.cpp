@@ -11,8 +11,6 @@ namespace cutbench {
 
 namespace {
 
-double length(Point2 edge) { return std::sqrt(squared_length(edge)); }
-
 /// The ties of one cut sheet.
 class Tying {
  public:
