@@ -1,4 +1,4 @@
-// Bad input through every door: one line that says what, where and the mend, the right exit code, nothing left behind.
+// Bad input through every door: one line that says what, where and what to do, the right exit code, nothing left behind.
 // What a single reader refuses, line by line, is in mesh_io_test, check_and_repair_test, path_test and scene_test.
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
@@ -329,7 +329,7 @@ TEST_F(BadInput, BadMeshesThroughTheProgram) {
               {cut_with("cgal_non_manifold_face_graph_quads.off"), 2, "triangulate the mesh"},
               {cut_with("blender_nonmanifold_edge_3tri.off"), 2, "three triangles meet at the edge"},
               {cut_with("blender_duplicate_triangle.off"), 2, "delete one of them"}});
-  // Two are mended, which is said.
+  // Two are repaired, which is said.
   write(folder_ / "across.json", R"({"cuts":[{"polyline":[[-0.09,0.0011],[0.09,0.0012]]}]})");
   for (const char* name : {"skfem_ex04.off", "skfem_ex35_2p5mm.off"}) {
     const Result result = run(cut_with(name, "across.json"));

@@ -55,7 +55,7 @@ TEST(EnergyBudget, OfALinearSheetClosesToRounding) {
   }
 }
 
-/// One linearisation per step is off by a power of the step; a second all but mends it.
+/// One linearisation per step is off by a power of the step; a second nearly removes it.
 TEST(EnergyBudget, TheRemainderIsTheErrorOfTheLinearisation) {
   std::vector<double> remainder;
   for (const auto& [step, newton] : {std::pair{1.0 / 60, 1}, {1.0 / 240, 1}, {1.0 / 60, 3}}) {

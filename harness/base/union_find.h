@@ -13,32 +13,30 @@ namespace cutbench {
 
 class UnionFind {
  public:
-  /// 0 ... n-1, each in a class of its own.
+  /// 0 ... n-1, each in a class of its own. \pre n < 2^32
   explicit UnionFind(std::size_t n = 0) { reset(n); }
   void reset(std::size_t n) {
     parent_.resize(n), size_.assign(n, 1);
-    std::iota(parent_.begin(), parent_.end(), 0);
+    std::iota(parent_.begin(), parent_.end(), 0u);
   }
 
   /// The smallest number of the class.
-  std::int32_t find(std::int32_t i) {
-    while (parent(i) != i) i = parent(i) = parent(parent(i));
+  std::size_t find(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  void join(std::int32_t a, std::int32_t b) {
+  void join(std::size_t a, std::size_t b) {
     a = find(a), b = find(b);
     if (a == b) return;
     if (a > b) std::swap(a, b);
-    parent(b) = a;
-    size_[static_cast<std::size_t>(a)] += size_[static_cast<std::size_t>(b)];
+    parent_[b] = static_cast<std::uint32_t>(a);
+    size_[a] += size_[b];
   }
   /// How many numbers the class of i has.
-  std::int32_t size(std::int32_t i) { return size_[static_cast<std::size_t>(find(i))]; }
+  std::size_t size(std::size_t i) { return size_[find(i)]; }
 
  private:
-  std::int32_t& parent(std::int32_t i) { return parent_[static_cast<std::size_t>(i)]; }
-
-  std::vector<std::int32_t> parent_, size_;  // size: of a class, at its smallest number
+  std::vector<std::uint32_t> parent_, size_;  // size: of a class, at its smallest number
 };
 
 }  // namespace cutbench

@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "harness/fem/block_matrix.h"
+#include "harness/fem/growing_rows.h"
 #include "harness/fem/physics.h"
 #include "harness/fem/slope_patch.h"
-#include "harness/fem/stencil_lists.h"
 #include "harness/mesh/sheet.h"
 
 namespace cutbench {
@@ -60,11 +60,11 @@ class Bending {
 
   BendingKind kind_ = BendingKind::none;
   double rigidity_ = 0, poisson_ = 0;
-  Lists<StencilTerm> slopes_;  ///< per triangle slot: SlopePatch::terms(); unused by hinges
-  std::vector<int> reach_;     ///< per triangle slot: of its patch; 0 for hinges
+  GrowingRows<StencilTerm> slopes_;  ///< per triangle slot: SlopePatch::terms(); unused by hinges
+  std::vector<int> reach_;           ///< per triangle slot: of its patch; 0 for hinges
   int longest_reach_ = 0;
-  Lists<StencilTerm> stencils_;      ///< per triangle slot: its three rows, in sqrt(N/m)
-  Lists<std::int32_t> stencils_of_;  ///< per deformed vertex: triangle slots whose stencils hold it, in order
+  GrowingRows<StencilTerm> stencils_;      ///< per triangle slot: its three rows, in sqrt(N/m)
+  GrowingRows<std::int32_t> stencils_of_;  ///< per deformed vertex: triangle slots whose stencils hold it, in order
   BlockMatrix<1> matrix_;
 
   /// Working storage, kept between calls so that they don't allocate.

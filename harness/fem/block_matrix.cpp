@@ -6,15 +6,8 @@ namespace cutbench {
 
 template <int D>
 void BlockMatrix<D>::set_row(std::size_t i, std::span<const std::int32_t> columns) {
-  Row& row = rows_[i];
-  if (columns.size() > row.capacity) {
-    row.begin = static_cast<std::uint32_t>(columns_.size());
-    row.capacity = static_cast<std::uint32_t>(columns.size());
-    columns_.resize(columns_.size() + columns.size());
-    blocks_.resize(columns_.size());
-  }
-  row.size = static_cast<std::uint32_t>(columns.size());
-  std::copy(columns.begin(), columns.end(), columns_.begin() + row.begin);
+  columns_.set(i, columns);
+  blocks_.resize(columns_.slots());
   set_row_zero(i);
 }
 
@@ -22,7 +15,7 @@ template <int D>
 std::int32_t BlockMatrix<D>::find(std::size_t i, std::int32_t j) const {
   const auto all = columns(i);
   const auto at = std::find(all.begin(), all.end(), j);
-  return at == all.end() ? -1 : static_cast<std::int32_t>(rows_[i].begin + (at - all.begin()));
+  return at == all.end() ? -1 : first_slot(i) + static_cast<std::int32_t>(at - all.begin());
 }
 
 template <int D>
@@ -32,26 +25,24 @@ void BlockMatrix<D>::set_zero() {
 
 template <int D>
 void BlockMatrix<D>::set_row_zero(std::size_t i) {
-  const auto begin = blocks_.begin() + rows_[i].begin;
-  std::fill(begin, begin + rows_[i].size, Block::Zero());
+  std::fill_n(blocks_.begin() + first_slot(i), columns_[i].size(), Block::Zero());
 }
 
 template <int D>
 std::size_t BlockMatrix<D>::block_count() const {
   std::size_t n = 0;
-  for (const Row& row : rows_) n += row.size;
+  for (std::size_t i = 0; i < rows(); ++i) n += columns_[i].size();
   return n;
 }
 
 template <int D>
 void BlockMatrix<D>::add_product(double factor, const Field& x, Field& y) const {
   using Vector = Eigen::Matrix<double, D, 1>;
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const std::int32_t* column = columns_.data() + rows_[i].begin;
-    const Block* block = blocks_.data() + rows_[i].begin;
+  for (std::size_t i = 0; i < rows(); ++i) {
+    const Block* block = blocks_.data() + columns_.begin(i);
     Vector sum = Vector::Zero();
-    for (std::uint32_t k = 0; k < rows_[i].size; ++k)
-      sum.noalias() += block[k] * Eigen::Map<const Vector>(x.data() + D * column[k]);
+    for (const std::int32_t column : columns_[i])
+      sum.noalias() += *block++ * Eigen::Map<const Vector>(x.data() + D * column);
     Eigen::Map<Vector>(y.data() + D * i) += factor * sum;
   }
 }

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "harness/fem/growing_rows.h"
+
 namespace cutbench {
 
 /// D values per vertex, those of one vertex together.
@@ -17,13 +19,10 @@ class BlockMatrix {
  public:
   using Block = Eigen::Matrix<double, D, D>;
 
-  std::size_t rows() const { return rows_.size(); }
-  void resize(std::size_t rows) { rows_.resize(rows); }
+  std::size_t rows() const { return columns_.size(); }
+  void resize(std::size_t rows) { columns_.resize(rows); }
   /// Room for half as many blocks again, before they have to be copied.
-  void reserve_spare() {
-    columns_.reserve(columns_.size() + columns_.size() / 2), blocks_.reserve(columns_.capacity());
-    rows_.reserve(rows_.size() + rows_.size() / 2);
-  }
+  void reserve_spare() { columns_.reserve_spare(), blocks_.reserve(blocks_.size() + blocks_.size() / 2); }
   /// Gives row i these columns, the diagonal first; its values become zero. Where the row has outgrown its room it
   /// moves to the end, so slots of this row change, of others not. \pre `columns` is empty (a row of zeros), or begins
   /// with i and holds no column twice.
@@ -31,11 +30,9 @@ class BlockMatrix {
   /// The slot that keeps block (i, j); -1 where there is none.
   std::int32_t find(std::size_t i, std::int32_t j) const;
 
-  std::span<const std::int32_t> columns(std::size_t i) const {
-    return {columns_.data() + rows_[i].begin, rows_[i].size};
-  }
+  std::span<const std::int32_t> columns(std::size_t i) const { return columns_[i]; }
   /// Slot of the first block in row i, the diagonal one; the others follow in the order of columns().
-  std::int32_t first_slot(std::size_t i) const { return static_cast<std::int32_t>(rows_[i].begin); }
+  std::int32_t first_slot(std::size_t i) const { return static_cast<std::int32_t>(columns_.begin(i)); }
   /// Adds the first D values of each column to those of the block in a slot. In two pieces for D = 3, because four at a
   /// time would read what was just written.
   template <class Column>
@@ -52,19 +49,15 @@ class BlockMatrix {
 
   void set_zero();
   void set_row_zero(std::size_t i);
-  std::size_t block_count() const;                            ///< in use
-  std::size_t slot_count() const { return columns_.size(); }  ///< with those that rows have moved out of
+  std::size_t block_count() const;                             ///< in use
+  std::size_t slot_count() const { return columns_.slots(); }  ///< with those that rows have moved out of
 
   /// y += factor A x.
   void add_product(double factor, const Field& x, Field& y) const;
 
  private:
-  struct Row {
-    std::uint32_t begin = 0, size = 0, capacity = 0;
-  };
-  std::vector<Row> rows_;
-  std::vector<std::int32_t> columns_;
-  std::vector<Block> blocks_;
+  GrowingRows<std::int32_t> columns_;
+  std::vector<Block> blocks_;  // one for each slot of columns_
 };
 
 /// y += factor (A (x) I) x, for `dimension` values per vertex.

@@ -26,7 +26,8 @@ void SliverBlocks<D>::find_groups(const ElementTable& elements) {
     return std::tuple(-one.weight, one.a, one.b) < std::tuple(-other.weight, other.a, other.b);
   });
   for (const Join& join : joins_) {
-    if (joined_.find(join.a) != joined_.find(join.b) && joined_.size(join.a) + joined_.size(join.b) <= largest_group)
+    if (joined_.find(join.a) != joined_.find(join.b) &&
+        joined_.size(join.a) + joined_.size(join.b) <= static_cast<std::size_t>(largest_group))
       joined_.join(join.a, join.b);
   }
 }
@@ -40,9 +41,9 @@ void SliverBlocks<D>::setup(const SystemMatrix<D>& a) {
   find_groups(*a.elements);
   for (const Join& join : joins_)
     for (const std::int32_t v : {join.a, join.b}) {
-      const std::int32_t top = joined_.find(v);
+      const std::size_t top = joined_.find(v);
       if (joined_.size(v) == 1) continue;  // every join was left out
-      auto& group = group_[static_cast<std::size_t>(top)];
+      auto& group = group_[top];
       if (group < 0) group = static_cast<std::int32_t>(groups_.size()), groups_.emplace_back();
       // The entry of the smallest vertex of the class numbers the group before that vertex itself is met.
       auto& vertices = groups_[static_cast<std::size_t>(group)].vertices;

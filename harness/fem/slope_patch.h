@@ -13,10 +13,16 @@
 #include <span>
 #include <vector>
 
-#include "harness/fem/stencil_lists.h"
+#include "harness/fem/growing_rows.h"
 #include "harness/mesh/sheet.h"
 
 namespace cutbench {
+
+/// What one deformed vertex contributes to three rows.
+struct StencilTerm {
+  std::int32_t vertex;
+  std::array<double, 3> factor;
+};
 
 class SlopePatch {
  public:

@@ -76,7 +76,7 @@ Sheet::Sheet(const MeshData& data) {
 
   vertex_of_deformed_.resize(data.rest.size());
   for (std::size_t d = 0; d < data.rest.size(); ++d) {
-    const auto representative = static_cast<std::size_t>(welded.find(static_cast<std::int32_t>(d)));
+    const auto representative = welded.find(d);
     if (representative == d) rest_.push_back(data.rest[d]);
     vertex_of_deformed_[d] = representative == d ? VertexIndex(rest_.size() - 1) : vertex_of_deformed_[representative];
   }

@@ -26,8 +26,6 @@ struct EdgeUse {
   std::size_t triangle() const { return half_edge / 3; }
 };
 
-std::int32_t as_number(std::size_t corner) { return static_cast<std::int32_t>(corner); }
-
 std::size_t next_half_edge(std::size_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
 
 class Repair {
@@ -201,13 +199,13 @@ class Repair {
     UnionFind fans(corners());  // corners that share a triangle fan
     for (std::size_t i = 1; i < uses.size(); ++i)
       if (uses[i].same_edge(uses[i - 1])) {
-        fans.join(as_number(uses[i].half_edge), as_number(next_half_edge(uses[i - 1].half_edge)));
-        fans.join(as_number(next_half_edge(uses[i].half_edge)), as_number(uses[i - 1].half_edge));
+        fans.join(uses[i].half_edge, next_half_edge(uses[i - 1].half_edge));
+        fans.join(next_half_edge(uses[i].half_edge), uses[i - 1].half_edge);
       }
     const std::size_t before = mesh_.rest.size();
     std::vector<bool> taken(before, false);
     for (std::size_t c = 0; c < corners(); ++c) {
-      if (const auto first = static_cast<std::size_t>(fans.find(as_number(c))); first != c) {
+      if (const std::size_t first = fans.find(c); first != c) {
         vertex(c) = vertex(first);
       } else if (const std::size_t v = at(vertex(c)); !taken[v]) {
         taken[v] = true;

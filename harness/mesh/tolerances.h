@@ -6,6 +6,8 @@
 //                     corner, tip or crossing of the path (a point) within `point_tolerance` of a vertex is that vertex.
 //   on an edge        A point of the path within `line_tolerance` of an edge lies on it; a piece with both ends on one edge
 //                     runs along it.
+// The distance of a point from a line is measured along the axis to which the line is steeper: 1 to 1.41 times the
+// shortest distance. So a piece within 1.41 snap distances of a vertex always goes through it, beyond 2 never.
 // The oracle (harness/measure) shares no code with this: it is told the distances in its request
 // (harness/judge/oracle_request.cpp).
 #pragma once
@@ -50,6 +52,9 @@ constexpr double default_flatten_tolerance = 1e-3;
 constexpr double default_chord_tolerance = 0.05;
 /// Careful embedding may move a crossing this far out of a wedge that is too thin for doubles; the cut is then `deviated`.
 constexpr double careful_move_tolerance = 1e-4;
+/// Refinement divides no piece of path, incision or border shorter than twice this: two borders that nearly coincide would
+/// be divided for ever.
+constexpr double shortest_refined_edge = 1e-4;
 /// A forced wedge is the area between its legs while they are nearer than this, and a disc of this radius round its apex
 /// (docs/measuring.md): closer, not even one good triangle fits between. The oracle has the same numbers of its own.
 constexpr double forced_wedge_width = 0.3;

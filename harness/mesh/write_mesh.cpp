@@ -2,9 +2,9 @@
 #include <charconv>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <string_view>
 
+#include "harness/base/union_find.h"
 #include "harness/mesh/mesh_io.h"
 #include "harness/mesh/quality.h"
 
@@ -59,21 +59,13 @@ std::string off(const MeshData& mesh) {
 
 /// Per triangle, the number of its piece: triangles that share a vertex are of one piece.
 std::vector<std::int32_t> pieces(const MeshData& mesh) {
-  std::vector<std::size_t> parent(mesh.rest.size());
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  auto find = [&parent](std::int32_t vertex) {
-    auto v = static_cast<std::size_t>(vertex);
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  for (const auto& [a, b, c] : mesh.triangles) {
-    parent[find(b)] = find(a);
-    parent[find(c)] = find(a);
-  }
+  UnionFind joined(mesh.rest.size());
+  for (const auto& [a, b, c] : mesh.triangles) joined.join(a, b), joined.join(a, c);
   std::map<std::size_t, std::int32_t> number;
   std::vector<std::int32_t> result;
   for (const auto& triangle : mesh.triangles)
-    result.push_back(number.try_emplace(find(triangle[0]), static_cast<std::int32_t>(number.size())).first->second);
+    result.push_back(
+        number.try_emplace(joined.find(triangle[0]), static_cast<std::int32_t>(number.size())).first->second);
   return result;
 }
 

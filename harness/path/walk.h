@@ -1,10 +1,10 @@
 // Walking a polyline through the rest triangles, from event to event: through an edge, through a vertex, along an edge,
 // out of the sheet and back into it, and arriving at each corner of the polyline.
 //
-// Decisions are exact signs on stored doubles. Where a vertex lies within twice the sheet's snap distance of the path
-// the path goes through that vertex, and where a corner of the path lies that near to an edge, or within the snap
-// distance of a vertex, it lies on it; of several edges on the border or an incision rather than on any other. So every
-// crossing that is left is clear of the ends of its edge, and its rounded position can't fall behind them.
+// Decisions are exact signs on stored doubles. A straight piece of the path goes through every vertex within
+// `line_tolerance` of it. A corner of the path lies on a vertex within `point_tolerance`, else on an edge within
+// `line_tolerance`: of several edges, on the border or an incision first (harness/mesh/tolerances.h). So every crossing
+// that is left is clear of the ends of its edge, and its rounded position cannot fall behind them.
 #pragma once
 
 #include <initializer_list>

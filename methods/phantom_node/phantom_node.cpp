@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "harness/base/union_find.h"
 #include "harness/mesh/locator.h"
 #include "harness/mesh/predicates.h"
 #include "harness/mesh/tolerances.h"
@@ -38,25 +39,6 @@ TriangleIndex triangle_at(const Sheet& sheet, const Locator& locator, Point2 p) 
     if (sheet.triangle(TriangleIndex(i)).alive() && step(TriangleIndex(i)) == TriangleIndex(i)) return TriangleIndex(i);
   return last;
 }
-
-/// Sets of numbers that were joined, each known by its smallest.
-class JoinedSets {
- public:
-  explicit JoinedSets(std::size_t n) : parent_(n) {
-    for (std::size_t i = 0; i < n; ++i) parent_[i] = i;
-  }
-  std::size_t find(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t a, std::size_t b) {
-    a = find(a), b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 class Doubling {
  public:
@@ -245,8 +227,8 @@ class Doubling {
 
   const Sheet &before_, &cut_;
   std::vector<TriangleIndex> parent_;  // per triangle
-  JoinedSets parts_;                   // of triangles of one parent
-  JoinedSets copies_;                  // of vertices, and three for the corners of the parent of each part
+  UnionFind parts_;                    // of triangles of one parent
+  UnionFind copies_;                   // of vertices, and three for the corners of the parent of each part
   std::vector<std::int32_t> phantom_;  // per copy that is no vertex: its number
   std::size_t phantoms_ = 0;
 };

@@ -30,8 +30,8 @@ class DelaunayRefinement {
  public:
   struct Options {
     double bound = 3;  ///< no aspect ratio beyond it; infinity: flips alone
-    double min_edge =
-        1e-4;  ///< no piece of path, incision or border shorter than twice that is divided, mean rest edges
+    /// No piece of path, incision or border shorter than twice that is divided, mean rest edges.
+    double min_edge = shortest_refined_edge;
     std::size_t per_path_vertex = 20;  ///< vertices that it may make, for each one of the path
     std::size_t most_vertices = 5000;  ///< and in all: a path with more to ask for leads across stacks of slivers
   };

@@ -42,9 +42,8 @@ class PathGraph {
   /// What passes `vertex` together with `node`, a crossing of one of its outgoing edges: its neighbours on the path as
   /// long as they are crossings of neighbouring outgoing edges at most `reach` of the outgoing edge away from the
   /// vertex. False where the node is gone, or the run can't be contracted:
-  /// - the path has a node at the vertex already, or on a outgoing edge of the run between the vertex and a few snap
-  /// distances
-  ///   behind the run's node; or the outgoing edge ends within these;
+  /// - the path has a node at the vertex already, or on an outgoing edge of the run between the vertex and a few snap
+  ///   distances behind the node of the run; or the outgoing edge ends within these;
   /// - it touches an edge there without crossing it, ends there in the open, crosses itself there, or goes round the
   ///   vertex to itself;
   /// - the vertex lies on the border or an older incision, and the run does not meet that exactly once;

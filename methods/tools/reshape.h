@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "harness/mesh/sheet.h"
+#include "harness/mesh/tolerances.h"
 #include "methods/tools/delaunay_refinement.h"
 #include "methods/tools/forced_wedges.h"
 #include "methods/tools/path_curve.h"
@@ -22,7 +23,8 @@ class Reshape {
     double max_aspect = 3;     ///< a triangle at or beyond it is ill-shaped
     double tolerance = 0.05;   ///< largest distance of the trace's nodes from the edges that replace them, mean rest
                                ///< edges; the chord tolerance where that is smaller
-    double min_edge = 1e-4;    ///< no piece of path, incision or border shorter than twice that is divided
+    double min_edge =
+        shortest_refined_edge;  ///< no piece of path, incision or border shorter than twice that is divided
   };
   explicit Reshape(const Options& options)
       : options_(options), refinement_({.bound = options.max_aspect, .min_edge = options.min_edge}) {}
