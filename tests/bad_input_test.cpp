@@ -1,5 +1,6 @@
-// Bad input through every door: one line that says what, where and what to do, the right exit code, nothing left behind.
-// What a single reader refuses, line by line, is in mesh_io_test, check_and_repair_test, path_test and scene_test.
+// Bad input through every door: one line that says what, where and what to do, the right exit code, nothing left
+// behind. What a single reader refuses, line by line, is in mesh_io_test, check_and_repair_test, path_test and
+// scene_test.
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
 

@@ -10,7 +10,8 @@
 
 namespace cutbench {
 
-/// The matrix C. Unknown i < vertices() is the position of vertex i where that is not constrained; phantom nodes follow.
+/// The matrix C. Unknown i < vertices() is the position of vertex i where that is not constrained; phantom nodes
+/// follow.
 class Combination {
  public:
   struct Row {
@@ -26,7 +27,8 @@ class Combination {
   bool is_phantom(std::int32_t unknown) const { return static_cast<std::size_t>(unknown) >= vertices(); }
   const std::vector<std::int32_t>& tied() const { return tied_; }  ///< constrained vertices, in rising order
 
-  /// x = C q and r = C^T f, for `dimension` values per vertex and unknown. Unknowns of constrained vertices are ignored.
+  /// x = C q and r = C^T f, for `dimension` values per vertex and unknown. Unknowns of constrained vertices are
+  /// ignored.
   void expand(int dimension, const Field& q, Field& x) const;
   void reduce(int dimension, const Field& f, Field& r) const;
 
@@ -36,9 +38,9 @@ class Combination {
   std::size_t phantoms_;
 };
 
-/// The system C^T A C with ghost penalties, for a system A of all vertices. Held unknowns of A are data: their rows of C
-/// are zero. An unknown of q is held where its vertex is held, and where nothing depends on it. Assemble it whenever A
-/// changes: the pattern is built once, the values each time from the blocks of A. After a cut, make a new one.
+/// The system C^T A C with ghost penalties, for a system A of all vertices. Held unknowns of A are data: their rows of
+/// C are zero. An unknown of q is held where its vertex is held, and where nothing depends on it. Assemble it whenever
+/// A changes: the pattern is built once, the values each time from the blocks of A. After a cut, make a new one.
 template <int D>
 class TiedSystem {
  public:
@@ -47,7 +49,8 @@ class TiedSystem {
   const Combination& combination() const { return combination_; }
   /// \pre the pattern of `a` is that of the first call. \param stiffness  N/m, of the sheet: for ghost penalties
   void assemble(const SystemMatrix<D>& a, double stiffness = 0);
-  /// Of the last assemble(); refers to this. No element table: preconditioners find no slivers, whose vertices are constrained.
+  /// Of the last assemble(); refers to this. No element table: preconditioners find no slivers, whose vertices are
+  /// constrained.
   SystemMatrix<D> system() const;
   /// r = C^T f, without the forces at held vertices, and zero where an unknown is held.
   void reduce(const std::vector<std::uint8_t>& held, const Field& f, Field& r) const;

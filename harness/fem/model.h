@@ -1,5 +1,5 @@
-// The discrete sheet: elements, mass, bending, loads, what is held, and the system matrix, all kept up to date cut by
-// cut: what a cut did not touch is neither looked at nor computed again, and the result is that of a new model.
+// The discrete sheet: elements, mass, bending, loads, held vertices and the system matrix. After each cut it is
+// updated: only what the cut touched is computed again, and the result equals that of a new model.
 #pragma once
 
 #include <optional>
@@ -26,14 +26,15 @@ class Model {
   Model(const Sheet& sheet, const Material& material, const Physics& physics, std::vector<Pin> pins,
         std::vector<Traction> tractions);
 
-  /// Room to grow by half, so that the first cut of a running simulation does not copy it all. Copies start without.
+  /// Reserves room to grow by half, so that the first cut of a running simulation copies no arrays. A copy of the model
+  /// has no such room.
   void reserve_spare();
-  /// After each single cut, before the next begin_cut() forgets the log (and beside transfer() of the state): replaces
-  /// indices and adds elements (the paper's 4.2) where the sheet's log says so. Both must be called.
+  /// Call both after each single cut, before the next begin_cut() clears the log, and transfer() for the state: they
+  /// replace indices and add elements (Xin et al. 2018, 4.2) where the sheet's log says so.
   void update(const Sheet& sheet);
   void update_bending(const Sheet& sheet);  ///< nothing without bending
-  /// After update() and update_bending(), which forget what was tied before: from now on, these vertices. What is
-  /// computed of a state is that of all vertices, as ever; whoever solves does so for tied()'s unknowns.
+  /// Constrains vertices; call it after update() and update_bending(), which remove all constraints. Forces, energies
+  /// and the matrix remain those of all vertices; a solver solves for the unknowns of tied().
   void tie(const Ties& ties);
 
   std::size_t vertices() const { return static_cast<std::size_t>(mass_.size()); }  ///< slots of the opened sheet
@@ -41,7 +42,7 @@ class Model {
   Field positions(const Sheet& sheet) const;
 
   // --- of a state ----------------------------------------------------------------------------------------------------
-  void rotate(const Field& x);  ///< the deformation of every element; what follows is of this x
+  void rotate(const Field& x);  ///< the deformation of every element; the functions below refer to this x
   /// f += internal forces, of membrane and bending, N. \pre rotate(x).
   void add_internal_force(const Field& x, Field& f) const;
   void add_external_force(Field& f) const { f += external_; }
@@ -49,7 +50,7 @@ class Model {
   void assemble(double mass_factor, double stiffness_factor);
   /// Of the last assemble(). Refers to this model.
   SystemMatrix<D> system() const;
-  TiedSystem<D>* tied() { return tied_ ? &*tied_ : nullptr; }  ///< none where every vertex is its own unknown
+  TiedSystem<D>* tied() { return tied_ ? &*tied_ : nullptr; }  ///< null where no vertex is constrained
   /// y += factor M x.
   void add_mass_product(double factor, const Field& x, Field& y) const;
   Energy energy(const Field& x, const Field& v) const;  ///< \pre rotate(x)

@@ -1,11 +1,11 @@
 // Slopes of a bent sheet at the sides of a triangle, recovered from the vertices round it: a quadratic in rest
 // coordinates through the triangle's corners and the far corners of its neighbours, six points, as in the enhanced
 // rotation-free shell triangle (Flores and Onate, CMAME 194, 2005). Where there are fewer neighbours, or the six lie
-// near a conic, so that they don't tell quadratics apart, the patch widens ring by ring and the quadratic is the best
-// fit (weighted least squares).
+// near a conic, so that several quadratics fit them, the patch grows ring by ring and the quadratic is the best fit
+// (weighted least squares).
 //
-// What is separated by an incision or out of sight of the triangle's centroid, behind a tip say, is no part of the
-// patch.
+// The patch does not contain vertices behind an incision, or out of sight of the triangle's centroid, for example
+// behind a tip.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,10 +26,11 @@ struct StencilTerm {
 
 class SlopePatch {
  public:
-  /// Fits the patch of triangle t; returns its reach: it depends on triangles up to so many unseparated edges away.
+  /// Fits the patch of triangle t. Returns its reach: the number of unseparated edges to the farthest triangle that it
+  /// depends on.
   int fit(const Sheet& sheet, TriangleIndex t);
   /// Row k: derivative into the triangle, at right angles to side k, at the side's midpoint; factors in 1/length. Exact
-  /// for quadratics where the patch tells them apart, else for linear functions.
+  /// for quadratics where the patch determines one, else for linear functions.
   std::span<const StencilTerm> terms() const { return terms_; }
 
  private:

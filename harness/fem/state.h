@@ -1,4 +1,4 @@
-// What moves: positions and velocities of the opened sheet's vertices, and what a cut makes of them.
+// The state of a moving sheet: positions and velocities of the opened sheet's vertices, and their transfer at a cut.
 #pragma once
 
 #include "harness/fem/model.h"
@@ -20,7 +20,7 @@ State initial_state(const Model<D>& model, const Sheet& sheet);
 /// from, in the order of the log, so that parents come before children.
 void transfer(const EditLog& log, std::size_t deformed_slots, int dimension, State& state);
 
-/// Conserved, or lost and gained, at a cut: recorded before and after it.
+/// Energies, momenta and residual force, recorded before and after a cut.
 struct Balance {
   Energy energy;
   Point3 momentum;          ///< kg m/s

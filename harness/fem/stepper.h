@@ -7,14 +7,13 @@
 // f_ext) + M v0 - A v0. Further ones are at x0 + h v.
 //
 //   backward_euler    as above; x = x0 + h v. First order; damps.
-//   midpoint          the same with h / 2 gives the velocity at the middle of the step, vm; v = 2 vm - v0, x = x0 + h
-//   vm.
-//                     Second order; damps nothing that is linear, and can gain energy where large rotations are stiff
-//                     (slivers, few Newton iterations).
+//   midpoint          the same with h / 2 gives vm, the velocity at the middle of the step; v = 2 vm - v0,
+//                     x = x0 + h vm. Second order; no numerical damping of linear motion. It can gain energy where large
+//                     rotations are stiff (slivers, few Newton iterations).
 //   symplectic_euler  v = v0 + h M^-1 f(x0, v0); x = x0 + h v. Explicit: stable below 2 / omega_max.
 //   equilibrium       f(x) + f_ext = 0 by Newton with a line search on the energy.
 //
-// Where the model's vertices are tied, x = x0 + C q, the implicit ones solve for the change of q: C^T A C dq = C^T rhs.
+// Where vertices are constrained, x = x0 + C q, the implicit integrators solve C^T A C dq = C^T rhs.
 #pragma once
 
 #include <memory>
@@ -54,7 +53,7 @@ template <int D>
 class Stepper {
  public:
   /// Throws InputError for an unknown solver. Symplectic Euler uses the lumped mass (scenes refuse another), and takes
-  /// no ties.
+  /// no constrained vertices.
   explicit Stepper(const StepOptions& options);
   StepReport step(Model<D>& model, State& state);
 

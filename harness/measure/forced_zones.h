@@ -1,7 +1,7 @@
-// The audit of forced zones (README, Rules of measuring): where the input leaves no method a chance of good triangles.
+// The audit of forced zones (docs/measuring.md): where the input itself prevents good triangles.
 //
-// Computed from the sheet before the cut and the requested path alone; a method has no say in what it is excused for.
-// An aspect ratio below 3 needs every angle above asin(1/3).
+// Computed from the sheet before the cut and the requested path alone; a method does not influence what it is excused
+// for. An aspect ratio below 3 needs every angle above asin(1/3).
 #pragma once
 
 #include <vector>

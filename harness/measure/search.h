@@ -1,6 +1,6 @@
-// Searching among many segments or triangles: the nearest, those in a box, the one that holds a point. By trees of
-// boxes: what a refinement leaves is a million times denser in one place than in another, which no uniform grid can
-// take.
+// Searching among many segments or triangles: the nearest, those in a box, the one that holds a point. It uses
+// trees of boxes, because a refined mesh may be a million times denser in one place than in another, which no uniform
+// grid can handle.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// What a cut changed. State transfer, the matrix update, the counts in every table and the undo of a failed cut all
-// read this log; methods neither write it nor count for themselves.
+// What a cut changed. The state transfer, the matrix update, the counts in every table and the undo of a failed cut
+// read this log. The sheet's editing calls write it; methods do not.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct Triangle {
 };
 
 struct EditLog {
-  /// A slot as it was before the cut touched it first, with its corners' entries of Sheet::triangle_of_vertex.
+  /// A slot as it was before its first change in this cut, with its corners' entries of Sheet::triangle_of_vertex.
   struct Touched {
     TriangleIndex slot;
     Triangle before;
@@ -49,7 +49,7 @@ struct EditLog {
 
   std::size_t triangles_before = 0, vertices_before = 0, deformed_before = 0;  ///< slots; later ones were appended
   /// Slots that existed before the cut (freed ones included), in order. Those appended by it, from triangles_before on,
-  /// are not among them: readers look at both.
+  /// are not listed here: readers must look at both.
   std::vector<Touched> touched;
   std::vector<VertexIndex> new_vertices;    ///< rest vertices made, in order
   std::vector<DeformedIndex> new_deformed;  ///< deformed vertices made, in order

@@ -1,6 +1,6 @@
-// Where to start looking for a point, and where a path outside the sheet meets the border next: a grid of cells over
-// the rest bounding box, with one triangle and the border edges that come near, per cell. Kept up to date from the edit
-// log.
+// Point location: a triangle near a point, to walk on from, and the border edges near a segment outside the sheet. A
+// grid of cells over the rest bounding box; each cell holds one triangle and the border edges near it. Updated from the
+// edit log.
 #pragma once
 
 #include <optional>
@@ -19,7 +19,7 @@ class Locator {
   /// Takes in what the last cut changed. Cost: the triangles it changed.
   void update(const Sheet& sheet);
 
-  /// A living triangle near p; near in most cases only, so walk on from there.
+  /// A triangle of the sheet that is near p in most cases; the caller walks on from there.
   TriangleIndex near(const Sheet& sheet, Point2 p) const;
 
   /// Calls visit(half-edge) for border half-edges, cell by cell along the segment a -> b from its start, until visit

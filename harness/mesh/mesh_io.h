@@ -16,8 +16,9 @@ namespace cutbench {
 /// readers, text or binary; colours, normals and texture coordinates are ignored.
 ///
 /// Rest positions are the `vt` of the OBJ, else see check_and_repair. Positions are taken as written, without a unit.
-/// \throw InputError naming the file, the element (counted from 1; lines in an OBJ) and what to do: no such file, unknown
-/// extension, cut short or not of its format, faces that aren't triangles, and all that check_and_repair refuses.
+/// \throw InputError naming the file, the element (counted from 1; lines in an OBJ) and what to do: no such file,
+/// unknown extension, cut short or not of its format, faces that aren't triangles, and all that check_and_repair
+/// refuses.
 MeshData read_mesh(const std::filesystem::path& path);
 
 /// Reads a mesh that somebody is to judge: nothing is repaired, refused or merged that a list of triangles can hold, so

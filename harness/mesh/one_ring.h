@@ -30,8 +30,8 @@ inline bool halves_are_positive(const Sheet& sheet, HalfEdge h, Point2 p) {
   return orientation(sheet.rest(sheet.origin(h)), p, apex) > 0 && orientation(p, sheet.rest(sheet.target(h)), apex) > 0;
 }
 
-/// The outgoing half-edges of a vertex that have a triangle on their left, counter-clockwise from the first to the border
-/// or once round.
+/// The outgoing half-edges of a vertex that have a triangle on their left, counter-clockwise from the first to the
+/// border or once round.
 class OutgoingEdges {
  public:
   class Iterator {
@@ -62,7 +62,8 @@ class OutgoingEdges {
 /// In the order of Sheet::first_outgoing(). The mesh must stay as it is meanwhile.
 inline OutgoingEdges outgoing_edges(const Sheet& sheet, VertexIndex v) { return {sheet, sheet.first_outgoing(v)}; }
 
-/// Calls look(outgoing edge) for every outgoing edge of v that has a triangle on its left, in no particular order: without the search for the border that outgoing_edges() begins with.
+/// Calls look(outgoing edge) for every outgoing edge of v that has a triangle on its left, in no particular order:
+/// without the search for the border that outgoing_edges() begins with.
 template <class Look>
 void for_each_outgoing(const Sheet& sheet, VertexIndex v, Look look) {
   const auto& corner = sheet.triangle(sheet.triangle_of_vertex(v)).vertex;

@@ -11,8 +11,8 @@
 
 namespace cutbench {
 
-/// A constrained vertex of the opened sheet: it is no unknown, but is extrapolated linearly from three masters. On an axis
-/// on which it is held, it stays there.
+/// A constrained vertex of the opened sheet: it is no unknown, but is extrapolated linearly from three masters. On an
+/// axis on which it is held, it stays there.
 struct Tie {
   DeformedIndex vertex;
   std::array<DeformedIndex, 3> masters;  ///< unconstrained vertices, or phantom node i as Sheet::deformed_slots() + i

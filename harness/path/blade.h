@@ -1,5 +1,5 @@
-// A blade that advances along a curve: what it has cut of it between two distances from where it began, so that a
-// curve can be cut part by part while the sheet moves (Xin et al. 2018, 4.2, steps i and i + 1).
+// A blade that advances along a curve: the part of the curve between two distances from its beginning, so that a curve
+// can be cut part by part while the sheet moves (Xin et al. 2018, 4.2, steps i and i + 1).
 #pragma once
 
 #include <cstddef>
@@ -17,9 +17,9 @@ class Blade {
   /// Of the curve, rest units. Distances along a Bezier are those along 256 chords of it, all of equal steps of its
   /// parameter: short of its length by less than 1e-4 of it where it has no sharp return.
   double length() const { return ends_.empty() ? 0 : ends_.back(); }
-  /// The part between two distances, an open curve of the same kind. It ends in the very doubles in which the part
-  /// behind it begins, and the first and the last at the curve's own ends. A part of a Bezier is the Bezier itself
-  /// there, by de Casteljau's subdivision. \pre 0 <= from < to <= length()
+  /// The part between two distances, an open curve of the same kind. It ends at exactly the point (bit-equal) where the
+  /// next part begins; the first and the last part end at the ends of the curve. A part of a Bezier is exact (de
+  /// Casteljau's subdivision). \pre 0 <= from < to <= length()
   Curve part(double from, double to) const;
 
  private:

@@ -1,6 +1,6 @@
-// A cut placed on the deformed sheet, as a surgeon places it: its control points are picked where the sheet is at that
-// moment, each carried to rest space through the deformed triangle it lies in by its barycentric coordinates, and the
-// curve is built there (Xin et al. 2018, 4.1.1).
+// A cut placed on the deformed sheet, as a surgeon places it. Its control points are picked on the sheet as it is at
+// that moment. Each is carried to rest space by its barycentric coordinates in its deformed triangle, and the curve is
+// built in rest space (Xin et al. 2018, 4.1.1).
 #pragma once
 
 #include <memory>

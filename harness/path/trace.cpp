@@ -234,7 +234,8 @@ void Tracer::choose(bool on_one_edge, const Place& from, std::size_t first, std:
   if (crosses_itself(all_points_) || crosses_itself(chosen_points_)) chosen_.assign(count, 1);
 }
 
-/// A passage that ends where it starts: the point farthest from there, and on both ways the one farthest from that line.
+/// A passage that ends where it starts: the point farthest from there, and on both ways the one farthest from that
+/// line.
 void Tracer::choose_on_loop(Point2 start, std::size_t first, std::size_t count) {
   auto farthest = [&](std::size_t begin, std::size_t end, auto distance) {
     std::size_t best = begin;

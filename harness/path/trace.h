@@ -14,18 +14,22 @@
 
 namespace cutbench {
 
-/// Does the polyline meet itself, neighbouring pieces apart? Exact.
+/// Whether two pieces of the polyline that are no neighbours meet. Exact.
 bool crosses_itself(const std::vector<Point2>& polyline);
 
 /// Traces paths; keeps its working storage between them.
 class Tracer {
  public:
-  /// Follows the polyline from where `walk` stands (its first point), and sorts out the triangles that the path passes
-  /// through more than once. Inside triangles, points farther than `chord_tolerance` (rest units; infinity: none) from
-  /// the chord become nodes, and always: tips, kept points, crossings of the path with itself, and whatever keeps a
-  /// loop or a U-turn from collapsing. A curved path that leaves an older incision and comes back to it, never farther
-  /// from it than `chord_tolerance`, follows it in between: there is nothing to do. The result stays valid until the
-  /// next call. \pre the polyline has two points or more. Throws WalkLost.
+  /// Traces the polyline from where `walk` stands, at its first point, in four steps:
+  /// 1. The walk goes from event to event. Each passage through a triangle gets its start, its end and the points
+  /// between.
+  /// 2. A point inside a triangle becomes a node where it is farther than `chord_tolerance` (rest units; infinity:
+  /// none)
+  ///    from the chord. Tips, kept points, and points that keep a loop or a U-turn from collapsing always become nodes.
+  /// 3. A curved path that leaves an older incision and comes back to it, never farther from it than `chord_tolerance`,
+  ///    runs along it: there is nothing to cut (along_incision.cpp).
+  /// 4. In triangles with several passages, crossings of the path with itself become nodes (self_crossings.cpp).
+  /// The result stays valid until the next call. \pre the polyline has two points or more. Throws WalkLost.
   Subdivision& trace(const Sheet& sheet, const Polyline& path, Walk& walk, double chord_tolerance) {
     return trace(sheet, path, walk, chord_tolerance, true);
   }
@@ -57,14 +61,14 @@ class Tracer {
   }
   Point2 point(std::size_t i) const { return path_->points[wrapped(i)]; }
 
-  // follow.cpp
+  // along_incision.cpp
   struct Taken {
     Step step;
     std::size_t point;
     bool tip;
   };
   bool is_on_incision(const Place& place) const;
-  bool follows_incision();
+  bool runs_along_incision();
   bool find_chain(const Place& to, VertexIndex before, VertexIndex v);
   void flush();
 
@@ -75,7 +79,7 @@ class Tracer {
   int common_edge(TriangleIndex t, const Place& a, const Place& b) const;
   int edges_of(TriangleIndex t, const Place& place) const;
 
-  // arrange.cpp
+  // self_crossings.cpp
   int passages_of(int face) const;
   const TrianglePassage& passage(int i) const { return passages_[static_cast<std::size_t>(i)]; }
   bool is_simple(int face) const;
@@ -95,8 +99,8 @@ class Tracer {
   const Polyline* path_ = nullptr;
   double chord_tolerance_ = std::numeric_limits<double>::infinity();
 
-  // Steps of a curved path since it left an incision at departure_, not handled yet, and where they and that incision
-  // go.
+  // Steps of a curved path since it left an incision at departure_, not handled yet; their points, and the points of
+  // that incision.
   bool departed_ = false;
   Place departure_;
   std::vector<Taken> excursion_;

@@ -178,8 +178,8 @@ Step Walk::from_vertex(VertexIndex v, Point2 target) {
   if (within(rest(v), target, direction_tolerance * snap_))
     origin_ = rest(v);  // so near, the target may lie behind the line's origin
   const HalfEdge first = sheet_.first_outgoing(v);
-  // Along an outgoing edge? At a border vertex the last one has no half-edge out of v, but its triangle's edge into v. A
-  // vertex that is nearly here tells nothing of the way, unless it lies on it exactly.
+  // Along an outgoing edge? At a border vertex the last one has no half-edge out of v, but its triangle's edge into v.
+  // A vertex that is nearly here tells nothing of the way, unless it lies on it exactly.
   const auto lies_on_line = [&](VertexIndex x) {
     if (near(rest(x), target)) return true;
     const Point2 outgoing = rest(x) - rest(v);

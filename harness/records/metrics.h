@@ -1,5 +1,5 @@
-// Every column of the records in one table: its name, unit, label, what is better, where it is shown, what it means, and
-// where its value comes from. Records, JSON reports, `cutbench columns`, results/columns.json, the column tables of
+// Every column of the records in one table: its name, unit, label, what is better, where it is shown, what it means,
+// and where its value comes from. Records, JSON reports, `cutbench columns`, results/columns.json, the column tables of
 // results/README.md and the labels of figures are made from it. A new metric is one entry here.
 #pragma once
 

@@ -18,7 +18,8 @@ constexpr const char* suite_version = "4";
 constexpr std::size_t key_columns = 10;
 /// The columns of a measured cut (harness/records/metrics.h).
 const std::vector<std::string>& column_names();
-/// The first columns of every record. \param subject  what is cut or solved: `cut_family`, or `problem` in accuracy runs
+/// The first columns of every record. \param subject  what is cut or solved: `cut_family`, or `problem` in accuracy
+/// runs
 std::vector<std::string> key_column_names(const std::string& subject = "cut_family");
 
 /// A row: the fields in the order of the columns.

@@ -16,7 +16,7 @@
 
 namespace cutbench {
 
-/// After a step; J, those below summed from the beginning.
+/// After a step; J. The values below the energy are sums from the beginning.
 struct BudgetRow {
   double time = 0;  ///< s
   Energy energy;
@@ -24,7 +24,7 @@ struct BudgetRow {
   double damping = 0;         ///< lost
   double numerical_loss = 0;  ///< lost by backward Euler
   double jumps = 0;           ///< of the total at cuts
-  double remainder = 0;       ///< gained, when all above is counted
+  double remainder = 0;       ///< gained, and not explained by the above
 };
 
 class EnergyBudget {
@@ -39,7 +39,7 @@ class EnergyBudget {
 
   const std::vector<BudgetRow>& rows() const { return rows_; }
   /// The largest rise of the total, less work of pins and jumps, over any span of time, relative to the largest
-  /// kinetic + elastic energy so far: nothing but an error can raise it.
+  /// kinetic + elastic energy so far. Only an error can raise it.
   double growth() const;
   /// CSV. Throws OutputError.
   void write(const std::filesystem::path& file) const;

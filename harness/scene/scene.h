@@ -14,7 +14,7 @@
 //                 space = "world": the points are picked on the sheet as it is at that time (harness/path/pick.h), each
 //                 [x, y, z], or a ray {origin = [x, y, z], direction = [x, y, z]}
 //
-// What is left out has the value it has below; vectors of a scene in the plane may leave out z. Boxes may be infinite.
+// Omitted keys have the defaults below. In a 2D scene vectors may omit z. Boxes may be infinite.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@
 
 namespace cutbench {
 
-/// A pin as written, before there is a sheet.
+/// A pin as written in the file.
 struct ScenePin {
   std::optional<Point2> near;  ///< holds the vertex nearest to it; `pin.where` is then not yet known
   Pin pin;

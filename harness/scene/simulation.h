@@ -1,5 +1,5 @@
-// A cut where it happens: inside a running simulation, right after a step, with what follows it: the state carried
-// over, the model brought up to date, and the first step after.
+// A running simulation and the cuts made in it. A cut comes right after a step; then the state of new vertices is
+// transferred, the model is updated, and the next step follows.
 #pragma once
 
 #include <memory>
@@ -11,21 +11,22 @@
 
 namespace cutbench {
 
-/// One cut in motion. Microseconds, steady clock; nothing is warmed up.
+/// A cut in a moving sheet. Times in microseconds, steady clock; nothing is warmed up.
 struct MotionCut {
   CutRun cut;
   std::string verdict = "ok", reason;  ///< of the cut and of the steps before and after it
-  std::size_t parts = 0;               ///< it was made in: by a blade, one a step; below are sums over them
-  double pick_us = 0;                  ///< the sheet as it is then into a tree, and the picks carried to rest space
-  double transfer_us = 0;              ///< state of new vertices
-  double pattern_us = 0;               ///< element data, mass, loads and the pattern of the system
-  double bending_us = 0;               ///< stencils and rows of the bending matrix
+  std::size_t parts = 0;               ///< a blade cuts one part in each step; the times below are sums over the parts
+  double pick_us = 0;      ///< building the tree of the deformed sheet, and carrying the picks to rest space
+  double transfer_us = 0;  ///< state of new vertices
+  double pattern_us = 0;   ///< element data, mass, loads and the pattern of the system
+  double bending_us = 0;   ///< stencils and rows of the bending matrix
   StepReport first_step;
-  double rebuild_us = 0;          ///< (b): instead of `pattern`, all of that made anew
-  double bending_rebuild_us = 0;  ///< (b): instead of `bending`
-  double triplets_us =
-      0;                  ///< (c): instead of `assemble`, by Eigen's setFromTriplets, scalar entries, triplets included
-  Balance before, after;  ///< of the instant; of a blade's cut, `after` has all that jumped, without what moved between
+  double rebuild_us = 0;          ///< instead of `pattern`: a new model
+  double bending_rebuild_us = 0;  ///< instead of `bending`: a new bending matrix
+  double triplets_us = 0;  ///< instead of `assemble`: Eigen's setFromTriplets with scalar entries, triplets included
+  /// Right before and after the cut. Of a blade's cut, `after` contains the sum of all jumps, without the motion
+  /// between.
+  Balance before, after;
 };
 
 class Simulation {
@@ -39,7 +40,7 @@ class Simulation {
   /// Steps, with the scene's own cuts made by `method` when they are due. Returns the first report that is not ok, or
   /// the last one. Throws InputError where a pick misses the sheet.
   virtual StepReport advance(double time, CuttingMethod& method, const CutOptions& options) = 0;
-  /// Goes on from here by one step, cuts, and steps again; then all is as it was before.
+  /// Makes one step, the cuts, and one more step, and then restores the state before.
   virtual MotionCut try_cut(const std::vector<Curve>& cuts, Cutter& cutter, CuttingMethod& method,
                             const CutOptions& options) = 0;
   virtual Balance balance() = 0;

@@ -14,8 +14,8 @@ struct Start {
   std::array<bool, 3> held{};
 };
 
-/// Newton's method with a line search begins where `start` puts the sheet. Near the expected shape it needs a few
-/// iterations, from flat twenty; the equilibrium is the same (tests/out_of_plane_truth_test.cpp).
+/// Newton's method with a line search starts from the positions of `start`. It needs a few iterations from near the
+/// expected shape and about twenty from a flat sheet; the equilibrium is the same (tests/out_of_plane_truth_test.cpp).
 class BentSheet {
  public:
   /// One pin for each held rest vertex, so `start` must hold all copies of it or none on an axis. Gravity pulls along
@@ -27,7 +27,7 @@ class BentSheet {
   /// there is no equilibrium, which is then the verdict.
   bool solve_to_equilibrium(const SolverOptions& solver, Answer& answer);
 
-  // --- after solve_to_equilibrium() ------------------------------------------------------------------------------------------------
+  // --- after solve_to_equilibrium() ----------------------------------------------------------------------------------
   Point3 position(DeformedIndex d) const;  ///< m
   Energy energy() const;
   /// N: what holds the vertex on its held axes, with the sheet's weight there.

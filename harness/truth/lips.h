@@ -14,8 +14,8 @@ struct LipSample {
   double length;
 };
 
-/// Of each sample, m along its normal: that of the nearest opened edge, there; 0 where none is within `reach`, which is
-/// how a curve that was not opened looks.
+/// The gape at each sample, m along its normal: that of the nearest opened edge at that place. 0 where no opened edge
+/// is within `reach`: the curve was not opened there.
 std::vector<double> opening(const Sheet& sheet, const Field& displacement, const std::vector<LipSample>& samples,
                             double reach);
 /// The same of an exact field.

@@ -1,5 +1,5 @@
-// Equilibrium of an opened sheet in its plane, linear, with given displacements and forces: assembled once, solved once
-// per budget.
+// Linear equilibrium of an opened sheet in its plane, with given displacements and forces. It is assembled once, and
+// solved once for each budget.
 #pragma once
 
 #include <functional>
@@ -24,14 +24,15 @@ class StaticSolve {
   void hold(Point2 p, int axis, double value);
   /// Force per length on the border edges that `where` says yes to (by their ends), N/m.
   void pull_border(const std::function<bool(Point2, Point2)>& where, const Eigen::Vector2d& force);
-  /// Holds at zero all of every piece that nothing holds yet: what was cut out has no equilibrium of its own.
+  /// Holds all vertices of every piece that nothing holds yet at zero: a piece that is cut out has no unique
+  /// equilibrium.
   void hold_loose_pieces();
 
   struct Solution {
     Field displacement;  ///< two values per slot of a deformed vertex, m
     Answer answer;       ///< all but the measures
   };
-  /// After all that holds and pulls; the first call assembles, and the time of that is in every answer.
+  /// Call it after all functions above. The first call assembles; that time is part of every answer.
   Solution solve(const Budget& budget);
 
   const ElementTable& elements() const { return model_.elements(); }

@@ -1,5 +1,5 @@
-// Triangles that the path passes through more than once, or turns round in: its pieces are cut at their crossings, so
-// that what is left are nodes and segments that meet in nodes only.
+// Triangles that the path passes through more than once, or turns round in: the passages are divided at their
+// crossings, so that segments meet in nodes only.
 #include <cmath>
 
 #include "harness/mesh/predicates.h"
@@ -74,7 +74,8 @@ std::vector<Point2> Tracer::passage_points(const TrianglePassage& passage, bool 
   return points;
 }
 
-/// No simplified passage crosses another, nor do the two paths they stand for: else the crossing would be off the path.
+/// Whether simplified passages cross as often as the parts of the path that they replace: otherwise a crossing would
+/// lie off the path.
 bool Tracer::chords_tell_the_truth(int face) const {
   for (int i = passages_of(face); i >= 0; i = passage(i).next)
     for (int j = passage(i).next; j >= 0; j = passage(j).next) {

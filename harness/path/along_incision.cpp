@@ -1,6 +1,6 @@
-// A curve made again does not meet the chords that stand for it, but runs beside them, within the chord tolerance, from
-// one of their ends to the next. Where a curved path does so it follows the incision, which is open already; else every
-// repetition would cut a strip off it.
+// A curved path that runs along an older incision, such as the same curve cut again. It does not meet the chords of
+// that incision, but stays within the chord tolerance of them. There the path is taken to run along the incision, which
+// is open already; otherwise every repetition would cut off a thin strip.
 #include <cmath>
 
 #include "harness/mesh/one_ring.h"
@@ -27,10 +27,10 @@ bool Tracer::is_on_incision(const Place& place) const {
   return false;
 }
 
-/// Takes in one step of the walk. Those of a curved path are held back from one place on an incision to the next, and
-/// then left out if it followed the incision.
+/// Takes one step of the walk. Steps of a curved path between two places on an incision are kept back, and dropped if
+/// the path ran along the incision between them.
 void Tracer::take(const Step& step, std::size_t point, bool tip) {
-  // Longer excursions are made as they are: the search for a chain beside them is for short ones.
+  // Only short excursions are compared with the incision; longer ones are cut as they are.
   constexpr std::size_t longest = 256;
   const bool may_follow = path_->curved && std::isfinite(chord_tolerance_);
   if (departed_)
@@ -39,7 +39,7 @@ void Tracer::take(const Step& step, std::size_t point, bool tip) {
     handle(step, point, tip);
   if (!may_follow) return;
   const bool back = is_on_incision(step.place);
-  if (departed_ && back && follows_incision()) {
+  if (departed_ && back && runs_along_incision()) {
     excursion_.clear();
     from_ = step.place, from_node_ = -1;
     first_ = step.arrived ? point + 1 : point, count_ = 0;
@@ -56,7 +56,7 @@ void Tracer::flush() {
 }
 
 /// Is there a chain of incision edges from the excursion's start to its end, such that neither strays from the other?
-bool Tracer::follows_incision() {
+bool Tracer::runs_along_incision() {
   const Place &from = departure_, &to = excursion_.back().step.place;
   way_.assign(1, from.point);
   for (const Taken& taken : excursion_) {
@@ -81,8 +81,8 @@ bool Tracer::follows_incision() {
   return false;
 }
 
-/// Goes from v, not back to `before`, along incision edges near the way until `to`, and adds where it comes past to
-/// chain_. Of several edges it takes the one that comes nearest to the end.
+/// Walks from v, not back to `before`, along incision edges near the path until `to`, and appends the vertices it
+/// passes to chain_. Of several edges it takes the one that ends nearest to `to`.
 bool Tracer::find_chain(const Place& to, VertexIndex before, VertexIndex v) {
   if (to.kind == Place::Kind::vertex && to.vertex == departure_.vertex) return false;
   for (std::size_t budget = 32 * way_.size() + 64; budget > 0; --budget) {
