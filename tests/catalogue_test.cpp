@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "harness/judge/assessment.h"
+#include "harness/mesh/tolerances.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 
@@ -110,7 +111,7 @@ void run_member(const CatalogueMember& member, const Trial& trial, double chord)
     // What is nearer than twice the snap distance to an edge goes along it. A Bezier's error is the oracle's affair.
     const bool declared = cuts[i].kind == Curve::Kind::polyline && table.outcome.status == Status::ok;
     if (exact && (expect.contains("incision_error") || declared)) {
-      EXPECT_LE(table.judgement.incision_error, expect.value("incision_error", 2 * table.sheet.snap()));
+      EXPECT_LE(table.judgement.incision_error, expect.value("incision_error", line_tolerance * table.sheet.snap()));
     }
   }
   if (whole && (exact || cuts.size() == 1)) {

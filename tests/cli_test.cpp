@@ -81,7 +81,7 @@ TEST_F(Cli, ColumnsAreThoseOfTheDocuments) {
       << "write it anew: cutbench columns";
 }
 
-/// README, "Try it".
+/// The commands of the README's demo.
 TEST_F(Cli, TheExampleIsCutAndScored) {
   const fs::path examples = fs::path(CUTBENCH_TEST_CASES) / "../../experiments/examples";
   const std::string files =

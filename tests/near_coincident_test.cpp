@@ -9,6 +9,7 @@
 #include "harness/campaign/cgal_peer.h"
 #include "harness/judge/oracle_request.h"
 #include "harness/mesh/families.h"
+#include "harness/mesh/tolerances.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 
@@ -58,7 +59,7 @@ void cut_by_method(const MeshData& mesh, const MethodRow& method, const std::arr
 
 /// Judged with the slack of the methods' declared snapping, though it snaps nothing.
 void cut_by_peer(const MeshData& data, const std::array<Curve, 3>& cuts, Row& row) {
-  const double snap = 2 * Sheet(data).snap();
+  const double snap = line_tolerance * Sheet(data).snap();
   oracle::Mesh mesh = for_oracle(data);
   for (const Curve& curve : cuts) {
     const oracle::PeerResult result = oracle::cgal_whole_sheet_cut(mesh, for_oracle(curve), snap);
@@ -99,7 +100,7 @@ TEST(NearCoincident, ACutItsShadowAndAThirdAcross) {
                cases);
   std::vector<MeshData> meshes;
   for (const char* family : sheet_families()) meshes.push_back(make_sheet(family, 8));
-  const double promised = 2 * Sheet(meshes.front()).snap() + 8 * std::numeric_limits<double>::epsilon();
+  const double promised = line_tolerance * Sheet(meshes.front()).snap() + 8 * std::numeric_limits<double>::epsilon();
   for (int k = 2; k <= 18; ++k) {
     const double eps = k == 18 ? 0 : std::pow(10.0, -k);
     for (const MethodRow& method : whole_sheet_methods()) {

@@ -1,5 +1,6 @@
 // Cuts made again, backwards or in another order.
 
+#include "harness/mesh/tolerances.h"
 #include "tests/metamorphic.h"
 
 namespace cutbench {
@@ -74,7 +75,7 @@ TEST_P(Repeated, BackwardsIsTheSameCut) {
     const CutSheet backwards = cut_with(GetParam(), *c.mesh, {reversed(c.cuts[0])}, c.chord_tolerance);
     // A curve that comes to one edge in one triangle gets a node at its middle point; of two it takes the later one.
     const bool is_curved = c.cuts[0].kind == Curve::Kind::bezier && c.name.find("tiny_open") != std::string::npos;
-    const double tolerance = is_curved ? 0.05 * forwards.sheet.mean_edge() : 2 * forwards.sheet.snap();
+    const double tolerance = is_curved ? 0.05 * forwards.sheet.mean_edge() : line_tolerance * forwards.sheet.snap();
     std::string what;
     if (is_exact())
       what = different_cut(shape_of(forwards.sheet), shape_of(backwards.sheet), tolerance);
@@ -102,7 +103,7 @@ TEST_P(Repeated, TwoCutsInEitherOrderGiveTheSamePieces) {
     const bool straight = std::all_of(c.cuts.begin(), c.cuts.end(), is_straight);
     std::string what;
     if (count_pieces(one.sheet) != count_pieces(two.sheet)) what = "pieces";
-    if (straight) what = different_cut(shape_of(one.sheet), shape_of(two.sheet), 2 * one.sheet.snap());
+    if (straight) what = different_cut(shape_of(one.sheet), shape_of(two.sheet), line_tolerance * one.sheet.snap());
     EXPECT_EQ(what, "") << text_of(c);
   });
 }

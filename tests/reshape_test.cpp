@@ -6,6 +6,7 @@
 #include "harness/judge/assessment.h"
 #include "harness/judge/judged_sheet.h"
 #include "harness/mesh/families.h"
+#include "harness/mesh/tolerances.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 
@@ -80,7 +81,8 @@ TEST(WarpAndRefine, KeepsTheChordToleranceOfCurves) {
             const CutOptions options{.chord_tolerance = tolerance};
             JudgedSheet sheet(before, row.promises, row.make(row.knob.value));
             if (sheet.why_unsupported()) continue;
-            const double allowed = (tolerance + options.flatten_tolerance) * before.mean_edge() + 4 * before.snap();
+            const double allowed =
+                (tolerance + options.flatten_tolerance) * before.mean_edge() + meeting_tolerance * before.snap();
             for (const Curve& curve : make_case(family, 7, i, before)) {
               const auto finding = sheet.cut(curve, options);
               EXPECT_TRUE(finding.ok()) << finding.reason;

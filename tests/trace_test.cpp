@@ -11,6 +11,7 @@
 #include "harness/cases/cut_families.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/predicates.h"
+#include "harness/mesh/tolerances.h"
 #include "tests/helpers.h"
 
 namespace cutbench {
@@ -153,7 +154,7 @@ TEST(Trace, EveryFamilyGivesSoundTraces) {
                 const double s = std::clamp(dot(p - a, ab) / squared_length(ab), 0.0, 1.0);
                 nearest = std::min(nearest, std::sqrt(squared_length(p - (a + s * ab))));
               }
-              EXPECT_LE(nearest, 4 * bench.sheet.snap());
+              EXPECT_LE(nearest, meeting_tolerance * bench.sheet.snap());
             }
           }
       }

@@ -54,7 +54,8 @@ CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, Cutti
     walk.locate(polyline_.points.front());
     outcome.time_us.locate = watch.lap();
 
-    Subdivision& trace = tracer_.trace(sheet, polyline_, walk, options.chord_tolerance * sheet.mean_edge());
+    const double chord_tolerance = options.chord_tolerance * sheet.mean_edge();
+    Subdivision& trace = tracer_.trace(sheet, polyline_, walk, chord_tolerance);
     outcome.time_us.trace += watch.lap();
     outcome.crossed_triangles = trace.crossed_triangles();  // of the path as asked for, whatever becomes of it
     if (outcome.crossed_triangles == 0 && trace.along.empty())
@@ -70,7 +71,9 @@ CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, Cutti
       sheet.rollback();
       sheet.begin_cut();
       notes = {}, outcome.carefully = true;
-      outcome.deviation = embed_carefully(sheet, trace);
+      Walk again(sheet, locator);
+      again.locate(polyline_.points.front());  // adapt() may have moved vertices, and the trace with them
+      outcome.deviation = embed_carefully(sheet, tracer_.trace(sheet, polyline_, again, chord_tolerance));
     }
     outcome.time_us.embed = watch.lap();
     method.improve(sheet, notes);

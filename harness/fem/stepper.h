@@ -8,8 +8,8 @@
 //
 //   backward_euler    as above; x = x0 + h v. First order; damps.
 //   midpoint          the same with h / 2 gives vm, the velocity at the middle of the step; v = 2 vm - v0,
-//                     x = x0 + h vm. Second order; no numerical damping of linear motion. It can gain energy where large
-//                     rotations are stiff (slivers, few Newton iterations).
+//                     x = x0 + h vm. Second order; no numerical damping of linear motion. It can gain energy where
+//                     large rotations are stiff (slivers, few Newton iterations).
 //   symplectic_euler  v = v0 + h M^-1 f(x0, v0); x = x0 + h v. Explicit: stable below 2 / omega_max.
 //   equilibrium       f(x) + f_ext = 0 by Newton with a line search on the energy.
 //

@@ -1,13 +1,12 @@
 // Every tolerance of cutting, with its reason. Decisions on the mesh are exact (predicates.h); a tolerance only says
-// when a path is taken for one that goes through a vertex or along an edge.
+// when a path is taken for one that goes through a vertex or has a point on an edge.
 //
 // The unit is the snap distance of the sheet, Sheet::snap(). In these words:
-//   through a vertex  A straight piece of the path that passes a vertex within `line_tolerance` goes through the
-//   vertex. A
-//                     corner, tip or crossing of the path (a point) within `point_tolerance` of a vertex is that vertex.
-//   on an edge        A point of the path within `line_tolerance` of an edge lies on it; a piece with both ends on one
-//   edge
-//                     runs along it.
+//   through a vertex  A straight piece of the path that passes a vertex within `line_tolerance` goes through it. A
+//                     corner, tip or crossing of the path (a point) within `point_tolerance` of a vertex is that
+//                     vertex.
+//   on an edge        A point of the path within `line_tolerance` of an edge lies on it. A piece with both ends on one
+//                     edge runs along it.
 // The distance of a point from a line is measured along the axis to which the line is steeper: 1 to 1.41 times the
 // shortest distance. So a piece within 1.41 snap distances of a vertex always goes through it, beyond 2 never.
 // The oracle (harness/measure) shares no code with this: it is told the distances in its request

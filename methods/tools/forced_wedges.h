@@ -53,8 +53,9 @@ class ForcedWedges {
   /// Looks at the fans round the path's vertices. \pre the path is embedded and still closed.
   void find(const Sheet& sheet);
   bool empty() const { return corners_.empty(); }
-  /// Does p lie within 0.25 mean rest edges of a corner, or between its legs where they are closer than 0.3? A leg ends
-  /// where it turns by more than 45 degrees, or once round.
+  /// Whether p lies within `forced_wedge_disc` of a corner, or between its legs where they are closer than
+  /// `forced_wedge_width` (mean rest edges; harness/mesh/tolerances.h). A leg ends where it turns by more than 45
+  /// degrees, or once round.
   bool hold(Point2 p) const;
   bool hold(const std::array<Point2, 3>& triangle) const {
     return hold(1.0 / 3 * (triangle[0] + triangle[1] + triangle[2]));
