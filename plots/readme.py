@@ -26,7 +26,7 @@ WINDOW = (0.345, 0.765, 0.355, 0.59)  # of the unit sheet: a stretch between ver
 BANDS = {3: "#fbdca4", 10: "#f29d4b", 30: "#c8551b"}  # colours of aspect ratios above these
 MESH, PATH, INCISION = "#8d8d8d", "#0072b2", "#a50021"
 GROUPS = {  # of the methods, by what they promise: colour, marker, words
-    "tolerance": ("#0072b2", "o", "incision within the chord tolerance of the path"),
+    "tolerance": ("#0072b2", "o", "incision within 0.1 edge lengths of the path"),
     "moved": ("#d55e00", "s", "incision moved by up to one edge length"),
     "removed": ("#777777", "X", "triangles removed, no incision"),
 }

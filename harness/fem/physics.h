@@ -29,7 +29,7 @@ constexpr EnumNames<Plane, 2> plane_names{{{Plane::stress, "stress"}, {Plane::st
 enum class Strain : std::uint8_t { linear, corotational };
 constexpr EnumNames<Strain, 2> strain_names{{{Strain::linear, "linear"}, {Strain::corotational, "corotational"}}};
 
-/// A new kind: its three rows of a triangle go to harness/fem/bending_rows.cpp, its case to Bending::rebuild().
+/// A new kind: its three rows of a triangle go to harness/fem/bending_rows.cpp, its case to Bending::add_rows().
 enum class BendingKind : std::uint8_t { none, patches, hinges };
 constexpr EnumNames<BendingKind, 3> bending_names{
     {{BendingKind::none, "none"}, {BendingKind::patches, "patches"}, {BendingKind::hinges, "hinges"}}};
