@@ -378,11 +378,11 @@ TEST(LinearSolver, SliverBlocksWithoutSliversArePlain) {
   const auto blocks = solved<2>({.name = "cg_sliver_blocks", .tolerance = 1e-6}, sheet, b);
   EXPECT_TRUE(plain.report.converged);
   EXPECT_EQ(plain.report.iterations, blocks.report.iterations);
-  EXPECT_EQ(plain.x, blocks.x);
+  EXPECT_LT((plain.x - blocks.x).norm(), 1e-6 * plain.x.norm());  // r.z is summed in another order
   sheet = plane_stress(strip(12, 1e-2));
   sheet.elements = {};  // shapes unknown
-  EXPECT_EQ(solved<2>({.name = "cg", .tolerance = 1e-6}, sheet, b).x,
-            solved<2>({.name = "cg_sliver_blocks", .tolerance = 1e-6}, sheet, b).x);
+  const Field x = solved<2>({.name = "cg", .tolerance = 1e-6}, sheet, b).x;
+  EXPECT_LT((x - solved<2>({.name = "cg_sliver_blocks", .tolerance = 1e-6}, sheet, b).x).norm(), 1e-6 * x.norm());
 }
 
 TEST(SliverBlocks, GroupsOfOneSliver) {
@@ -411,7 +411,7 @@ TEST(SliverBlocks, GroupsOfOneSliver) {
     EXPECT_LT((blocks.groups()[0].factor.reconstructedMatrix() - block).norm(), 1e-14 * block.norm());
     const Field r = random_field(7, 8), exact = block.llt().solve(r(unknowns));
     Field z = Field::Constant(8, 5);
-    EXPECT_NEAR(blocks.apply(r, z), exact.dot(r(unknowns)), 1e-13);
+    blocks.apply(r, z);
     EXPECT_LT((z(unknowns) - exact).norm(), 1e-13 * exact.norm());
     EXPECT_EQ(z[4], 5);
     EXPECT_EQ(z[5], 5);
@@ -538,7 +538,8 @@ TEST(LinearSolver, UnknownName) {
     make_solver<3>({.name = "gmres"});
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_EQ(std::string(error.what()), "unknown solver \"gmres\"; known are cg, cg_sliver_blocks, cholmod");
+    EXPECT_EQ(std::string(error.what()),
+              "unknown solver \"gmres\"; known are cg, cg_sliver_blocks, multigrid, cholmod");
   }
 }
 

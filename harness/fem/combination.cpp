@@ -61,6 +61,23 @@ void TiedSystem<D>::set_pattern(const SystemMatrix<D>& a) {
     if (own != all.end()) std::rotate(all.begin(), own, own + 1);
     blocks_.set_row(u, all);
   }
+  find_places(a);
+}
+
+template <int D>
+void TiedSystem<D>::find_places(const SystemMatrix<D>& a) {
+  places_.clear();
+  if (!a.places) return;
+  places_ = *a.places;
+  places_.resize(combination_.unknowns());
+  std::vector<double> dependents(places_.size(), 0);
+  for (const std::int32_t v : combination_.tied()) {
+    const auto& row = combination_.row(static_cast<std::size_t>(v));
+    for (std::size_t k = 0; k < row.size; ++k)
+      if (const auto u = static_cast<std::size_t>(row.unknown[k]); combination_.is_phantom(row.unknown[k]))
+        places_[u] = places_[u] + (*a.places)[static_cast<std::size_t>(v)], ++dependents[u];
+  }
+  for (std::size_t u = combination_.vertices(); u < places_.size(); ++u) places_[u] = 1 / dependents[u] * places_[u];
 }
 
 /// Block (i, j) of A, to where its vertices' unknowns meet.
@@ -114,6 +131,7 @@ template <int D>
 SystemMatrix<D> TiedSystem<D>::system() const {
   SystemMatrix<D> a;
   a.blocks = &blocks_, a.held = &held_, a.pattern = pattern_;
+  if (!places_.empty()) a.places = &places_;
   return a;
 }
 

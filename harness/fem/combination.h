@@ -69,6 +69,7 @@ class TiedSystem {
  private:
   void extrapolate(std::int32_t tied, const std::vector<std::uint8_t>& held, Field& x) const;
   void set_pattern(const SystemMatrix<D>& a);
+  void find_places(const SystemMatrix<D>& a);
   bool acts(const GhostEdge& ghost, std::size_t axis) const;
   void add(std::size_t i, std::size_t j, typename BlockMatrix<D>::Block block);
 
@@ -78,6 +79,7 @@ class TiedSystem {
   BlockMatrix<D> blocks_;
   std::vector<std::uint8_t> held_, held_vertices_;  // per unknown of q, and of A
   std::uint64_t pattern_ = 0;
+  std::vector<Point2> places_;  // of the unknowns: phantom nodes lie amid the vertices that depend on them
 };
 
 }  // namespace cutbench

@@ -24,17 +24,14 @@ void ConjugateGradients<D>::setup(const SystemMatrix<D>& a) {
     // Sylvester: the leading minors are positive; that of D - 1 rows is the determinant times the inverse's last entry.
     positive_blocks_ = positive_blocks_ && block(0, 0) > 0 && block.determinant() > 0 && inverse_[i](D - 1, D - 1) > 0;
   }
-  if (!use_sliver_blocks_) return;
-  sliver_blocks_.setup(a);
-  for (const auto& group : sliver_blocks_.groups())
-    for (const std::int32_t i : group.vertices) inverse_[static_cast<std::size_t>(i)].setZero();
+  if (preconditioner_) preconditioner_->setup(a);
 }
 
 template <int D>
 auto ConjugateGradients<D>::advance(double step, Field& x) -> Products {
   // One pass over the vertices: the vectors don't fit the cache beside the matrix. Sums per coordinate, so that
   // additions don't wait for each other.
-  Vector rr = Vector::Zero(), rz = Vector::Zero();
+  Vector rr = Vector::Zero(), rdr = Vector::Zero();
   for (std::size_t i = 0; i < inverse_.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(D * i);
     x.template segment<D>(at) += step * p_.template segment<D>(at);
@@ -43,10 +40,16 @@ auto ConjugateGradients<D>::advance(double step, Field& x) -> Products {
     r_.template segment<D>(at) = r;
     z_.template segment<D>(at) = z;
     rr += r.cwiseProduct(r);
-    rz += r.cwiseProduct(z);
+    rdr += r.cwiseProduct(z);
   }
-  const double of_slivers = use_sliver_blocks_ ? sliver_blocks_.apply(r_, z_) : 0;
-  return {rr.sum(), rz.sum() + of_slivers};
+  return {rr.sum(), rdr.sum(), rdr.sum()};
+}
+
+template <int D>
+void ConjugateGradients<D>::precondition(Products& now) {
+  if (!preconditions_) return;
+  preconditioner_->apply(r_, z_);
+  now.rz = r_.dot(z_);
 }
 
 template <int D>
@@ -59,37 +62,41 @@ SolveReport ConjugateGradients<D>::solve(const Field& b, Field& x) {
     report.converged = true;
     return report;
   }
+  preconditions_ = preconditioner_ != nullptr;
   r_ = b_;
-  const double bb = b_.squaredNorm();
-  // The residual must be small as preconditioned, too: where |b| is all a sliver's huge forces, the rest of the sheet
-  // could be anything.
-  const double enough = options_.tolerance * options_.tolerance * bb;
-  double enough_z = 0, last_z = 0;
-  for (int restart = 0;; ++restart) {
+  const double bb = b_.squaredNorm(), enough = options_.tolerance * options_.tolerance * bb;
+  double enough_rdr = 0;
+  for (int restart = 0;;) {
     Products now = advance(0, x);  // p = q = 0, or what the last round left, times 0
-    if (restart == 0) enough_z = options_.tolerance * options_.tolerance * now.rz;
+    if (restart == 0 && !report.fell_back) enough_rdr = options_.tolerance * options_.tolerance * now.rdr;
+    precondition(now);
     p_ = z_;
     bool broken = !positive_blocks_;
-    while (!broken && (now.rr > enough || now.rz > enough_z) && report.iterations < options_.max_iterations) {
+    while (!broken && (now.rr > enough || now.rdr > enough_rdr) && report.iterations < options_.max_iterations) {
       a.multiply(p_, q_);
       ++report.iterations;
       const double pap = p_.dot(q_);
       // Not positive definite (A, or the preconditioner), or not finite. Every comparison with NaN is false.
       broken = !(pap > 0 && now.rz > 0 && std::isfinite(pap) && std::isfinite(now.rz));
       if (broken) break;
-      const Products next = advance(now.rz / pap, x);
-      p_ = z_ + (next.rz / now.rz) * p_;
+      Products next = advance(now.rz / pap, x);
+      if (next.rr > enough || next.rdr > enough_rdr) precondition(next), p_ = z_ + (next.rz / now.rz) * p_;
       now = next;
     }
-    last_z = now.rz;
     a.multiply(x, q_);
     r_ = b_ - q_;
+    if (broken && positive_blocks_ && preconditions_) {  // the diagonal blocks may do where the preconditioner does not
+      report.fell_back = true, preconditions_ = false;
+      x.setZero(), r_ = b_, p_.setZero(), q_.setZero();
+      continue;
+    }
     const double rr = r_.squaredNorm();
     report.residual = std::sqrt(rr / bb);
-    report.converged = !broken && report.residual <= options_.tolerance && last_z <= enough_z && std::isfinite(bb);
+    report.converged = !broken && report.residual <= options_.tolerance && now.rdr <= enough_rdr && std::isfinite(bb);
     if (report.converged || broken || !std::isfinite(rr) || restart == max_restarts ||
         report.iterations >= options_.max_iterations)
       return report;
+    ++restart;
   }
 }
 

@@ -18,9 +18,10 @@ struct SolverOptions {
 struct SolveReport {
   int iterations = 0;   ///< 0 for a direct solver
   double residual = 0;  ///< |b - A x| / |b| with the true residual, computed anew from x; 0 where b is 0
-  /// residual <= tolerance, also as preconditioned, and finite; direct: residual <= 1e-8, or a backward error at the
-  /// level of rounding.
+  /// residual <= tolerance, and that of the equilibrated system, |b - A x| in the norm of the inverse diagonal blocks;
+  /// all finite. Direct: residual <= 1e-8, or a backward error at the level of rounding.
   bool converged = false;
+  bool fell_back = false;  ///< the preconditioner was not positive definite, and the diagonal blocks took its place
 };
 
 template <int D>
@@ -34,7 +35,8 @@ class LinearSolver {
 };
 
 /// "cg": conjugate gradients, preconditioned by the inverse diagonal blocks. "cg_sliver_blocks": the vertices joined by
-/// slivers share a block. "cholmod": supernodal Cholesky factorisation with METIS ordering.
+/// slivers share a block. "multigrid": a V-cycle that knows the cuts (multigrid.h). "cholmod": supernodal Cholesky
+/// factorisation with METIS ordering.
 const std::vector<std::string>& solver_names();
 /// Throws InputError for an unknown name.
 template <int D>

@@ -65,13 +65,14 @@ void Model<D>::update(const Sheet& sheet) {
 
 template <int D>
 void Model<D>::update_bending(const Sheet& sheet) {
-  if (bending_) bending_->update(sheet);
+  if (bending_) bending_->update(sheet), ++pattern_;
 }
 
 template <int D>
 void Model<D>::tie(const Ties& ties) {
   tied_.reset();
   if (!ties.empty()) tied_.emplace(ties, vertices());
+  ++pattern_;
 }
 
 template <int D>
@@ -88,7 +89,7 @@ void Model<D>::resize(const Sheet& sheet) {
   const auto old = static_cast<std::size_t>(mass_.size());
   incidence_.resize(n), blocks_.resize(n), marked_in_.resize(std::max(n, marked_in_.size()));
   if (consistent_mass_) consistent_mass_->resize(n);
-  held_.resize(D * n, 1), pin_of_.resize(D * n, -1);
+  held_.resize(D * n, 1), pin_of_.resize(D * n, -1), places_.resize(n);
   slots_.resize(elements_.size()), deformations_.resize(elements_.size());
   mass_.conservativeResize(static_cast<Eigen::Index>(n));
   external_.conservativeResize(static_cast<Eigen::Index>(D * n));
@@ -144,7 +145,7 @@ void Model<D>::refresh_loads(const Sheet& sheet, std::size_t v) {
     held_[D * v + k] = 1, pin_of_[D * v + k] = -1;
   }
   if (!rest_vertex.valid()) return;
-  const Point2 rest = sheet.rest(rest_vertex);
+  const Point2 rest = places_[v] = sheet.rest(rest_vertex);
   for (std::size_t k = 0; k < D; ++k) {
     for (std::size_t p = 0; p < pins_.size() && pin_of_[D * v + k] < 0; ++p)
       if (pins_[p].axes[k] && pins_[p].where.contains(rest)) pin_of_[D * v + k] = static_cast<std::int16_t>(p);
@@ -246,7 +247,7 @@ void Model<D>::assemble(double mass_factor, double stiffness_factor) {
 template <int D>
 SystemMatrix<D> Model<D>::system() const {
   SystemMatrix<D> a;
-  a.blocks = &blocks_, a.held = &held_, a.elements = &elements_, a.pattern = pattern_;
+  a.blocks = &blocks_, a.held = &held_, a.elements = &elements_, a.places = &places_, a.pattern = pattern_;
   if (bending_) a.scalar.push_back({stiffness_factor_, &bending_->matrix()});
   if (consistent_mass_) a.scalar.push_back({mass_factor_, &*consistent_mass_});
   return a;

@@ -93,21 +93,17 @@ void SliverBlocks<D>::factor(const SystemMatrix<D>& a, Group& group) {
 }
 
 template <int D>
-double SliverBlocks<D>::apply(const Field& r, Field& z) {
-  double rz = 0;
+void SliverBlocks<D>::apply(const Field& r, Field& z) {
   for (const Group& group : groups_) {
     const auto n = static_cast<Eigen::Index>(group.vertices.size());
     auto gathered = gathered_.head(D * n);
     for (Eigen::Index k = 0; k < n; ++k)
       gathered.segment<D>(D * k) = r.segment<D>(D * group.vertices[static_cast<std::size_t>(k)]);
-    // r.z = |L^-1 r|^2: never negative, whatever is rounded.
     group.factor.matrixL().solveInPlace(gathered);
-    rz += gathered.squaredNorm();
     group.factor.matrixU().solveInPlace(gathered);
     for (Eigen::Index k = 0; k < n; ++k)
       z.segment<D>(D * group.vertices[static_cast<std::size_t>(k)]) = gathered.segment<D>(D * k);
   }
-  return rz;
 }
 
 template class SliverBlocks<2>;

@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "harness/base/union_find.h"
-#include "harness/fem/system_matrix.h"
+#include "harness/fem/preconditioner.h"
 
 namespace cutbench {
 
 template <int D>
-class SliverBlocks {
+class SliverBlocks final : public Preconditioner<D> {
  public:
   static constexpr double good_aspect_ratio = 10;  ///< up to here an element costs CG at most a fifth more iterations
   static constexpr std::int32_t largest_group = 32;
@@ -29,9 +29,9 @@ class SliverBlocks {
 
   /// Finds the groups from a.elements (none where there is no table) and factors their blocks. A group whose block is
   /// not positive definite is dropped.
-  void setup(const SystemMatrix<D>& a);
-  /// z = block^-1 r at the vertices in groups; returns r.z of these.
-  double apply(const Field& r, Field& z);
+  void setup(const SystemMatrix<D>& a) override;
+  /// Changes z at the vertices in groups, to block^-1 r.
+  void apply(const Field& r, Field& z) override;
   const std::vector<Group>& groups() const { return groups_; }
 
  private:

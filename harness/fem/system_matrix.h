@@ -20,7 +20,9 @@ struct SystemMatrix {
   std::vector<ScalarTerm> scalar;                   ///< none where a scene has no bending
   const std::vector<std::uint8_t>* held = nullptr;  ///< per unknown: 1 where its value is given, or its vertex is freed
   const ElementTable* elements = nullptr;           ///< for preconditioners that look at shapes
-  std::uint64_t pattern = 0;                        ///< changes whenever the pattern of a part changed
+  const std::vector<Point2>* places = nullptr;      ///< of the vertices in rest space; NaN where that is not known
+  /// Changes whenever the pattern of a part or the values of a scalar matrix changed.
+  std::uint64_t pattern = 0;
 
   std::size_t vertices() const { return blocks->rows(); }
   /// y += A x, for all unknowns alike.
