@@ -56,6 +56,31 @@ class BlockMatrix {
   std::size_t block_count() const;                             ///< in use
   std::size_t slot_count() const { return columns_.slots(); }  ///< with those that rows have moved out of
 
+  /// Row i times x, whose vertices have a Lanes each: the D values, then zeros. D = 1: the entries times whole Lanes.
+  Lanes row_product(std::size_t i, std::span<const Lanes> x) const {
+    const Block* block = blocks_.data() + columns_.begin(i);
+    if constexpr (D == 1) {
+      Lanes sum{};
+      for (const std::int32_t j : columns_[i]) sum += (*block++)(0) * x[static_cast<std::size_t>(j)];
+      return sum;
+    } else {
+      // Entries four by four, which belong to different rows: sorted out at the end.
+      Lanes first{}, second{}, last{};
+      for (const std::int32_t j : columns_[i]) {
+        const Lanes at = x[static_cast<std::size_t>(j)];
+        const double* const entries = (block++)->data();
+        if constexpr (D == 2) first += load(entries) * __builtin_shufflevector(at, at, 0, 0, 1, 1);
+        if constexpr (D == 3) {
+          first += load(entries) * __builtin_shufflevector(at, at, 0, 0, 0, 1);
+          second += load(entries + 4) * __builtin_shufflevector(at, at, 1, 1, 2, 2);
+          last[0] += entries[8] * at[2];
+        }
+      }
+      if constexpr (D == 2) return Lanes{first[0] + first[2], first[1] + first[3], 0, 0};
+      return Lanes{first[0] + first[3] + second[2], first[1] + second[0] + second[3], first[2] + second[1] + last[0],
+                   0};
+    }
+  }
   /// y += factor A x.
   void add_product(double factor, const Field& x, Field& y) const;
 

@@ -220,6 +220,25 @@ void Model<D>::add_internal_force(const Field& x, Field& f) const {
 }
 
 template <int D>
+void Model<D>::add_impulse(double h, const Field& x, double factor, const Field& v, Field& y) {
+  y += h * membrane_.force();
+  velocity_.resize(vertices()), bent_.resize(vertices());
+  for (std::size_t i = 0; i < vertices(); ++i) {
+    Lanes at{};
+    for (std::size_t k = 0; k < D; ++k)
+      velocity_[i][k] = v[static_cast<Eigen::Index>(D * i + k)], at[k] = x[static_cast<Eigen::Index>(D * i + k)];
+    bent_[i] =
+        h * at + factor * stiffness_factor_ * velocity_[i];  // K_b (h x) and factor stiffness_factor K_b v at once
+  }
+  for (std::size_t i = 0; i < vertices(); ++i) {
+    Lanes sum = factor * blocks_.row_product(i, velocity_);
+    if (bending_) sum += bending_->matrix().row_product(i, bent_);
+    for (std::size_t k = 0; k < D; ++k) y[static_cast<Eigen::Index>(D * i + k)] -= sum[k];
+  }
+  if (consistent_mass_) add_product_per_coordinate(*consistent_mass_, D, -factor * mass_factor_, v, y);
+}
+
+template <int D>
 void Model<D>::assemble(double mass_factor, double stiffness_factor) {
   mass_factor_ = mass_factor, stiffness_factor_ = stiffness_factor;
   blocks_.set_zero();
