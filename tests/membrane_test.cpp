@@ -1,6 +1,6 @@
 // One membrane triangle: what must hold for any shape and any deformation, by finite differences and by hand.
 
-#include "harness/fem/membrane.h"
+#include "harness/fem/element_stiffness.h"
 
 #include <gtest/gtest.h>
 
@@ -63,13 +63,12 @@ Field forces(const Element& e, const Field& x, Strain strain, const Lame& lame) 
 
 template <int D>
 Eigen::MatrixXd stiffness(const Element& e, const Field& x, Strain strain, const Lame& lame) {
-  const ElementStiffness<D> stiffness(e, deformation_of<D>(e, x, strain, lame), strain, lame, 1);
+  const ElementStiffness<D> stiffness(e, deformation_of<D>(e, x, strain, lame), strain, lame);
   Eigen::MatrixXd k(3 * D, 3 * D);
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
-      for (std::size_t c = 0; c < D; ++c)
-        k.block<D, 1>(D * static_cast<int>(i), D * static_cast<int>(j) + static_cast<int>(c)) =
-            stiffness.block(i, j)[c].template head<D>();
+      k.block<D, D>(D * static_cast<int>(i), D * static_cast<int>(j)) =
+          Eigen::Map<const Eigen::Matrix<double, D, D>>(stiffness.block(i, j).data());
   return k;
 }
 

@@ -228,6 +228,33 @@ TEST(Model, NullModesArePiecesTimesThree) {
     }
 }
 
+/// add_impulse() against forces and the dense matrix, one by one.
+template <int D>
+void expect_plain_impulse(const Physics& physics) {
+  Body<D> body(make_sheet("delaunay", 6), skin, physics, corner_pins);
+  ASSERT_EQ(body.cut(line({0.2, 0.3}, {0.7, 0.61})), Status::ok);
+  Model<D>& model = body.model;
+  const Field x = bent(model, body.sheet), v = (3 * x.array()).sin();
+  const double h = 0.01, factor = 0.7;
+  model.rotate(x), model.assemble(1.1, 0.02);
+  Field force = Field::Zero(x.size()), impulse = v;
+  model.add_internal_force(x, force);
+  model.add_impulse(h, x, factor, v, impulse);
+  const Field pushed = h * force, slowed = factor * (dense(model) * v);
+  EXPECT_LE((impulse - (v + pushed - slowed)).norm(), 1e-12 * (v.norm() + pushed.norm() + slowed.norm()));
+}
+
+TEST(Model, ImpulseIsForcesLessMatrixTimesVelocity) {
+  for (const Mass mass : {Mass::lumped, Mass::consistent}) {
+    expect_plain_impulse<2>(physics_with(2, mass));
+    for (const BendingKind kind : {BendingKind::none, BendingKind::patches, BendingKind::hinges}) {
+      Physics physics = physics_with(3, mass);
+      physics.bending = kind;
+      expect_plain_impulse<3>(physics);
+    }
+  }
+}
+
 /// The order of vertices and triangles does not matter.
 TEST(Model, P8NumberingDoesNotMatter) {
   MeshData mesh = make_sheet("delaunay", 8), shuffled = mesh;

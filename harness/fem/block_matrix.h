@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "harness/fem/growing_rows.h"
+#include "harness/fem/lanes.h"
 
 namespace cutbench {
 
@@ -33,15 +34,18 @@ class BlockMatrix {
   std::span<const std::int32_t> columns(std::size_t i) const { return columns_[i]; }
   /// Slot of the first block in row i, the diagonal one; the others follow in the order of columns().
   std::int32_t first_slot(std::size_t i) const { return static_cast<std::int32_t>(columns_.begin(i)); }
-  /// Adds the first D values of each column to those of the block in a slot. In two pieces for D = 3, because four at a
-  /// time would read what was just written.
-  template <class Column>
-  void add(std::int32_t slot, const std::array<Column, D>& columns) {
-    double* to = blocks_[static_cast<std::size_t>(slot)].data();
-    for (const Column& column : columns) {
-      if constexpr (D >= 2) Eigen::Map<Eigen::Vector2d>(to) += column.template head<2>();
-      if constexpr (D != 2) to[D - 1] += column[D - 1];
-      to += D;
+  /// Adds a block to each of four slots: lane l of entry k, column by column, to the block in slots[l]. Slots below
+  /// zero are left out.
+  void add(const std::array<std::int32_t, lane_count>& slots, const std::array<Lanes, D * D>& entries) {
+    constexpr std::size_t fours = D * D / 4, rest = 4 * fours;
+    std::array<std::array<Lanes, lane_count>, fours> turned;  // four entries each, of the four blocks
+    for (std::size_t k = 0; k < fours; ++k)
+      turned[k] = transposed(entries[4 * k], entries[4 * k + 1], entries[4 * k + 2], entries[4 * k + 3]);
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      if (slots[l] < 0) continue;
+      double* const to = blocks_[static_cast<std::size_t>(slots[l])].data();
+      for (std::size_t k = 0; k < fours; ++k) store(load(to + 4 * k) + turned[k][l], to + 4 * k);
+      for (std::size_t k = rest; k < D * D; ++k) to[k] += entries[k][l];
     }
   }
   Block& block(std::int32_t slot) { return blocks_[static_cast<std::size_t>(slot)]; }
@@ -52,6 +56,31 @@ class BlockMatrix {
   std::size_t block_count() const;                             ///< in use
   std::size_t slot_count() const { return columns_.slots(); }  ///< with those that rows have moved out of
 
+  /// Row i times x, whose vertices have a Lanes each: the D values, then zeros. D = 1: the entries times whole Lanes.
+  Lanes row_product(std::size_t i, std::span<const Lanes> x) const {
+    const Block* block = blocks_.data() + columns_.begin(i);
+    if constexpr (D == 1) {
+      Lanes sum{};
+      for (const std::int32_t j : columns_[i]) sum += (*block++)(0) * x[static_cast<std::size_t>(j)];
+      return sum;
+    } else {
+      // Entries four by four, which belong to different rows: sorted out at the end.
+      Lanes first{}, second{}, last{};
+      for (const std::int32_t j : columns_[i]) {
+        const Lanes at = x[static_cast<std::size_t>(j)];
+        const double* const entries = (block++)->data();
+        if constexpr (D == 2) first += load(entries) * __builtin_shufflevector(at, at, 0, 0, 1, 1);
+        if constexpr (D == 3) {
+          first += load(entries) * __builtin_shufflevector(at, at, 0, 0, 0, 1);
+          second += load(entries + 4) * __builtin_shufflevector(at, at, 1, 1, 2, 2);
+          last[0] += entries[8] * at[2];
+        }
+      }
+      if constexpr (D == 2) return Lanes{first[0] + first[2], first[1] + first[3], 0, 0};
+      return Lanes{first[0] + first[3] + second[2], first[1] + second[0] + second[3], first[2] + second[1] + last[0],
+                   0};
+    }
+  }
   /// y += factor A x.
   void add_product(double factor, const Field& x, Field& y) const;
 

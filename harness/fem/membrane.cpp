@@ -48,23 +48,12 @@ Eigen::Matrix<double, 3, 2> tangent_frame(const Eigen::Matrix<double, 3, 2>& f) 
   return frame;
 }
 
-/// s's negative part along its principal directions left out, divided by S there (s and S share them).
-Matrix2d tension_over_stretch(const Matrix2d& stress, const Matrix2d& stretch) {
-  const double mean = (stretch(0, 0) + stretch(1, 1)) / 2, half = (stretch(0, 0) - stretch(1, 1)) / 2;
-  const double radius = std::hypot(half, stretch(0, 1));
-  // Direction of the larger principal stretch; any where both are equal.
-  Vector2d v(1, 0);
-  if (radius > 0) {
-    const double c = std::sqrt(std::max(0.0, (1 + half / radius) / 2));
-    const double s = std::sqrt(std::max(0.0, (1 - half / radius) / 2));
-    v = {c, stretch(0, 1) < 0 ? -s : s};
-  }
-  const Vector2d w(-v.y(), v.x());
-  const auto ratio = [&](const Vector2d& direction, double principal) {
-    const double tension = direction.dot(stress * direction);
-    return tension > 0 && principal > 0 ? tension / principal : 0;
-  };
-  return ratio(v, mean + radius) * v * v.transpose() + ratio(w, mean - radius) * w * w.transpose();
+template <int D>
+void add_stress(const Lame& lame, Deformation<D>& d) {
+  const Matrix2d e = d.stretch - Matrix2d::Identity();
+  const double trace = e.trace();
+  d.stress = 2 * lame.mu * e + lame.lambda * trace * Matrix2d::Identity();
+  d.energy = lame.mu * e.squaredNorm() + lame.lambda / 2 * trace * trace;
 }
 
 }  // namespace
@@ -92,39 +81,38 @@ Deformation<D> deformation_of(const Element& element, const Field& x, Strain str
     d.stretch = turn.transpose() * in_plane;
   }
   d.stretch(0, 1) = d.stretch(1, 0) = (d.stretch(0, 1) + d.stretch(1, 0)) / 2;
-  const Matrix2d e = d.stretch - Matrix2d::Identity();
-  const double trace = e.trace();
-  d.stress = 2 * lame.mu * e + lame.lambda * trace * Matrix2d::Identity();
-  d.energy = lame.mu * e.squaredNorm() + lame.lambda / 2 * trace * trace;
+  add_stress(lame, d);
   return d;
 }
 
 template <int D>
-ElementStiffness<D>::ElementStiffness(const Element& element, const Deformation<D>& d, Strain strain, const Lame& lame,
-                                      double factor)
-    : gradient_(element.gradient) {
-  const double area = factor * element.material_area();
-  lambda_ = area * lame.lambda, mu_ = area * lame.mu, twist_ = 0;
-  for (auto& column : frame_) column.setZero();
-  for (std::size_t k = 0; k < 2; ++k) frame_[k].template head<D>() = d.rotation.col(static_cast<Eigen::Index>(k));
-  if constexpr (D == 3) frame_[2].template head<3>() = d.rotation.col(0).cross(d.rotation.col(1));
-  if (strain == Strain::linear) return;
-  const double trace = d.stretch.trace();
-  if (trace > 0) twist_ = area / 2 * std::max(0.0, d.stress.trace() / trace);
-  if constexpr (D == 3) {
-    const Matrix2d tension = area * tension_over_stretch(d.stress, d.stretch);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vector2d pulled = tension * gradient(element, i);
-      pulled_[i] = {pulled.x(), pulled.y()};
-    }
-  }
+Deformation<D> deformation_of(const Polar<D, double>& polar, const Lame& lame) {
+  Deformation<D> d;
+  for (std::size_t k = 0; k < 2; ++k)
+    d.rotation.col(static_cast<Eigen::Index>(k)) =
+        Eigen::Map<const Eigen::Matrix<double, D, 1>>(polar.rotation[k].data());
+  d.stretch << polar.xx, polar.xy, polar.xy, polar.yy;
+  add_stress(lame, d);
+  return d;
+}
+
+template <int D>
+Polar<D, double> polar_of(const Deformation<D>& d) {
+  Polar<D, double> polar;
+  for (std::size_t k = 0; k < 2; ++k)
+    for (std::size_t r = 0; r < D; ++r)
+      polar.rotation[k][r] = d.rotation(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(k));
+  polar.xx = d.stretch(0, 0), polar.xy = d.stretch(0, 1), polar.yy = d.stretch(1, 1);
+  return polar;
 }
 
 template struct Deformation<2>;
 template struct Deformation<3>;
 template Deformation<2> deformation_of<2>(const Element&, const Field&, Strain, const Lame&);
 template Deformation<3> deformation_of<3>(const Element&, const Field&, Strain, const Lame&);
-template class ElementStiffness<2>;
-template class ElementStiffness<3>;
+template Deformation<2> deformation_of<2>(const Polar<2, double>&, const Lame&);
+template Deformation<3> deformation_of<3>(const Polar<3, double>&, const Lame&);
+template Polar<2, double> polar_of<2>(const Deformation<2>&);
+template Polar<3, double> polar_of<3>(const Deformation<3>&);
 
 }  // namespace cutbench

@@ -34,9 +34,22 @@ struct Deformation {
   double energy;                         ///< N/m: per rest area
 };
 
-/// \pre x has the vertices of `element`.
+/// R by its columns, and S, of one triangle or of several side by side (lanes.h).
+template <int D, class Number>
+struct Polar {
+  std::array<std::array<Number, D>, 2> rotation;
+  Number xx, xy, yy;  ///< of S
+};
+
+/// For every shape, collapsed triangles included. \pre x has the vertices of `element`.
 template <int D>
 Deformation<D> deformation_of(const Element& element, const Field& x, Strain strain, const Lame& lame);
+
+template <int D>
+Polar<D, double> polar_of(const Deformation<D>& deformation);
+/// Stress and energy as R and S make them.
+template <int D>
+Deformation<D> deformation_of(const Polar<D, double>& polar, const Lame& lame);
 
 /// Force on corner k, N: -A P g_k.
 template <int D>
@@ -45,38 +58,5 @@ Eigen::Matrix<double, D, 1> membrane_force(const Element& element, const Deforma
                           element.gradient[static_cast<std::size_t>(k)].y);
   return -element.material_area() * (deformation.rotation * (deformation.stress * g));
 }
-
-/// The element's stiffness times a factor, N/m: 3 x 3 blocks of D x D, symmetric, positive semi-definite. Each block is
-/// known in the element's own frame (the columns of R, and the normal) and turned from there.
-template <int D>
-class ElementStiffness {
- public:
-  /// D values, and for D = 3 a zero, so that one operation does for four.
-  using Column = Eigen::Matrix<double, D == 3 ? 4 : D, 1>;
-
-  ElementStiffness(const Element& element, const Deformation<D>& deformation, Strain strain, const Lame& lame,
-                   double factor);
-  /// The columns of block (i, j).
-  std::array<Column, D> block(std::size_t i, std::size_t j) const {
-    const auto [a, b] = gradient_[i];
-    const auto [c, d] = gradient_[j];
-    const double both = mu_ * (a * c + b * d);
-    const double xx = (lambda_ + mu_) * a * c + twist_ * b * d + both, xy = lambda_ * a * d + (mu_ - twist_) * b * c;
-    const double yx = lambda_ * b * c + (mu_ - twist_) * a * d, yy = (lambda_ + mu_) * b * d + twist_ * a * c + both;
-    const Column x = xx * frame_[0] + yx * frame_[1], y = xy * frame_[0] + yy * frame_[1];
-    std::array<Column, D> columns;
-    for (std::size_t k = 0; k < D; ++k) {
-      const auto row = static_cast<Eigen::Index>(k);
-      columns[k] = frame_[0][row] * x + frame_[1][row] * y;
-      if constexpr (D == 3) columns[k] += (pulled_[i].x * c + pulled_[i].y * d) * frame_[2][row] * frame_[2];
-    }
-    return columns;
-  }
-
- private:
-  std::array<Column, D> frame_;              // the columns of R, the normal
-  std::array<Point2, 3> gradient_, pulled_;  // g; factor area Q g
-  double lambda_, mu_, twist_;               // times factor area
-};
 
 }  // namespace cutbench

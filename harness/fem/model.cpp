@@ -17,10 +17,10 @@ Model<D>::Model(const Sheet& sheet, const Material& material, const Physics& phy
                 std::vector<Traction> tractions)
     : material_(material),
       physics_(physics),
-      lame_(lame_of(material, physics.plane)),
       pins_(std::move(pins)),
       tractions_(std::move(tractions)),
-      elements_(sheet) {
+      elements_(sheet),
+      membrane_(physics.strain, lame_of(material, physics.plane)) {
   if (physics.mass == Mass::consistent) consistent_mass_.emplace();
   resize(sheet);
   ++round_;
@@ -34,8 +34,7 @@ Model<D>::Model(const Sheet& sheet, const Material& material, const Physics& phy
 
 template <int D>
 void Model<D>::reserve_spare() {
-  blocks_.reserve_spare(), incidence_.reserve_spare();
-  slots_.reserve(slots_.size() + slots_.size() / 2), deformations_.reserve(slots_.capacity());
+  blocks_.reserve_spare(), incidence_.reserve_spare(), membrane_.reserve_spare();
   if (consistent_mass_) consistent_mass_->reserve_spare();
   if (bending_) bending_->reserve_spare();
 }
@@ -54,7 +53,7 @@ void Model<D>::update(const Sheet& sheet) {
   elements_.update(sheet);
   resize(sheet);
   const auto enter = [&](std::size_t e) {
-    if (!elements_[e].alive()) return;
+    if (!elements_[e].alive()) return membrane_.clear_slots(e);
     incidence_.add(elements_[e], e);
     mark(elements_[e].vertex);
   };
@@ -90,7 +89,7 @@ void Model<D>::resize(const Sheet& sheet) {
   incidence_.resize(n), blocks_.resize(n), marked_in_.resize(std::max(n, marked_in_.size()));
   if (consistent_mass_) consistent_mass_->resize(n);
   held_.resize(D * n, 1), pin_of_.resize(D * n, -1), places_.resize(n);
-  slots_.resize(elements_.size()), deformations_.resize(elements_.size());
+  membrane_.resize(elements_.size());
   mass_.conservativeResize(static_cast<Eigen::Index>(n));
   external_.conservativeResize(static_cast<Eigen::Index>(D * n));
   for (std::size_t v = old; v < n; ++v) mass_[static_cast<Eigen::Index>(v)] = 0;
@@ -116,7 +115,7 @@ void Model<D>::refresh_row(std::size_t v) {
   for (const auto c : corners) {
     const std::size_t e = triangle_of(c)();
     for (std::size_t j = 0; j < 3; ++j)
-      slots_[e][static_cast<std::size_t>(corner_of(c))][j] = blocks_.find(v, elements_[e].vertex[j].value);
+      membrane_.set_slot(e, static_cast<std::size_t>(corner_of(c)), j, blocks_.find(v, elements_[e].vertex[j].value));
   }
 }
 
@@ -212,32 +211,39 @@ std::size_t Model<D>::unheld_pieces() const {
 
 template <int D>
 void Model<D>::rotate(const Field& x) {
-  for (std::size_t e = 0; e < elements_.size(); ++e)
-    if (elements_[e].alive()) deformations_[e] = deformation_of<D>(elements_[e], x, physics_.strain, lame_);
+  membrane_.rotate(elements_, x);
 }
 
 template <int D>
 void Model<D>::add_internal_force(const Field& x, Field& f) const {
-  for (std::size_t e = 0; e < elements_.size(); ++e) {
-    const Element& element = elements_[e];
-    if (!element.alive()) continue;
-    for (int k = 0; k < 3; ++k)
-      Eigen::Map<Eigen::Matrix<double, D, 1>>(f.data() + D * element.vertex[static_cast<std::size_t>(k)].value) +=
-          membrane_force<D>(element, deformations_[e], k);
-  }
+  f += membrane_.force();
   if (bending_) add_product_per_coordinate(bending_->matrix(), D, -1, x, f);
+}
+
+template <int D>
+void Model<D>::add_impulse(double h, const Field& x, double factor, const Field& v, Field& y) {
+  y += h * membrane_.force();
+  velocity_.resize(vertices()), bent_.resize(vertices());
+  for (std::size_t i = 0; i < vertices(); ++i) {
+    Lanes at{};
+    for (std::size_t k = 0; k < D; ++k)
+      velocity_[i][k] = v[static_cast<Eigen::Index>(D * i + k)], at[k] = x[static_cast<Eigen::Index>(D * i + k)];
+    bent_[i] =
+        h * at + factor * stiffness_factor_ * velocity_[i];  // K_b (h x) and factor stiffness_factor K_b v at once
+  }
+  for (std::size_t i = 0; i < vertices(); ++i) {
+    Lanes sum = factor * blocks_.row_product(i, velocity_);
+    if (bending_) sum += bending_->matrix().row_product(i, bent_);
+    for (std::size_t k = 0; k < D; ++k) y[static_cast<Eigen::Index>(D * i + k)] -= sum[k];
+  }
+  if (consistent_mass_) add_product_per_coordinate(*consistent_mass_, D, -factor * mass_factor_, v, y);
 }
 
 template <int D>
 void Model<D>::assemble(double mass_factor, double stiffness_factor) {
   mass_factor_ = mass_factor, stiffness_factor_ = stiffness_factor;
   blocks_.set_zero();
-  for (std::size_t e = 0; e < elements_.size(); ++e) {
-    if (!elements_[e].alive()) continue;
-    const ElementStiffness<D> k(elements_[e], deformations_[e], physics_.strain, lame_, stiffness_factor);
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j) blocks_.add(slots_[e][i][j], k.block(i, j));
-  }
+  membrane_.add_stiffness(elements_, stiffness_factor, blocks_);
   if (consistent_mass_) return;
   for (std::size_t v = 0; v < vertices(); ++v)
     if (!blocks_.columns(v).empty())
@@ -263,8 +269,7 @@ void Model<D>::add_mass_product(double factor, const Field& x, Field& y) const {
 template <int D>
 Energy Model<D>::energy(const Field& x, const Field& v) const {
   Energy energy;
-  for (std::size_t e = 0; e < elements_.size(); ++e)
-    if (elements_[e].alive()) energy.membrane += elements_[e].material_area() * deformations_[e].energy;
+  energy.membrane = membrane_.energy(elements_);
   if (bending_) energy.bending = bending_->energy(x, D);
   Field momentum = Field::Zero(v.size());
   add_mass_product(1, v, momentum);

@@ -8,7 +8,7 @@
 #include "harness/fem/bending.h"
 #include "harness/fem/combination.h"
 #include "harness/fem/incidence.h"
-#include "harness/fem/membrane.h"
+#include "harness/fem/membrane_sheet.h"
 #include "harness/fem/system_matrix.h"
 
 namespace cutbench {
@@ -45,6 +45,9 @@ class Model {
   void rotate(const Field& x);  ///< the deformation of every element; the functions below refer to this x
   /// f += internal forces, of membrane and bending, N. \pre rotate(x).
   void add_internal_force(const Field& x, Field& f) const;
+  /// y += h (internal forces at x) - factor A v, with A of the last assemble(). Sooner than one by one: bending, which is
+  /// linear, is in both. \pre rotate(x).
+  void add_impulse(double h, const Field& x, double factor, const Field& v, Field& y);
   void add_external_force(Field& f) const { f += external_; }
   /// A = mass_factor M + stiffness_factor K, with K the tangent at the rotated state. \pre rotate().
   void assemble(double mass_factor, double stiffness_factor);
@@ -60,7 +63,7 @@ class Model {
   const Incidence& incidence() const { return incidence_; }
   const BlockMatrix<D>& blocks() const { return blocks_; }
   const Bending* bending() const { return bending_ ? &*bending_ : nullptr; }
-  const Deformation<D>& deformation(std::size_t element) const { return deformations_[element]; }
+  Deformation<D> deformation(std::size_t element) const { return membrane_.deformation(element); }
   const Field& lumped_mass() const { return mass_; }               ///< kg, per vertex
   const Field& external_force() const { return external_; }        ///< N
   const std::vector<std::uint8_t>& held() const { return held_; }  ///< per unknown; those of freed slots are, too
@@ -83,14 +86,13 @@ class Model {
 
   Material material_;
   Physics physics_;
-  Lame lame_;
   std::vector<Pin> pins_;
   std::vector<Traction> tractions_;
 
   ElementTable elements_;
   Incidence incidence_;
   BlockMatrix<D> blocks_;
-  std::vector<std::array<std::array<std::int32_t, 3>, 3>> slots_;  // per element: of its nine blocks
+  MembraneSheet<D> membrane_;
   std::optional<Bending> bending_;
   std::optional<BlockMatrix<1>> consistent_mass_;
   std::optional<TiedSystem<D>> tied_;
@@ -98,7 +100,6 @@ class Model {
   Field mass_, external_;
   std::vector<std::uint8_t> held_;
   std::vector<std::int16_t> pin_of_;  // per unknown: the first pin that holds it, -1 where there is none
-  std::vector<Deformation<D>> deformations_;
   std::vector<Point2> places_;  // per vertex, in rest space
   std::uint64_t pattern_ = 0;
   // Working storage of update().
@@ -106,6 +107,7 @@ class Model {
   std::uint32_t round_ = 0;
   std::vector<std::size_t> marked_;  // vertices whose rows change
   std::vector<std::int32_t> columns_;
+  std::vector<Lanes> velocity_, bent_;  // of add_impulse(), per vertex
 };
 
 }  // namespace cutbench

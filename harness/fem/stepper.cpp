@@ -143,7 +143,10 @@ void Stepper<D>::implicit_step(Model<D>& model, State& state, double h, StepRepo
     const bool first = iteration == 0;
     x_ = state.x;
     if (!first) x_ += h * v_;
-    forces(model, x_, report);
+    {
+      Clock clock(report.time_us.rotate);
+      model.rotate(x_);
+    }
     {
       Clock clock(report.time_us.assemble);
       model.assemble(mass_factor, stiffness_factor);
@@ -154,23 +157,18 @@ void Stepper<D>::implicit_step(Model<D>& model, State& state, double h, StepRepo
   }
 }
 
-/// \pre forces and matrix are of this iteration.
+/// \pre rotations and matrix are of this iteration.
 template <int D>
-void Stepper<D>::right_hand_side(const Model<D>& model, const State& state, double h, bool first, StepReport& report) {
+void Stepper<D>::right_hand_side(Model<D>& model, const State& state, double h, bool first, StepReport& report) {
   Clock clock(report.time_us.rotate);
   const double alpha = model.material().mass_damping, beta = model.material().stiffness_damping;
-  product_.setZero(v_.size());
-  model.system().add_product(v_, product_);  // A v, held unknowns included
-  rhs_ = h * force_;
+  rhs_ = h * model.external_force();
   model.add_mass_product(1, state.v, rhs_);
-  if (first) {
-    rhs_ -= product_;
-  } else {
-    // beta K v from A v: K v = (A v - (1 + h alpha) M v) / (h beta + h^2)
-    const double damped = beta / (beta + h);
-    rhs_ -= damped * product_;
-    model.add_mass_product((damped - 1) * (1 + h * alpha), v_, rhs_);
-  }
+  if (first) return model.add_impulse(h, x_, 1, v_, rhs_);
+  // beta K v from A v: K v = (A v - (1 + h alpha) M v) / (h beta + h^2)
+  const double damped = beta / (beta + h);
+  model.add_impulse(h, x_, damped, v_, rhs_);
+  model.add_mass_product((damped - 1) * (1 + h * alpha), v_, rhs_);
 }
 
 template <int D>

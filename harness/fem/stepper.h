@@ -59,7 +59,7 @@ class Stepper {
 
  private:
   void implicit_step(Model<D>& model, State& state, double h, StepReport& report);
-  void right_hand_side(const Model<D>& model, const State& state, double h, bool first, StepReport& report);
+  void right_hand_side(Model<D>& model, const State& state, double h, bool first, StepReport& report);
   void explicit_step(Model<D>& model, State& state, StepReport& report);
   void equilibrium(Model<D>& model, State& state, StepReport& report);
   void solve(Model<D>& model, StepReport& report);

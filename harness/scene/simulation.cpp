@@ -24,14 +24,14 @@ double time_triplets(const Model<D>& model) {
   for (std::size_t e = 0; e < model.elements().size(); ++e) {
     const Element& element = model.elements()[e];
     if (!element.alive()) continue;
-    const ElementStiffness<D> k(element, model.deformation(e), model.physics().strain, lame, 1);
+    const ElementStiffness<D> k(element, model.deformation(e), model.physics().strain, lame);
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) {
-        const auto columns = k.block(i, j);
-        for (std::size_t c = 0; c < D; ++c)
+        const auto block = k.block(i, j);
+        for (int c = 0; c < D; ++c)
           for (int r = 0; r < D; ++r)
-            entries.emplace_back(D * element.vertex[i].value + r, D * element.vertex[j].value + static_cast<int>(c),
-                                 columns[c][r]);
+            entries.emplace_back(D * element.vertex[i].value + r, D * element.vertex[j].value + c,
+                                 block[static_cast<std::size_t>(D * c + r)]);
       }
   }
   const auto n = static_cast<Eigen::Index>(D * model.vertices());

@@ -1,0 +1,103 @@
+// The tangent stiffness of a membrane element, or of four side by side (membrane.h says where it comes from).
+#pragma once
+
+#include "harness/fem/lanes.h"
+#include "harness/fem/membrane.h"
+
+namespace cutbench {
+
+/// The stiffness times a factor, N/m: 3 x 3 blocks of D x D, symmetric, positive semi-definite.
+///
+/// In the element's own frame (the columns of R, and the normal n) the block of two corners with gradients g and h is
+/// linear in the four products of their components. So it is here, with frame and moduli put into three matrices once:
+///   block = gx hx M_xx + gx hy M_xy + gy hx M_xy^T + gy hy M_yy
+template <int D, class Number = double>
+class ElementStiffness {
+ public:
+  using Block = std::array<Number, D * D>;  ///< column by column
+
+  /// `area` is the factor times the area of material.
+  ElementStiffness(const std::array<Vector2<Number>, 3>& gradient, Number area, const Polar<D, Number>& polar,
+                   Strain strain, const Lame& lame)
+      : gradient_(gradient) {
+    const Number lambda = area * lame.lambda, mu = area * lame.mu;
+    const Moduli m = strain == Strain::linear ? Moduli{} : moduli_of(area, polar, lame);
+    const auto& [x, y] = polar.rotation;
+    for (std::size_t c = 0; c < D; ++c)
+      for (std::size_t r = 0; r < D; ++r) {
+        const Number xx = x[r] * x[c], yy = y[r] * y[c];
+        xx_[D * c + r] = (lambda + 2 * mu) * xx + (mu + m.twist) * yy;
+        yy_[D * c + r] = (mu + m.twist) * xx + (lambda + 2 * mu) * yy;
+        xy_[D * c + r] = lambda * (x[r] * y[c]) + (mu - m.twist) * (y[r] * x[c]);
+      }
+    if constexpr (D == 3) add_tilt(m, cross(x, y));
+  }
+
+  /// Of one element.
+  ElementStiffness(const Element& e, const Deformation<D>& deformation, Strain strain, const Lame& lame)
+      : ElementStiffness({{{e.gradient[0].x, e.gradient[0].y},
+                           {e.gradient[1].x, e.gradient[1].y},
+                           {e.gradient[2].x, e.gradient[2].y}}},
+                         e.material_area(), polar_of(deformation), strain, lame) {}
+
+  /// Block (i, j).
+  Block block(std::size_t i, std::size_t j) const {
+    const auto &g = gradient_[i], &h = gradient_[j];
+    const Number xx = g.x * h.x, xy = g.x * h.y, yx = g.y * h.x, yy = g.y * h.y;
+    Block b;
+    for (std::size_t c = 0; c < D; ++c)
+      for (std::size_t r = 0; r < D; ++r)
+        b[D * c + r] = (xx * xx_[D * c + r] + yy * yy_[D * c + r]) + (xy * xy_[D * c + r] + yx * xy_[D * r + c]);
+    return b;
+  }
+
+ private:
+  /// Of the modes whose stiffness depends on the stress, without what is negative.
+  struct Moduli {
+    Number twist{};                          ///< in the plane
+    Number tilt_xx{}, tilt_xy{}, tilt_yy{};  ///< out of the plane: tension over stretch, on the same principal axes
+  };
+
+  static Number positive(Number x) { return x > 0 ? x : Number{}; }
+
+  static Moduli moduli_of(Number area, const Polar<D, Number>& polar, const Lame& lame) {
+    const Number strain = polar.xx - 1 + (polar.yy - 1), pressure = lame.lambda * strain;
+    Moduli m;
+    const Number twist = positive((lame.mu + lame.lambda) * strain / (strain + 2));
+    m.twist = strain + 2 > 0 ? area * twist : Number{};
+    if constexpr (D == 3) {
+      const Number half = (polar.xx - polar.yy) / 2, radius = square_root(half * half + polar.xy * polar.xy);
+      const auto tension_over_stretch = [&](Number principal) {
+        const Number ratio = positive(2 * lame.mu * principal + pressure) / (1 + principal);
+        return 1 + principal > 0 ? ratio : Number{};
+      };
+      const Number more = area / 2 * tension_over_stretch(strain / 2 + radius);
+      const Number less = area / 2 * tension_over_stretch(strain / 2 - radius);
+      const Number slope = radius > 0 ? (more - less) / radius : Number{};
+      m.tilt_xx = more + less + slope * half, m.tilt_yy = more + less - slope * half, m.tilt_xy = slope * polar.xy;
+    }
+    return m;
+  }
+
+  void add_tilt(const Moduli& m, const std::array<Number, D>& normal) {
+    for (std::size_t c = 0; c < D; ++c)
+      for (std::size_t r = 0; r < D; ++r) {
+        const Number both = normal[r] * normal[c];
+        xx_[D * c + r] += m.tilt_xx * both, xy_[D * c + r] += m.tilt_xy * both, yy_[D * c + r] += m.tilt_yy * both;
+      }
+  }
+
+  std::array<Vector2<Number>, 3> gradient_;
+  Block xx_, xy_, yy_;
+};
+
+/// The transpose of a block.
+template <int D, class Block>
+Block mirrored(const Block& block) {
+  Block b;
+  for (std::size_t c = 0; c < D; ++c)
+    for (std::size_t r = 0; r < D; ++r) b[D * c + r] = block[D * r + c];
+  return b;
+}
+
+}  // namespace cutbench

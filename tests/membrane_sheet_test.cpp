@@ -1,0 +1,121 @@
+// Membrane elements computed four at a time, against plain formulas for one element.
+
+#include "harness/fem/membrane_sheet.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "harness/base/random.h"
+#include "tests/fem_helpers.h"
+
+namespace cutbench {
+namespace {
+
+const Material skin{.density = 2.2, .stiffness = 1000, .poisson = 0.45};
+
+/// The second derivative of the energy per area along two changes of F, mode by mode (membrane.h): in the frame of R,
+/// linear elasticity; the twist; out of the plane, tension over stretch along the principal directions.
+template <int D>
+double second_derivative(const Deformation<D>& d, Strain strain, const Lame& lame,
+                         const Eigen::Matrix<double, D, 2>& one, const Eigen::Matrix<double, D, 2>& other) {
+  const Eigen::Matrix2d a = d.rotation.transpose() * one, b = d.rotation.transpose() * other;
+  const Eigen::Matrix2d e = (a + a.transpose()) / 2, f = (b + b.transpose()) / 2;
+  double sum = 2 * lame.mu * e.cwiseProduct(f).sum() + lame.lambda * e.trace() * f.trace();
+  if (strain == Strain::linear) return sum;
+  sum += std::max(0.0, d.stress.trace() / d.stretch.trace()) / 2 * (a(1, 0) - a(0, 1)) * (b(1, 0) - b(0, 1));
+  if constexpr (D == 3) {
+    const Eigen::Vector3d normal = d.rotation.col(0).cross(d.rotation.col(1));
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(d.stretch);
+    for (int k = 0; k < 2; ++k) {
+      const Eigen::Vector2d axis = principal.eigenvectors().col(k);
+      const double stretch = principal.eigenvalues()[k], tension = axis.dot(d.stress * axis);
+      if (stretch > 0 && tension > 0) sum += tension / stretch * normal.dot(one * axis) * normal.dot(other * axis);
+    }
+  }
+  return sum;
+}
+
+template <int D>
+struct Reference {
+  Field force;
+  Eigen::MatrixXd stiffness;
+  double energy = 0;
+
+  Reference(const ElementTable& elements, const Field& x, Strain strain, const Lame& lame)
+      : force(Field::Zero(x.size())), stiffness(Eigen::MatrixXd::Zero(x.size(), x.size())) {
+    for (const Element& e : elements) {
+      if (!e.alive()) continue;
+      const auto d = deformation_of<D>(e, x, strain, lame);
+      energy += e.area * d.energy;
+      const auto change = [&](int i) {  // of F, where unknown i of the element grows by one
+        const Point2 g = e.gradient[static_cast<std::size_t>(i / D)];
+        Eigen::Matrix<double, D, 2> f = Eigen::Matrix<double, D, 2>::Zero();
+        f.row(i % D) << g.x, g.y;
+        return f;
+      };
+      const auto unknown = [&](int i) { return D * e.vertex[static_cast<std::size_t>(i / D)].value + i % D; };
+      for (int i = 0; i < 3 * D; ++i) {
+        force[unknown(i)] += membrane_force<D>(e, d, i / D)[i % D];
+        for (int j = 0; j < 3 * D; ++j)
+          stiffness(unknown(i), unknown(j)) += e.area * second_derivative<D>(d, strain, lame, change(i), change(j));
+      }
+    }
+  }
+};
+
+/// Stretched here, compressed there, at random; some triangles collapsed to an edge or a point.
+template <int D>
+Field random_places(const Body<D>& body, Random& random) {
+  Field x = bent(body.model, body.sheet);
+  for (auto& value : x) value += random.between(-0.03, 0.03);
+  for (std::size_t i = 4; i < body.model.elements().size(); i += 9) {
+    const Element& e = body.model.elements()[i];
+    for (std::size_t k = 1; e.alive() && k < 2 + i % 2; ++k)
+      x.segment<D>(D * e.vertex[k].value) = x.segment<D>(D * e.vertex[0].value).eval();
+  }
+  return x;
+}
+
+template <int D>
+void compare(Strain strain) {
+  Random random(7);
+  for (const std::string family : sheet_families()) {
+    SCOPED_TRACE(family);
+    Body<D> body(make_sheet(family, 5), skin, {.dimension = D, .strain = strain});
+    body.cut(line({0.2, 0.43}, {0.8, 0.57}), "element_deletion");
+    Model<D>& model = body.model;
+    ASSERT_TRUE(std::any_of(model.elements().begin(), model.elements().end(), [](auto& e) { return !e.alive(); }));
+    const Field x = random_places<D>(body, random);
+    const Reference<D> plain(model.elements(), x, strain, lame_of(skin, Plane::stress));
+    model.rotate(x), model.assemble(0, 2);
+    Field force = Field::Zero(x.size());
+    model.add_internal_force(x, force);
+    EXPECT_LE((force - plain.force).cwiseAbs().maxCoeff(), 1e-12 * plain.force.cwiseAbs().maxCoeff());
+    EXPECT_NEAR(model.energy(x, Field::Zero(x.size())).membrane, plain.energy, 1e-12 * plain.energy);
+    const Eigen::MatrixXd a = dense(model);
+    EXPECT_LE((a - 2 * plain.stiffness).cwiseAbs().maxCoeff(), 1e-12 * a.cwiseAbs().maxCoeff());
+    EXPECT_EQ((a - a.transpose()).cwiseAbs().maxCoeff(), 0) << "its halves are the same numbers";
+  }
+}
+
+TEST(MembraneSheet, IsWhatPlainFormulasSay2) { compare<2>(Strain::corotational), compare<2>(Strain::linear); }
+TEST(MembraneSheet, IsWhatPlainFormulasSay3) { compare<3>(Strain::corotational), compare<3>(Strain::linear); }
+
+TEST(MembraneSheet, KeepsADeformationForEachElement) {
+  Body<3> body(make_sheet("delaunay", 5), skin, {});
+  const Field x = bent(body.model, body.sheet);
+  body.model.rotate(x);
+  const Lame lame = lame_of(skin, Plane::stress);
+  for (std::size_t e = 0; e < body.model.elements().size(); ++e) {
+    const auto kept = body.model.deformation(e),
+               plain = deformation_of<3>(body.model.elements()[e], x, Strain::corotational, lame);
+    EXPECT_LE((kept.rotation - plain.rotation).norm(), 1e-12);
+    EXPECT_LE((kept.stretch - plain.stretch).norm(), 1e-12);
+    EXPECT_LE((kept.stress - plain.stress).norm(), 1e-12 * skin.stiffness);
+    EXPECT_NEAR(kept.energy, plain.energy, 1e-12 * skin.stiffness);
+  }
+}
+
+}  // namespace
+}  // namespace cutbench
