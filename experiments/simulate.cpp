@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "experiments/step_summary.h"
 #include "harness/cut/cut_all.h"
 #include "harness/mesh/mesh_io.h"
 #include "harness/records/context.h"
@@ -92,6 +93,16 @@ std::string description(const Scene& scene, const Simulation& motion, const Simu
   return document.dump(2) + "\n";
 }
 
+void write_report(const Scene& scene, const SimulateOptions& options, const StepReport& report,
+                  const nlohmann::ordered_json& summary) {
+  nlohmann::ordered_json document{{"scene", scene.stem},         {"method", options.method},
+                                  {"solver", scene.solver.name}, {"solver_tolerance", scene.solver.tolerance},
+                                  {"step_s", scene.step},        {"verdict", report.verdict},
+                                  {"reason", report.reason}};
+  document["cost"] = summary;  // null where no step was made, and at rest
+  WholeFile(options.report, document.dump(2) + "\n").place();
+}
+
 }  // namespace
 
 bool simulate(const Scene& scene, CuttingMethod& method, const SimulateOptions& options) {
@@ -115,6 +126,9 @@ bool simulate(const Scene& scene, CuttingMethod& method, const SimulateOptions& 
   }
   print_cuts(*motion);
   if (motion->budget()) judge_budget(*motion->budget(), report);
+  nlohmann::ordered_json summary;
+  if (!motion->steps().empty() && !static_solve) summary = summary_of(motion->steps(), motion->time());
+  if (!summary.is_null()) print_summary(summary);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   const Sheet sheet = motion->posed_sheet();
@@ -129,6 +143,7 @@ bool simulate(const Scene& scene, CuttingMethod& method, const SimulateOptions& 
         .place();
   }
   if (!options.out.empty()) write_mesh(sheet.to_mesh_data(), options.out);
+  if (!options.report.empty()) write_report(scene, options, report, summary);
   const auto refused = [](const MotionCut& cut) { return cut.cut.status == Status::refused; };
   const auto& cuts = motion->made_cuts();
   return report.verdict == "ok" && std::none_of(cuts.begin(), cuts.end(), refused);

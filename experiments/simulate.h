@@ -15,10 +15,11 @@ struct SimulateOptions {
   std::string frames;   ///< folder of the time series (harness/scene/frame_writer.h), with simulation.json and, of
                         ///< backward Euler, energy.csv (harness/scene/energy_budget.h); empty: none
   int every = 8;        ///< steps from frame to frame
+  std::string report;   ///< JSON file of what the steps cost; empty: not written
   CutOptions cut;
 };
 
-/// Prints a line of energies ten times, and what the cuts did. False where a cut or a step failed.
+/// Prints a line of energies ten times, what the cuts did, and what the steps cost. False where a cut or a step failed.
 bool simulate(const Scene& scene, CuttingMethod& method, const SimulateOptions& options);
 
 }  // namespace cutbench

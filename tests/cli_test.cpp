@@ -200,6 +200,35 @@ TEST_F(Cli, SimulateRunsAScene) {
   expect_refused(run("simulate missing.toml"), "missing.toml");
 }
 
+TEST_F(Cli, SimulateSaysWhatStepsCost) {
+  const std::string scene = CUTBENCH_TEST_CASES "/../../experiments/scenes/falling_piece.toml";
+  std::map<std::string, double> iterations;
+  for (const std::string solver : {"cg", "multigrid"}) {
+    const auto result = run("simulate '" + scene + "' --solver " + solver + " --report r.json");
+    ASSERT_EQ(result.code, 0) << result.error;
+    EXPECT_NE(result.out.find("real-time factor"), std::string::npos) << result.out;
+    const auto report = nlohmann::json::parse(read(folder_ / "r.json"));
+    EXPECT_EQ(report["solver"], solver);
+    const auto& cost = report["cost"];
+    EXPECT_NEAR(cost["steps"].get<double>() * report["step_s"].get<double>(), cost["simulated_s"].get<double>(), 1e-9);
+    EXPECT_NEAR(cost["real_time_factor"].get<double>() * cost["computed_s"].get<double>(),
+                cost["simulated_s"].get<double>(), 1e-9);
+    EXPECT_EQ(cost["with_cut"]["steps"], 1);
+    for (const char* phase : {"rotate", "assemble", "setup", "solve", "total"}) {
+      const auto &all = cost["step_ms"][phase], &with_cut = cost["with_cut"]["step_ms"][phase];
+      EXPECT_GT(all["median"], 0) << phase;
+      EXPECT_GE(all["worst"], all["median"]) << phase;
+      EXPECT_EQ(with_cut["worst"], with_cut["median"]) << "of one step";
+      EXPECT_GE(all["worst"], with_cut["worst"]) << phase;
+    }
+    iterations[solver] = cost["iterations"]["mean"];
+    EXPECT_GE(cost["iterations"]["worst"].get<double>(), iterations[solver]);
+  }
+  EXPECT_LT(2 * iterations["multigrid"], iterations["cg"]);
+  expect_refused(run("simulate '" + scene + "' --solver gmres"), "gmres");
+  expect_refused(run("simulate '" + scene + "' --report none/r.json"), "none");
+}
+
 TEST_F(Cli, ShardsPartTheCases) {
   write(folder_ / "e.toml", small_experiment());
   ASSERT_EQ(run("run e.toml --out whole").code, 0);

@@ -7,6 +7,7 @@
 #include "experiments/commands/command.h"
 #include "experiments/commands/method_options.h"
 #include "harness/base/errors.h"
+#include "harness/base/toml_reader.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/mesh_io.h"
 
@@ -15,13 +16,14 @@ namespace cutbench {
 namespace {
 
 struct SimulateArguments {
-  std::string scene, out, frames;
+  std::string scene, out, frames, solver, report;
   MethodOptions method{.method = "conventional_split", .settings = {}, .chord_tolerance = {}};
   int resolution = 0, every = 8;
 };
 
 Exit run_scene(const SimulateArguments& arguments, const std::string& command_line) {
   if (!arguments.out.empty()) check_mesh_place(arguments.out, "--out");
+  if (!arguments.report.empty()) check_writable(arguments.report, "--report");
   Scene scene = read_scene(arguments.scene);
   const MethodRow& row = arguments.method.row();
   const double knob = arguments.method.knob();
@@ -32,6 +34,10 @@ Exit run_scene(const SimulateArguments& arguments, const std::string& command_li
       throw InputError("--resolution: this scene's sheet is read from a file; leave the option out");
     scene.resolution = arguments.resolution;
   }
+  if (!arguments.solver.empty()) {
+    check_names({arguments.solver}, solver_names(), "--solver");
+    scene.solver.name = arguments.solver;
+  }
   if (!scene.mesh_file.empty()) print_notes(mesh_of(scene));
   char knob_text[64] = "";
   if (!row.knob.name.empty()) std::snprintf(knob_text, sizeof knob_text, " %s=%g", row.knob.name.c_str(), knob);
@@ -40,6 +46,7 @@ Exit run_scene(const SimulateArguments& arguments, const std::string& command_li
                                 .out = arguments.out,
                                 .frames = arguments.frames,
                                 .every = arguments.every,
+                                .report = arguments.report,
                                 .cut = arguments.method.chord_tolerance.cut_options()};
   return simulate(scene, *method, options) ? done : fell_short;
 }
@@ -60,6 +67,9 @@ Command add_simulate(CLI::App& app) {
       ->capture_default_str()
       ->check(CLI::PositiveNumber)
       ->needs(frames);
+  command->add_option("--solver", arguments->solver,
+                      "instead of the scene's: cg, cg_sliver_blocks, multigrid or cholmod");
+  command->add_option("--report", arguments->report, "what the steps cost, as JSON; none where it is not given");
   command->footer(
       "example:\n"
       "  cutbench simulate experiments/scenes/falling_piece.toml --resolution 800 --frames frames\n"

@@ -19,7 +19,7 @@
 
 namespace cutbench {
 
-/// Rows of column numbers, each in rising order.
+/// Rows of column numbers: first those below the row's own, then its own, then those above.
 struct SparseRows {
   std::vector<std::int32_t> begin{0}, column;
   std::size_t size() const { return begin.size() - 1; }

@@ -30,6 +30,19 @@ double median_edge(const SparseRows& links, const std::vector<Point2>& places) {
   return *middle;
 }
 
+/// Calls visit(column, slot) for row i: for the columns below i, for i, and for those above.
+template <class Matrix, class Visit>
+void visit_row(const Matrix& matrix, std::size_t i, const Visit& visit) {
+  const auto own = static_cast<std::int32_t>(i);
+  for (const int side : {-1, 0, 1}) {
+    std::int32_t slot = matrix.first_slot(i);
+    for (const std::int32_t j : matrix.columns(i)) {
+      if ((j > own) - (j < own) == side) visit(j, slot);
+      ++slot;
+    }
+  }
+}
+
 /// The inverse of a block, or zero where it is not positive definite.
 template <class Block>
 Block inverse_of(const Block& block) {
@@ -44,28 +57,24 @@ Block inverse_of(const Block& block) {
 
 // --- pattern ---------------------------------------------------------------------------------------------------------
 
-/// Sorted rows of A; the scalar matrices in one, each with its factor.
+/// The rows of A; the scalar matrices in one, each with its factor.
 template <int D>
 void Multigrid<D>::read_rows(const SystemMatrix<D>& a) {
   rows_.blocks.clear(), rows_.scalars.clear(), rows_.scalar.clear(), slots_.clear(), factors_.clear();
   for (const auto& term : a.scalar) factors_.push_back(term.factor);
-  std::vector<std::pair<std::int32_t, std::int32_t>> blocks;
-  std::vector<std::pair<std::int32_t, double>> scalars;
+  std::vector<std::pair<std::int32_t, double>> several;  // entries of more than one scalar matrix
   for (std::size_t i = 0; i < a.vertices(); ++i) {
-    blocks.clear(), scalars.clear();
-    std::int32_t slot = a.blocks->first_slot(i);
-    for (const std::int32_t j : a.blocks->columns(i)) blocks.emplace_back(j, slot++);
-    std::sort(blocks.begin(), blocks.end());
-    for (const auto& [j, at] : blocks) rows_.blocks.column.push_back(j), slots_.push_back(at);
+    visit_row(*a.blocks, i,
+              [&](std::int32_t j, std::int32_t slot) { rows_.blocks.column.push_back(j), slots_.push_back(slot); });
     rows_.blocks.end_row();
-    for (const auto& term : a.scalar) {
-      slot = term.matrix->first_slot(i);
-      for (const std::int32_t j : term.matrix->columns(i))
-        scalars.emplace_back(j, term.factor * term.matrix->block(slot++)(0));
-    }
-    std::sort(scalars.begin(), scalars.end());
+    several.clear();
+    for (const auto& term : a.scalar)
+      visit_row(*term.matrix, i, [&](std::int32_t j, std::int32_t slot) {
+        several.emplace_back(j, term.factor * term.matrix->block(slot)(0));
+      });
+    if (a.scalar.size() > 1) std::sort(several.begin(), several.end());
     const std::size_t first = rows_.scalar.size();
-    for (const auto& [j, value] : scalars)
+    for (const auto& [j, value] : several)
       if (rows_.scalar.size() > first && rows_.scalars.column.back() == j)
         rows_.scalar.back() += value;
       else

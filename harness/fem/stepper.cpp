@@ -111,6 +111,7 @@ void Stepper<D>::solve(Model<D>& model, StepReport& report) {
   ++report.newton;
   report.iterations += solved.iterations;
   report.residual = std::max(report.residual, solved.residual);
+  report.fallbacks += solved.fell_back;
   if (!solved.converged)
     report.verdict = "solver_stalled",
     report.reason = options_.solver.name + " left a relative residual of " + text(solved.residual);

@@ -70,6 +70,7 @@ class SceneInMotion : public Simulation {
   }
 
   const std::vector<MotionCut>& made_cuts() const override { return made_; }
+  const std::vector<LoggedStep>& steps() const override { return steps_; }
   const Sheet& sheet() const override { return now_.sheet; }
   Sheet posed_sheet() const override {
     Sheet posed = now_.sheet;
@@ -161,6 +162,9 @@ class SceneInMotion : public Simulation {
     if (budget_) before_ = now_.state;
     const StepReport report = stepper_.step(now_.model, now_.state);
     if (budget_ && report.verdict == "ok") budget_->add_step(now_.model, before_, now_.state, scene_.step);
+    next_.step = report;
+    steps_.push_back(next_);
+    next_ = {};
     return report;
   }
 
@@ -178,6 +182,7 @@ class SceneInMotion : public Simulation {
     if (due.speed > 0) due.blade.emplace(curves.front());
     made_.push_back(due.blade ? MotionCut() : cut_with_balances(curves, method, options));
     made_.back().pick_us = pick_us;
+    next_.geometry_us += pick_us;
   }
 
   /// Up to where the blade is at the end of this step, or where it waits. A part that can't be cut by itself goes with
@@ -225,6 +230,9 @@ class SceneInMotion : public Simulation {
     const Balance before = balance();
     MotionCut made = cut(now_, curves, cutter_, method, options);
     made.before = before, made.after = balance();
+    next_.has_cut = true;
+    next_.geometry_us += made.cut.time_us.total(), next_.bending_us += made.bending_us;
+    next_.update_us += made.transfer_us + made.pattern_us;
     if (budget_) budget_->add_cut(made.before, made.after);
     return made;
   }
@@ -289,6 +297,8 @@ class SceneInMotion : public Simulation {
   std::vector<MotionCut> made_;
   std::optional<EnergyBudget> budget_;
   State before_;  // the step, for the budget
+  std::vector<LoggedStep> steps_;
+  LoggedStep next_;  // the cuts made since the last step
 };
 
 }  // namespace

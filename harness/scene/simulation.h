@@ -8,6 +8,7 @@
 #include "harness/fem/stepper.h"
 #include "harness/scene/energy_budget.h"
 #include "harness/scene/scene.h"
+#include "harness/scene/step_log.h"
 
 namespace cutbench {
 
@@ -45,6 +46,7 @@ class Simulation {
                             const CutOptions& options) = 0;
   virtual Balance balance() = 0;
   virtual const std::vector<MotionCut>& made_cuts() const = 0;  ///< by advance(), with what jumped
+  virtual const std::vector<LoggedStep>& steps() const = 0;     ///< made by advance()
   virtual double time() const = 0;
   /// From now on every step goes into the budget, where the integrator is backward Euler.
   virtual void keep_budget() = 0;

@@ -1,0 +1,16 @@
+// What the steps of a simulation cost, as `cutbench simulate` prints it and as JSON.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "harness/scene/step_log.h"
+
+namespace cutbench {
+
+/// Milliseconds of each phase over all steps (median, worst), the steps with a cut by themselves, iterations, and the
+/// real-time factor: simulated over computed seconds. \param seconds  simulated \pre `steps` is not empty
+nlohmann::ordered_json summary_of(const std::vector<LoggedStep>& steps, double seconds);
+void print_summary(const nlohmann::ordered_json& summary);
+
+}  // namespace cutbench
