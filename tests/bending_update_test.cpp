@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/SVD>
 #include <cmath>
 
 #include "harness/cases/cut_families.h"
@@ -94,6 +95,80 @@ TEST(BendingUpdate, IsLikeNewAfterStormsOfEdits) {
       expect_like_new(sheet, bending, kind);
     }
   }
+}
+
+/// Rows of the matrix against the energy, which is summed from the stencils: K_ij = E(e_i + e_j) - E(e_i) - E(e_j).
+TEST(BendingUpdate, RowsAreTheSecondDerivativeOfTheEnergy) {
+  for (const BendingKind kind : {BendingKind::patches, BendingKind::hinges}) {
+    Sheet sheet(make_sheet("delaunay", 5));
+    Bending bending(sheet, kind, rigidity, poisson);
+    Locator locator(sheet);
+    const auto method = find_method("conventional_split").make(0);
+    Cutter().cut(sheet, locator, {Curve::Kind::polyline, false, {{0.2, 0.3}, {0.7, 0.61}}}, *method, {});
+    bending.update(sheet);
+    const auto n = static_cast<Eigen::Index>(sheet.deformed_slots());
+    Eigen::MatrixXd k = Eigen::MatrixXd::Zero(n, n), expected = k;
+    for (std::size_t i = 0; i < sheet.deformed_slots(); ++i)
+      for (const auto j : bending.matrix().columns(i))
+        k(static_cast<Eigen::Index>(i), j) = bending.matrix().block(bending.matrix().find(i, j))(0);
+    Field x = Field::Zero(n);
+    const auto energy = [&](Eigen::Index i, Eigen::Index j) {
+      x[i] += 1, x[j] += 1;
+      const double e = bending.energy(x, 1);
+      x[i] = x[j] = 0;
+      return e;
+    };
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j < n; ++j) expected(i, j) = energy(i, j) - energy(i, i) / 4 - energy(j, j) / 4;
+    EXPECT_LE((k - expected).cwiseAbs().maxCoeff(), 1e-12 * k.cwiseAbs().maxCoeff());
+  }
+}
+
+/// Slopes of the patches against a weighted least-squares fit by singular values, where that determines a quadratic.
+TEST(SlopePatch, IsALeastSquaresFit) {
+  std::size_t fitted = 0;
+  for (const std::string family : sheet_families()) {
+    Sheet sheet(make_sheet(family, 8));
+    Locator locator(sheet);
+    const auto method = find_method("conventional_split").make(0);
+    Cutter().cut(sheet, locator, {Curve::Kind::polyline, false, {{0.2, 0.3}, {0.7, 0.61}}}, *method, {});
+    SlopePatch patch;
+    for (std::size_t t = 0; t < sheet.triangle_slots(); ++t) {
+      if (!sheet.triangle(TriangleIndex(t)).alive()) continue;
+      patch.fit(sheet, TriangleIndex(t));
+      const auto c = sheet.corners(TriangleIndex(t));
+      const Point2 centre = 1.0 / 3 * (c[0] + c[1] + c[2]);
+      const double unit = std::sqrt(squared_length(c[1] - c[0]));
+      double corners = 0;
+      for (const Point2 p : c) corners += squared_length(p - centre) / 3;
+      const auto n = static_cast<Eigen::Index>(patch.terms().size());
+      Eigen::MatrixXd a(n, 6);
+      Eigen::VectorXd weight(n);
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const DeformedIndex d(static_cast<std::size_t>(patch.terms()[static_cast<std::size_t>(i)].vertex));
+        const Point2 offset = sheet.rest(sheet.rest_vertex(d)) - centre, p = 1 / unit * offset;
+        weight[i] = unit * unit / (squared_length(offset) + corners);
+        a.row(i) << 1, p.x, p.y, p.x * p.x, p.x * p.y, p.y * p.y;
+        a.row(i) *= weight[i];
+      }
+      const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
+      if (n < 6 || svd.singularValues()[5] < 0.05 * svd.singularValues()[0]) continue;
+      ++fitted;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Point2 from = 1 / unit * (c[k] - centre), to = 1 / unit * (c[(k + 1) % 3] - centre), side = to - from;
+        const Point2 m = 0.5 * (from + to), inward = 1 / std::sqrt(squared_length(side)) * Point2{-side.y, side.x};
+        Eigen::VectorXd slope(6);  // of 1, x, y, x^2, xy, y^2
+        slope << 0, inward.x, inward.y, 2 * m.x * inward.x, m.y * inward.x + m.x * inward.y, 2 * m.y * inward.y;
+        const Eigen::VectorXd expected =
+            weight.cwiseProduct(svd.matrixU() * svd.singularValues().cwiseInverse().asDiagonal() *
+                                (svd.matrixV().transpose() * slope)) /
+            unit;
+        for (Eigen::Index i = 0; i < n; ++i)
+          EXPECT_NEAR(patch.terms()[static_cast<std::size_t>(i)].factor[k], expected[i], 1e-12 * expected.norm());
+      }
+    }
+  }
+  EXPECT_GT(fitted, 300u);
 }
 
 TEST(BendingUpdate, LeavesWhatIsFarFromTheCutWhereItIs) {

@@ -1,5 +1,7 @@
 #include "harness/fem/bending.h"
 
+#include <utility>
+
 namespace cutbench {
 
 Bending::Bending(const Sheet& sheet, BendingKind kind, double rigidity, double poisson)
@@ -39,6 +41,7 @@ void Bending::resize(const Sheet& sheet) {
   work_.stale_in.resize(triangles), work_.refitted_in.resize(triangles);
   stencils_of_.resize(vertices), matrix_.resize(vertices);
   work_.listed_in.resize(vertices), work_.place.resize(vertices, -1);
+  work_.columns.resize(vertices + 1), work_.values.resize(vertices);
   work_.stale.clear();
 }
 
@@ -115,27 +118,25 @@ void Bending::put_on_list(std::int32_t vertex) {
   work_.rows.push_back(vertex);
 }
 
-/// The sum that begins at zero, for this vertex, in the terms under way.
-std::array<double, 3>& Bending::term_of(std::int32_t vertex) {
-  std::int32_t& place = work_.place[static_cast<std::size_t>(vertex)];
-  if (place < 0) {
-    place = static_cast<std::int32_t>(work_.terms.size());
-    work_.terms.push_back({vertex, {}});
-  }
-  return work_.terms[static_cast<std::size_t>(place)].factor;
-}
-
 void Bending::replace_stencil(std::size_t t) {
   const auto slot = static_cast<std::int32_t>(t);
   for (const StencilTerm& term : stencils_[t]) {
+    const auto vertex = static_cast<std::size_t>(term.vertex);
     put_on_list(term.vertex);
-    stencils_of_.erase(static_cast<std::size_t>(term.vertex), slot);
+    if (work_.place[vertex] < 0) {
+      stencils_of_.erase(vertex, {slot, 0});
+    } else {  // it stays
+      stencils_of_.replace(vertex, {slot, work_.place[vertex]});
+      work_.place[vertex] = -1;
+    }
   }
   stencils_.set(t, work_.terms);
   for (const StencilTerm& term : work_.terms) {
+    const auto vertex = static_cast<std::size_t>(term.vertex);
+    if (work_.place[vertex] < 0) continue;
     put_on_list(term.vertex);
-    stencils_of_.insert(static_cast<std::size_t>(term.vertex), slot);
-    work_.place[static_cast<std::size_t>(term.vertex)] = -1;
+    stencils_of_.insert(vertex, {slot, work_.place[vertex]});
+    work_.place[vertex] = -1;
   }
 }
 
@@ -144,29 +145,27 @@ void Bending::replace_stencil(std::size_t t) {
 void Bending::write_row(std::size_t vertex) {
   auto& columns = work_.columns;
   auto& values = work_.values;
-  columns.clear(), values.clear();
-  const auto place_of = [&](std::int32_t column) -> std::size_t {
+  std::int32_t n = 0;
+  // Whether a column is new is a coin toss: a branch would cost more than the sum.
+  const auto sum_at = [&](std::int32_t column) -> double& {
     std::int32_t& place = work_.place[static_cast<std::size_t>(column)];
-    if (place < 0) {
-      place = static_cast<std::int32_t>(columns.size());
-      columns.push_back(column), values.push_back(0);
-    }
-    return static_cast<std::size_t>(place);
+    columns[static_cast<std::size_t>(n)] = column;
+    const bool is_new = place < 0;
+    place = is_new ? n : place;
+    n += is_new;
+    return values[static_cast<std::size_t>(place)];
   };
-  const auto row = static_cast<std::int32_t>(vertex);
   const auto stencils = stencils_of_[vertex];
-  if (!stencils.empty()) place_of(row);
-  for (const std::int32_t t : stencils) {
+  if (!stencils.empty()) sum_at(static_cast<std::int32_t>(vertex));
+  for (const auto& [t, mine] : stencils) {
     const auto terms = stencils_[static_cast<std::size_t>(t)];
-    std::size_t mine = 0;
-    while (terms[mine].vertex != row) ++mine;
-    const auto& f = terms[mine].factor;
-    for (const auto& [column, g] : terms) values[place_of(column)] += f[0] * g[0] + f[1] * g[1] + f[2] * g[2];
+    const auto f = terms[static_cast<std::size_t>(mine)].factor;
+    for (const auto& [column, g] : terms) sum_at(column) += f[0] * g[0] + f[1] * g[1] + f[2] * g[2];
   }
-  matrix_.set_row(vertex, columns);
-  std::int32_t slot = columns.empty() ? 0 : matrix_.first_slot(vertex);
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    matrix_.block(slot++)(0) = values[k];
+  matrix_.set_row(vertex, {columns.data(), static_cast<std::size_t>(n)});
+  std::int32_t slot = matrix_.first_slot(vertex);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(n); ++k) {
+    matrix_.block(slot++)(0) = std::exchange(values[k], 0);
     work_.place[static_cast<std::size_t>(columns[k])] = -1;
   }
 }

@@ -42,6 +42,12 @@ class Bending {
     TriangleIndex triangle;
     int distance;  ///< in unseparated edges, from the nearest triangle that changed
   };
+  /// A stencil that holds a vertex, and its place there; one is like another if the triangle is.
+  struct Holder {
+    std::int32_t triangle, place;
+    bool operator==(const Holder& other) const { return triangle == other.triangle; }
+    bool operator<(const Holder& other) const { return triangle < other.triangle; }
+  };
   void resize(const Sheet& sheet);
   void mark_stale(TriangleIndex t, int distance);
   void find_stale(const Sheet& sheet);
@@ -53,7 +59,15 @@ class Bending {
   void write_row(std::size_t vertex);
 
   // Terms of t's stencil, summed up in work_.
-  std::array<double, 3>& term_of(std::int32_t vertex);
+  /// The sum that begins at zero, for this vertex.
+  std::array<double, 3>& term_of(std::int32_t vertex) {
+    std::int32_t& place = work_.place[static_cast<std::size_t>(vertex)];
+    if (place < 0) {
+      place = static_cast<std::int32_t>(work_.terms.size());
+      work_.terms.push_back({vertex, {}});
+    }
+    return work_.terms[static_cast<std::size_t>(place)].factor;
+  }
   void add_rows(const Sheet& sheet, TriangleIndex t);
   void patch_rows(const Sheet& sheet, TriangleIndex t);
   void hinge_rows(const Sheet& sheet, TriangleIndex t);
@@ -63,8 +77,8 @@ class Bending {
   GrowingRows<StencilTerm> slopes_;  ///< per triangle slot: SlopePatch::terms(); unused by hinges
   std::vector<int> reach_;           ///< per triangle slot: of its patch; 0 for hinges
   int longest_reach_ = 0;
-  GrowingRows<StencilTerm> stencils_;      ///< per triangle slot: its three rows, in sqrt(N/m)
-  GrowingRows<std::int32_t> stencils_of_;  ///< per deformed vertex: triangle slots whose stencils hold it, in order
+  GrowingRows<StencilTerm> stencils_;  ///< per triangle slot: its three rows, in sqrt(N/m)
+  GrowingRows<Holder> stencils_of_;    ///< per deformed vertex: the stencils that hold it, in order
   BlockMatrix<1> matrix_;
 
   /// Working storage, kept between calls so that they don't allocate.
@@ -77,8 +91,8 @@ class Bending {
     std::vector<std::int32_t> rows;   ///< to be written
     std::vector<std::int32_t> place;  ///< per deformed vertex: in `terms` or `columns`; -1: none
     std::vector<StencilTerm> terms;
-    std::vector<std::int32_t> columns;
-    std::vector<double> values;
+    std::vector<std::int32_t> columns;  ///< of a row under way: room for all vertices, and one more
+    std::vector<double> values;         ///< likewise; all zero between rows
   } work_;
 };
 

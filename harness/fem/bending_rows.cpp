@@ -32,6 +32,7 @@ void Bending::patch_rows(const Sheet& sheet, TriangleIndex t) {
                                      std::sqrt(rigidity_ * (1 - poisson_) * twice / 2),
                                      std::sqrt(rigidity_ * (1 - poisson_) * twice)};
   const auto& corner = sheet.triangle(t).deformed;
+  std::array<std::array<double, 3>, 3> own;  // what its own slope at each side counts in the three rows
   for (std::size_t k = 0; k < 3; ++k) {
     const Point2 side = c[(k + 1) % 3] - c[k];
     const double length = std::sqrt(squared_length(side));
@@ -53,10 +54,14 @@ void Bending::patch_rows(const Sheet& sheet, TriangleIndex t) {
     const TriangleIndex other = neighbour(sheet, t, k);
     const double twice_other = other.valid() ? std::max(0.0, twice_area(sheet.corners(other))) : 0;
     const double share = twice / (twice + twice_other);
-    for (const auto& [vertex, slope] : slopes_[t()]) add(vertex, bend, length * share * slope[k]);
+    for (std::size_t i = 0; i < 3; ++i) own[k][i] = length * share * bend[i];
     if (!(twice_other > 0)) continue;
     const auto there = static_cast<std::size_t>(corner_of(sheet.triangle(t).opposite[k]));
     for (const auto& [vertex, slope] : slopes_[other()]) add(vertex, bend, -length * (1 - share) * slope[there]);
+  }
+  for (const auto& [vertex, slope] : slopes_[t()]) {
+    auto& sum = term_of(vertex);
+    for (std::size_t i = 0; i < 3; ++i) sum[i] += own[0][i] * slope[0] + own[1][i] * slope[1] + own[2][i] * slope[2];
   }
 }
 

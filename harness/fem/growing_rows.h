@@ -43,6 +43,11 @@ class GrowingRows {
     for (; at != begin && item < at[-1]; --at) *at = at[-1];
     *at = item;
   }
+  /// In place of its equal. \pre row i holds that.
+  void replace(std::size_t i, const T& item) {
+    T* const begin = items_.data() + rows_[i].begin;
+    *std::find(begin, begin + rows_[i].size, item) = item;
+  }
   /// The others keep their order. \pre row i holds it.
   void erase(std::size_t i, const T& item) {
     T* const begin = items_.data() + rows_[i].begin;

@@ -14,6 +14,9 @@ constexpr double good_fit = 0.02, some_fit = 1e-3;
 // A column that is less than this part of the quadratic ones, once the columns before it are taken out, is zero.
 constexpr double round_off = 1e-14;
 
+// Columns that keep this part are orthogonal to 1e-14 after one pass.
+constexpr double enough_left = 0.01;
+
 }  // namespace
 
 void SlopePatch::add(DeformedIndex d, Point2 offset) {
@@ -55,7 +58,7 @@ bool SlopePatch::widen(const Sheet& sheet, bool first) {
   return any;
 }
 
-/// Gram and Schmidt, twice. The linear columns come first, so that linear functions come out exact whatever is left out
+/// Gram and Schmidt, twice where a column loses digits in the first pass. The linear columns come first, so that linear functions come out exact whatever is left out
 /// of the quadratic ones.
 void SlopePatch::factorise() {
   const std::size_t n = offset_.size();
@@ -76,6 +79,7 @@ void SlopePatch::factorise() {
   reference_ = std::sqrt(reference_);
   for (int pass = 0; pass < 2; ++pass) {
     std::array<Row, 6> upper{};
+    bool keeps_digits = true;
     for (std::size_t j = 0; j < 6; ++j) {
       Row products{};  // of column j with all
       for (std::size_t i = 0; i < n; ++i)
@@ -83,6 +87,7 @@ void SlopePatch::factorise() {
       const double length = std::sqrt(products[j]), inverse = length > round_off * reference_ ? 1 / length : 0;
       for (std::size_t k = j + 1; k < 6; ++k) upper[j][k] = inverse * products[k];
       upper[j][j] = pass == 1 && inverse == 0 ? 1 : length;
+      keeps_digits &= length > enough_left * reference_;
       for (std::size_t i = 0; i < n; ++i) {
         const double q = orthogonal_[i][j] *= inverse;
         for (std::size_t k = j + 1; k < 6; ++k) orthogonal_[i][k] -= q * upper[j][k];
@@ -90,6 +95,7 @@ void SlopePatch::factorise() {
     }
     if (pass == 0) {
       upper_ = upper;
+      if (keeps_digits) return;
       continue;
     }
     // What is left of the first pass was upper x orthogonal.
