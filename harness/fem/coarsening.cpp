@@ -26,6 +26,25 @@ Point2 place_of(std::int64_t node, double spacing) {
 
 }  // namespace
 
+void SparseRows::add_row(std::span<const std::int32_t> columns, std::vector<std::int32_t>& order) {
+  // Which side a column is on is a coin toss: branches would cost more than writing everything twice.
+  const auto own = static_cast<std::int32_t>(size());
+  const auto n = static_cast<std::int32_t>(columns.size());
+  order.resize(2 * columns.size() + 2);
+  std::int32_t below = 0, above = n + 1, at = -1;
+  for (std::int32_t k = 0; k < n; ++k) {
+    const std::int32_t j = columns[static_cast<std::size_t>(k)];
+    order[static_cast<std::size_t>(below)] = order[static_cast<std::size_t>(above)] = k;
+    below += j<own, above += j> own;
+    at = j == own ? k : at;
+  }
+  if (at >= 0) order[static_cast<std::size_t>(below++)] = at;
+  std::copy(order.begin() + n + 1, order.begin() + above, order.begin() + below);
+  order.resize(columns.size());
+  for (const std::int32_t k : order) column.push_back(columns[static_cast<std::size_t>(k)]);
+  end_row();
+}
+
 /// The hats that are not zero at each unknown: those of the corners of its lattice triangle.
 void Coarsening::enter(const SparseRows& links, const std::vector<Point2>& places, double spacing) {
   entries_.clear();
@@ -97,19 +116,56 @@ void Coarsening::build(const SparseRows& links, const std::vector<Point2>& place
   }
 }
 
-void Coarsening::coarse_pattern(const SparseRows& fine, SparseRows& coarse) {
+/// Finds the rows one by one. Calls add(member, entry, parent, place) for each product that goes to a place in the row at
+/// hand, and add.end(order) when the row is complete.
+template <class Add>
+void Coarsening::coarse_rows(const SparseRows& fine, SparseRows& coarse, const Add& add) {
   coarse.clear();
-  seen_in_.assign(coarse_size(), -1);
+  place_.assign(coarse_size(), -1);
   for (std::size_t i = 0; i < coarse_size(); ++i) {
-    const std::size_t first = coarse.column.size();
-    for (const Weight& member : members(i))
-      for (const std::int32_t j : fine[static_cast<std::size_t>(member.other)])
-        for (const Weight& parent : parents(static_cast<std::size_t>(j)))
-          if (auto& seen = seen_in_[static_cast<std::size_t>(parent.other)]; seen != static_cast<std::int32_t>(i))
-            seen = static_cast<std::int32_t>(i), coarse.column.push_back(parent.other);
-    std::sort(coarse.column.begin() + static_cast<std::ptrdiff_t>(first), coarse.column.end());
-    coarse.end_row();
+    columns_.clear();
+    for (const Weight& member : members(i)) {
+      auto entry = static_cast<std::size_t>(fine.begin[static_cast<std::size_t>(member.other)]);
+      for (const std::int32_t j : fine[static_cast<std::size_t>(member.other)]) {
+        for (const Weight& parent : parents(static_cast<std::size_t>(j))) {
+          auto& place = place_[static_cast<std::size_t>(parent.other)];
+          if (place < 0) place = static_cast<std::int32_t>(columns_.size()), columns_.push_back(parent.other);
+          add(static_cast<std::size_t>(place), member, entry, parent);
+        }
+        ++entry;
+      }
+    }
+    coarse.add_row(columns_, order_);
+    for (const std::int32_t j : columns_) place_[static_cast<std::size_t>(j)] = -1;
+    add.end(order_);
   }
+}
+
+void Coarsening::coarse_pattern(const SparseRows& fine, SparseRows& coarse) {
+  struct {
+    void operator()(std::size_t, const Weight&, std::size_t, const Weight&) const {}
+    void end(const std::vector<std::int32_t>&) const {}
+  } nothing;
+  coarse_rows(fine, coarse, nothing);
+}
+
+void Coarsening::multiply(const SparseRows& fine, const std::vector<double>& values, SparseRows& coarse,
+                          std::vector<double>& product) {
+  product.clear();
+  struct Sum {
+    const std::vector<double>& values;
+    std::vector<double>&sums, &product;
+    void operator()(std::size_t place, const Weight& member, std::size_t entry, const Weight& parent) const {
+      if (place == sums.size()) sums.push_back(0);
+      sums[place] += double(member.weight) * double(parent.weight) * values[entry];
+    }
+    void end(const std::vector<std::int32_t>& order) const {
+      for (const std::int32_t k : order) product.push_back(sums[static_cast<std::size_t>(k)]);
+      sums.clear();
+    }
+  };
+  sums_.clear();
+  coarse_rows(fine, coarse, Sum{values, sums_, product});
 }
 
 }  // namespace cutbench

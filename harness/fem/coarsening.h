@@ -28,6 +28,8 @@ struct SparseRows {
   }
   void clear() { begin.assign(1, 0), column.clear(); }
   void end_row() { begin.push_back(static_cast<std::int32_t>(column.size())); }
+  /// Adds a row with these columns, each once. `order` gets, for each entry of the row, its place among `columns`.
+  void add_row(std::span<const std::int32_t> columns, std::vector<std::int32_t>& order);
 };
 
 class Coarsening {
@@ -46,6 +48,9 @@ class Coarsening {
   void build(const SparseRows& links, const std::vector<Point2>& places, double spacing, const SparseRows& groups);
   /// The pattern of P^T A P for a matrix A with these rows.
   void coarse_pattern(const SparseRows& fine, SparseRows& coarse);
+  /// P^T A P for scalars: `values` are those of the fine entries, and `product` gets those of the coarse ones.
+  void multiply(const SparseRows& fine, const std::vector<double>& values, SparseRows& coarse,
+                std::vector<double>& product);
 
   std::size_t fine_size() const { return parent_begin_.size() - 1; }
   std::size_t coarse_size() const { return places_.size(); }
@@ -66,6 +71,8 @@ class Coarsening {
     return {all.data() + begin[i], static_cast<std::size_t>(begin[i + 1] - begin[i])};
   }
   void enter(const SparseRows& links, const std::vector<Point2>& places, double spacing);
+  template <class Add>
+  void coarse_rows(const SparseRows& fine, SparseRows& coarse, const Add& add);
   void divide(const SparseRows& links, std::span<const Entry> members, Point2 place);
 
   std::vector<std::int32_t> parent_begin_{0}, member_begin_{0};
@@ -75,7 +82,9 @@ class Coarsening {
   std::vector<Entry> entries_;
   std::vector<std::int32_t> in_group_;  // per fine unknown: its place among the members at hand, or -1
   std::vector<std::int32_t> part_;      // per member at hand: its coarse unknown
-  std::vector<std::int32_t> seen_in_;   // per coarse unknown: the row that lists it
+  std::vector<std::int32_t> place_;     // per coarse unknown: its place in the row at hand, or -1
+  std::vector<std::int32_t> columns_, order_;
+  std::vector<double> sums_;
   UnionFind joined_;
 };
 

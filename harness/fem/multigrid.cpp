@@ -30,19 +30,6 @@ double median_edge(const SparseRows& links, const std::vector<Point2>& places) {
   return *middle;
 }
 
-/// Calls visit(column, slot) for row i: for the columns below i, for i, and for those above.
-template <class Matrix, class Visit>
-void visit_row(const Matrix& matrix, std::size_t i, const Visit& visit) {
-  const auto own = static_cast<std::int32_t>(i);
-  for (const int side : {-1, 0, 1}) {
-    std::int32_t slot = matrix.first_slot(i);
-    for (const std::int32_t j : matrix.columns(i)) {
-      if ((j > own) - (j < own) == side) visit(j, slot);
-      ++slot;
-    }
-  }
-}
-
 /// The inverse of a block, or zero where it is not positive definite.
 template <class Block>
 Block inverse_of(const Block& block) {
@@ -62,24 +49,23 @@ template <int D>
 void Multigrid<D>::read_rows(const SystemMatrix<D>& a) {
   rows_.blocks.clear(), rows_.scalars.clear(), rows_.scalar.clear(), slots_.clear(), factors_.clear();
   for (const auto& term : a.scalar) factors_.push_back(term.factor);
-  std::vector<std::pair<std::int32_t, double>> several;  // entries of more than one scalar matrix
+  std::vector<std::int32_t> order, columns, place(a.vertices(), -1);
+  std::vector<double> values;
   for (std::size_t i = 0; i < a.vertices(); ++i) {
-    visit_row(*a.blocks, i,
-              [&](std::int32_t j, std::int32_t slot) { rows_.blocks.column.push_back(j), slots_.push_back(slot); });
-    rows_.blocks.end_row();
-    several.clear();
-    for (const auto& term : a.scalar)
-      visit_row(*term.matrix, i, [&](std::int32_t j, std::int32_t slot) {
-        several.emplace_back(j, term.factor * term.matrix->block(slot)(0));
-      });
-    if (a.scalar.size() > 1) std::sort(several.begin(), several.end());
-    const std::size_t first = rows_.scalar.size();
-    for (const auto& [j, value] : several)
-      if (rows_.scalar.size() > first && rows_.scalars.column.back() == j)
-        rows_.scalar.back() += value;
-      else
-        rows_.scalars.column.push_back(j), rows_.scalar.push_back(value);
-    rows_.scalars.end_row();
+    rows_.blocks.add_row(a.blocks->columns(i), order);
+    for (const std::int32_t k : order) slots_.push_back(a.blocks->first_slot(i) + k);
+    columns.clear(), values.clear();
+    for (const auto& term : a.scalar) {
+      std::int32_t slot = term.matrix->first_slot(i);
+      for (const std::int32_t j : term.matrix->columns(i)) {
+        auto& at = place[static_cast<std::size_t>(j)];
+        if (at < 0) at = static_cast<std::int32_t>(columns.size()), columns.push_back(j), values.push_back(0);
+        values[static_cast<std::size_t>(at)] += term.factor * term.matrix->block(slot++)(0);
+      }
+    }
+    for (const std::int32_t j : columns) place[static_cast<std::size_t>(j)] = -1;
+    rows_.scalars.add_row(columns, order);
+    for (const std::int32_t k : order) rows_.scalar.push_back(values[static_cast<std::size_t>(k)]);
   }
 }
 
@@ -132,32 +118,10 @@ void Multigrid<D>::find_levels(const SystemMatrix<D>& a) {
     places = level.from.coarse_places();
     if (places.empty() || static_cast<double>(places.size()) > 0.8 * static_cast<double>(fine->blocks.size())) break;
     level.from.coarse_pattern(fine->blocks, level.rows.blocks);
-    level.from.coarse_pattern(fine->scalars, level.rows.scalars);
-    coarsen_scalars(*fine, level);
+    level.from.multiply(fine->scalars, fine->scalar, level.rows.scalars, level.rows.scalar);
     level.set(level.rows);
     coarse_.push_back(std::move(level));
     fine = &coarse_.back().rows;
-  }
-}
-
-/// P^T B P of the scalar part B.
-template <int D>
-void Multigrid<D>::coarsen_scalars(const Rows& fine, CoarseLevel& level) {
-  level.rows.scalar.assign(level.rows.scalars.column.size(), 0);
-  std::vector<std::int32_t> place(level.from.coarse_size());
-  for (std::size_t i = 0; i < place.size(); ++i) {
-    for (std::int32_t k = level.rows.scalars.begin[i]; k < level.rows.scalars.begin[i + 1]; ++k)
-      place[static_cast<std::size_t>(level.rows.scalars.column[static_cast<std::size_t>(k)])] = k;
-    for (const auto& member : level.from.members(i)) {
-      const auto v = static_cast<std::size_t>(member.other);
-      auto k = static_cast<std::size_t>(fine.scalars.begin[v]);
-      for (const std::int32_t j : fine.scalars[v]) {
-        const double value = double(member.weight) * fine.scalar[k++];
-        for (const auto& parent : level.from.parents(static_cast<std::size_t>(j)))
-          level.rows.scalar[static_cast<std::size_t>(place[static_cast<std::size_t>(parent.other)])] +=
-              double(parent.weight) * value;
-      }
-    }
   }
 }
 

@@ -48,7 +48,6 @@ class Multigrid final : public Preconditioner<D> {
   void read_rows(const SystemMatrix<D>& a);
   SparseRows groups(const SystemMatrix<D>& a) const;
   void find_held(const SystemMatrix<D>& a);
-  static void coarsen_scalars(const Rows& fine, CoarseLevel& level);
   static bool needs_doubles(const SystemMatrix<D>& a);
   template <class S>
   void fill(const SystemMatrix<D>& a, Level<S>& level, bool& is_new);
