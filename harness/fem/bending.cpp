@@ -41,7 +41,7 @@ void Bending::resize(const Sheet& sheet) {
   work_.stale_in.resize(triangles), work_.refitted_in.resize(triangles);
   stencils_of_.resize(vertices), matrix_.resize(vertices);
   work_.listed_in.resize(vertices), work_.place.resize(vertices, -1);
-  work_.columns.resize(vertices + 1), work_.values.resize(vertices);
+  work_.columns.resize(vertices), work_.values.resize(vertices);
   work_.stale.clear();
 }
 
@@ -146,13 +146,9 @@ void Bending::write_row(std::size_t vertex) {
   auto& columns = work_.columns;
   auto& values = work_.values;
   std::int32_t n = 0;
-  // Whether a column is new is a coin toss: a branch would cost more than the sum.
   const auto sum_at = [&](std::int32_t column) -> double& {
     std::int32_t& place = work_.place[static_cast<std::size_t>(column)];
-    columns[static_cast<std::size_t>(n)] = column;
-    const bool is_new = place < 0;
-    place = is_new ? n : place;
-    n += is_new;
+    if (place < 0) place = n, columns[static_cast<std::size_t>(n++)] = column;
     return values[static_cast<std::size_t>(place)];
   };
   const auto stencils = stencils_of_[vertex];

@@ -91,7 +91,7 @@ class Bending {
     std::vector<std::int32_t> rows;   ///< to be written
     std::vector<std::int32_t> place;  ///< per deformed vertex: in `terms` or `columns`; -1: none
     std::vector<StencilTerm> terms;
-    std::vector<std::int32_t> columns;  ///< of a row under way: room for all vertices, and one more
+    std::vector<std::int32_t> columns;  ///< of a row under way: room for all vertices
     std::vector<double> values;         ///< likewise; all zero between rows
   } work_;
 };
