@@ -45,8 +45,8 @@ class Model {
   void rotate(const Field& x);  ///< the deformation of every element; the functions below refer to this x
   /// f += internal forces, of membrane and bending, N. \pre rotate(x).
   void add_internal_force(const Field& x, Field& f) const;
-  /// y += h (internal forces at x) - factor A v, with A of the last assemble(). Sooner than one by one: bending, which is
-  /// linear, is in both. \pre rotate(x).
+  /// y += h (internal forces at x) - factor A v, with A of the last assemble(). Faster than one by one: bending, which
+  /// is linear, is in both. \pre rotate(x).
   void add_impulse(double h, const Field& x, double factor, const Field& v, Field& y);
   void add_external_force(Field& f) const { f += external_; }
   /// A = mass_factor M + stiffness_factor K, with K the tangent at the rotated state. \pre rotate().

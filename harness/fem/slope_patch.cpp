@@ -58,8 +58,8 @@ bool SlopePatch::widen(const Sheet& sheet, bool first) {
   return any;
 }
 
-/// Gram and Schmidt, twice where a column loses digits in the first pass. The linear columns come first, so that linear functions come out exact whatever is left out
-/// of the quadratic ones.
+/// Gram and Schmidt, twice where a column loses digits in the first pass. The linear columns come first, so that linear
+/// functions come out exact whatever is left out of the quadratic ones.
 void SlopePatch::factorise() {
   const std::size_t n = offset_.size();
   double sum = 0, corners = 0;
