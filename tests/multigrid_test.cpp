@@ -218,7 +218,7 @@ TEST(Coarsening, PatternIsThatOfTheProduct) {
   for (Eigen::Index i = 0; i < m; ++i) {
     const auto row = coarse[static_cast<std::size_t>(i)];
     const auto side = [i](std::int32_t j) { return (j > i) - (j < i); };
-    EXPECT_TRUE(std::is_sorted(row.begin(), row.end(), [&](auto a, auto b) { return side(a) < side(b); }));
+    EXPECT_TRUE(std::is_sorted(row.begin(), row.end(), [&](auto one, auto other) { return side(one) < side(other); }));
     for (Eigen::Index j = 0; j < m; ++j)
       EXPECT_EQ(std::count(row.begin(), row.end(), static_cast<std::int32_t>(j)), product(i, j) > 0 ? 1 : 0);
   }
