@@ -1,12 +1,11 @@
 // One membrane triangle: what must hold for any shape and any deformation, by finite differences and by hand.
 
-#include "harness/fem/element_stiffness.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 
 #include "harness/base/random.h"
+#include "harness/fem/element_stiffness.h"
 #include "tests/dense_solves.h"
 
 namespace cutbench {

@@ -6,11 +6,13 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <numbers>
 #include <set>
 
 #include "harness/base/random.h"
+#include "harness/cases/mixture.h"
 #include "harness/fem/linear_solver.h"
 #include "tests/fem_helpers.h"
 #include "tests/helpers.h"
@@ -375,6 +377,51 @@ TEST(Multigrid, ExtremeSlivers) {
     EXPECT_TRUE(report.converged || (distance < 1e-9 && !can_be_solved))
         << report.iterations << " iterations, residual " << report.residual;
   }
+}
+
+/// The first step after cuts drawn as those of the robustness campaign. CUTBENCH_TEST_SCALE=200 makes 99,200 solves.
+TEST(Multigrid, AdversarialCuts) {
+  constexpr std::uint64_t seed = 99173;
+  std::size_t solves = 0, unsolved = 0, fallbacks = 0, iterations = 0;
+  const auto solve = [&](const SystemMatrix<3>& a, const Field& b, const std::string& name, int most) {
+    const auto solver = make_solver<3>({.name = name, .tolerance = 1e-2, .max_iterations = most});
+    solver->setup(a);
+    Field x;
+    const SolveReport report = solver->solve(b, x);
+    EXPECT_TRUE(x.allFinite() || !b.allFinite() || !report.converged);
+    return report;
+  };
+  for (const std::string family : {"grid", "delaunay", "graded", "alternating"})
+    for (const int n : {6, 20}) {
+      const MeshData mesh = make_sheet(family, n);
+      for (std::size_t i = 0; i < scaled(2); ++i)
+        for (const MethodRow& row : all_methods()) {
+          SCOPED_TRACE(family + ", n " + std::to_string(n) + ", case " + std::to_string(i) + ", " + row.name);
+          Body<3> body(mesh, skin, {.bending = BendingKind::patches, .gravity = {0, 0, -9.81}}, held_left());
+          const auto method = row.make(row.knob.value);
+          if (method->why_unsupported(body.sheet)) continue;
+          for (const Curve& curve : make_mixture_case(seed, i, Sheet(mesh)).cuts)
+            body.cut(curve, row.name, row.knob.value);
+          Field x = body.model.positions(body.sheet);
+          x += 0.01 / n * random_field(i + 1, x.size());
+          body.model.rotate(x);
+          Field b = Field::Zero(x.size());
+          body.model.add_internal_force(x, b);
+          body.model.add_external_force(b);
+          for (const double step : {1.0 / 240, 1.0 / 60}) {
+            body.model.assemble(1, step * step + 1e-3 * step);
+            const SystemMatrix<3> a = body.model.system();
+            const SolveReport report = solve(a, b, "multigrid", 20000);
+            ++solves, fallbacks += report.fell_back, iterations += static_cast<std::size_t>(report.iterations);
+            if (report.converged) continue;
+            ++unsolved;
+            EXPECT_FALSE(solve(a, b, "cg", 20000).converged);
+          }
+        }
+    }
+  std::printf("%zu solves, %.2f iterations in the mean, %zu fall-backs; %zu not solved, nor by cg\n", solves,
+              static_cast<double>(iterations) / static_cast<double>(solves), fallbacks, unsolved);
+  EXPECT_LT(100 * unsolved, solves);
 }
 
 }  // namespace

@@ -12,12 +12,12 @@ namespace cutbench {
 namespace {
 
 constexpr double sqrt3 = std::numbers::sqrt3;
-constexpr float least_weight = 1e-5F;  // below it, a hat is taken for zero
-constexpr double farthest = 1 << 29;   // a node's number fits 32 bits
+constexpr float least_weight = 1e-5F;      // below it, a hat is taken for zero
+constexpr double farthest_node = 1 << 29;  // a node's number fits 32 bits
 
-std::int64_t key(std::int64_t i, std::int64_t j) { return j * (std::int64_t{1} << 32) + i; }
+std::int64_t node_key(std::int64_t i, std::int64_t j) { return j * (std::int64_t{1} << 32) + i; }
 
-Point2 place_of(std::int64_t node, double spacing) {
+Point2 node_place(std::int64_t node, double spacing) {
   const auto i = static_cast<std::int32_t>(node);  // the lower half, with its sign
   const std::int64_t j = (node - i) >> 32;
   return {spacing * (static_cast<double>(i) + 0.5 * static_cast<double>(j)),
@@ -50,12 +50,12 @@ void Coarsening::enter(const SparseRows& links, const std::vector<Point2>& place
   entries_.clear();
   for (std::size_t v = 0; v < places.size(); ++v) {
     const double b = places[v].y / (spacing * sqrt3 / 2), a = places[v].x / spacing - b / 2;
-    if (links[v].empty() || !(std::abs(a) < farthest && std::abs(b) < farthest)) continue;
+    if (links[v].empty() || !(std::abs(a) < farthest_node && std::abs(b) < farthest_node)) continue;
     const auto i = static_cast<std::int64_t>(std::floor(a)), j = static_cast<std::int64_t>(std::floor(b));
     const double f = a - static_cast<double>(i), g = b - static_cast<double>(j);
     const auto add = [&](std::int64_t di, std::int64_t dj, double weight) {
       if (const auto w = static_cast<float>(weight); w > least_weight)
-        entries_.push_back({key(i + di, j + dj), static_cast<std::int32_t>(v), w});
+        entries_.push_back({node_key(i + di, j + dj), static_cast<std::int32_t>(v), w});
     };
     const bool lower = f + g < 1;
     add(lower ? 0 : 1, lower ? 0 : 1, std::abs(1 - f - g));
@@ -91,7 +91,7 @@ void Coarsening::build(const SparseRows& links, const std::vector<Point2>& place
   std::vector<std::int32_t> coarse_of(entries_.size());
   for (std::size_t first = 0, last = 0; first < entries_.size(); first = last) {
     while (last < entries_.size() && entries_[last].node == entries_[first].node) ++last;
-    divide(links, {entries_.data() + first, last - first}, place_of(entries_[first].node, spacing));
+    divide(links, {entries_.data() + first, last - first}, node_place(entries_[first].node, spacing));
     std::copy(part_.begin(), part_.end(), coarse_of.begin() + static_cast<std::ptrdiff_t>(first));
   }
   for (std::size_t g = 0; g < groups.size(); ++g) {

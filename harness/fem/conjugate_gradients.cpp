@@ -85,17 +85,17 @@ SolveReport ConjugateGradients<D>::solve(const Field& b, Field& x) {
     }
     a.multiply(x, q_);
     r_ = b_ - q_;
-    if (broken && positive_blocks_ && preconditions_) {  // the diagonal blocks may do where the preconditioner does not
-      report.fell_back = true, preconditions_ = false;
-      x.setZero(), r_ = b_, p_.setZero(), q_.setZero();
-      continue;
-    }
     const double rr = r_.squaredNorm();
     report.residual = std::sqrt(rr / bb);
     report.converged = !broken && report.residual <= options_.tolerance && now.rdr <= enough_rdr && std::isfinite(bb);
-    if (report.converged || broken || !std::isfinite(rr) || restart == max_restarts ||
-        report.iterations >= options_.max_iterations)
-      return report;
+    if (report.converged || report.iterations >= options_.max_iterations) return report;
+    const bool gives_up = broken || !std::isfinite(rr) || restart == max_restarts;
+    if (gives_up && !(preconditions_ && positive_blocks_ && std::isfinite(bb))) return report;
+    if (gives_up) {  // the diagonal blocks may do where the preconditioner does not
+      report.fell_back = true, preconditions_ = false, restart = 0;
+      x.setZero(), r_ = b_, p_.setZero(), q_.setZero();
+      continue;
+    }
     ++restart;
   }
 }

@@ -10,7 +10,8 @@ void LevelMatrix<D, S>::set_pattern(const SparseRows& rows, std::size_t values, 
   part.diagonal.resize(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto row = rows[i];
-    const auto at = std::find_if(row.begin(), row.end(), [i](std::int32_t j) { return j >= static_cast<std::int32_t>(i); });
+    const auto at =
+        std::find_if(row.begin(), row.end(), [i](std::int32_t j) { return j >= static_cast<std::int32_t>(i); });
     part.diagonal[i] = rows.begin[i] + static_cast<std::int32_t>(at - row.begin());
   }
   part.value.assign(values * rows.column.size() + padding, S{0});

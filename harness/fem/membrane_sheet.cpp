@@ -69,28 +69,28 @@ std::array<Lanes, D> normalised(const std::array<Lanes, D>& v) {
 }
 
 /// The rotation nearest to F, in the plane of its columns: (F + its cofactors) / |...|, where the cofactors are F's
-/// columns exchanged and turned by a right angle. `sound` is negative in the lanes where it can't be told.
-std::array<std::array<Lanes, 2>, 2> nearest_rotation(const std::array<std::array<Lanes, 2>, 2>& f, Lanes& sound) {
+/// columns exchanged and turned by a right angle. `determined` is negative in the lanes where it can't be told.
+std::array<std::array<Lanes, 2>, 2> nearest_rotation(const std::array<std::array<Lanes, 2>, 2>& f, Lanes& determined) {
   const std::array<Lanes, 2> sum{f[0][0] + f[1][1], f[0][1] - f[1][0]};
-  sound = dot(sum, sum) - 1e-28 * (dot(f[0], f[0]) + dot(f[1], f[1]));
+  determined = dot(sum, sum) - 1e-28 * (dot(f[0], f[0]) + dot(f[1], f[1]));
   const std::array<Lanes, 2> x = normalised<2>(sum);
   return {x, {-x[1], x[0]}};
 }
-std::array<std::array<Lanes, 3>, 2> nearest_rotation(const std::array<std::array<Lanes, 3>, 2>& f, Lanes& sound) {
+std::array<std::array<Lanes, 3>, 2> nearest_rotation(const std::array<std::array<Lanes, 3>, 2>& f, Lanes& determined) {
   const std::array<Lanes, 3> across = cross(f[0], f[1]), normal = normalised<3>(across), turned = cross(f[1], normal);
-  sound = dot(across, across) - 1e-28 * dot(f[0], f[0]) * dot(f[1], f[1]);
+  determined = dot(across, across) - 1e-28 * dot(f[0], f[0]) * dot(f[1], f[1]);
   const std::array<Lanes, 3> x = normalised<3>({f[0][0] + turned[0], f[0][1] + turned[1], f[0][2] + turned[2]});
   return {x, cross(normal, x)};
 }
 
 template <int D>
-Polar<D, Lanes> polar_of(const std::array<std::array<Lanes, D>, 2>& f, Strain strain, Lanes& sound) {
+Polar<D, Lanes> polar_of(const std::array<std::array<Lanes, D>, 2>& f, Strain strain, Lanes& determined) {
   Polar<D, Lanes> p;
   if (strain == Strain::linear) {
     p.rotation = {};
-    p.rotation[0][0] += 1, p.rotation[1][1] += 1, sound = p.rotation[0][0];
+    p.rotation[0][0] += 1, p.rotation[1][1] += 1, determined = p.rotation[0][0];
   } else {
-    p.rotation = nearest_rotation(f, sound);
+    p.rotation = nearest_rotation(f, determined);
   }
   p.xx = dot(p.rotation[0], f[0]), p.yy = dot(p.rotation[1], f[1]);
   p.xy = (dot(p.rotation[0], f[1]) + dot(p.rotation[1], f[0])) / 2;
@@ -141,18 +141,19 @@ void MembraneSheet<D>::rotate(const ElementTable& elements, const Field& x) {
   force_.setZero(x.size());
   for (std::size_t i = 0; i < polar_.size(); ++i) {
     const Four four(elements, lane_count * i);
-    Lanes sound;
-    polar_[i] = polar_of<D>(four.deformation_gradient(x), strain_, sound);
-    if (!all_positive(sound)) mend(elements, i, sound, x);
+    Lanes determined;
+    polar_[i] = polar_of<D>(four.deformation_gradient(x), strain_, determined);
+    if (!all_positive(determined)) recompute_collapsed(elements, i, determined, x);
     add_forces(four, polar_[i]);
   }
 }
 
 /// Elements that collapsed, one by one; where there is none, it is as at rest.
 template <int D>
-void MembraneSheet<D>::mend(const ElementTable& elements, std::size_t i, Lanes sound, const Field& x) {
+void MembraneSheet<D>::recompute_collapsed(const ElementTable& elements, std::size_t i, Lanes determined,
+                                           const Field& x) {
   for (std::size_t l = 0; l < lane_count; ++l) {
-    if (sound[l] > 0) continue;
+    if (determined[l] > 0) continue;
     const Element& element = element_at(elements, lane_count * i + l);
     Polar<D, double> one{};
     one.rotation[0][0] = one.rotation[1][1] = one.xx = one.yy = 1;

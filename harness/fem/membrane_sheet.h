@@ -33,7 +33,7 @@ class MembraneSheet {
  private:
   using FourSlots = std::array<std::int32_t, lane_count>;
   struct Four;
-  void mend(const ElementTable& elements, std::size_t i, Lanes sound, const Field& x);
+  void recompute_collapsed(const ElementTable& elements, std::size_t i, Lanes determined, const Field& x);
   void add_forces(const Four& four, const Polar<D, Lanes>& polar);
 
   Strain strain_;

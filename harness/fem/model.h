@@ -100,7 +100,7 @@ class Model {
   Field mass_, external_;
   std::vector<std::uint8_t> held_;
   std::vector<std::int16_t> pin_of_;  // per unknown: the first pin that holds it, -1 where there is none
-  std::vector<Point2> places_;  // per vertex, in rest space
+  std::vector<Point2> places_;        // per vertex, in rest space
   std::uint64_t pattern_ = 0;
   // Working storage of update().
   std::vector<std::uint32_t> marked_in_;

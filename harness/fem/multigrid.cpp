@@ -11,11 +11,11 @@ namespace cutbench {
 
 namespace {
 
-constexpr double strong = 0.5;              // share of a vertex's stiffness; 1/4 in a square grid, 1/6 in a regular one
-constexpr double first_spacing = 2;         // of the lattice, in median edges
-constexpr std::size_t few = 40;             // unknowns that are not coarsened any further
-constexpr std::size_t most_factored = 200;  // unknowns of a dense factorisation
-constexpr double widest_for_floats = 1e5;   // largest diagonal block over the median one
+constexpr double strong = 0.5;       // share of a vertex's stiffness; 1/4 in a square grid, 1/6 in a regular one
+constexpr double first_spacing = 2;  // of the lattice, in median edges
+constexpr std::size_t fewest_coarsened = 40;  // unknowns that are not coarsened any further
+constexpr std::size_t most_factored = 200;    // unknowns of a dense factorisation
+constexpr double widest_for_floats = 1e5;     // largest diagonal block over the median one
 
 double median_edge(const SparseRows& links, const std::vector<Point2>& places) {
   std::vector<double> lengths;
@@ -112,7 +112,7 @@ void Multigrid<D>::find_levels(const SystemMatrix<D>& a) {
   }
   double spacing = first_spacing * median_edge(rows_.blocks, places);
   if (!(spacing > 0)) return;
-  for (const Rows* fine = &rows_; fine->blocks.size() > few; spacing *= 2) {
+  for (const Rows* fine = &rows_; fine->blocks.size() > fewest_coarsened; spacing *= 2) {
     CoarseLevel level;
     level.from.build(fine->blocks, places, spacing, coarse_.empty() ? groups(a) : SparseRows());
     places = level.from.coarse_places();
