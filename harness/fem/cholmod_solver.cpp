@@ -217,7 +217,7 @@ class CholmodSolver final : public LinearSolver<D> {
                 common.status == CHOLMOD_OK && cholmod_.factor->minor == cholmod_.factor->n;
   }
 
-  SolveReport solve(const Field& b, Field& x) override {
+  SolveReport solve(const Field& b, Field& x, const Field& /*start*/) override {
     project(*matrix_->held, b, b_);
     x.setZero(b.size());
     const double norm = b_.norm();

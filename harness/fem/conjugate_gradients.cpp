@@ -57,7 +57,7 @@ void ConjugateGradients<D>::precondition(Products& now) {
 }
 
 template <int D>
-SolveReport ConjugateGradients<D>::solve(const Field& b, Field& x) {
+SolveReport ConjugateGradients<D>::solve(const Field& b, Field& x, const Field& start) {
   const SystemMatrix<D>& a = *matrix_;
   project(*a.held, b, b_);
   x.setZero(b.size()), z_.resize(b.size()), p_.setZero(b.size()), q_.setZero(b.size());
@@ -68,12 +68,19 @@ SolveReport ConjugateGradients<D>::solve(const Field& b, Field& x) {
   }
   preconditions_ = preconditioner_ != nullptr;
   r_ = b_;
-  const double bb = b_.squaredNorm(), enough = options_.tolerance * options_.tolerance * bb;
-  double enough_rdr = 0;
+  const Products all = advance(0, x);  // p = q = 0
+  const double bb = all.rr, share = options_.tolerance * options_.tolerance, enough = share * bb,
+               enough_rdr = share * all.rdr;
+  if (start.size() == b.size()) {
+    project(*a.held, start, x);
+    a.multiply(x, q_);
+    r_ -= q_;
+    if (!(r_.squaredNorm() < bb)) x.setZero(), r_ = b_;
+    q_.setZero();
+  }
   for (int restart = 0;;) {
     const int most = preconditions_ ? std::min(options_.max_iterations, most_preconditioned) : options_.max_iterations;
-    Products now = advance(0, x);  // p = q = 0, or what the last round left, times 0
-    if (restart == 0 && !report.fell_back) enough_rdr = options_.tolerance * options_.tolerance * now.rdr;
+    Products now = advance(0, x);  // whatever the last round left in p and q, times 0
     precondition(now);
     p_ = z_;
     bool broken = !positive_blocks_;

@@ -20,7 +20,7 @@ class ConjugateGradients final : public LinearSolver<D> {
   ConjugateGradients(const SolverOptions& options, std::unique_ptr<Preconditioner<D>> preconditioner)
       : options_(options), preconditioner_(std::move(preconditioner)) {}
   void setup(const SystemMatrix<D>& a) override;
-  SolveReport solve(const Field& b, Field& x) override;
+  SolveReport solve(const Field& b, Field& x, const Field& start) override;
 
  private:
   using Vector = Eigen::Matrix<double, D, 1>;

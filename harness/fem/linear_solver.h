@@ -30,8 +30,10 @@ class LinearSolver {
   virtual ~LinearSolver() = default;
   /// Preconditioner or factorisation. `a` must outlive the solves.
   virtual void setup(const SystemMatrix<D>& a) = 0;
-  /// Solves A x = b from x = 0. Held unknowns of x come out zero, whatever b says of them.
-  virtual SolveReport solve(const Field& b, Field& x) = 0;
+  /// Solves A x = b. Held unknowns of x come out zero, whatever b says of them.
+  /// \param start  an estimate of x, zero where unknowns are held, for solvers that iterate; where it has another size or
+  ///               is no better than zero, they start from zero
+  virtual SolveReport solve(const Field& b, Field& x, const Field& start = {}) = 0;
 };
 
 /// "cg": conjugate gradients, preconditioned by the inverse diagonal blocks. "cg_sliver_blocks": the vertices joined by

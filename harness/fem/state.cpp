@@ -14,7 +14,8 @@ State initial_state(const Model<D>& model, const Sheet& sheet) {
 
 void transfer(const EditLog& log, std::size_t deformed_slots, int dimension, State& state) {
   const auto size = static_cast<Eigen::Index>(deformed_slots) * dimension;
-  for (Field* field : {&state.x, &state.v, &state.anchor}) {
+  for (Field* field : {&state.x, &state.v, &state.anchor, &state.dv}) {
+    if (field == &state.dv && field->size() == 0) continue;
     const Eigen::Index old = field->size();
     field->conservativeResize(size);
     if (size > old) field->tail(size - old).setZero();

@@ -88,7 +88,7 @@ void Stepper<D>::forces(Model<D>& model, const Field& x, StepReport& report) {
 
 /// Solves A dv = rhs.
 template <int D>
-void Stepper<D>::solve(Model<D>& model, StepReport& report) {
+void Stepper<D>::solve(Model<D>& model, const Field& start, StepReport& report) {
   SystemMatrix<D> a = model.system();
   TiedSystem<D>* const tied = model.tied();
   project(model, rhs_);
@@ -103,7 +103,7 @@ void Stepper<D>::solve(Model<D>& model, StepReport& report) {
     solver_->setup(a);
   }
   Clock clock(report.time_us.solve);
-  const SolveReport solved = solver_->solve(tied ? reduced_ : rhs_, dv_);
+  const SolveReport solved = solver_->solve(tied ? reduced_ : rhs_, dv_, start);
   if (tied) {
     reduced_ = dv_;
     tied->expand(reduced_, dv_);
@@ -153,7 +153,8 @@ void Stepper<D>::implicit_step(Model<D>& model, State& state, double h, StepRepo
       model.assemble(mass_factor, stiffness_factor);
     }
     right_hand_side(model, state, h, first, report);
-    solve(model, report);
+    solve(model, first ? state.dv : Field(), report);
+    if (first) state.dv = dv_;
     v_ += dv_;
   }
 }
@@ -233,7 +234,7 @@ void Stepper<D>::equilibrium(Model<D>& model, State& state, StepReport& report) 
       Clock clock(report.time_us.assemble);
       model.assemble(0, 1);
     }
-    solve(model, report);
+    solve(model, Field(), report);
     if (report.verdict != "ok") return;
     // Backtracking (Nocedal and Wright, Numerical Optimization, 3.1): the direction goes downhill, since A is positive.
     const Energy energy = model.energy(state.x, still);

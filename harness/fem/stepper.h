@@ -63,7 +63,7 @@ class Stepper {
   void right_hand_side(Model<D>& model, const State& state, double h, bool first, StepReport& report);
   void explicit_step(Model<D>& model, State& state, StepReport& report);
   void equilibrium(Model<D>& model, State& state, StepReport& report);
-  void solve(Model<D>& model, StepReport& report);
+  void solve(Model<D>& model, const Field& start, StepReport& report);
   void hold(Model<D>& model, const State& state, double h);
   void forces(Model<D>& model, const Field& x, StepReport& report);
 
