@@ -34,6 +34,7 @@ class Bending {
 
   /// N/m. Force = -K x, energy = x K x / 2, for each coordinate. Rows of freed vertices are empty.
   const BlockMatrix<1>& matrix() const { return matrix_; }
+  const std::vector<std::int32_t>& written_rows() const { return work_.rows; }  ///< by the last update()
   double energy(const Field& x, int dimension) const;
   void reserve_spare();  ///< room to grow by half, before anything has to be copied
 

@@ -1,24 +1,26 @@
 #include "harness/fem/coarsening.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <tuple>
+#include <utility>
 
 namespace cutbench {
 
 namespace {
 
 constexpr double sqrt3 = std::numbers::sqrt3;
-constexpr float least_weight = 1e-5F;      // below it, a hat is taken for zero
-constexpr double farthest_node = 1 << 29;  // a node's number fits 32 bits
+constexpr float least_weight = 1e-5F;                                          // below it, a hat is taken for zero
+constexpr double farthest_node = 1 << 29;                                      // a node's number fits 32 bits
+constexpr std::int64_t group_node = std::numeric_limits<std::int64_t>::max();  // no lattice node has this key
 
 std::int64_t node_key(std::int64_t i, std::int64_t j) { return j * (std::int64_t{1} << 32) + i; }
 
 Point2 node_place(std::int64_t node, double spacing) {
-  const auto i = static_cast<std::int32_t>(node);  // the lower half, with its sign
+  if (node == group_node) return {std::numeric_limits<double>::quiet_NaN(), 0};  // coarser levels have nothing like it
+  const auto i = static_cast<std::int32_t>(node);                                // the lower half, with its sign
   const std::int64_t j = (node - i) >> 32;
   return {spacing * (static_cast<double>(i) + 0.5 * static_cast<double>(j)),
           spacing * sqrt3 / 2 * static_cast<double>(j)};
@@ -26,146 +28,278 @@ Point2 node_place(std::int64_t node, double spacing) {
 
 }  // namespace
 
-void SparseRows::add_row(std::span<const std::int32_t> columns, std::vector<std::int32_t>& order) {
-  // Which side a column is on is a coin toss: branches would cost more than writing everything twice.
-  const auto own = static_cast<std::int32_t>(size());
-  const auto n = static_cast<std::int32_t>(columns.size());
-  order.resize(2 * columns.size() + 2);
-  std::int32_t below = 0, above = n + 1, at = -1;
-  for (std::int32_t k = 0; k < n; ++k) {
-    const std::int32_t j = columns[static_cast<std::size_t>(k)];
-    order[static_cast<std::size_t>(below)] = order[static_cast<std::size_t>(above)] = k;
-    below += j<own, above += j> own;
-    at = j == own ? k : at;
+// --- numbers of coarse unknowns --------------------------------------------------------------------------------------
+
+std::int32_t Coarsening::new_coarse(Node node) {
+  auto coarse = static_cast<std::int32_t>(places_.size());
+  if (free_.empty()) {
+    places_.emplace_back(), node_.emplace_back(), next_part_.emplace_back();
+    members_.resize(places_.size()), is_named_.grow(places_.size());
+  } else {
+    coarse = free_.back();
+    free_.pop_back();
   }
-  if (at >= 0) order[static_cast<std::size_t>(below++)] = at;
-  std::copy(order.begin() + n + 1, order.begin() + above, order.begin() + below);
-  order.resize(columns.size());
-  for (const std::int32_t k : order) column.push_back(columns[static_cast<std::size_t>(k)]);
-  end_row();
+  const auto c = static_cast<std::size_t>(coarse);
+  places_[c] = node_place(node, spacing_), node_[c] = node, next_part_[c] = -1;
+  if (node == group_node) return coarse;
+  const auto [first, is_only] = first_part_.try_emplace(node, coarse);
+  if (!is_only) next_part_[c] = std::exchange(first->second, coarse);
+  return coarse;
 }
 
-/// The hats that are not zero at each unknown: those of the corners of its lattice triangle.
-void Coarsening::enter(const SparseRows& links, const std::vector<Point2>& places, double spacing) {
-  entries_.clear();
-  for (std::size_t v = 0; v < places.size(); ++v) {
-    const double b = places[v].y / (spacing * sqrt3 / 2), a = places[v].x / spacing - b / 2;
-    if (links[v].empty() || !(std::abs(a) < farthest_node && std::abs(b) < farthest_node)) continue;
-    const auto i = static_cast<std::int64_t>(std::floor(a)), j = static_cast<std::int64_t>(std::floor(b));
-    const double f = a - static_cast<double>(i), g = b - static_cast<double>(j);
-    const auto add = [&](std::int64_t di, std::int64_t dj, double weight) {
-      if (const auto w = static_cast<float>(weight); w > least_weight)
-        entries_.push_back({node_key(i + di, j + dj), static_cast<std::int32_t>(v), w});
-    };
-    const bool lower = f + g < 1;
-    add(lower ? 0 : 1, lower ? 0 : 1, std::abs(1 - f - g));
-    add(1, 0, lower ? f : 1 - g);
-    add(0, 1, lower ? g : 1 - f);
+/// \pre it is in no node's list of parts any more.
+void Coarsening::free_coarse(std::int32_t coarse) {
+  members_.set(static_cast<std::size_t>(coarse), {});
+  places_[static_cast<std::size_t>(coarse)] = node_place(group_node, spacing_);
+  free_.push_back(coarse), changed_coarse_.push_back(coarse);
+}
+
+std::int32_t Coarsening::part_of(std::int32_t fine, Node node) const {
+  for (const Weight& parent : parents(static_cast<std::size_t>(fine)))
+    if (node_[static_cast<std::size_t>(parent.other)] == node) return parent.other;
+  return -1;
+}
+
+std::int32_t Coarsening::group_of(std::size_t fine) const {
+  return fine < fine_size() ? part_of(static_cast<std::int32_t>(fine), group_node) : -1;
+}
+
+// --- update ----------------------------------------------------------------------------------------------------------
+
+void Coarsening::update(const LevelRows& fine, const std::vector<Point2>& places, std::span<const std::int32_t> changed,
+                        const Regrouping& regrouping) {
+  begin(fine.size(), changed);
+  regroup(regrouping);
+  for (const std::int32_t v : changed) {
+    leave_nodes(v);
+    if (!fine.blocks[static_cast<std::size_t>(v)].empty()) enter_nodes(v, places[static_cast<std::size_t>(v)]);
   }
+  find_members();
+  for (auto first = entries_.begin(), last = first; first != entries_.end(); first = last) {
+    last = std::find_if(first, entries_.end(), [&](const Entry& entry) { return entry.node != first->node; });
+    divide(fine, {first, last});
+  }
+  for (const Node node : nodes_)  // that have no members any more
+    if (!std::binary_search(entries_.begin(), entries_.end(), Entry{node, 0, 0},
+                            [](const Entry& a, const Entry& b) { return a.node < b.node; }))
+      free_parts(node);
+  find_changed(fine, changed);
+}
+
+void Coarsening::begin(std::size_t fine_size, std::span<const std::int32_t> changed) {
+  parents_.resize(fine_size), place_in_node_.resize(fine_size, -1);
+  for (Marks* marks : {&is_changed_, &has_new_parents_, &is_touched_}) marks->clear(fine_size);
+  is_named_.clear(coarse_size());
+  nodes_.clear(), with_new_parents_.clear(), entries_.clear(), changed_coarse_.clear();
+  for (const std::int32_t v : changed)
+    is_changed_.insert(v), has_new_parents_.insert(v), with_new_parents_.push_back(v);
+}
+
+void Coarsening::regroup(const Regrouping& regrouping) {
+  const auto changes = [&](std::int32_t v) {
+    if (has_new_parents_.insert(v)) with_new_parents_.push_back(v);
+  };
+  for (const std::int32_t v : regrouping.members) {
+    const std::int32_t group = part_of(v, group_node);
+    if (group < 0) continue;
+    for (const Weight& member : members(static_cast<std::size_t>(group)))
+      parents_.erase(static_cast<std::size_t>(member.other), {group, 1}), changes(member.other);
+    free_coarse(group);
+  }
+  for (const auto& group : regrouping.groups) {
+    const std::int32_t coarse = new_coarse(group_node);
+    part_members_.clear();
+    for (const std::int32_t v : group) {
+      part_members_.push_back({v, 1});
+      parents_.append(static_cast<std::size_t>(v), {coarse, 1}), changes(v);
+    }
+    members_.set(static_cast<std::size_t>(coarse), part_members_);
+  }
+}
+
+/// The unknown's nodes are to be divided again; of its parents, only its group is left.
+void Coarsening::leave_nodes(std::int32_t fine) {
+  const auto v = static_cast<std::size_t>(fine);
+  const std::int32_t group = part_of(fine, group_node);
+  for (const Weight& parent : parents(v))
+    if (parent.other != group) nodes_.push_back(node_[static_cast<std::size_t>(parent.other)]);
+  const Weight kept{group, 1};
+  parents_.set(v, {&kept, group < 0 ? 0u : 1u});
+}
+
+/// The hats that are not zero at the unknown: those of the corners of its lattice triangle.
+void Coarsening::enter_nodes(std::int32_t fine, Point2 place) {
+  const double b = place.y / (spacing_ * sqrt3 / 2), a = place.x / spacing_ - b / 2;
+  if (!(std::abs(a) < farthest_node && std::abs(b) < farthest_node)) return;
+  const auto i = static_cast<std::int64_t>(std::floor(a)), j = static_cast<std::int64_t>(std::floor(b));
+  const double f = a - static_cast<double>(i), g = b - static_cast<double>(j);
+  const auto add = [&](std::int64_t di, std::int64_t dj, double weight) {
+    if (const auto w = static_cast<float>(weight); w > least_weight)
+      entries_.push_back({node_key(i + di, j + dj), fine, w}), nodes_.push_back(entries_.back().node);
+  };
+  const bool lower = f + g < 1;
+  add(lower ? 0 : 1, lower ? 0 : 1, std::abs(1 - f - g));
+  add(1, 0, lower ? f : 1 - g);
+  add(0, 1, lower ? g : 1 - f);
+}
+
+/// Adds what else is in the supports of the nodes' hats.
+void Coarsening::find_members() {
+  std::sort(nodes_.begin(), nodes_.end());
+  nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
+  for (const Node node : nodes_)
+    if (const auto first = first_part_.find(node); first != first_part_.end())
+      for (std::int32_t part = first->second; part >= 0; part = next_part_[static_cast<std::size_t>(part)])
+        for (const Weight& member : members(static_cast<std::size_t>(part)))
+          if (!is_changed_.holds(member.other)) entries_.push_back({node, member.other, member.weight});
   std::sort(entries_.begin(), entries_.end(),
             [](const Entry& a, const Entry& b) { return std::tie(a.node, a.fine) < std::tie(b.node, b.fine); });
 }
 
 /// Makes a coarse unknown of each linked part of a node's members.
-void Coarsening::divide(const SparseRows& links, std::span<const Entry> members, Point2 place) {
+void Coarsening::divide(const LevelRows& fine, std::span<const Entry> members) {
   joined_.reset(members.size());
   for (std::size_t k = 0; k < members.size(); ++k)
-    in_group_[static_cast<std::size_t>(members[k].fine)] = static_cast<std::int32_t>(k);
+    place_in_node_[static_cast<std::size_t>(members[k].fine)] = static_cast<std::int32_t>(k);
   for (std::size_t k = 0; k < members.size(); ++k)
-    for (const std::int32_t other : links[static_cast<std::size_t>(members[k].fine)])
-      if (const std::int32_t l = in_group_[static_cast<std::size_t>(other)]; l > static_cast<std::int32_t>(k))
+    for (const std::int32_t other : fine.blocks[static_cast<std::size_t>(members[k].fine)])
+      if (const std::int32_t l = place_in_node_[static_cast<std::size_t>(other)]; l > static_cast<std::int32_t>(k))
         joined_.join(k, static_cast<std::size_t>(l));
-  part_.resize(members.size());
+  for (const Entry& member : members) place_in_node_[static_cast<std::size_t>(member.fine)] = -1;
+  name_parts(members);
   for (std::size_t k = 0; k < members.size(); ++k) {
-    if (joined_.find(k) == k) part_[k] = static_cast<std::int32_t>(places_.size()), places_.push_back(place);
-    part_[k] = part_[joined_.find(k)];
-  }
-  for (const Entry& member : members) in_group_[static_cast<std::size_t>(member.fine)] = -1;
-}
-
-void Coarsening::build(const SparseRows& links, const std::vector<Point2>& places, double spacing,
-                       const SparseRows& groups) {
-  enter(links, places, spacing);
-  places_.clear(), in_group_.assign(places.size(), -1);
-  member_begin_.clear(), parent_begin_.assign(places.size() + 1, 0);
-  std::vector<std::int32_t> coarse_of(entries_.size());
-  for (std::size_t first = 0, last = 0; first < entries_.size(); first = last) {
-    while (last < entries_.size() && entries_[last].node == entries_[first].node) ++last;
-    divide(links, {entries_.data() + first, last - first}, node_place(entries_[first].node, spacing));
-    std::copy(part_.begin(), part_.end(), coarse_of.begin() + static_cast<std::ptrdiff_t>(first));
-  }
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    for (const std::int32_t v : groups[g])
-      entries_.push_back({0, v, 1}), coarse_of.push_back(static_cast<std::int32_t>(places_.size()));
-    places_.push_back({std::numeric_limits<double>::quiet_NaN(), 0});  // the coarser levels have nothing like it
-  }
-  // Both directions, by counting: entries are sorted by node and vertex.
-  member_begin_.assign(places_.size() + 1, 0);
-  for (std::size_t e = 0; e < entries_.size(); ++e) {
-    ++member_begin_[static_cast<std::size_t>(coarse_of[e]) + 1];
-    ++parent_begin_[static_cast<std::size_t>(entries_[e].fine) + 1];
-  }
-  for (auto* begin : {&member_begin_, &parent_begin_})
-    for (std::size_t i = 1; i < begin->size(); ++i) (*begin)[i] += (*begin)[i - 1];
-  members_.resize(entries_.size()), parents_.resize(entries_.size());
-  std::vector<std::int32_t> next_member(member_begin_), next_parent(parent_begin_);
-  for (std::size_t e = 0; e < entries_.size(); ++e) {
-    const auto fine = static_cast<std::size_t>(entries_[e].fine), coarse = static_cast<std::size_t>(coarse_of[e]);
-    members_[static_cast<std::size_t>(next_member[coarse]++)] = {entries_[e].fine, entries_[e].weight};
-    parents_[static_cast<std::size_t>(next_parent[fine]++)] = {coarse_of[e], entries_[e].weight};
+    if (joined_.find(k) != k) continue;
+    changed_coarse_.push_back(part_[k]);
+    part_members_.clear();
+    for (std::size_t l = k; l < members.size(); ++l)
+      if (part_[l] == part_[k]) part_members_.push_back({members[l].fine, members[l].weight});
+    members_.set(static_cast<std::size_t>(part_[k]), part_members_);
   }
 }
 
-/// Finds the rows one by one. Calls add(member, entry, parent, place) for each product that goes to a place in the row at
-/// hand, and add.end(order) when the row is complete.
-template <class Add>
-void Coarsening::coarse_rows(const SparseRows& fine, SparseRows& coarse, const Add& add) {
-  coarse.clear();
-  place_.assign(coarse_size(), -1);
-  for (std::size_t i = 0; i < coarse_size(); ++i) {
-    columns_.clear();
-    for (const Weight& member : members(i)) {
-      auto entry = static_cast<std::size_t>(fine.begin[static_cast<std::size_t>(member.other)]);
-      for (const std::int32_t j : fine[static_cast<std::size_t>(member.other)]) {
-        for (const Weight& parent : parents(static_cast<std::size_t>(j))) {
-          auto& place = place_[static_cast<std::size_t>(parent.other)];
-          if (place < 0) place = static_cast<std::int32_t>(columns_.size()), columns_.push_back(parent.other);
-          add(static_cast<std::size_t>(place), member, entry, parent);
-        }
-        ++entry;
-      }
-    }
-    coarse.add_row(columns_, order_);
-    for (const std::int32_t j : columns_) place_[static_cast<std::size_t>(j)] = -1;
-    add.end(order_);
+/// A part keeps the number of the old part that its first member was in, if it is the first to ask for it.
+void Coarsening::name_parts(std::span<const Entry> members) {
+  const Node node = members.front().node;
+  old_parts_.clear();
+  if (const auto first = first_part_.find(node); first != first_part_.end()) {
+    for (std::int32_t part = first->second; part >= 0; part = next_part_[static_cast<std::size_t>(part)])
+      old_parts_.push_back(part);
+    first_part_.erase(first);
+  }
+  part_.assign(members.size(), -1);
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    std::int32_t& part = part_[joined_.find(k)];
+    const std::int32_t before = part_of(members[k].fine, node);
+    if (part >= 0 || before < 0 || !is_named_.insert(before)) continue;
+    part = before;
+    const auto [first, is_only] = first_part_.try_emplace(node, part);
+    next_part_[static_cast<std::size_t>(part)] = is_only ? -1 : std::exchange(first->second, part);
+  }
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    std::int32_t& part = part_[joined_.find(k)];
+    if (part < 0) is_named_.insert(part = new_coarse(node));
+    part_[k] = part;
+    const std::int32_t v = members[k].fine, before = part_of(v, node);
+    if (before == part) continue;
+    if (before >= 0) parents_.erase(static_cast<std::size_t>(v), {before, 0});
+    parents_.append(static_cast<std::size_t>(v), {part, members[k].weight});
+    if (has_new_parents_.insert(v)) with_new_parents_.push_back(v);
+  }
+  for (const std::int32_t part : old_parts_)
+    if (!is_named_.holds(part)) free_coarse(part);
+}
+
+/// \pre the node has no members.
+void Coarsening::free_parts(Node node) {
+  const auto first = first_part_.find(node);
+  if (first == first_part_.end()) return;
+  for (std::int32_t part = first->second; part >= 0;) {
+    const std::int32_t next = next_part_[static_cast<std::size_t>(part)];
+    free_coarse(part), part = next;
+  }
+  first_part_.erase(first);
+}
+
+/// A row of P^T A P depends on the rows of A of its members, and on the parents of the columns of these.
+void Coarsening::find_changed(const LevelRows& fine, std::span<const std::int32_t> changed) {
+  is_coarse_changed_.clear(coarse_size());
+  for (const std::int32_t coarse : changed_coarse_) is_coarse_changed_.insert(coarse);
+  for (const std::int32_t v : changed) put_parents_on_list(v);
+  for (const std::int32_t v : with_new_parents_) {
+    put_parents_on_list(v);  // its row may be empty
+    for (const SweepRows* rows : {&fine.blocks, &fine.scalars})
+      for (const std::int32_t other : (*rows)[static_cast<std::size_t>(v)]) put_parents_on_list(other);
+  }
+  std::sort(changed_coarse_.begin(), changed_coarse_.end());
+  changed_coarse_.erase(std::unique(changed_coarse_.begin(), changed_coarse_.end()), changed_coarse_.end());
+}
+
+void Coarsening::put_parents_on_list(std::int32_t fine) {
+  if (!is_touched_.insert(fine)) return;
+  for (const Weight& parent : parents(static_cast<std::size_t>(fine)))
+    if (is_coarse_changed_.insert(parent.other)) changed_coarse_.push_back(parent.other);
+}
+
+// --- product ---------------------------------------------------------------------------------------------------------
+
+void Coarsening::multiply(const LevelRows& fine, LevelRows& coarse) {
+  coarse.resize(coarse_size());
+  place_in_row_.resize(coarse_size(), -1);
+  half_begin_.resize(fine_size()), has_half_.clear(fine_size()), half_.clear();
+  for (const std::int32_t i : changed_coarse_) {
+    multiply_blocks(fine.blocks, static_cast<std::size_t>(i), coarse.blocks);
+    multiply_scalars(fine, static_cast<std::size_t>(i), coarse);
   }
 }
 
-void Coarsening::coarse_pattern(const SparseRows& fine, SparseRows& coarse) {
-  struct {
-    void operator()(std::size_t, const Weight&, std::size_t, const Weight&) const {}
-    void end(const std::vector<std::int32_t>&) const {}
-  } nothing;
-  coarse_rows(fine, coarse, nothing);
+/// The place of a column in the row at hand.
+std::size_t Coarsening::place_of(std::int32_t column) {
+  auto& place = place_in_row_[static_cast<std::size_t>(column)];
+  if (place < 0) place = static_cast<std::int32_t>(columns_.size()), columns_.push_back(column);
+  return static_cast<std::size_t>(place);
 }
 
-void Coarsening::multiply(const SparseRows& fine, const std::vector<double>& values, SparseRows& coarse,
-                          std::vector<double>& product) {
-  product.clear();
-  struct Sum {
-    const std::vector<double>& values;
-    std::vector<double>&sums, &product;
-    void operator()(std::size_t place, const Weight& member, std::size_t entry, const Weight& parent) const {
-      if (place == sums.size()) sums.push_back(0);
-      sums[place] += double(member.weight) * double(parent.weight) * values[entry];
-    }
-    void end(const std::vector<std::int32_t>& order) const {
-      for (const std::int32_t k : order) product.push_back(sums[static_cast<std::size_t>(k)]);
-      sums.clear();
-    }
-  };
-  sums_.clear();
-  coarse_rows(fine, coarse, Sum{values, sums_, product});
+void Coarsening::begin_row() {
+  for (const std::int32_t j : columns_) place_in_row_[static_cast<std::size_t>(j)] = -1;
+  columns_.clear(), sums_.clear();
+}
+
+void Coarsening::multiply_blocks(const SweepRows& fine, std::size_t coarse, SweepRows& rows) {
+  begin_row();
+  for (const Weight& member : members(coarse))
+    for (const std::int32_t j : fine[static_cast<std::size_t>(member.other)])
+      for (const Weight& parent : parents(static_cast<std::size_t>(j))) place_of(parent.other);
+  rows.set(coarse, columns_);
+}
+
+/// Rows of A P first, which several coarse rows need: see half_.
+void Coarsening::multiply_scalars(const LevelRows& fine, std::size_t coarse, LevelRows& rows) {
+  for (const Weight& member : members(coarse))
+    if (has_half_.insert(member.other)) multiply_half(fine, static_cast<std::size_t>(member.other));
+  begin_row();
+  for (const Weight& member : members(coarse)) {
+    const auto [first, last] = half_begin_[static_cast<std::size_t>(member.other)];
+    for (std::size_t k = first; k < last; ++k) add_to_row(half_[k].other, double(member.weight) * half_[k].value);
+  }
+  rows.set_scalars(coarse, columns_, sums_);
+}
+
+void Coarsening::multiply_half(const LevelRows& fine, std::size_t v) {
+  begin_row();
+  std::size_t slot = fine.scalars.first_slot(v);
+  for (const std::int32_t j : fine.scalars[v]) {
+    const double value = fine.scalar[slot++];
+    for (const Weight& parent : parents(static_cast<std::size_t>(j)))
+      add_to_row(parent.other, double(parent.weight) * value);
+  }
+  half_begin_[v] = {half_.size(), half_.size() + columns_.size()};
+  for (std::size_t k = 0; k < columns_.size(); ++k) half_.push_back({columns_[k], sums_[k]});
+}
+
+void Coarsening::add_to_row(std::int32_t column, double value) {
+  const std::size_t place = place_of(column);
+  if (place == sums_.size()) sums_.push_back(0);
+  sums_[place] += value;
 }
 
 }  // namespace cutbench

@@ -8,84 +8,133 @@
 // pieces are apart. An unknown is interpolated from the parts that it belongs to, with the hats as weights.
 //
 // The same step is made again on the coarse unknowns: their places are the nodes, their links the coarse matrix.
+//
+// After a cut the nodes round what changed are divided again, and nothing else is.
 #pragma once
 
 #include <cstdint>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "harness/base/points.h"
 #include "harness/base/union_find.h"
+#include "harness/fem/level_rows.h"
 
 namespace cutbench {
 
-/// Rows of column numbers: first those below the row's own, then its own, then those above.
-struct SparseRows {
-  std::vector<std::int32_t> begin{0}, column;
-  std::size_t size() const { return begin.size() - 1; }
-  std::span<const std::int32_t> operator[](std::size_t i) const {
-    return {column.data() + begin[i], static_cast<std::size_t>(begin[i + 1] - begin[i])};
-  }
-  void clear() { begin.assign(1, 0), column.clear(); }
-  void end_row() { begin.push_back(static_cast<std::int32_t>(column.size())); }
-  /// Adds a row with these columns, each once. `order` gets, for each entry of the row, its place among `columns`.
-  void add_row(std::span<const std::int32_t> columns, std::vector<std::int32_t>& order);
-};
-
 class Coarsening {
  public:
-  /// A fine unknown and a coarse one, and how much of the coarse value it gets.
+  /// A fine unknown and a coarse one, and how much of the coarse value it gets. Equal where `other` is.
   struct Weight {
     std::int32_t other;
     float weight;
+    bool operator==(const Weight& with) const { return other == with.other; }
+  };
+  /// Fine unknowns that move together become a coarse unknown, too, with the weight 1. Its place is not finite.
+  struct Regrouping {
+    std::vector<std::int32_t> members;              ///< the groups that they were in end
+    std::vector<std::vector<std::int32_t>> groups;  ///< new ones, of some of these members
   };
 
-  /// \param links    of the fine unknowns, symmetric; an empty row belongs to no unknown
-  /// \param places   of the fine unknowns, rest units; an unknown whose place is not finite is in no hat's support
-  /// \param spacing  of the lattice
-  /// \param groups   rows of fine unknowns that move together: each becomes a coarse unknown, too, with the weight 1.
-  ///                 Its place is not finite
-  void build(const SparseRows& links, const std::vector<Point2>& places, double spacing, const SparseRows& groups);
-  /// The pattern of P^T A P for a matrix A with these rows.
-  void coarse_pattern(const SparseRows& fine, SparseRows& coarse);
-  /// P^T A P for scalars: `values` are those of the fine entries, and `product` gets those of the coarse ones.
-  void multiply(const SparseRows& fine, const std::vector<double>& values, SparseRows& coarse,
-                std::vector<double>& product);
+  /// \param spacing  of the lattice, rest units
+  explicit Coarsening(double spacing) : spacing_(spacing) {}
 
-  std::size_t fine_size() const { return parent_begin_.size() - 1; }
-  std::size_t coarse_size() const { return places_.size(); }
+  /// \param fine     rows of the fine level, symmetric; an empty row belongs to no unknown. Unknowns that share a block
+  ///                 are linked
+  /// \param places   of the fine unknowns, rest units; one whose place is not finite is in no hat's support
+  /// \param changed  the fine unknowns whose rows or places are not those of the last call; at the first call, all
+  void update(const LevelRows& fine, const std::vector<Point2>& places, std::span<const std::int32_t> changed,
+              const Regrouping& regrouping = {});
+  /// The coarse unknowns whose rows of P^T A P the last update() has changed, for any matrix A with the fine rows.
+  const std::vector<std::int32_t>& changed() const { return changed_coarse_; }
+  /// Gives these coarse unknowns the rows of P^T A P, with the values of the scalars.
+  void multiply(const LevelRows& fine, LevelRows& coarse);
+
+  std::size_t fine_size() const { return parents_.size(); }
+  std::size_t coarse_size() const { return places_.size(); }  ///< with numbers that are free
   const std::vector<Point2>& coarse_places() const { return places_; }
   /// The coarse unknowns of a fine one: those of hats, none or up to three whose weights add up to 1, and of its group.
-  std::span<const Weight> parents(std::size_t fine) const { return row(parent_begin_, parents_, fine); }
-  /// The fine unknowns of a coarse one, with its hat's values there.
-  std::span<const Weight> members(std::size_t coarse) const { return row(member_begin_, members_, coarse); }
+  std::span<const Weight> parents(std::size_t fine) const { return parents_[fine]; }
+  /// The fine unknowns of a coarse one, with its hat's values there. None: the number is free.
+  std::span<const Weight> members(std::size_t coarse) const { return members_[coarse]; }
+  /// The coarse unknown of the group of a fine one; -1 where it is in none.
+  std::int32_t group_of(std::size_t fine) const;
 
  private:
+  using Node = std::int64_t;
   struct Entry {
-    std::int64_t node;
+    Node node;
     std::int32_t fine;
     float weight;
   };
-  static std::span<const Weight> row(const std::vector<std::int32_t>& begin, const std::vector<Weight>& all,
-                                     std::size_t i) {
-    return {all.data() + begin[i], static_cast<std::size_t>(begin[i + 1] - begin[i])};
-  }
-  void enter(const SparseRows& links, const std::vector<Point2>& places, double spacing);
-  template <class Add>
-  void coarse_rows(const SparseRows& fine, SparseRows& coarse, const Add& add);
-  void divide(const SparseRows& links, std::span<const Entry> members, Point2 place);
+  /// A set of numbers that is emptied at no cost.
+  class Marks {
+   public:
+    void clear(std::size_t size) { marked_in_.resize(size), ++round_; }
+    void grow(std::size_t size) { marked_in_.resize(size); }
+    bool holds(std::int32_t i) const { return marked_in_[static_cast<std::size_t>(i)] == round_; }
+    /// True if it was not there.
+    bool insert(std::int32_t i) {
+      auto& mark = marked_in_[static_cast<std::size_t>(i)];
+      return mark != round_ && (mark = round_, true);
+    }
 
-  std::vector<std::int32_t> parent_begin_{0}, member_begin_{0};
-  std::vector<Weight> parents_, members_;
-  std::vector<Point2> places_;
-  // Working storage of build().
-  std::vector<Entry> entries_;
-  std::vector<std::int32_t> in_group_;  // per fine unknown: its place among the members at hand, or -1
-  std::vector<std::int32_t> part_;      // per member at hand: its coarse unknown
-  std::vector<std::int32_t> place_;     // per coarse unknown: its place in the row at hand, or -1
-  std::vector<std::int32_t> columns_, order_;
-  std::vector<double> sums_;
+   private:
+    std::vector<std::uint32_t> marked_in_;
+    std::uint32_t round_ = 0;
+  };
+
+  void begin(std::size_t fine_size, std::span<const std::int32_t> changed);
+  void regroup(const Regrouping& regrouping);
+  void leave_nodes(std::int32_t fine);
+  void enter_nodes(std::int32_t fine, Point2 place);
+  void find_members();
+  void divide(const LevelRows& fine, std::span<const Entry> members);
+  void name_parts(std::span<const Entry> members);
+  void free_parts(Node node);
+  std::int32_t part_of(std::int32_t fine, Node node) const;
+  std::int32_t new_coarse(Node node);
+  void free_coarse(std::int32_t coarse);
+  void find_changed(const LevelRows& fine, std::span<const std::int32_t> changed);
+  void put_parents_on_list(std::int32_t fine);
+  void begin_row();
+  std::size_t place_of(std::int32_t column);
+  void add_to_row(std::int32_t column, double value);
+  void multiply_blocks(const SweepRows& fine, std::size_t coarse, SweepRows& rows);
+  void multiply_scalars(const LevelRows& fine, std::size_t coarse, LevelRows& rows);
+  void multiply_half(const LevelRows& fine, std::size_t v);
+
+  double spacing_;
+  GrowingRows<Weight> parents_, members_;
+  std::vector<Point2> places_;           // per coarse unknown
+  std::vector<Node> node_;               // per coarse unknown, or that of groups
+  std::vector<std::int32_t> next_part_;  // per coarse unknown: the next one of the same node, or -1
+  std::unordered_map<Node, std::int32_t> first_part_;
+  std::vector<std::int32_t> free_, changed_coarse_;
+
+  // Working storage of update().
+  Marks is_changed_, has_new_parents_, is_touched_;  // of fine unknowns
+  Marks is_named_, is_coarse_changed_;               // of coarse ones
+  std::vector<Node> nodes_;                          // to be divided again
+  std::vector<std::int32_t> with_new_parents_;
+  std::vector<Entry> entries_;               // the members of those nodes
+  std::vector<std::int32_t> place_in_node_;  // per fine unknown: its place among the members at hand, or -1
+  std::vector<std::int32_t> part_;           // per member at hand: its coarse unknown
+  std::vector<std::int32_t> old_parts_;      // of the node at hand
+  std::vector<Weight> part_members_;
   UnionFind joined_;
+  // Working storage of multiply().
+  std::vector<std::int32_t> place_in_row_;  // per coarse unknown, or -1
+  std::vector<std::int32_t> columns_;
+  std::vector<double> sums_;
+  struct Product {
+    std::int32_t other;
+    double value;
+  };
+  std::vector<Product> half_;                                    // rows of A P, one after the other
+  Marks has_half_;                                               // of fine unknowns
+  std::vector<std::pair<std::size_t, std::size_t>> half_begin_;  // per fine unknown: where its row begins and ends
 };
 
 }  // namespace cutbench

@@ -1,34 +1,34 @@
 #include "harness/fem/level_matrix.h"
 
-#include <algorithm>
+#include <numeric>
 
 namespace cutbench {
 
 template <int D, class S>
-void LevelMatrix<D, S>::set_pattern(const SparseRows& rows, std::size_t values, Part& part) {
-  part.rows = rows;
-  part.diagonal.resize(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto row = rows[i];
-    const auto at =
-        std::find_if(row.begin(), row.end(), [i](std::int32_t j) { return j >= static_cast<std::int32_t>(i); });
-    part.diagonal[i] = rows.begin[i] + static_cast<std::int32_t>(at - row.begin());
+void LevelMatrix<D, S>::follow(const LevelRows& rows, std::span<const std::int32_t> changed) {
+  rows_ = &rows;
+  blocks_.resize(D * D * rows.blocks.slots() + padding), scalars_.resize(rows.scalars.slots());
+  inverse_.resize(D * D * rows.size() + padding);
+  for (const std::int32_t row : changed) {
+    const auto i = static_cast<std::size_t>(row);
+    const std::size_t first = rows.scalars.first_slot(i);
+    for (std::size_t slot = first; slot < first + rows.scalars[i].size(); ++slot)
+      scalars_[slot] = static_cast<S>(rows.scalar[slot]);
   }
-  part.value.assign(values * rows.column.size() + padding, S{0});
 }
 
 template <int D, class S>
-void LevelMatrix<D, S>::set_pattern(const SparseRows& blocks, const SparseRows& scalars) {
-  set_pattern(blocks, D * D, blocks_), set_pattern(scalars, 1, scalars_);
-  inverse_.assign(D * D * size() + padding, S{0});
+void LevelMatrix<D, S>::follow(const LevelRows& rows) {
+  std::vector<std::int32_t> all(rows.size());
+  std::iota(all.begin(), all.end(), 0);
+  follow(rows, all);
 }
 
 template <int D, class S>
 auto LevelMatrix<D, S>::diagonal(std::size_t i) const -> Block {
-  Block all = Eigen::Map<const Eigen::Matrix<S, D, D>>(block(static_cast<std::size_t>(blocks_.diagonal[i])))
-                  .template cast<double>();
-  if (!scalars_.rows[i].empty())
-    all.diagonal().array() += static_cast<double>(scalars_.value[static_cast<std::size_t>(scalars_.diagonal[i])]);
+  Block all = Eigen::Map<const Eigen::Matrix<S, D, D>>(block(rows_->blocks.diagonal_slot(i))).template cast<double>();
+  if (!rows_->scalars[i].empty())
+    all.diagonal().array() += static_cast<double>(scalars_[rows_->scalars.diagonal_slot(i)]);
   return all;
 }
 
@@ -36,12 +36,13 @@ template <int D, class S>
 Eigen::MatrixXd LevelMatrix<D, S>::dense() const {
   const auto n = static_cast<Eigen::Index>(D * size());
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n, n);
-  std::size_t entry = 0, scalar = 0;
-  for (Eigen::Index i = 0; i < n / D; ++i) {
-    for (const std::int32_t j : blocks_.rows[static_cast<std::size_t>(i)])
-      all.block<D, D>(D * i, D * j) += Eigen::Map<const Eigen::Matrix<S, D, D>>(block(entry++)).template cast<double>();
-    for (const std::int32_t j : scalars_.rows[static_cast<std::size_t>(i)])
-      all.block<D, D>(D * i, D * j).diagonal().array() += static_cast<double>(scalars_.value[scalar++]);
+  for (std::size_t i = 0; i < size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(D * i);
+    std::size_t slot = rows_->blocks.first_slot(i), scalar = rows_->scalars.first_slot(i);
+    for (const std::int32_t j : rows_->blocks[i])
+      all.block<D, D>(at, D * j) += Eigen::Map<const Eigen::Matrix<S, D, D>>(block(slot++)).template cast<double>();
+    for (const std::int32_t j : rows_->scalars[i])
+      all.block<D, D>(at, D * j).diagonal().array() += static_cast<double>(scalars_[scalar++]);
   }
   return all;
 }
@@ -49,29 +50,45 @@ Eigen::MatrixXd LevelMatrix<D, S>::dense() const {
 /// Subtracts entries times z from a sum. Four values at a time: the last of three belongs to the neighbour and is
 /// ignored at the end. Several sums in turns, so that subtractions don't wait for each other.
 template <int D, class S>
-void LevelMatrix<D, S>::subtract_blocks(std::int32_t first, std::int32_t last, const Vector& z, Sum& sum) const {
-  const S* a = blocks_.value.data() + D * D * first;
-  Sum other = Sum::Zero();
-  for (std::int32_t k = first; k < last; ++k, a += D * D) {
-    const S* x = z.data() + D * blocks_.rows.column[static_cast<std::size_t>(k)];
+void LevelMatrix<D, S>::subtract_blocks(std::size_t slot, Columns columns, const Vector& z, Sum& sum) const {
+  const S* a = block(slot);
+  const auto next = [&](std::int32_t column) -> Sum {
+    const S* x = z.data() + D * column;
     Sum part = Eigen::Map<const Sum>(a) * x[0];
     for (int c = 1; c < D; ++c) part += Eigen::Map<const Sum>(a + D * c) * x[c];
-    (k % 2 == 0 ? sum : other) -= part;
-  }
+    a += D * D;
+    return part;
+  };
+  Sum other = Sum::Zero();
+  std::size_t k = 0;
+  for (; k + 2 <= columns.size(); k += 2) sum -= next(columns[k]), other -= next(columns[k + 1]);
+  if (k < columns.size()) other -= next(columns[k]);
   sum += other;
 }
 
 template <int D, class S>
-void LevelMatrix<D, S>::subtract_scalars(std::int32_t first, std::int32_t last, const Vector& z, Sum& sum) const {
-  const auto term = [&](std::int32_t k) -> Sum {
-    return scalars_.value[static_cast<std::size_t>(k)] *
-           Eigen::Map<const Sum>(z.data() + D * scalars_.rows.column[static_cast<std::size_t>(k)]);
-  };
+void LevelMatrix<D, S>::subtract_scalars(std::size_t slot, Columns columns, const Vector& z, Sum& sum) const {
+  const S* a = scalars_.data() + slot;
+  const auto term = [&](std::size_t k) -> Sum { return a[k] * Eigen::Map<const Sum>(z.data() + D * columns[k]); };
   Sum other = Sum::Zero(), third = Sum::Zero(), fourth = Sum::Zero();
-  std::int32_t k = first;
-  for (; k + 4 <= last; k += 4) sum -= term(k), other -= term(k + 1), third -= term(k + 2), fourth -= term(k + 3);
-  for (; k < last; ++k) other -= term(k);
+  std::size_t k = 0;
+  for (; k + 4 <= columns.size(); k += 4)
+    sum -= term(k), other -= term(k + 1), third -= term(k + 2), fourth -= term(k + 3);
+  for (; k < columns.size(); ++k) other -= term(k);
   sum += (other + third) + fourth;
+}
+
+template <int D, class S>
+void LevelMatrix<D, S>::subtract_below(std::size_t i, const Vector& z, Sum& sum) const {
+  subtract_blocks(rows_->blocks.first_slot(i), rows_->blocks.below(i), z, sum);
+  if (!rows_->scalars[i].empty()) subtract_scalars(rows_->scalars.first_slot(i), rows_->scalars.below(i), z, sum);
+}
+
+template <int D, class S>
+void LevelMatrix<D, S>::subtract_above(std::size_t i, const Vector& z, Sum& sum) const {
+  subtract_blocks(rows_->blocks.diagonal_slot(i) + 1, rows_->blocks.above(i), z, sum);
+  if (!rows_->scalars[i].empty())
+    subtract_scalars(rows_->scalars.diagonal_slot(i) + 1, rows_->scalars.above(i), z, sum);
 }
 
 /// z at row i from the residual that the other rows leave.
@@ -85,32 +102,27 @@ void LevelMatrix<D, S>::relax(std::size_t i, const Sum& residual, Vector& z) con
 
 template <int D, class S>
 void LevelMatrix<D, S>::sweep_forwards(const Vector& r, Vector& z, Vector& t) const {
-  const bool has_scalars = !scalars_.rows.column.empty();
   for (std::size_t i = 0; i < size(); ++i) {
-    Sum sum = Eigen::Map<const Sum>(r.data() + D * i);
-    subtract_blocks(blocks_.rows.begin[i], blocks_.diagonal[i], z, sum);
-    if (has_scalars) subtract_scalars(scalars_.rows.begin[i], scalars_.diagonal[i], z, sum);
+    Sum sum = Sum::Zero();
+    if (!rows_->blocks[i].empty()) {
+      sum = Eigen::Map<const Sum>(r.data() + D * i);
+      subtract_below(i, z, sum);
+    }
     relax(i, sum, z);
   }
   for (std::size_t i = 0; i < size(); ++i) {
     Sum sum = Sum::Zero();
-    subtract_blocks(blocks_.diagonal[i] + 1, blocks_.rows.begin[i + 1], z, sum);
-    if (has_scalars) subtract_scalars(scalars_.diagonal[i] + 1, scalars_.rows.begin[i + 1], z, sum);
+    if (!rows_->blocks[i].empty()) subtract_above(i, z, sum);
     for (int c = 0; c < D; ++c) t[D * i + static_cast<std::size_t>(c)] = sum[c];
   }
 }
 
 template <int D, class S>
 void LevelMatrix<D, S>::sweep_backwards(const Vector& r, Vector& z) const {
-  const bool has_scalars = !scalars_.rows.column.empty();
   for (std::size_t i = size(); i-- > 0;) {
+    if (rows_->blocks[i].empty()) continue;
     Sum sum = Eigen::Map<const Sum>(r.data() + D * i);
-    subtract_blocks(blocks_.rows.begin[i], blocks_.diagonal[i], z, sum);
-    subtract_blocks(blocks_.diagonal[i] + 1, blocks_.rows.begin[i + 1], z, sum);
-    if (has_scalars) {
-      subtract_scalars(scalars_.rows.begin[i], scalars_.diagonal[i], z, sum);
-      subtract_scalars(scalars_.diagonal[i] + 1, scalars_.rows.begin[i + 1], z, sum);
-    }
+    subtract_below(i, z, sum), subtract_above(i, z, sum);
     relax(i, sum, z);
   }
 }

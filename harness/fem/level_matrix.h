@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "harness/fem/coarsening.h"
+#include "harness/fem/level_rows.h"
 
 namespace cutbench {
 
@@ -17,15 +17,14 @@ class LevelMatrix {
   static constexpr std::size_t padding = 4;
   using Vector = std::vector<S>;
 
-  /// Takes the rows, which hold their diagonals unless they are empty. Values are zero.
-  void set_pattern(const SparseRows& blocks, const SparseRows& scalars);
-  std::size_t size() const { return blocks_.rows.size(); }
-  const SparseRows& block_rows() const { return blocks_.rows; }
-  const SparseRows& scalar_rows() const { return scalars_.rows; }
-  /// D x D values of an entry of the block rows, column by column.
-  S* block(std::size_t entry) { return blocks_.value.data() + D * D * entry; }
-  const S* block(std::size_t entry) const { return blocks_.value.data() + D * D * entry; }
-  S& scalar(std::size_t entry) { return scalars_.value[entry]; }
+  /// Takes the scalars of these rows, and has room for the blocks of all. `rows` must outlive it, and stay where it is.
+  void follow(const LevelRows& rows, std::span<const std::int32_t> changed);
+  void follow(const LevelRows& rows);  ///< all rows
+  std::size_t size() const { return rows_->size(); }
+  const LevelRows& rows() const { return *rows_; }
+  /// D x D values of a slot of the block rows, column by column.
+  S* block(std::size_t slot) { return blocks_.data() + D * D * slot; }
+  const S* block(std::size_t slot) const { return blocks_.data() + D * D * slot; }
 
   using Block = Eigen::Matrix<double, D, D>;
   /// The block on the diagonal of row i, with its scalar. \pre the row is not empty
@@ -42,18 +41,16 @@ class LevelMatrix {
   void sweep_backwards(const Vector& r, Vector& z) const;
 
  private:
-  struct Part {
-    SparseRows rows;
-    std::vector<std::int32_t> diagonal;  // per row: the entry on the diagonal, or where the row begins if it is empty
-    Vector value;
-  };
-  static void set_pattern(const SparseRows& rows, std::size_t values, Part& part);
+  using Columns = std::span<const std::int32_t>;
   using Sum = Eigen::Array<S, 4, 1>;
-  void subtract_blocks(std::int32_t first, std::int32_t last, const Vector& z, Sum& sum) const;
-  void subtract_scalars(std::int32_t first, std::int32_t last, const Vector& z, Sum& sum) const;
+  void subtract_blocks(std::size_t slot, Columns columns, const Vector& z, Sum& sum) const;
+  void subtract_scalars(std::size_t slot, Columns columns, const Vector& z, Sum& sum) const;
+  void subtract_below(std::size_t i, const Vector& z, Sum& sum) const;
+  void subtract_above(std::size_t i, const Vector& z, Sum& sum) const;
   void relax(std::size_t i, const Sum& residual, Vector& z) const;
 
-  Part blocks_, scalars_;
+  const LevelRows* rows_ = nullptr;
+  Vector blocks_, scalars_;  // per slot
   Vector inverse_;
 };
 

@@ -64,14 +64,17 @@ void Model<D>::update(const Sheet& sheet) {
 
 template <int D>
 void Model<D>::update_bending(const Sheet& sheet) {
-  if (bending_) bending_->update(sheet), ++pattern_;
+  if (!bending_) return;
+  bending_->update(sheet);
+  history_.begin_change();
+  for (const std::int32_t v : bending_->written_rows()) history_.mark(static_cast<std::size_t>(v));
 }
 
 template <int D>
 void Model<D>::tie(const Ties& ties) {
   tied_.reset();
   if (!ties.empty()) tied_.emplace(ties, vertices());
-  ++pattern_;
+  history_.begin_change();
 }
 
 template <int D>
@@ -86,7 +89,7 @@ template <int D>
 void Model<D>::resize(const Sheet& sheet) {
   const std::size_t n = sheet.deformed_slots();
   const auto old = static_cast<std::size_t>(mass_.size());
-  incidence_.resize(n), blocks_.resize(n), marked_in_.resize(std::max(n, marked_in_.size()));
+  incidence_.resize(n), blocks_.resize(n), history_.resize(n), marked_in_.resize(std::max(n, marked_in_.size()));
   if (consistent_mass_) consistent_mass_->resize(n);
   held_.resize(D * n, 1), pin_of_.resize(D * n, -1), places_.resize(n);
   membrane_.resize(elements_.size());
@@ -99,7 +102,8 @@ void Model<D>::resize(const Sheet& sheet) {
 template <int D>
 void Model<D>::refresh_vertices(const Sheet& sheet) {
   for (const std::size_t v : marked_) refresh_row(v), refresh_mass(v), refresh_loads(sheet, v);
-  ++pattern_;
+  history_.begin_change();
+  for (const std::size_t v : marked_) history_.mark(v);
 }
 
 /// The pattern of row v, and where the elements round v find their blocks in it.
@@ -253,7 +257,8 @@ void Model<D>::assemble(double mass_factor, double stiffness_factor) {
 template <int D>
 SystemMatrix<D> Model<D>::system() const {
   SystemMatrix<D> a;
-  a.blocks = &blocks_, a.held = &held_, a.elements = &elements_, a.places = &places_, a.pattern = pattern_;
+  a.blocks = &blocks_, a.held = &held_, a.elements = &elements_, a.places = &places_, a.pattern = history_.now();
+  a.history = &history_;
   if (bending_) a.scalar.push_back({stiffness_factor_, &bending_->matrix()});
   if (consistent_mass_) a.scalar.push_back({mass_factor_, &*consistent_mass_});
   return a;

@@ -101,7 +101,7 @@ class Model {
   std::vector<std::uint8_t> held_;
   std::vector<std::int16_t> pin_of_;  // per unknown: the first pin that holds it, -1 where there is none
   std::vector<Point2> places_;        // per vertex, in rest space
-  std::uint64_t pattern_ = 0;
+  PatternHistory history_;            // of the system
   // Working storage of update().
   std::vector<std::uint32_t> marked_in_;
   std::uint32_t round_ = 0;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace cutbench {
@@ -17,7 +18,7 @@ constexpr std::size_t fewest_coarsened = 40;  // unknowns that are not coarsened
 constexpr std::size_t most_factored = 200;    // unknowns of a dense factorisation
 constexpr double widest_for_floats = 1e5;     // largest diagonal block over the median one
 
-double median_edge(const SparseRows& links, const std::vector<Point2>& places) {
+double median_edge(const SweepRows& links, const std::vector<Point2>& places) {
   std::vector<double> lengths;
   for (std::size_t i = 0; i < links.size(); ++i)
     for (const std::int32_t j : links[i])
@@ -42,31 +43,53 @@ Block inverse_of(const Block& block) {
 
 }  // namespace
 
-// --- pattern ---------------------------------------------------------------------------------------------------------
+// --- rows ------------------------------------------------------------------------------------------------------------
 
-/// The rows of A; the scalar matrices in one, each with its factor.
+/// Lists the rows that are not those of the last setup(). False: the levels are to be made anew.
 template <int D>
-void Multigrid<D>::read_rows(const SystemMatrix<D>& a) {
-  rows_.blocks.clear(), rows_.scalars.clear(), rows_.scalar.clear(), slots_.clear(), factors_.clear();
-  for (const auto& term : a.scalar) factors_.push_back(term.factor);
-  std::vector<std::int32_t> order, columns, place(a.vertices(), -1);
-  std::vector<double> values;
-  for (std::size_t i = 0; i < a.vertices(); ++i) {
-    rows_.blocks.add_row(a.blocks->columns(i), order);
-    for (const std::int32_t k : order) slots_.push_back(a.blocks->first_slot(i) + k);
-    columns.clear(), values.clear();
-    for (const auto& term : a.scalar) {
-      std::int32_t slot = term.matrix->first_slot(i);
-      for (const std::int32_t j : term.matrix->columns(i)) {
-        auto& at = place[static_cast<std::size_t>(j)];
-        if (at < 0) at = static_cast<std::int32_t>(columns.size()), columns.push_back(j), values.push_back(0);
-        values[static_cast<std::size_t>(at)] += term.factor * term.matrix->block(slot++)(0);
-      }
+bool Multigrid<D>::find_changed(const SystemMatrix<D>& a) {
+  const std::size_t n = a.vertices(), before = rows_.size();
+  const bool same_factors = std::equal(factors_.begin(), factors_.end(), a.scalar.begin(), a.scalar.end(),
+                                       [](double factor, const auto& term) { return factor == term.factor; });
+  changed_.clear();
+  if (a.pattern == pattern_ && before == n && same_factors) return true;
+  const bool follows = same_factors && before > 0 && before <= n && a.history && a.history->holds(pattern_) &&
+                       rows_.blocks.slots() < 2 * slots_made_;
+  for (std::size_t i = 0; i < n; ++i)
+    if (!follows || i >= before || a.history->changed_since(pattern_, i))
+      changed_.push_back(static_cast<std::int32_t>(i));
+  if (follows && 2 * changed_.size() < n) return true;
+  changed_.resize(n);
+  std::iota(changed_.begin(), changed_.end(), 0);
+  return false;
+}
+
+/// The row of A; the scalar matrices in one, each with its factor.
+template <int D>
+void Multigrid<D>::read_row(const SystemMatrix<D>& a, std::size_t i) {
+  const auto order = rows_.blocks.set(i, a.blocks->columns(i));
+  slots_.resize(rows_.blocks.slots());
+  for (std::size_t k = 0; k < order.size(); ++k)
+    slots_[rows_.blocks.first_slot(i) + k] = a.blocks->first_slot(i) + order[k];
+  columns_.clear(), values_.clear();
+  for (const auto& term : a.scalar) {
+    std::int32_t slot = term.matrix->first_slot(i);
+    for (const std::int32_t j : term.matrix->columns(i)) {
+      auto& place = place_in_row_[static_cast<std::size_t>(j)];
+      if (place < 0) place = static_cast<std::int32_t>(columns_.size()), columns_.push_back(j), values_.push_back(0);
+      values_[static_cast<std::size_t>(place)] += term.factor * term.matrix->block(slot++)(0);
     }
-    for (const std::int32_t j : columns) place[static_cast<std::size_t>(j)] = -1;
-    rows_.scalars.add_row(columns, order);
-    for (const std::int32_t k : order) rows_.scalar.push_back(values[static_cast<std::size_t>(k)]);
   }
+  for (const std::int32_t j : columns_) place_in_row_[static_cast<std::size_t>(j)] = -1;
+  rows_.set_scalars(i, columns_, values_);
+}
+
+template <int D>
+void Multigrid<D>::read_place(const SystemMatrix<D>& a, std::size_t i) {
+  const auto held = a.held->begin() + static_cast<std::ptrdiff_t>(D * i);
+  const bool needs_no_correction = std::find(held, held + D, 0) == held + D;
+  const bool is_known = a.places && i < a.places->size() && !needs_no_correction;
+  places_[i] = is_known ? (*a.places)[i] : Point2{std::numeric_limits<double>::quiet_NaN(), 0};
 }
 
 template <int D>
@@ -76,61 +99,99 @@ void Multigrid<D>::find_held(const SystemMatrix<D>& a) {
     if ((*a.held)[u] && !a.blocks->columns(u / D).empty()) has_held_[u / D] = 1, held_.push_back(u);
 }
 
+// --- levels ----------------------------------------------------------------------------------------------------------
+
 /// Vertices that slivers tie together: one has more than `strong` of its stiffness from the other. Neither the hats nor
-/// the sweeps move them together against their neighbours.
+/// the sweeps move them together against their neighbours. Looks at what has changed, and at all groups there.
 template <int D>
-SparseRows Multigrid<D>::groups(const SystemMatrix<D>& a) const {
-  UnionFind joined(a.vertices());
-  const auto trace = [&](std::size_t k) { return a.blocks->block(slots_[k]).trace(); };
-  for (std::size_t i = 0; i < a.vertices(); ++i) {
-    if (rows_.blocks[i].empty()) continue;
-    const double own = a.blocks->block(a.blocks->first_slot(i)).trace();
-    for (auto k = static_cast<std::size_t>(rows_.blocks.begin[i]);
-         k < static_cast<std::size_t>(rows_.blocks.begin[i + 1]); ++k)
-      if (-trace(k) > strong * own) joined.join(i, static_cast<std::size_t>(rows_.blocks.column[k]));
+Coarsening::Regrouping Multigrid<D>::regroup(const SystemMatrix<D>& a) {
+  const auto stiffness = [&](std::size_t i) { return a.blocks->block(a.blocks->first_slot(i)).trace(); };
+  const auto for_each_strong = [&](std::size_t i, const auto& visit) {
+    std::size_t slot = rows_.blocks.first_slot(i);
+    for (const std::int32_t j : rows_.blocks[i])
+      if (-a.blocks->block(slots_[slot++]).trace() >
+          strong * std::min(stiffness(i), stiffness(static_cast<std::size_t>(j))))
+        visit(j);
+  };
+  Coarsening::Regrouping found;
+  front_.clear();
+  const auto reach = [&](std::int32_t v) {
+    auto& place = place_in_front_[static_cast<std::size_t>(v)];
+    if (place < 0) place = static_cast<std::int32_t>(front_.size()), front_.push_back(v);
+  };
+  for (const std::int32_t v : changed_) reach(v);
+  for (std::size_t k = 0; k < front_.size(); ++k) {
+    const auto v = static_cast<std::size_t>(front_[k]);
+    const std::int32_t group = coarse_.empty() ? -1 : coarse_.front().from.group_of(v);
+    if (group >= 0)
+      for (const auto& member : coarse_.front().from.members(static_cast<std::size_t>(group))) reach(member.other);
+    for_each_strong(v, reach);
   }
-  std::vector<std::vector<std::int32_t>> members(a.vertices());
-  for (std::size_t i = 0; i < a.vertices(); ++i)
-    if (joined.size(i) > 1) members[joined.find(i)].push_back(static_cast<std::int32_t>(i));
-  SparseRows groups;
-  for (const auto& group : members)
-    if (!group.empty()) groups.column.insert(groups.column.end(), group.begin(), group.end()), groups.end_row();
-  return groups;
+  UnionFind joined(front_.size());
+  for (std::size_t k = 0; k < front_.size(); ++k)
+    for_each_strong(static_cast<std::size_t>(front_[k]), [&](std::int32_t j) {
+      joined.join(k, static_cast<std::size_t>(place_in_front_[static_cast<std::size_t>(j)]));
+    });
+  std::vector<std::int32_t> group_of(front_.size(), -1);
+  for (std::size_t k = 0; k < front_.size(); ++k) {
+    place_in_front_[static_cast<std::size_t>(front_[k])] = -1;
+    if (joined.size(k) == 1) continue;
+    auto& group = group_of[joined.find(k)];
+    if (group < 0) group = static_cast<std::int32_t>(found.groups.size()), found.groups.emplace_back();
+    found.groups[static_cast<std::size_t>(group)].push_back(front_[k]);
+  }
+  found.members = front_;
+  return found;
 }
 
 template <int D>
-void Multigrid<D>::find_levels(const SystemMatrix<D>& a) {
-  read_rows(a);
+void Multigrid<D>::update(CoarseLevel& level, const LevelRows& fine, const std::vector<Point2>& places,
+                          std::span<const std::int32_t> changed, const Coarsening::Regrouping& regrouping) {
+  level.from.update(fine, places, changed, regrouping);
+  level.from.multiply(fine, level.rows);
+  level.matrix.follow(level.rows, level.from.changed());
+  level.resize();
+  changed_rows_ += level.from.changed().size();
+}
+
+template <int D>
+void Multigrid<D>::make_levels(const SystemMatrix<D>& a) {
   coarse_.clear(), float_is_new_ = double_is_new_ = true;
-  if (!a.places) return;
-  std::vector<Point2> places = *a.places;
-  const Point2 nowhere{std::numeric_limits<double>::quiet_NaN(), 0};
-  places.resize(a.vertices(), nowhere);
-  for (std::size_t i = 0; i < places.size(); ++i) {  // a vertex that is held altogether needs no correction
-    const auto held = a.held->begin() + static_cast<std::ptrdiff_t>(D * i);
-    if (std::find(held, held + D, 0) == held + D) places[i] = nowhere;
-  }
-  double spacing = first_spacing * median_edge(rows_.blocks, places);
+  slots_made_ = rows_.blocks.slots();
+  double spacing = first_spacing * median_edge(rows_.blocks, places_);
   if (!(spacing > 0)) return;
-  for (const Rows* fine = &rows_; fine->blocks.size() > fewest_coarsened; spacing *= 2) {
-    CoarseLevel level;
-    level.from.build(fine->blocks, places, spacing, coarse_.empty() ? groups(a) : SparseRows());
-    places = level.from.coarse_places();
-    if (places.empty() || static_cast<double>(places.size()) > 0.8 * static_cast<double>(fine->blocks.size())) break;
-    level.from.coarse_pattern(fine->blocks, level.rows.blocks);
-    level.from.multiply(fine->scalars, fine->scalar, level.rows.scalars, level.rows.scalar);
-    level.set(level.rows);
-    coarse_.push_back(std::move(level));
-    fine = &coarse_.back().rows;
+  Coarsening::Regrouping regrouping = regroup(a);
+  const LevelRows* fine = &rows_;
+  const std::vector<Point2>* places = &places_;
+  std::vector<std::int32_t> all = changed_;
+  for (; fine->size() > fewest_coarsened; spacing *= 2) {
+    CoarseLevel& level = coarse_.emplace_back(spacing);
+    update(level, *fine, *places, all, regrouping);
+    if (const std::size_t n = level.rows.size(); n == 0 || 10 * n > 8 * fine->size()) return coarse_.pop_back();
+    fine = &level.rows, places = &level.from.coarse_places(), all = level.from.changed();
+    regrouping = {};
+  }
+}
+
+template <int D>
+void Multigrid<D>::update_levels(const SystemMatrix<D>& a) {
+  Coarsening::Regrouping regrouping = regroup(a);
+  const LevelRows* fine = &rows_;
+  const std::vector<Point2>* places = &places_;
+  std::span<const std::int32_t> changed = changed_;
+  if (!float_is_new_) finest_.matrix.follow(rows_, changed_), finest_.resize();
+  if (!double_is_new_) finest_in_doubles_.matrix.follow(rows_, changed_), finest_in_doubles_.resize();
+  for (CoarseLevel& level : coarse_) {
+    update(level, *fine, *places, changed, regrouping);
+    fine = &level.rows, places = &level.from.coarse_places(), changed = level.from.changed();
+    regrouping = {};
   }
 }
 
 template <int D>
 template <class S>
-void Multigrid<D>::Level<S>::set(const Rows& rows) {
-  matrix.set_pattern(rows.blocks, rows.scalars);
-  for (std::size_t k = 0; k < rows.scalar.size(); ++k) matrix.scalar(k) = static_cast<S>(rows.scalar[k]);
-  for (auto* field : {&r, &z, &t}) field->assign(D * matrix.size() + LevelMatrix<D, S>::padding, S{0});
+void Multigrid<D>::Level<S>::resize() {
+  for (auto* field : {&r, &z, &t}) field->resize(D * matrix.rows().size() + LevelMatrix<D, S>::padding);
 }
 
 // --- values ----------------------------------------------------------------------------------------------------------
@@ -152,10 +213,10 @@ bool Multigrid<D>::needs_doubles(const SystemMatrix<D>& a) {
 template <int D>
 template <class S>
 void Multigrid<D>::fill(const SystemMatrix<D>& a, Level<S>& level, bool& is_new) {
-  if (is_new) level.set(rows_), is_new = false;
+  if (is_new) level.matrix.follow(rows_), level.resize(), is_new = false;
   const auto held = [&](std::size_t i, int c) { return (*a.held)[D * i + static_cast<std::size_t>(c)] != 0; };
-  std::size_t k = 0;
   for (std::size_t i = 0; i < a.vertices(); ++i) {
+    std::size_t k = rows_.blocks.first_slot(i);
     for (const std::int32_t column : rows_.blocks[i]) {
       const auto j = static_cast<std::size_t>(column);
       Eigen::Map<Eigen::Matrix<S, D, D>> block(level.matrix.block(k));
@@ -189,8 +250,8 @@ void Multigrid<D>::fill_coarse(const LevelMatrix<D, S>& fine, CoarseLevel& level
     for (auto& sum : sums) sum.fill(Column::Zero());
     for (const auto& member : level.from.members(i)) {
       const auto v = static_cast<std::size_t>(member.other);
-      const S* block = fine.block(static_cast<std::size_t>(fine.block_rows().begin[v]));
-      for (const std::int32_t j : fine.block_rows()[v]) {
+      const S* block = fine.block(fine.rows().blocks.first_slot(v));
+      for (const std::int32_t j : fine.rows().blocks[v]) {
         std::array<Column, D> part;
         for (int c = 0; c < D; ++c)
           part[static_cast<std::size_t>(c)] = S(member.weight) * Eigen::Map<const Column>(block + D * c);
@@ -201,11 +262,11 @@ void Multigrid<D>::fill_coarse(const LevelMatrix<D, S>& fine, CoarseLevel& level
         }
       }
     }
-    float* to = level.matrix.block(static_cast<std::size_t>(level.rows.blocks.begin[i]));
+    float* to = level.matrix.block(level.rows.blocks.first_slot(i));
     for (const auto& sum : sums)
       for (std::size_t c = 0; c < D; ++c, to += D)
         for (int k = 0; k < D; ++k) to[k] = static_cast<float>(sum[c][k]);
-    level.matrix.set_inverse(i, inverse_of(level.matrix.diagonal(i)));
+    if (!columns.empty()) level.matrix.set_inverse(i, inverse_of(level.matrix.diagonal(i)));
   }
 }
 
@@ -222,10 +283,19 @@ void Multigrid<D>::factor_coarsest() {
 
 template <int D>
 void Multigrid<D>::setup(const SystemMatrix<D>& a) {
-  const bool same_factors = std::equal(factors_.begin(), factors_.end(), a.scalar.begin(), a.scalar.end(),
-                                       [](double factor, const auto& term) { return factor == term.factor; });
+  const bool follows = find_changed(a);
   find_held(a);
-  if (a.pattern != pattern_ || rows_.blocks.size() != a.vertices() || !same_factors) find_levels(a);
+  changed_rows_ = 0;
+  if (!changed_.empty()) {
+    const std::size_t n = a.vertices();
+    if (!follows) rows_ = {}, factors_.clear();
+    rows_.resize(n), places_.resize(n), place_in_row_.resize(n, -1), place_in_front_.resize(n, -1);
+    for (const std::int32_t i : changed_)
+      read_row(a, static_cast<std::size_t>(i)), read_place(a, static_cast<std::size_t>(i));
+    if (!follows)
+      for (const auto& term : a.scalar) factors_.push_back(term.factor);
+    follows ? update_levels(a) : make_levels(a);
+  }
   pattern_ = a.pattern;
   in_doubles_ = needs_doubles(a);
   if (in_doubles_)

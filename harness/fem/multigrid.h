@@ -10,8 +10,10 @@
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <deque>
 #include <vector>
 
+#include "harness/fem/coarsening.h"
 #include "harness/fem/level_matrix.h"
 #include "harness/fem/preconditioner.h"
 
@@ -20,34 +22,38 @@ namespace cutbench {
 template <int D>
 class Multigrid final : public Preconditioner<D> {
  public:
-  /// The levels are found anew where the pattern of `a` has changed; their matrices every time.
+  /// After cuts the levels follow the rows that have changed, where `a` knows its history; else, and where most rows
+  /// have changed, they are made anew. Their matrices are computed every time.
   void setup(const SystemMatrix<D>& a) override;
   void apply(const Field& r, Field& z) override;
   std::size_t levels() const { return coarse_.size() + 1; }
+  /// Rows of all coarse levels that the last setup() has found anew.
+  std::size_t changed_rows() const { return changed_rows_; }
 
  private:
   using Block = typename BlockMatrix<D>::Block;
-  /// The rows of a level: D x D blocks, which couple neighbours, and scalars, which reach farther and are constant.
-  struct Rows {
-    SparseRows blocks, scalars;
-    std::vector<double> scalar;  // per entry of `scalars`
-  };
   /// A matrix with a right side, a solution and a residual.
   template <class S>
   struct Level {
     LevelMatrix<D, S> matrix;
     typename LevelMatrix<D, S>::Vector r, z, t;
-    void set(const Rows& rows);
+    void resize();
   };
   struct CoarseLevel : Level<float> {
+    explicit CoarseLevel(double spacing) : from(spacing) {}
     Coarsening from;  // the next finer level
-    Rows rows;
+    LevelRows rows;
   };
 
-  void find_levels(const SystemMatrix<D>& a);
-  void read_rows(const SystemMatrix<D>& a);
-  SparseRows groups(const SystemMatrix<D>& a) const;
+  bool find_changed(const SystemMatrix<D>& a);
+  void read_row(const SystemMatrix<D>& a, std::size_t i);
+  void read_place(const SystemMatrix<D>& a, std::size_t i);
+  Coarsening::Regrouping regroup(const SystemMatrix<D>& a);
   void find_held(const SystemMatrix<D>& a);
+  void make_levels(const SystemMatrix<D>& a);
+  void update_levels(const SystemMatrix<D>& a);
+  void update(CoarseLevel& level, const LevelRows& fine, const std::vector<Point2>& places,
+              std::span<const std::int32_t> changed, const Coarsening::Regrouping& regrouping);
   static bool needs_doubles(const SystemMatrix<D>& a);
   template <class S>
   void fill(const SystemMatrix<D>& a, Level<S>& level, bool& is_new);
@@ -60,18 +66,25 @@ class Multigrid final : public Preconditioner<D> {
   void correct(Level<S>& level, std::size_t next);
 
   std::uint64_t pattern_ = 0;
-  std::vector<double> factors_;                                           // of the scalar parts of A
-  std::vector<std::uint8_t> has_held_;                                    // per vertex: one of its unknowns is held
-  std::vector<std::size_t> held_;                                         // held unknowns of vertices with a row
-  Rows rows_;                                                             // of A
-  std::vector<std::int32_t> slots_;                                       // per entry of rows_.blocks: where A keeps it
+  std::vector<double> factors_;                    // of the scalar parts of A
+  std::vector<std::uint8_t> has_held_;             // per vertex: one of its unknowns is held
+  std::vector<std::size_t> held_;                  // held unknowns of vertices with a row
+  LevelRows rows_;                                 // of A
+  std::vector<std::int32_t> slots_;                // per slot of rows_.blocks: where A keeps the block
+  std::vector<Point2> places_;                     // per vertex; NaN where no hat is wanted
+  std::vector<std::int32_t> changed_;              // vertices whose rows the levels have not followed yet
+  std::size_t slots_made_ = 0, changed_rows_ = 0;  // slots of rows_ when the levels were made
   bool in_doubles_ = false, float_is_new_ = true, double_is_new_ = true;  // new: the rows are to be set
   Level<float> finest_;
   Level<double> finest_in_doubles_;
-  std::vector<CoarseLevel> coarse_;
+  std::deque<CoarseLevel> coarse_;  // each refers to rows of its own
   Eigen::LLT<Eigen::MatrixXd> coarsest_;
   bool solves_coarsest_ = false;
-  std::vector<std::int32_t> place_;  // working storage, per coarse unknown: its place in the row at hand
+  // Working storage.
+  std::vector<std::int32_t> place_;                   // per coarse unknown: its place in the row at hand
+  std::vector<std::int32_t> columns_, place_in_row_;  // the second: per vertex, or -1
+  std::vector<double> values_;
+  std::vector<std::int32_t> front_, place_in_front_;  // the second: per vertex, or -1
 };
 
 }  // namespace cutbench

@@ -6,9 +6,9 @@
 namespace cutbench {
 
 struct State {
-  Field x;          ///< m
-  Field v;          ///< m/s
-  Field anchor;     ///< m: the initial place of each vertex, from which pins count
+  Field x;       ///< m
+  Field v;       ///< m/s
+  Field anchor;  ///< m: the initial place of each vertex, from which pins count
   /// m/s: what the last implicit step began with to add to v. The next step's solve starts from it. Empty: from zero.
   Field dv;
   double time = 0;  ///< s

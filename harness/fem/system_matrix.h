@@ -7,6 +7,7 @@
 
 #include "harness/fem/block_matrix.h"
 #include "harness/fem/element_table.h"
+#include "harness/fem/pattern_history.h"
 
 namespace cutbench {
 
@@ -21,8 +22,9 @@ struct SystemMatrix {
   const std::vector<std::uint8_t>* held = nullptr;  ///< per unknown: 1 where its value is given, or its vertex is freed
   const ElementTable* elements = nullptr;           ///< for preconditioners that look at shapes
   const std::vector<Point2>* places = nullptr;      ///< of the vertices in rest space; NaN where that is not known
-  /// Changes whenever the pattern of a part or the values of a scalar matrix changed.
+  /// Changes whenever the pattern of a part or the values of a scalar matrix changed; unique in the program.
   std::uint64_t pattern = 0;
+  const PatternHistory* history = nullptr;  ///< which rows changed when, where that is known; its last is `pattern`
 
   std::size_t vertices() const { return blocks->rows(); }
   /// y += A x, for all unknowns alike.
