@@ -196,17 +196,18 @@ void Multigrid<D>::Level<S>::resize() {
 
 // --- values ----------------------------------------------------------------------------------------------------------
 
+/// Whether floats do for the finest level, and the sum of the sizes of diagonal blocks.
 template <int D>
-bool Multigrid<D>::needs_doubles(const SystemMatrix<D>& a) {
+void Multigrid<D>::look_at_sizes(const SystemMatrix<D>& a) {
   std::vector<double> sizes;
   for (std::size_t i = 0; i < a.vertices(); ++i)
     if (!a.blocks->columns(i).empty()) sizes.push_back(a.diagonal(i).trace());
-  if (sizes.empty()) return false;
+  in_doubles_ = false, trace_ = std::accumulate(sizes.begin(), sizes.end(), 0.0);
+  if (sizes.empty()) return;
   const double largest = *std::max_element(sizes.begin(), sizes.end());
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
-
-  return !(largest < widest_for_floats * *middle && largest < 1e30 && *middle > 1e-30);
+  in_doubles_ = !(largest < widest_for_floats * *middle && largest < 1e30 && *middle > 1e-30);
 }
 
 /// The finest level: zero in rows and columns of held unknowns.
@@ -297,11 +298,20 @@ void Multigrid<D>::setup(const SystemMatrix<D>& a) {
     follows ? update_levels(a) : make_levels(a);
   }
   pattern_ = a.pattern;
-  in_doubles_ = needs_doubles(a);
+  look_at_sizes(a);
   if (in_doubles_)
     fill(a, finest_in_doubles_, double_is_new_);
   else
     fill(a, finest_, float_is_new_);
+  // Every other time the coarse matrices of the last time do: rotations change them little. They leave the trace alone,
+  // so another trace shows another step or material.
+  coarse_are_old_ = changed_.empty() && !coarse_are_old_ && std::abs(trace_ - coarse_trace_) <= 0.01 * coarse_trace_;
+  if (!coarse_are_old_) fill_coarse_levels();
+}
+
+template <int D>
+void Multigrid<D>::fill_coarse_levels() {
+  coarse_trace_ = trace_;
   for (std::size_t l = 0; l < coarse_.size(); ++l)
     if (l > 0)
       fill_coarse(coarse_[l - 1].matrix, coarse_[l]);

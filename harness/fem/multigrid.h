@@ -23,7 +23,8 @@ template <int D>
 class Multigrid final : public Preconditioner<D> {
  public:
   /// After cuts the levels follow the rows that have changed, where `a` knows its history; else, and where most rows
-  /// have changed, they are made anew. Their matrices are computed every time.
+  /// have changed, they are made anew. Their matrices are computed every other time, and wherever the rows or the
+  /// trace of `a` have changed.
   void setup(const SystemMatrix<D>& a) override;
   void apply(const Field& r, Field& z) override;
   std::size_t levels() const { return coarse_.size() + 1; }
@@ -54,7 +55,8 @@ class Multigrid final : public Preconditioner<D> {
   void update_levels(const SystemMatrix<D>& a);
   void update(CoarseLevel& level, const LevelRows& fine, const std::vector<Point2>& places,
               std::span<const std::int32_t> changed, const Coarsening::Regrouping& regrouping);
-  static bool needs_doubles(const SystemMatrix<D>& a);
+  void look_at_sizes(const SystemMatrix<D>& a);
+  void fill_coarse_levels();
   template <class S>
   void fill(const SystemMatrix<D>& a, Level<S>& level, bool& is_new);
   template <class S>
@@ -80,6 +82,8 @@ class Multigrid final : public Preconditioner<D> {
   std::deque<CoarseLevel> coarse_;  // each refers to rows of its own
   Eigen::LLT<Eigen::MatrixXd> coarsest_;
   bool solves_coarsest_ = false;
+  double trace_ = 0, coarse_trace_ = 0;  // of A, at the last setup() and when the coarse matrices were computed
+  bool coarse_are_old_ = true;
   // Working storage.
   std::vector<std::int32_t> place_;                   // per coarse unknown: its place in the row at hand
   std::vector<std::int32_t> columns_, place_in_row_;  // the second: per vertex, or -1
