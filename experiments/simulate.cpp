@@ -143,6 +143,7 @@ bool simulate(const Scene& scene, CuttingMethod& method, const SimulateOptions& 
         .place();
   }
   if (!options.out.empty()) write_mesh(sheet.to_mesh_data(), options.out);
+  if (!options.steps.empty()) WholeFile(options.steps, table_of(motion->steps(), scene.step)).place();
   if (!options.report.empty()) write_report(scene, options, report, summary);
   const auto refused = [](const MotionCut& cut) { return cut.cut.status == Status::refused; };
   const auto& cuts = motion->made_cuts();

@@ -16,6 +16,7 @@ struct SimulateOptions {
                         ///< backward Euler, energy.csv (harness/scene/energy_budget.h); empty: none
   int every = 8;        ///< steps from frame to frame
   std::string report;   ///< JSON file of what the steps cost; empty: not written
+  std::string steps;    ///< CSV file of what each step cost; empty: not written
   CutOptions cut;
 };
 

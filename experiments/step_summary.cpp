@@ -57,6 +57,23 @@ nlohmann::ordered_json summary_of(const std::vector<LoggedStep>& steps, double s
   return summary;
 }
 
+std::string table_of(const std::vector<LoggedStep>& steps, double step) {
+  std::string table =
+      "time_s,has_cut,cut_ms,update_ms,bending_ms,rotate_ms,assemble_ms,setup_ms,solve_ms,total_ms,iterations,"
+      "residual\n";
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const LoggedStep& s = steps[i];
+    const StepTimes& us = s.step.time_us;
+    char row[256];
+    std::snprintf(row, sizeof row, "%.6g,%d,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%d,%.3g\n",
+                  step * static_cast<double>(i + 1), s.has_cut, s.geometry_us / 1000, s.update_us / 1000,
+                  s.bending_us / 1000, us.rotate / 1000, us.assemble / 1000, us.setup / 1000, us.solve / 1000,
+                  s.total_us() / 1000, s.step.iterations, s.step.residual);
+    table += row;
+  }
+  return table;
+}
+
 void print_summary(const nlohmann::ordered_json& summary) {
   const auto row = [](const std::string& name, const nlohmann::ordered_json& ms) {
     std::printf("  %-9s %9.3f %9.3f\n", name.c_str(), ms["median"].get<double>(), ms["worst"].get<double>());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 #include "harness/scene/step_log.h"
@@ -11,6 +12,9 @@ namespace cutbench {
 /// Milliseconds of each phase over all steps (median, worst), the steps with a cut by themselves, iterations, and the
 /// real-time factor: simulated over computed seconds. \param seconds  simulated \pre `steps` is not empty
 nlohmann::ordered_json summary_of(const std::vector<LoggedStep>& steps, double seconds);
+/// A table with a row for each step, as CSV: milliseconds of the cuts before it and of its phases, its iterations and
+/// relative residual. \param step  s
+std::string table_of(const std::vector<LoggedStep>& steps, double step);
 void print_summary(const nlohmann::ordered_json& summary);
 
 }  // namespace cutbench

@@ -16,7 +16,7 @@ namespace cutbench {
 namespace {
 
 struct SimulateArguments {
-  std::string scene, out, frames, solver, report;
+  std::string scene, out, frames, solver, report, steps;
   MethodOptions method{.method = "conventional_split", .settings = {}, .chord_tolerance = {}};
   int resolution = 0, every = 8;
 };
@@ -24,6 +24,7 @@ struct SimulateArguments {
 Exit run_scene(const SimulateArguments& arguments, const std::string& command_line) {
   if (!arguments.out.empty()) check_mesh_place(arguments.out, "--out");
   if (!arguments.report.empty()) check_writable(arguments.report, "--report");
+  if (!arguments.steps.empty()) check_writable(arguments.steps, "--steps");
   Scene scene = read_scene(arguments.scene);
   const MethodRow& row = arguments.method.row();
   const double knob = arguments.method.knob();
@@ -47,6 +48,7 @@ Exit run_scene(const SimulateArguments& arguments, const std::string& command_li
                                 .frames = arguments.frames,
                                 .every = arguments.every,
                                 .report = arguments.report,
+                                .steps = arguments.steps,
                                 .cut = arguments.method.chord_tolerance.cut_options()};
   return simulate(scene, *method, options) ? done : fell_short;
 }
@@ -70,6 +72,7 @@ Command add_simulate(CLI::App& app) {
   command->add_option("--solver", arguments->solver,
                       "instead of the scene's: cg, cg_sliver_blocks, multigrid or cholmod");
   command->add_option("--report", arguments->report, "what the steps cost, as JSON; none where it is not given");
+  command->add_option("--steps", arguments->steps, "what each step cost, as CSV; none where it is not given");
   command->footer(
       "example:\n"
       "  cutbench simulate experiments/scenes/falling_piece.toml --resolution 800 --frames frames\n"
