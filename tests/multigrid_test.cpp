@@ -339,6 +339,53 @@ TEST(Coarsening, FollowsTheCuts) {
   }
 }
 
+// --- stiff clusters --------------------------------------------------------------------------------------------------
+
+/// The corrections are those of dense solves, one cluster after the other, and the residual that is kept is the true one.
+TEST(StiffClusters, AreSolvedExactly) {
+  const Body<2> body = cut_body<2>("delaunay", 20, BendingKind::none, "conventional_split");
+  const SystemMatrix<2> a = body.model.system();
+  const LevelRows rows = rows_of(*a.blocks);
+  LevelMatrix<2, double> matrix;
+  matrix.follow(rows);
+  for (std::size_t i = 0; i < a.vertices(); ++i)
+    for (std::size_t k = 0; k < rows.blocks[i].size(); ++k)
+      Eigen::Map<Eigen::Matrix2d>(matrix.block(rows.blocks.first_slot(i) + k)) =
+          a.blocks->block(a.blocks->find(i, rows.blocks[i][k]));
+  const std::vector<std::uint8_t> nothing_held(a.held->size(), 0);
+  StiffClusters<2> clusters;
+  clusters.find(a, rows);
+  ASSERT_GT(clusters.size(), 2u);
+  clusters.factor(matrix, nothing_held);
+
+  const auto n = static_cast<Eigen::Index>(2 * a.vertices());
+  const Eigen::MatrixXd all = matrix.dense();
+  const Field right = random_field(9, n);
+  std::vector<double> r(static_cast<std::size_t>(n) + 4), z(r.size()), t(r.size());
+  Eigen::Map<Field>(r.data(), n) = right, t = r;
+  clusters.correct_forwards(matrix, z, t);
+  const Field forwards = Eigen::Map<const Field>(z.data(), n);
+  EXPECT_LT((Eigen::Map<const Field>(t.data(), n) - (right - all * forwards)).norm(), 1e-9 * right.norm());
+  // Each correction is the best in its space, so the energy that is left falls by half of r.z in the end.
+  EXPECT_GT(right.dot(forwards), 0);
+  EXPECT_LT(forwards.dot(all * forwards) / 2 - right.dot(forwards), 0);
+  // Backwards after forwards is symmetric: B = B^T for the residuals r and q.
+  const auto both = [&](const Field& from) {
+    std::vector<double> x(r.size()), left(r.size()), start(r.size());
+    Eigen::Map<Field>(left.data(), n) = from, start = left;
+    clusters.correct_forwards(matrix, x, left);
+    clusters.correct_backwards(matrix, start, x);
+    return Field(Eigen::Map<const Field>(x.data(), n));
+  };
+  const Field q = random_field(10, n), from_r = both(right), from_q = both(q);
+  EXPECT_NEAR(q.dot(from_r), right.dot(from_q), 1e-9 * std::sqrt(q.dot(from_q) * right.dot(from_r)));
+  // Once more changes nothing at the last cluster solved, which is the first: its residual is zero.
+  std::size_t solved = 0;
+  const Field left = right - all * from_r;
+  for (Eigen::Index u = 0; u < n; ++u) solved += std::abs(left[u]) < 1e-9 * right.norm() && from_r[u] != 0;
+  EXPECT_GE(solved, 4u);
+}
+
 // --- the cycle -------------------------------------------------------------------------------------------------------
 
 template <int D>

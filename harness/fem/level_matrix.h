@@ -26,6 +26,21 @@ class LevelMatrix {
   S* block(std::size_t slot) { return blocks_.data() + D * D * slot; }
   const S* block(std::size_t slot) const { return blocks_.data() + D * D * slot; }
 
+  /// Calls visit(column, value) for the entries of row i.
+  template <class Visit>
+  void for_each_block(std::size_t i, const Visit& visit) const {
+    const S* values = block(rows_->blocks.first_slot(i));
+    for (const std::int32_t j : rows_->blocks[i]) {
+      visit(j, Eigen::Map<const Eigen::Matrix<S, D, D>>(values));
+      values += D * D;
+    }
+  }
+  template <class Visit>
+  void for_each_scalar(std::size_t i, const Visit& visit) const {
+    std::size_t slot = rows_->scalars.first_slot(i);
+    for (const std::int32_t j : rows_->scalars[i]) visit(j, scalars_[slot++]);
+  }
+
   using Block = Eigen::Matrix<double, D, D>;
   /// The block on the diagonal of row i, with its scalar. \pre the row is not empty
   Block diagonal(std::size_t i) const;

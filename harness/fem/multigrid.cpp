@@ -296,13 +296,14 @@ void Multigrid<D>::setup(const SystemMatrix<D>& a) {
     if (!follows)
       for (const auto& term : a.scalar) factors_.push_back(term.factor);
     follows ? update_levels(a) : make_levels(a);
+    clusters_.find(a, rows_);
   }
   pattern_ = a.pattern;
   look_at_sizes(a);
   if (in_doubles_)
-    fill(a, finest_in_doubles_, double_is_new_);
+    fill(a, finest_in_doubles_, double_is_new_), clusters_.factor(finest_in_doubles_.matrix, *a.held);
   else
-    fill(a, finest_, float_is_new_);
+    fill(a, finest_, float_is_new_), clusters_.factor(finest_.matrix, *a.held);
   // Every other time the coarse matrices of the last time do: rotations change them little. They leave the trace alone,
   // so another trace shows another step or material.
   coarse_are_old_ = changed_.empty() && !coarse_are_old_ && std::abs(trace_ - coarse_trace_) <= 0.01 * coarse_trace_;
@@ -337,7 +338,12 @@ void Multigrid<D>::cycle(Level<S>& level, std::size_t next) {
     return;
   }
   level.matrix.sweep_forwards(level.r, level.z, level.t);
+  if (next == 0) {
+    for (const std::size_t u : held_) level.t[u] = 0;
+    clusters_.correct_forwards(level.matrix, level.z, level.t);
+  }
   if (next < coarse_.size()) correct(level, next);
+  if (next == 0) clusters_.correct_backwards(level.matrix, level.r, level.z);
   level.matrix.sweep_backwards(level.r, level.z);
 }
 

@@ -16,6 +16,7 @@
 #include "harness/fem/coarsening.h"
 #include "harness/fem/level_matrix.h"
 #include "harness/fem/preconditioner.h"
+#include "harness/fem/stiff_clusters.h"
 
 namespace cutbench {
 
@@ -79,6 +80,7 @@ class Multigrid final : public Preconditioner<D> {
   bool in_doubles_ = false, float_is_new_ = true, double_is_new_ = true;  // new: the rows are to be set
   Level<float> finest_;
   Level<double> finest_in_doubles_;
+  StiffClusters<D> clusters_;
   std::deque<CoarseLevel> coarse_;  // each refers to rows of its own
   Eigen::LLT<Eigen::MatrixXd> coarsest_;
   bool solves_coarsest_ = false;
