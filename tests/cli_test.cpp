@@ -1,6 +1,8 @@
 // The program as a user meets it: exit codes, one line on stderr, nothing half-written.
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <regex>
+#include <sstream>
 
 #include "harness/records/record.h"
 #include "tests/helpers.h"
@@ -204,7 +206,7 @@ TEST_F(Cli, SimulateSaysWhatStepsCost) {
   const std::string scene = CUTBENCH_TEST_CASES "/../../experiments/scenes/falling_piece.toml";
   std::map<std::string, double> iterations;
   for (const std::string solver : {"cg", "multigrid"}) {
-    const auto result = run("simulate '" + scene + "' --solver " + solver + " --report r.json");
+    const auto result = run("simulate '" + scene + "' --solver " + solver + " --report r.json --steps s.csv");
     ASSERT_EQ(result.code, 0) << result.error;
     EXPECT_NE(result.out.find("real-time factor"), std::string::npos) << result.out;
     const auto report = nlohmann::json::parse(read(folder_ / "r.json"));
@@ -214,6 +216,19 @@ TEST_F(Cli, SimulateSaysWhatStepsCost) {
     EXPECT_NEAR(cost["real_time_factor"].get<double>() * cost["computed_s"].get<double>(),
                 cost["simulated_s"].get<double>(), 1e-9);
     EXPECT_EQ(cost["with_cut"]["steps"], 1);
+    const std::vector<std::string> rows = lines_of(read(folder_ / "s.csv"));
+    ASSERT_EQ(rows.size(), cost["steps"].get<std::size_t>() + 1);
+    double computed_ms = 0;
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      std::istringstream row(rows[i]);
+      std::vector<double> values;
+      for (std::string value; std::getline(row, value, ',');) values.push_back(std::stod(value));
+      ASSERT_EQ(values.size(), 12u) << rows[i];
+      EXPECT_NEAR(values[0], static_cast<double>(i) * report["step_s"].get<double>(), 1e-5);
+      EXPECT_NEAR(values[9], std::accumulate(values.begin() + 2, values.begin() + 9, 0.0), 1e-2);
+      computed_ms += values[9];
+    }
+    EXPECT_NEAR(computed_ms, 1000 * cost["computed_s"].get<double>(), 0.01 * computed_ms);
     for (const char* phase : {"rotate", "assemble", "setup", "solve", "total"}) {
       const auto &all = cost["step_ms"][phase], &with_cut = cost["with_cut"]["step_ms"][phase];
       EXPECT_GT(all["median"], 0) << phase;
@@ -227,6 +242,7 @@ TEST_F(Cli, SimulateSaysWhatStepsCost) {
   EXPECT_LT(2 * iterations["multigrid"], iterations["cg"]);
   expect_refused(run("simulate '" + scene + "' --solver gmres"), "gmres");
   expect_refused(run("simulate '" + scene + "' --report none/r.json"), "none");
+  expect_refused(run("simulate '" + scene + "' --steps none/s.csv"), "none");
 }
 
 TEST_F(Cli, ShardsPartTheCases) {
