@@ -18,8 +18,6 @@ namespace cutbench {
 class Example : public CuttingMethod {
  public:
   void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
-
- private:
 };
 
 }  // namespace cutbench
