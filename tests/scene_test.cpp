@@ -98,8 +98,10 @@ TEST(Scenes, TheSlitStripsClampHoldsTwoColumns) {
 TEST(Experiments, OfTheRepositoryAreRead) {
   const auto files = toml_files(experiments);
   EXPECT_GE(files.size(), 3u);
-  for (const auto& file : files)
+  for (const auto& file : files) {
+    if (fs::exists(fs::path(file).replace_extension())) continue;  // it belongs to the script of that name
     EXPECT_FALSE(read_experiment(file).sheets.empty() && read_experiment(file).accuracy == std::nullopt);
+  }
 }
 
 TEST_F(SceneFile, DefaultsAreThoseOfTheStruct) {
