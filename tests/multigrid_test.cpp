@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -537,6 +538,23 @@ TEST(Multigrid, ExtremeSlivers) {
     const bool can_be_solved = plain->solve(b, y).converged;  // in doubles, by any iteration
     EXPECT_TRUE(report.converged || (distance < 1e-9 && !can_be_solved))
         << report.iterations << " iterations, residual " << report.residual;
+  }
+}
+
+/// A state that is not finite makes matrices of NaN. The solver says that it has not converged, and comes back.
+TEST(Multigrid, NotFinite) {
+  for (const std::size_t every : {1, 2, 3, 7}) {
+    Body<3> body = cut_body<3>("delaunay", 14, BendingKind::patches, "conventional_split");
+    Field x = body.model.positions(body.sheet);
+    for (Eigen::Index u = 0; u < x.size(); u += static_cast<Eigen::Index>(3 * every))
+      x[u] = std::numeric_limits<double>::quiet_NaN();
+    body.model.rotate(x);
+    body.model.assemble(1, 1e-4);
+    const SystemMatrix<3> a = body.model.system();
+    const auto solver = make_solver<3>({.name = "multigrid", .tolerance = 1e-2, .max_iterations = 50});
+    solver->setup(a);
+    Field y;
+    EXPECT_FALSE(solver->solve(random_field(3, x.size()), y).converged);
   }
 }
 

@@ -200,9 +200,13 @@ void Multigrid<D>::Level<S>::resize() {
 template <int D>
 void Multigrid<D>::look_at_sizes(const SystemMatrix<D>& a) {
   std::vector<double> sizes;
-  for (std::size_t i = 0; i < a.vertices(); ++i)
-    if (!a.blocks->columns(i).empty()) sizes.push_back(a.diagonal(i).trace());
-  in_doubles_ = false, trace_ = std::accumulate(sizes.begin(), sizes.end(), 0.0);
+  in_doubles_ = false, trace_ = 0;
+  for (std::size_t i = 0; i < a.vertices(); ++i) {
+    if (a.blocks->columns(i).empty()) continue;
+    const double size = a.diagonal(i).trace();
+    trace_ += size;
+    if (std::isfinite(size)) sizes.push_back(size);  // NaN has no place in an order
+  }
   if (sizes.empty()) return;
   const double largest = *std::max_element(sizes.begin(), sizes.end());
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);

@@ -1,6 +1,7 @@
 #include "harness/fem/stiff_clusters.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cutbench {
 
@@ -16,8 +17,11 @@ void StiffClusters<D>::find(const SystemMatrix<D>& a, const LevelRows& rows) {
   clusters_.clear();
   const std::size_t n = rows.size();
   std::vector<double> sizes(n, 0), sorted;
-  for (std::size_t i = 0; i < n; ++i)
-    if (!rows.blocks[i].empty()) sorted.push_back(sizes[i] = a.diagonal(i).trace());
+  for (std::size_t i = 0; i < n; ++i) {
+    if (rows.blocks[i].empty()) continue;
+    sizes[i] = a.diagonal(i).trace();
+    if (std::isfinite(sizes[i])) sorted.push_back(sizes[i]);  // NaN has no place in an order
+  }
   if (sorted.empty()) return;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
