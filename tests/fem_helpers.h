@@ -26,7 +26,7 @@ class Body {
   Status cut(const Curve& curve, const std::string& method = "conventional_split", double knob = 0) {
     const auto tool = find_method(method).make(knob);
     const CutOutcome outcome = Cutter().cut(sheet, locator_, curve, *tool, {});
-    if (outcome.status != Status::ok) return outcome.status;
+    if (outcome.status != Status::ok && outcome.status != Status::deviated) return outcome.status;  // bit-unchanged
     transfer(sheet.log(), sheet.deformed_slots(), D, state);
     model.update(sheet);
     model.update_bending(sheet);
