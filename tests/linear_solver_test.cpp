@@ -209,6 +209,12 @@ Solved<D> solved(const SolverOptions& options, const System<D>& system, const Fi
   return solved(*make_solver<D>(options), sparse.matrix(), b);
 }
 
+bool is_direct(const std::string& name) {
+  return name == "cholmod" || name == "cholmod_same_order" || name == "eigen_ldlt";
+}
+
+bool keeps_old_factors(const std::string& name) { return name == "cholmod_stale" || name == "cholmod_same_order"; }
+
 template <class Dimension>
 struct LinearSolvers : testing::Test {};
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
@@ -227,7 +233,7 @@ TYPED_TEST(LinearSolvers, AgreeWithDenseCholesky) {
       EXPECT_LT((s.x - exact).norm(), 1e-9 * exact.norm());
       EXPECT_NEAR(s.report.residual, system.residual(b, s.x), 1e-14);
       EXPECT_LE(s.report.residual, 1e-11);
-      EXPECT_EQ(s.report.iterations == 0, name == "cholmod");
+      EXPECT_EQ(s.report.iterations == 0, is_direct(name));
       for (Eigen::Index u = 0; u < s.x.size(); ++u) EXPECT_TRUE(!system.is_held(u) || s.x[u] == 0);
     }
 }
@@ -270,6 +276,7 @@ TYPED_TEST(LinearSolvers, SayWhenTheyDidNotConverge) {
   const Field b = random_field(12, good.blocks.rows());
   const auto expect_failure = [&](const std::string& what, const System<dimension>& system, const Field& right) {
     for (const auto& name : solver_names()) {
+      if (name == "eigen_cg" && what == "indefinite beside the diagonal") continue;  // it does not look, and solves it
       const auto s = solved<dimension>({.name = name, .tolerance = 1e-8, .max_iterations = 1000}, system, right);
       EXPECT_FALSE(s.report.converged) << name << ", " << what;
       EXPECT_FALSE(s.report.residual <= 1e-8) << name << ", " << what;
@@ -470,7 +477,9 @@ TYPED_TEST(LinearSolvers, FollowTheMatrix) {
       const Field exact = system.oracle(b);
       EXPECT_TRUE(s.report.converged) << what;
       EXPECT_LT((s.x - exact).norm(), 1e-9 * exact.norm()) << what;
-      EXPECT_EQ(s.x, fresh.x) << what;  // bit by bit
+      if (!keeps_old_factors(name)) {
+        EXPECT_EQ(s.x, fresh.x) << what;  // bit by bit
+      }
     };
     expect_same_as_new("first");
     system.blocks *= 3, system.scalar[0].factor = 0.7;
@@ -539,7 +548,8 @@ TEST(LinearSolver, UnknownName) {
     FAIL();
   } catch (const InputError& error) {
     EXPECT_EQ(std::string(error.what()),
-              "unknown solver \"gmres\"; known are cg, cg_sliver_blocks, multigrid, cholmod");
+              "unknown solver \"gmres\"; known are cg, cg_sliver_blocks, multigrid, cholmod, cholmod_same_order, "
+              "cholmod_stale, local_global, eigen_cg, eigen_cg_ichol, eigen_ldlt");
   }
 }
 

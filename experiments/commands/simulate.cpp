@@ -69,8 +69,9 @@ Command add_simulate(CLI::App& app) {
       ->capture_default_str()
       ->check(CLI::PositiveNumber)
       ->needs(frames);
-  command->add_option("--solver", arguments->solver,
-                      "instead of the scene's: cg, cg_sliver_blocks, multigrid or cholmod");
+  std::string solvers = "instead of the scene's:";
+  for (const auto& name : solver_names()) solvers += (name == solver_names().front() ? " " : ", ") + name;
+  command->add_option("--solver", arguments->solver, solvers);
   command->add_option("--report", arguments->report, "what the steps cost, as JSON; none where it is not given");
   command->add_option("--steps", arguments->steps, "what each step cost, as CSV; none where it is not given");
   command->footer(

@@ -1,17 +1,25 @@
-// Direct solution: supernodal Cholesky factorisation by CHOLMOD (Chen, Davis, Hager and Rajamanickam, ACM TOMS 35(3),
-// 2008) in METIS ordering (Karypis and Kumar, SIAM J. Sci. Comput. 20(1), 1998), on one thread.
+// Direct solution by the factor of cholmod_factor.h.
 #pragma once
 
-#include <memory>
-
+#include "harness/fem/cholmod_factor.h"
 #include "harness/fem/linear_solver.h"
 
 namespace cutbench {
 
-/// The analysis (pattern, ordering, symbolic factor) is kept for as long as the pattern and the held unknowns of the
-/// matrices given to setup() stay the same. A matrix that is not positive definite is reported by solve(): not
-/// converged, x = 0.
+/// A matrix that is not positive definite is reported by solve(): not converged, x = 0.
 template <int D>
-std::unique_ptr<LinearSolver<D>> make_cholmod_solver();
+class CholmodSolver final : public LinearSolver<D> {
+ public:
+  explicit CholmodSolver(FactorOrder order) : factor_(order) {}
+  void setup(const SystemMatrix<D>& a) override;
+  SolveReport solve(const Field& b, Field& x, const Field& start) override;
+
+ private:
+  CholmodFactor<D> factor_;
+  const SystemMatrix<D>* matrix_ = nullptr;
+  bool factored_ = false;
+  Field b_, r_;  ///< right-hand side, A x
+  Eigen::MatrixXd right_, solution_;
+};
 
 }  // namespace cutbench

@@ -2,27 +2,72 @@
 
 #include "harness/fem/cholmod_solver.h"
 #include "harness/fem/conjugate_gradients.h"
+#include "harness/fem/eigen_solvers.h"
+#include "harness/fem/factor_preconditioners.h"
 #include "harness/fem/multigrid.h"
 #include "harness/fem/sliver_blocks.h"
 #include "harness/mesh/mesh_data.h"
 
 namespace cutbench {
 
+namespace {
+
+template <int D>
+struct SolverRow {
+  const char* name;
+  std::unique_ptr<LinearSolver<D>> (*make)(const SolverOptions&);
+};
+
+template <int D, class Preconditioner>
+std::unique_ptr<LinearSolver<D>> conjugate_gradients(const SolverOptions& options) {
+  return std::make_unique<ConjugateGradients<D>>(options, std::make_unique<Preconditioner>());
+}
+
+template <int D, FactorOrder order>
+std::unique_ptr<LinearSolver<D>> cholmod(const SolverOptions&) {
+  return std::make_unique<CholmodSolver<D>>(order);
+}
+
+template <int D, EigenPreconditioner preconditioner>
+std::unique_ptr<LinearSolver<D>> eigen_cg(const SolverOptions& options) {
+  return make_eigen_cg<D>(options, preconditioner);
+}
+
+template <int D>
+constexpr SolverRow<D> rows[] = {
+    {"cg",
+     [](const SolverOptions& options) -> std::unique_ptr<LinearSolver<D>> {
+       return std::make_unique<ConjugateGradients<D>>(options, nullptr);
+     }},
+    {"cg_sliver_blocks", conjugate_gradients<D, SliverBlocks<D>>},
+    {"multigrid", conjugate_gradients<D, Multigrid<D>>},
+    {"cholmod", cholmod<D, FactorOrder::anew>},
+    {"cholmod_same_order", cholmod<D, FactorOrder::extended>},
+    {"cholmod_stale", conjugate_gradients<D, StaleFactor<D>>},
+    {"local_global", conjugate_gradients<D, ConstantFactor<D>>},
+    {"eigen_cg", eigen_cg<D, EigenPreconditioner::diagonal>},
+    {"eigen_cg_ichol", eigen_cg<D, EigenPreconditioner::incomplete_cholesky>},
+    {"eigen_ldlt", [](const SolverOptions&) { return make_eigen_ldlt<D>(); }},
+};
+
+}  // namespace
+
 const std::vector<std::string>& solver_names() {
-  static const std::vector<std::string> names{"cg", "cg_sliver_blocks", "multigrid", "cholmod"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const auto& row : rows<2>) all.emplace_back(row.name);
+    return all;
+  }();
   return names;
 }
 
 template <int D>
 std::unique_ptr<LinearSolver<D>> make_solver(const SolverOptions& options) {
-  if (options.name == "cg") return std::make_unique<ConjugateGradients<D>>(options, nullptr);
-  if (options.name == "cg_sliver_blocks")
-    return std::make_unique<ConjugateGradients<D>>(options, std::make_unique<SliverBlocks<D>>());
-  if (options.name == "multigrid")
-    return std::make_unique<ConjugateGradients<D>>(options, std::make_unique<Multigrid<D>>());
-  if (options.name == "cholmod") return make_cholmod_solver<D>();
   std::string known;
-  for (const auto& name : solver_names()) known += (known.empty() ? "" : ", ") + name;
+  for (const auto& row : rows<D>) {
+    if (options.name == row.name) return row.make(options);
+    known += (known.empty() ? "" : ", ") + std::string(row.name);
+  }
   throw InputError("unknown solver \"" + options.name + "\"; known are " + known);
 }
 

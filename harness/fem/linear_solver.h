@@ -36,9 +36,11 @@ class LinearSolver {
   virtual SolveReport solve(const Field& b, Field& x, const Field& start = {}) = 0;
 };
 
-/// "cg": conjugate gradients, preconditioned by the inverse diagonal blocks. "cg_sliver_blocks": the vertices joined by
-/// slivers share a block. "multigrid": a V-cycle that knows the cuts (multigrid.h). "cholmod": supernodal Cholesky
-/// factorisation with METIS ordering.
+/// Iterative: "cg", conjugate gradients with the inverse diagonal blocks; "cg_sliver_blocks", the vertices joined by
+/// slivers share a block; "multigrid", a V-cycle that knows the cuts (multigrid.h); "cholmod_stale", the factor of an
+/// older matrix; "local_global", a factor that no rotation changes (factor_preconditioners.h); "eigen_cg" and
+/// "eigen_cg_ichol" (eigen_solvers.h). Direct: "cholmod"; "cholmod_same_order", which keeps the order of elimination
+/// after a cut (cholmod_factor.h); "eigen_ldlt".
 const std::vector<std::string>& solver_names();
 /// Throws InputError for an unknown name.
 template <int D>
