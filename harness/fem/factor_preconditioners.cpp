@@ -8,7 +8,7 @@ namespace cutbench {
 namespace {
 
 constexpr int most_uses = 10;         // iterations that an old factor may cost before a new one is made
-constexpr double same_traces = 1e-9;  // the sum of changes over the sum of sizes: rounding, which rotations leave
+constexpr double same_traces = 0.01;  // the sum of changes over the sum of sizes; stresses change traces a little
 
 /// Conjugate gradients give up a preconditioner that is not finite, and say so.
 void refuse(Field& z) { z.setConstant(std::numeric_limits<double>::quiet_NaN()); }
@@ -29,7 +29,7 @@ void StaleFactor<D>::apply(const Field& r, Field& z) {
   z = solution_;
 }
 
-/// True where the traces are others than those that were factored.
+/// True where the traces are others than those that were factored, and then takes them.
 template <int D>
 bool ConstantFactor<D>::set_traces(const SystemMatrix<D>& a) {
   const bool is_new = matrix_.pattern != a.pattern || traces_.rows() != a.vertices() || matrix_.blocks == nullptr;
@@ -37,17 +37,18 @@ bool ConstantFactor<D>::set_traces(const SystemMatrix<D>& a) {
     traces_.resize(a.vertices());
     for (std::size_t i = 0; i < a.vertices(); ++i) traces_.set_row(i, a.blocks->columns(i));
   }
-  double change = 0, size = 0;
-  for (std::size_t i = 0; i < a.vertices(); ++i) {
-    std::int32_t from = a.blocks->first_slot(i), to = traces_.first_slot(i);
-    for (std::size_t k = 0; k < a.blocks->columns(i).size(); ++k) {
-      const double trace = a.blocks->block(from++).trace() / D;
-      double& mine = traces_.block(to++)(0);
-      change += std::abs(trace - mine), size += std::abs(trace);
-      if (is_new || std::abs(trace - mine) > same_traces * std::abs(mine)) mine = trace;
+  const auto for_each = [&](const auto& visit) {
+    for (std::size_t i = 0; i < a.vertices(); ++i) {
+      std::int32_t from = a.blocks->first_slot(i), to = traces_.first_slot(i);
+      for (std::size_t k = 0; k < a.blocks->columns(i).size(); ++k)
+        visit(traces_.block(to++)(0), a.blocks->block(from++).trace() / D);
     }
-  }
-  return is_new || !(change <= same_traces * size);
+  };
+  double change = 0, size = 0;
+  for_each([&](double mine, double trace) { change += std::abs(trace - mine), size += std::abs(trace); });
+  if (!is_new && change <= same_traces * size) return false;
+  for_each([](double& mine, double trace) { mine = trace; });
+  return true;
 }
 
 template <int D>

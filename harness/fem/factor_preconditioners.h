@@ -26,7 +26,8 @@ class StaleFactor final : public Preconditioner<D> {
 /// and Kavan, Quasi-Newton methods for real-time simulation of hyperelastic materials, ACM TOG 36(3), 2017) with the
 /// matrix of mass, Laplacian and bending. A co-rotational block R K R^T has the trace of K, and the traces of a
 /// membrane's blocks are those of its Laplacian; so the matrix is that of the traces over D. It acts on each coordinate
-/// alike: one factor of a D-th of the size, D right sides. It is made anew where a trace or the pattern has changed.
+/// alike: one factor of a D-th of the size, D right sides. It is made anew where the pattern, or the traces by
+/// more than 1 %, have changed: another step, another material.
 template <int D>
 class ConstantFactor final : public Preconditioner<D> {
  public:
