@@ -89,7 +89,7 @@ template <int D>
 void Model<D>::resize(const Sheet& sheet) {
   const std::size_t n = sheet.deformed_slots();
   const auto old = static_cast<std::size_t>(mass_.size());
-  incidence_.resize(n), blocks_.resize(n), history_.resize(n), marked_in_.resize(std::max(n, marked_in_.size()));
+  incidence_.resize(n), blocks_.resize(n), marked_in_.resize(std::max(n, marked_in_.size()));
   if (consistent_mass_) consistent_mass_->resize(n);
   held_.resize(D * n, 1), pin_of_.resize(D * n, -1), places_.resize(n);
   membrane_.resize(elements_.size());

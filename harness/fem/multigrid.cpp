@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "harness/base/stop_watch.h"
+
 namespace cutbench {
 
 namespace {
@@ -55,10 +57,14 @@ bool Multigrid<D>::find_changed(const SystemMatrix<D>& a) {
   if (a.pattern == pattern_ && before == n && same_factors) return true;
   const bool follows = same_factors && before > 0 && before <= n && a.history && a.history->holds(pattern_) &&
                        rows_.blocks.slots() < 2 * slots_made_;
-  for (std::size_t i = 0; i < n; ++i)
-    if (!follows || i >= before || a.history->changed_since(pattern_, i))
-      changed_.push_back(static_cast<std::int32_t>(i));
-  if (follows && 2 * changed_.size() < n) return true;
+  if (follows) {
+    const auto marked = a.history->changed_since(pattern_);
+    changed_.assign(marked.begin(), marked.end());
+    for (std::size_t i = before; i < n; ++i) changed_.push_back(static_cast<std::int32_t>(i));
+    std::sort(changed_.begin(), changed_.end());
+    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+    if (2 * changed_.size() < n) return true;
+  }
   changed_.resize(n);
   std::iota(changed_.begin(), changed_.end(), 0);
   return false;
@@ -151,7 +157,6 @@ void Multigrid<D>::update(CoarseLevel& level, const LevelRows& fine, const std::
   level.from.multiply(fine, level.rows);
   level.matrix.follow(level.rows, level.from.changed());
   level.resize();
-  changed_rows_ += level.from.changed().size();
 }
 
 template <int D>
@@ -196,22 +201,23 @@ void Multigrid<D>::Level<S>::resize() {
 
 // --- values ----------------------------------------------------------------------------------------------------------
 
-/// Whether floats do for the finest level, and the sum of the sizes of diagonal blocks.
+/// The sizes of the diagonal blocks, and whether floats do for the finest level.
 template <int D>
 void Multigrid<D>::look_at_sizes(const SystemMatrix<D>& a) {
-  std::vector<double> sizes;
-  in_doubles_ = false, trace_ = 0;
+  sizes_.assign(a.vertices(), 0), sorted_.clear();
+  in_doubles_ = false, trace_ = median_size_ = 0;
   for (std::size_t i = 0; i < a.vertices(); ++i) {
     if (a.blocks->columns(i).empty()) continue;
-    const double size = a.diagonal(i).trace();
-    trace_ += size;
-    if (std::isfinite(size)) sizes.push_back(size);  // NaN has no place in an order
+    sizes_[i] = a.diagonal(i).trace();
+    trace_ += sizes_[i];
+    if (std::isfinite(sizes_[i])) sorted_.push_back(sizes_[i]);  // NaN has no place in an order
   }
-  if (sizes.empty()) return;
-  const double largest = *std::max_element(sizes.begin(), sizes.end());
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  in_doubles_ = !(largest < widest_for_floats * *middle && largest < 1e30 && *middle > 1e-30);
+  if (sorted_.empty()) return;
+  const double largest = *std::max_element(sorted_.begin(), sorted_.end());
+  const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(sorted_.size() / 2);
+  std::nth_element(sorted_.begin(), middle, sorted_.end());
+  median_size_ = *middle;
+  in_doubles_ = !(largest < widest_for_floats * median_size_ && largest < 1e30 && median_size_ > 1e-30);
 }
 
 /// The finest level: zero in rows and columns of held unknowns.
@@ -288,9 +294,8 @@ void Multigrid<D>::factor_coarsest() {
 
 template <int D>
 void Multigrid<D>::setup(const SystemMatrix<D>& a) {
+  StopWatch watch;
   const bool follows = find_changed(a);
-  find_held(a);
-  changed_rows_ = 0;
   if (!changed_.empty()) {
     const std::size_t n = a.vertices();
     if (!follows) rows_ = {}, factors_.clear();
@@ -300,10 +305,12 @@ void Multigrid<D>::setup(const SystemMatrix<D>& a) {
     if (!follows)
       for (const auto& term : a.scalar) factors_.push_back(term.factor);
     follows ? update_levels(a) : make_levels(a);
-    clusters_.find(a, rows_);
   }
   pattern_ = a.pattern;
+  rows_us_ = watch.lap();
+  find_held(a);
   look_at_sizes(a);
+  if (!changed_.empty()) clusters_.find(sizes_, median_size_, rows_);
   if (in_doubles_)
     fill(a, finest_in_doubles_, double_is_new_), clusters_.factor(finest_in_doubles_.matrix, *a.held);
   else
@@ -388,6 +395,20 @@ void Multigrid<D>::apply(const Field& r, Field& z) {
     run(finest_in_doubles_);
   else
     run(finest_);
+}
+
+template <int D>
+auto Multigrid<D>::entries() const -> Entries {
+  Entries all;
+  const auto add = [&](const LevelRows& rows) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      all.blocks += static_cast<double>(rows.blocks[i].size());
+      all.scalars += static_cast<double>(rows.scalars[i].size());
+    }
+  };
+  add(rows_);
+  for (const CoarseLevel& level : coarse_) add(level.rows);
+  return all;
 }
 
 template class Multigrid<2>;

@@ -1,8 +1,8 @@
 // Multigrid for a sheet that is cut: one V-cycle as a preconditioner of conjugate gradients (Trottenberg, Oosterlee and
-// Schueller, Multigrid, 2001, 7.8). The levels are those of
-// Coarsening, with lattices of twice the mean edge, four times, and so on; their matrices are the Galerkin products
-// P^T A P, so each is symmetric and positive definite where A is. Vertices that slivers tie together are one more unknown
-// of the first coarse level. On the coarsest level a Cholesky factorisation solves.
+// Schueller, Multigrid, 2001, 7.8). The levels are those of Coarsening, with lattices of twice the median edge, four
+// times, and so on; their matrices are the Galerkin products P^T A P, so each is symmetric and positive definite where A
+// is. Vertices that slivers tie together are one more unknown of the first coarse level, and clusters of stiff vertices
+// are solved exactly (StiffClusters). On the coarsest level a Cholesky factorisation solves.
 //
 // Levels are in floats: a preconditioner need not be accurate, and the time is that of reading the matrix. Where the
 // diagonal blocks of A differ too much for floats (slivers), the finest level is in doubles. Without places of the
@@ -29,8 +29,13 @@ class Multigrid final : public Preconditioner<D> {
   void setup(const SystemMatrix<D>& a) override;
   void apply(const Field& r, Field& z) override;
   std::size_t levels() const { return coarse_.size() + 1; }
-  /// Rows of all coarse levels that the last setup() has found anew.
-  std::size_t changed_rows() const { return changed_rows_; }
+  /// Microseconds that the last setup() took for the rows of all levels, without their values.
+  double rows_us() const { return rows_us_; }
+  /// Entries of the matrices of all levels, each of which a cycle reads twice.
+  struct Entries {
+    double blocks = 0, scalars = 0;
+  };
+  Entries entries() const;
 
  private:
   using Block = typename BlockMatrix<D>::Block;
@@ -69,14 +74,15 @@ class Multigrid final : public Preconditioner<D> {
   void correct(Level<S>& level, std::size_t next);
 
   std::uint64_t pattern_ = 0;
-  std::vector<double> factors_;                    // of the scalar parts of A
-  std::vector<std::uint8_t> has_held_;             // per vertex: one of its unknowns is held
-  std::vector<std::size_t> held_;                  // held unknowns of vertices with a row
-  LevelRows rows_;                                 // of A
-  std::vector<std::int32_t> slots_;                // per slot of rows_.blocks: where A keeps the block
-  std::vector<Point2> places_;                     // per vertex; NaN where no hat is wanted
-  std::vector<std::int32_t> changed_;              // vertices whose rows the levels have not followed yet
-  std::size_t slots_made_ = 0, changed_rows_ = 0;  // slots of rows_ when the levels were made
+  std::vector<double> factors_;         // of the scalar parts of A
+  std::vector<std::uint8_t> has_held_;  // per vertex: one of its unknowns is held
+  std::vector<std::size_t> held_;       // held unknowns of vertices with a row
+  LevelRows rows_;                      // of A
+  std::vector<std::int32_t> slots_;     // per slot of rows_.blocks: where A keeps the block
+  std::vector<Point2> places_;          // per vertex; NaN where no hat is wanted
+  std::vector<std::int32_t> changed_;   // vertices whose rows the levels have not followed yet
+  std::size_t slots_made_ = 0;          // slots of rows_ when the levels were made
+  double rows_us_ = 0;
   bool in_doubles_ = false, float_is_new_ = true, double_is_new_ = true;  // new: the rows are to be set
   Level<float> finest_;
   Level<double> finest_in_doubles_;
@@ -84,12 +90,14 @@ class Multigrid final : public Preconditioner<D> {
   std::deque<CoarseLevel> coarse_;  // each refers to rows of its own
   Eigen::LLT<Eigen::MatrixXd> coarsest_;
   bool solves_coarsest_ = false;
+  std::vector<double> sizes_;  // per vertex: the trace of its diagonal block
+  double median_size_ = 0;
   double trace_ = 0, coarse_trace_ = 0;  // of A, at the last setup() and when the coarse matrices were computed
   bool coarse_are_old_ = true;
   // Working storage.
   std::vector<std::int32_t> place_;                   // per coarse unknown: its place in the row at hand
   std::vector<std::int32_t> columns_, place_in_row_;  // the second: per vertex, or -1
-  std::vector<double> values_;
+  std::vector<double> values_, sorted_;
   std::vector<std::int32_t> front_, place_in_front_;  // the second: per vertex, or -1
 };
 

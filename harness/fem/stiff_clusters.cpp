@@ -1,7 +1,6 @@
 #include "harness/fem/stiff_clusters.h"
 
-#include <algorithm>
-#include <cmath>
+#include <utility>
 
 namespace cutbench {
 
@@ -13,20 +12,11 @@ constexpr std::size_t largest_cluster = 48;  // vertices; where more hang togeth
 }  // namespace
 
 template <int D>
-void StiffClusters<D>::find(const SystemMatrix<D>& a, const LevelRows& rows) {
+void StiffClusters<D>::find(const std::vector<double>& sizes, double median, const LevelRows& rows) {
   clusters_.clear();
   const std::size_t n = rows.size();
-  std::vector<double> sizes(n, 0), sorted;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (rows.blocks[i].empty()) continue;
-    sizes[i] = a.diagonal(i).trace();
-    if (std::isfinite(sizes[i])) sorted.push_back(sizes[i]);  // NaN has no place in an order
-  }
-  if (sorted.empty()) return;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
   is_stiff_.assign(n, 0), place_.resize(n, -1);
-  for (std::size_t i = 0; i < n; ++i) is_stiff_[i] = sizes[i] > stiff * *middle;
+  for (std::size_t i = 0; i < n; ++i) is_stiff_[i] = sizes[i] > stiff * median;
   for (std::size_t seed = 0; seed < n; ++seed) {
     if (!is_stiff_[seed]) continue;
     std::vector<std::int32_t> members;

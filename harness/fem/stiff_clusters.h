@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "harness/fem/level_matrix.h"
-#include "harness/fem/system_matrix.h"
 
 namespace cutbench {
 
@@ -17,7 +16,9 @@ template <int D>
 class StiffClusters {
  public:
   /// Finds the clusters of a matrix with these rows. Call it whenever they have changed.
-  void find(const SystemMatrix<D>& a, const LevelRows& rows);
+  /// \param sizes   per vertex: the trace of its diagonal block, 0 where its row is empty
+  /// \param median  of the finite ones of rows that are not empty
+  void find(const std::vector<double>& sizes, double median, const LevelRows& rows);
   /// Factors the blocks of the clusters; one that is not positive definite is left out.
   template <class S>
   void factor(const LevelMatrix<D, S>& a, const std::vector<std::uint8_t>& held);
