@@ -156,6 +156,7 @@ int main(int argc, char** argv) {
                 places);
     std::printf("%-20s %9s %8s %9s %9s %9s %9s %9s %9s\n", "method", "triangles", "crossed", "geometry", "state",
                 "pattern", "bending", "levels", "bytes");
+    std::fflush(stdout);  // or each process would print it again
     for (const MethodRow& row : rows)
       for (int n = 80; 2ll * n * n <= largest; n *= 2) measure_apart(row, n);
     return 0;

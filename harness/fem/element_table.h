@@ -25,6 +25,7 @@ class ElementTable {
   explicit ElementTable(const Sheet& sheet);
   /// Rewrites the rows of the slots that the sheet's log names. The same as a new table.
   void update(const Sheet& sheet);
+  void reserve_spare() { rows_.reserve(rows_.size() + rows_.size() / 2); }
 
   std::size_t size() const { return rows_.size(); }
   const Element& operator[](std::size_t i) const { return rows_[i]; }

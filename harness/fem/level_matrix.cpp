@@ -22,6 +22,7 @@ void LevelMatrix<D, S>::follow(const LevelRows& rows) {
   std::vector<std::int32_t> all(rows.size());
   std::iota(all.begin(), all.end(), 0);
   follow(rows, all);
+  for (Vector* values : {&blocks_, &scalars_, &inverse_}) values->reserve(values->size() + values->size() / 2);
 }
 
 template <int D, class S>

@@ -19,7 +19,7 @@ class LevelMatrix {
 
   /// Takes the scalars of these rows, and has room for the blocks of all. `rows` must outlive it, and stay where it is.
   void follow(const LevelRows& rows, std::span<const std::int32_t> changed);
-  void follow(const LevelRows& rows);  ///< all rows
+  void follow(const LevelRows& rows);  ///< all rows, with room to grow by half
   std::size_t size() const { return rows_->size(); }
   const LevelRows& rows() const { return *rows_; }
   /// D x D values of a slot of the block rows, column by column.

@@ -13,6 +13,7 @@ class SweepRows {
  public:
   std::size_t size() const { return columns_.size(); }
   void resize(std::size_t rows) { columns_.resize(rows), below_.resize(rows); }
+  void reserve_spare() { columns_.reserve_spare(), below_.reserve(below_.size() + below_.size() / 2); }
   /// Gives row i these columns, each once and i among them, or none. Returns, for each entry of the row, its place among
   /// `columns`; valid until the next call.
   std::span<const std::int32_t> set(std::size_t i, std::span<const std::int32_t> columns);
@@ -40,6 +41,10 @@ struct LevelRows {
 
   std::size_t size() const { return blocks.size(); }
   void resize(std::size_t rows) { blocks.resize(rows), scalars.resize(rows); }
+  /// Room to grow by half, before anything has to be copied.
+  void reserve_spare() {
+    blocks.reserve_spare(), scalars.reserve_spare(), scalar.reserve(scalar.size() + scalar.size() / 2);
+  }
   void set_scalars(std::size_t i, std::span<const std::int32_t> columns, std::span<const double> values);
 };
 

@@ -34,7 +34,7 @@ Model<D>::Model(const Sheet& sheet, const Material& material, const Physics& phy
 
 template <int D>
 void Model<D>::reserve_spare() {
-  blocks_.reserve_spare(), incidence_.reserve_spare(), membrane_.reserve_spare();
+  elements_.reserve_spare(), blocks_.reserve_spare(), incidence_.reserve_spare(), membrane_.reserve_spare();
   if (consistent_mass_) consistent_mass_->reserve_spare();
   if (bending_) bending_->reserve_spare();
 }

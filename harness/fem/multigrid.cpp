@@ -162,6 +162,7 @@ void Multigrid<D>::update(CoarseLevel& level, const LevelRows& fine, const std::
 template <int D>
 void Multigrid<D>::make_levels(const SystemMatrix<D>& a) {
   coarse_.clear(), float_is_new_ = double_is_new_ = true;
+  rows_.reserve_spare(), slots_.reserve(slots_.size() + slots_.size() / 2);
   slots_made_ = rows_.blocks.slots();
   double spacing = first_spacing * median_edge(rows_.blocks, places_);
   if (!(spacing > 0)) return;
@@ -173,6 +174,7 @@ void Multigrid<D>::make_levels(const SystemMatrix<D>& a) {
     CoarseLevel& level = coarse_.emplace_back(spacing);
     update(level, *fine, *places, all, regrouping);
     if (const std::size_t n = level.rows.size(); n == 0 || 10 * n > 8 * fine->size()) return coarse_.pop_back();
+    level.rows.reserve_spare(), level.matrix.follow(level.rows);
     fine = &level.rows, places = &level.from.coarse_places(), all = level.from.changed();
     regrouping = {};
   }
