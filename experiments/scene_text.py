@@ -25,7 +25,7 @@ def scene_text(path, values, cuts=None):
     lines, section = [], ""
     for line in own.splitlines():
         if line.startswith("["):
-            section = line.strip("[]") + "."
+            section = line[1:].split("]")[0] + "."
         key = line.split("=")[0].strip()
         name = section + key
         lines.append(f"{key} = {values[name]}" if name in values else line)

@@ -86,7 +86,8 @@ def animate(folder, limit):
     frames, costs = render.read_all(folder / "animation"), pd.read_csv(folder / "animation.csv")
     description = render.read_description(folder / "animation")
     camera = contact_sheet.CAMERA
-    box = render.extent(frames, camera)
+    low, high, bottom, top = render.extent(frames, camera)
+    box = (low, high, max(bottom, top - 1.1 * (high - low)), top)  # pieces that are cut free fall out of the picture
     pictures = [frame_picture(frame, camera, box, description, costs, limit) for frame in frames]
     times = [frame.time for frame in frames]
     durations = [round(1000 * (b - a)) for a, b in zip(times, times[1:])] + [1000]

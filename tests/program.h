@@ -66,9 +66,12 @@ class Program : public testing::Test {
   };
   /// The shell runs it: `arguments` may hold quotes and redirections, `before` what comes before the program.
   Result run(const std::string& arguments, const std::string& before = "") {
+    return run_program(CUTBENCH_PROGRAM, arguments, before);
+  }
+  Result run_program(const std::string& program, const std::string& arguments, const std::string& before = "") {
     const fs::path out = folder_ / "stdout", error = folder_ / "stderr";
-    const std::string command = "cd '" + folder_.string() + "' && { " + before + " '" CUTBENCH_PROGRAM "' " +
-                                arguments + "; } >stdout 2>stderr";
+    const std::string command =
+        "cd '" + folder_.string() + "' && { " + before + " '" + program + "' " + arguments + "; } >stdout 2>stderr";
     const int status = std::system(command.c_str());
     return {WEXITSTATUS(status), read(out), read(error)};
   }

@@ -22,5 +22,6 @@ Command add_score(CLI::App& app);
 Command add_simulate(CLI::App& app);
 Command add_run(CLI::App& app);
 Command add_columns(CLI::App& app);
+Command add_compare(CLI::App& app);
 
 }  // namespace cutbench

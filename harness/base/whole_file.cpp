@@ -30,6 +30,14 @@ bool is_device(const std::filesystem::path& path) {
 
 }  // namespace
 
+std::string text_of(const std::filesystem::path& file) {
+  std::error_code ignored;
+  std::ifstream in(file, std::ios::binary);
+  if (!in || std::filesystem::is_directory(file, ignored))
+    throw InputError(file.string() + ": can't be read; check the name and its permissions");
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 void check_writable(const std::filesystem::path& path, const std::string& what) {
   const std::string where = what + " " + path.string() + ": ", folder = folder_of(path).string();
   std::error_code ignored;

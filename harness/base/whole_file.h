@@ -1,4 +1,4 @@
-// A file that appears whole or not at all.
+// Files that are read whole, and files that appear whole or not at all.
 #pragma once
 
 #include <filesystem>
@@ -6,6 +6,9 @@
 #include <string_view>
 
 namespace cutbench {
+
+/// \throw InputError for a folder, or a file that can't be read.
+std::string text_of(const std::filesystem::path& file);
 
 /// Says before the work what would stop the writing after it. `what` begins the error, such as an option's name.
 /// \throw InputError for a folder that isn't there or may not be written, or a `path` that is a folder.

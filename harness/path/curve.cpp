@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "harness/base/errors.h"
@@ -191,12 +190,7 @@ std::vector<Curve> read_path(const std::filesystem::path& file) {
 
 std::vector<std::variant<Curve, PickedCurve>> read_path_with_picks(const std::filesystem::path& file) {
   const std::string name = file.string();
-  std::error_code ignored;
-  std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file, ignored))
-    throw InputError(name + ": can't be read; check the name and its permissions");
-  const std::string text(std::istreambuf_iterator<char>(in), {});
-  const json document = parse_json(text, {name, "a path file", R"({"cuts": [{"polyline": [[x, y], ...]}]})"});
+  const json document = parse_json(text_of(file), {name, "a path file", R"({"cuts": [{"polyline": [[x, y], ...]}]})"});
   check_keys(document, {"cuts"}, name);
   if (!document.contains("cuts") || !document["cuts"].is_array())
     throw InputError(name + R"(: "cuts" must be a list, [{"polyline": [[x, y], ...]}])");
