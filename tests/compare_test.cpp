@@ -55,12 +55,12 @@ TEST(Compare, InstructionsAtTheThreshold) {
   TrackFile head = two_rows();
   head.rows[0].instructions = 1004999;
   EXPECT_FALSE(compared(head).is_slower());
-  head.rows[0].instructions = 1005001;
+  head.rows[0].instructions = 1005100;
   const Comparison c = compared(head);
   EXPECT_TRUE(c.is_slower());
   const std::string text = as_text(c, two_rows(), head);
   EXPECT_EQ(line(text, 0), "SLOWER: 1 rows of 2");
-  EXPECT_EQ(line(text, 1), "worst: phase trace, row trace/800: instructions +0.50 %");
+  EXPECT_EQ(line(text, 1), "worst: phase trace, row trace/800: instructions +0.51 %");
 }
 
 TEST(Compare, FewMissesAreNoFinding) {

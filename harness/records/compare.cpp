@@ -114,13 +114,14 @@ TrackFile read_track_file(const std::string& path) {
 
 ThresholdTable::ThresholdTable(const std::string& path) {
   const toml::table table = parse_toml(path);
-  const std::vector<std::string> numbers{"instructions", "misses", "counters", "least_misses"};
+  const std::vector<std::string> numbers{"instructions", "misses", "counters", "least_instructions", "least_misses"};
   std::vector<std::string> known = numbers;
   known.emplace_back("rows");
   check_keys(table, known, path);
   const auto read = [](const TomlReader& reader, const Thresholds& fallback) {
     return Thresholds{reader.positive("instructions", fallback.instructions),
                       reader.positive("misses", fallback.misses), reader.positive("counters", fallback.counters),
+                      reader.positive_or_zero("least_instructions", fallback.least_instructions),
                       reader.positive_or_zero("least_misses", fallback.least_misses)};
   };
   all_ = read({table, path}, {});
@@ -180,7 +181,7 @@ Comparison compare(const TrackFile& base, const TrackFile& head, const Threshold
         change.accepted = reason->second;
       result.changes.push_back(change);
     };
-    look("instructions", row.instructions, now.instructions, t.instructions, 0);
+    look("instructions", row.instructions, now.instructions, t.instructions, t.least_instructions);
     look("misses", row.misses, now.misses, t.misses, t.least_misses);
     for (const auto& [name, before] : row.counters)
       if (const auto after = now.counters.find(name); after != now.counters.end())

@@ -24,9 +24,10 @@ struct TrackFile {
 /// Throws InputError: not such a file, a row twice, a number that is none.
 TrackFile read_track_file(const std::string& path);
 
-/// How much more is slower, as a ratio. A miss more or less in few is no finding: `least_misses` are added to both.
+/// How much more is slower, as a ratio. One more or less in few is no finding: the least numbers are
+/// added to both sides.
 struct Thresholds {
-  double instructions = 1.005, misses = 1.05, counters = 1.0, least_misses = 200;
+  double instructions = 1.005, misses = 1.05, counters = 1.0, least_instructions = 1000, least_misses = 200;
 };
 /// Of a TOML file: values for all rows, and [rows."PATTERN"] for those whose id begins with the pattern, the longest
 /// first. Throws InputError.
