@@ -109,9 +109,10 @@ void measure(const MethodRow& row, int n) {
   for (int k = 0; k < places; ++k) {
     if (!body || !shared) body.reset(), body = std::make_unique<Body>(mesh);
     if (bytes == 0) bytes = (peak_bytes() - before) / triangles;
+    const int column = k % 3, line = k / 3;
     const double off = shared ? 0.31 : 0.02;
     // Not a whole number of edges apart: other places on the grid.
-    const Cost cost = body->cut(s_curve({0.5 + off * (k % 3 - 1.03), 0.5 + off * (k / 3 - 1.01)}, side), *method);
+    const Cost cost = body->cut(s_curve({0.5 + off * (column - 1.03), 0.5 + off * (line - 1.01)}, side), *method);
     const double all[] = {cost.crossed, cost.geometry, cost.transfer, cost.pattern, cost.bending, cost.levels};
     for (std::size_t i = 0; i < costs.size(); ++i) costs[i].push_back(i == 0 ? all[0] : all[i] / cost.crossed);
   }

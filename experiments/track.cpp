@@ -296,11 +296,12 @@ std::vector<Row> all_rows() {
     rows.push_back({phase + (of.empty() ? "" : "/" + of) + "/" + std::to_string(n), phase, unit, n, std::move(run)});
   };
   for (const int n : {800, 12800}) {
-    for (const auto& [phase, name] : phases) {
+    for (const EnumName<Phase>& of : phases) {  // no structured binding: clang 14 can't capture one
+      const Phase phase = of.value;
       const bool of_method = phase == Phase::embed || phase == Phase::improve;
       for (const std::string method : tracked_methods) {
         if (!of_method && method != tracked_methods[0]) continue;
-        add(name, of_method ? method : "", "crossed triangles", n,
+        add(of.name, of_method ? method : "", "crossed triangles", n,
             [phase, method, n](const Region& r) { return run_phase(phase, find_method(method), n, r); });
       }
     }

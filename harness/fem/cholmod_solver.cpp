@@ -1,14 +1,8 @@
 #include "harness/fem/cholmod_solver.h"
 
+#include "harness/fem/direct_solve.h"
+
 namespace cutbench {
-
-namespace {
-
-// A direct solve is as good as it can be where the backward error is at rounding level (Higham, Accuracy and Stability
-// of Numerical Algorithms, 2002, 7.1), though on slivers |b - A x| / |b| may be far from it.
-constexpr double accepted_residual = 1e-8, accepted_backward_error = 1e-12;  // see SolveReport
-
-}  // namespace
 
 template <int D>
 void CholmodSolver<D>::setup(const SystemMatrix<D>& a) {
@@ -33,8 +27,7 @@ SolveReport CholmodSolver<D>::solve(const Field& b, Field& x, const Field& /*sta
     matrix_->multiply(x, r_);
     report.residual = (b_ - r_).norm() / norm;
   }
-  report.converged = report.residual <= accepted_residual ||
-                     report.residual * norm <= accepted_backward_error * factor_.largest_entry() * x.norm();
+  report.converged = is_direct_solution(report.residual, norm, factor_.largest_entry(), x.norm());
   return report;
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/SparseCholesky>
 
 #include "harness/fem/compressed_columns.h"
+#include "harness/fem/direct_solve.h"
 
 namespace cutbench {
 
@@ -12,7 +13,6 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 constexpr int most_rounds = 5;
-constexpr double accepted_residual = 1e-8, accepted_backward_error = 1e-12;  // of direct solvers, see SolveReport
 
 template <int D>
 Eigen::Map<const Sparse> lower_triangle(const CompressedColumns<D>& a) {
@@ -123,8 +123,7 @@ class EigenDirect final : public LinearSolver<D> {
       matrix_->multiply(x, r_);
       report.residual = (b_ - r_).norm() / norm;
     }
-    report.converged = report.residual <= accepted_residual ||
-                       report.residual * norm <= accepted_backward_error * columns_.largest() * x.norm();
+    report.converged = is_direct_solution(report.residual, norm, columns_.largest(), x.norm());
     return report;
   }
 
