@@ -49,7 +49,7 @@ constexpr double step = 1.0 / 240;
 const Material skin{.density = 2.2, .stiffness = 1000, .poisson = 0.45, .bending = 4.2e-4};  // of scenes/solvers.toml
 const char* const tracked_methods[] = {"conventional_split", "bowyer_watson", "cgal_cdt",
                                        "delaunay_refine",    "snap_or_split", "warp_and_refine"};
-const char* const tracked_solvers[] = {"cg", "cg_sliver_blocks", "multigrid", "cholmod"};
+const char* const stepped_solvers[] = {"cg", "cg_sliver_blocks", "multigrid", "cholmod"};  // in whole steps
 
 /// What a row's region did.
 struct Counted {
@@ -98,6 +98,21 @@ struct Bench {
   std::vector<Curve> curves;
 };
 
+/// Adds to the counters what the edits of a cut have grown by while `work` ran.
+void count_edits(const Sheet& sheet, Counted& all, const std::function<void()>& work) {
+  const auto edits = [&]() -> std::map<std::string, double> {
+    const EditLog& log = sheet.log();
+    const std::size_t rewritten = log.touched.size() + sheet.triangle_slots() - log.triangles_before;
+    return {{"flips", static_cast<double>(log.flips)},
+            {"splits", static_cast<double>(log.splits)},
+            {"vertices_made", static_cast<double>(log.new_vertices.size())},
+            {"triangles_rewritten", static_cast<double>(rewritten)}};
+  };
+  const auto before = edits();
+  work();
+  for (const auto& [name, value] : edits()) all.counters[name] += value - before.at(name);
+}
+
 /// The phases of Cutter::cut(), one of which is counted.
 enum class Phase { locate, trace, embed, improve, open };
 constexpr EnumName<Phase> phases[] = {{Phase::locate, "locate"},
@@ -114,7 +129,8 @@ Counted run_phase(Phase counted, const MethodRow& row, int triangles, const Regi
   Tracer tracer;
   Polyline polyline;
   const auto phase = [&](Phase which, bool counts, const std::function<void()>& work) {
-    counts&& which == counted ? region(work) : work();
+    if (!counts || which != counted) return work();
+    count_edits(bench.sheet, all, [&] { region(work); });
   };
   for (const Curve& curve : bench.curves)
     for (const bool counts : {false, true}) {
@@ -122,7 +138,9 @@ Counted run_phase(Phase counted, const MethodRow& row, int triangles, const Regi
       sheet.begin_cut();
       flatten(curve, options.flatten_tolerance * sheet.mean_edge(), sheet.snap(), polyline);
       Walk walk(sheet, bench.locator);
-      phase(Phase::locate, counts, [&] { walk.locate(polyline.points.front()); });
+      phase(Phase::locate, counts, [&] {
+        for (int k = 0; k < 100; ++k) walk.locate(polyline.points.front());  // once is too little to compare
+      });
       Subdivision* trace = nullptr;
       phase(Phase::trace, counts,
             [&] { trace = &tracer.trace(sheet, polyline, walk, options.chord_tolerance * sheet.mean_edge()); });
@@ -137,7 +155,7 @@ Counted run_phase(Phase counted, const MethodRow& row, int triangles, const Regi
       phase(Phase::open, counts, [&] { open_path(sheet); });
       if (counts) {
         all.units += crossed;
-        all.counters["triangles_made"] += static_cast<double>(sheet.triangle_count() - bench.base.triangle_count());
+        all.counters["triangles_met"] += crossed;
         all.add(sheet.to_mesh_data());
       }
       bench.undo();
@@ -223,9 +241,12 @@ Counted run_update(const std::string& part, int triangles, const Region& region)
   Counted all;
   all.units = body.touched;
   const auto run = [&](const char* name, const std::function<void()>& work) { part == name ? region(work) : work(); };
+  const auto* history = body.model().system().history;
+  const std::uint64_t before = history->now();
   run("state", [&] { body.follow_state(); });
   run("pattern", [&] { body.follow_pattern(); });
   run("bending", [&] { body.model().update_bending(body.sheet()); });
+  all.counters["rows_touched"] = static_cast<double>(history->changed_since(before).size());
   body.assemble();
   Field f = Field::Zero(body.state().x.size());
   body.bend(), body.model().rotate(body.state().x), body.model().add_internal_force(body.state().x, f);
@@ -250,7 +271,8 @@ Counted run_elements(const std::string& part, int triangles, const Region& regio
 Counted run_solver(const std::string& part, const std::string& name, int triangles, const Region& region) {
   Body body(triangles);
   body.cut(0), body.follow(), body.bend(), body.assemble();
-  const auto solver = make_solver<3>({.name = name, .tolerance = 1e-2});
+  const bool once = part == "iteration";
+  const auto solver = make_solver<3>({.name = name, .tolerance = 1e-2, .max_iterations = once ? 1 : 10000});
   SystemMatrix<3> a = body.model().system();
   Field b = Field::Zero(body.state().x.size()), x;
   body.model().add_internal_force(body.state().x, b), body.model().add_external_force(b);
@@ -264,8 +286,8 @@ Counted run_solver(const std::string& part, const std::string& name, int triangl
     body.model().add_internal_force(body.state().x, b), body.model().add_external_force(b);
   }
   SolveReport report = solver->solve(b, x);
-  if (part == "solve") region([&] { report = solver->solve(b, x); });
-  if (!report.converged) throw std::runtime_error(name + " did not converge");
+  if (part == "solve" || once) region([&] { report = solver->solve(b, x); });
+  if (!once && !report.converged) throw std::runtime_error(name + " did not converge");
   Counted all;
   all.units = static_cast<double>(b.size());
   all.counters["iterations"] = report.iterations;
@@ -312,9 +334,10 @@ std::vector<Row> all_rows() {
       add(part, "", "touched triangles", n, [part, n](const Region& r) { return run_update(part, n, r); });
     for (const std::string part : {"rotate", "assemble"})
       add(part, "", "elements", n, [part, n](const Region& r) { return run_elements(part, n, r); });
-    for (const std::string solver : tracked_solvers) {
-      for (const std::string part : {"setup", "setup_after_cut", "solve"})
+    for (const std::string& solver : solver_names())
+      for (const std::string part : {"setup", "setup_after_cut", "iteration", "solve"})
         add(part, solver, "unknowns", n, [part, solver, n](const Region& r) { return run_solver(part, solver, n, r); });
+    for (const std::string solver : stepped_solvers) {
       add("step", solver, "elements", n, [solver, n](const Region& r) { return run_step(solver, n, r); });
     }
     add("score", "", "triangles", n, [n](const Region& r) { return run_score(n, r); });
@@ -337,12 +360,14 @@ int print_tools() {
 }
 
 /// A line of JSON. What callgrind counts is in its own file.
-int count(const Row& row) {
+/// \param spend  so many turns of an empty loop beside the row's work, to see that a slow-down is found
+int count(const Row& row, std::int64_t spend) {
   std::size_t allocated = 0;
   Counted all = row.run([&](const std::function<void()>& work) {
     const std::size_t before = allocations;
     CALLGRIND_START_INSTRUMENTATION;
     work();
+    for (std::int64_t i = 0; i < spend; ++i) benchmark::DoNotOptimize(i);
     CALLGRIND_STOP_INSTRUMENTATION;
     allocated += allocations - before;
   });
@@ -383,15 +408,15 @@ int main(int argc, char** argv) {
     const auto rows = all_rows();
     const std::string command = argc > 1 ? argv[1] : "";
     if (command == "list" && argc == 2) return list(rows);
-    if (command == "count" && argc == 3) {
+    if (command == "count" && (argc == 3 || argc == 4)) {
       for (const Row& row : rows)
-        if (row.id == argv[2]) return count(row);
+        if (row.id == argv[2]) return count(row, argc == 4 ? std::stoll(argv[3]) : 0);
       std::cerr << "there is no row " << argv[2] << "; `cutbench_track list` prints all\n";
       return 2;
     }
     if (command == "tools" && argc == 2) return print_tools();
     if (command == "time") return time_all(rows, argc - 1, argv + 1);
-    std::cerr << "usage: cutbench_track list | tools | count ROW | time [options of Google Benchmark]\n";
+    std::cerr << "usage: cutbench_track list | tools | count ROW [TURNS] | time [options of Google Benchmark]\n";
     return 2;
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';

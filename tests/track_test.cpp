@@ -31,5 +31,27 @@ TEST_F(Track, UnknownRow) {
   EXPECT_NE(result.error.find("there is no row nothing/800"), std::string::npos) << result.error;
 }
 
+// The smallest form of tests/injection.
+TEST_F(Track, SpentInstructionsAreFoundAndNamed) {
+  write(folder_ / "count.py", R"(import json, sys
+sys.path.insert(0, sys.argv[1])
+import tracking
+row = tracking.count_phase(sys.argv[2], "trace/800", int(sys.argv[3]))
+print(json.dumps({"format": 1, "commit": "", "tools": {"of": "this test"}, "rows": [row]})))");
+  const auto count = [&](const std::string& turns, const std::string& name) {
+    const auto result =
+        run_program("/usr/bin/python3", "count.py '" CUTBENCH_EXPERIMENTS "' '" CUTBENCH_TRACK_PROGRAM "' " + turns);
+    EXPECT_EQ(result.code, 0) << result.error;
+    write(folder_ / name, result.out);
+  };
+  count("0", "base.json"), count("0", "same.json"), count("2500", "slower.json");
+  const auto same = run("compare base.json same.json");
+  EXPECT_EQ(same.code, 0) << same.out << same.error;
+  const auto slower = run("compare base.json slower.json");
+  EXPECT_EQ(slower.code, 1) << slower.error;
+  EXPECT_TRUE(slower.out.starts_with("SLOWER: 1 rows of 1\nworst: phase trace, row trace/800: instructions +"))
+      << slower.out;
+}
+
 }  // namespace
 }  // namespace cutbench

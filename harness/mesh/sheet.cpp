@@ -184,6 +184,7 @@ VertexIndex Sheet::split_edge(HalfEdge h, double lambda, Point2 p) {
   const EdgeMark m = mark(h);
   const VertexIndex a = origin(h), b = target(h), c = origin(previous(h));
   const VertexIndex v = new_vertex(h, lambda, p);
+  ++log_.splits;
   const auto none = EdgeMark::none;
   if (!o.valid()) {
     const NewTriangle halves[] = {{{a, v, c}, 0, {}}, {{v, b, c}, 0, {}}};
@@ -202,6 +203,7 @@ VertexIndex Sheet::split_edge(HalfEdge h, double lambda, Point2 p) {
 VertexIndex Sheet::split_triangle(TriangleIndex t, Point2 p) {
   const auto [a, b, c] = triangle(t).vertex;
   const VertexIndex v = new_vertex(t, p);
+  ++log_.splits;
   const NewTriangle thirds[] = {{{a, b, v}, 0, {}}, {{b, c, v}, 0, {}}, {{c, a, v}, 0, {}}};
   replace_cavity(std::array{t}, thirds);
   return v;
@@ -214,6 +216,7 @@ bool Sheet::flip(HalfEdge h) {
   if (orientation(rest(d), rest(b), rest(c)) <= 0 || orientation(rest(a), rest(d), rest(c)) <= 0) return false;
   const NewTriangle turned[] = {{{a, d, c}, 0, {}}, {{d, b, c}, 1, {}}};
   replace_cavity(std::array{triangle_of(h), triangle_of(o)}, turned);
+  ++log_.flips;
   return true;
 }
 
