@@ -10,11 +10,13 @@ import random
 import subprocess
 import sys
 import tempfile
+import time
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
+COMPILED = ["CMakeLists.txt", "harness", "methods", "experiments"]  # what the counted programs are made of
 CACHE = ["--I1=32768,8,64", "--D1=32768,8,64", "--LL=8388608,16,64"]  # fixed: the machine's own would vary
 ENVIRONMENT = []  # NAME=VALUE of the programs that are counted, which have no other: variables would move the stack
 PROGRAM_METHODS = ["conventional_split", "bowyer_watson"]  # those that the first commits had
@@ -142,20 +144,26 @@ def program_rows():
     return cuts + [f"program/simulate/{PROGRAM_METHODS[0]}/{n}" for n in PROGRAM_SIZES]
 
 
-def count_program(cutbench, row):
+def program_command(cutbench, row, folder):
+    """\\param folder  where its files are written"""
     _, what, method, triangles = row.split("/")
+    if what == "cut":
+        write_sheet(folder / "sheet.obj", int(triangles))
+        (folder / "path.json").write_text(json.dumps(PATH), encoding="utf-8")
+        command = [cutbench, "cut", "--mesh", "sheet.obj", "--path", "path.json"]
+    else:
+        (folder / "scene.toml").write_text(SCENE.format(triangles=triangles), encoding="utf-8")
+        command = [cutbench, "simulate", "scene.toml"]
+    return [*command, "--method", method, "--out", "out.obj"]
+
+
+def count_program(cutbench, row):
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        if what == "cut":
-            write_sheet(folder / "sheet.obj", int(triangles))
-            (folder / "path.json").write_text(json.dumps(PATH), encoding="utf-8")
-            command = [cutbench, "cut", "--mesh", "sheet.obj", "--path", "path.json"]
-        else:
-            (folder / "scene.toml").write_text(SCENE.format(triangles=triangles), encoding="utf-8")
-            command = [cutbench, "simulate", "scene.toml"]
-        _, instructions, misses, gmp = callgrind([*command, "--method", method, "--out", "out.obj"],
-                                                 ["--toggle-collect=main"], folder)
+        command = program_command(cutbench, row, folder)
+        _, instructions, misses, gmp = callgrind(command, ["--toggle-collect=main"], folder)
         result = hashlib.sha1((folder / "out.obj").read_bytes()).hexdigest()[:16]
+    _, what, _, triangles = row.split("/")
     return {"id": row, "phase": f"program {what}", "triangles": int(triangles), "unit": "runs", "units": 1,
             "counters": {"gmp_calls": gmp}, "fingerprint": result, "instructions": instructions, "misses": misses}
 
@@ -175,8 +183,27 @@ def count(folder, row):
         count_phase(folder / "cutbench_track", row)
 
 
+@contextmanager
+def timer(folder, row):
+    """A function that runs the row in a process and returns its time in microseconds."""
+    if not row.startswith("program/"):
+        command = [folder / "cutbench_track", "time", f"--benchmark_filter=^{row}$", "--benchmark_min_time=0.1",
+                   "--benchmark_format=json"]
+        yield lambda: json.loads(text_of(command, env={}, stdin=subprocess.DEVNULL))["benchmarks"][0]["real_time"] / 1e3
+        return
+    with tempfile.TemporaryDirectory() as name:
+        command = program_command(folder / "cutbench", row, Path(name))
+
+        def run():
+            start = time.perf_counter()
+            subprocess.run(command, cwd=name, env={}, stdout=subprocess.DEVNULL, check=True)
+            return (time.perf_counter() - start) * 1e6
+        yield run
+
+
 def all_rows(folder):
-    return text_of([folder / "cutbench_track", "list"]).split() + program_rows()
+    phases = text_of([folder / "cutbench_track", "list"]).split() if (folder / "cutbench_track").exists() else []
+    return phases + program_rows()
 
 
 def selected(rows, quick, prefix):
@@ -193,10 +220,24 @@ def about(commit):
     return {"format": 1, "commit": commit, "subject": subject, "date": date}
 
 
-def count_all(folder, commit, rows):
+def tools_of(folder):
+    tools = {}
+    if (folder / "cutbench_track").exists():  # the first commits have none
+        tools = json.loads(text_of([folder / "cutbench_track", "tools"]))["tools"]
+    return tools | {"valgrind": text_of(["valgrind", "--version"]).strip(), "cache": " ".join(CACHE)}
+
+
+def count_or_say(folder, row):
+    """Old commits may hold an instruction that valgrind doesn't know: then the row has no counts."""
+    try:
+        return count(folder, row)
+    except RuntimeError as error:
+        print(f"not counted: {error}", file=sys.stderr)
+        return {"id": row, "counters": {}}
+
+
+def count_all(folder, commit, rows, count=count):
     """What a file of experiments/track holds. \\param folder  with the programs"""
-    tools = json.loads(text_of([folder / "cutbench_track", "tools"]))["tools"]
-    tools |= {"valgrind": text_of(["valgrind", "--version"]).strip(), "cache": " ".join(CACHE)}
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         counted = list(pool.map(lambda row: count(folder, row), rows))
-    return about(commit) | {"tools": tools, "rows": counted}
+    return about(commit) | {"tools": tools_of(folder), "rows": counted}
