@@ -24,7 +24,7 @@ body{font:16px/1.5 system-ui,sans-serif;margin:0 auto;padding:1rem;max-width:72r
 h1{font-size:1.6rem;line-height:1.2}h2{font-size:1.25rem;margin:2.5rem 0 .5rem;border-top:2px solid #1c1c1c;padding-top:.6rem}
 .wide{overflow-x:auto}table{border-collapse:collapse;font-size:.85rem}
 td,th{padding:.3rem .8rem .3rem 0;text-align:left;vertical-align:top;border-bottom:1px solid #ddd}
-td.n,th.n{text-align:right;white-space:nowrap}code{font-size:.95em}
+td.n,th.n{text-align:right;white-space:nowrap}.slower,.faster,td:nth-child(2){white-space:nowrap}code{font-size:.95em}
 .slower{color:#a63c00}.faster{color:#005a94}svg{display:block}details{margin-top:1rem}
 """
 
@@ -117,7 +117,7 @@ def all_series(lines):
 
 
 def percent(r):
-    return f"{100 * (r - 1):+.1f} %" if r < 2 else f"x {r:.3g}"
+    return f"{100 * (r - 1):+.1f} %" if 0.5 < r < 2 else f"x {r:.3g}" if r > 1 else f"/ {1 / r:,.3g}"
 
 
 def coloured(r):
@@ -196,6 +196,7 @@ def page(lines, url):
 <p>{len(lines)} commits from {lines[0]["date"][:10]} to {lines[-1]["date"][:10]}; {len(series)} series, {len(moved)} of which
 changed. Instructions, misses and calls of exact arithmetic are counted and repeat; times are from one machine. A change is
 marked where instructions differ by more than 0.5 %, misses by 5 %, a counter at all; for times, where E-divisive finds one.
+It began somewhere after the commit before it on this page: those between were not counted.
 {f"{len(others)} commits were counted with other tools." if others else ""}</p>
 <h2>Commits by their largest change</h2>{commits_that_changed(series, lines, url)}
 <h2>Series by their largest change</h2>{series_table(moved, lines, url)}
