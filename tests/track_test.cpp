@@ -53,5 +53,11 @@ print(json.dumps({"format": 1, "commit": "", "tools": {"of": "this test"}, "rows
       << slower.out;
 }
 
+/// Debian's python3: that of experiments/set_up.
+TEST_F(Track, HistoryAndPairsFindChanges) {
+  const auto checked = run("methods >/dev/null; /usr/bin/python3 '" CUTBENCH_TEST_CASES "/../check_tracking.py' .");
+  EXPECT_EQ(checked.code, 0) << checked.out << checked.error;
+}
+
 }  // namespace
 }  // namespace cutbench
