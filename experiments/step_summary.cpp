@@ -93,7 +93,7 @@ void print_summary(const nlohmann::ordered_json& summary) {
   std::printf("iterations a step: %.1f in the mean, %d at most; largest residual %.2g\n", solver["mean"].get<double>(),
               solver["worst"].get<int>(), solver["largest_residual"].get<double>());
   if (const int n = solver["fallbacks"].get<int>(); n > 0)
-    std::printf("in %d solves the preconditioner was not positive definite; the diagonal blocks took its place\n", n);
+    std::printf("in %d solves the preconditioner had given up, and the next took its place\n", n);
 }
 
 }  // namespace cutbench

@@ -11,9 +11,6 @@ namespace {
 // Rounding lets the residual that the recursion carries along run ahead of the true one; each restart from the true one
 // gains some digits, until the accuracy of doubles is reached.
 constexpr int max_restarts = 5;
-// A preconditioner that works needs tens of iterations, some hundreds at extreme slivers. More show that rounding has
-// spoilt it.
-constexpr int most_preconditioned = 1000;
 
 }  // namespace
 
@@ -28,7 +25,25 @@ void ConjugateGradients<D>::setup(const SystemMatrix<D>& a) {
     // Sylvester: the leading minors are positive; that of D - 1 rows is the determinant times the inverse's last entry.
     positive_blocks_ = positive_blocks_ && block(0, 0) > 0 && block.determinant() > 0 && inverse_[i](D - 1, D - 1) > 0;
   }
-  if (preconditioner_) preconditioner_->setup(a);
+  for (Trial& trial : trials_) trial.is_set_up = false;
+  if (until_first_again_ > 0 && --until_first_again_ == 0) first_ = 0;
+  trial_ = first_;
+  prepare();
+}
+
+template <int D>
+void ConjugateGradients<D>::prepare() {
+  if (trial_ == trials_.size() || trials_[trial_].is_set_up) return;
+  trials_[trial_].preconditioner->setup(*matrix_);
+  trials_[trial_].is_set_up = true;
+}
+
+template <int D>
+void ConjugateGradients<D>::give_up() {
+  first_ = ++trial_;
+  until_first_again_ = pause_;
+  pause_ = std::min(2 * pause_, longest_pause);
+  prepare();
 }
 
 template <int D>
@@ -51,8 +66,8 @@ auto ConjugateGradients<D>::advance(double step, Field& x) -> Products {
 
 template <int D>
 void ConjugateGradients<D>::precondition(Products& now) {
-  if (!preconditions_) return;
-  preconditioner_->apply(r_, z_);
+  if (trial_ == trials_.size()) return;
+  trials_[trial_].preconditioner->apply(r_, z_);
   now.rz = r_.dot(z_);
 }
 
@@ -66,7 +81,8 @@ SolveReport ConjugateGradients<D>::solve(const Field& b, Field& x, const Field& 
     report.converged = true;
     return report;
   }
-  preconditions_ = preconditioner_ != nullptr;
+  trial_ = first_;
+  prepare();
   r_ = b_;
   const Products all = advance(0, x);  // p = q = 0
   const double bb = all.rr, share = options_.tolerance * options_.tolerance, enough = share * bb,
@@ -78,8 +94,9 @@ SolveReport ConjugateGradients<D>::solve(const Field& b, Field& x, const Field& 
     if (!(r_.squaredNorm() < bb)) x.setZero(), r_ = b_;
     q_.setZero();
   }
-  for (int restart = 0;;) {
-    const int most = preconditions_ ? std::min(options_.max_iterations, most_preconditioned) : options_.max_iterations;
+  for (int restart = 0, begun = 0;;) {
+    const int left = options_.max_iterations - begun,
+              most = begun + (trial_ < trials_.size() ? std::min(left, trials_[trial_].most_iterations) : left);
     Products now = advance(0, x);  // whatever the last round left in p and q, times 0
     precondition(now);
     p_ = z_;
@@ -100,11 +117,14 @@ SolveReport ConjugateGradients<D>::solve(const Field& b, Field& x, const Field& 
     const double rr = r_.squaredNorm();
     report.residual = std::sqrt(rr / bb);
     report.converged = !broken && report.residual <= options_.tolerance && now.rdr <= enough_rdr && std::isfinite(bb);
+    report.fell_back = trial_ > 0;
+    if (report.converged && trial_ == 0) pause_ = first_pause;
     if (report.converged || report.iterations >= options_.max_iterations) return report;
     const bool gives_up = broken || !std::isfinite(rr) || restart == max_restarts || report.iterations >= most;
-    if (gives_up && !(preconditions_ && positive_blocks_ && std::isfinite(bb))) return report;
-    if (gives_up) {  // the diagonal blocks may do where the preconditioner does not
-      report.fell_back = true, preconditions_ = false, restart = 0;
+    if (gives_up && !(trial_ < trials_.size() && positive_blocks_ && std::isfinite(bb))) return report;
+    if (gives_up) {
+      give_up();
+      restart = 0, begun = report.iterations;
       x.setZero(), r_ = b_, p_.setZero(), q_.setZero();
       continue;
     }

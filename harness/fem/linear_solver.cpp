@@ -18,9 +18,20 @@ struct SolverRow {
   std::unique_ptr<LinearSolver<D>> (*make)(const SolverOptions&);
 };
 
-template <int D, class Preconditioner>
+template <int D, class... Preconditioners>
 std::unique_ptr<LinearSolver<D>> conjugate_gradients(const SolverOptions& options) {
-  return std::make_unique<ConjugateGradients<D>>(options, std::make_unique<Preconditioner>());
+  std::vector<typename ConjugateGradients<D>::Trial> trials;
+  (trials.push_back({.preconditioner = std::make_unique<Preconditioners>()}), ...);
+  return std::make_unique<ConjugateGradients<D>>(options, std::move(trials));
+}
+
+/// Where a sheet is cut to pieces the V-cycle stalls; the constant factor does not, but costs more where the cycle works.
+template <int D>
+std::unique_ptr<LinearSolver<D>> multigrid(const SolverOptions& options) {
+  std::vector<typename ConjugateGradients<D>::Trial> trials;
+  trials.push_back({.preconditioner = std::make_unique<Multigrid<D>>(), .most_iterations = 100});
+  trials.push_back({.preconditioner = std::make_unique<ConstantFactor<D>>()});
+  return std::make_unique<ConjugateGradients<D>>(options, std::move(trials));
 }
 
 template <int D, FactorOrder order>
@@ -35,12 +46,9 @@ std::unique_ptr<LinearSolver<D>> eigen_cg(const SolverOptions& options) {
 
 template <int D>
 constexpr SolverRow<D> rows[] = {
-    {"cg",
-     [](const SolverOptions& options) -> std::unique_ptr<LinearSolver<D>> {
-       return std::make_unique<ConjugateGradients<D>>(options, nullptr);
-     }},
+    {"cg", conjugate_gradients<D>},
     {"cg_sliver_blocks", conjugate_gradients<D, SliverBlocks<D>>},
-    {"multigrid", conjugate_gradients<D, Multigrid<D>>},
+    {"multigrid", multigrid<D>},
     {"cholmod", cholmod<D, FactorOrder::anew>},
     {"cholmod_same_order", cholmod<D, FactorOrder::extended>},
     {"cholmod_stale", conjugate_gradients<D, StaleFactor<D>>},

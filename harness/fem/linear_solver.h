@@ -21,7 +21,7 @@ struct SolveReport {
   /// residual <= tolerance, and that of the equilibrated system, |b - A x| in the norm of the inverse diagonal blocks;
   /// all finite. Direct: residual <= 1e-8, or a backward error at the level of rounding.
   bool converged = false;
-  bool fell_back = false;  ///< the preconditioner was not positive definite, and the diagonal blocks took its place
+  bool fell_back = false;  ///< the preconditioner gave up, now or lately, and the next took its place
 };
 
 template <int D>
@@ -37,7 +37,8 @@ class LinearSolver {
 };
 
 /// Iterative: "cg", conjugate gradients with the inverse diagonal blocks; "cg_sliver_blocks", the vertices joined by
-/// slivers share a block; "multigrid", a V-cycle that knows the cuts (multigrid.h); "cholmod_stale", the factor of an
+/// slivers share a block; "multigrid", a V-cycle that knows the cuts (multigrid.h), and "local_global" where that
+/// takes more than 100 iterations; "cholmod_stale", the factor of an
 /// older matrix; "local_global", a factor that no rotation changes (factor_preconditioners.h); "eigen_cg" and
 /// "eigen_cg_ichol" (eigen_solvers.h). Direct: "cholmod"; "cholmod_same_order", which keeps the order of elimination
 /// after a cut (cholmod_factor.h); "eigen_ldlt".

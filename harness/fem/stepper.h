@@ -45,7 +45,7 @@ struct StepReport {
   int newton = 0;                      ///< linear solves
   int iterations = 0;                  ///< of the linear solver, summed
   double residual = 0;                 ///< the largest that a linear solve left
-  int fallbacks = 0;                   ///< solves that ended without their preconditioner (SolveReport::fell_back)
+  int fallbacks = 0;                   ///< solves that another preconditioner ended (SolveReport::fell_back)
   double newton_residual = 0;          ///< equilibrium: |f| over the scale of the forces
   StepTimes time_us;
 };

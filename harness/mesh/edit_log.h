@@ -56,8 +56,8 @@ struct EditLog {
   std::vector<Ancestry> ancestry;           ///< deformed vertices made or moved, in order; parents come before children
   std::vector<Moved> moved;                 ///< rest vertices moved, in order
   std::vector<Displaced> displaced;         ///< deformed vertices moved with them, in order
-  std::size_t flips = 0, splits = 0;        ///< calls of flip(), and of split_edge() or split_triangle(), that succeeded
-  std::vector<VertexIndex> path_vertices;   ///< ends of the edges marked as path, each once; collapsed ones stay in
+  std::size_t flips = 0, splits = 0;       ///< calls of flip(), and of split_edge() or split_triangle(), that succeeded
+  std::vector<VertexIndex> path_vertices;  ///< ends of the edges marked as path, each once; collapsed ones stay in
 
   void clear() {
     touched.clear(), new_vertices.clear(), new_deformed.clear(), ancestry.clear();
