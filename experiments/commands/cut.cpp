@@ -54,7 +54,7 @@ std::vector<Curve> in_rest_space(const std::vector<std::variant<Curve, PickedCur
 }
 
 Exit cut_sheet(const CutArguments& arguments) {
-  const MethodRow& row = arguments.method.row();
+  const MethodRow row = arguments.method.row();
   const double knob = arguments.method.knob();
   const auto method = row.make(knob);
   const CutOptions options = arguments.method.chord_tolerance.cut_options();
@@ -106,6 +106,7 @@ Command add_cut(CLI::App& app) {
       "example:\n"
       "  cutbench cut --mesh experiments/examples/sheet.obj --path experiments/examples/path.json \\\n"
       "    --method warp_and_refine --out cut.obj --report report.json\n"
+      "  cutbench cut --mesh sheet.obj --path path.json --command 'python3 mine.py {mesh} {path} {out}' --out cut.obj\n"
       "exit codes:\n"
       "  0  the result was judged correct and written\n"
       "  1  the cut failed, the result was judged wrong, or a file can't be written\n"

@@ -82,13 +82,11 @@ class AccuracyRun {
 
  private:
   static std::string identity(const Experiment& e, const Context& context, const RunOptions& options) {
-    nlohmann::json methods;
-    for (const auto& entry : e.methods) methods.push_back({entry.method, entry.knob_values});
     return nlohmann::json{context.identity(),
                           e.stem,
                           e.sheets,
                           e.resolutions,
-                          methods,
+                          identity_of_methods(e),
                           e.seed,
                           e.chord_tolerance,
                           e.accuracy->problems,
