@@ -111,9 +111,9 @@ int main(int argc, char** argv) {
       "  2  bad input: an option or a file\n"
       "options of a subcommand: cutbench SUBCOMMAND --help");
   bool as_json = false;
-  const std::vector<Command> commands{add_methods(app, as_json), add_cut(app), add_score(app),
-                                      add_simulate(app),         add_run(app), add_columns(app),
-                                      add_compare(app)};
+  const std::vector<Command> commands{add_methods(app, as_json), add_cut(app),    add_score(app),
+                                      add_simulate(app),         add_run(app),    add_reduce(app),
+                                      add_columns(app),          add_compare(app)};
   try {
     check_subcommand(app, argc, argv);
     app.parse(argc, argv);

@@ -163,6 +163,28 @@ TEST_F(Programs, AreCountedByACampaign) {
   EXPECT_GT(counts["mine"]["ok"], 0);
 }
 
+/// Opens nothing, but only where the path has more than four points.
+TEST_F(Programs, FaultsAreMadeSmall) {
+  write(folder_ / "faulty.py", read(fs::path(CUTBENCH_EXPERIMENTS) / "examples" / "split.py") +
+                                   "    if len(json.load(open(sys.argv[2]))['cuts'][0]['polyline']) > 4:\n"
+                                   "        open(sys.argv[3], 'w').write(open(sys.argv[1]).read())\n");
+  write(
+      folder_ / "long.json",
+      R"({"cuts":[{"polyline":[[-0.1,0.3],[0.2,0.4],[0.3,0.6],[0.5,0.5],[0.6,0.3],[0.7,0.5],[0.8,0.4],[1.2,0.7]]}]})");
+  const std::string command = " --command 'python3 faulty.py {mesh} {path} {out}'";
+  const Result made = run("reduce --mesh sheet.obj --path long.json --out fault --seconds 8" + command);
+  ASSERT_EQ(made.code, 0) << made.error;
+  EXPECT_NE(made.out.find("wrong_pieces"), std::string::npos) << made.out;
+  const MeshData small = read_mesh(folder_ / "fault.small.obj");
+  EXPECT_LT(small.triangles.size(), 20u);
+  EXPECT_EQ(read_path(folder_ / "fault.small.json").front().points.size(), 5u);
+  EXPECT_EQ(run("cut --mesh fault.small.obj --path fault.small.json --out out.obj" + command).code, 1);
+  EXPECT_EQ(read(folder_ / "fault.small.svg").substr(0, 4), "<svg");
+  const Result right = run("reduce --mesh sheet.obj --path path.json --out none --method example");
+  EXPECT_EQ(right.code, 2);
+  EXPECT_NE(right.error.find("nothing to reduce: example cuts this sheet right"), std::string::npos) << right.error;
+}
+
 TEST_F(Programs, CanBeAddedToAnExperiment) {
   write(folder_ / "e.toml", small_experiment());
   EXPECT_EQ(run("run e.toml --out r --cases 1 --methods conventional_split --command 'mine=" + split + "'").code, 0);

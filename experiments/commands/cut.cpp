@@ -83,8 +83,10 @@ Exit cut_sheet(const CutArguments& arguments) {
   if (!arguments.report.empty())
     report_file(arguments.report, row.name, run, pick_us, a, before.mean_edge()).place();  // both, or neither
   out.place();
-  std::printf("%s: %zu triangles crossed, %td added, %d pieces, max aspect ratio of changed triangles %.3g, %.1f us\n",
-              name_of(run.status), run.crossed_triangles, a.triangles_added, a.judgement.pieces, a.cut.ar_max,
+  char worst[32] = "-";  // where no triangle was changed
+  if (a.cut.triangles > 0) std::snprintf(worst, sizeof worst, "%.3g", a.cut.ar_max);
+  std::printf("%s: %zu triangles crossed, %td added, %d pieces, max aspect ratio of changed triangles %s, %.1f us\n",
+              name_of(run.status), run.crossed_triangles, a.triangles_added, a.judgement.pieces, worst,
               run.time_us.total());
   if (a.judgement.ok) return done;
   for (const auto& problem : a.judgement.problems)
