@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/base/errors.h"
+#include "harness/cases/cut_families.h"
 #include "tests/helpers.h"
 #include "tests/program.h"
 
@@ -161,6 +162,26 @@ TEST_F(Programs, AreCountedByACampaign) {
   EXPECT_GT(counts["closed"]["wrong"], 0);
   EXPECT_GT(counts["dies"]["crashed"], 0);
   EXPECT_GT(counts["mine"]["ok"], 0);
+}
+
+/// The same method in two languages, and a triangulation that is another one.
+TEST_F(Programs, ExamplesCutRight) {
+  const std::string files = " {mesh} {path} {out}";
+  for (const char* family : {"straight", "curved", "partial", "cut_out", "self_crossing"})
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Sheet sheet(read_mesh(folder_ / "sheet.obj"));
+      write_path(make_case(family, 9, i, sheet), folder_ / "path.json");
+      SCOPED_TRACE(read(folder_ / "path.json"));
+      std::vector<nlohmann::json> reports;
+      for (const std::string& command : {split, CUTBENCH_SPLIT_PROGRAM + files, CUTBENCH_CGAL_PROGRAM + files}) {
+        const Result made = cut_by(command);
+        EXPECT_EQ(made.code, 0) << family << ' ' << i << ' ' << command << made.error;
+        reports.push_back(nlohmann::json::parse(read(folder_ / "report.json")));
+      }
+      EXPECT_EQ(reports[0]["pieces"], reports[1]["pieces"]);
+      EXPECT_NEAR(reports[0]["vertices_added"], reports[1]["vertices_added"], 2);  // edges come in another order
+      EXPECT_EQ(reports[0]["pieces"], reports[2]["pieces"]);
+    }
 }
 
 /// Opens nothing, but only where the path has more than four points.

@@ -66,13 +66,11 @@ class Sheet:
         for t in list(self.triangles):
             sides = [beside(self.rest[t[k - 1]], self.rest[t[k]], p) for k in range(3)]
             on = [(t[k - 1], t[k]) for k in range(3) if sides[k] == 0]
-            if min(sides) < 0:
-                continue
-            if len(on) == 1 and t in self.triangles:
-                self.divide_edge(*on[0], p)
-            elif not on:
+            if min(sides) > 0:
                 self.rest.append(p)
                 self.replace(t, [(t[k - 1], t[k], len(self.rest) - 1) for k in range(3)])
+            elif min(sides) == 0 and len(on) == 1 and t in self.triangles:
+                self.divide_edge(*on[0], p)
 
     def embed(self, p, q):
         """Divides the edges that the straight piece from p to q crosses, and puts the edges along it on the path."""
@@ -95,10 +93,11 @@ class Sheet:
                 fan = [star.pop()]
                 for t in fan:  # which grows
                     number[t, v] = mine
-                    edges = [(b, a) for a, b in zip(t, t[1:] + t[:1]) if v in (a, b) and (a, b) not in self.path]
-                    fan += [t for t in map(self.left_of.get, edges) if t in star and not star.remove(t)]
+                    for a, b in zip(t, t[1:] + t[:1]):
+                        if (a, b) not in self.path and (other := self.left_of.get((b, a))) in star:
+                            star.remove(other), fan.append(other)
                 mine = len(self.rest)
-                self.rest += [self.rest[v]] * (star != [])
+                self.rest += [self.rest[v]] if star else []
         return [[number.get((t, v), v) + 1 for v in t] for t in sorted(self.triangles)]
 
 
