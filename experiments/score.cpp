@@ -4,35 +4,57 @@
 #include <iostream>
 
 #include "harness/judge/assessment.h"
+#include "harness/judge/result_svg.h"
 #include "harness/mesh/mesh_io.h"
 #include "harness/records/report_json.h"
+#include "methods/registry.h"
 
 namespace cutbench {
 
 namespace {
 
-void print_shapes(const char* which, const Quality& q) {
-  std::printf(
-      "%s triangles: %zu, aspect ratio max %.4g, mean %.4g, p99 %.4g, angles %.4g to %.4g deg, "
-      "smallest altitude %.4g h\n",
-      which, q.triangles, q.ar_max, q.ar_mean, q.ar_p99, q.angle_min_deg, q.angle_max_deg, q.altitude_min);
+/// A dash where nothing was measured.
+std::string number(bool measured, const char* format, double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, format, value);
+  return measured ? text : "-";
 }
 
-void print(const Assessment& a, double h) {
+void print_shapes(const char* which, const Quality& q) {
+  const auto text = [&](double value) { return number(q.triangles > 0, "%.4g", value); };
+  std::cout << which << " triangles: " << q.triangles << ", aspect ratio max " << text(q.ar_max) << ", mean "
+            << text(q.ar_mean) << ", p99 " << text(q.ar_p99) << ", angles " << text(q.angle_min_deg) << " to "
+            << text(q.angle_max_deg) << " deg, smallest altitude " << text(q.altitude_min) << " h\n";
+}
+
+void print_findings(const Assessment& a, std::size_t cuts) {
+  for (const Finding& f : a.findings) {
+    std::cout << f.cause << ": " << f.text;
+    if (f.cut > 0 && cuts > 1) std::cout << "; the nearest cut is number " << f.cut << " of " << cuts;
+    std::cout << "\nmend: " << f.mend << '\n';
+  }
+}
+
+void print(const Assessment& a, double h, std::size_t cuts) {
   const oracle::Judgement& j = a.judgement;
-  std::printf("%s\n", j.ok ? "ok" : ("failed: " + j.verdict).c_str());
-  for (const std::string& problem : j.problems) std::printf("%s\n", problem.c_str());
+  std::cout << (j.ok ? "ok" : "failed: " + j.verdict) << '\n';
+  print_findings(a, cuts);
+  for (const std::string& problem : j.problems)
+    if (a.findings.empty() || problem != a.findings.front().cause + ": " + a.findings.front().text)
+      std::cout << problem << '\n';
   if (!a.measured) return;
-  std::printf("%d pieces (%d expected), incision error %.4g h, area change %.3g\n", j.pieces, j.expected_pieces,
-              j.incision_error / h, j.area_change);
-  std::printf("added: %td rest vertices, %td deformed vertices, %td triangles\n", a.vertices_added,
-              a.deformed_vertices_added, a.triangles_added);
+  std::cout << number(a.connected, "%.0f", j.pieces) << " pieces ("
+            << number(a.connected && j.expected_pieces > 0, "%.0f", j.expected_pieces) << " expected), incision error "
+            << number(a.connected, "%.4g", j.incision_error / h) << " h, area change "
+            << number(a.connected, "%.3g", j.area_change) << '\n';
+  std::cout << "added: " << a.vertices_added << " rest vertices, " << a.deformed_vertices_added
+            << " deformed vertices, " << a.triangles_added << " triangles\n";
   print_shapes("all", a.all);
   print_shapes("changed", a.cut);
-  std::printf(
-      "forced: %zu corners with %d triangles; %d triangles in wedges, area %.4g; "
-      "max aspect ratio without corners %.4g, without wedges %.4g\n",
-      a.forced_corners, a.corner_triangles, a.wedge_triangles, a.wedge_area, a.strict.ar_max, a.outside_wedges.ar_max);
+  std::cout << "forced: " << a.forced_corners << " corners with " << a.corner_triangles << " triangles; "
+            << a.wedge_triangles << " triangles in wedges, area " << number(true, "%.4g", a.wedge_area)
+            << "; max aspect ratio without corners " << number(a.strict.triangles > 0, "%.4g", a.strict.ar_max)
+            << ", without wedges " << number(a.outside_wedges.triangles > 0, "%.4g", a.outside_wedges.ar_max) << '\n';
 }
 
 }  // namespace
@@ -43,9 +65,17 @@ bool score(const ScoreArguments& arguments, const CutOptions& options) {
   for (const auto& note : data.notes) std::cerr << "note: " << note << '\n';
   const MeshData result = read_mesh_as_is(arguments.result);
   const Sheet before(data);
-  const Assessment a = assess_result(before, result, cuts, arguments.keeps_vertices, options);
-  if (!arguments.report.empty()) write_score(arguments.report, a, before.mean_edge());
-  print(a, before.mean_edge());
+  Promises asked = promises_of_everybody;
+  if (arguments.deletes) asked = find_method("element_deletion").promises;
+  asked.keeps_vertices = arguments.keeps_vertices;
+  const Assessment a = assess_result(before, result, cuts, asked, options);
+  const double h = before.mean_edge();
+  if (!arguments.report.empty()) WholeFile(arguments.report, score_as_json(a, h)).place();
+  if (!arguments.svg.empty()) WholeFile(arguments.svg, result_as_svg(before, result, cuts, a.findings)).place();
+  if (arguments.json)
+    std::cout << score_as_json(a, h);
+  else
+    print(a, h, cuts.size());
   return a.judgement.ok;
 }
 

@@ -8,11 +8,12 @@
 namespace cutbench {
 
 struct ScoreArguments {
-  std::string mesh, path, result, report;
-  bool keeps_vertices = false;
+  std::string mesh, path, result, report, svg;
+  bool keeps_vertices = false, deletes = false, json = false;
 };
 
-/// Prints what the oracle and the audit say; writes it as JSON where `report` is not empty. False where the result is
+/// Prints what the oracle and the audit say, as text or as JSON; writes the JSON where `report` is not empty, and a
+/// drawing of the place where something is wrong, or of the whole sheet, where `svg` is not. False where the result is
 /// wrong. Throws InputError for files that can't be read.
 bool score(const ScoreArguments& arguments, const CutOptions& options);
 

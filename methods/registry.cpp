@@ -32,8 +32,10 @@ constexpr Promises exact_split{.exact_incision = true, .keeps_area = true, .conf
 
 }  // namespace
 
-const std::vector<MethodRow>& all_methods() {
-  static const std::vector<MethodRow> rows{
+namespace {
+
+std::vector<MethodRow>& table() {
+  static std::vector<MethodRow> rows{
       {"conventional_split",
        "crossed triangles are divided into two, three or four, in a static order",
        {},
@@ -176,6 +178,18 @@ const std::vector<MethodRow>& all_methods() {
        }},
   };
   return rows;
+}
+
+}  // namespace
+
+const std::vector<MethodRow>& all_methods() { return table(); }
+
+void add_methods(const std::vector<MethodRow>& more) {
+  for (const MethodRow& row : more) {
+    if (std::any_of(table().begin(), table().end(), [&](const MethodRow& r) { return r.name == row.name; }))
+      throw InputError("method \"" + row.name + "\" is in the table; choose another name");
+    table().push_back(row);
+  }
 }
 
 const std::vector<MethodRow>& ablation_methods() {

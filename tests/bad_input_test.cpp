@@ -59,7 +59,7 @@ std::string knob(const std::string& method, const std::string& value) {
 TEST_F(BadInput, Options) {
   expect_all(
       {{"", 2,
-        "no subcommand given; known are methods, cut, score, simulate, run, columns, compare; see cutbench --help"},
+        "no subcommand given; known are methods, cut, score, simulate, run, reduce, columns, compare; see cutbench --help"},
        {"nonsense", 2, "unknown subcommand \"nonsense\"; known are "},
        {"scroe", 2, "unknown subcommand \"scroe\"; known are score, "},
        {"cut", 2, "is required; see cutbench cut --help"},
@@ -497,7 +497,7 @@ TEST_F(BadInput, Experiments) {
            {with("knob = [0, 1]", "knobs = [0, 1]"), "did you mean \"knob\""},
            {with("knob = [0, 1]", "knob = 1"), "\"knob\" must be a list"},
            {with("name = ", "name = 1, nam = "), "unknown key \"nam\""},
-           {with("\"conventional_split\"", "3"), "an entry of \"methods\" is a name, or {name = ..., knob = [...]}"},
+           {with("\"conventional_split\"", "3"), "an entry of \"methods\" is a name, {name = ..., knob = [...]} or {name = ..., command = ...}"},
            {text + "scene = \"none.toml\"\ncut_time = 0\n", "none.toml: can't be read"},
            {text + "scene = \"of_a_file.toml\"\ncut_time = 0\n", "\"scene\" has a sheet from a file"},
            {text + "scene = \"of_a_family.toml\"\ncut_time = 0.1\n", "\"cut_time\" must lie within the scene's"},

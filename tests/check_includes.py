@@ -15,11 +15,13 @@ ROOMS = {  # from the ground up: a room and the rooms below it that it may use
     "harness/measure": [],  # the oracle shares no code with what it judges
     "harness/judge": ["base", "mesh", "path", "cut", "measure"],
     "harness/cases": ["base", "mesh", "path"],
+    "harness/program": ["base", "mesh", "path", "cut", "measure", "judge"],
     "harness/truth": ["base", "mesh", "path", "cut", "fem"],
     "harness/scene": ["base", "mesh", "path", "cut", "fem", "cases"],
     "harness/records": ["base", "mesh", "cut", "fem", "judge", "scene"],
-    "harness/run": ["base", "mesh", "path", "cut", "fem", "measure", "judge", "cases", "truth", "scene", "records"],
-    "harness/campaign": ["base", "mesh", "path", "cut", "measure", "judge", "cases", "records", "run"],
+    "harness/run": ["base", "mesh", "path", "cut", "fem", "measure", "judge", "cases", "truth", "scene",
+                    "records", "program"],
+    "harness/campaign": ["base", "mesh", "path", "cut", "measure", "judge", "cases", "records", "run", "program"],
     "harness": ["records", "run", "campaign"],  # run_experiment
     "methods": ["base", "mesh", "path", "cut"],
 }

@@ -145,7 +145,7 @@ TEST(WarpAndRefine, NoTriangleIsIllShapedAndFewVerticesAreAdded) {
       const auto cuts = make_case("curved", 7, i, sheet);
       const CutOutcome outcome = Cutter().cut(sheet, locator, cuts[0], *row.make(row.knob.value), {});
       ASSERT_EQ(outcome.status, Status::ok);
-      const Assessment a = assess_result(before, sheet.to_mesh_data(), cuts, false, {});
+      const Assessment a = assess_result(before, sheet.to_mesh_data(), cuts, promises_of_everybody, {});
       crossed += outcome.crossed_triangles, added += a.vertices_added;
       if (a.forced_corners > 0) continue;
       ++judged;

@@ -54,7 +54,7 @@ std::vector<Curve> in_rest_space(const std::vector<std::variant<Curve, PickedCur
 }
 
 Exit cut_sheet(const CutArguments& arguments) {
-  const MethodRow& row = arguments.method.row();
+  const MethodRow row = arguments.method.row();
   const double knob = arguments.method.knob();
   const auto method = row.make(knob);
   const CutOptions options = arguments.method.chord_tolerance.cut_options();
@@ -83,8 +83,10 @@ Exit cut_sheet(const CutArguments& arguments) {
   if (!arguments.report.empty())
     report_file(arguments.report, row.name, run, pick_us, a, before.mean_edge()).place();  // both, or neither
   out.place();
-  std::printf("%s: %zu triangles crossed, %td added, %d pieces, max aspect ratio of changed triangles %.3g, %.1f us\n",
-              name_of(run.status), run.crossed_triangles, a.triangles_added, a.judgement.pieces, a.cut.ar_max,
+  char worst[32] = "-";  // where no triangle was changed
+  if (a.cut.triangles > 0) std::snprintf(worst, sizeof worst, "%.3g", a.cut.ar_max);
+  std::printf("%s: %zu triangles crossed, %td added, %d pieces, max aspect ratio of changed triangles %s, %.1f us\n",
+              name_of(run.status), run.crossed_triangles, a.triangles_added, a.judgement.pieces, worst,
               run.time_us.total());
   if (a.judgement.ok) return done;
   for (const auto& problem : a.judgement.problems)
@@ -106,6 +108,7 @@ Command add_cut(CLI::App& app) {
       "example:\n"
       "  cutbench cut --mesh experiments/examples/sheet.obj --path experiments/examples/path.json \\\n"
       "    --method warp_and_refine --out cut.obj --report report.json\n"
+      "  cutbench cut --mesh sheet.obj --path path.json --command 'python3 mine.py {mesh} {path} {out}' --out cut.obj\n"
       "exit codes:\n"
       "  0  the result was judged correct and written\n"
       "  1  the cut failed, the result was judged wrong, or a file can't be written\n"

@@ -34,21 +34,34 @@ CutOptions ChordTolerance::cut_options() const {
   return options;
 }
 
-void MethodOptions::add_to(CLI::App& command) {
-  auto* option = command.add_option("--method", method, "one of those that `cutbench methods` lists");
-  if (method.empty())
-    option->required();
-  else
-    option->capture_default_str();
-  command.add_option("--set", settings, "KNOB=VALUE of the method; see `cutbench methods` for knobs and defaults");
+void MethodOptions::add_to(CLI::App& app) {
+  by_name = app.add_option("--method", method, "one of those that `cutbench methods` lists");
+  if (!method.empty()) by_name->capture_default_str();
+  app.add_option("--command", command,
+                 "a program that cuts instead of a method, such as: python3 mine.py {mesh} {path} {out}")
+      ->excludes(by_name);
+  app.add_option("--time-limit", limits.time_s, "of each cut by the program, in seconds")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  app.add_option("--memory-limit", limits.memory_mb, "of the program, in MB")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  app.add_option("--set", settings, "KNOB=VALUE of the method; see `cutbench methods` for knobs and defaults");
   chord_tolerance.add_to(
-      command,
+      app,
       "largest distance of the incision from a curved path, in mean rest edges, or inf: a straight piece "
       "from edge to edge");
 }
 
+MethodRow MethodOptions::row() const {
+  if (!command.empty()) return method_of_program({"program", command, ".", limits});
+  if (method.empty() && by_name->count() == 0)
+    throw InputError("give --method NAME, or --command for a program of your own");
+  return find_method(method);
+}
+
 double MethodOptions::knob() const {
-  const MethodRow& m = row();
+  const MethodRow m = row();
   double value = m.knob.value;
   for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "harness/cut/cut.h"
+#include "harness/program/program.h"
 #include "methods/registry.h"
 
 namespace cutbench {
@@ -20,12 +21,15 @@ struct ChordTolerance {
 
 struct MethodOptions {
   std::string method;
-  std::vector<std::string> settings;  ///< of --set
+  std::string command = {};  ///< of a program that cuts instead
+  ProgramLimits limits = {};
+  CLI::Option* by_name = nullptr;          ///< --method; owned by the app
+  std::vector<std::string> settings = {};  ///< of --set
   ChordTolerance chord_tolerance;
 
-  /// `method` is required where it has no default.
-  void add_to(CLI::App& command);
-  const MethodRow& row() const { return find_method(method); }
+  void add_to(CLI::App& app);
+  /// Throws InputError: no method of that name, none at all, or a command that lacks a file.
+  MethodRow row() const;
   /// Throws InputError: not the knob of the method, or not a number. The method checks the range.
   double knob() const;
 };

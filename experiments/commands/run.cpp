@@ -16,7 +16,7 @@ namespace cutbench {
 namespace {
 
 struct RunArguments {
-  std::vector<std::string> experiments, methods;
+  std::vector<std::string> experiments, methods, commands;
   std::vector<int> resolutions;
   int cases = 0, repetitions = 0;
   std::string seed, out = "results", shard = "1/1";
@@ -55,6 +55,14 @@ RunOptions run_options(const RunArguments& arguments, const std::string& command
   return options;
 }
 
+/// NAME=COMMAND, run in the current folder.
+ProgramSettings program_in(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos)
+    throw InputError("--command " + text + ": give NAME=COMMAND, such as: mine=python3 mine.py {mesh} {path} {out}");
+  return {text.substr(0, equals), text.substr(equals + 1), ".", {}};
+}
+
 Experiment read_part(const std::string& file, const RunArguments& arguments, const Context& context) {
   Experiment e = read_experiment(file);
   if (e.methods.empty())
@@ -63,6 +71,10 @@ Experiment read_part(const std::string& file, const RunArguments& arguments, con
   const bool with_peer = e.campaign && std::erase(methods, "peer") > 0;
   restrict_to(e.methods, methods, "--methods", [](const auto& m) { return m.method; });
   if (with_peer && methods.empty()) e.methods.clear();
+  for (const std::string& command : arguments.commands) {
+    e.programs.push_back(program_in(command));
+    e.methods.push_back({e.programs.back().name, {}});
+  }
   restrict_to(e.resolutions, arguments.resolutions, "--resolutions", [](int r) { return r; });
   if (e.campaign && !arguments.methods.empty()) e.campaign->peer = with_peer;
   if (e.campaign && !arguments.resolutions.empty()) e.campaign->mesh_files.clear();
@@ -94,6 +106,8 @@ Command add_run(CLI::App& app) {
   auto* command = app.add_subcommand("run", "run experiments; what was interrupted goes on where it stopped");
   command->add_option("experiments", arguments->experiments, "experiment files (TOML)")->required();
   command->add_option("--methods", arguments->methods, "only these of the experiment, comma-separated")->delimiter(',');
+  command->add_option("--command", arguments->commands,
+                      "NAME=COMMAND: a program as one more method, such as: mine=python3 mine.py {mesh} {path} {out}");
   command->add_option("--resolutions", arguments->resolutions, "only these of the experiment (triangles)")
       ->delimiter(',');
   command->add_option("--cases", arguments->cases, "number of cases, instead of the experiment's")

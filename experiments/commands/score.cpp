@@ -20,9 +20,14 @@ Command add_score(CLI::App& app) {
   command->add_option("--path", options->arguments.path, "the path: JSON")->required();
   command->add_option("--result", options->arguments.result, "the sheet after: OBJ, OFF or PLY")->required();
   command->add_option("--report", options->arguments.report, "what was measured, as JSON; none where it is not given");
+  command->add_option("--svg", options->arguments.svg,
+                      "a drawing of the place where something is wrong, or of the whole sheet");
+  command->add_flag("--json", options->arguments.json, "print JSON, the same as in the report");
   options->tolerance.add_to(*command, "allowed incision error in mean rest edges, or inf: the longest edge");
   command->add_flag("--keeps-vertices", options->arguments.keeps_vertices,
                     "the sheet's vertices must be there with the same numbers and rest positions");
+  command->add_flag("--deletes", options->arguments.deletes,
+                    "the triangles that the path crosses are to be taken out, instead of divided");
   command->footer(
       "example:\n"
       "  cutbench score --mesh experiments/examples/sheet.obj --path experiments/examples/path.json --result cut.obj\n"
@@ -33,6 +38,7 @@ Command add_score(CLI::App& app) {
   return {command, [options](const std::string&) {
             const std::string& report = options->arguments.report;
             if (!report.empty()) check_writable(report, "--report");
+            if (!options->arguments.svg.empty()) check_writable(options->arguments.svg, "--svg");
             return score(options->arguments, options->tolerance.cut_options()) ? done : fell_short;
           }};
 }

@@ -26,7 +26,7 @@ Exit run_scene(const SimulateArguments& arguments, const std::string& command_li
   if (!arguments.report.empty()) check_writable(arguments.report, "--report");
   if (!arguments.steps.empty()) check_writable(arguments.steps, "--steps");
   Scene scene = read_scene(arguments.scene);
-  const MethodRow& row = arguments.method.row();
+  const MethodRow row = arguments.method.row();
   const double knob = arguments.method.knob();
   const auto method = row.make(knob);
   if (arguments.resolution > 0) {

@@ -87,6 +87,7 @@ class Campaign {
     std::string text = context.identity() + e.stem + std::to_string(e.seed) + "," + std::to_string(e.cases) + "," +
                        std::to_string(e.chord_tolerance) + "," + std::to_string(e.campaign->time_limit_s) + "," +
                        std::to_string(options.shard) + "/" + std::to_string(options.shards);
+    for (const auto& program : e.programs) text += fingerprint_of_program(program);
     for (const auto& file : e.campaign->mesh_files) text += text_of_file(file);
     return text;
   }

@@ -8,6 +8,7 @@
 #include "harness/campaign/cgal_peer.h"
 #include "harness/judge/judged_sheet.h"
 #include "harness/judge/oracle_request.h"
+#include "harness/program/program.h"
 
 namespace cutbench {
 
@@ -21,18 +22,30 @@ Count::Kind count_of(Status status) {
 class MethodAtWork : public Subject {
  public:
   MethodAtWork(const Variant& variant, const Sheet& start, const CutOptions& options)
-      : sheet_(start, variant.row->promises, variant.row->make(variant.knob)), options_(options) {}
+      : sheet_(start, variant.row->promises, variant.row->make(variant.knob)),
+        is_program_(!variant.row->command.empty()),
+        options_(options) {}
 
   Result cut(const Curve& curve) override {
     const JudgedSheet::Finding finding = sheet_.cut(curve, options_);
     const CutOutcome& outcome = sheet_.outcome;
     const double us = outcome.time_us.total();
     if (!finding.ok()) return {Count::wrong, finding.verdict, finding.reason, us, outcome.carefully};
-    return {count_of(outcome.status), outcome.verdict, outcome.reason, us, outcome.carefully};
+    const bool program_failed = is_program_ && outcome.status == Status::failed;
+    return {program_failed ? fault_of_program(outcome.verdict) : count_of(outcome.status), outcome.verdict,
+            outcome.reason, us, outcome.carefully};
   }
 
  private:
+  /// What a program made is judged before the sheet takes it over.
+  static Count::Kind fault_of_program(const std::string& verdict) {
+    if (verdict == verdict_crashed) return Count::crashed;
+    if (verdict == verdict_timed_out) return Count::timed_out;
+    return verdict == verdict_no_result ? Count::failed : Count::wrong;
+  }
+
   JudgedSheet sheet_;
+  bool is_program_;
   CutOptions options_;
 };
 
@@ -99,9 +112,8 @@ void try_case(const Contender& contender, const Sheet& sheet, const std::vector<
       ++result.count[made.outcome];
       result.count[Count::carefully] += made.carefully;
       result.slowest_us = std::max(result.slowest_us, made.us);
-      if (made.outcome == Count::failed || made.outcome == Count::wrong)
-        note_fault(result, number, made.outcome, made.verdict, made.reason);
-      if (made.outcome == Count::wrong) return;
+      if (made.outcome >= Count::failed) note_fault(result, number, made.outcome, made.verdict, made.reason);
+      if (made.outcome > Count::failed) return;
     } catch (const std::exception& error) {  // the program would end by it
       ++result.count[Count::crashed];
       note_fault(result, number, Count::crashed, "exception", error.what());

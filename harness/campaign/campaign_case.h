@@ -45,8 +45,8 @@ class Subject {
  public:
   virtual ~Subject() = default;
   struct Result {
-    Count::Kind outcome = Count::ok;  ///< ok ... wrong
-    std::string verdict, reason;      ///< of failed and wrong
+    Count::Kind outcome = Count::ok;  ///< ok ... wrong; of a program also crashed and timed_out
+    std::string verdict, reason;      ///< from failed on
     double us = 0;                    ///< the cut's own time
     bool carefully = false;           ///< CutOutcome::carefully
   };
@@ -68,7 +68,7 @@ struct CaseResult {
   Counts count{};
   double slowest_us = 0;
   std::int32_t cut = 0;           ///< under way; where there is a fault, the one that has it
-  Count::Kind fault = Count::ok;  ///< failed, wrong or crashed (here: by an exception); ok: none
+  Count::Kind fault = Count::ok;  ///< from failed on (crashed: by an exception, or a program); ok: none
   std::array<char, 24> verdict{};
   std::array<char, 400> reason{};
 };

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "harness/base/subprocess.h"
 #include "harness/cut/cut_all.h"
 #include "harness/judge/judged_sheet.h"
 #include "harness/mesh/mesh_io.h"
@@ -50,9 +51,11 @@ std::string command(const Variant& variant, const std::filesystem::path& stem, c
   char chord[32];
   std::snprintf(chord, sizeof chord, "%.17g", options.chord_tolerance);
   const std::string knob = variant.knob_text();
-  return "build/release/cutbench cut --mesh " + stem.string() + ".obj --path " + stem.string() + ".json --method " +
-         variant.row->name + (knob.empty() ? "" : " --set " + knob) + " --chord-tolerance " + chord +
-         " --out result.obj";
+  const std::string method = variant.row->command.empty()
+                                 ? "--method " + variant.row->name + (knob.empty() ? "" : " --set " + knob)
+                                 : "--command " + quoted(variant.row->command);
+  return "build/release/cutbench cut --mesh " + stem.string() + ".obj --path " + stem.string() + ".json " + method +
+         " --chord-tolerance " + chord + " --out result.obj";
 }
 
 }  // namespace

@@ -54,6 +54,7 @@ CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, Cutti
     walk.locate(polyline_.points.front());
     outcome.time_us.locate = watch.lap();
 
+    method.begin(curve, options);
     const double chord_tolerance = options.chord_tolerance * sheet.mean_edge();
     Subdivision& trace = tracer_.trace(sheet, polyline_, walk, chord_tolerance);
     outcome.time_us.trace += watch.lap();
@@ -89,6 +90,7 @@ CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, Cutti
       outcome.reason = "a crossing was moved out of a wedge between older cuts that is too thin for doubles";
     }
     outcome.recovered_segments = notes.recovered_segments;
+    if (notes.program_us > 0) outcome.time_us = {.program = notes.program_us};
   } catch (const TooClose& reason) {
     sheet.rollback();
     outcome = nothing_done(Status::refused, reason.what());

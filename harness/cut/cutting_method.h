@@ -22,10 +22,13 @@
 
 namespace cutbench {
 
+struct CutOptions;  // harness/cut/cut.h
+
 /// What a method may tell about the cut under way; new for every cut.
 struct MethodNotes {
   int recovered_segments = 0;  ///< path segments that the method's triangulation lacked, and flips brought in
   bool stopped_early = false;  ///< improve() met a limit of its own, and left the remaining triangles as they were
+  double program_us = 0;       ///< a program of its own made the cut and took so long, by itself (harness/program)
 };
 
 class CuttingMethod {
@@ -34,6 +37,9 @@ class CuttingMethod {
 
   /// A reason, known before the cut, why this method can't cut this sheet: the cut is refused and nothing changed.
   virtual std::optional<std::string> why_unsupported(const Sheet&) const { return {}; }
+
+  /// The path as it is asked for, before it is traced: for a method that hands it on. The default does nothing.
+  virtual void begin(const Curve& /*curve*/, const CutOptions& /*options*/) {}
 
   /// Changes where the path goes, before anything is divided: moves vertices of the sheet to the path, or nodes of the
   /// trace to vertices. For methods that do not promise exact_incision; the default changes nothing. On return the
@@ -96,6 +102,7 @@ struct MethodRow {
   Knob knob;
   Promises promises;
   std::function<std::unique_ptr<CuttingMethod>(double knob)> make;  ///< throws InputError: a value out of range
+  std::string command = {};  ///< of the program that makes the cuts; empty: a class of this process
 };
 
 }  // namespace cutbench

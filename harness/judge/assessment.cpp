@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "harness/judge/oracle_request.h"
+#include "harness/measure/sheet_topology.h"
 
 namespace cutbench {
 
@@ -96,6 +97,19 @@ void check_positions(oracle::Judgement& judgement, const std::vector<Point3>& po
                             "not_finite: position of vertex " + std::to_string(lost - positions.begin()));
 }
 
+/// What is wrong behind the verdict. Lost digits are wrong even where the oracle allows for what they change.
+void find_faults(Assessment& a, const oracle::Request& request, const oracle::Mesh& mesh,
+                 const std::vector<Point3>& positions) {
+  a.findings = find_causes(request, mesh, a.judgement);
+  if (!a.findings.empty() && a.findings.front().cause == "rounded") {
+    a.judgement.ok = false, a.judgement.verdict = "rounded";
+    a.judgement.problems.insert(a.judgement.problems.begin(), "rounded: " + a.findings.front().text);
+  }
+  check_positions(a.judgement, positions);
+  if (!a.judgement.ok && a.findings.empty())
+    a.findings.push_back({"other", a.judgement.problems.front(), "write a number for each coordinate", {}});
+}
+
 }  // namespace
 
 std::vector<oracle::ForcedCorner> forced_corners_of(const Sheet& before, std::span<const Curve> cuts) {
@@ -114,9 +128,8 @@ Assessment assess(const Sheet& before, const Sheet& after, const oracle::Judgeme
   return result;
 }
 
-Assessment assess_result(const Sheet& before, const MeshData& result, std::span<const Curve> cuts, bool keeps_vertices,
-                         const CutOptions& options) {
-  const Promises asked{.exact_incision = true, .keeps_area = true, .keeps_vertices = keeps_vertices};
+Assessment assess_result(const Sheet& before, const MeshData& result, std::span<const Curve> cuts,
+                         const Promises& asked, const CutOptions& options) {
   const oracle::Request request = request_for(before, cuts, asked, options, true);
   oracle::Mesh mesh;
   for (Point2 p : result.rest) mesh.rest.push_back({p.x, p.y});
@@ -127,8 +140,10 @@ Assessment assess_result(const Sheet& before, const MeshData& result, std::span<
   } catch (const std::invalid_argument& error) {
     throw InputError(error.what());
   }
+  a.connected = a.judgement.verdict != "not_finite" && a.judgement.verdict != "bad_index" &&
+                oracle::half_edges(mesh).repeated.empty();
   a.measured = can_be_measured(a.judgement, mesh);
-  check_positions(a.judgement, result.deformed);
+  find_faults(a, request, mesh, result.deformed);
   if (!a.measured) return a;
   measure(a, mesh, changed_triangles(request.before, mesh), forced_corners_of(before, cuts), before.mean_edge());
   a.vertices_added = difference(count_places(mesh), count_places(request.before));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "harness/cut/cut.h"
+#include "harness/judge/findings.h"
 #include "harness/measure/forced_zones.h"
 #include "harness/measure/oracle.h"
 #include "harness/mesh/quality.h"
@@ -14,8 +15,10 @@ namespace cutbench {
 /// What the result is like. Lengths in h = mean rest edge of the uncut sheet, unless a name says otherwise.
 struct Assessment {
   oracle::Judgement judgement;
-  bool measured = true;  ///< false: the result is too broken for the numbers below, which stay 0
-  Quality all, cut;      ///< over the whole sheet, and over the triangles the cut made or changed; altitude in h
+  std::vector<Finding> findings;  ///< of a wrong result, by assess_result()
+  bool connected = true;  ///< false: the triangles fit together so badly that pieces and incision error are unknown
+  bool measured = true;   ///< false: the result is too broken for the numbers below, which stay 0
+  Quality all, cut;       ///< over the whole sheet, and over the triangles the cut made or changed; altitude in h
   std::size_t forced_corners = 0;
   int corner_triangles = 0, wedge_triangles = 0;
   double wedge_area = 0;               ///< rest units squared
@@ -28,10 +31,13 @@ Assessment assess(const Sheet& before, const Sheet& after, const oracle::Judgeme
                   std::span<const oracle::ForcedCorner> forced);
 /// Judges a result that anybody made, all of its cuts together, and measures it, broken as it may be: a triangle of the
 /// cut is one whose corners, in their order round it, are not exactly those of a triangle before; rest vertices are
-/// counted by their places. Whether the old vertices must stay what they are (`keeps_vertices`) is the caller's to say.
+/// counted by their places. What the result has to keep is the caller's to say (`asked`). Beside the oracle's verdicts
+/// there is `rounded`: rest positions have lost digits (findings.h).
 /// \throw InputError: the oracle can't use the sheet before.
-Assessment assess_result(const Sheet& before, const MeshData& result, std::span<const Curve> cuts, bool keeps_vertices,
-                         const CutOptions& options);
+Assessment assess_result(const Sheet& before, const MeshData& result, std::span<const Curve> cuts,
+                         const Promises& asked, const CutOptions& options);
+/// Of everybody: the path is opened, and the area stays. Vertices may move.
+constexpr Promises promises_of_everybody{.exact_incision = true, .keeps_area = true};
 std::vector<oracle::ForcedCorner> forced_corners_of(const Sheet& before, std::span<const Curve> cuts);
 
 }  // namespace cutbench

@@ -19,6 +19,7 @@ class Watched : public CuttingMethod {
   std::optional<std::string> why_unsupported(const Sheet& sheet) const override {
     return method_->why_unsupported(sheet);
   }
+  void begin(const Curve& curve, const CutOptions& options) override { method_->begin(curve, options); }
   void adapt(Sheet& sheet, Subdivision& trace, const Polyline& path) override { method_->adapt(sheet, trace, path); }
   void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override {
     improved = false;

@@ -31,8 +31,11 @@ Getter of_shapes(Get get) {
   return [get](const Measured& m) { return m.assessment && m.shapes ? Value(get(*m.assessment)) : Value(); };
 }
 
+/// A program has no phases, and none of our processor time.
+bool by_program(const CutRun& c) { return c.time_us.program > 0; }
+
 Getter of_phase(double PhaseTimes::*phase) {
-  return of_cut([phase](const CutRun& c) { return c.time_us.*phase; });
+  return of_cut([phase](const CutRun& c) { return by_program(c) ? Value() : Value(c.time_us.*phase); });
 }
 
 /// Of a cut in a running scene that was made.
@@ -230,11 +233,17 @@ void add_times(std::vector<Metric>& t) {
                of_phase(&PhaseTimes::open)});
   t.push_back({"tie_us", "us", "constrain", Direction::lower, Group::time,
                "Time in which vertices are constrained to others, by methods that do so.", of_phase(&PhaseTimes::tie)});
+  t.push_back(
+      {"process_us", "us", "program", Direction::lower, Group::time,
+       "Time of a method that is a program of its own, instead of the phases: as it reports, else from its start to "
+       "its end.",
+       of_cut([](const CutRun& c) { return by_program(c) ? Value(c.time_us.program) : Value(); })});
   t.push_back({"geometry_us", "us", "geometry", Direction::lower, Group::time,
-               "Sum of the six phases; for `every_edge` the search alone.",
+               "Sum of the six phases, or of process and constrain; for `every_edge` the search alone.",
                of_cut([](const CutRun& c) { return c.time_us.total(); })});
   t.push_back({"cpu_us", "us", "processor time", Direction::lower, Group::time,
-               "Processor time of the process over the same work.", of_cut([](const CutRun& c) { return c.cpu_us; })});
+               "Processor time of the process over the same work; empty for programs.",
+               of_cut([](const CutRun& c) { return by_program(c) ? Value() : Value(c.cpu_us); })});
 }
 
 /// Of cuts made inside a running scene.

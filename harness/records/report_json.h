@@ -16,8 +16,7 @@ namespace cutbench {
 [[nodiscard]] WholeFile report_file(const std::filesystem::path& file, const std::string& method, const CutRun& run,
                                     double pick_us, const Assessment& assessment, double h);
 
-/// The report of `cutbench score`. All but the verdict and the problems is null where the result is too broken to
-/// measure.
-void write_score(const std::filesystem::path& file, const Assessment& assessment, double h);
+/// The report of `cutbench score`. What could not be measured is null.
+std::string score_as_json(const Assessment& assessment, double h);
 
 }  // namespace cutbench

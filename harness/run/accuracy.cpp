@@ -82,13 +82,11 @@ class AccuracyRun {
 
  private:
   static std::string identity(const Experiment& e, const Context& context, const RunOptions& options) {
-    nlohmann::json methods;
-    for (const auto& entry : e.methods) methods.push_back({entry.method, entry.knob_values});
     return nlohmann::json{context.identity(),
                           e.stem,
                           e.sheets,
                           e.resolutions,
-                          methods,
+                          identity_of_methods(e),
                           e.seed,
                           e.chord_tolerance,
                           e.accuracy->problems,
@@ -172,7 +170,7 @@ class AccuracyRun {
       // Its edges are chords of about h: what they cut off a curve is part of its error, not a fault.
       CutOptions chords = cut_options_;
       chords.chord_tolerance = std::numeric_limits<double>::infinity();
-      const Assessment a = assess_result(base.sheet, sheet->to_mesh_data(), specimen.cuts, false, chords);
+      const Assessment a = assess_result(base.sheet, sheet->to_mesh_data(), specimen.cuts, promises_of_everybody, chords);
       row.set("status", std::string("ok"));
       set_assessment(row, nullptr, a, base);
       if (!a.judgement.ok) sheet.reset();

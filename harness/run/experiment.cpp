@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "harness/base/toml_reader.h"
 #include "harness/cases/cut_families.h"
@@ -14,14 +15,31 @@ namespace cutbench {
 
 namespace {
 
-Experiment::Entry read_entry(const toml::node& node, const std::string& where) {
-  if (const auto name = node.value<std::string>()) return {*name, {}};
+ProgramSettings read_program(const TomlReader& reader, const std::filesystem::path& folder) {
+  ProgramSettings program{reader.value<std::string>("name"), reader.value<std::string>("command"), folder, {}};
+  if (program.folder.empty()) program.folder = ".";
+  program.limits.time_s = reader.positive("time_limit_s", program.limits.time_s);
+  program.limits.memory_mb = reader.positive("memory_limit_mb", program.limits.memory_mb);
+  return program;
+}
+
+/// A method by its name, with values of its knob, or a program.
+void read_entry(const toml::node& node, const std::filesystem::path& file, Experiment& e) {
+  const std::string where = file.string();
+  if (const auto name = node.value<std::string>()) return e.methods.push_back({*name, {}});
   const toml::table* table = node.as_table();
-  if (!table) throw InputError(where + ": an entry of \"methods\" is a name, or {name = ..., knob = [...]}");
-  check_keys(*table, {"name", "knob"}, where + ", methods");
+  if (!table)
+    throw InputError(where +
+                     ": an entry of \"methods\" is a name, {name = ..., knob = [...]} or {name = ..., command = ...}");
   const TomlReader reader{*table, where + ", methods"};
-  return {reader.value<std::string>("name"),
-          table->contains("knob") ? reader.list<double>("knob") : std::vector<double>{}};
+  if (table->contains("command")) {
+    check_keys(*table, {"name", "command", "time_limit_s", "memory_limit_mb"}, reader.where);
+    e.programs.push_back(read_program(reader, file.parent_path()));
+    return e.methods.push_back({e.programs.back().name, {}});
+  }
+  check_keys(*table, {"name", "knob"}, reader.where);
+  e.methods.push_back({reader.value<std::string>("name"),
+                       table->contains("knob") ? reader.list<double>("knob") : std::vector<double>{}});
 }
 
 Experiment::Campaign read_campaign(const TomlReader& reader, const std::filesystem::path& folder) {
@@ -84,6 +102,13 @@ void refuse_repeated(std::vector<T> entries, const std::string& what) {
 
 }  // namespace
 
+std::string identity_of_methods(const Experiment& experiment) {
+  nlohmann::json methods;
+  for (const auto& entry : experiment.methods) methods.push_back({entry.method, entry.knob_values});
+  for (const auto& program : experiment.programs) methods.push_back({program.name, fingerprint_of_program(program)});
+  return methods.dump();
+}
+
 Experiment read_experiment(const std::filesystem::path& file) {
   const std::string name = file.string();
   const toml::table table = parse_toml(file);
@@ -125,7 +150,7 @@ Experiment read_experiment(const std::filesystem::path& file) {
     refuse_repeated(e.accuracy->iterations, name + ": \"iterations\"");
   }
   if (table["methods"].value<std::string>() != "all")
-    for (const auto& node : reader.array("methods")) e.methods.push_back(read_entry(node, name));
+    for (const auto& node : reader.array("methods")) read_entry(node, file, e);
   e.seed = static_cast<std::uint64_t>(reader.value<std::int64_t>("seed", 1));
   e.cases = reader.count("cases", 1), e.repetitions = reader.count("repetitions", 1);
   e.cold = reader.value<bool>("cold", false), e.quality = reader.value<bool>("quality", true);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "harness/program/program.h"
 #include "harness/scene/scene.h"
 
 namespace cutbench {
@@ -41,9 +42,10 @@ struct Experiment {
   std::string stem;   ///< of the file: names the results folder and the plot
   std::string claim;  ///< that the experiment tests
   std::vector<std::string> sheets, cut_families;
-  std::vector<int> resolutions;   ///< triangles of the uncut sheet, 2 n^2
-  std::vector<Entry> methods;     ///< empty: the file says "all", and the caller fills them in
-  std::uint64_t seed = 1;         ///< for development; published figures use --seed commit
+  std::vector<int> resolutions;           ///< triangles of the uncut sheet, 2 n^2
+  std::vector<Entry> methods;             ///< empty: the file says "all", and the caller fills them in
+  std::vector<ProgramSettings> programs;  ///< methods that are programs; `methods` names them, too
+  std::uint64_t seed = 1;                 ///< for development; published figures use --seed commit
   int cases = 1;                  ///< per sheet, resolution and cut family; of a campaign per sheet and resolution
   int repetitions = 1;            ///< of each cut, warm
   bool cold = false;              ///< cut once more with cold caches
@@ -60,6 +62,9 @@ struct Experiment {
   std::optional<Campaign> campaign;
   std::optional<Accuracy> accuracy;
 };
+
+/// The methods with their knobs and programs, as a text that differs where their rows could.
+std::string identity_of_methods(const Experiment& experiment);
 
 /// Throws InputError: unreadable, not TOML, unknown or missing keys (with the nearest known one), values out of range.
 Experiment read_experiment(const std::filesystem::path& file);

@@ -62,13 +62,25 @@ class Runner {
  private:
   /// All that rows depend on, and which rows there are.
   static std::string identity(const Experiment& e, const Context& context, const RunOptions& options) {
-    nlohmann::json methods;
-    for (const auto& entry : e.methods) methods.push_back({entry.method, entry.knob_values});
-    return nlohmann::json{context.identity(), e.stem,        e.sheets,      e.cut_families,
-                          e.resolutions,      methods,       e.seed,        e.cases,
-                          e.repetitions,      e.cold,        e.quality,     e.every_edge,
-                          e.chord_tolerance,  e.scene_text,  e.cut_time,    e.scene_cases,
-                          e.eigenvalue_cases, options.shard, options.shards}
+    return nlohmann::json{context.identity(),
+                          e.stem,
+                          e.sheets,
+                          e.cut_families,
+                          e.resolutions,
+                          identity_of_methods(e),
+                          e.seed,
+                          e.cases,
+                          e.repetitions,
+                          e.cold,
+                          e.quality,
+                          e.every_edge,
+                          e.chord_tolerance,
+                          e.scene_text,
+                          e.cut_time,
+                          e.scene_cases,
+                          e.eigenvalue_cases,
+                          options.shard,
+                          options.shards}
         .dump();
   }
 

@@ -1,6 +1,7 @@
 // What an experiment runs: methods with the values of their knobs, and the options of the command line.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,11 +20,11 @@ struct RunOptions {
 
 /// A method with a value of its knob, as it appears in records and figures.
 struct Variant {
-  const MethodRow* row;
+  std::shared_ptr<const MethodRow> row;
   double knob;
   std::string knob_text() const;  ///< "rounds=1", or empty
 };
-/// Throws InputError for unknown methods, values of a knob out of range, and anything named twice.
+/// The experiment's methods and programs. Throws InputError for unknown methods, values of a knob out of range, and anything named twice.
 std::vector<Variant> variants_of(const Experiment& experiment, const std::vector<MethodRow>& methods);
 
 }  // namespace cutbench

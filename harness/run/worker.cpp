@@ -23,7 +23,8 @@ CutRun Worker::cut(const BaseSheet& base, const std::vector<Curve>& cuts, const 
 }
 
 CutRun Worker::measure(const BaseSheet& base, const std::vector<Curve>& cuts, const CutOptions& options, bool cold) {
-  for (int i = 0; i < (cold ? 1 : 2); ++i) cut(base, cuts, options);
+  const bool is_program = !variant.row->command.empty();  // a new process each time: nothing stays warm
+  for (int i = 0; i < (is_program ? 0 : cold ? 1 : 2); ++i) cut(base, cuts, options);
   restore(base, cuts);
   if (cold) chill_caches();
   CutRun run = cut_all(sheet, locator_, cutter, cuts, *method, options);

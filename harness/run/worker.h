@@ -25,7 +25,7 @@ class Worker {
   /// Cuts the base sheet.
   CutRun cut(const BaseSheet& base, const std::vector<Curve>& cuts, const CutOptions& options);
   /// Cold: right after other work has driven everything out of the caches. Warm: the same cut, made and undone twice
-  /// just before. What the method ties is part of the price.
+  /// just before; a program runs once either way. What the method ties is part of the price.
   CutRun measure(const BaseSheet& base, const std::vector<Curve>& cuts, const CutOptions& options, bool cold);
 
   Variant variant;

@@ -1,0 +1,14 @@
+// The program `cutbench` as a library: a program with methods of its own is this, called with their rows.
+#pragma once
+
+#include <vector>
+
+#include "harness/cut/cutting_method.h"
+
+namespace cutbench {
+
+/// Parses the command line and does what it says. `more_methods`: beside those of the table, in all lists, experiments
+/// and tests of names. Returns what the shell is to see (docs/using.md, exit codes).
+int command_line(int argc, char** argv, const std::vector<MethodRow>& more_methods = {});
+
+}  // namespace cutbench

@@ -1,0 +1,38 @@
+// What a wrong result is wrong with: the cause behind the oracle's verdict, where it is, and how to mend it. The oracle
+// says that something is wrong; this says what the author of another program has to look at.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/measure/oracle.h"
+
+namespace cutbench {
+
+struct Finding {
+  std::string cause;  ///< a name of the list below
+  std::string text;   ///< what is wrong and where, one line; vertices and triangles of the result are counted from 0
+  std::string mend;   ///< what to do, one line
+  std::optional<oracle::Point> place = {};  ///< rest position
+  int cut = 0;                              ///< number of the cut nearest to the place, from 1; 0: no place
+};
+
+/// The causes that are told apart, the first that is found first:
+///   rounded         rest positions have lost digits: single precision, or a few decimals
+///   other_rest      hardly a vertex of the sheet is where it was: no rest positions (`vt`), or another sheet
+///   moved_vertex    a vertex of the sheet is not where it was, though asked to stay (keeps_vertices)
+///   flipped         a triangle's corners run clockwise
+///   folded          a triangle is turned over or flat, because a corner of it has moved
+///   lips_differ     the two lips of an incision are nearly, but not bit for bit, at one place
+///   t_junction      an edge is divided on one side only
+///   lost_triangle   a part of the sheet has no triangle any more
+///   one_vertex      two fans of triangles share a vertex where the path parts them
+///   shifted         the incision lies beside the path
+///   not_opened      the path is not open where it should be
+///   other           none of these; the text is the oracle's
+/// Empty where the result is right. \param judgement  of `after` by `request`
+std::vector<Finding> find_causes(const oracle::Request& request, const oracle::Mesh& after,
+                                 const oracle::Judgement& judgement);
+
+}  // namespace cutbench

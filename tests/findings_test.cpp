@@ -1,0 +1,286 @@
+// Eight ways to make a right cut wrong, each of random cuts: all are rejected, with the cause, the place and the mend.
+
+#include "harness/judge/findings.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <map>
+
+#include "harness/cases/cut_families.h"
+#include "harness/cut/cut_all.h"
+#include "harness/judge/assessment.h"
+#include "harness/judge/lost_digits.h"
+#include "tests/helpers.h"
+
+namespace cutbench {
+namespace {
+
+/// A right cut of a sheet, made by a method that keeps the sheet's vertices.
+struct Made {
+  Sheet before;
+  std::vector<Curve> cuts;
+  MeshData result;
+};
+
+std::optional<Made> make(const Sheet& before, const std::vector<Curve>& cuts, const std::string& method) {
+  const MethodRow& row = find_method(method);
+  Made made{before, cuts, {}};
+  Sheet sheet = before;
+  Locator locator(sheet);
+  Cutter cutter;
+  if (cut_all(sheet, locator, cutter, cuts, *row.make(row.knob.value), {}).status != Status::ok) return {};
+  made.result = sheet.to_mesh_data();
+  return made;
+}
+
+/// Draws cuts until one can be made; another sheet, family and method each time.
+Made random_cut(Random& random) {
+  constexpr const char* families[] = {"straight", "curved", "partial", "cut_out", "several", "self_crossing"};
+  constexpr const char* methods[] = {"conventional_split", "bowyer_watson", "delaunay_refine"};
+  for (;;) {
+    const Sheet sheet(lifted(make_sheet(sheet_families()[random.below(4)], 9 + static_cast<int>(random.below(5)))));
+    const auto cuts = make_case(families[random.below(6)], random.below(1000000), random.below(100), sheet);
+    if (auto made = make(sheet, cuts, methods[random.below(3)])) return std::move(*made);
+  }
+}
+
+using Vertices = std::vector<std::int32_t>;
+using Places = std::map<std::pair<double, double>, Vertices>;
+
+Places vertices_by_place(const MeshData& mesh) {
+  Places places;
+  for (std::size_t v = 0; v < mesh.rest.size(); ++v)
+    places[{mesh.rest[v].x, mesh.rest[v].y}].push_back(static_cast<std::int32_t>(v));
+  return places;
+}
+
+Point2 rest(const MeshData& mesh, std::int32_t v) { return mesh.rest[static_cast<std::size_t>(v)]; }
+
+Point2 centre(const MeshData& mesh, std::size_t t) {
+  const auto& [a, b, c] = mesh.triangles[t];
+  return 1.0 / 3 * (rest(mesh, a) + rest(mesh, b) + rest(mesh, c));
+}
+
+/// Spoils the result and says where; nothing where this draw did not suit.
+using Spoil = std::function<std::optional<Point2>(Made&, Random&)>;
+
+std::optional<Point2> flip(Made& m, Random& random) {
+  const std::size_t t = random.below(m.result.triangles.size());
+  std::swap(m.result.triangles[t][0], m.result.triangles[t][1]);
+  return centre(m.result, t);
+}
+
+std::optional<Point2> move_vertex(Made& m, Random& random) {
+  const std::size_t v = random.below(m.before.vertex_count());
+  const Point2 was = m.result.rest[v];
+  const double angle = random.between(0, 6.283), by = m.before.mean_edge() * random.between(0.02, 0.3);
+  m.result.rest[v] = was + Point2{by * std::cos(angle), by * std::sin(angle)};
+  return was;
+}
+
+/// An edge of the incision, long enough to matter, gets one vertex at each end.
+std::optional<Point2> close_edge(Made& m, Random& random) {
+  const Places places = vertices_by_place(m.result);
+  std::map<std::pair<std::int32_t, std::int32_t>, int> edge_of;
+  for (const auto& t : m.result.triangles)
+    for (std::size_t k = 0; k < 3; ++k) edge_of[{t[k], t[(k + 1) % 3]}] = 1;
+  std::vector<std::pair<Point2, Point2>> edges;
+  for (const auto& [ends, unused] : edge_of) {
+    const auto& [a, b] = ends;
+    const Point2 p = rest(m.result, a), q = rest(m.result, b);
+    const Vertices &at_p = places.at({p.x, p.y}), &at_q = places.at({q.x, q.y});
+    if (edge_of.contains({b, a}) || at_p.size() != 2 || at_q.size() != 2) continue;
+    const auto other_a = at_p[0] == a ? at_p[1] : at_p[0], other_b = at_q[0] == b ? at_q[1] : at_q[0];
+    if (edge_of.contains({other_b, other_a}) && length(q - p) > 0.2 * m.before.mean_edge()) edges.emplace_back(p, q);
+  }
+  if (edges.empty()) return {};
+  const auto [p, q] = edges[random.below(edges.size())];
+  for (const Point2 end : {p, q}) {
+    const Vertices both = places.at({end.x, end.y});
+    for (auto& t : m.result.triangles)
+      for (auto& v : t)
+        if (v == both[1]) v = both[0];
+  }
+  return 0.5 * (p + q);
+}
+
+/// Removes vertices that no triangle has, as a program's writer would.
+void drop_unused(MeshData& mesh) {
+  std::vector<std::int32_t> number(mesh.rest.size(), -1);
+  MeshData kept;
+  for (auto t : mesh.triangles) {
+    for (auto& v : t) {
+      auto& n = number[static_cast<std::size_t>(v)];
+      if (n < 0) {
+        n = static_cast<std::int32_t>(kept.rest.size());
+        kept.rest.push_back(rest(mesh, v)), kept.deformed.push_back(mesh.deformed[static_cast<std::size_t>(v)]);
+      }
+      v = n;
+    }
+    kept.triangles.push_back(t);
+  }
+  mesh = kept;
+}
+
+/// One of the cuts is made a third of an edge beside its path.
+std::optional<Point2> shift(Made& m, Random& random) {
+  std::vector<Curve> moved = m.cuts;
+  Curve& cut = moved[random.below(moved.size())];
+  Point2 along = cut.points.back() - cut.points.front();
+  if (cut.closed || length(along) < m.before.mean_edge()) along = {1, 0.3};
+  const Point2 aside = 0.33 * m.before.mean_edge() / length(along) * Point2{-along.y, along.x};
+  for (Point2& p : cut.points) p = p + aside;
+  const auto made = make(m.before, moved, "conventional_split");
+  if (!made) return {};
+  m.result = made->result;
+  return cut.points.front();  // not looked at: anywhere along it
+}
+
+std::optional<Point2> divide_one_side(Made& m, Random& random) {
+  const std::size_t t = random.below(m.result.triangles.size());
+  const auto [a, b, c] = m.result.triangles[t];
+  bool inner = false;
+  for (const auto& u : m.result.triangles)
+    for (std::size_t k = 0; k < 3; ++k) inner |= u[k] == b && u[(k + 1) % 3] == a;
+  const double share = random.between(0.3, 0.7);
+  const Point2 p = (1 - share) * rest(m.result, a) + share * rest(m.result, b);
+  if (!inner) return {};
+  const auto v = static_cast<std::int32_t>(m.result.rest.size());
+  m.result.rest.push_back(p), m.result.deformed.push_back({});
+  m.result.triangles[t] = {a, v, c};
+  m.result.triangles.push_back({v, b, c});
+  return p;
+}
+
+std::optional<Point2> round_to_float(Made& m, Random&) {
+  for (Point2& p : m.result.rest)
+    p = {static_cast<double>(static_cast<float>(p.x)), static_cast<double>(static_cast<float>(p.y))};
+  return Point2{};
+}
+
+std::optional<Point2> lose_triangle(Made& m, Random& random) {
+  const std::size_t t = random.below(m.result.triangles.size());
+  const Point2 place = centre(m.result, t);
+  m.result.triangles.erase(m.result.triangles.begin() + static_cast<std::ptrdiff_t>(t));
+  drop_unused(m.result);
+  return place;
+}
+
+std::optional<Point2> part_lips(Made& m, Random& random) {
+  std::vector<Vertices> shared;
+  for (const auto& [place, vertices] : vertices_by_place(m.result))
+    if (vertices.size() > 1) shared.push_back(vertices);
+  const Vertices& vertices = shared[random.below(shared.size())];
+  Point2& p = m.result.rest[static_cast<std::size_t>(vertices[random.below(vertices.size())])];
+  const Point2 was = p;
+  if (random.below(2) == 0)
+    p.x = std::nextafter(p.x, 9);
+  else
+    p = p + Point2{1e-12, -2e-12};
+  return was;
+}
+
+struct Way {
+  std::string name;
+  Spoil spoil;
+  std::vector<std::string> causes;  ///< any of them
+  bool keeps_vertices = false, has_place = true;
+};
+
+std::vector<Way> ways() {
+  return {{"FlippedTriangle", flip, {"flipped"}},
+          {"VertexMoved", move_vertex, {"moved_vertex"}, true},
+          {"LipNotOpened", close_edge, {"not_opened", "one_vertex"}},
+          {"IncisionShifted", shift, {"shifted"}, false, false},
+          {"NeighbourUnsplit", divide_one_side, {"t_junction"}},
+          {"RoundedToFloat", round_to_float, {"rounded"}, false, false},
+          {"LostTriangle", lose_triangle, {"lost_triangle"}},
+          {"LipsNotBitEqual", part_lips, {"lips_differ"}}};
+}
+
+class Wrong : public testing::TestWithParam<Way> {};
+
+TEST_P(Wrong, IsRejectedForTheRightReason) {
+  const Way& way = GetParam();
+  Random random(11);
+  for (std::size_t done = 0; done < scaled(100);) {
+    Made made = random_cut(random);
+    Promises asked = promises_of_everybody;
+    asked.keeps_vertices = way.keeps_vertices;
+    ASSERT_TRUE(assess_result(made.before, made.result, made.cuts, asked, {}).judgement.ok);
+    const auto place = way.spoil(made, random);
+    if (!place) continue;
+    SCOPED_TRACE(way.name + ", cut " + std::to_string(done++) + ", " + text_of(made.cuts.front()));
+    if (way.name == "LipNotOpened") drop_unused(made.result);
+    const Assessment a = assess_result(made.before, made.result, made.cuts, asked, {});
+    EXPECT_FALSE(a.judgement.ok);
+    ASSERT_EQ(a.findings.size(), 1u);
+    const Finding& found = a.findings.front();
+    EXPECT_TRUE(std::find(way.causes.begin(), way.causes.end(), found.cause) != way.causes.end())
+        << found.cause << ": " << found.text << "\n"
+        << a.judgement.problems.front();
+    EXPECT_FALSE(found.mend.empty());
+    ASSERT_TRUE(found.place.has_value());
+    const Point2 p{(*found.place)[0], (*found.place)[1]};
+    const double h = made.before.mean_edge();
+    if (way.has_place) {
+      EXPECT_LT(length(p - *place), 0.75 * h) << found.text;
+    }
+    EXPECT_GE(found.cut, 1);
+    EXPECT_LE(found.cut, static_cast<int>(made.cuts.size()));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, Wrong, testing::ValuesIn(ways()),
+                         [](const auto& parameter) { return parameter.param.name; });
+
+TEST(Findings, TheNumberOfTheCutIsThatOfTheShiftedOne) {
+  const Sheet sheet(make_sheet("grid", 12));
+  const auto line = [](double y) { return Curve{Curve::Kind::polyline, false, {{0.13, y}, {0.88, y + 0.01}}}; };
+  const std::vector<Curve> asked{line(0.21), line(0.52), line(0.81)};
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    std::vector<Curve> other = asked;
+    for (Point2& p : other[i].points) p.y += 0.03;
+    const auto made = make(sheet, other, "conventional_split");
+    ASSERT_TRUE(made);
+    const Assessment a = assess_result(sheet, made->result, asked, promises_of_everybody, {});
+    ASSERT_EQ(a.findings.size(), 1u);
+    EXPECT_EQ(a.findings.front().cause, "shifted");
+    EXPECT_EQ(a.findings.front().cut, static_cast<int>(i) + 1);
+  }
+}
+
+/// Where deformed positions stand for rest positions, or another sheet was cut.
+TEST(Findings, OtherRestPositions) {
+  const Sheet sheet(lifted(make_sheet("delaunay", 9)));
+  auto made = make(sheet, {{Curve::Kind::polyline, false, {{-0.1, 0.43}, {1.1, 0.52}}}}, "conventional_split");
+  ASSERT_TRUE(made);
+  for (std::size_t v = 0; v < made->result.rest.size(); ++v)
+    made->result.rest[v] = {made->result.deformed[v].x, made->result.deformed[v].y};
+  const Assessment a = assess_result(sheet, made->result, made->cuts, promises_of_everybody, {});
+  ASSERT_EQ(a.findings.size(), 1u);
+  EXPECT_EQ(a.findings.front().cause, "other_rest");
+}
+
+TEST(Findings, LostDigitsAreSeenAndShortNumbersAreNot) {
+  using Points = std::vector<oracle::Point>;
+  Random random(3);
+  Points doubles, floats, decimals, simple{{0.5, 0.25}, {0.125, 0.75}, {1, 0}, {0, 0.375}};
+  for (int i = 0; i < 20; ++i) {
+    const double x = random.between(0, 1), y = random.between(0, 1);
+    doubles.push_back({x, y});
+    floats.push_back({static_cast<double>(static_cast<float>(x)), static_cast<double>(static_cast<float>(y))});
+    decimals.push_back({std::round(1e6 * x) / 1e6, std::round(1e6 * y) / 1e6});
+  }
+  EXPECT_EQ(lost_digits(doubles), "");
+  EXPECT_EQ(lost_digits(simple), "");
+  EXPECT_EQ(lost_digits({}), "");
+  EXPECT_EQ(lost_digits(floats), "in single precision");
+  EXPECT_EQ(lost_digits(decimals), "with 6 decimals");
+  floats.push_back(doubles.front());
+  EXPECT_EQ(lost_digits(floats), "");
+}
+
+}  // namespace
+}  // namespace cutbench

@@ -1,0 +1,227 @@
+// Programs as methods: what they make is taken over or judged wrong, and whatever they do costs one row.
+#include "harness/program/program.h"
+
+#include <nlohmann/json.hpp>
+
+#include "harness/base/errors.h"
+#include "harness/cases/cut_families.h"
+#include "tests/helpers.h"
+#include "tests/program.h"
+
+namespace cutbench {
+namespace {
+
+const std::string split = "python3 " CUTBENCH_EXPERIMENTS "/examples/split.py {mesh} {path} {out}";
+
+class Programs : public Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    write_mesh(lifted(make_sheet("delaunay", 10)), folder_ / "sheet.obj");
+  }
+  Result cut_by(const std::string& command, const std::string& more = "") {
+    return run("cut --mesh sheet.obj --path path.json --out out.obj --report report.json --command '" + command + "' " +
+               more);
+  }
+  std::vector<Record> records(const std::string& stem) {
+    const std::vector<std::string> lines = lines_of(read(folder_ / "r" / stem / "records.csv"));
+    std::vector<std::string> names;
+    std::istringstream head(lines.at(0));
+    for (std::string name; std::getline(head, name, ',');) names.push_back(name);
+    columns_.push_back(std::make_unique<std::vector<std::string>>(names));
+    std::vector<Record> rows;
+    for (std::size_t i = 1; i < lines.size(); ++i) rows.emplace_back(*columns_.back(), lines[i]);
+    return rows;
+  }
+  std::vector<std::unique_ptr<std::vector<std::string>>> columns_;
+};
+
+TEST_F(Programs, CutASheet) {
+  const Result made = cut_by(split);
+  EXPECT_EQ(made.code, 0) << made.error;
+  EXPECT_EQ(made.out.substr(0, 4), "ok: ");
+  const auto report = nlohmann::json::parse(read(folder_ / "report.json"));
+  EXPECT_EQ(report["verdict"], "ok");
+  EXPECT_GT(report["process_us"], 0);
+  EXPECT_EQ(report["geometry_us"], report["process_us"]);
+  EXPECT_TRUE(report["embed_us"].is_null());
+  EXPECT_EQ(run("score --mesh sheet.obj --path path.json --result out.obj").code, 0);
+}
+
+TEST_F(Programs, TheirOwnTimeCounts) {
+  EXPECT_EQ(cut_by(split + " && echo \"{\\\"us\\\": 12.5}\" >{time}").code, 0);
+  EXPECT_EQ(nlohmann::json::parse(read(folder_ / "report.json"))["process_us"], 12.5);
+}
+
+TEST_F(Programs, EachFailureIsNamed) {
+  struct Case {
+    std::string command, more;
+    int code;
+    std::string what;
+  };
+  const std::string unused = " # {mesh} {path} {out}";
+  for (const Case& c : std::vector<Case>{
+           {"exit 3" + unused, "", 1, "failed (crashed): exit code 3"},
+           {"echo first >&2; echo the reason >&2; exit 1" + unused, "", 1, "failed (crashed): exit code 1: the reason"},
+           {"kill -SEGV $$" + unused, "", 1, "failed (crashed): ended by signal 11"},
+           {"sleep 60" + unused, "--time-limit 0.3", 1, "failed (timed_out): ended at its time limit"},
+           {"sleep 60 & while :; do :; done" + unused, "--time-limit 0.3", 1, "failed (timed_out): "},
+           {"python3 -c \"x = bytearray(10**9)\"" + unused, "--memory-limit 200", 1,
+            "failed (crashed): exit code 1: MemoryError"},
+           {"echo too hard >&2; exit 2" + unused, "", 2, "program refuses this cut: too hard"},
+           {"true" + unused, "", 1, "failed (no_result): the program ended well, but wrote no {out}"},
+           {"echo nonsense >{out}" + unused, "", 1, "failed (no_result): out.obj: no triangles"},
+           {"cp {mesh} {out}" + unused, "", 1, "failed (wrong_pieces): wrong_pieces: 1 instead of 2"},
+           {"no_such_program" + unused, "", 1, "failed (crashed): exit code 127: "},
+           {"cp {mesh} {out}", "", 2, "its command lacks {path}; such as: "}}) {
+    const Result made = cut_by(c.command, c.more);
+    EXPECT_EQ(made.code, c.code) << c.command << made.error;
+    EXPECT_NE(made.error.find(c.what), std::string::npos) << c.command << '\n' << made.error;
+    EXPECT_FALSE(fs::exists(folder_ / "out.obj"));
+  }
+  EXPECT_EQ(run("cut --mesh sheet.obj --path path.json --out out.obj").code, 2);
+  EXPECT_EQ(
+      run("cut --mesh sheet.obj --path path.json --out out.obj --method example --command 'x {mesh}{path}{out}'").code,
+      2);
+}
+
+/// Nothing that a program started goes on after its time.
+TEST_F(Programs, LeaveNothingRunning) {
+  cut_by("(sleep 0.8; touch " + quoted((folder_ / "late").string()) + ") & sleep 60; : {mesh} {path} {out}",
+         "--time-limit 0.2");
+  ::usleep(1200000);
+  EXPECT_FALSE(fs::exists(folder_ / "late"));
+}
+
+std::string methods_with_programs() {
+  return "methods = [\"conventional_split\", {name = \"mine\", command = \"" + split +
+         "\"}, {name = \"closed\", command = \"cp {mesh} {out} # {path}\"}, {name = \"dies\", command = \"exit 1 # "
+         "{mesh} {path} {out}\"}]\n";
+}
+
+TEST_F(Programs, AreRowsOfAComparison) {
+  write(folder_ / "e.toml",
+        "claim = \"c\"\nsheets = [\"grid\", \"delaunay\"]\nresolutions = [200]\ncut_families = [\"curved\", "
+        "\"recut\"]\ncases = 2\nrepetitions = 2\neigenvalue_cases = 1\n" +
+            methods_with_programs() + "scene = \"scene.toml\"\ncut_time = 0.05\nscene_cases = 1\n");
+  write(folder_ / "scene.toml",
+        "effect = \"e\"\ntruth = \"none\"\nduration = 0.2\n[sheet]\nfamily = \"grid\"\nsize = 1.0\nresolution = 200\n"
+        "[material]\ndensity = 2.2\nstiffness = 1000.0\n[physics]\ngravity = [0.0, 0.0, -9.81]\n[[pins]]\nbox = "
+        "[[-inf, -inf], [0.0, inf]]\n");
+  EXPECT_EQ(run("run e.toml --out r").code, 1);  // two of the programs are wrong
+  std::map<std::string, int> rows;
+  for (const Record& row : records("e")) {
+    const std::string &method = row.get("method"), &cache = row.get("cache");
+    ++rows[method + " " + cache];
+    if (method == "closed") {
+      EXPECT_EQ(row.get("status"), "failed");
+      EXPECT_TRUE(row.get("verdict") == "wrong_pieces" || row.get("verdict") == "incision") << row.line();
+    }
+    if (method == "dies") {
+      EXPECT_EQ(row.get("verdict"), "crashed");
+    }
+    if (method != "mine") continue;
+    EXPECT_EQ(row.get("verdict"), "ok") << row.line();
+    EXPECT_NE(row.get("process_us"), "");
+    EXPECT_EQ(row.get("embed_us"), "");
+    if (row.get("repetition") == "0" && cache == "warm") {
+      EXPECT_NE(row.get("ar_max_cut"), "");
+      EXPECT_NE(row.get("incision_error_h"), "");
+      EXPECT_EQ(row.get("eigenvalue_ratio") != "", row.get("case") == "0");
+    }
+    if (cache == "simulation") {  // interpolated positions: hardly a jump
+      EXPECT_LE(std::abs(std::stod(row.get("membrane_jump_j"))), 1e-6 * std::stod(row.get("membrane_j")) + 1e-20);
+    }
+  }
+  for (const std::string method : {"conventional_split", "mine", "closed", "dies"}) {
+    EXPECT_EQ(rows[method + " warm"], 16) << method;
+    EXPECT_EQ(rows[method + " simulation"], 4) << method;
+  }
+}
+
+TEST_F(Programs, AreRowsOfAnAccuracyRun) {
+  write(folder_ / "a.toml", "claim = \"c\"\nsheets = [\"grid\"]\nresolutions = [200]\n" + methods_with_programs() +
+                                "[accuracy]\nproblems = [\"centre_crack\"]\nmembers = [1]\ndirect = [\"cholmod\"]\n");
+  EXPECT_EQ(run("run a.toml --out r").code, 1);
+  std::map<std::string, std::string> errors;
+  for (const Record& row : records("a")) errors[row.get("method")] = row.get("error");
+  EXPECT_EQ(errors.size(), 5u);
+  EXPECT_LT(std::stod(errors["mine"]), 2 * std::stod(errors["conventional_split"]));
+  EXPECT_EQ(errors["closed"], "");
+}
+
+TEST_F(Programs, AreCountedByACampaign) {
+  write(folder_ / "c.toml", "claim = \"c\"\nsheets = [\"delaunay\"]\nresolutions = [72]\ncases = 4\n" +
+                                methods_with_programs() + "[campaign]\ntime_limit_s = 60\n");
+  EXPECT_EQ(run("run c.toml --out r").code, 1);
+  std::map<std::string, std::map<std::string, int>> counts;
+  for (const Record& row : records("c"))
+    for (const char* count : {"tried", "ok", "noop", "wrong", "crashed"})
+      counts[row.get("method")][count] += std::stoi(row.get(count));
+  EXPECT_EQ(counts["closed"]["ok"], 0);
+  EXPECT_GT(counts["closed"]["wrong"], 0);
+  EXPECT_GT(counts["dies"]["crashed"], 0);
+  EXPECT_GT(counts["mine"]["ok"], 0);
+}
+
+/// The same method in two languages, and a triangulation that is another one.
+TEST_F(Programs, ExamplesCutRight) {
+  const std::string files = " {mesh} {path} {out}";
+  for (const char* family : {"straight", "curved", "partial", "cut_out", "self_crossing"})
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Sheet sheet(read_mesh(folder_ / "sheet.obj"));
+      write_path(make_case(family, 9, i, sheet), folder_ / "path.json");
+      SCOPED_TRACE(read(folder_ / "path.json"));
+      std::vector<nlohmann::json> reports;
+      for (const std::string& command : {split, CUTBENCH_SPLIT_PROGRAM + files, CUTBENCH_CGAL_PROGRAM + files}) {
+        const Result made = cut_by(command);
+        EXPECT_EQ(made.code, 0) << family << ' ' << i << ' ' << command << made.error;
+        reports.push_back(nlohmann::json::parse(read(folder_ / "report.json")));
+      }
+      EXPECT_EQ(reports[0]["pieces"], reports[1]["pieces"]);
+      EXPECT_NEAR(reports[0]["vertices_added"], reports[1]["vertices_added"], 2);  // edges come in another order
+      EXPECT_EQ(reports[0]["pieces"], reports[2]["pieces"]);
+    }
+}
+
+/// Opens nothing, but only where the path has more than four points.
+TEST_F(Programs, FaultsAreMadeSmall) {
+  write(folder_ / "faulty.py", read(fs::path(CUTBENCH_EXPERIMENTS) / "examples" / "split.py") +
+                                   "    if len(json.load(open(sys.argv[2]))['cuts'][0]['polyline']) > 4:\n"
+                                   "        open(sys.argv[3], 'w').write(open(sys.argv[1]).read())\n");
+  write(
+      folder_ / "long.json",
+      R"({"cuts":[{"polyline":[[-0.1,0.3],[0.2,0.4],[0.3,0.6],[0.5,0.5],[0.6,0.3],[0.7,0.5],[0.8,0.4],[1.2,0.7]]}]})");
+  const std::string command = " --command 'python3 faulty.py {mesh} {path} {out}'";
+  const Result made = run("reduce --mesh sheet.obj --path long.json --out fault --seconds 8" + command);
+  ASSERT_EQ(made.code, 0) << made.error;
+  EXPECT_NE(made.out.find("wrong_pieces"), std::string::npos) << made.out;
+  const MeshData small = read_mesh(folder_ / "fault.small.obj");
+  EXPECT_LT(small.triangles.size(), 20u);
+  EXPECT_EQ(read_path(folder_ / "fault.small.json").front().points.size(), 5u);
+  EXPECT_EQ(run("cut --mesh fault.small.obj --path fault.small.json --out out.obj" + command).code, 1);
+  EXPECT_EQ(read(folder_ / "fault.small.svg").substr(0, 4), "<svg");
+  const Result right = run("reduce --mesh sheet.obj --path path.json --out none --method example");
+  EXPECT_EQ(right.code, 2);
+  EXPECT_NE(right.error.find("nothing to reduce: example cuts this sheet right"), std::string::npos) << right.error;
+}
+
+TEST_F(Programs, CanBeAddedToAnExperiment) {
+  write(folder_ / "e.toml", small_experiment());
+  EXPECT_EQ(run("run e.toml --out r --cases 1 --methods conventional_split --command 'mine=" + split + "'").code, 0);
+  std::set<std::string> methods;
+  for (const Record& row : records("e")) methods.insert(row.get("method"));
+  EXPECT_EQ(methods, (std::set<std::string>{"conventional_split", "mine"}));
+  for (const auto& [command, what] :
+       {std::pair<std::string, std::string>{"python3", "give NAME=COMMAND"},
+        {"mine=python3 x.py", "its command lacks {mesh}"},
+        {"a,b=x {mesh} {path} {out}", "the name of a method has letters"},
+        {"conventional_split=x {mesh} {path} {out}", "has the name of a method; choose another"}}) {
+    const Result refused = run("run e.toml --out r --command '" + command + "'");
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_NE(refused.error.find(what), std::string::npos) << refused.error;
+  }
+}
+
+}  // namespace
+}  // namespace cutbench
