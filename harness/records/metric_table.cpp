@@ -391,7 +391,7 @@ const std::vector<Metric>& all_metrics() {
     add_shapes(t, "_all", ", over the whole sheet after the cut.", &Assessment::all);
     add_shapes(t, "_cut", ", over the triangles that the cut made or changed.", &Assessment::cut);
     add_forced_zones(t), add_stability_and_accuracy(t), add_times(t), add_steps(t), add_jumps(t);
-    add_accuracy_run(t), add_campaign(t);
+    add_accuracy_run(t), add_campaign(t), add_atlas(t);
     return t;
   }();
   return table;

@@ -46,7 +46,9 @@ enum class Group : std::uint8_t {
   step,
   jump,
   accuracy_run,
-  campaign
+  campaign,
+  atlas_setting,
+  atlas
 };
 
 struct Metric {
@@ -61,6 +63,8 @@ struct Metric {
 
 /// The columns of all records, in their order.
 const std::vector<Metric>& all_metrics();
+/// The atlas's part of the table.
+void add_atlas(std::vector<Metric>& table);
 /// Names of the columns of these groups, in the table's order.
 std::vector<std::string> columns_of(std::initializer_list<Group> groups);
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "harness/run/sweep.h"
 #include "harness/scene/scene.h"
 
 namespace cutbench {
@@ -38,13 +39,21 @@ struct Experiment {
     bool reference = true;  ///< solve on a mesh fitted to the cut too; excess errors are measured against it
   };
 
+  /// Sweeps to where the methods fail (harness/run/sweep.h) instead of cut families.
+  struct Atlas {
+    std::vector<Sweep> sweeps;
+    std::string text;          ///< of the files that the points depend on
+    double time_limit_s = 20;  ///< processor time of a point
+  };
+
   std::string stem;   ///< of the file: names the results folder and the plot
   std::string claim;  ///< that the experiment tests
   std::vector<std::string> sheets, cut_families;
   std::vector<int> resolutions;   ///< triangles of the uncut sheet, 2 n^2
   std::vector<Entry> methods;     ///< empty: the file says "all", and the caller fills them in
   std::uint64_t seed = 1;         ///< for development; published figures use --seed commit
-  int cases = 1;                  ///< per sheet, resolution and cut family; of a campaign per sheet and resolution
+  int cases = 1;                  ///< per sheet, resolution and cut family; of a campaign per sheet and resolution; of
+                                  ///< an atlas the most of a point
   int repetitions = 1;            ///< of each cut, warm
   bool cold = false;              ///< cut once more with cold caches
   bool quality = true;            ///< shapes, forced zones; the oracle judges every case either way
@@ -59,6 +68,7 @@ struct Experiment {
   int scene_cases = 0;     ///< only so many of the cases are cut in the scene
   std::optional<Campaign> campaign;
   std::optional<Accuracy> accuracy;
+  std::optional<Atlas> atlas;
 };
 
 /// Throws InputError: unreadable, not TOML, unknown or missing keys (with the nearest known one), values out of range.
