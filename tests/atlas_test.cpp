@@ -89,7 +89,7 @@ cut = "past_vertex"
 place = 1e-3
 pose = "stretched"
 pose_amount = 1.05
-step_share = [0.3, 1e-6])") + sweep("iterations", R"(steps = 3
+step_share = [0.1, 1e-6])") + sweep("iterations", R"(steps = 3
 cut = "curved"
 pose = "stretched"
 pose_amount = 1.05
@@ -119,7 +119,7 @@ newton = 20)",
     verdict[key] = row.get("verdict"), reason[key] = row.get("reason");
     if (name == "vertex") explicit_step[key] = std::stod(row.get("explicit_step_ratio"));
   }
-  ASSERT_EQ(verdict.size(), 24u);
+  ASSERT_EQ(verdict.size(), 30u);
   const auto is = [&](const std::string& key, const std::string& what) {
     EXPECT_EQ(verdict[key], what) << key << ": " << reason[key];
   };
@@ -135,16 +135,16 @@ newton = 20)",
   EXPECT_LT(explicit_step["vertex conventional_split 1e-06"], 1e-6);
   EXPECT_GT(explicit_step["vertex snap_or_split 1e-06"], 0.1);
   EXPECT_GT(explicit_step["vertex split_and_tie 1e-06"], 1e3 * explicit_step["vertex conventional_split 1e-06"]);
-  EXPECT_NE(verdict["explicit conventional_split 0.3"], "ok");
-  is("explicit conventional_split 1e-06", "ok"), is("explicit snap_or_split 0.3", "ok");
-  is("explicit split_and_tie 0.3", "refused");
+  EXPECT_NE(verdict["explicit conventional_split 0.1"], "ok");
+  is("explicit conventional_split 1e-06", "ok"), is("explicit snap_or_split 0.1", "ok");
+  is("explicit split_and_tie 0.1", "refused");
 
   const Result drawn =
       run("methods >/dev/null; /usr/bin/python3 '" CUTBENCH_TEST_CASES "/../../plots/atlas.py' --results r/atlas");
   EXPECT_EQ(drawn.code, 0) << drawn.error;
   EXPECT_GT(fs::file_size(folder_ / "r/atlas/atlas.png"), 10000u);
   const std::string table = read(folder_ / "r/atlas/atlas.md");
-  for (const char* line : {"| conventional split | - | 1e-06 | 0.3 | ", "| snap or split | - | 0.3 | - | - |",
+  for (const char* line : {"| conventional split | - | 1e-06 | 0.1 | ", "| snap or split | - | 0.1 | - | - |",
                            "| snap or split | cg | 2000 | 2 | solver stalled |",
                            "| split and tie | backward_euler, 1 | 1.05 | -1 | inverted |"})
     EXPECT_NE(table.find(line), std::string::npos) << line << "\n" << table;

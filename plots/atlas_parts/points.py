@@ -55,4 +55,4 @@ def breaking_point(values, good):
 
 
 def text(value):
-    return "-" if value is None or (isinstance(value, float) and np.isnan(value)) else f"{value:g}"
+    return "-" if value is None or (isinstance(value, float) and np.isnan(value)) else f"{value:.7g}"

@@ -42,10 +42,14 @@ def breaking_points(rows, sweep):
         line = [words[0], ", ".join(words[1:]) or "-", text(last), text(first), verdict.replace("_", " ")]
         if sweep in WITH_EXPLICIT:
             good = [points.breaking_point(table[x], (table["rank"] == 0) & (table["explicit"] >= least))[0] for least in (0.3, 0.1)]
-            line += [text(v) for v in good] + [f"{table['explicit'].min():.1g}"]
+            line += [text(v) for v in good] + [rounded(table["explicit"].min())]
         lines.append(line)
     methods = list(dict.fromkeys(line[0] for line in lines))
     return sorted(lines, key=lambda line: methods.index(line[0]))
+
+
+def rounded(value):
+    return "-" if pd.isna(value) else f"{value:.2g}"
 
 
 def markdown(head, lines):
@@ -109,6 +113,16 @@ def implicit(rows):
                     sorted(lines, key=lambda line: methods.index(line[0])))
 
 
+def in_a_row(rows):
+    """What the n-th of many cuts meets and costs."""
+    some = rows[(rows["sweep"] == "in_a_row") & rows["place"].isin([1, 10, 100, 1000])]
+    return markdown(["method", "cuts", "triangles", "smallest altitude of changed, h", "explicit step", "time of the last cut, ms",
+                     "verdict"],
+                    [[r.name, text(r.place), text(r.triangles), rounded(r.altitude_min_h_cut), rounded(r.explicit_step_ratio),
+                      rounded(r.geometry_us / 1000), r.verdict.replace("_", " ")]
+                     for r in some.sort_values("name", kind="stable").itertuples(index=False)])
+
+
 def verdicts(rows):
     table = pd.crosstab(rows["sweep"], rows["verdict"])
     names = [v for v in points.WORST_LAST if v in table]
@@ -121,7 +135,8 @@ def text_of(rows, context):
     parts = [f"# Breaking points\n\n{len(rows)} points, seed {context.get('seed')}, commit {context.get('commit')}. Each line "
              "is a series of points from harmless to harmful; a point is ok where all of its cases are.\n",
              "## Explicit steps\n\nLargest stable explicit step, bending included, over that of the uncut sheet; a cut that was "
-             "not made counts as 0.\n", cures(rows), "\n" + prediction(rows), "## Implicit steps after the cut\n", implicit(rows), "\n## Verdicts\n", verdicts(rows)]
+             "not made counts as 0.\n", cures(rows), "\n" + prediction(rows), "## Implicit steps after the cut\n", implicit(rows), "\n## Many cuts in a row\n",
+             in_a_row(rows), "\n## Verdicts\n", verdicts(rows)]
     for sweep in dict.fromkeys(rows["sweep"]):
         if sweep not in SERIES:
             continue
