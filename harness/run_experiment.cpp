@@ -1,5 +1,6 @@
 #include "harness/run_experiment.h"
 
+#include "harness/atlas/atlas.h"
 #include "harness/campaign/campaign.h"
 #include "harness/run/accuracy.h"
 #include "harness/run/method_runner.h"
@@ -10,6 +11,7 @@ bool run_experiment(const Experiment& experiment, const std::vector<MethodRow>& 
                     const RunOptions& options) {
   if (experiment.campaign) return run_campaign(experiment, methods, context, options);
   if (experiment.accuracy) return run_accuracy(experiment, methods, context, options);
+  if (experiment.atlas) return run_atlas(experiment, methods, context, options);
   return run_methods(experiment, methods, context, options);
 }
 

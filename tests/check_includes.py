@@ -22,7 +22,8 @@ ROOMS = {  # from the ground up: a room and the rooms below it that it may use
     "harness/run": ["base", "mesh", "path", "cut", "fem", "measure", "judge", "cases", "truth", "scene",
                     "records", "program"],
     "harness/campaign": ["base", "mesh", "path", "cut", "measure", "judge", "cases", "records", "run", "program"],
-    "harness": ["records", "run", "campaign"],  # run_experiment
+    "harness/atlas": ["base", "mesh", "path", "cut", "fem", "judge", "cases", "scene", "records", "run"],
+    "harness": ["records", "run", "campaign", "atlas"],  # run_experiment
     "methods": ["base", "mesh", "path", "cut"],
 }
 

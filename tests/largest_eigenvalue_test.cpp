@@ -8,9 +8,11 @@
 #include <Eigen/LU>
 
 #include "harness/cases/cut_families.h"
+#include "harness/fem/stepper.h"
 #include "harness/mesh/families.h"
 #include "methods/registry.h"
 #include "tests/dense_solves.h"
+#include "tests/fem_helpers.h"
 #include "tests/helpers.h"
 
 namespace cutbench {
@@ -64,6 +66,53 @@ TEST(LargestEigenvalue, OfAnUncutSheetIsThatOfADenseSolve) {
     const double expected = by_dense_solve(mesh);
     EXPECT_NEAR(largest_eigenvalue(Sheet(mesh)), expected, 1e-3 * expected);
   }
+}
+
+const Material skin{.density = 2.2, .stiffness = 1000, .poisson = 0.45, .bending = 4.2e-4};
+
+Elasticity elasticity_of(const Material& material, BendingKind kind) {
+  return {.poisson = material.poisson, .bending = kind, .bending_length2 = material.bending / material.stiffness};
+}
+
+TEST(LargestEigenvalue, WithBendingIsThatOfADenseSolveInSpace) {
+  for (const BendingKind kind : {BendingKind::patches, BendingKind::hinges})
+    for (const std::string method : {"conventional_split", "warp_and_refine"}) {
+      Body<3> body(make_sheet("grid", 6), skin, {.bending = kind});
+      ASSERT_EQ(body.cut(line({0.21, 0.27}, {0.83, 0.71}), method, find_method(method).knob.value), Status::ok);
+      const auto n = static_cast<Eigen::Index>(3 * body.sheet.deformed_slots());
+      body.model.rotate(body.model.positions(body.sheet)), body.model.assemble(0, 1);
+      const Eigen::MatrixXd stiffness = dense(body.model);
+      Eigen::MatrixXd mass = Eigen::MatrixXd::Identity(n, n);  // freed slots have no stiffness
+      for (Eigen::Index i = 0; i < n; ++i)
+        if (body.model.lumped_mass()[i / 3] > 0) mass(i, i) = body.model.lumped_mass()[i / 3];
+      const double expected = largest_mode(stiffness, mass) * skin.density / skin.stiffness;
+      EXPECT_NEAR(largest_eigenvalue(body.sheet, {}, elasticity_of(skin, kind)), expected, 1e-3 * expected);
+    }
+}
+
+/// Runs just below and just above the predicted step, of a sheet with slivers and bending.
+TEST(LargestEigenvalue, IsWhereExplicitStepsBreakDown) {
+  for (const std::string method : {"conventional_split", "warp_and_refine"})
+    for (const double damping : {0.0, 1e-5}) {
+      Material material = skin;
+      material.bending = 1;
+      material.mass_damping = 1e4 * damping, material.stiffness_damping = damping;
+      const auto grows = [&](double factor) {
+        Body<3> body(make_sheet("grid", 8), material, {.strain = Strain::linear, .bending = BendingKind::patches});
+        EXPECT_EQ(body.cut(line({0.21, 0.27}, {0.83, 0.71}), method, find_method(method).knob.value), Status::ok);
+        const double with = largest_eigenvalue(body.sheet, {}, elasticity_of(material, BendingKind::patches));
+        EXPECT_GT(with, 1.5 * largest_eigenvalue(body.sheet, {}, elasticity_of(material, BendingKind::none)));
+        const double step = factor * explicit_step_limit(with, material);
+        Stepper<3> stepper({.integrator = Integrator::symplectic_euler, .step = step, .solver = {}});
+        for (Eigen::Index i = 0; i < body.state.v.size(); ++i)
+          body.state.v[i] = 1e-3 * std::sin(static_cast<double>(37 * i * i));
+        const double initial = balance_of(body.model, body.state).energy.total();
+        for (int n = 0; n < 400; ++n) EXPECT_EQ(stepper.step(body.model, body.state).verdict, "ok");
+        return balance_of(body.model, body.state).energy.total() > 100 * initial;
+      };
+      EXPECT_FALSE(grows(0.98)) << method << damping;
+      EXPECT_TRUE(grows(1.02)) << method << damping;
+    }
 }
 
 }  // namespace

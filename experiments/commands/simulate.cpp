@@ -19,6 +19,7 @@ struct SimulateArguments {
   std::string scene, out, frames, solver, report, steps;
   MethodOptions method{.method = "conventional_split", .settings = {}, .chord_tolerance = {}};
   int resolution = 0, every = 8;
+  double time_limit = 0;
 };
 
 Exit run_scene(const SimulateArguments& arguments, const std::string& command_line) {
@@ -49,6 +50,7 @@ Exit run_scene(const SimulateArguments& arguments, const std::string& command_li
                                 .every = arguments.every,
                                 .report = arguments.report,
                                 .steps = arguments.steps,
+                                .time_limit = arguments.time_limit,
                                 .cut = arguments.method.chord_tolerance.cut_options()};
   return simulate(scene, *method, options) ? done : fell_short;
 }
@@ -74,12 +76,16 @@ Command add_simulate(CLI::App& app) {
   command->add_option("--solver", arguments->solver, solvers);
   command->add_option("--report", arguments->report, "what the steps cost, as JSON; none where it is not given");
   command->add_option("--steps", arguments->steps, "what each step cost, as CSV; none where it is not given");
+  command
+      ->add_option("--time-limit", arguments->time_limit,
+                   "seconds of processor time, then the steps end; none otherwise")
+      ->check(CLI::PositiveNumber);
   command->footer(
       "example:\n"
       "  cutbench simulate experiments/scenes/falling_piece.toml --resolution 800 --frames frames\n"
       "exit codes:\n"
       "  0  all steps and cuts were made\n"
-      "  1  a step or a cut failed, a method refused a cut, or a file can't be written\n"
+      "  1  a step or a cut failed, the result is not sound, a method refused a cut, or a file can't be written\n"
       "  2  bad input: an option or a file");
   return {command, [arguments](const std::string& line) { return run_scene(*arguments, line); }};
 }

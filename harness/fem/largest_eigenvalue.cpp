@@ -2,10 +2,13 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
+#include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 #include <vector>
 
+#include "harness/fem/bending.h"
 #include "harness/fem/combination.h"
 #include "harness/fem/element_table.h"
 #include "harness/fem/membrane.h"
@@ -19,8 +22,8 @@ using Eigen::VectorXd;
 /// y = L^-1 C^T K C L^-T x, element by element, with L L^T = C^T M C.
 class ScaledStiffness {
  public:
-  ScaledStiffness(const Sheet& sheet, const Ties& ties)
-      : lame_(lame_of({.stiffness = 1, .poisson = 0.3}, Plane::stress)),
+  ScaledStiffness(const Sheet& sheet, const Ties& ties, const Elasticity& elasticity)
+      : lame_(lame_of({.stiffness = 1, .poisson = elasticity.poisson}, elasticity.plane)),
         elements_(sheet),
         combination_(ties, sheet.deformed_slots()),
         ghosts_(ties.ghosts) {
@@ -29,6 +32,8 @@ class ScaledStiffness {
       if (element.alive())
         for (const auto d : element.vertex) mass[d.value] += element.area / 3;
     factor(mass, ties.lumped);
+    if (elasticity.bending != BendingKind::none)
+      bending_.emplace(sheet, elasticity.bending, elasticity.bending_length2, elasticity.poisson);
   }
 
   Eigen::Index size() const { return 2 * static_cast<Eigen::Index>(combination_.unknowns()); }
@@ -42,6 +47,8 @@ class ScaledStiffness {
     force_.setZero(moved_.size());
     for (const Element& element : elements_)
       if (element.alive()) add_force(element);
+    // Bending acts on each coordinate alike, so that membrane and bending together are stiffest in the plane.
+    if (bending_) add_product_per_coordinate(bending_->matrix(), 2, 1, moved_, force_);
     combination_.reduce(2, force_, y);
     for (const GhostEdge& ghost : ghosts_) add_force(ghost, y);
     scaled_ = mass_.permutationP() * Eigen::Map<const TwoPerUnknown>(y.data(), mass_.rows(), 2);
@@ -109,6 +116,7 @@ class ScaledStiffness {
   ElementTable elements_;
   Combination combination_;
   std::vector<GhostEdge> ghosts_;
+  std::optional<Bending> bending_;
   Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> mass_;
   bool is_mass_positive_ = true;
   TwoPerUnknown scaled_;
@@ -117,10 +125,16 @@ class ScaledStiffness {
 
 }  // namespace
 
-double largest_eigenvalue(const Sheet& sheet, const Ties& ties) {
+double explicit_step_limit(double eigenvalue, const Material& material) {
+  const double w2 = eigenvalue * material.stiffness / material.density;
+  const double c = material.mass_damping + material.stiffness_damping * w2;
+  return 4 / (c + std::sqrt(c * c + 4 * w2));
+}
+
+double largest_eigenvalue(const Sheet& sheet, const Ties& ties, const Elasticity& elasticity) {
   constexpr double tolerance = 1e-3;  // met at two checks, for at the first it may be met by the second largest
   constexpr int most_steps = 1000, between_checks = 8;
-  ScaledStiffness stiffness(sheet, ties);
+  ScaledStiffness stiffness(sheet, ties, elasticity);
   const Eigen::Index n = stiffness.size();
   if (n == 0) return 0;
   if (!stiffness.is_mass_positive()) return std::numeric_limits<double>::quiet_NaN();

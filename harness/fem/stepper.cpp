@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "harness/mesh/mesh_data.h"
 
@@ -138,6 +139,7 @@ template <int D>
 void Stepper<D>::implicit_step(Model<D>& model, State& state, double h, StepReport& report) {
   const double alpha = model.material().mass_damping, beta = model.material().stiffness_damping;
   const double mass_factor = 1 + h * alpha, stiffness_factor = h * beta + h * h;
+  double before2 = 0, last2 = 0;  // dv'A dv of the last two solves: Newton's decrement, squared
   v_ = state.v;
   hold(model, state, h);
   for (int iteration = 0; iteration < options_.newton && report.verdict == "ok"; ++iteration) {
@@ -156,7 +158,25 @@ void Stepper<D>::implicit_step(Model<D>& model, State& state, double h, StepRepo
     solve(model, first ? state.dv : Field(), report);
     if (first) state.dv = dv_;
     v_ += dv_;
+    before2 = std::exchange(last2, dv_.dot(rhs_));
   }
+  if (options_.newton > 2 && report.verdict == "ok") judge_newton(model, h, before2, last2, report);
+}
+
+/// Newton's steps have to become smaller (Deuflhard, Newton Methods for Nonlinear Problems, 2011, 2.1.1).
+template <int D>
+void Stepper<D>::judge_newton(const Model<D>& model, double h, double before2, double last2, StepReport& report) {
+  report.newton_residual = before2 > 0 ? std::sqrt(std::abs(last2) / before2) : 0;
+  if (last2 < before2) return;
+  // What rounding of the positions makes of stiff elements: dv = eps |x| / h.
+  const SystemMatrix<D> a = model.system();
+  double noise2 = 0;
+  for (std::size_t i = 0; i < model.vertices(); ++i)
+    noise2 += a.diagonal(i).norm() * x_.template segment<D>(static_cast<Eigen::Index>(D * i)).squaredNorm();
+  if (last2 <= 1e-28 * noise2 / (h * h)) return;
+  report.verdict = "newton_failed";
+  report.reason = "the last of " + std::to_string(options_.newton) + " Newton steps was " +
+                  text(report.newton_residual) + " times as large as the one before";
 }
 
 /// \pre rotations and matrix are of this iteration.
@@ -256,7 +276,7 @@ void Stepper<D>::equilibrium(Model<D>& model, State& state, StepReport& report) 
     if ((fraction == 1 && -slope <= 1e-12 * size) || (-slope <= 1e-8 * size && falls > 0.5)) return;
     last_slope = -slope;
   }
-  report.verdict = "solver_stalled";
+  report.verdict = "newton_failed";
   report.reason = "no equilibrium after " + std::to_string(options_.newton) + " Newton iterations, relative residual " +
                   text(report.newton_residual);
 }

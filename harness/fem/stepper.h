@@ -41,12 +41,15 @@ struct StepTimes {
 };
 
 struct StepReport {
-  std::string verdict = "ok", reason;  ///< "solver_stalled", "not_finite"
+  std::string verdict = "ok", reason;  ///< "solver_stalled", "newton_failed", "not_finite"
   int newton = 0;                      ///< linear solves
   int iterations = 0;                  ///< of the linear solver, summed
   double residual = 0;                 ///< the largest that a linear solve left
   int fallbacks = 0;                   ///< solves that another preconditioner ended (SolveReport::fell_back)
-  double newton_residual = 0;          ///< equilibrium: |f| over the scale of the forces
+  /// Equilibrium: |f| over the scale of the forces. A step of three solves or more: the size of the last Newton step over
+  /// that of the one before, in the norm of A; newton_failed where it is not smaller, and no rounding error. The first
+  /// one is linearised elsewhere than the others and does not compare.
+  double newton_residual = 0;
   StepTimes time_us;
 };
 
@@ -64,6 +67,7 @@ class Stepper {
   void explicit_step(Model<D>& model, State& state, StepReport& report);
   void equilibrium(Model<D>& model, State& state, StepReport& report);
   void solve(Model<D>& model, const Field& start, StepReport& report);
+  void judge_newton(const Model<D>& model, double h, double before2, double last2, StepReport& report);
   void hold(Model<D>& model, const State& state, double h);
   void forces(Model<D>& model, const Field& x, StepReport& report);
 

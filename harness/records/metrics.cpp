@@ -24,7 +24,7 @@ struct GroupText {
   Group group;
   const char *name, *title;
 };
-constexpr std::array<GroupText, 12> group_texts{{
+constexpr std::array<GroupText, 14> group_texts{{
     {Group::key, "key", "What was measured"},
     {Group::outcome, "outcome", "What came of it"},
     {Group::size, "size", "Sizes"},
@@ -37,6 +37,8 @@ constexpr std::array<GroupText, 12> group_texts{{
     {Group::jump, "jump", "Only of cuts inside a running scene: energies, forces and their jumps"},
     {Group::accuracy_run, "accuracy_run", "Only of accuracy runs"},
     {Group::campaign, "campaign", "Only of campaigns"},
+    {Group::atlas_setting, "atlas_setting", "Only of the atlas: the settings of a point"},
+    {Group::atlas, "atlas", "Only of the atlas: what came of a point"},
 }};
 
 const char* name_of(Group group) { return group_texts[static_cast<std::size_t>(group)].name; }

@@ -23,9 +23,9 @@ struct Measured {
   const CutRun* cut = nullptr;  ///< status and times
   bool judged = false;          ///< the repetition that was judged: it has what no repetition changes
   const Assessment* assessment = nullptr;
-  bool shapes = true;                 ///< the assessment's shapes and forced zones are wanted
-  const MotionCut* motion = nullptr;  ///< the cut in a running scene; then `cut` is its `cut`
-  double eigenvalue_ratio = -1;       ///< negative: not measured
+  bool shapes = true;                                           ///< the assessment's shapes and forced zones are wanted
+  const MotionCut* motion = nullptr;                            ///< the cut in a running scene; then `cut` is its `cut`
+  double eigenvalue_ratio = -1, bending_eigenvalue_ratio = -1;  ///< negative: not measured
 };
 
 /// Not measured: an empty field in CSV, null in JSON.
@@ -46,7 +46,9 @@ enum class Group : std::uint8_t {
   step,
   jump,
   accuracy_run,
-  campaign
+  campaign,
+  atlas_setting,
+  atlas
 };
 
 struct Metric {
@@ -61,6 +63,8 @@ struct Metric {
 
 /// The columns of all records, in their order.
 const std::vector<Metric>& all_metrics();
+/// The atlas's part of the table.
+void add_atlas(std::vector<Metric>& table);
 /// Names of the columns of these groups, in the table's order.
 std::vector<std::string> columns_of(std::initializer_list<Group> groups);
 

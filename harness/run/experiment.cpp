@@ -100,6 +100,32 @@ void refuse_repeated(std::vector<T> entries, const std::string& what) {
     throw InputError(what + " names something twice; delete one");
 }
 
+std::string text_of_file(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+Experiment::Atlas read_atlas(const TomlReader& reader, const std::filesystem::path& file, const Experiment& e) {
+  Experiment::Atlas atlas;
+  atlas.time_limit_s = reader.positive("time_limit_s", atlas.time_limit_s);
+  atlas.sweeps = read_sweeps(reader, file.parent_path());
+  atlas.text = text_of_file(file);
+  std::vector<std::string> names, sheets;
+  for (const Sweep& sweep : atlas.sweeps) {
+    names.push_back(sweep.name);
+    sheets.insert(sheets.end(), sweep.sheets.begin(), sweep.sheets.end());
+    for (const int resolution : sweep.resolutions)
+      if (std::find(e.resolutions.begin(), e.resolutions.end(), resolution) == e.resolutions.end())
+        reader.refuse("sweep \"" + sweep.name + "\": " + std::to_string(resolution) +
+                      " is not one of the experiment's \"resolutions\"");
+    if (const auto& scene = sweep.scene_file; atlas.text.find(scene.string()) == std::string::npos)
+      atlas.text += scene.string() + text_of_file(scene);
+  }
+  check_names(sheets, e.sheets, reader.where + ": a sweep's sheet");
+  refuse_repeated(names, reader.where + ": the names of \"sweeps\"");
+  return atlas;
+}
+
 }  // namespace
 
 std::string identity_of_methods(const Experiment& experiment) {
@@ -113,11 +139,14 @@ Experiment read_experiment(const std::filesystem::path& file) {
   const std::string name = file.string();
   const toml::table table = parse_toml(file);
   const bool is_campaign = table.contains("campaign"), is_accuracy = table.contains("accuracy");
+  const bool is_atlas = table.contains("sweeps");
   std::vector<std::string> known{"claim", "sheets", "resolutions", "methods", "seed", "chord_tolerance"};
   if (is_campaign)
     known.insert(known.end(), {"campaign", "cases"});
   else if (is_accuracy)
     known.emplace_back("accuracy");
+  else if (is_atlas)
+    known.insert(known.end(), {"sweeps", "cases", "time_limit_s"});
   else
     known.insert(known.end(), {"cases", "cut_families", "repetitions", "cold", "quality", "eigenvalue_cases",
                                "every_edge", "scene", "cut_time", "scene_cases"});
@@ -129,7 +158,7 @@ Experiment read_experiment(const std::filesystem::path& file) {
   e.sheets = reader.list<std::string>("sheets");
   if (is_campaign)
     e.campaign = read_campaign(reader.section("campaign", {"mesh_files", "time_limit_s", "peer"}), file.parent_path());
-  else if (!is_accuracy)
+  else if (!is_accuracy && !is_atlas)
     e.cut_families = reader.list<std::string>("cut_families");
   check_names(e.sheets, sheet_families(), name + ": sheet");
   check_names(e.cut_families, cut_families(), name + ": cut family");
@@ -149,10 +178,11 @@ Experiment read_experiment(const std::filesystem::path& file) {
     refuse_repeated(e.accuracy->preconditioners, name + ": \"preconditioners\"");
     refuse_repeated(e.accuracy->iterations, name + ": \"iterations\"");
   }
+  if (is_atlas) e.atlas = read_atlas(reader, file, e);
   if (table["methods"].value<std::string>() != "all")
     for (const auto& node : reader.array("methods")) read_entry(node, file, e);
   e.seed = static_cast<std::uint64_t>(reader.value<std::int64_t>("seed", 1));
-  e.cases = reader.count("cases", 1), e.repetitions = reader.count("repetitions", 1);
+  e.cases = reader.count("cases", is_atlas ? 1000000 : 1), e.repetitions = reader.count("repetitions", 1);
   e.cold = reader.value<bool>("cold", false), e.quality = reader.value<bool>("quality", true);
   e.eigenvalue_cases = reader.count("eigenvalue_cases", 0, 0);
   e.every_edge = reader.value<bool>("every_edge", false);
@@ -163,8 +193,7 @@ Experiment read_experiment(const std::filesystem::path& file) {
     e.scene = read_scene(scene_file);
     if (!e.scene->mesh_file.empty())
       throw InputError(name + ": \"scene\" has a sheet from a file, but the sheets are the experiment's; use a family");
-    std::ifstream in(scene_file);
-    e.scene_text.assign(std::istreambuf_iterator<char>(in), {});
+    e.scene_text = text_of_file(scene_file);
     e.scene_cases = reader.count("scene_cases", e.cases);
     e.cut_time = reader.value<double>("cut_time");
     if (!(e.cut_time >= 0 && e.cut_time < e.scene->duration))

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "harness/program/program.h"
+#include "harness/run/sweep.h"
 #include "harness/scene/scene.h"
 
 namespace cutbench {
@@ -39,6 +40,13 @@ struct Experiment {
     bool reference = true;  ///< solve on a mesh fitted to the cut too; excess errors are measured against it
   };
 
+  /// Sweeps to where the methods fail (harness/run/sweep.h) instead of cut families.
+  struct Atlas {
+    std::vector<Sweep> sweeps;
+    std::string text;          ///< of the files that the points depend on
+    double time_limit_s = 20;  ///< processor time of a point
+  };
+
   std::string stem;   ///< of the file: names the results folder and the plot
   std::string claim;  ///< that the experiment tests
   std::vector<std::string> sheets, cut_families;
@@ -46,7 +54,8 @@ struct Experiment {
   std::vector<Entry> methods;             ///< empty: the file says "all", and the caller fills them in
   std::vector<ProgramSettings> programs;  ///< methods that are programs; `methods` names them, too
   std::uint64_t seed = 1;                 ///< for development; published figures use --seed commit
-  int cases = 1;                  ///< per sheet, resolution and cut family; of a campaign per sheet and resolution
+  int cases = 1;                  ///< per sheet, resolution and cut family; of a campaign per sheet and resolution; of
+                                  ///< an atlas the most of a point
   int repetitions = 1;            ///< of each cut, warm
   bool cold = false;              ///< cut once more with cold caches
   bool quality = true;            ///< shapes, forced zones; the oracle judges every case either way
@@ -61,6 +70,7 @@ struct Experiment {
   int scene_cases = 0;     ///< only so many of the cases are cut in the scene
   std::optional<Campaign> campaign;
   std::optional<Accuracy> accuracy;
+  std::optional<Atlas> atlas;
 };
 
 /// The methods with their knobs and programs, as a text that differs where their rows could.

@@ -25,6 +25,9 @@ namespace cutbench {
 
 namespace {
 
+/// The skin of experiments/scenes, whose side is 1 m: 2 mm thick.
+constexpr Elasticity bent_skin{.poisson = 0.45, .bending = BendingKind::patches, .bending_length2 = 4.2e-7};
+
 class Runner {
  public:
   Runner(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
@@ -48,7 +51,9 @@ class Runner {
         start_scene(sheet, resolution);
         base_ = BaseSheet(motion_ ? motion_->sheet() : Sheet(make_sheet(sheet, squares_per_side(resolution))));
         for (Worker& worker : workers_) worker.forget_base();
-        if (experiment_.eigenvalue_cases > 0) base_eigenvalue_ = largest_eigenvalue(base_.sheet);
+        if (experiment_.eigenvalue_cases > 0)
+          base_eigenvalue_ = largest_eigenvalue(base_.sheet),
+          base_bending_ = largest_eigenvalue(base_.sheet, {}, bent_skin);
         for (const auto& family : experiment_.cut_families)
           for (std::size_t i = 0; i < cases; ++i, progress.step())
             if (static_cast<int>(i % static_cast<std::size_t>(options_.shards)) == options_.shard - 1)
@@ -108,7 +113,7 @@ class Runner {
       judge_into(row, summaries[w], workers_[w], cuts, forced, run);
       if (static_cast<int>(i) < experiment_.eigenvalue_cases && row.get("verdict") == "ok" &&
           (run.status == Status::ok || run.status == Status::deviated))
-        fill(row, {.eigenvalue_ratio = eigenvalue_of(workers_[w]) / base_eigenvalue_}, {Group::stability});
+        fill_eigenvalues(row, workers_[w]);
     }
     std::size_t crossed = 0;
     for (int r = 0; r < experiment_.repetitions + (experiment_.cold ? 1 : 0); ++r) {
@@ -139,8 +144,12 @@ class Runner {
       run_in_motion(cuts, worker, start_row(worker.variant.row->name, worker.variant.knob_text(), 0, "simulation"));
   }
 
-  double eigenvalue_of(const Worker& worker) const {
-    return largest_eigenvalue(worker.sheet, worker.method->ties(base_.sheet, worker.sheet));
+  void fill_eigenvalues(Record& row, const Worker& worker) const {
+    const Ties ties = worker.method->ties(base_.sheet, worker.sheet);
+    Measured measured{.eigenvalue_ratio = largest_eigenvalue(worker.sheet, ties) / base_eigenvalue_};
+    if (ties.phantoms == 0)  // phantom nodes do not bend
+      measured.bending_eigenvalue_ratio = largest_eigenvalue(worker.sheet, ties, bent_skin) / base_bending_;
+    fill(row, measured, {Group::stability});
   }
 
   /// The experiment's scene on this sheet, brought to the last step before the cut.
@@ -211,7 +220,7 @@ class Runner {
   std::vector<Worker> workers_;
   CutOptions cut_options_;
   BaseSheet base_;
-  double base_eigenvalue_ = 0;  // of its sheet, where it is asked for
+  double base_eigenvalue_ = 0, base_bending_ = 0;  // of its sheet, where they are asked for
   std::unique_ptr<Simulation> motion_;
   Summary summary_;
 };

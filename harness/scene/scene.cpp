@@ -296,6 +296,7 @@ Scene read_scene(const std::filesystem::path& file) {
 }
 
 MeshData mesh_of(const Scene& scene) {
+  if (scene.mesh) return *scene.mesh;
   if (!scene.mesh_file.empty()) return read_mesh(scene.mesh_file);
   MeshData mesh = make_sheet(scene.family, squares_per_side(scene.resolution));
   for (Point2& p : mesh.rest) p = scene.size * p;

@@ -54,6 +54,7 @@ struct Scene {
 
   std::string family = "grid";      ///< of sheet_families(), scaled to `size`; empty, and instead:
   std::filesystem::path mesh_file;  ///< a sheet read from a file, resolved against the scene's folder
+  std::optional<MeshData> mesh;     ///< instead of both, given by the program
   double size = 1;                  ///< m: side of the square
   int resolution = 800;             ///< triangles; an experiment may ask for others
 

@@ -3,12 +3,16 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <ctime>
 #include <limits>
 #include <optional>
 
 #include "harness/base/stop_watch.h"
+#include "harness/fem/largest_eigenvalue.h"
 #include "harness/mesh/one_ring.h"
 #include "harness/path/blade.h"
+#include "harness/scene/turned_over.h"
 
 namespace cutbench {
 
@@ -43,6 +47,9 @@ double time_triplets(const Model<D>& model) {
 /// A blade's tip on its way leaves no slivers: it waits while it is nearer to an edge than this (but not on it), for as
 /// long as one h at most; in mean rest edges h.
 constexpr double clear_of_edges = 0.05;
+
+/// In space a share of slivers is turned over in any bent sheet, with no area and no harm.
+constexpr double most_turned = 0.01;
 
 /// How far the nearest edge is that the point doesn't lie on, rest units. Cost: the whole mesh, outside every clock.
 double distance_to_edges(const Sheet& sheet, Point2 p) {
@@ -81,10 +88,30 @@ class SceneInMotion : public Simulation {
     return posed;
   }
   double time() const override { return now_.state.time; }
-  void keep_budget() override {
-    if (scene_.integrator == Integrator::backward_euler) budget_.emplace(balance());
+  void watch() override {
+    watched_ = true;
+    const double noise = 1e-20 * scene_.material.stiffness / scene_.material.density * now_.model.lumped_mass().sum();
+    if (scene_.integrator != Integrator::equilibrium) budget_.emplace(balance(), scene_.integrator, noise);
   }
   const EnergyBudget* budget() const override { return budget_ ? &*budget_ : nullptr; }
+  const SimulationVerdict& verdict() const override { return verdict_; }
+  void limit_time(double seconds) override {
+    time_limit_ = seconds, stop_at_ = static_cast<double>(std::clock()) + seconds * CLOCKS_PER_SEC;
+  }
+  StepLimits step_limits() override {
+    const Material& material = scene_.material;
+    Elasticity elasticity{.poisson = material.poisson, .plane = scene_.physics.plane};
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    if (now_.model.tied()) return {unknown, unknown};
+    StepLimits limits;
+    limits.membrane = explicit_step_limit(largest_eigenvalue(now_.sheet, {}, elasticity), material);
+    elasticity.bending = scene_.physics.bending;
+    elasticity.bending_length2 = material.bending / material.stiffness;
+    limits.with_bending = elasticity.bending == BendingKind::none
+                              ? limits.membrane
+                              : explicit_step_limit(largest_eigenvalue(now_.sheet, {}, elasticity), material);
+    return limits;
+  }
   Balance balance() override { return balance_of(now_.model, now_.state); }
 
   StepReport advance(double time, CuttingMethod& method, const CutOptions& options) override {
@@ -98,7 +125,13 @@ class SceneInMotion : public Simulation {
         if (made_[i].verdict != "ok") report.verdict = made_[i].verdict, report.reason = made_[i].reason;
       }
       if (report.verdict == "ok") report = step();
+      if (report.verdict == "ok" && static_cast<double>(std::clock()) >= stop_at_) {
+        char text[64];
+        std::snprintf(text, sizeof text, "the limit is %g s", time_limit_);
+        report.verdict = "timed_out", report.reason = text;
+      }
     }
+    if (report.verdict != "ok") verdict_ = {report.verdict, report.reason, now_.state.time};
     return report;
   }
 
@@ -160,12 +193,31 @@ class SceneInMotion : public Simulation {
 
   StepReport step() {
     if (budget_) before_ = now_.state;
-    const StepReport report = stepper_.step(now_.model, now_.state);
+    StepReport report = stepper_.step(now_.model, now_.state);
     if (budget_ && report.verdict == "ok") budget_->add_step(now_.model, before_, now_.state, scene_.step);
+    if (watched_ && report.verdict == "ok") judge_state(report);
     next_.step = report;
     steps_.push_back(next_);
     next_ = {};
     return report;
+  }
+
+  /// \pre the step is in the budget, where one is kept.
+  void judge_state(StepReport& report) {
+    const Energy energy = budget_ ? budget_->rows().back().energy : balance().energy;
+    if (!std::isfinite(energy.total()) || !std::isfinite(energy.kinetic)) {
+      report.verdict = "not_finite", report.reason = "the energy";
+      return;
+    }
+    if (verdict_.name != "ok") return;  // the first fault counts
+    const TurnedOver turned = turned_over(now_.sheet, now_.state.x, D);
+    const bool inverted = D == 2 ? turned.triangles > 0 : turned.area > most_turned;
+    char text[96];
+    std::snprintf(text, sizeof text, "%zu triangles, %.2g %% of the rest area, are turned over", turned.triangles,
+                  100 * turned.area);
+    if (inverted) verdict_ = {"inverted", text, now_.state.time};
+    if (const std::string fault = budget_ ? budget_->fault() : ""; verdict_.name == "ok" && !fault.empty())
+      verdict_ = {"energy_growth", fault, now_.state.time};
   }
 
   /// Makes a cut that is due, or lets its blade enter.
@@ -295,8 +347,11 @@ class SceneInMotion : public Simulation {
   Cutter cutter_;
   std::vector<DueCut> cuts_;
   std::vector<MotionCut> made_;
+  bool watched_ = false;
   std::optional<EnergyBudget> budget_;
   State before_;  // the step, for the budget
+  SimulationVerdict verdict_;
+  double time_limit_ = 0, stop_at_ = std::numeric_limits<double>::infinity();  // s; ticks of std::clock()
   std::vector<LoggedStep> steps_;
   LoggedStep next_;  // the cuts made since the last step
 };

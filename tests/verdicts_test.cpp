@@ -1,0 +1,155 @@
+// Each verdict on the steps of a simulation is provoked, by every integrator that can come to it, and none is given
+// where nothing is wrong.
+#include <gtest/gtest.h>
+
+#include "harness/mesh/families.h"
+#include "harness/scene/simulation.h"
+#include "harness/scene/turned_over.h"
+#include "methods/registry.h"
+#include "tests/fem_helpers.h"
+
+namespace cutbench {
+namespace {
+
+/// A strip of skin that falls from rest, held at its left side; it is cut in the middle of the time.
+Scene falling(Integrator integrator, double step, int steps) {
+  Scene scene;
+  scene.resolution = 200;
+  scene.integrator = integrator, scene.step = step, scene.duration = step * steps;
+  scene.material = {.density = 2.2, .stiffness = 1000, .poisson = 0.45};
+  scene.physics.gravity = {0, 0, -9.81};
+  scene.solver.name = "cholmod";
+  scene.pins.push_back({{}, {.where = {{0, 0}, {0, 1}}}});
+  Scene::Cut& cut = scene.cuts.emplace_back();
+  cut.time = scene.duration / 2, cut.curve = line({0.31, 0.2}, {0.48, 0.83});
+  return scene;
+}
+
+std::unique_ptr<Simulation> run(const Scene& scene, const std::string& method = "edge_release") {
+  auto motion = Simulation::start(scene);
+  motion->watch();
+  motion->advance(scene.duration, *find_method(method).make(find_method(method).knob.value), {});
+  return motion;
+}
+
+TEST(Verdict, OkWhereNothingIsWrong) {
+  for (const Integrator integrator : {Integrator::backward_euler, Integrator::midpoint, Integrator::symplectic_euler}) {
+    Scene scene = falling(integrator, integrator == Integrator::symplectic_euler ? 1e-4 : 1e-3, 200);
+    for (const double damping : {0.0, 1e-4}) {
+      scene.material.stiffness_damping = damping;
+      const auto motion = run(scene);
+      EXPECT_EQ(motion->verdict().name, "ok") << name_of(integrator_names, integrator) << motion->verdict().reason;
+      EXPECT_EQ(motion->made_cuts().size(), 1u);
+      ASSERT_NE(motion->budget(), nullptr);
+      EXPECT_EQ(motion->budget()->rows().size(), motion->steps().size() + 1);
+    }
+  }
+}
+
+/// Above its limit an explicit step first gains energy, then overflows: both are said.
+TEST(Verdict, AnExplicitStepBeyondItsLimit) {
+  Scene scene = falling(Integrator::symplectic_euler, 1e-4, 4000);
+  const double limit = Simulation::start(scene)->step_limits().membrane;
+  scene.step = 1.2 * limit, scene.duration = 4000 * scene.step;
+  const auto motion = Simulation::start(scene);
+  motion->watch();
+  const auto method = find_method("edge_release").make(0);
+  while (motion->verdict().name == "ok" && motion->time() < scene.duration / 2)
+    motion->advance(motion->time() + scene.step, *method, {});
+  EXPECT_EQ(motion->verdict().name, "energy_growth") << motion->verdict().reason;
+  const double found = motion->verdict().time;
+  motion->advance(scene.duration, *method, {});
+  EXPECT_EQ(motion->verdict().name, "not_finite") << motion->verdict().reason;
+  EXPECT_GT(motion->verdict().time, found);
+  EXPECT_LT(motion->verdict().time, scene.duration) << "it ended the simulation";
+}
+
+/// One linear solve per step, far too long for a sheet as stiff as that: damping and losses don't hide it.
+TEST(Verdict, AnImplicitStepThatGainsEnergy) {
+  for (const Integrator integrator : {Integrator::backward_euler, Integrator::midpoint}) {
+    Scene scene = falling(integrator, 0.04, 25);
+    scene.material.stiffness = 1e5, scene.material.density = 0.2;
+    EXPECT_EQ(run(scene)->verdict().name, "energy_growth") << name_of(integrator_names, integrator);
+  }
+}
+
+TEST(Verdict, InvertedInThePlane) {
+  Scene scene = falling(Integrator::backward_euler, 0.01, 10);
+  scene.physics.dimension = 2, scene.physics.gravity = {};
+  scene.pins.push_back({{}, {.where = {{1, 0}, {1, 1}}, .displacement = {-1.5, 0, 0}}});
+  const auto motion = run(scene);
+  EXPECT_EQ(motion->verdict().name, "inverted") << motion->verdict().reason;
+  EXPECT_NEAR(motion->time(), scene.duration, 1e-9) << "it goes on";
+}
+
+/// A crease turns nothing over, a vertex pulled across its ring does, a lip pulled across the other does not.
+TEST(Verdict, InvertedInSpace) {
+  Sheet sheet(make_sheet("grid", 8));
+  Field x = Field::Zero(static_cast<Eigen::Index>(3 * sheet.deformed_slots()));
+  const auto place = [&](auto where) {
+    for (std::size_t v = 0; v < sheet.deformed_slots(); ++v) {
+      const Point2 p = sheet.rest(sheet.rest_vertex(DeformedIndex(v)));
+      x.segment<3>(static_cast<Eigen::Index>(3 * v)) = where(p);
+    }
+  };
+  place([](Point2 p) { return Eigen::Vector3d(p.x, p.y, 0); });
+  EXPECT_EQ(turned_over(sheet, x, 3).triangles, 0u);
+  place([](Point2 p) { return Eigen::Vector3d(p.x < 0.5 ? p.x : 1 - p.x, p.y, p.x < 0.5 ? 0 : 1e-3); });
+  EXPECT_EQ(turned_over(sheet, x, 3).triangles, 0u) << "folded along mesh lines";
+  place([](Point2 p) { return Eigen::Vector3d(p.x == 0.5 && p.y == 0.5 ? 0.9 : p.x, p.y, 0); });
+  const TurnedOver turned = turned_over(sheet, x, 3);
+  EXPECT_GE(turned.triangles, 1u);
+  EXPECT_GT(turned.area, 0);
+}
+
+TEST(Verdict, SolverStalled) {
+  for (const Integrator integrator : {Integrator::backward_euler, Integrator::midpoint}) {
+    Scene scene = falling(integrator, 0.01, 10);
+    scene.solver = {.name = "cg", .tolerance = 1e-15, .max_iterations = 1};
+    const auto motion = run(scene);
+    EXPECT_EQ(motion->verdict().name, "solver_stalled");
+    EXPECT_EQ(motion->time(), 0) << "no state is made of it";
+  }
+}
+
+/// Steps of a second of a very stiff sheet that falls: three iterations are not enough.
+TEST(Verdict, NewtonFailed) {
+  Scene scene = falling(Integrator::backward_euler, 1, 4);
+  scene.material.stiffness = 1e9, scene.newton = 3;
+  EXPECT_EQ(run(scene)->verdict().name, "newton_failed");
+  scene = falling(Integrator::equilibrium, 1, 1);
+  scene.newton = 1, scene.physics.dimension = 2, scene.physics.gravity = {0, -9.81, 0}, scene.cuts.clear();
+  EXPECT_EQ(run(scene)->verdict().name, "newton_failed");
+}
+
+/// At rest, and where it moves slowly, Newton's method converges until rounding is left: no failure.
+TEST(Verdict, NewtonConverges) {
+  for (const int newton : {2, 3, 12}) {
+    Scene scene = falling(Integrator::backward_euler, 0.002, 60);
+    scene.newton = newton;
+    EXPECT_EQ(run(scene, "conventional_split")->verdict().name, "ok") << newton;
+    scene.physics.gravity = {};
+    EXPECT_EQ(run(scene, "conventional_split")->verdict().name, "ok") << newton << " at rest";
+  }
+}
+
+TEST(Verdict, TimedOut) {
+  const Scene scene = falling(Integrator::symplectic_euler, 1e-4, 200);
+  const auto motion = Simulation::start(scene);
+  motion->limit_time(1e-9);
+  EXPECT_EQ(motion->advance(scene.duration, *find_method("edge_release").make(0), {}).verdict, "timed_out");
+  EXPECT_EQ(motion->verdict().name, "timed_out");
+  EXPECT_EQ(motion->steps().size(), 1u);
+}
+
+/// At rest nothing but rounding has energy, and that is no growth.
+TEST(Verdict, ASheetAtRestGainsNothing) {
+  for (const Integrator integrator : {Integrator::backward_euler, Integrator::midpoint, Integrator::symplectic_euler}) {
+    Scene scene = falling(integrator, 1e-4, 50);
+    scene.physics.gravity = {}, scene.physics.bending = BendingKind::patches, scene.material.bending = 4.2e-4;
+    EXPECT_EQ(run(scene, "conventional_split")->verdict().name, "ok") << name_of(integrator_names, integrator);
+  }
+}
+
+}  // namespace
+}  // namespace cutbench
