@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -102,6 +103,7 @@ int run_subcommand(const std::vector<Command>& commands, int argc, char** argv) 
 namespace cutbench {
 
 int command_line(int argc, char** argv, const std::vector<MethodRow>& more_methods) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit of the file size is then an error of the write, like a full disk
   CLI::App app{"cutbench: which way of cutting a deformable sheet to use"};
   app.require_subcommand(1);
   app.set_version_flag("--version", version);

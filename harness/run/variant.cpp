@@ -28,8 +28,8 @@ MethodRow row_of(const Experiment& experiment, const std::string& name, const st
   if (row != methods.end()) return *row;
   std::vector<std::string> known;
   for (const auto& r : methods) known.push_back(r.name);
-  throw InputError(experiment.stem + ": unknown method \"" + name + "\"; known are " +
-                   listed(nearest_first(name, known)));
+  throw InputError(experiment.stem + ": unknown method \"" + name + "\"; " +
+                   suggestion(name, known, "`cutbench methods` lists them"));
 }
 
 }  // namespace
