@@ -122,6 +122,8 @@ int command_line(int argc, char** argv, const std::vector<MethodRow>& more_metho
                                       add_simulate(app),
                                       add_run(app),
                                       add_reduce(app),
+                                      add_merge(app),
+                                      add_missing(app),
                                       add_columns(app),
                                       add_compare(app)};
   try {

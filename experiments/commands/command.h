@@ -22,6 +22,8 @@ Command add_score(CLI::App& app);
 Command add_simulate(CLI::App& app);
 Command add_run(CLI::App& app);
 Command add_reduce(CLI::App& app);
+Command add_merge(CLI::App& app);
+Command add_missing(CLI::App& app);
 Command add_columns(CLI::App& app);
 Command add_compare(CLI::App& app);
 

@@ -1,9 +1,12 @@
 // `cutbench run`: runs experiments, or a part of them.
+#include <sched.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <memory>
 #include <sstream>
+#include <thread>
 
 #include "experiments/commands/command.h"
 #include "harness/base/errors.h"
@@ -18,7 +21,7 @@ namespace {
 struct RunArguments {
   std::vector<std::string> experiments, methods, commands;
   std::vector<int> resolutions;
-  int cases = 0, repetitions = 0;
+  int cases = 0, repetitions = 0, jobs = 0;
   std::string seed, out = "results", shard = "1/1";
 };
 
@@ -47,7 +50,7 @@ std::uint64_t seed_in(const std::string& text) {
 
 RunOptions run_options(const RunArguments& arguments, const std::string& command_line) {
   RunOptions options;
-  options.out = arguments.out, options.command = command_line;
+  options.out = arguments.out, options.command = command_line, options.workers = arguments.jobs;
   char more = 0;
   if (std::sscanf(arguments.shard.c_str(), "%d/%d%c", &options.shard, &options.shards, &more) != 2 ||
       options.shard < 1 || options.shard > options.shards)
@@ -88,14 +91,50 @@ Experiment read_part(const std::string& file, const RunArguments& arguments, con
   return e;
 }
 
+/// While it lives, this process and those it starts stay on one core: the i-th for shard i, so that shards that run side
+/// by side do not meet on one.
+class OneCore {
+ public:
+  explicit OneCore(int shard) {
+    if (sched_getaffinity(0, sizeof before_, &before_) != 0) return;
+    std::vector<int> allowed;
+    for (int core = 0; core < CPU_SETSIZE; ++core)
+      if (CPU_ISSET(static_cast<std::size_t>(core), &before_)) allowed.push_back(core);
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(static_cast<std::size_t>(allowed.at(static_cast<std::size_t>(shard - 1) % allowed.size())), &one);
+    sched_setaffinity(0, sizeof one, &one);
+  }
+  ~OneCore() { sched_setaffinity(0, sizeof before_, &before_); }
+  OneCore(const OneCore&) = delete;
+  OneCore& operator=(const OneCore&) = delete;
+
+ private:
+  cpu_set_t before_{};
+};
+
+bool run_measured(const Experiment& e, const Context& context, const RunOptions& options) {
+  const OneCore pinned(options.shard);
+  const bool ok = run_experiment(e, nameable_methods(), context, options);
+  const auto cores = static_cast<double>(std::thread::hardware_concurrency());
+  if (context.load > 0.75 * cores)
+    std::fprintf(stderr, "%s: note: the machine was busy at the start (load %.1f on %.0f cores): times came out long\n",
+                 e.stem.c_str(), context.load, cores);
+  return ok;
+}
+
 Exit run_all(const RunArguments& arguments, const std::string& command_line) {
   explain_interruption();
   const RunOptions options = run_options(arguments, command_line);
   const Context context = gather_context();
   std::vector<Experiment> experiments;  // all are read before any is run
   for (const auto& file : arguments.experiments) experiments.push_back(read_part(file, arguments, context));
+  for (const Experiment& e : experiments)
+    if (arguments.jobs > 1 && !e.campaign)
+      throw InputError(e.stem + ": records times, which other processes would disturb; leave --jobs out");
   bool ok = true;
-  for (const Experiment& e : experiments) ok &= run_experiment(e, nameable_methods(), context, options);
+  for (const Experiment& e : experiments)
+    ok &= e.campaign ? run_experiment(e, nameable_methods(), context, options) : run_measured(e, context, options);
   return ok ? done : fell_short;
 }
 
@@ -117,6 +156,11 @@ Command add_run(CLI::App& app) {
   command->add_option("--seed", arguments->seed,
                       "a number, or `commit`: from the commit's hash; otherwise the experiment's");
   command->add_option("--out", arguments->out, "results folder")->capture_default_str();
+  command
+      ->add_option("--jobs", arguments->jobs,
+                   "processes of a campaign, which records no times; all cores where it is not given. Other "
+                   "experiments stay on one core")
+      ->check(CLI::PositiveNumber);
   command->add_option("--shard", arguments->shard, "i/N: only every N-th case, from the i-th")->capture_default_str();
   command->footer(
       "example, which takes less than a minute:\n"

@@ -85,11 +85,10 @@ class Campaign {
  private:
   static std::string identity(const Experiment& e, const Context& context, const RunOptions& options) {
     std::string text = context.identity() + e.stem + std::to_string(e.seed) + "," + std::to_string(e.cases) + "," +
-                       std::to_string(e.chord_tolerance) + "," + std::to_string(e.campaign->time_limit_s) + "," +
-                       std::to_string(options.shard) + "/" + std::to_string(options.shards);
+                       std::to_string(e.chord_tolerance) + "," + std::to_string(e.campaign->time_limit_s);
     for (const auto& program : e.programs) text += fingerprint_of_program(program);
     for (const auto& file : e.campaign->mesh_files) text += text_of_file(file);
-    return text;
+    return text + shard_line(options);
   }
 
   void run_sheet(const std::string& name, const MeshData& mesh, Progress& progress) {

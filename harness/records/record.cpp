@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cstdio>
 #include <cstring>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -64,9 +65,26 @@ void Record::set(const std::string& column, std::int64_t value) { set(column, st
 std::string Record::key(std::size_t columns) const { return joined(fields_, columns); }
 std::string Record::line() const { return joined(fields_, fields_.size()); }
 
+namespace {
+
+/// What rows of any shard share, and which shard these are: the last line of the identity, "i/N".
+struct Run {
+  std::string all;
+  int shard = 1, shards = 1;
+
+  explicit Run(const std::string& identity) : all(identity.substr(0, identity.rfind('\n'))) {
+    const std::size_t line = identity.rfind('\n');
+    if (line == std::string::npos) return;
+    std::sscanf(identity.c_str() + line, "%d/%d", &shard, &shards);
+  }
+  std::string number() const { return std::to_string(std::hash<std::string>{}(all)); }
+};
+
+}  // namespace
+
 RecordFile::RecordFile(const std::filesystem::path& folder, const std::string& identity,
                        const std::vector<std::string>& columns, std::size_t keys)
-    : folder_(folder), part_(folder_ / "records.csv.part"), columns_(columns), keys_(keys) {
+    : folder_(folder), part_(folder_ / "records.csv.part"), columns_(columns), identity_(identity), keys_(keys) {
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (error) throw InputError(folder_.string() + ": can't be made (" + error.message() + "); choose another --out");
@@ -120,6 +138,7 @@ void RecordFile::append(const Record& record) {
 
 void RecordFile::finish(const Context& context, const std::string& experiment, const std::string& claim,
                         const std::string& command, std::uint64_t seed) {
+  const Run run(identity_);
   const nlohmann::json document{{"commit", context.commit ? nlohmann::json(*context.commit) : nlohmann::json()},
                                 {"dirty", context.dirty ? nlohmann::json(*context.dirty) : nlohmann::json()},
                                 {"compiler", context.compiler},
@@ -132,7 +151,11 @@ void RecordFile::finish(const Context& context, const std::string& experiment, c
                                 {"seed", seed},
                                 {"command", command},
                                 {"experiment", experiment},
-                                {"claim", claim}};
+                                {"claim", claim},
+                                {"run", run.number()},
+                                {"shard", run.shard},
+                                {"shards", run.shards},
+                                {"rows", lines_.size()}};
   std::string csv = joined(columns_, columns_.size()) + '\n';
   for (const auto& line : lines_) csv += line + '\n';
   WholeFile context_file(folder_ / "context.json", document.dump(2) + '\n');

@@ -48,6 +48,7 @@ class Record {
 /// short is dropped. Rows of another identity are thrown away, and note() says so.
 class RecordFile {
  public:
+  /// \param identity  all that the rows depend on; a last line of its own, "i/N", is the shard
   /// \param keys  so many of the first columns say what was measured
   /// Throws InputError where the folder can't be written.
   RecordFile(const std::filesystem::path& folder, const std::string& identity,
@@ -66,6 +67,7 @@ class RecordFile {
   void check();
   std::filesystem::path folder_, part_;
   const std::vector<std::string>& columns_;
+  std::string identity_;
   std::size_t keys_;
   std::string note_;
   std::set<std::string> done_;

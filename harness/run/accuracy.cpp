@@ -95,10 +95,9 @@ class AccuracyRun {
                           e.accuracy->members,
                           e.accuracy->members_nonlinear,
                           e.accuracy->iterations,
-                          e.accuracy->reference,
-                          options.shard,
-                          options.shards}
-        .dump();
+                          e.accuracy->reference}
+               .dump() +
+           shard_line(options);
   }
 
   std::size_t members(const Problem& problem, int resolution) const {
@@ -170,7 +169,8 @@ class AccuracyRun {
       // Its edges are chords of about h: what they cut off a curve is part of its error, not a fault.
       CutOptions chords = cut_options_;
       chords.chord_tolerance = std::numeric_limits<double>::infinity();
-      const Assessment a = assess_result(base.sheet, sheet->to_mesh_data(), specimen.cuts, promises_of_everybody, chords);
+      const Assessment a =
+          assess_result(base.sheet, sheet->to_mesh_data(), specimen.cuts, promises_of_everybody, chords);
       row.set("status", std::string("ok"));
       set_assessment(row, nullptr, a, base);
       if (!a.judgement.ok) sheet.reset();

@@ -83,10 +83,9 @@ class Runner {
                           e.scene_text,
                           e.cut_time,
                           e.scene_cases,
-                          e.eigenvalue_cases,
-                          options.shard,
-                          options.shards}
-        .dump();
+                          e.eigenvalue_cases}
+               .dump() +
+           shard_line(options);
   }
 
   void run_case(const std::string& sheet, int resolution, const std::string& family, std::size_t i) {

@@ -18,6 +18,11 @@ struct RunOptions {
   int workers = 0;            ///< processes of a campaign; 0: one per core
 };
 
+/// The last line of a run's identity (RecordFile).
+inline std::string shard_line(const RunOptions& options) {
+  return "\n" + std::to_string(options.shard) + "/" + std::to_string(options.shards);
+}
+
 /// A method with a value of its knob, as it appears in records and figures.
 struct Variant {
   std::shared_ptr<const MethodRow> row;
