@@ -86,7 +86,7 @@ def draw_map(ax, rows, which, ylabels):
 
 
 def page(rows, caption):
-    above, below = 0.42, 1.05  # inches
+    above, below = 0.42, 1.35  # inches
     total = sum(height + gap for height, gap, _ in ON_THE_PAGE) + above + below
     figure = plt.figure(figsize=(style.PAGE, total))
     top = total - above
@@ -103,7 +103,7 @@ def page(rows, caption):
             draw(ax, rows, name, ylabels=gap >= 0.5)
             x += width
         top -= height + space
-    for y, (words, handles) in zip((0.93, 0.76, 0.59), panels.legends(set(rows["verdict"]))):
+    for y, (words, handles) in zip((1.23, 1.06, 0.89), panels.legends(set(rows["verdict"]))):
         figure.text(0.05 / style.PAGE, y / total, words, fontsize=6, va="center")
         figure.legend(handles=handles, loc="center left", ncol=len(handles), bbox_to_anchor=(0.16, y / total), fontsize=6,
                       handlelength=1.1, handleheight=0.9, columnspacing=1.2, handletextpad=0.4, borderpad=0)
