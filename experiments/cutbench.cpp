@@ -1,6 +1,7 @@
 // The program: parses the command line and calls the subcommand.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -99,6 +100,7 @@ int run_subcommand(const std::vector<Command>& commands, int argc, char** argv) 
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit of the file size is then an error of the write, like a full disk
   CLI::App app{"cutbench: which way of cutting a deformable sheet to use"};
   app.require_subcommand(1);
   app.set_version_flag("--version", version);

@@ -28,6 +28,8 @@ namespace cutbench {
 
 namespace {
 
+constexpr int most_rounds = 6;  // of the local split: ill-shaped triangles multiply by 3.8 in each
+
 constexpr Promises exact_split{.exact_incision = true, .keeps_area = true, .conforming = true, .keeps_vertices = true};
 
 }  // namespace
@@ -44,8 +46,8 @@ const std::vector<MethodRow>& all_methods() {
        {"rounds", 1, "rounds of the local split; 0: the best diagonal alone"},
        exact_split,
        [](double rounds) {
-         if (!(rounds >= 0 && rounds <= 20 && rounds == std::floor(rounds)))
-           throw InputError("bowyer_watson: rounds must be a whole number from 0 to 20");
+         if (!(rounds >= 0 && rounds <= most_rounds && rounds == std::floor(rounds)))
+           throw InputError("bowyer_watson: rounds must be a whole number from 0 to " + std::to_string(most_rounds));
          return std::make_unique<BowyerWatson>(BowyerWatson::Options{.rounds = static_cast<int>(rounds)});
        }},
       {"cgal_cdt",
@@ -230,7 +232,7 @@ const MethodRow& find_method(const std::string& name) {
   if (row != rows.end()) return *row;
   std::vector<std::string> known;
   for (const auto& r : all_methods()) known.push_back(r.name);
-  throw InputError("unknown method \"" + name + "\"; known are " + listed(nearest_first(name, known)));
+  throw InputError("unknown method \"" + name + "\"; " + suggestion(name, known, "`cutbench methods` lists them"));
 }
 
 }  // namespace cutbench

@@ -107,7 +107,8 @@ TEST_F(Cli, RepeatedPolylineIsANoop) {
 }
 
 TEST_F(Cli, BadOptionsAreRefused) {
-  expect_refused(cut("", "conventionl_split"), "unknown method \"conventionl_split\"; known are conventional_split");
+  expect_refused(cut("", "conventionl_split"),
+                 "unknown method \"conventionl_split\"; did you mean \"conventional_split\"?");
   expect_refused(cut("--set rounds=1"), "has no knob");
   expect_refused(cut("--set rounds=x", "bowyer_watson"), "not a number");
   expect_refused(cut("--set depth=1", "bowyer_watson"), "rounds=VALUE");
@@ -274,7 +275,7 @@ TEST_F(Cli, BadExperimentsAreRefused) {
   expect_refused(run("run e.toml --out r --shard 3/2"), "--shard");
   expect_refused(run("run e.toml --out r --seed x"), "--seed");
   write(folder_ / "e.toml", std::regex_replace(small_experiment(), std::regex("conventional_split"), "nonsense"));
-  expect_refused(run("run e.toml --out r"), "known are");
+  expect_refused(run("run e.toml --out r"), "`cutbench methods` lists them");
   write(folder_ / "e.toml", std::regex_replace(small_experiment(), std::regex("delaunay"), "nonsense"));
   expect_refused(run("run e.toml --out r"), "grid");
   write(folder_ / "e.toml", std::regex_replace(small_experiment(), std::regex("recut"), "nonsense"));

@@ -14,6 +14,14 @@ TEST(Names, TheNearestComesFirst) {
   EXPECT_EQ(listed({}), "");
 }
 
+TEST(Names, OnlyANearOneIsSuggested) {
+  EXPECT_EQ(suggestion("steps", {"name", "step"}, "else"), "did you mean \"step\"?");
+  EXPECT_EQ(suggestion("resolutoin", {"size", "resolution"}, "else"), "did you mean \"resolution\"?");
+  EXPECT_EQ(suggestion("foo", {"pins", "sheet"}, "else"), "else");
+  EXPECT_EQ(suggestion("", {"a"}, "else"), "else");
+  EXPECT_EQ(suggestion("a", {}, "else"), "else");
+}
+
 TEST(Progress, TimeLeftIsSaidOnceItMeansSomething) {
   EXPECT_EQ(time_left(4, 50, 100), "");
   EXPECT_EQ(time_left(60, 4, 100), "");

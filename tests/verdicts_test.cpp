@@ -134,12 +134,14 @@ TEST(Verdict, NewtonConverges) {
 }
 
 TEST(Verdict, TimedOut) {
-  const Scene scene = falling(Integrator::symplectic_euler, 1e-4, 200);
+  const std::size_t steps = 100'000'000;  // hours, and the clock of the process may tick in hundredths of a second
+  const Scene scene = falling(Integrator::symplectic_euler, 1e-4, static_cast<int>(steps));
   const auto motion = Simulation::start(scene);
   motion->limit_time(1e-9);
   EXPECT_EQ(motion->advance(scene.duration, *find_method("edge_release").make(0), {}).verdict, "timed_out");
   EXPECT_EQ(motion->verdict().name, "timed_out");
-  EXPECT_EQ(motion->steps().size(), 1u);
+  EXPECT_GE(motion->steps().size(), 1u);
+  EXPECT_LT(motion->steps().size(), steps);
 }
 
 /// At rest nothing but rounding has energy, and that is no growth.

@@ -7,6 +7,7 @@
 
 #include "experiments/commands/command.h"
 #include "experiments/commands/method_options.h"
+#include "experiments/commands/misses.h"
 #include "harness/base/errors.h"
 #include "harness/base/stop_watch.h"
 #include "harness/cut/cut_all.h"
@@ -23,6 +24,7 @@ namespace {
 struct CutArguments {
   std::string mesh, path, out, report;
   MethodOptions method;
+  Misses misses;
 };
 
 /// --out may be the mesh that was read: it is written over. A report in place of a mesh or path is a mistake.
@@ -67,6 +69,8 @@ Exit cut_sheet(const CutArguments& arguments) {
   const Sheet before(data);
   double pick_us = 0;
   const std::vector<Curve> cuts = in_rest_space(path, before, arguments.path, pick_us);
+  for (std::size_t i = 0; i < cuts.size(); ++i)
+    arguments.misses.check(before, cuts[i], arguments.path + ", cut " + std::to_string(i));
   Sheet sheet = before;
   Locator locator(sheet);
   Cutter cutter;
@@ -100,6 +104,7 @@ Command add_cut(CLI::App& app) {
   command->add_option("--mesh", arguments->mesh, "the sheet: OBJ, OFF or PLY")->required();
   command->add_option("--path", arguments->path, "the path: JSON")->required();
   arguments->method.add_to(*command);
+  arguments->misses.add_to(*command);
   command->add_option("--out", arguments->out, "the sheet after the cut: OBJ, OFF or VTU")->required();
   command->add_option("--report", arguments->report, "what was measured, as JSON; none where it is not given");
   command->footer(
@@ -109,7 +114,7 @@ Command add_cut(CLI::App& app) {
       "exit codes:\n"
       "  0  the result was judged correct and written\n"
       "  1  the cut failed, the result was judged wrong, or a file can't be written\n"
-      "  2  bad input: an option or a file, or a cut that the method refuses");
+      "  2  bad input: an option or a file, a path that misses the sheet, or a cut that the method refuses");
   return {command, [arguments](const std::string&) { return cut_sheet(*arguments); }};
 }
 

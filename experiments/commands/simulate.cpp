@@ -6,6 +6,7 @@
 
 #include "experiments/commands/command.h"
 #include "experiments/commands/method_options.h"
+#include "experiments/commands/misses.h"
 #include "harness/base/errors.h"
 #include "harness/base/toml_reader.h"
 #include "harness/mesh/families.h"
@@ -18,6 +19,7 @@ namespace {
 struct SimulateArguments {
   std::string scene, out, frames, solver, report, steps;
   MethodOptions method{.method = "conventional_split", .settings = {}, .chord_tolerance = {}};
+  Misses misses;
   int resolution = 0, every = 8;
   double time_limit = 0;
 };
@@ -40,7 +42,12 @@ Exit run_scene(const SimulateArguments& arguments, const std::string& command_li
     check_names({arguments.solver}, solver_names(), "--solver");
     scene.solver.name = arguments.solver;
   }
-  if (!scene.mesh_file.empty()) print_notes(mesh_of(scene));
+  const MeshData mesh = mesh_of(scene);
+  print_notes(mesh);
+  const Sheet sheet(mesh);
+  for (std::size_t i = 0; i < scene.cuts.size(); ++i)
+    if (!scene.cuts[i].curve.points.empty())
+      arguments.misses.check(sheet, scene.cuts[i].curve, arguments.scene + ", cut " + std::to_string(i));
   char knob_text[64] = "";
   if (!row.knob.name.empty()) std::snprintf(knob_text, sizeof knob_text, " %s=%g", row.knob.name.c_str(), knob);
   const SimulateOptions options{.method = row.name + knob_text,
@@ -62,6 +69,7 @@ Command add_simulate(CLI::App& app) {
   auto* command = app.add_subcommand("simulate", "run a scene with its cuts");
   command->add_option("scene", arguments->scene, "scene file (TOML)")->required();
   arguments->method.add_to(*command);
+  arguments->misses.add_to(*command);
   command->add_option("--resolution", arguments->resolution, "triangles of the sheet; otherwise those of the scene")
       ->check(CLI::PositiveNumber);
   command->add_option("--out", arguments->out, "the sheet in the end: OBJ, OFF or VTU; not written otherwise");

@@ -27,6 +27,13 @@ std::vector<std::string> nearest_first(const std::string& name, std::vector<std:
   return known;
 }
 
+std::string suggestion(const std::string& name, const std::vector<std::string>& known, const std::string& otherwise) {
+  if (name.empty() || known.empty()) return otherwise;
+  const std::string nearest = nearest_first(name, known).front();
+  const bool is_near = edit_distance(nearest, name) <= std::max<std::size_t>(1, nearest.size() / 3);
+  return is_near ? "did you mean \"" + nearest + "\"?" : otherwise;
+}
+
 std::string listed(const std::vector<std::string>& names) {
   std::string list;
   for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;

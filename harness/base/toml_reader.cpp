@@ -28,8 +28,8 @@ void check_keys(const toml::table& table, const std::vector<std::string>& known,
   for (const auto& [key, value] : table) {
     const std::string name(key.str());
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    throw InputError(where + ": unknown key \"" + name + "\"; did you mean \"" + nearest_first(name, known).front() +
-                     "\"?");
+    throw InputError(where + ": unknown key \"" + name + "\"; " +
+                     suggestion(name, known, "known are " + listed(known)));
   }
 }
 

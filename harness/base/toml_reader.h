@@ -23,7 +23,7 @@ namespace cutbench {
 /// Throws InputError naming the file and, where it is not TOML, the line.
 toml::table parse_toml(const std::filesystem::path& file);
 
-/// Throws InputError for a key that is not known, naming the nearest one that is.
+/// Throws InputError for a key that is not known, naming the nearest one that is, or all.
 void check_keys(const toml::table& table, const std::vector<std::string>& known, const std::string& where);
 
 /// Throws InputError for a name that is not known, listing those that are, the nearest first.

@@ -16,10 +16,22 @@ int orientation(const Patch& patch, int a, int b, int c) {
                                p[static_cast<std::size_t>(c)]);
 }
 
-bool is_segment(const Patch& patch, int a, int b) {
-  for (const auto& s : patch.segments)
-    if ((s[0] == a && s[1] == b) || (s[0] == b && s[1] == a)) return true;
-  return false;
+using Segments = std::vector<std::array<int, 2>>;
+
+/// Both ways, sorted; empty where there are so few that looking at each is as fast.
+Segments both_ways(const Segments& segments) {
+  if (segments.size() <= 16) return {};
+  Segments all = segments;
+  for (const auto& s : segments) all.push_back({s[1], s[0]});
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+bool is_segment(const Patch& patch, const Segments& all, int a, int b) {
+  if (all.empty())
+    return std::any_of(patch.segments.begin(), patch.segments.end(),
+                       [&](const auto& s) { return (s[0] == a && s[1] == b) || (s[0] == b && s[1] == a); });
+  return std::binary_search(all.begin(), all.end(), std::array{a, b});
 }
 
 bool is_of_ring(const Patch& patch, int a, int b) {
@@ -28,10 +40,10 @@ bool is_of_ring(const Patch& patch, int a, int b) {
 }
 
 /// Mark of edge a -> b of the answer.
-EdgeMark mark_of(const Patch& patch, int a, int b) {
+EdgeMark mark_of(const Patch& patch, const Segments& all, int a, int b) {
   if (is_of_ring(patch, a, b))
     return patch.ring_marks[static_cast<std::size_t>(patch.ring_position[static_cast<std::size_t>(a)])];
-  return is_segment(patch, a, b) ? EdgeMark::path : EdgeMark::none;
+  return is_segment(patch, all, a, b) ? EdgeMark::path : EdgeMark::none;
 }
 
 /// Both on one edge of the triangle: a diagonal between them lies upon that edge, and passes what is between them there
@@ -104,7 +116,10 @@ void make_patch(const Sheet& sheet, const Subdivision& subdivision, int f, Patch
   const auto node = [&](int local) { return patch.nodes[static_cast<std::size_t>(local)]; };
   std::sort(patch.path_order.begin(), patch.path_order.end(), [&](int a, int b) { return node(a) < node(b); });
   const auto local = [&](int n) {
-    return static_cast<int>(std::find(patch.nodes.begin(), patch.nodes.end(), n) - patch.nodes.begin());
+    for (int k = 0; k < 3; ++k)
+      if (node(k) == n) return k;
+    return *std::lower_bound(patch.path_order.begin(), patch.path_order.end(), n,
+                             [&](int a, int wanted) { return node(a) < wanted; });
   };
   for (int s = face.segments; s >= 0; s = subdivision.segment(s).next)
     patch.segments.push_back({local(subdivision.segment(s).from), local(subdivision.segment(s).to)});
@@ -162,6 +177,7 @@ void split_crossing(Sheet& sheet, const Crossing& crossing, bool diagonal_from_p
 
 void append_answer(const Patch& patch, int parent, std::vector<Sheet::NewTriangle>& added) {
   std::size_t found = 0;  // half-edges that are segments
+  const Segments all = both_ways(patch.segments);
   for (const auto& t : patch.triangles) {
     if (orientation(patch, t[0], t[1], t[2]) <= 0) fail_inverted();
     Sheet::NewTriangle made;
@@ -169,10 +185,10 @@ void append_answer(const Patch& patch, int parent, std::vector<Sheet::NewTriangl
     for (std::size_t k = 0; k < 3; ++k) {
       const int a = t[k], b = t[k == 2 ? 0 : k + 1];
       made.vertex[k] = patch.vertices[static_cast<std::size_t>(a)];
-      made.mark[k] = mark_of(patch, a, b);
+      made.mark[k] = mark_of(patch, all, a, b);
       if (are_on_one_edge(patch, a, b) && !is_of_ring(patch, a, b) && !is_of_ring(patch, b, a))
         throw TooClose("an edge divided by the path would be one again");
-      found += made.mark[k] == EdgeMark::path && is_segment(patch, a, b);
+      found += made.mark[k] == EdgeMark::path && is_segment(patch, all, a, b);
     }
     added.push_back(made);
   }
@@ -234,8 +250,32 @@ void insert_on_ring(Patch& patch, int p) {
   split_side(patch, neighbour(patch.ring.size() - 1), neighbour(1), p);
 }
 
+namespace {
+
+/// +1 where p lies inside the triangle, 0 on its border, -1 outside.
+int side_of(const Patch& patch, const std::array<int, 3>& t, int p) {
+  int least = 1;
+  for (std::size_t k = 0; k < 3 && least >= 0; ++k)
+    least = std::min(least, orientation(patch, t[k], t[k == 2 ? 0 : k + 1], p));
+  return least;
+}
+
+/// The triangle that holds p inside, most often one at the point before; none where p may lie on an edge.
+std::optional<std::size_t> find_around(const Patch& patch, int p) {
+  const int before = patch.triangles.back()[2];
+  for (const bool at_it : {true, false})
+    for (std::size_t i = patch.triangles.size(); i-- > 0;) {
+      const auto& t = patch.triangles[i];
+      if (at_it != (t[0] == before || t[1] == before || t[2] == before)) continue;
+      if (const int side = side_of(patch, t, p); side >= 0) return side > 0 ? std::optional(i) : std::nullopt;
+    }
+  return {};
+}
+
+}  // namespace
+
 void insert_inside(Patch& patch, int p) {
-  for (std::size_t i = 0; i < patch.triangles.size(); ++i) {
+  for (std::size_t i = find_around(patch, p).value_or(0); i < patch.triangles.size(); ++i) {
     const auto [a, b, c] = patch.triangles[i];
     const std::array<int, 3> side{orientation(patch, a, b, p), orientation(patch, b, c, p),
                                   orientation(patch, c, a, p)};
@@ -288,7 +328,9 @@ std::vector<std::array<int, 2>> crossed_edges(const Patch& patch, int a, int b) 
 }  // namespace
 
 int recover_segments(Patch& patch) {
+  constexpr std::size_t most_work = 1'000'000'000;  // triangles looked at: seconds
   int missing = 0;
+  std::size_t work = 0;
   for (const auto& [a, b] : patch.segments) {
     if (find_edge(patch, a, b).triangle >= 0 || find_edge(patch, b, a).triangle >= 0) continue;
     ++missing;
@@ -296,6 +338,8 @@ int recover_segments(Patch& patch) {
     const std::size_t budget = 100 + 10 * queue.size() * queue.size();
     for (std::size_t i = 0; i < queue.size(); ++i) {
       if (i > budget) throw TooClose("a path segment could not be recovered by flips");
+      if ((work += patch.triangles.size()) > most_work)
+        throw CutRefused("the path winds too much in one triangle; give it fewer points, or the sheet more triangles");
       const auto diagonal = flip(patch, queue[i][0], queue[i][1]);
       if (!diagonal)
         queue.push_back(queue[i]);

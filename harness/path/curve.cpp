@@ -191,6 +191,8 @@ std::vector<Curve> read_path(const std::filesystem::path& file) {
 std::vector<std::variant<Curve, PickedCurve>> read_path_with_picks(const std::filesystem::path& file) {
   const std::string name = file.string();
   const json document = parse_json(text_of(file), {name, "a path file", R"({"cuts": [{"polyline": [[x, y], ...]}]})"});
+  if (document.is_object() && document.contains("space"))
+    throw InputError(name + R"(: "space" belongs to each cut, {"cuts": [{"space": "world", "polyline": [...]}]})");
   check_keys(document, {"cuts"}, name);
   if (!document.contains("cuts") || !document["cuts"].is_array())
     throw InputError(name + R"(: "cuts" must be a list, [{"polyline": [[x, y], ...]}])");

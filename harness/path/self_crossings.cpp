@@ -1,5 +1,6 @@
 // Triangles that the path passes through more than once, or turns round in: the passages are divided at their
 // crossings, so that segments meet in nodes only.
+#include <algorithm>
 #include <cmath>
 
 #include "harness/mesh/predicates.h"
@@ -8,6 +9,9 @@
 namespace cutbench {
 
 namespace {
+
+/// Comparisons in one triangle: half a second.
+constexpr std::size_t most_work = 200'000'000;
 
 /// p lies within `snap` of the segment a b, clear of its ends.
 bool on_segment(Point2 a, Point2 b, Point2 p, double snap) {
@@ -27,6 +31,33 @@ bool touch(Point2 a, Point2 b, Point2 c, Point2 d) {
 Point2 intersection(Point2 a, Point2 b, Point2 c, Point2 d) {
   const double from = cross(d - c, a - c), to = cross(d - c, b - c);
   return a + from / (from - to) * (b - a);
+}
+
+/// Of a segment from node to node, or of a node.
+struct Box {
+  int from, to;
+  Point2 low, high;
+  bool is_node() const { return from == to; }
+  /// Ends that the two have in common.
+  int shared(const Box& other) const {
+    return (from == other.from || from == other.to) + (!is_node() && (to == other.from || to == other.to));
+  }
+};
+
+Box box_of(int from, int to, Point2 a, Point2 b) {
+  return {from, to, {std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
+}
+
+/// No two of them come within `margin`, but for segments that share one end, and a node with its segments.
+bool are_apart(std::vector<Box>& boxes, double margin) {
+  std::sort(boxes.begin(), boxes.end(), [](const Box& a, const Box& b) { return a.low.x < b.low.x; });
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    for (std::size_t j = i + 1; j < boxes.size() && boxes[j].low.x <= boxes[i].high.x + margin; ++j) {
+      const Box &a = boxes[i], &b = boxes[j];
+      const bool meet = a.low.y <= b.high.y + margin && b.low.y <= a.high.y + margin;
+      if (meet && a.shared(b) != 1 && !(a.is_node() && b.is_node())) return false;
+    }
+  return true;
 }
 
 /// How often two polylines cross; more than once where they touch.
@@ -112,10 +143,24 @@ std::vector<int> Tracer::nodes_of(int f) const {
   return nodes;
 }
 
+/// Nothing to resolve: no segment is near another or a node, and none lies on an edge.
+bool Tracer::is_clear(int f) const {
+  std::vector<Box> boxes;
+  const auto at = [&](int n) { return trace_.node(n).place.point; };
+  for (int s = trace_.face(f).segments; s >= 0; s = trace_.segment(s).next) {
+    const auto [from, to, next] = trace_.segment(s);
+    if (common_edge(trace_.face(f).triangle, trace_.node(from).place, trace_.node(to).place) >= 0) return false;
+    boxes.push_back(box_of(from, to, at(from), at(to)));
+  }
+  for (const int n : nodes_of(f)) boxes.push_back(box_of(n, n, at(n), at(n)));
+  return are_apart(boxes, 2 * sheet_->snap());
+}
+
 void Tracer::resolve_crossings(int f) {
   const TriangleIndex t = trace_.face(f).triangle;
   const auto at = [&](int n) { return trace_.node(n).place.point; };
   const double snap = sheet_->snap();
+  if (is_clear(f)) return;
 
   std::vector<std::pair<int, int>> open, done;  // segments; those in `done` are clear of each other
   for (int s = trace_.face(f).segments; s >= 0;) {
@@ -123,13 +168,17 @@ void Tracer::resolve_crossings(int f) {
     s = trace_.segment(s).next;
   }
   // Each split makes shorter segments or takes out a crossing; the bound is for coordinates that don't resolve.
+  std::vector<int> nodes = nodes_of(f);
+  std::size_t work = 0;
   for (std::size_t budget = 1000 + 100 * open.size() * open.size(); !open.empty(); --budget) {
     if (budget == 0) throw WalkLost();
+    if ((work += nodes.size() + done.size()) > most_work)
+      throw CutRefused("the path crosses itself too often in one triangle; give it fewer points there");
     const auto [a, b] = open.back();
     open.pop_back();
     if (a == b) continue;
     bool split = false;
-    for (int n : nodes_of(f)) {  // through a node: two segments
+    for (int n : nodes) {  // through a node: two segments
       if (n == a || n == b || !on_segment(at(a), at(b), at(n), snap)) continue;
       open.emplace_back(a, n), open.emplace_back(n, b);
       split = true;
@@ -139,6 +188,7 @@ void Tracer::resolve_crossings(int f) {
       const auto [c, d] = done[i];
       if (a == c || a == d || b == c || b == d || !cross_properly(at(a), at(b), at(c), at(d))) continue;
       const int n = trace_.node_of(place_in(t, intersection(at(a), at(b), at(c), at(d))));
+      nodes = nodes_of(f);
       done.erase(done.begin() + static_cast<std::ptrdiff_t>(i));
       for (int end : {a, b, c, d})
         if (end != n) open.emplace_back(end, n);

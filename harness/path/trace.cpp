@@ -8,6 +8,16 @@
 
 namespace cutbench {
 
+namespace {
+
+/// Segments of the path in one triangle. To embed them takes time that grows with their square, at least.
+constexpr std::size_t most_segments_in_triangle = 8192;
+
+/// Points within a distance of each other have keys within twice that.
+double key_of(Point2 p) { return p.x + 0.61803398874989485 * p.y; }
+
+}  // namespace
+
 Subdivision& Tracer::trace(const Sheet& sheet, const Polyline& path, Walk& walk, double chord_tolerance,
                            bool may_begin_elsewhere) {
   sheet_ = &sheet, path_ = &path, chord_tolerance_ = chord_tolerance;
@@ -66,14 +76,20 @@ Subdivision& Tracer::trace(const Sheet& sheet, const Polyline& path, Walk& walk,
 }
 
 void Tracer::note(Point2 p, const Place& at) {
-  if (at.kind == Place::Kind::vertex || at.kind == Place::Kind::edge) found_.push_back({p, at});
+  if (at.kind != Place::Kind::vertex && at.kind != Place::Kind::edge) return;
+  const auto behind = std::upper_bound(found_.begin(), found_.end(), key_of(p),
+                                       [](double key, const auto& f) { return key < key_of(f.first); });
+  found_.insert(behind, {p, at});
 }
 
 /// Where the path was when it came by this point earlier; none where it didn't, or was inside a triangle.
 const Place* Tracer::found_before(Point2 p) const {
-  const auto known =
-      std::find_if(found_.begin(), found_.end(), [&](const auto& f) { return within(f.first, p, sheet_->snap()); });
-  return known == found_.end() ? nullptr : &known->second;
+  const double snap = sheet_->snap();
+  auto known = std::lower_bound(found_.begin(), found_.end(), key_of(p) - 2 * snap,
+                                [](const auto& f, double key) { return key_of(f.first) < key; });
+  for (; known != found_.end() && key_of(known->first) <= key_of(p) + 2 * snap; ++known)
+    if (within(known->first, p, snap)) return &known->second;
+  return nullptr;
 }
 
 /// Does neither the border nor an open incision pass through the place?
@@ -161,6 +177,16 @@ void Tracer::run_along(const Place& from, const Place& to, HalfEdge edge) {
   if (!sheet_->separates(edge)) trace_.add_along(trace_.node_of(from), trace_.node_of(to), edge);
 }
 
+/// With what is chosen of the passage under way.
+void Tracer::check_room(int face) const {
+  std::size_t segments = 1 + static_cast<std::size_t>(std::count(chosen_.begin(), chosen_.end(), 1));
+  for (int i = passages_of(face); i >= 0; i = passage(i).next)
+    segments += passage(i).segments[1] - passage(i).segments[0];
+  if (segments > most_segments_in_triangle)
+    throw CutRefused(
+        "over 8192 pieces of the path lie in one triangle; give it fewer points, or the sheet more triangles");
+}
+
 /// Records one passage through one triangle; returns the node at its end, -1 where it came to nothing. The node at its
 /// start is from_node_ where that is known.
 int Tracer::finish(int face, const Place& from, std::size_t first, std::size_t count, const Place& to) {
@@ -168,6 +194,7 @@ int Tracer::finish(int face, const Place& from, std::size_t first, std::size_t c
   chosen_.assign(count, 0);
   const int common = common_edge(t, from, to);
   if (count > 0) choose(common >= 0, from, first, count, to);
+  check_room(face);
   if (common >= 0 && !any_chosen()) {
     run_along(from, to, half_edge(t, common));
     return -1;
@@ -224,7 +251,8 @@ void Tracer::choose(bool on_one_edge, const Place& from, std::size_t first, std:
     monotone = dot(p - before, chord) > 0;
     before = p;
   }
-  if (count < 2 || monotone) return;
+  const bool all_chosen = std::find(chosen_.begin(), chosen_.end(), 0) == chosen_.end();
+  if (count < 2 || monotone || all_chosen) return;
   all_points_.assign(1, from.point), chosen_points_ = all_points_;
   for (std::size_t i = 0; i < count; ++i) {
     all_points_.push_back(point(first + i));

@@ -48,6 +48,7 @@ class Tracer {
   void handle(const Step& step, std::size_t point, bool tip);
   void close_loop();
   void run_along(const Place& from, const Place& to, HalfEdge edge);
+  void check_room(int face) const;
   int finish(int face, const Place& from, std::size_t first, std::size_t count, const Place& to);
   void choose(bool on_one_edge, const Place& from, std::size_t first, std::size_t count, const Place& to);
   void choose_by_chord(Point2 a, Point2 b, std::size_t first, std::size_t begin, std::size_t end);
@@ -87,6 +88,7 @@ class Tracer {
   std::vector<Point2> passage_points(const TrianglePassage& passage,
                                      bool all) const;  // not all: those that became nodes
   void restore_all_points(int face);
+  bool is_clear(int face) const;
   void resolve_crossings(int face);
   std::vector<int> nodes_of(int face) const;
 

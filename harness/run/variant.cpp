@@ -22,8 +22,8 @@ std::vector<Variant> variants_of(const Experiment& experiment, const std::vector
     if (row == methods.end()) {
       std::vector<std::string> known;
       for (const auto& r : methods) known.push_back(r.name);
-      throw InputError(experiment.stem + ": unknown method \"" + entry.method + "\"; known are " +
-                       listed(nearest_first(entry.method, known)));
+      throw InputError(experiment.stem + ": unknown method \"" + entry.method + "\"; " +
+                       suggestion(entry.method, known, "`cutbench methods` lists them"));
     }
     if (!entry.knob_values.empty() && row->knob.name.empty())
       throw InputError(experiment.stem + ": method \"" + entry.method + "\" has no knob");

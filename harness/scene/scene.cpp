@@ -225,11 +225,20 @@ void check_arrival(const Scene& scene, const Scene::Cut& cut, const std::string&
   throw InputError(where + text);
 }
 
+/// More than any run can make; their number must be a whole one.
+constexpr double most_steps = 1e9;
+
 /// What is wrong only together.
 void check_times(const Scene& scene, const std::string& name) {
   const bool equilibrium = scene.integrator == Integrator::equilibrium;
   if (!equilibrium && scene.step > scene.duration)
     throw InputError(name + ": the first step ends after the duration; shorten \"step\" or lengthen \"duration\"");
+  if (!equilibrium && scene.duration / scene.step > most_steps) {
+    char text[128];
+    std::snprintf(text, sizeof text, ": %.3g steps, more than 1e9; lengthen \"step\" or shorten \"duration\"",
+                  scene.duration / scene.step);
+    throw InputError(name + text);
+  }
   for (std::size_t i = 0; i < scene.cuts.size(); ++i) {
     const double time = scene.cuts[i].time;
     const std::string where = name + ", cut " + std::to_string(i) + ": ";

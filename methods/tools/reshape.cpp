@@ -39,6 +39,23 @@ class VertexLink {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double good = 0.9;  // times the largest aspect ratio allowed: the search stops below it
 
+/// The vertex has over 64 edges. It may have thousands, and what looks at all of them for each of its triangles takes time
+/// that grows with the square of their number: it stays where it is, and so do its neighbours as such.
+bool is_wide(const Sheet& sheet, VertexIndex v) {
+  constexpr int widest = 64;
+  const TriangleIndex t = sheet.triangle_of_vertex(v);
+  int k = 0;
+  while (sheet.origin(half_edge(t, k)) != v) ++k;
+  const HalfEdge first = half_edge(t, k);
+  int edges = 1;
+  HalfEdge h = first;
+  do h = sheet.next_outgoing(h);
+  while (h.valid() && h != first && ++edges <= widest);
+  if (h.valid()) return edges > widest;
+  for (h = first; h.valid() && edges <= widest; h = sheet.previous_outgoing(h)) ++edges;  // the border is met
+  return edges > widest;
+}
+
 }  // namespace
 
 void Reshape::begin(Sheet& sheet, PathCurve& curve) {
@@ -109,6 +126,7 @@ double Reshape::worst_after_collapse(HalfEdge h) const {
 /// Whether the path allows that the edge `towards` is collapsed, by moving its origin v to its target.
 bool Reshape::may_leave_out(VertexIndex v, HalfEdge towards) const {
   Neighbours n;
+  if (is_wide(*sheet_, v)) return false;
   const Freedom how = freedom(v, n);
   if (how != Freedom::along) return how == Freedom::free;
   if (sheet_->mark(towards) != EdgeMark::path) return false;
@@ -178,6 +196,7 @@ void Reshape::note_star(VertexIndex v) {
 /// Pattern search for the place of v where the worst triangle at it is best.
 bool Reshape::smooth(VertexIndex v) {
   Neighbours neighbours;
+  if (is_wide(*sheet_, v)) return false;
   const Freedom how = freedom(v, neighbours);
   if (how == Freedom::none) return false;
   if (how == Freedom::along) return slide(v, neighbours);
@@ -233,11 +252,13 @@ bool Reshape::smooth_round(TriangleIndex t) {
     if (is_ill_shaped(t)) moved |= smooth(v);
   if (!is_ill_shaped(t)) return true;
   ring_.clear();
-  for (const VertexIndex v : corners)
+  for (const VertexIndex v : corners) {
+    if (is_wide(*sheet_, v)) continue;
     for_each_outgoing(*sheet_, v, [&](HalfEdge h) {
       const VertexIndex w = sheet_->target(h);
       if (std::find(ring_.begin(), ring_.end(), w) == ring_.end()) ring_.push_back(w);
     });
+  }
   for (const VertexIndex v : ring_) moved |= smooth(v);
   return moved;
 }
