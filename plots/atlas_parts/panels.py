@@ -67,13 +67,19 @@ def short(value):
     return f"{value:g}"
 
 
-def ratio_lines(ax, rows, names, ylabels=True):
-    """For each method the median of the explicit step over single cuts, and from there a line to the 5 % quantile."""
+def ratio_lines(ax, rows, names, ylabels=True, prices=False):
+    """For each method the median of the explicit step over cuts, and from there a line to the 5 % quantile. `prices`: at the
+    left the median time of a cut over that of the first method, and the median incision error."""
+    base = rows[rows["name"] == names[0]]["geometry_us"].median()
     for i, name in enumerate(names):
         values = rows[rows["name"] == name][points.EXPLICIT].dropna()
         if not len(values):
             continue
         low, middle = values.quantile(0.05, interpolation="lower"), values.median()
+        if prices:
+            mine = rows[rows["name"] == name]
+            error = "gap" if (mine["method"] == "element_deletion").all() else f"{mine['incision_error_h'].median():.2g} h"
+            ax.text(1e-8, i, f"{mine['geometry_us'].median() / base:.1f} ×,  {error}", fontsize=5, va="center")
         good = middle >= 0.3 and low >= 0.1
         colour = "#1a9850" if good else "#444444"
         ax.plot([max(low, 1e-8), middle], [i, i], color=colour, linewidth=1, marker="|", markersize=4, markevery=[0])
