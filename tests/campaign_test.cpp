@@ -195,7 +195,10 @@ TEST_F(CampaignRun, AFaultCostsOneCaseAndIsSavedAndMadeSmall) {
       std::vector<std::size_t> triangles;
       for (const std::string kind : {"", ".small"}) {
         const CutCase again{read_mesh(stem + kind + ".obj"), read_path(stem + kind + ".json")};
-        EXPECT_EQ(try_in_isolation(contender_of({&*row, 0}), again, {}, e.campaign->time_limit_s).kind, expected.kind);
+        EXPECT_EQ(try_in_isolation(contender_of({std::make_shared<const MethodRow>(*row), 0}), again, {},
+                                   e.campaign->time_limit_s)
+                      .kind,
+                  expected.kind);
         triangles.push_back(again.mesh.triangles.size());
       }
       if (expected.kind != Count::timed_out) {  // there each trial takes its time
@@ -260,7 +263,7 @@ TEST_F(CampaignRun, AKilledCampaignGoesOn) {
 }
 
 TEST_F(CampaignRun, ACaseThatCannotBeSavedIsSaid) {
-  const Variant variant{&rows().front(), 0};
+  const Variant variant{std::make_shared<const MethodRow>(rows().front()), 0};
   const FailingCase failing{
       "taken", "title", {make_sheet("grid", 1), {{Curve::Kind::polyline, false, {{0, 0.2}, {1, 0.7}}}}}, {}};
   fs::create_directories(folder_ / "taken.txt");
