@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The two figures of README.md: readme_gallery.png, the same cut by every method, made by the program that
-experiments/reproduce builds, and readme_chart.png, time against the largest eigenvalue, from the records in
-results/reference. Writes both there."""
+"""The figures of README.md: readme_gallery.png, the same cut by every method, made by the program that
+experiments/reproduce builds, and from the records in results/reference readme_chart.png, time against the largest
+eigenvalue, and readme_atlas.png, where methods stop working. Writes them there."""
 
 import argparse
 import io
@@ -16,7 +16,9 @@ from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 from PIL import Image
 
+import atlas
 import method_gallery
+from atlas_parts import panels, points
 from common import load, style  # style: the fonts and axes of every figure
 
 STEM = "method_comparison"
@@ -147,6 +149,33 @@ def chart(methods):
     return figure
 
 
+# ---- the atlas in short
+
+
+def stability():
+    """Four panels of the atlas, large enough to be read beside the text."""
+    rows = points.read(load.REPOSITORY / "results/reference")
+    shown = ["vertex", "border", "strip", "in_a_row"]
+    figure, axes = plt.subplots(1, 4, figsize=(WIDTH, 3.6))
+    figure.subplots_adjust(left=0.135, right=0.99, top=0.88, bottom=0.29, wspace=0.1)
+    axes[-1].set_position([0.85, 0.29, 0.14, 0.59])
+    for k, (ax, panel) in enumerate(zip(axes, shown)):
+        if k < 3:
+            ax.set_position([0.135 + 0.195 * k, 0.29, 0.18, 0.59])
+        atlas.draw(ax, rows, panel, ylabels=k in (0, 3))
+        ax.set_title(ax.get_title(loc="left"), loc="left", fontsize=9)
+        ax.xaxis.label.set_fontsize(8.5)
+        ax.tick_params(labelsize=7.5)
+    figure.text(0.008, 0.945, "Largest explicit step after a cut, over that of the uncut sheet", fontsize=10, fontweight="bold")
+    bands = panels.legends(set())[0][1]
+    figure.legend(handles=bands, loc="lower left", ncol=len(bands), bbox_to_anchor=(0.125, 0.1), fontsize=8.5, handlelength=1.2,
+                  columnspacing=1.4)
+    figure.text(0.008, 0.02, "Columns: from harmless (left) to harmful. Each cell is the worst of three places (cuts in a row: one), one sheet of 800 triangles; "
+                "h: mean edge.\nAn explicit step with ties or phantom nodes is predicted, not made. All: docs/stability.md.",
+                fontsize=9, color="#555555", linespacing=1.35)
+    return figure
+
+
 def save(figure, path):
     picture = io.BytesIO()
     figure.savefig(picture, dpi=DPI)
@@ -166,6 +195,7 @@ def main():
     methods = method_gallery.all_methods()
     save(gallery(methods), folder / "readme_gallery.png")
     save(chart(methods), folder / "readme_chart.png")
+    save(stability(), folder / "readme_atlas.png")
 
 
 if __name__ == "__main__":

@@ -57,33 +57,33 @@ std::string knob(const std::string& method, const std::string& value) {
 }
 
 TEST_F(BadInput, Options) {
-  expect_all(
-      {{"", 2,
-        "no subcommand given; known are methods, cut, score, simulate, run, reduce, merge, missing, columns, compare; see cutbench --help"},
-       {"nonsense", 2, "unknown subcommand \"nonsense\"; known are "},
-       {"scroe", 2, "unknown subcommand \"scroe\"; known are score, "},
-       {"cut", 2, "is required; see cutbench cut --help"},
-       {"--nonsense", 2, "see cutbench --help"},
-       {good + " --nonsense 1", 2, "--nonsense"},
-       {good + " --out", 2, "--out"},
-       {good + " --mesh sheet.off", 2, "--mesh"},
-       {"cut --method '' --mesh sheet.off --path path.json --out out.obj", 2,
-        "unknown method \"\"; `cutbench methods` lists them"},
-       {"cut --method bowyer_watson --set rounds=inf --mesh sheet.off --path path.json --out out.obj", 2,
-        "rounds must be a whole number from 0 to 6"},
-       {knob("bowyer_watson", "rounds=0.5"), 2, "rounds must be a whole number from 0 to 6"},
-       {knob("cgal_refine", "bound=1"), 2, "bound must be 0, or a number from 2 to 1000"},
-       {knob("delaunay_refine", "bound=1001"), 2, "bound must be 0, or a number from 2 to 1000"},
-       {knob("longest_edge", "cap=101"), 2, "cap must be a number from 0 to 100"},
-       {knob("snap_or_split", "tolerance=0.6"), 2, "tolerance must be a number from 0 to 0.5"},
-       {knob("split_and_tie", "thinness=-1"), 2, "thinness must be a number from 0 to 0.3"},
-       {knob("vertex_snap", "reach=0.6"), 2, "reach must be a number from 0 to 0.5"},
-       {knob("warp_and_refine", "reach=-1"), 2, "reach must be a number from 0 to 0.5"},
-       {good + " --chord-tolerance 1x", 2, "\"1x\" is not a number"},
-       {"simulate " + std::string(CUTBENCH_TEST_CASES) +
-            "/../../experiments/scenes/falling_piece.toml "
-            "--resolution -800",
-        2, "--resolution"}});
+  expect_all({{"", 2,
+               "no subcommand given; known are methods, cut, score, simulate, run, reduce, merge, missing, columns, "
+               "compare; see cutbench --help"},
+              {"nonsense", 2, "unknown subcommand \"nonsense\"; known are "},
+              {"scroe", 2, "unknown subcommand \"scroe\"; known are score, "},
+              {"cut", 2, "is required; see cutbench cut --help"},
+              {"--nonsense", 2, "see cutbench --help"},
+              {good + " --nonsense 1", 2, "--nonsense"},
+              {good + " --out", 2, "--out"},
+              {good + " --mesh sheet.off", 2, "--mesh"},
+              {"cut --method '' --mesh sheet.off --path path.json --out out.obj", 2,
+               "unknown method \"\"; `cutbench methods` lists them"},
+              {"cut --method bowyer_watson --set rounds=inf --mesh sheet.off --path path.json --out out.obj", 2,
+               "rounds must be a whole number from 0 to 6"},
+              {knob("bowyer_watson", "rounds=0.5"), 2, "rounds must be a whole number from 0 to 6"},
+              {knob("cgal_refine", "bound=1"), 2, "bound must be 0, or a number from 2 to 1000"},
+              {knob("delaunay_refine", "bound=1001"), 2, "bound must be 0, or a number from 2 to 1000"},
+              {knob("longest_edge", "cap=101"), 2, "cap must be a number from 0 to 100"},
+              {knob("snap_or_split", "tolerance=0.6"), 2, "tolerance must be a number from 0 to 0.5"},
+              {knob("split_and_tie", "thinness=-1"), 2, "thinness must be a number from 0 to 0.3"},
+              {knob("vertex_snap", "reach=0.6"), 2, "reach must be a number from 0 to 0.5"},
+              {knob("warp_and_refine", "reach=-1"), 2, "reach must be a number from 0 to 0.5"},
+              {good + " --chord-tolerance 1x", 2, "\"1x\" is not a number"},
+              {"simulate " + std::string(CUTBENCH_TEST_CASES) +
+                   "/../../experiments/scenes/falling_piece.toml "
+                   "--resolution -800",
+               2, "--resolution"}});
 }
 
 TEST_F(BadInput, PlacesToReadFrom) {
@@ -500,7 +500,8 @@ TEST_F(BadInput, Experiments) {
            {with("knob = [0, 1]", "knobs = [0, 1]"), "did you mean \"knob\""},
            {with("knob = [0, 1]", "knob = 1"), "\"knob\" must be a list"},
            {with("name = ", "name = 1, nam = "), "unknown key \"nam\""},
-           {with("\"conventional_split\"", "3"), "an entry of \"methods\" is a name, {name = ..., knob = [...]} or {name = ..., command = ...}"},
+           {with("\"conventional_split\"", "3"),
+            "an entry of \"methods\" is a name, {name = ..., knob = [...]} or {name = ..., command = ...}"},
            {text + "scene = \"none.toml\"\ncut_time = 0\n", "none.toml: can't be read"},
            {text + "scene = \"of_a_file.toml\"\ncut_time = 0\n", "\"scene\" has a sheet from a file"},
            {text + "scene = \"of_a_family.toml\"\ncut_time = 0.1\n", "\"cut_time\" must lie within the scene's"},

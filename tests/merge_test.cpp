@@ -65,9 +65,10 @@ TEST_F(Merge, CutFamilies) {
 }
 
 TEST_F(Merge, Accuracy) {
-  write(folder_ / "a.toml",
-        "claim = \"c\"\nsheets = [\"grid\", \"delaunay\"]\nresolutions = [200]\nmethods = [\"conventional_split\"]\n"
-        "[accuracy]\nproblems = [\"centre_crack\", \"two_cuts_one_geometry\"]\nmembers = [4]\ndirect = [\"cholmod\"]\n");
+  write(
+      folder_ / "a.toml",
+      "claim = \"c\"\nsheets = [\"grid\", \"delaunay\"]\nresolutions = [200]\nmethods = [\"conventional_split\"]\n"
+      "[accuracy]\nproblems = [\"centre_crack\", \"two_cuts_one_geometry\"]\nmembers = [4]\ndirect = [\"cholmod\"]\n");
   expect_equal("a");
 }
 
