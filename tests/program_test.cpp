@@ -64,9 +64,9 @@ TEST_F(Programs, EachFailureIsNamed) {
            {"exit 3" + unused, "", 1, "failed (crashed): exit code 3"},
            {"echo first >&2; echo the reason >&2; exit 1" + unused, "", 1, "failed (crashed): exit code 1: the reason"},
            {"kill -SEGV $$" + unused, "", 1, "failed (crashed): ended by signal 11"},
-           {"sleep 60" + unused, "--time-limit 0.3", 1, "failed (timed_out): ended at its time limit"},
-           {"sleep 60 & while :; do :; done" + unused, "--time-limit 0.3", 1, "failed (timed_out): "},
-           {"python3 -c \"x = bytearray(10**9)\"" + unused, "--memory-limit 200", 1,
+           {"sleep 60" + unused, "--command-time-limit 0.3", 1, "failed (timed_out): ended at its time limit"},
+           {"sleep 60 & while :; do :; done" + unused, "--command-time-limit 0.3", 1, "failed (timed_out): "},
+           {"python3 -c \"x = bytearray(10**9)\"" + unused, "--command-memory-limit 200", 1,
             "failed (crashed): exit code 1: MemoryError"},
            {"echo too hard >&2; exit 2" + unused, "", 2, "program refuses this cut: too hard"},
            {"true" + unused, "", 1, "failed (no_result): the program ended well, but wrote no {out}"},
@@ -88,7 +88,7 @@ TEST_F(Programs, EachFailureIsNamed) {
 /// Nothing that a program started goes on after its time.
 TEST_F(Programs, LeaveNothingRunning) {
   cut_by("(sleep 0.8; touch " + quoted((folder_ / "late").string()) + ") & sleep 60; : {mesh} {path} {out}",
-         "--time-limit 0.2");
+         "--command-time-limit 0.2");
   ::usleep(1200000);
   EXPECT_FALSE(fs::exists(folder_ / "late"));
 }

@@ -49,7 +49,7 @@ class Score : public testing::Test {
     return WEXITSTATUS(status);
   }
   int cut(const std::string& method) {
-    return run("cut --mesh sheet.obj --path path.json --out out.obj --report cut.json --method " + method);
+    return run("cut --mesh sheet.obj --path path.json --out out.obj --report cut.json --allow-miss --method " + method);
   }
   int score(const std::string& result, const std::string& more = "") {
     return run("score --mesh sheet.obj --path path.json --report score.json --result " + result + " " + more);

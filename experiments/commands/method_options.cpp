@@ -40,10 +40,10 @@ void MethodOptions::add_to(CLI::App& app) {
   app.add_option("--command", command,
                  "a program that cuts instead of a method, such as: python3 mine.py {mesh} {path} {out}")
       ->excludes(by_name);
-  app.add_option("--time-limit", limits.time_s, "of each cut by the program, in seconds")
+  app.add_option("--command-time-limit", limits.time_s, "of each cut by the program, in seconds")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
-  app.add_option("--memory-limit", limits.memory_mb, "of the program, in MB")
+  app.add_option("--command-memory-limit", limits.memory_mb, "of the program, in MB")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   app.add_option("--set", settings, "KNOB=VALUE of the method; see `cutbench methods` for knobs and defaults");
