@@ -11,6 +11,7 @@
 #include "harness/base/errors.h"
 #include "harness/base/whole_file.h"
 #include "harness/records/metrics.h"
+#include "harness/records/record.h"
 
 namespace cutbench {
 
@@ -27,27 +28,17 @@ struct Run {
   }
 };
 
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> fields(1);
-  for (const char c : line)
-    if (c == ',')
-      fields.emplace_back();
-    else
-      fields.back() += c;
-  return fields;
-}
-
 Run read_run(const std::filesystem::path& folder) {
   Run run;
   std::istringstream lines(text_of((folder / "records.csv").string()));
   std::string line;
   std::getline(lines, line);
-  run.columns = split(line);
+  run.columns = fields_of(line);
   if (run.columns.size() <= key_columns || run.column("method") < 0)
     throw InputError((folder / "records.csv").string() +
                      ": line 1 is no head of records; give a folder of cutbench run");
   for (std::size_t number = 2; std::getline(lines, line); ++number) {
-    std::vector<std::string> fields = split(line);
+    std::vector<std::string> fields = fields_of(line);
     if (fields.size() != run.columns.size())
       throw InputError((folder / "records.csv").string() + ": line " + std::to_string(number) + " has " +
                        std::to_string(fields.size()) + " fields, not " + std::to_string(run.columns.size()) +
@@ -158,7 +149,7 @@ void compare_quality(const Pairs& pairs, const Metric& metric, RunComparison& re
   }
 }
 
-std::string percent(double ratio) {
+std::string in_percent(double ratio) {
   char text[32];
   std::snprintf(text, sizeof text, "%+.1f %%", 100 * (ratio - 1));
   return text;
@@ -178,8 +169,8 @@ std::string first_line(const RunComparison& c) {
 }
 
 std::string cells(const TimeRatio& t, const char* between) {
-  return t.method + between + t.column + between + percent(t.median) + between + "[" + percent(t.low) + ", " +
-         percent(t.high) + "]" + between + std::to_string(t.cases) + between + verdict_of(t);
+  return t.method + between + t.column + between + in_percent(t.median) + between + "[" + in_percent(t.low) + ", " +
+         in_percent(t.high) + "]" + between + std::to_string(t.cases) + between + verdict_of(t);
 }
 
 std::string cells(const QualityChange& q, const char* between) {

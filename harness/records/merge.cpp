@@ -9,21 +9,13 @@
 
 #include "harness/base/errors.h"
 #include "harness/base/whole_file.h"
+#include "harness/records/record.h"
 
 namespace cutbench {
 
 namespace {
 
 using Fields = std::vector<std::string>;
-
-Fields split(const std::string& line) {
-  Fields fields;
-  std::size_t begin = 0;
-  for (std::size_t end; (end = line.find(',', begin)) != std::string::npos; begin = end + 1)
-    fields.push_back(line.substr(begin, end - begin));
-  fields.push_back(line.substr(begin));
-  return fields;
-}
 
 std::string joined(const Fields& fields) {
   std::string line;
@@ -53,10 +45,10 @@ std::optional<Shard> read_shard(const std::filesystem::path& folder, std::string
   const std::string text = text_of(records);
   std::istringstream lines(text);
   std::getline(lines, shard.head);
-  const std::size_t columns = split(shard.head).size();
+  const std::size_t columns = fields_of(shard.head).size();
   bool whole = !text.empty() && text.back() == '\n';
   for (std::string line; std::getline(lines, line);) {
-    shard.rows.push_back(split(line));
+    shard.rows.push_back(fields_of(line));
     whole = whole && shard.rows.back().size() == columns;
   }
   const bool known = shard.context.is_object() && shard.context.contains("run") && shard.context.contains("rows");
@@ -92,7 +84,7 @@ std::vector<int> missing_of(const std::vector<Shard>& shards, int of) {
 /// Columns by name, and rows in the order of a run without shards.
 class Table {
  public:
-  explicit Table(const std::string& head) : names_(split(head)) {}
+  explicit Table(const std::string& head) : names_(fields_of(head)) {}
 
   std::vector<Fields> merged(const std::vector<Shard>& shards) const {
     return has("tried") ? summed(shards) : interleaved(shards);

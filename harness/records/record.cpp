@@ -40,6 +40,15 @@ Record::Record(const std::vector<std::string>& columns, const std::string& line)
   }
 }
 
+std::vector<std::string> fields_of(const std::string& line) {
+  std::vector<std::string> fields;
+  std::size_t begin = 0;
+  for (std::size_t end; (end = line.find(',', begin)) != std::string::npos; begin = end + 1)
+    fields.push_back(line.substr(begin, end - begin));
+  fields.push_back(line.substr(begin));
+  return fields;
+}
+
 std::size_t Record::index(const std::string& column) const {
   return static_cast<std::size_t>(std::find(columns_->begin(), columns_->end(), column) - columns_->begin());
 }
@@ -68,11 +77,11 @@ std::string Record::line() const { return joined(fields_, fields_.size()); }
 namespace {
 
 /// What rows of any shard share, and which shard these are: the last line of the identity, "i/N".
-struct Run {
+struct Identity {
   std::string all;
   int shard = 1, shards = 1;
 
-  explicit Run(const std::string& identity) : all(identity.substr(0, identity.rfind('\n'))) {
+  explicit Identity(const std::string& identity) : all(identity.substr(0, identity.rfind('\n'))) {
     const std::size_t line = identity.rfind('\n');
     if (line == std::string::npos) return;
     std::sscanf(identity.c_str() + line, "%d/%d", &shard, &shards);
@@ -138,7 +147,7 @@ void RecordFile::append(const Record& record) {
 
 void RecordFile::finish(const Context& context, const std::string& experiment, const std::string& claim,
                         const std::string& command, std::uint64_t seed) {
-  const Run run(identity_);
+  const Identity run(identity_);
   const nlohmann::json document{{"commit", context.commit ? nlohmann::json(*context.commit) : nlohmann::json()},
                                 {"dirty", context.dirty ? nlohmann::json(*context.dirty) : nlohmann::json()},
                                 {"compiler", context.compiler},

@@ -22,6 +22,9 @@ const std::vector<std::string>& column_names();
 /// runs
 std::vector<std::string> key_column_names(const std::string& subject = "cut_family");
 
+/// The fields of a row or head, which commas separate.
+std::vector<std::string> fields_of(const std::string& line);
+
 /// A row: the fields in the order of the columns.
 class Record {
  public:
