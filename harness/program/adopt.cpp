@@ -13,18 +13,18 @@ namespace cutbench {
 
 namespace {
 
-using Corners = std::array<Point2, 3>;
+using RestCorners = std::array<Point2, 3>;
 
 bool is_before(Point2 a, Point2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
 
 struct Earlier {
   bool operator()(Point2 a, Point2 b) const { return is_before(a, b); }
-  bool operator()(const Corners& a, const Corners& b) const {
+  bool operator()(const RestCorners& a, const RestCorners& b) const {
     return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), is_before);
   }
 };
 
-Corners from_smallest(Corners c) {
+RestCorners from_smallest(RestCorners c) {
   std::rotate(c.begin(), std::min_element(c.begin(), c.end(), is_before), c.end());
   return c;
 }
@@ -50,7 +50,7 @@ class Adoption {
  private:
   /// Which triangles stay: those whose corners are in both.
   void match_triangles() {
-    std::map<Corners, TriangleIndex, Earlier> known;
+    std::map<RestCorners, TriangleIndex, Earlier> known;
     for (std::size_t t = 0; t < sheet_.triangle_slots(); ++t)
       if (sheet_.triangle(TriangleIndex(t)).alive())
         known.emplace(from_smallest(sheet_.corners(TriangleIndex(t))), TriangleIndex(t));
