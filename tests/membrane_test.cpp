@@ -61,8 +61,9 @@ Field forces(const Element& e, const Field& x, Strain strain, const Lame& lame) 
 }
 
 template <int D>
-Eigen::MatrixXd stiffness(const Element& e, const Field& x, Strain strain, const Lame& lame) {
-  const ElementStiffness<D> stiffness(e, deformation_of<D>(e, x, strain, lame), strain, lame);
+Eigen::MatrixXd stiffness(const Element& e, const Field& x, Strain strain, const Lame& lame,
+                          StressStiffness of_stress = StressStiffness::positive) {
+  const ElementStiffness<D> stiffness(e, deformation_of<D>(e, x, strain, lame), of_stress, lame);
   Eigen::MatrixXd k(3 * D, 3 * D);
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
@@ -149,6 +150,30 @@ TYPED_TEST(Membrane, StiffnessIsTheDerivativeOfTheForceUnderTension) {
     }
   }
   EXPECT_GT(tensed, 100);
+}
+
+TYPED_TEST(Membrane, FullStiffnessIsTheDerivativeOfTheForceUnderCompressionToo) {
+  constexpr int D = TestFixture::dimension;
+  Random random(7);
+  const Lame lame = lame_of(skin, Plane::stress);
+  int indefinite = 0;
+  for (int i = 0; i < 200; ++i) {
+    const auto c = random_triangle(random);
+    const Element e = element_with(c);
+    Field x = random.between(0.7, 1.2) * place<D>(c);
+    for (auto& value : x) value += random.between(-0.02, 0.02);
+    const Eigen::MatrixXd k = stiffness<D>(e, x, Strain::corotational, lame, StressStiffness::full);
+    indefinite += eigenvalues(k)[0] < -1e-6 * k.norm();
+    for (Eigen::Index j = 0; j < x.size(); ++j) {
+      const double h = 1e-6;
+      Field right = x, left = x;
+      right[j] += h, left[j] -= h;
+      const Field column =
+          -(forces<D>(e, right, Strain::corotational, lame) - forces<D>(e, left, Strain::corotational, lame)) / (2 * h);
+      EXPECT_LT((column - k.col(j)).norm(), 1e-6 * k.norm());
+    }
+  }
+  EXPECT_GT(indefinite, 50);
 }
 
 TYPED_TEST(Membrane, StiffnessIsPositiveSemiDefiniteHoweverCompressed) {

@@ -1,12 +1,15 @@
 // The tangent stiffness of a membrane element, or of four side by side (membrane.h says where it comes from).
 #pragma once
 
+#include <limits>
+
 #include "harness/fem/lanes.h"
 #include "harness/fem/membrane.h"
 
 namespace cutbench {
 
-/// The stiffness times a factor, N/m: 3 x 3 blocks of D x D, symmetric, positive semi-definite.
+/// The stiffness times a factor, N/m: 3 x 3 blocks of D x D, symmetric; positive semi-definite but for
+/// StressStiffness::full under compression.
 ///
 /// In the element's own frame (the columns of R, and the normal n) the block of two corners with gradients g and h is
 /// linear in the four products of their components. So it is here, with frame and moduli put into three matrices once:
@@ -18,10 +21,10 @@ class ElementStiffness {
 
   /// `area` is the factor times the area of material.
   ElementStiffness(const std::array<Vector2<Number>, 3>& gradient, Number area, const Polar<D, Number>& polar,
-                   Strain strain, const Lame& lame)
+                   StressStiffness of_stress, const Lame& lame)
       : gradient_(gradient) {
     const Number lambda = area * lame.lambda, mu = area * lame.mu;
-    const Moduli m = strain == Strain::linear ? Moduli{} : moduli_of(area, polar, lame);
+    const Moduli m = of_stress == StressStiffness::none ? Moduli{} : moduli_of(area, polar, lame, of_stress);
     const auto& [x, y] = polar.rotation;
     for (std::size_t c = 0; c < D; ++c)
       for (std::size_t r = 0; r < D; ++r) {
@@ -34,11 +37,11 @@ class ElementStiffness {
   }
 
   /// Of one element.
-  ElementStiffness(const Element& e, const Deformation<D>& deformation, Strain strain, const Lame& lame)
+  ElementStiffness(const Element& e, const Deformation<D>& deformation, StressStiffness of_stress, const Lame& lame)
       : ElementStiffness({{{e.gradient[0].x, e.gradient[0].y},
                            {e.gradient[1].x, e.gradient[1].y},
                            {e.gradient[2].x, e.gradient[2].y}}},
-                         e.material_area(), polar_of(deformation), strain, lame) {}
+                         e.material_area(), polar_of(deformation), of_stress, lame) {}
 
   /// Block (i, j).
   Block block(std::size_t i, std::size_t j) const {
@@ -52,23 +55,23 @@ class ElementStiffness {
   }
 
  private:
-  /// Of the modes whose stiffness depends on the stress, without what is negative.
+  /// Of the modes whose stiffness depends on the stress.
   struct Moduli {
     Number twist{};                          ///< in the plane
     Number tilt_xx{}, tilt_xy{}, tilt_yy{};  ///< out of the plane: tension over stretch, on the same principal axes
   };
 
-  static Number positive(Number x) { return x > 0 ? x : Number{}; }
-
-  static Moduli moduli_of(Number area, const Polar<D, Number>& polar, const Lame& lame) {
+  static Moduli moduli_of(Number area, const Polar<D, Number>& polar, const Lame& lame, StressStiffness of_stress) {
+    const double least = of_stress == StressStiffness::full ? -std::numeric_limits<double>::infinity() : 0;
+    const auto taken = [least](Number x) { return x > least ? x : Number{}; };
     const Number strain = polar.xx - 1 + (polar.yy - 1), pressure = lame.lambda * strain;
     Moduli m;
-    const Number twist = positive((lame.mu + lame.lambda) * strain / (strain + 2));
+    const Number twist = taken((lame.mu + lame.lambda) * strain / (strain + 2));
     m.twist = strain + 2 > 0 ? area * twist : Number{};
     if constexpr (D == 3) {
       const Number half = (polar.xx - polar.yy) / 2, radius = square_root(half * half + polar.xy * polar.xy);
       const auto tension_over_stretch = [&](Number principal) {
-        const Number ratio = positive(2 * lame.mu * principal + pressure) / (1 + principal);
+        const Number ratio = taken(2 * lame.mu * principal + pressure) / (1 + principal);
         return 1 + principal > 0 ? ratio : Number{};
       };
       const Number more = area / 2 * tension_over_stretch(strain / 2 + radius);

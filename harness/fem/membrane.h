@@ -6,7 +6,8 @@
 // (Smith, de Goes and Kim, Analytic eigensystems for isotropic distortion energies, TOG 38, 2019): stretch and shear,
 // where it is that of linear elasticity turned by R; the in-plane twist, with (s1 + s2) / (S1 + S2); and, in space,
 // tilting out of the plane, with s_k / S_k along each principal direction (Baraff and Witkin's geometric stiffness).
-// The last three can be negative under compression and are then left out, so the matrix is positive semi-definite.
+// The last three can be negative under compression and are then left out, so the matrix is positive semi-definite, or
+// kept, or all left out: StressStiffness says which.
 #pragma once
 
 #include <Eigen/Geometry>

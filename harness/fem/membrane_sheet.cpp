@@ -200,7 +200,7 @@ template <int D>
 void MembraneSheet<D>::add_stiffness(const ElementTable& elements, double factor, BlockMatrix<D>& blocks) const {
   for (std::size_t i = 0; i < polar_.size(); ++i) {
     const Four four(elements, lane_count * i);
-    const ElementStiffness<D, Lanes> k(four.gradient, factor * four.area, polar_[i], strain_, lame_);
+    const ElementStiffness<D, Lanes> k(four.gradient, factor * four.area, polar_[i], of_stress_, lame_);
     for (std::size_t a = 0; a < 3; ++a) {
       blocks.add(slots_[i][a][a], k.block(a, a));
       for (std::size_t b = a + 1; b < 3; ++b) {

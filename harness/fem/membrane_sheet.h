@@ -12,7 +12,8 @@ namespace cutbench {
 template <int D>
 class MembraneSheet {
  public:
-  MembraneSheet(Strain strain, const Lame& lame) : strain_(strain), lame_(lame) {}
+  MembraneSheet(Strain strain, StressStiffness of_stress, const Lame& lame)
+      : strain_(strain), of_stress_(of_stress), lame_(lame) {}
   void resize(std::size_t elements);
   void reserve_spare();
 
@@ -37,6 +38,7 @@ class MembraneSheet {
   void add_forces(const Four& four, const Polar<D, Lanes>& polar);
 
   Strain strain_;
+  StressStiffness of_stress_;
   Lame lame_;
   std::vector<Polar<D, Lanes>> polar_;                          // per four elements
   std::vector<std::array<std::array<FourSlots, 3>, 3>> slots_;  // per four elements: of their nine blocks

@@ -29,6 +29,13 @@ constexpr EnumNames<Plane, 2> plane_names{{{Plane::stress, "stress"}, {Plane::st
 enum class Strain : std::uint8_t { linear, corotational };
 constexpr EnumNames<Strain, 2> strain_names{{{Strain::linear, "linear"}, {Strain::corotational, "corotational"}}};
 
+/// The stiffness that stress gives to a co-rotational membrane (membrane.h): `positive` leaves out what is negative, so
+/// that the matrix is positive semi-definite; `full` is the exact second derivative, which has no bound where a triangle
+/// collapses; `none` leaves all of it out.
+enum class StressStiffness : std::uint8_t { none, positive, full };
+constexpr EnumNames<StressStiffness, 3> stress_stiffness_names{
+    {{StressStiffness::none, "none"}, {StressStiffness::positive, "positive"}, {StressStiffness::full, "full"}}};
+
 /// A new kind: its three rows of a triangle go to harness/fem/bending_rows.cpp, its case to Bending::add_rows().
 enum class BendingKind : std::uint8_t { none, patches, hinges };
 constexpr EnumNames<BendingKind, 3> bending_names{
@@ -48,9 +55,14 @@ struct Physics {
   int dimension = 3;  ///< unknowns per vertex: 2 (in the plane) or 3
   Plane plane = Plane::stress;
   Strain strain = Strain::corotational;
-  BendingKind bending = BendingKind::none;  ///< none in 2D
+  StressStiffness stress_stiffness = StressStiffness::positive;  ///< of co-rotational strain; linear strain has none
+  BendingKind bending = BendingKind::none;                       ///< none in 2D
   Mass mass = Mass::lumped;
   Point3 gravity{};  ///< m/s2
+
+  StressStiffness stress_stiffness_made() const {
+    return strain == Strain::linear ? StressStiffness::none : stress_stiffness;
+  }
 };
 
 /// Part of rest space, borders included. A point is a box without extent, so that every copy of a vertex lies in it.

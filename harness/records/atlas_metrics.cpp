@@ -25,6 +25,8 @@ void add_atlas(std::vector<Metric>& t) {
   add_setting("poisson", "", "Poisson's ratio", "Poisson's ratio.");
   add_setting("mass_damping_1_s", "1/s", "mass damping", "Rayleigh's alpha.");
   add_setting("stiffness_damping_s", "s", "stiffness damping", "Rayleigh's beta.");
+  add_setting("stress_stiffness", "", "stiffness from stress",
+              "`positive`, `full` or `none`: of the stiffness that stress gives to the membrane.");
   add_setting("mass", "", "mass", "`lumped` or `consistent`.");
   add_setting("bending", "", "bending", "`none`, `patches` or `hinges`.");
   const auto add = [&](const char* name, const char* unit, const char* label, Direction direction,

@@ -77,6 +77,14 @@ constexpr SweepSetting settings[] = {
      [](const TomlReader& r, SweepPoint& p) {
        p.scene.material.stiffness_damping = r.positive_or_zero("stiffness_damping_s", 0);
      }},
+    {"stress_stiffness",
+     [](const SweepPoint& p) -> std::string {
+       return name_of(stress_stiffness_names, p.scene.physics.stress_stiffness);
+     },
+     [](const TomlReader& r, SweepPoint& p) {
+       p.scene.physics.stress_stiffness =
+           r.choice<StressStiffness>("stress_stiffness", p.scene.physics.stress_stiffness, stress_stiffness_names);
+     }},
     {"mass", [](const SweepPoint& p) -> std::string { return name_of(mass_names, p.scene.physics.mass); },
      [](const TomlReader& r, SweepPoint& p) {
        p.scene.physics.mass = r.choice<Mass>("mass", p.scene.physics.mass, mass_names);

@@ -66,12 +66,16 @@ void read_sheet(const TomlReader& file, const std::filesystem::path& folder, Sce
 }
 
 Physics read_physics(const TomlReader& file) {
-  const TomlReader reader = file.section("physics", {"dimension", "plane", "strain", "bending", "mass", "gravity"});
+  const TomlReader reader =
+      file.section("physics", {"dimension", "plane", "strain", "stress_stiffness", "bending", "mass", "gravity"});
   Physics p;
   p.dimension = reader.count("dimension", p.dimension);
   if (p.dimension != 2 && p.dimension != 3) reader.refuse("\"dimension\" is 2 (in the plane) or 3");
   p.plane = reader.choice<Plane>("plane", p.plane, plane_names);
   p.strain = reader.choice<Strain>("strain", p.strain, strain_names);
+  p.stress_stiffness = reader.choice<StressStiffness>("stress_stiffness", p.stress_stiffness, stress_stiffness_names);
+  if (p.strain == Strain::linear && reader.has("stress_stiffness"))
+    reader.refuse("linear strain has no stiffness from stress; leave \"stress_stiffness\" out");
   p.bending = reader.choice<BendingKind>("bending", p.bending, bending_names);
   p.mass = reader.choice<Mass>("mass", p.mass, mass_names);
   p.gravity = read_vector(reader, "gravity", p);

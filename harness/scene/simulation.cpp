@@ -28,7 +28,7 @@ double time_triplets(const Model<D>& model) {
   for (std::size_t e = 0; e < model.elements().size(); ++e) {
     const Element& element = model.elements()[e];
     if (!element.alive()) continue;
-    const ElementStiffness<D> k(element, model.deformation(e), model.physics().strain, lame);
+    const ElementStiffness<D> k(element, model.deformation(e), model.physics().stress_stiffness_made(), lame);
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) {
         const auto block = k.block(i, j);
