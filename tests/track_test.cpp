@@ -53,6 +53,18 @@ print(json.dumps({"format": 1, "commit": "", "tools": {"of": "this test"}, "rows
       << slower.out;
 }
 
+/// As experiments/track_wall and `experiments/history --time` ask for it.
+TEST_F(Track, ARowHasATime) {
+  write(folder_ / "time.py", R"(import pathlib, sys
+sys.path.insert(0, sys.argv[1])
+import tracking
+with tracking.timer(pathlib.Path(sys.argv[2]).parent, "trace/800") as run:
+    print("time" if run() > 0 else "no time"))");
+  const auto timed = run_program("/usr/bin/python3", "time.py '" CUTBENCH_EXPERIMENTS "' '" CUTBENCH_TRACK_PROGRAM "'");
+  EXPECT_EQ(timed.code, 0) << timed.error;
+  EXPECT_EQ(timed.out, "time\n");
+}
+
 /// Debian's python3: that of experiments/set_up.
 TEST_F(Track, HistoryAndPairsFindChanges) {
   const auto checked = run("methods >/dev/null; /usr/bin/python3 '" CUTBENCH_TEST_CASES "/../check_tracking.py' .");
