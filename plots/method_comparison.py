@@ -52,11 +52,12 @@ JUMP = [Measure("membrane_jump", "membrane\nenergy"), Measure("bending_jump", "b
         Measure("residual_jump", "residual\nforce")]
 ROUNDING = 1e-12  # relative jumps below it are rounding errors
 OURS = "warp_and_refine"  # the project's own method
-BY_SHEET, AGAINST = f"{STEM}_by_sheet", f"{STEM}_pairs"
+BY_SHEET, AGAINST, ALTITUDE = f"{STEM}_by_sheet", f"{STEM}_pairs", f"{STEM}_altitude"
 TITLES = {  # of the tables that are not medians over all cuts
     method_accuracy.STEM: method_accuracy.WHAT,
     BY_SHEET: "cuts with every AR < 3 outside forced wedges, and farther than 0.02 h from them; median largest eigenvalues",
     f"{STEM}_jumps": "jumps at a cut in a moving sheet, over the value before the cut; 1e-12 stands for no jump",
+    ALTITUDE: "largest eigenvalue against the square of the smallest altitude (h), of cuts with an eigenvalue over 100, on even sheets",
     AGAINST: f"the cuts of {OURS} and the same cuts by each other method",
     f"{AGAINST}_fine": f"the cuts of {OURS} and the same cuts by each other method, chord tolerance 0.01",
 }
@@ -270,7 +271,7 @@ def main():
         style.save(figure, folder, f"{STEM}_jumps")
     ours = next((v for v in order if v[0] == OURS), order[0])
     tables = {STEM: summary(table, jumps, order, ranks), BY_SHEET: method_details.by_sheet_and_family(table, order, sheets),
-              AGAINST: method_details.against(table, ours, order)}
+              ALTITUDE: method_details.altitude_law(table, order), AGAINST: method_details.against(table, ours, order)}
     if jumps is not None:
         tables[f"{STEM}_jumps"] = method_details.jumps(jumps, order)
     if fine is not None:

@@ -115,5 +115,5 @@ def legends(verdicts, panel=None):
     others = ("not ok:", patches((v, *VERDICTS[v]) for v in VERDICTS if v in verdicts))
     if panel is None:
         return [explicit, cost, others]
-    timed = panel.endswith("solvers") or panel in ("iterations", "tolerance", "vertex_mass")
+    timed = panel.endswith("solvers") or panel in ("iterations", "tolerance", "vertex_mass", "vertex_stress")
     return [cost if timed else ("", [Patch(color=OK, label="ok")]) if panel in PLAIN else explicit, others]

@@ -11,6 +11,7 @@ SERIES = {  # columns, beside the method, that make a series of a sweep; the swe
     "vertex_solvers": (["solver"], "place"), "angle_solvers": (["solver"], "place"), "strip_solvers": (["solver"], "place"),
     "edge_solvers": (["solver"], "place"), "border_solvers": (["solver"], "place"), "tip_solvers": (["solver"], "place"),
     "in_a_row_solvers": (["solver"], "place"), "in_a_row_cholmod": (["solver"], "place"), "vertex_mass": (["mass", "integrator", "solver"], "place"),
+    "vertex_stress": (["stress_stiffness", "pose_amount", "newton", "solver"], "place"),
     "vertex_static": (["solver"], "place"), "piece_static": ([], "place"),
     "iterations": (["solver"], "max_iterations"), "tolerance": (["solver"], "tolerance"),
     "step_stiffness": (["integrator", "newton", "stiffness_damping_s", "stiffness_n_m"], "step_s"),

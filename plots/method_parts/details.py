@@ -7,7 +7,7 @@ import pandas as pd
 from common.load import of
 
 GROUPS = {  # of the columns below, by the beginning of their names (load.group)
-    "AR < 3": "forced", "eigenvalue, ": "stability", "us, ": "time", "failed: ": "outcome", "pairs": "pairs",
+    "AR < 3": "forced", "eigenvalue, ": "stability", "eigenvalue x": "stability", "correlation": "stability", "us, ": "time", "failed: ": "outcome", "pairs": "pairs",
     "time over": "pairs", "of several cuts": "pairs", "no larger eigenvalue": "pairs",
 }
 KEY = ["cut_family", "sheet", "resolution", "case"]
@@ -48,6 +48,24 @@ def by_sheet_and_family(table, order, sheets):
         for verdict, count in failed["verdict"].where(failed["status"] != "refused", "refused").value_counts().items():
             row[f"failed: {verdict}"] = float(count)
         rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def altitude_law(table, order):
+    """A row per method: how well the smallest altitude alone tells the largest eigenvalue, of cuts that leave one over 100
+    times the uncut sheet's; without the graded sheet, whose h is no measure of its smallest triangles."""
+    rows = []
+    for variant in order:
+        cuts = of(table, variant)
+        cuts = cuts[(cuts["sheet"] != "graded") & (cuts["eigenvalue_ratio"] > 100)]
+        if len(cuts) < 10:
+            continue
+        product = cuts["eigenvalue_ratio"] * cuts["altitude_min_h_cut"] ** 2
+        logarithms = np.log(cuts[["eigenvalue_ratio", "altitude_min_h_cut"]])
+        rows.append({"method": variant[0], "knob": variant[1], "cuts": len(cuts),
+                     "correlation of logarithms": -logarithms.corr().iloc[0, 1],
+                     **{f"eigenvalue x altitude2, {name}": product.quantile(share)
+                        for name, share in (("5 %", 0.05), ("median", 0.5), ("95 %", 0.95))}})
     return pd.DataFrame(rows)
 
 
