@@ -15,10 +15,13 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullLocator
 
 import method_gallery
+from accuracy_parts.ranking import at_equal_unknowns
+from accuracy_parts.records import Records
 from common import load, style
 from common.load import of
 from method_parts import accuracy as method_accuracy
 from method_parts import details as method_details
+from method_parts import kinds as method_kinds
 from method_parts import sweeps as method_sweeps
 
 STEM = "method_comparison"
@@ -55,6 +58,7 @@ OURS = "warp_and_refine"  # the project's own method
 BY_SHEET, AGAINST, ALTITUDE = f"{STEM}_by_sheet", f"{STEM}_pairs", f"{STEM}_altitude"
 TITLES = {  # of the tables that are not medians over all cuts
     method_accuracy.STEM: method_accuracy.WHAT,
+    method_kinds.STEM: method_kinds.WHAT,
     BY_SHEET: "cuts with every AR < 3 outside forced wedges, and farther than 0.02 h from them; median largest eigenvalues",
     f"{STEM}_jumps": "jumps at a cut in a moving sheet, over the value before the cut; 1e-12 stands for no jump",
     ALTITUDE: "largest eigenvalue against the square of the smallest altitude (h), of cuts with an eigenvalue over 100, on even sheets",
@@ -293,7 +297,9 @@ def main():
             swept_run, swept_run.rows, with_crosses=False, per=["sheet"] if kind == "knobs" else []))
         tables[f"{STEM}_{kind}"] = summary(swept, None, list(swept_ranks.index), swept_ranks)
     if (folder.with_name(method_accuracy.STEM) / "records.csv").is_file():
-        tables[method_accuracy.STEM] = method_accuracy.draw(folder, folder.with_name(method_accuracy.STEM))
+        beside = folder.with_name(method_accuracy.STEM)
+        tables[method_accuracy.STEM] = method_accuracy.draw(folder, beside)
+        tables[method_kinds.STEM] = method_kinds.table_of(at_equal_unknowns(Records(beside)).ranked())
     write_tables(folder, tables)
     method_gallery.draw(folder)
 

@@ -8,7 +8,7 @@ from common.load import of
 
 GROUPS = {  # of the columns below, by the beginning of their names (load.group)
     "AR < 3": "forced", "eigenvalue, ": "stability", "eigenvalue x": "stability", "correlation": "stability", "us, ": "time", "failed: ": "outcome", "pairs": "pairs",
-    "time over": "pairs", "of several cuts": "pairs", "no larger eigenvalue": "pairs",
+    "time over": "pairs", "error, ": "accuracy_run", "of several cuts": "pairs", "no larger eigenvalue": "pairs",
 }
 KEY = ["cut_family", "sheet", "resolution", "case"]
 
@@ -16,8 +16,8 @@ KEY = ["cut_family", "sheet", "resolution", "case"]
 def by_sheet_and_family(table, order, sheets):
     """A row per method: by sheet the cuts with every aspect ratio below 3 outside forced wedges, and away from them, of
     those that changed triangles; median eigenvalues by family over all sheets, on the first sheet, and there of curved
-    cuts, and of those that meet nothing at less than asin(1/3); their tails; the time at the largest resolution;
-    failures by verdict."""
+    cuts, and of those that meet nothing at less than asin(1/3); their tails, and those of the even sheets; the time at the
+    largest resolution, and that of all cuts over all their crossed triangles; failures by verdict."""
     rows = []
     families = list(dict.fromkeys(table["cut_family"]))
     largest = table["resolution"].max()
@@ -41,9 +41,16 @@ def by_sheet_and_family(table, order, sheets):
             row["eigenvalue, of these nothing forced"] = eigenvalue[curved & (cuts["forced_corners"] == 0)].median()
         for share in (0.9, 0.95):
             row[f"eigenvalue, {100 * share:g} %"] = eigenvalue.quantile(share)
+        # The graded sheet's largest eigenvalue is that of its fine corner, which most cuts don't meet.
+        graded = cuts["sheet"] == "graded"
+        row["eigenvalue, even sheets"] = eigenvalue[~graded].median()
+        row["eigenvalue, even sheets, 95 %"] = eigenvalue[~graded].quantile(0.95)
+        row["eigenvalue, graded"] = eigenvalue[graded].median()
         us = cuts.loc[cuts["resolution"] == largest, "us_per_crossed"]
         for name, share in (("q1", 0.25), ("median", 0.5), ("q3", 0.75)):
             row[f"us, {largest}, {name}"] = us.quantile(share)
+        timed = cuts[cuts["geometry_us"].notna()]
+        row["us, total over total"] = timed["geometry_us"].sum() / timed["crossed_triangles"].sum()
         failed = cuts[cuts["failed"]]
         for verdict, count in failed["verdict"].where(failed["status"] != "refused", "refused").value_counts().items():
             row[f"failed: {verdict}"] = float(count)

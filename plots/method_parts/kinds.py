@@ -1,0 +1,66 @@
+"""The error of every method by kind of problem and by measure: what a mean over all problems hides."""
+
+import numpy as np
+import pandas as pd
+
+from accuracy_parts.ranking import made_by_all, mean_excess
+from accuracy_parts.records import CASE, REFERENCE
+from common.load import of
+
+STEM = "method_comparison_accuracy_kinds"
+KINDS = {"crack": ("centre_crack", "inclined_crack"), "arc": ("arc_crack",), "edge crack": ("edge_crack",),
+         "hole": ("kirsch_hole",), "tip field": ("williams",)}  # by the beginnings of their names
+TWICE = "two_cuts_one_geometry"  # has the exact answer of centre_crack
+MOUTH = "tip field"  # its displacements are prescribed, and jump at the requested mouth: an edge there is torn if it moved
+MEASURES = ["energy_norm", "displacement_l2", "opening", "k1"]
+DRAWS = 2000
+WHAT = ("error over that of a body-fitted mesh with as many unknowns, minus one, %: mean over kinds of problems (geometric), its 95 % "
+        "interval by drawing the kinds anew, without the problems that prescribe a jump at the requested mouth, and by kind; "
+        "then errors by measure, without that kind, over those of a mesh with as many triangles as the uncut sheet")
+
+
+def kind_of(problem):
+    return next((kind for kind, names in KINDS.items() if problem.startswith(names)), None)
+
+
+def mean_over(kinds):
+    """\\param kinds  {kind: excess in percent}. The geometric mean of the ratios, in percent."""
+    return 100 * (np.exp(np.log1p(np.array(list(kinds.values())) / 100).mean()) - 1)
+
+
+def interval(kinds):
+    """Of mean_over(), 95 %, of kinds drawn with replacement (bootstrap)."""
+    draw, values = np.random.default_rng(1), np.log1p(np.array(list(kinds.values())) / 100)
+    means = draw.choice(values, (DRAWS, len(values))).mean(axis=1)
+    return [f"{100 * (np.exp(m) - 1):+.0f}" for m in np.quantile(means, [0.025, 0.975])]
+
+
+def by_measure(direct, fitted, measure):
+    """The absolute error of one measure over the fitted mesh's of the same case: geometric mean minus one, %."""
+    column = f"error_{measure}"
+    pairs = direct.merge(fitted[CASE + [column]], on=CASE, suffixes=("", "_fitted"))
+    ratio = pairs[column].abs() / pairs[f"{column}_fitted"].abs()
+    return mean_excess(pairs.assign(ratio=ratio), "ratio")
+
+
+def table_of(records):
+    """A row per method, most accurate first. \\param records  ranked, at_equal_unknowns()"""
+    table = records.table[records.table["direct"] & (records.table["problem"] != TWICE)]
+    table = table.assign(kind=table["problem"].map(kind_of))
+    table = table[table["kind"].notna()]
+    fitted = of(table, REFERENCE)
+    structured = table.groupby([table[c] for c in ("method", "knob", "sheet")])["failed"].transform("all")
+    common = made_by_all(table[~structured])
+    rows = []
+    for variant in records.methods:
+        made = of(common, variant)
+        kinds = {kind: mean_excess(made[made["kind"] == kind], "ratio_equal") for kind in KINDS if (made["kind"] == kind).any()}
+        keeps = {kind: value for kind, value in kinds.items() if kind != MOUTH}
+        if not keeps:
+            continue
+        rows.append({"method": variant[0], "knob": variant[1], "error, kinds": mean_over(kinds),
+                     "error, without tip field": mean_over(keeps), "error, its 95 %": " to ".join(interval(keeps)),
+                     **{f"error, {kind}": value for kind, value in kinds.items()},
+                     **{f"error, by {m}": by_measure(made[made["kind"] != MOUTH], fitted, m) for m in MEASURES
+                        if f"error_{m}" in made}})
+    return pd.DataFrame(rows).sort_values("error, without tip field", kind="stable")
