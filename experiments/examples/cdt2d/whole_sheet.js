@@ -39,14 +39,14 @@ function constraints({ place, triangles }) {
   return [...edges.values()];
 }
 
-/// The path as a polyline: each cubic Bezier in as many equal steps as Wang's formula asks for.
+/// The path as a polyline: each cubic Bezier in as many equal steps as Wang's formula asks for, or 3.
 function flattened(cut, tolerance) {
   const p = cut.polyline || cut.bezier;
-  if (cut.polyline) return cut.closed ? [...p, p[0]] : p.length === 2 ? [p[0], mean(p), p[1]] : p;
+  if (cut.polyline) return cut.closed ? [...p, p[0]] : p;
   const line = [p[0]];
   for (let i = 0; i + 3 < p.length; i += 3) {
     const bend = j => Math.hypot(...[0, 1].map(k => p[j][k] - 2 * p[j + 1][k] + p[j + 2][k]));
-    const steps = Math.max(2, Math.ceil(Math.sqrt(0.75 * Math.max(bend(i), bend(i + 1)) / tolerance)));
+    const steps = Math.max(3, Math.ceil(Math.sqrt(0.75 * Math.max(bend(i), bend(i + 1)) / tolerance)));
     for (let n = 1; n <= steps; ++n) {
       const t = n / steps, s = 1 - t, weight = [s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t];
       line.push(n < steps ? [0, 1].map(k => weight.reduce((sum, w, j) => sum + w * p[i + j][k], 0)) : p[i + 3]);
@@ -62,6 +62,16 @@ const inside = (p, edges, points) => edges.filter(([i, j]) => {
   const a = points[i], b = points[j];
   return a[1] > p[1] !== b[1] > p[1] && area(a, b, p) > 0 === b[1] > a[1];
 }).length % 2 === 1;
+
+/// A slit of one edge, whose ends could not part, gets a vertex in its middle.
+function divideLoneEdges(points, edges, kinds) {
+  const open = edges.filter((edge, i) => kinds[i] === OPEN), ends = open.flat();
+  for (const edge of open.filter(e => e.every(v => ends.indexOf(v) === ends.lastIndexOf(v)))) {
+    const middle = points.push(mean(edge.map(v => points[v]))) - 1;
+    edges.push([middle, edge[1]]), kinds.push(OPEN);
+    edge[1] = middle;
+  }
+}
 
 /// Gives every fan of triangles between open edges a vertex of its own.
 function open(points, triangles, isOpen) {
@@ -96,6 +106,7 @@ function main(mesh, path, out) {
     if (i) edges.push([points.length - 2, points.length - 1]), kinds.push(OPEN);
   });
   cleanPSLG(points, edges, kinds);
+  divideLoneEdges(points, edges, kinds);
   const border = edges.filter((edge, i) => kinds[i] === BORDER && edge[0] !== edge[1]);
   const onBorder = new Set(border.map(([a, b]) => unordered(a, b)));
   const isOpen = new Set(edges.filter((edge, i) => kinds[i] === OPEN).map(([a, b]) => unordered(a, b)));
