@@ -65,7 +65,7 @@ const inside = (p, edges, points) => edges.filter(([i, j]) => {
 
 /// A slit of one edge, whose ends could not part, gets a vertex in its middle.
 function divideLoneEdges(points, edges, kinds) {
-  const open = edges.filter((edge, i) => kinds[i] === OPEN), ends = open.flat();
+  const open = edges.filter((edge, i) => kinds[i] === OPEN && edge[0] !== edge[1]), ends = open.flat();
   for (const edge of open.filter(e => e.every(v => ends.indexOf(v) === ends.lastIndexOf(v)))) {
     const middle = points.push(mean(edge.map(v => points[v]))) - 1;
     edges.push([middle, edge[1]]), kinds.push(OPEN);
