@@ -64,6 +64,26 @@ TEST_F(Merge, CutFamilies) {
   expect_equal("e");
 }
 
+/// Without times all cores may work; the records are the same, but for the columns of times, which are empty.
+TEST_F(Merge, CutFamiliesWithoutTimes) {
+  const std::string text = small_experiment("eigenvalue_cases = 1\n");
+  std::string untimed = text;
+  untimed.replace(untimed.find("repetitions = 2"), 15, "times = false");
+  write(folder_ / "e.toml", untimed);
+  expect_equal("e");
+  for (const std::string jobs : {"1", "2"}) EXPECT_EQ(run("run e.toml --jobs " + jobs + " --out jobs" + jobs).code, 0);
+  const std::string two = read(folder_ / "jobs2" / "e" / "records.csv");
+  EXPECT_EQ(lines_without_times(read(folder_ / "jobs1" / "e" / "records.csv")), lines_without_times(two));
+  write(folder_ / "e.toml", text);
+  EXPECT_EQ(run("run e.toml --repetitions 1 --out timed").code, 0);
+  EXPECT_EQ(lines_without_times(read(folder_ / "timed" / "e" / "records.csv")), lines_without_times(two));
+  for (const std::string& line : lines_of(two))
+    EXPECT_EQ(Record(column_names(), line).get("embed_us").find('.'), std::string::npos);
+
+  write(folder_ / "e.toml", untimed + "cold = true\n");
+  EXPECT_NE(run("run e.toml --out r").error.find("\"cold\" is for times"), std::string::npos);
+}
+
 TEST_F(Merge, Accuracy) {
   write(
       folder_ / "a.toml",
@@ -104,7 +124,7 @@ TEST_F(Merge, WhatIsNotAllOfOneRunIsRefusedByName) {
   expect_refused("s1of3/e s2of3/e s3of3/e", "s2of3/e: its context.json is damaged");
 }
 
-TEST_F(Merge, OnlyACampaignTakesJobs) {
+TEST_F(Merge, OnlyWhatRecordsNoTimesTakesJobs) {
   write(folder_ / "e.toml", small_experiment());
   const Result refused = run("run e.toml --jobs 2 --out r");
   EXPECT_EQ(refused.code, 2);

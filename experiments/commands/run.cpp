@@ -113,6 +113,8 @@ class OneCore {
   cpu_set_t before_{};
 };
 
+bool records_times(const Experiment& e) { return !e.campaign && e.times; }
+
 bool run_measured(const Experiment& e, const Context& context, const RunOptions& options) {
   const OneCore pinned(options.shard);
   const bool ok = run_experiment(e, nameable_methods(), context, options);
@@ -130,11 +132,12 @@ Exit run_all(const RunArguments& arguments, const std::string& command_line) {
   std::vector<Experiment> experiments;  // all are read before any is run
   for (const auto& file : arguments.experiments) experiments.push_back(read_part(file, arguments, context));
   for (const Experiment& e : experiments)
-    if (arguments.jobs > 1 && !e.campaign)
+    if (arguments.jobs > 1 && records_times(e))
       throw InputError(e.stem + ": records times, which other processes would disturb; leave --jobs out");
   bool ok = true;
   for (const Experiment& e : experiments)
-    ok &= e.campaign ? run_experiment(e, nameable_methods(), context, options) : run_measured(e, context, options);
+    ok &=
+        records_times(e) ? run_measured(e, context, options) : run_experiment(e, nameable_methods(), context, options);
   return ok ? done : fell_short;
 }
 
@@ -158,8 +161,8 @@ Command add_run(CLI::App& app) {
   command->add_option("--out", arguments->out, "results folder")->capture_default_str();
   command
       ->add_option("--jobs", arguments->jobs,
-                   "processes of a campaign, which records no times; all cores where it is not given. Other "
-                   "experiments stay on one core")
+                   "processes of a campaign, or of an experiment with `times = false`; all cores where it is not "
+                   "given. Other experiments stay on one core")
       ->check(CLI::PositiveNumber);
   command->add_option("--shard", arguments->shard, "i/N: only every N-th case, from the i-th")->capture_default_str();
   command->footer(

@@ -80,6 +80,15 @@ class Sheet {
       if (is_on(edge.first) && is_on(edge.second)) path_.insert({edge, {edge.second, edge.first}});
   }
 
+  /// A slit of one edge, whose ends could not part, gets a vertex in its middle.
+  void divide_lone_edges() {
+    std::map<int, int> edges_at;
+    for (const auto& [a, b] : path_) ++edges_at[a];
+    for (const auto& [a, b] : std::set<Edge>(path_))
+      if (a < b && edges_at[a] == 1 && edges_at[b] == 1 && left_of_.contains({a, b}) && left_of_.contains({b, a}))
+        divide_edge({a, b}, between(rest_[a], rest_[b], 0.5));
+  }
+
   /// Every fan of triangles between edges of the path gets a vertex of its own.
   void write_opened(const std::string& file) {
     std::set<int> on_path;
@@ -186,7 +195,7 @@ std::vector<Point> read_polyline(const std::string& file, double tolerance) {
     double bend = 0;
     for (std::size_t j = i; j < i + 2; ++j)
       bend = std::max(bend, 2 * distance(points[j + 1], between(points[j], points[j + 2], 0.5)));
-    const int steps = std::max(1, static_cast<int>(std::ceil(std::sqrt(0.75 * bend / tolerance))));
+    const int steps = std::max(3, static_cast<int>(std::ceil(std::sqrt(0.75 * bend / tolerance))));
     for (int k = 1; k <= steps; ++k) {
       const double t = static_cast<double>(k) / steps, s = 1 - t;
       Point& p = line.emplace_back();
@@ -207,6 +216,7 @@ int main(int argc, char** argv) {
   const auto start = std::chrono::steady_clock::now();
   const std::vector<Point> line = read_polyline(argv[2], 0.03 * sheet.mean_edge());
   for (std::size_t i = 0; i + 1 < line.size(); ++i) sheet.embed(line[i], line[i + 1]);
+  sheet.divide_lone_edges();
   sheet.write_opened(argv[3]);
   const double us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
   if (argc > 4) std::ofstream(argv[4]) << "{\"us\": " << us << "}\n";

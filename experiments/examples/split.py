@@ -21,14 +21,14 @@ def read_obj(name):
 
 
 def flattened(cut, tolerance):
-    """The path as a polyline: each cubic Bezier in as many equal steps as Wang's formula asks for."""
+    """The path as a polyline: each cubic Bezier in as many equal steps as Wang's formula asks for, or 3."""
     points = [tuple(p) for p in cut.get("polyline") or cut["bezier"]]
     if "polyline" in cut:
         return points + points[:1] * cut.get("closed", False)
     line = points[:1]
     for a, b, c, d in (points[i:i + 4] for i in range(0, len(points) - 1, 3)):
         bend = max(math.hypot(p[0] - 2 * q[0] + r[0], p[1] - 2 * q[1] + r[1]) for p, q, r in ((a, b, c), (b, c, d)))
-        steps = max(1, math.ceil(math.sqrt(0.75 * bend / tolerance)))
+        steps = max(3, math.ceil(math.sqrt(0.75 * bend / tolerance)))
         for t, s in ((i / steps, 1 - i / steps) for i in range(1, steps + 1)):
             line.append(tuple(s**3 * a[k] + 3 * s * s * t * b[k] + 3 * s * t * t * c[k] + t**3 * d[k] for k in (0, 1)))
     return line
@@ -84,6 +84,13 @@ class Sheet:
         on = {v for v, r in enumerate(self.rest) if math.dist(r, middle) <= reach and beside(p, q, r) == 0}
         self.path |= {way for a, b in self.left_of if a in on and b in on for way in ((a, b), (b, a))}
 
+    def divide_lone_edges(self):
+        """A slit of one edge, whose ends could not part, gets a vertex in its middle."""
+        starts = [a for a, _ in self.path]
+        for a, b in [e for e in self.path if e[0] < e[1] and {e, e[::-1]} <= self.left_of.keys()]:
+            if starts.count(a) == starts.count(b) == 1:
+                self.divide_edge(a, b, tuple((x + y) / 2 for x, y in zip(self.rest[a], self.rest[b])))
+
     def opened(self):
         """The triangles, when every fan of them between edges of the path has a vertex of its own."""
         number = {}
@@ -107,7 +114,9 @@ def main(mesh, path, out):
     for cut in json.load(open(path))["cuts"]:
         line = flattened(cut, 0.03 * sum(edges) / len(edges))
         for p, q in zip(line, line[1:]):
-            sheet.embed(p, q)
+            if p != q:
+                sheet.embed(p, q)
+    sheet.divide_lone_edges()
     triangles = sheet.opened()
     with open(out, "w") as file:  # flat: rest positions; where the vertices are in space, cutbench finds out
         file.writelines(f"v {x!r} {y!r} 0\n" for x, y in sheet.rest)

@@ -84,7 +84,7 @@ class Campaign {
 
  private:
   static std::string identity(const Experiment& e, const Context& context, const RunOptions& options) {
-    std::string text = context.identity() + e.stem + std::to_string(e.seed) + "," + std::to_string(e.cases) + "," +
+    std::string text = context.identity(false) + e.stem + std::to_string(e.seed) + "," + std::to_string(e.cases) + "," +
                        std::to_string(e.chord_tolerance) + "," + std::to_string(e.campaign->time_limit_s);
     for (const auto& program : e.programs) text += fingerprint_of_program(program);
     for (const auto& file : e.campaign->mesh_files) text += text_of_file(file);

@@ -45,6 +45,9 @@ class Adoption {
     if (!removed_.empty()) sheet_.replace_cavity(removed_, added);
     for (const auto& [v, d] : left_out) sheet_.drop_vertex(v, d);
     mark_path();
+    // The oracle allows for points nearer than the snap distance, which the matching can't always tell apart.
+    if (const auto faults = check(sheet_, false); !faults.empty())
+      throw CutRefused("parts of the result lie too close together to be taken over (" + faults.front() + ")");
   }
 
  private:

@@ -12,8 +12,8 @@ namespace cutbench {
 /// numbers of vertices and triangles in `result`, and its deformed positions, do not matter: new vertices are placed by
 /// the sheet's own map from rest to deformed, each on its side of older incisions.
 /// \pre begin_cut(); the oracle accepts `result` as a cut of `sheet` that keeps the area.
-/// Throws CutRefused for what the sheet can't take over: a vertex that is held, or one of an older incision, is gone; or
-/// several vertices of the sheet lie at one place.
+/// Throws CutRefused for what the sheet can't take over: a vertex that is held, or one of an older incision, is gone;
+/// several vertices of the sheet lie at one place; or parts of the result lie too close together to be told apart.
 void adopt(Sheet& sheet, const MeshData& result);
 
 }  // namespace cutbench

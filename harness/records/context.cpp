@@ -43,20 +43,25 @@ std::string dotted(int major, int minor, int patch) {
   return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch);
 }
 
-/// The file of the BLAS that CHOLMOD calls: Debian's alternatives decide which one that is when the program starts.
+/// The file of the BLAS that CHOLMOD calls: Debian's alternatives decide which one that is when the program starts. Of
+/// OpenBLAS also for which processor its kernels are, as it finds out itself or as OPENBLAS_CORETYPE says.
 std::string blas_in_use() {
   Dl_info info{};
   std::error_code error;
   if (void* gemm = dlsym(RTLD_DEFAULT, "dgemm_"); !gemm || !dladdr(gemm, &info)) return "unknown";
   const std::filesystem::path file = std::filesystem::canonical(info.dli_fname, error);
-  return error ? "unknown" : (file.parent_path().filename() / file.filename()).string();
+  if (error) return "unknown";
+  const std::string name = (file.parent_path().filename() / file.filename()).string();
+  using CoreName = const char* (*)();
+  const auto core = reinterpret_cast<CoreName>(dlsym(RTLD_DEFAULT, "openblas_get_corename"));
+  return core ? name + " " + core() : name;
 }
 
 }  // namespace
 
-std::string Context::identity() const {
-  nlohmann::json j{
-      {"compiler", compiler}, {"flags", flags}, {"build_type", build_type}, {"cpu", cpu}, {"versions", versions}};
+std::string Context::identity(bool with_times) const {
+  nlohmann::json j{{"compiler", compiler}, {"flags", flags}, {"build_type", build_type}, {"versions", versions}};
+  if (with_times) j["cpu"] = cpu;
   j["commit"] = commit.value_or("unknown");
   j["dirty"] = dirty ? nlohmann::json(*dirty) : nlohmann::json();
   std::error_code ignored;  // a commit says nothing of changes that were built but never committed

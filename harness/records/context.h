@@ -17,8 +17,9 @@ struct Context {
   std::string date;                             ///< UTC
   double load = 0;                              ///< one-minute load average at the start
 
-  /// What must agree for records of two runs to belong together: all but date and load.
-  std::string identity() const;
+  /// What must agree for records of two runs to belong together: all but date and load; the processor, too, where the
+  /// records hold times.
+  std::string identity(bool with_times = true) const;
 };
 
 Context gather_context();

@@ -31,6 +31,14 @@ Getter of_shapes(Get get) {
   return [get](const Measured& m) { return m.assessment && m.shapes ? Value(get(*m.assessment)) : Value(); };
 }
 
+/// Of the worst of some triangles; where there are none, nothing is the worst.
+Getter of_triangles(const Quality Assessment::*some, double Quality::*number) {
+  return of_shapes([some, number](const Assessment& a) {
+    const Quality& q = a.*some;
+    return q.triangles > 0 ? Value(q.*number) : Value();
+  });
+}
+
 /// A program has no phases, and none of our processor time.
 bool by_program(const CutRun& c) { return c.time_us.program > 0; }
 
@@ -147,26 +155,23 @@ void add_sizes(std::vector<Metric>& t) {
 void add_shapes(std::vector<Metric>& t, const std::string& suffix, const std::string& where,
                 const Quality Assessment::*over) {
   const auto add = [&](const char* name, const char* unit, const char* label, Direction direction,
-                       const char* definition, auto get) {
-    t.push_back({name + suffix, unit, label, direction, Group::shape, definition + where,
-                 of_shapes([over, get](const Assessment& a) { return get(a.*over); })});
+                       const char* definition, double Quality::*number) {
+    t.push_back({name + suffix, unit, label, direction, Group::shape, definition + where, of_triangles(over, number)});
   };
   add("ar_max", "", "largest aspect ratio", Direction::lower,
       "Largest aspect ratio: longest edge / height on it = l_max^2 / (2 area); equilateral 1.155, right "
       "isosceles 2",
-      [](const Quality& q) { return q.ar_max; });
-  add("ar_mean", "", "mean aspect ratio", Direction::lower, "Mean aspect ratio",
-      [](const Quality& q) { return q.ar_mean; });
+      &Quality::ar_max);
+  add("ar_mean", "", "mean aspect ratio", Direction::lower, "Mean aspect ratio", &Quality::ar_mean);
   add("ar_p99", "", "99 % of aspect ratios", Direction::lower, "99th percentile of the aspect ratios, by nearest rank",
-      [](const Quality& q) { return q.ar_p99; });
-  add("angle_min_deg", "deg", "smallest angle", Direction::higher, "Smallest interior angle",
-      [](const Quality& q) { return q.angle_min_deg; });
-  add("angle_max_deg", "deg", "largest angle", Direction::lower, "Largest interior angle",
-      [](const Quality& q) { return q.angle_max_deg; });
+      &Quality::ar_p99);
+  add("angle_min_deg", "deg", "smallest angle", Direction::higher, "Smallest interior angle", &Quality::angle_min_deg);
+  add("angle_max_deg", "deg", "largest angle", Direction::lower, "Largest interior angle", &Quality::angle_max_deg);
   add("altitude_min_h", "h", "smallest altitude", Direction::higher, "Smallest height on a longest edge",
-      [](const Quality& q) { return q.altitude_min; });
-  add("over_3", "", "triangles with AR > 3", Direction::lower, "Number of triangles with an aspect ratio above 3",
-      [](const Quality& q) { return static_cast<std::int64_t>(q.over_3); });
+      &Quality::altitude_min);
+  t.push_back({"over_3" + suffix, "", "triangles with AR > 3", Direction::lower, Group::shape,
+               "Number of triangles with an aspect ratio above 3" + where,
+               of_shapes([over](const Assessment& a) { return static_cast<std::int64_t>((a.*over).over_3); })});
 }
 
 void add_forced_zones(std::vector<Metric>& t) {
@@ -178,8 +183,8 @@ void add_forced_zones(std::vector<Metric>& t) {
                "Triangles of the result in such a corner.",
                of_shapes([](const Assessment& a) { return std::int64_t{a.corner_triangles}; })});
   t.push_back({"ar_max_cut_strict", "", "largest aspect ratio, strict", Direction::lower, Group::forced,
-               "ar_max_cut without the triangles in forced corners; 0 if none is left.",
-               of_shapes([](const Assessment& a) { return a.strict.ar_max; })});
+               "ar_max_cut without the triangles in forced corners; empty if none is left.",
+               of_triangles(&Assessment::strict, &Quality::ar_max)});
   t.push_back({"wedge_triangles", "", "triangles in forced wedges", Direction::none, Group::forced,
                "Triangles of the result in a forced wedge (between the legs of a forced corner where they are closer "
                "than 0.3 h, and 0.25 h round the apex) or in a forced corner.",
@@ -187,19 +192,21 @@ void add_forced_zones(std::vector<Metric>& t) {
   t.push_back({"wedge_area_rest2", "rest units squared", "area in forced wedges", Direction::none, Group::forced,
                "Area of these triangles.", of_shapes([](const Assessment& a) { return a.wedge_area; })});
   t.push_back({"ar_max_cut_outside_wedges", "", "largest aspect ratio outside wedges", Direction::lower, Group::forced,
-               "ar_max_cut without the triangles in forced wedges and corners; 0 if none is left.",
-               of_shapes([](const Assessment& a) { return a.outside_wedges.ar_max; })});
+               "ar_max_cut without the triangles in forced wedges and corners; empty if none is left.",
+               of_triangles(&Assessment::outside_wedges, &Quality::ar_max)});
   t.push_back({"ar_max_cut_away_from_wedges", "", "largest aspect ratio away from wedges", Direction::lower,
                Group::forced,
                "ar_max_cut without those and without those within 0.02 h of a wedge, where incisions lie beside "
                "their curves.",
-               of_shapes([](const Assessment& a) { return a.ar_max_away_from_wedges; })});
+               of_shapes([](const Assessment& a) {
+                 return a.ar_max_away_from_wedges > 0 ? Value(a.ar_max_away_from_wedges) : Value();
+               })});
   t.push_back({"ar_p99_cut_strict", "", "99 % of aspect ratios, strict", Direction::lower, Group::forced,
                "ar_p99_cut without the triangles in forced corners.",
-               of_shapes([](const Assessment& a) { return a.strict.ar_p99; })});
+               of_triangles(&Assessment::strict, &Quality::ar_p99)});
   t.push_back({"ar_p99_cut_outside_wedges", "", "99 % of aspect ratios outside wedges", Direction::lower, Group::forced,
                "ar_p99_cut without the triangles in forced wedges and corners.",
-               of_shapes([](const Assessment& a) { return a.outside_wedges.ar_p99; })});
+               of_triangles(&Assessment::outside_wedges, &Quality::ar_p99)});
 }
 
 void add_stability_and_accuracy(std::vector<Metric>& t) {

@@ -29,19 +29,6 @@ void add(ordered_json& document, const Measured& measured, std::initializer_list
       document[m.name] = as_json(m.get(measured));
 }
 
-/// Where no triangle was changed there is no worst one.
-void forget_shapes_of_nothing(ordered_json& document, const Assessment& a) {
-  for (const auto& [suffix, quality] : {std::pair{"_all", &a.all},
-                                        {"_cut", &a.cut},
-                                        {"_cut_strict", &a.strict},
-                                        {"_cut_outside_wedges", &a.outside_wedges}})
-    for (const char* name : {"ar_max", "ar_mean", "ar_p99", "angle_min_deg", "angle_max_deg", "altitude_min_h"})
-      if (const auto found = document.find(std::string(name) + suffix);
-          quality->triangles == 0 && found != document.end())
-        *found = nullptr;
-  if (a.ar_max_away_from_wedges == 0) document["ar_max_cut_away_from_wedges"] = nullptr;
-}
-
 ordered_json as_json(const std::vector<Finding>& findings) {
   ordered_json list = ordered_json::array();
   for (const Finding& f : findings)
@@ -60,7 +47,6 @@ WholeFile report_file(const std::filesystem::path& file, const std::string& meth
   ordered_json document{{"method", method}};
   add(document, {.h = h, .cut = &run, .judged = true, .assessment = &assessment},
       {Group::outcome, Group::size, Group::shape, Group::forced, Group::accuracy, Group::time});
-  forget_shapes_of_nothing(document, assessment);
   document["pick_us"] = pick_us;
   document["embedded_carefully"] = run.carefully;
   return {file, document.dump(2) + "\n"};
@@ -73,7 +59,6 @@ std::string score_as_json(const Assessment& assessment, double h) {
                         {"problems", j.problems},
                         {"expected_pieces", j.expected_pieces}};
   add(document, {.h = h, .assessment = &assessment}, {Group::size, Group::shape, Group::forced, Group::accuracy});
-  forget_shapes_of_nothing(document, assessment);
   if (!assessment.connected)
     for (const char* name : {"expected_pieces", "pieces", "incision_error_h", "area_change"}) document[name] = nullptr;
   if (!assessment.measured)

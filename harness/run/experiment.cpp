@@ -148,7 +148,7 @@ Experiment read_experiment(const std::filesystem::path& file) {
   else if (is_atlas)
     known.insert(known.end(), {"sweeps", "cases", "time_limit_s"});
   else
-    known.insert(known.end(), {"cases", "cut_families", "repetitions", "cold", "quality", "eigenvalue_cases",
+    known.insert(known.end(), {"cases", "cut_families", "repetitions", "times", "cold", "quality", "eigenvalue_cases",
                                "every_edge", "scene", "cut_time", "scene_cases"});
   check_keys(table, known, name);
   const TomlReader reader{table, name};
@@ -186,6 +186,10 @@ Experiment read_experiment(const std::filesystem::path& file) {
   e.cold = reader.value<bool>("cold", false), e.quality = reader.value<bool>("quality", true);
   e.eigenvalue_cases = reader.count("eigenvalue_cases", 0, 0);
   e.every_edge = reader.value<bool>("every_edge", false);
+  e.times = reader.value<bool>("times", true);
+  for (const char* key : {"repetitions", "cold", "every_edge", "scene"})
+    if (!e.times && table.contains(key))
+      throw InputError(name + ": \"" + key + "\" is for times, but \"times\" is false; leave one of them out");
   e.chord_tolerance = reader.value<double>("chord_tolerance", 0.05);  // TOML has inf
   if (!(e.chord_tolerance > 0)) throw InputError(name + ": \"chord_tolerance\" must be positive, or inf");
   if (table.contains("scene")) {

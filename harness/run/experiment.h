@@ -57,6 +57,7 @@ struct Experiment {
   int cases = 1;                  ///< per sheet, resolution and cut family; of a campaign per sheet and resolution; of
                                   ///< an atlas the most of a point
   int repetitions = 1;            ///< of each cut, warm
+  bool times = true;              ///< false: no times are recorded, and all cores may work
   bool cold = false;              ///< cut once more with cold caches
   bool quality = true;            ///< shapes, forced zones; the oracle judges every case either way
   int eigenvalue_cases = 0;       ///< in so many cases the largest eigenvalue (harness/fem) is computed, too

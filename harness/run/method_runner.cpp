@@ -7,6 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "harness/base/isolated.h"
 #include "harness/base/progress.h"
 #include "harness/cases/cut_families.h"
 #include "harness/cut/cut_all.h"
@@ -27,6 +28,18 @@ namespace {
 
 /// The skin of experiments/scenes, whose side is 1 m: 2 mm thick.
 constexpr Elasticity bent_skin{.poisson = 0.45, .bending = BendingKind::patches, .bending_length2 = 4.2e-7};
+
+/// A cut that takes longer, its judgement included, is ended.
+constexpr double longest_cut_s = 600;
+
+/// A cut and what is known of it, for all methods.
+struct Case {
+  std::string sheet, family;
+  int resolution = 0;
+  std::size_t number = 0;
+  std::vector<Curve> cuts;
+  std::vector<oracle::ForcedCorner> forced;
+};
 
 class Runner {
  public:
@@ -55,9 +68,12 @@ class Runner {
           base_eigenvalue_ = largest_eigenvalue(base_.sheet),
           base_bending_ = largest_eigenvalue(base_.sheet, {}, bent_skin);
         for (const auto& family : experiment_.cut_families)
-          for (std::size_t i = 0; i < cases; ++i, progress.step())
-            if (static_cast<int>(i % static_cast<std::size_t>(options_.shards)) == options_.shard - 1)
-              run_case(sheet, resolution, family, i);
+          if (experiment_.times)
+            for (std::size_t i = 0; i < cases; ++i, progress.step()) {
+              if (is_ours(i)) run_case(drawn(sheet, resolution, family, i));
+            }
+          else
+            judge_on_all_cores(sheet, resolution, family), progress.step(cases);
       }
   }
 
@@ -67,7 +83,7 @@ class Runner {
  private:
   /// All that rows depend on, and which rows there are.
   static std::string identity(const Experiment& e, const Context& context, const RunOptions& options) {
-    return nlohmann::json{context.identity(),
+    return nlohmann::json{context.identity(e.times),
                           e.stem,
                           e.sheets,
                           e.cut_families,
@@ -76,6 +92,7 @@ class Runner {
                           e.seed,
                           e.cases,
                           e.repetitions,
+                          e.times,
                           e.cold,
                           e.quality,
                           e.every_edge,
@@ -88,31 +105,84 @@ class Runner {
            shard_line(options);
   }
 
-  void run_case(const std::string& sheet, int resolution, const std::string& family, std::size_t i) {
-    const std::vector<Curve> cuts = make_case(family, experiment_.seed, i, base_.sheet);
-    std::vector<oracle::ForcedCorner> forced;
-    const auto start_row = [&](const std::string& method, const std::string& knob, int repetition, const char* cache) {
-      Record row;
-      row.set("suite_version", std::string(suite_version)), row.set("cut_family", family), row.set("sheet", sheet);
-      row.set("method", method), row.set("knob", knob), row.set("resolution", std::int64_t{resolution});
-      row.set("case", static_cast<std::int64_t>(i)), row.set("repetition", std::int64_t{repetition});
-      row.set("seed", static_cast<std::int64_t>(experiment_.seed)), row.set("cache", std::string(cache));
-      return row;
-    };
+  bool is_ours(std::size_t i) const {
+    return static_cast<int>(i % static_cast<std::size_t>(options_.shards)) == options_.shard - 1;
+  }
+
+  Case drawn(const std::string& sheet, int resolution, const std::string& family, std::size_t i) const {
+    return {sheet, family, resolution, i, make_case(family, experiment_.seed, i, base_.sheet), {}};
+  }
+
+  Record start_row(const Case& c, const std::string& method, const std::string& knob, int repetition,
+                   const char* cache) const {
+    Record row;
+    row.set("suite_version", std::string(suite_version)), row.set("cut_family", c.family), row.set("sheet", c.sheet);
+    row.set("method", method), row.set("knob", knob), row.set("resolution", std::int64_t{c.resolution});
+    row.set("case", static_cast<std::int64_t>(c.number)), row.set("repetition", std::int64_t{repetition});
+    row.set("seed", static_cast<std::int64_t>(experiment_.seed)), row.set("cache", std::string(cache));
+    return row;
+  }
+  Record start_row(const Case& c, const Worker& worker, int repetition, const char* cache) const {
+    return start_row(c, worker.variant.row->name, worker.variant.knob_text(), repetition, cache);
+  }
+
+  /// Cuts and fills the row of the first repetition.
+  void judge(Case& c, Worker& worker, Record& row, Summary::Cut& summary) {
+    const CutRun run = worker.cut(base_, c.cuts, cut_options_);
+    if (c.forced.empty() && experiment_.quality) c.forced = forced_corners_of(base_.sheet, c.cuts);
+    judge_into(row, summary, worker, c.cuts, c.forced, run);
+    summary.crossed_triangles = static_cast<double>(run.crossed_triangles);
+    if (static_cast<int>(c.number) < experiment_.eigenvalue_cases && row.get("verdict") == "ok" &&
+        (run.status == Status::ok || run.status == Status::deviated))
+      fill_eigenvalues(row, worker);
+  }
+
+  /// What a child process tells of a cut.
+  struct Told {
+    std::array<char, 4000> line{};
+    Summary::Cut summary;
+  };
+
+  void judge_on_all_cores(const std::string& sheet, int resolution, const std::string& family) {
+    std::vector<Case> cases;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(experiment_.cases); ++i)
+      if (is_ours(i)) cases.push_back(drawn(sheet, resolution, family, i));
+    std::vector<std::pair<Case*, Worker*>> missing;
+    for (Case& c : cases)
+      for (Worker& worker : workers_)
+        if (!file_.has(start_row(c, worker, 0, "warm").key())) missing.emplace_back(&c, &worker);
+    const SharedArray<Told> told(missing.size());
+    const auto fates = run_isolated(missing.size(), {options_.workers, longest_cut_s}, [&](std::size_t k) {
+      Record row = start_row(*missing[k].first, *missing[k].second, 0, "warm");
+      judge(*missing[k].first, *missing[k].second, row, told[k].summary);
+      for (const std::string& time : columns_of({Group::time})) row.set(time, std::string());
+      row.line().copy(told[k].line.data(), told[k].line.size() - 1);
+    });
+    for (std::size_t k = 0; k < missing.size(); ++k) {
+      const Worker& worker = *missing[k].second;
+      Record row = start_row(*missing[k].first, worker, 0, "warm");
+      Summary::Cut summary = told[k].summary;
+      if (fates[k] == Fate::done) {
+        row = Record(column_names(), told[k].line.data());
+      } else {
+        row.set("status", std::string(name_of(Status::failed)));
+        row.set("verdict", std::string(fates[k] == Fate::timed_out ? "timed_out" : "crashed"));
+        summary.ok = false;
+      }
+      file_.append(row);
+      if (row.get("status") != name_of(Status::refused))
+        summary_.add(resolution, worker.variant.row->name, worker.variant.knob_text(), summary);
+    }
+  }
+
+  void run_case(Case c) {
     // A first, unrecorded cut by each method, which is judged and warms up; then the repetitions with the methods in
     // turn, so that a slow spell of the machine hits all alike.
     std::vector<Record> judged;
     std::vector<Summary::Cut> summaries(workers_.size());
     for (std::size_t w = 0; w < workers_.size(); ++w) {
-      Record& row =
-          judged.emplace_back(start_row(workers_[w].variant.row->name, workers_[w].variant.knob_text(), 0, "warm"));
-      if (file_.has(row.key())) continue;
-      const CutRun run = workers_[w].cut(base_, cuts, cut_options_);
-      if (forced.empty() && experiment_.quality) forced = forced_corners_of(base_.sheet, cuts);
-      judge_into(row, summaries[w], workers_[w], cuts, forced, run);
-      if (static_cast<int>(i) < experiment_.eigenvalue_cases && row.get("verdict") == "ok" &&
-          (run.status == Status::ok || run.status == Status::deviated))
-        fill_eigenvalues(row, workers_[w]);
+      Record& row = judged.emplace_back(start_row(c, workers_[w], 0, "warm"));
+      if (!file_.has(row.key())) judge(c, workers_[w], row, summaries[w]);
     }
     std::size_t crossed = 0;
     for (int r = 0; r < experiment_.repetitions + (experiment_.cold ? 1 : 0); ++r) {
@@ -121,26 +191,25 @@ class Runner {
       const char* cache = cold ? "cold" : "warm";
       for (std::size_t w = 0; w < workers_.size(); ++w) {
         Worker& worker = workers_[w];
-        Record row = start_row(worker.variant.row->name, worker.variant.knob_text(), repetition, cache);
+        Record row = start_row(c, worker, repetition, cache);
         if (file_.has(row.key())) continue;
-        const CutRun run = worker.measure(base_, cuts, cut_options_, cold);
+        const CutRun run = worker.measure(base_, c.cuts, cut_options_, cold);
         if (run.crossed_triangles > 0) crossed = run.crossed_triangles;
         if (r == 0)
           fill(row = judged[w], {.cut = &run}, {Group::time});
         else
           fill(row, {.cut = &run});
         file_.append(row);
-        if (!cold) summarize(resolution, worker.variant, summaries[w], run);
+        if (!cold) summarize(c.resolution, worker.variant, summaries[w], run);
       }
       if (experiment_.every_edge && crossed == 0)  // all rows but this one were there
         for (Worker& worker : workers_)
-          crossed = std::max(crossed, worker.cut(base_, cuts, cut_options_).crossed_triangles);
+          crossed = std::max(crossed, worker.cut(base_, c.cuts, cut_options_).crossed_triangles);
       if (experiment_.every_edge)
-        time_every_edge(cuts, start_row("every_edge", "", repetition, cache), resolution, crossed, cold);
+        time_every_edge(c.cuts, start_row(c, "every_edge", "", repetition, cache), c.resolution, crossed, cold);
     }
-    if (!motion_ || i >= static_cast<std::size_t>(experiment_.scene_cases)) return;
-    for (Worker& worker : workers_)
-      run_in_motion(cuts, worker, start_row(worker.variant.row->name, worker.variant.knob_text(), 0, "simulation"));
+    if (!motion_ || c.number >= static_cast<std::size_t>(experiment_.scene_cases)) return;
+    for (Worker& worker : workers_) run_in_motion(c.cuts, worker, start_row(c, worker, 0, "simulation"));
   }
 
   void fill_eigenvalues(Record& row, const Worker& worker) const {
@@ -192,7 +261,9 @@ class Runner {
     fill(row,
          {.h = base_.sheet.mean_edge(), .cut = &run, .judged = true, .assessment = &a, .shapes = experiment_.quality});
     summary.ok = a.judgement.ok, summary.vertices_added = static_cast<double>(a.vertices_added);
-    if (experiment_.quality) summary.ar_max_cut = a.cut.ar_max, summary.over_3_cut = static_cast<double>(a.cut.over_3);
+    if (!experiment_.quality) return;
+    if (a.cut.triangles > 0) summary.ar_max_cut = a.cut.ar_max;
+    summary.over_3_cut = static_cast<double>(a.cut.over_3);
   }
 
   void time_every_edge(const std::vector<Curve>& cuts, Record row, int resolution, std::size_t crossed, bool cold) {

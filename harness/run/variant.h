@@ -15,7 +15,7 @@ struct RunOptions {
   std::string command;        ///< recorded
   int shard = 1, shards = 1;  ///< case i is this shard's where i mod shards = shard - 1
   bool quiet = false;         ///< no progress, no table
-  int workers = 0;            ///< processes of a campaign; 0: one per core
+  int workers = 0;            ///< processes, where no times are recorded; 0: one per core
 };
 
 /// The last line of a run's identity (RecordFile).
