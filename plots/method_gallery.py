@@ -122,7 +122,7 @@ def draw_method(ax, title, result, norm):
     ax.plot(*requested().T, color="#0072b2", linewidth=2.2, alpha=0.45, zorder=2, solid_capstyle="butt")
     ax.add_collection(LineCollection(incision(points, triangles), color="#b0001e", linewidth=0.7, zorder=3))
     ratio = report["ar_max_cut"]
-    shapes = f"AR ≤ {load.number(ratio, 2)}" if ratio > 0 else "none changed"
+    shapes = f"AR ≤ {load.number(ratio, 2)}" if ratio else "none changed"
     ax.set_xlabel(f"{shapes}, {report['vertices_added']:+d} vertices", fontsize=5.6, labelpad=2)
     return faces
 

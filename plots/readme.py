@@ -66,7 +66,7 @@ def draw_panel(ax, method, result):
                                      capstyle="round", zorder=3))
     ratio = report["ar_max_cut"]
     ax.set_title(method["name"], loc="left", fontsize=9.5, fontweight="bold", pad=3)
-    ax.set_title((f"AR {load.number(ratio, 2)}, " if ratio > 0 else "") + f"{report['vertices_added']:+d}", loc="right",
+    ax.set_title((f"AR {load.number(ratio, 2)}, " if ratio else "") + f"{report['vertices_added']:+d}", loc="right",
                  fontsize=8.5, color="#555555", pad=3)
 
 
