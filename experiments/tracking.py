@@ -187,7 +187,7 @@ def count(folder, row):
 def timer(folder, row):
     """A function that runs the row in a process and returns its time in microseconds."""
     if not row.startswith("program/"):
-        command = [folder / "cutbench_track", "time", f"--benchmark_filter=^{row}/manual_time$", "--benchmark_min_time=0.1",
+        command = [folder / "cutbench_track", "time", f"--benchmark_filter=^{row}/manual_time$", "--benchmark_min_time=0.02",
                    "--benchmark_format=json"]
         yield lambda: json.loads(text_of(command, env={}, stdin=subprocess.DEVNULL))["benchmarks"][0]["real_time"] / 1e3
         return

@@ -105,6 +105,12 @@ place = 0.5
 integrator = "equilibrium"
 newton = 20)",
                                           "atlas_plane"));
+  const Result none = run("run atlas.toml --out none --sweeps nowhere");
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.error.find("--sweeps nowhere is not in the experiment; it has vertex, "), std::string::npos)
+      << none.error;
+  ASSERT_EQ(run("run atlas.toml --out one --sweeps iterations").code, 0);
+  for (const Record& row : records_of("one")) EXPECT_EQ(row.get("sweep"), "iterations");
   const Result made = run("run atlas.toml --out r");
   ASSERT_EQ(made.code, 0) << made.error << made.out;
   std::map<std::string, std::string> verdict, reason;

@@ -532,6 +532,7 @@ TEST_F(BadInput, Experiments) {
               {"run e.toml --out r --seed -1", 2, "--seed -1: give a whole number"},
               {"run e.toml --out r --seed 1e30", 2, "--seed 1e30: give a whole number"},
               {"run e.toml --out r --methods peer", 2, "--methods peer is not in the experiment"},
+              {"run e.toml --out r --sweeps vertex", 2, "--sweeps is for an experiment that has [[sweeps]]"},
               {"run e.toml --out r --cases 0", 2, "--cases"},
               {"run e.toml --out r --repetitions 0", 2, "--repetitions"}});
 }

@@ -19,7 +19,7 @@ namespace cutbench {
 namespace {
 
 struct RunArguments {
-  std::vector<std::string> experiments, methods, commands;
+  std::vector<std::string> experiments, methods, commands, sweeps;
   std::vector<int> resolutions;
   int cases = 0, repetitions = 0, jobs = 0;
   std::string seed, out = "results", shard = "1/1";
@@ -79,6 +79,10 @@ Experiment read_part(const std::string& file, const RunArguments& arguments, con
     e.methods.push_back({e.programs.back().name, {}});
   }
   restrict_to(e.resolutions, arguments.resolutions, "--resolutions", [](int r) { return r; });
+  if (e.atlas)
+    restrict_to(e.atlas->sweeps, arguments.sweeps, "--sweeps", [](const Sweep& s) { return s.name; });
+  else if (!arguments.sweeps.empty())
+    throw InputError(file + ": --sweeps is for an experiment that has [[sweeps]]");
   if (e.campaign && !arguments.methods.empty()) e.campaign->peer = with_peer;
   if (e.campaign && !arguments.resolutions.empty()) e.campaign->mesh_files.clear();
   if (arguments.cases > 0) e.cases = arguments.cases;
@@ -152,6 +156,7 @@ Command add_run(CLI::App& app) {
                       "NAME=COMMAND: a program as one more method, such as: mine=python3 mine.py {mesh} {path} {out}");
   command->add_option("--resolutions", arguments->resolutions, "only these of the experiment (triangles)")
       ->delimiter(',');
+  command->add_option("--sweeps", arguments->sweeps, "only these [[sweeps]] of the experiment")->delimiter(',');
   command->add_option("--cases", arguments->cases, "number of cases, instead of the experiment's")
       ->check(CLI::PositiveNumber);
   command->add_option("--repetitions", arguments->repetitions, "of each cut, instead of the experiment's")

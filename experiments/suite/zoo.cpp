@@ -1,4 +1,4 @@
-// The cut zoo: sheets and paths with the number of pieces that each must leave, for programs that cut to be tested with.
+// The cut zoo: sheets and paths with the number of pieces that each must leave, to test programs that cut.
 // The cases of tests/cases/catalogue first, then cuts of the mixture, on twelve sheets in turn.
 // usage: cutbench_zoo FOLDER PROBLEMS SEED     (by experiments/suite/zoo)
 #include <cstdio>
