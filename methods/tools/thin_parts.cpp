@@ -86,6 +86,15 @@ class Merging {
     if (const double ratio = ratio_of(cells_[cell]); ratio < thinness_) thin_.push({ratio, cell});
   }
 
+  /// They may have been left thin for want of one that is worth joining.
+  void put_neighbours_on_list(std::size_t cell) {
+    for (const HalfEdge h : cells_[cell].outline) {
+      if (sheet_.separates(h)) continue;
+      const auto found = cell_of_.find(triangle_of(sheet_.opposite(h))());
+      if (found != cell_of_.end()) put_on_list(found->second);
+    }
+  }
+
   double length(HalfEdge h) const {
     return std::sqrt(squared_length(sheet_.rest(sheet_.target(h)) - sheet_.rest(sheet_.origin(h))));
   }
@@ -106,7 +115,8 @@ class Merging {
       for (const TriangleIndex t : cells_[other].triangles) cell_of_[t()] = thin;
       cells_[other] = {};
       cells_[thin] = std::move(*merged);
-      return put_on_list(thin);
+      put_on_list(thin);
+      return put_neighbours_on_list(thin);
     }
   }
 
