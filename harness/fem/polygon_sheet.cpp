@@ -18,6 +18,11 @@ Eigen::Matrix<double, D, 1> normal_of(const Deformation<D>& deformation) {
 
 Vector2<double> vector(Point2 p) { return {p.x, p.y}; }
 
+Eigen::Vector2d gradient(const PolygonElement& polygon, Eigen::Index corner) {
+  const auto [x, y] = polygon.gradient[static_cast<std::size_t>(corner)];
+  return {x, y};
+}
+
 }  // namespace
 
 Stabilisation stabilisation_of(const Lame& lame, bool bends) {
@@ -58,19 +63,22 @@ void PolygonSheet<D>::rotate(const PolygonElement& polygon, const Field& x, Stat
   const auto& d = state.departure;
   Eigen::Matrix<double, D, 2> pull = polygon.area * state.deformation.rotation * state.deformation.stress;
   Eigen::Matrix<double, D, Eigen::Dynamic> resisted = stabilisation_.in_plane * d;
+  state.across.setZero(k), state.tilt.setZero(D, k);
   if (const double less = stabilisation_.in_plane - stabilisation_.across; D == 3 && less != 0) {
     const Eigen::Matrix<double, D, 1> n = normal_of<D>(state.deformation);
-    const Eigen::RowVectorXd across = n.transpose() * d;
-    resisted -= less * n * across;
+    state.across = d.transpose() * n;
+    resisted -= less * n * state.across.transpose();
     const Eigen::Matrix2d metric = map.gradient.transpose() * map.gradient;
-    if (strain_ == Strain::corotational && metric.determinant() > 1e-14 * metric.squaredNorm())
-      pull += less * n * (d * across.transpose()).transpose() * map.gradient * metric.inverse();
+    if (strain_ == Strain::corotational && metric.determinant() > 1e-14 * metric.squaredNorm()) {
+      const Eigen::Matrix<double, D, 2> dual = map.gradient * metric.inverse();
+      for (Eigen::Index i = 0; i < k; ++i) state.tilt.col(i) = dual * gradient(polygon, i);
+      pull += less * n * (d * state.across).transpose() * dual;
+    }
   }
   resisted = resisted * polygon.departure;
   for (Eigen::Index i = 0; i < k; ++i) {
     const auto corner = static_cast<std::size_t>(i);
-    const Eigen::Vector2d g(polygon.gradient[corner].x, polygon.gradient[corner].y);
-    force.segment<D>(D * polygon.polygon.corners[corner].value) -= pull * g + resisted.col(i);
+    force.segment<D>(D * polygon.polygon.corners[corner].value) -= pull * gradient(polygon, i) + resisted.col(i);
   }
 }
 
@@ -79,36 +87,39 @@ double PolygonSheet<D>::energy(const ElementTable& elements) const {
   double sum = 0;
   for (std::size_t p = 0; p < elements.polygon_slots(); ++p) {
     if (!elements.polygon(p).alive()) continue;
-    const auto& [deformation, departure, matrix, slots] = states_[p];
-    const double across = (normal_of<D>(deformation).transpose() * departure).squaredNorm();
-    sum += elements.polygon(p).area * deformation.energy +
-           (stabilisation_.in_plane * (departure.squaredNorm() - across) + stabilisation_.across * across) / 2;
+    const double across = states_[p].across.squaredNorm();
+    sum += elements.polygon(p).area * states_[p].deformation.energy +
+           (stabilisation_.in_plane * states_[p].departure.squaredNorm() -
+            (stabilisation_.in_plane - stabilisation_.across) * across) /
+               2;
   }
   return sum;
 }
 
 template <int D>
-typename PolygonSheet<D>::Block PolygonSheet<D>::stabilisation_block(const State& state) const {
-  const Eigen::Matrix<double, D, 1> n = normal_of<D>(state.deformation);
-  return stabilisation_.in_plane * Block::Identity() -
-         (stabilisation_.in_plane - stabilisation_.across) * n * n.transpose();
-}
-
-template <int D>
 void PolygonSheet<D>::add_stiffness(const ElementTable& elements, double factor, BlockMatrix<D>& blocks) const {
+  const double less = stabilisation_.in_plane - stabilisation_.across;
   for (std::size_t p = 0; p < elements.polygon_slots(); ++p) {
     const PolygonElement& polygon = elements.polygon(p);
     if (!polygon.alive()) continue;
     const State& state = states_[p];
     const ElementStiffness<D> stiffness({}, factor * polygon.area, polar_of<D>(state.deformation), strain_, lame_);
-    const Block stabilisation = factor * stabilisation_block(state);
-    std::size_t next = 0;
-    for (std::size_t i = 0; i < polygon.size(); ++i)
-      for (std::size_t j = 0; j < polygon.size(); ++j) {
-        const auto block = stiffness.block(vector(polygon.gradient[i]), vector(polygon.gradient[j]));
-        blocks.block(state.slots[next++]) +=
-            Eigen::Map<const Block>(block.data()) +
-            state.stabilisation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * stabilisation;
+    const Eigen::Matrix<double, D, 1> n = normal_of<D>(state.deformation);
+    const Block flat = stabilisation_.in_plane * Block::Identity() - less * n * n.transpose();
+    const Eigen::VectorXd pulled = polygon.departure.transpose() * state.across;
+    const double across = state.across.squaredNorm();
+    const auto k = static_cast<Eigen::Index>(polygon.size());
+    for (Eigen::Index i = 0; i < k; ++i)
+      for (Eigen::Index j = 0; j < k; ++j) {
+        const auto block = stiffness.block(vector(polygon.gradient[static_cast<std::size_t>(i)]),
+                                           vector(polygon.gradient[static_cast<std::size_t>(j)]));
+        Block stabilisation = state.stabilisation(i, j) * flat;
+        if (D == 3 && less != 0)
+          stabilisation +=
+              less * (pulled[i] * state.tilt.col(j) * n.transpose() + pulled[j] * n * state.tilt.col(i).transpose() +
+                      across * state.tilt.col(i).dot(state.tilt.col(j)) * n * n.transpose());
+        blocks.block(state.slots[static_cast<std::size_t>(i * k + j)]) +=
+            Eigen::Map<const Block>(block.data()) + factor * stabilisation;
       }
   }
 }

@@ -7,8 +7,10 @@
 //
 // In space with bending only the departure in the polygon's plane counts, d - (n d) n with the normal n of F, for what
 // departs from the plane bends (bending.h). n turns with F: with g = sum (n d_i) d_i and the dual basis F^a of F's
-// columns that adds tau E (g F^a) n to column a of the stress. Its second derivative is left out of the stiffness.
-// Without bending nothing else keeps the corners of a polygon in its plane, and all of d counts.
+// columns that adds tau E (g F^a) n to column a of the stress. The stiffness is that of Gauss and Newton, tau E J^T J
+// with the derivative J of the departure in the plane, positive semi-definite; without the share of n in it a bent sheet
+// gained energy. Without bending nothing else keeps the corners of a
+// polygon in its plane, and all of d counts.
 #pragma once
 
 #include <span>
@@ -47,11 +49,12 @@ class PolygonSheet {
     Deformation<D> deformation;
     Eigen::Matrix<double, D, Eigen::Dynamic> departure;  ///< of x
     Eigen::MatrixXd stabilisation;                       ///< departure matrix^T departure matrix
+    Eigen::VectorXd across;                              ///< n d_i
+    Eigen::Matrix<double, D, Eigen::Dynamic> tilt;       ///< F^a G_i,a: n turns by -tilt_i for a unit of x_i along n
     std::vector<std::int32_t> slots;                     ///< k x k, row by row
   };
   using Block = Eigen::Matrix<double, D, D>;
   void rotate(const PolygonElement& polygon, const Field& x, State& state, Field& force) const;
-  Block stabilisation_block(const State& state) const;
 
   Strain strain_;
   Lame lame_;
