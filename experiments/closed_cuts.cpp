@@ -75,7 +75,7 @@ double out_of_balance(const Sheet& sheet, const Field& u, const Ties& ties) {
       x.segment<2>(2 * static_cast<Eigen::Index>(d)) += rest_of(sheet, d);
   const Field load_on_it = load(sheet, ties).force();
   Field force = load_on_it;
-  model.tie(ties);
+  model.tie(sheet, ties);
   if (model.tied()) model.tied()->satisfy(model.held(), x);
   model.rotate(x);
   model.add_internal_force(x, force);

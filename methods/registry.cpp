@@ -12,6 +12,7 @@
 #include "methods/cgal_refine/cgal_refine.h"
 #include "methods/cisamr/cisamr.h"
 #include "methods/conventional_split/conventional_split.h"
+#include "methods/cut_polygons/cut_polygons.h"
 #include "methods/delaunay_refine/delaunay_refine.h"
 #include "methods/edge_release/edge_release.h"
 #include "methods/element_deletion/element_deletion.h"
@@ -76,6 +77,14 @@ std::vector<MethodRow>& table() {
         .keeps_vertices = false,
         .incision_bound = {.longest_edges = 0, .chord_tolerances = 1}},
        [](double) { return std::make_unique<Cisamr>(); }},
+      {"cut_polygons",
+       "conventional split; thin parts and their neighbours are one element together, a polygon",
+       {"thinness", 0.7, "4 area / perimeter over that of the divided triangle, below which a part is thin, 0 to 1"},
+       exact_split,
+       [](double thinness) {
+         if (!(thinness >= 0 && thinness <= 1)) throw InputError("cut_polygons: thinness must be a number from 0 to 1");
+         return std::make_unique<CutPolygons>(CutPolygons::Options{.thinness = thinness});
+       }},
       {"delaunay_refine",
        "local Delaunay refinement round the cut, by off-centres",
        {"bound", 3, "largest aspect ratio allowed outside forced wedges; 0: flips alone"},

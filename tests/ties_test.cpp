@@ -300,7 +300,7 @@ TEST(Ties, HoldInMotion) {
       ASSERT_EQ(body.cut(line({-0.1, 0.41}, {0.6, 0.52}), name, find_method(name).knob.value), Status::ok);
       const Ties ties = find_method(name).make(find_method(name).knob.value)->ties(before, body.sheet);
       ASSERT_FALSE(ties.empty());
-      body.model.tie(ties);
+      body.model.tie(body.sheet, ties);
       const Eigen::MatrixXd c = dense_combination(ties, body.model.vertices(), 3);
       if (shaken) body.state.v = c * (0.1 * Field::Random(c.cols()));
       const Balance start = balance_of(body.model, body.state);

@@ -93,11 +93,11 @@ TEST(Verdict, InvertedInSpace) {
     }
   };
   place([](Point2 p) { return Eigen::Vector3d(p.x, p.y, 0); });
-  EXPECT_EQ(turned_over(sheet, x, 3).triangles, 0u);
+  EXPECT_EQ(turned_over(sheet, ElementTable(sheet), x, 3).triangles, 0u);
   place([](Point2 p) { return Eigen::Vector3d(p.x < 0.5 ? p.x : 1 - p.x, p.y, p.x < 0.5 ? 0 : 1e-3); });
-  EXPECT_EQ(turned_over(sheet, x, 3).triangles, 0u) << "folded along mesh lines";
+  EXPECT_EQ(turned_over(sheet, ElementTable(sheet), x, 3).triangles, 0u) << "folded along mesh lines";
   place([](Point2 p) { return Eigen::Vector3d(p.x == 0.5 && p.y == 0.5 ? 0.9 : p.x, p.y, 0); });
-  const TurnedOver turned = turned_over(sheet, x, 3);
+  const TurnedOver turned = turned_over(sheet, ElementTable(sheet), x, 3);
   EXPECT_GE(turned.triangles, 1u);
   EXPECT_GT(turned.area, 0);
 }

@@ -60,12 +60,13 @@ class CuttingMethod {
   enum class Tying : std::uint8_t {
     nothing,          ///< no constraints: every vertex has its own unknowns
     vertices,         ///< constraints of vertices of the sheet to triangles of the sheet
+    polygons,         ///< triangles that are one element together
     phantoms,         ///< constraints to triangles with phantom nodes, which are not vertices of the sheet
     phantoms_at_rest  ///< the same, with terms in stiffness or mass that hold for a sheet at rest only
   };
   virtual Tying tying() const { return Tying::nothing; }
-  /// The constraints between the vertices of a sheet that this method cut any number of times; none: every vertex has
-  /// its own unknowns. Depends on the two sheets alone.
+  /// The constraints between the vertices of a sheet that this method cut any number of times, and the polygons that it
+  /// makes of triangles; none: every vertex has its own unknowns. Depends on the two sheets alone.
   /// \param before  the sheet before the first cut; no slot of it has moved since (Sheet::compact() would move them)
   virtual Ties ties(const Sheet& /*before*/, const Sheet& /*cut*/) const { return {}; }
 

@@ -4,9 +4,10 @@
 
 namespace cutbench {
 
-Bending::Bending(const Sheet& sheet, BendingKind kind, double rigidity, double poisson)
+Bending::Bending(const Sheet& sheet, BendingKind kind, double rigidity, double poisson, const ElementTable* elements)
     : kind_(kind), rigidity_(rigidity), poisson_(poisson) {
   resize(sheet);
+  work_.elements = elements;
   ++work_.call;
   for (std::size_t t = 0; t < sheet.triangle_slots(); ++t) mark_stale(TriangleIndex(t), 0);
   rebuild(sheet);
@@ -16,10 +17,11 @@ void Bending::reserve_spare() {
   slopes_.reserve_spare(), stencils_.reserve_spare(), stencils_of_.reserve_spare(), matrix_.reserve_spare();
 }
 
-void Bending::update(const Sheet& sheet) {
+void Bending::update(const Sheet& sheet, const ElementTable* elements, std::span<const TriangleIndex> regrouped) {
   resize(sheet);
+  work_.elements = elements;
   ++work_.call;
-  find_stale(sheet);
+  find_stale(sheet, regrouped);
   rebuild(sheet);
 }
 
@@ -45,18 +47,28 @@ void Bending::resize(const Sheet& sheet) {
   work_.stale.clear();
 }
 
-// --- what a cut makes stale ------------------------------------------------------------------------------------------
+// --- what a cut makes stale
+// ------------------------------------------------------------------------------------------
+
+/// The triangles of the element that t belongs to.
+std::span<const TriangleIndex> Bending::members(const TriangleIndex& t) const {
+  return work_.elements ? work_.elements->members(t) : std::span<const TriangleIndex>(&t, 1);
+}
 
 void Bending::mark_stale(TriangleIndex t, int distance) {
   if (work_.stale_in[t()] == work_.call) return;
-  work_.stale_in[t()] = work_.call;
-  work_.stale.push_back({t, distance});
+  for (const TriangleIndex member : members(t)) {
+    work_.stale_in[member()] = work_.call;
+    work_.stale.push_back({member, distance});
+  }
 }
 
-/// Breadth first from the triangles that changed. A patch that reached a changed triangle over r edges, the first one
-/// on its way, still finds a changed one behind the same edges: neighbours of what changed are linked anew, but not
-/// logged.
-void Bending::find_stale(const Sheet& sheet) {
+/// Breadth first from the triangles that changed. A patch that reached a
+/// changed triangle over r edges, the first one on its way, still finds a
+/// changed one behind the same edges: neighbours of what changed are linked
+/// anew, but not logged.
+void Bending::find_stale(const Sheet& sheet, std::span<const TriangleIndex> regrouped) {
+  for (const TriangleIndex t : regrouped) mark_stale(t, 0);
   for (const auto& touched : sheet.log().touched) mark_stale(touched.slot, 0);
   for (std::size_t t = sheet.log().triangles_before; t < sheet.triangle_slots(); ++t) mark_stale(TriangleIndex(t), 0);
   for (std::size_t i = 0; i < work_.stale.size(); ++i) {
@@ -70,20 +82,22 @@ void Bending::find_stale(const Sheet& sheet) {
 }
 
 bool Bending::stencil_is_stale(const Sheet& sheet, TriangleIndex t) const {
-  if (work_.refitted_in[t()] == work_.call) return true;
-  for (const HalfEdge o : sheet.triangle(t).opposite)
-    if (o.valid() && work_.refitted_in[triangle_of(o)()] == work_.call) return true;
+  for (const TriangleIndex member : members(t)) {
+    if (work_.refitted_in[member()] == work_.call) return true;
+    for (const HalfEdge o : sheet.triangle(member).opposite)
+      if (o.valid() && work_.refitted_in[triangle_of(o)()] == work_.call) return true;
+  }
   return false;
 }
 
 void Bending::rebuild(const Sheet& sheet) {
   for (const auto& [t, distance] : work_.stale)
-    if (distance <= reach_[t()]) fit_patch(sheet, t);
+    if (t == members(t).front() && distance <= reach_[t()]) fit_patch(sheet, t);
   work_.rows.clear();
   for (const auto& [t, distance] : work_.stale) {
     if (!stencil_is_stale(sheet, t)) continue;
     work_.terms.clear();
-    if (sheet.triangle(t).alive()) add_rows(sheet, t);
+    if (sheet.triangle(t).alive() && t == members(t).front()) add_rows(sheet, t);
     replace_stencil(t());
   }
   for (const std::int32_t vertex : work_.rows) write_row(static_cast<std::size_t>(vertex));
@@ -101,15 +115,19 @@ void Bending::add_rows(const Sheet& sheet, TriangleIndex t) {
 }
 
 void Bending::fit_patch(const Sheet& sheet, TriangleIndex t) {
-  work_.refitted_in[t()] = work_.call;
+  for (const TriangleIndex member : members(t)) work_.refitted_in[member()] = work_.call;
   if (kind_ != BendingKind::patches) return;
   if (!sheet.triangle(t).alive()) return slopes_.set(t(), {});
-  reach_[t()] = work_.patch.fit(sheet, t);
-  longest_reach_ = std::max(longest_reach_, reach_[t()]);
-  slopes_.set(t(), work_.patch.terms());
+  const int reach = work_.patch.fit(sheet, work_.elements, t);
+  longest_reach_ = std::max(longest_reach_, reach);
+  for (const TriangleIndex member : members(t)) {
+    reach_[member()] = reach;
+    slopes_.set(member(), work_.patch.terms(sheet.corners(member)));
+  }
 }
 
-// --- matrix ----------------------------------------------------------------------------------------------------------
+// --- matrix
+// ----------------------------------------------------------------------------------------------------------
 
 void Bending::put_on_list(std::int32_t vertex) {
   auto& listed = work_.listed_in[static_cast<std::size_t>(vertex)];
@@ -140,8 +158,9 @@ void Bending::replace_stencil(std::size_t t) {
   }
 }
 
-/// Sums a row of the matrix from the stencils that hold its vertex, in the order of their triangles, so that the sums
-/// don't depend on the cuts that led here.
+/// Sums a row of the matrix from the stencils that hold its vertex, in the
+/// order of their triangles, so that the sums don't depend on the cuts that led
+/// here.
 void Bending::write_row(std::size_t vertex) {
   auto& columns = work_.columns;
   auto& values = work_.values;

@@ -44,8 +44,9 @@ class ElementStiffness {
                          e.material_area(), polar_of(deformation), of_stress, lame) {}
 
   /// Block (i, j).
-  Block block(std::size_t i, std::size_t j) const {
-    const auto &g = gradient_[i], &h = gradient_[j];
+  Block block(std::size_t i, std::size_t j) const { return block(gradient_[i], gradient_[j]); }
+  /// Of two corners with these gradients.
+  Block block(const Vector2<Number>& g, const Vector2<Number>& h) const {
     const Number xx = g.x * h.x, xy = g.x * h.y, yx = g.y * h.x, yy = g.y * h.y;
     Block b;
     for (std::size_t c = 0; c < D; ++c)

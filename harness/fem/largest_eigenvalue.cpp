@@ -12,6 +12,7 @@
 #include "harness/fem/combination.h"
 #include "harness/fem/element_table.h"
 #include "harness/fem/membrane.h"
+#include "harness/fem/polygon_sheet.h"
 
 namespace cutbench {
 
@@ -27,13 +28,19 @@ class ScaledStiffness {
         elements_(sheet),
         combination_(ties, sheet.deformed_slots()),
         ghosts_(ties.ghosts) {
+    for (const Polygon& polygon : ties.polygons) {
+      const std::size_t slot = elements_.add_polygon(sheet, polygon);
+      polygons_.push_back(rest_stiffness(elements_.polygon(slot), lame_));
+    }
     VectorXd mass = VectorXd::Zero(static_cast<Eigen::Index>(combination_.vertices()));
     for (const Element& element : elements_)
-      if (element.alive())
+      if (element.is_triangle())
         for (const auto d : element.vertex) mass[d.value] += element.area / 3;
+    for (std::size_t p = 0; p < polygons_.size(); ++p)
+      for (const auto d : elements_.polygon(p).polygon.corners) mass[d.value] += elements_.polygon(p).corner_area();
     factor(mass, ties.lumped);
     if (elasticity.bending != BendingKind::none)
-      bending_.emplace(sheet, elasticity.bending, elasticity.bending_length2, elasticity.poisson);
+      bending_.emplace(sheet, elasticity.bending, elasticity.bending_length2, elasticity.poisson, &elements_);
   }
 
   Eigen::Index size() const { return 2 * static_cast<Eigen::Index>(combination_.unknowns()); }
@@ -46,8 +53,10 @@ class ScaledStiffness {
     combination_.expand(2, Eigen::Map<const VectorXd>(scaled_.data(), size()), moved_);
     force_.setZero(moved_.size());
     for (const Element& element : elements_)
-      if (element.alive()) add_force(element);
-    // Bending acts on each coordinate alike, so that membrane and bending together are stiffest in the plane.
+      if (element.is_triangle()) add_force(element);
+    for (std::size_t p = 0; p < polygons_.size(); ++p) add_force(elements_.polygon(p), polygons_[p]);
+    // Bending acts on each coordinate alike, so that membrane and bending
+    // together are stiffest in the plane.
     if (bending_) add_product_per_coordinate(bending_->matrix(), 2, 1, moved_, force_);
     combination_.reduce(2, force_, y);
     for (const GhostEdge& ghost : ghosts_) add_force(ghost, y);
@@ -80,7 +89,8 @@ class ScaledStiffness {
                                ghost.mass * ghost.jump[k] * ghost.jump[l]);
         diagonal[ghost.unknown[k].value] += ghost.mass;
       }
-    for (Eigen::Index u = 0; u < n; ++u)  // what nothing depends on has no stiffness either, and any mass will do
+    for (Eigen::Index u = 0; u < n; ++u)  // what nothing depends on has no stiffness either, and any mass
+                                          // will do
       if (diagonal[u] == 0) entries.emplace_back(static_cast<int>(u), static_cast<int>(u), 1);
     Eigen::SparseMatrix<double> matrix(n, n);
     matrix.setFromTriplets(entries.begin(), entries.end());
@@ -93,6 +103,15 @@ class ScaledStiffness {
     for (std::size_t k = 0; k < 4; ++k) jump += ghost.jump[k] * scaled_.row(ghost.unknown[k].value);
     for (std::size_t k = 0; k < 4; ++k)
       y.segment<2>(2 * ghost.unknown[k].value) += ghost.stiffness * ghost.jump[k] * jump.transpose();
+  }
+
+  void add_force(const PolygonElement& polygon, const Eigen::MatrixXd& stiffness) {
+    VectorXd moved(stiffness.rows());
+    Eigen::Index next = 0;
+    for (const auto d : polygon.polygon.corners) moved.segment<2>(2 * next++) = moved_.segment<2>(2 * d.value);
+    const VectorXd force = stiffness * moved;
+    next = 0;
+    for (const auto d : polygon.polygon.corners) force_.segment<2>(2 * d.value) += force.segment<2>(2 * next++);
   }
 
   void add_force(const Element& element) {
@@ -114,6 +133,7 @@ class ScaledStiffness {
 
   Lame lame_;
   ElementTable elements_;
+  std::vector<Eigen::MatrixXd> polygons_;  // their stiffness
   Combination combination_;
   std::vector<GhostEdge> ghosts_;
   std::optional<Bending> bending_;
@@ -132,7 +152,8 @@ double explicit_step_limit(double eigenvalue, const Material& material) {
 }
 
 double largest_eigenvalue(const Sheet& sheet, const Ties& ties, const Elasticity& elasticity) {
-  constexpr double tolerance = 1e-3;  // met at two checks, for at the first it may be met by the second largest
+  constexpr double tolerance = 1e-3;  // met at two checks, for at the first it
+                                      // may be met by the second largest
   constexpr int most_steps = 1000, between_checks = 8;
   ScaledStiffness stiffness(sheet, ties, elasticity);
   const Eigen::Index n = stiffness.size();
@@ -142,7 +163,8 @@ double largest_eigenvalue(const Sheet& sheet, const Ties& ties, const Elasticity
   VectorXd q(n), before = VectorXd::Zero(n), next;
   for (double& x : q) x = static_cast<double>(bits() >> 11) * 0x1p-53 - 0.5;
   q.normalize();
-  // Without orthogonalisation: what that costs is copies of eigenvalues already found.
+  // Without orthogonalisation: what that costs is copies of eigenvalues already
+  // found.
   std::vector<double> diagonal, beside;
   bool met = false;
   for (int step = 1;; ++step) {

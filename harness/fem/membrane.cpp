@@ -66,6 +66,11 @@ Deformation<D> deformation_of(const Element& element, const Field& x, Strain str
   };
   const Eigen::Matrix<double, D, 2> f =
       (at(1) - at(0)) * gradient(element, 1).transpose() + (at(2) - at(0)) * gradient(element, 2).transpose();
+  return deformation_of<D>(f, strain, lame);
+}
+
+template <int D>
+Deformation<D> deformation_of(const Eigen::Matrix<double, D, 2>& f, Strain strain, const Lame& lame) {
   Deformation<D> d;
   if (strain == Strain::linear) {
     d.rotation = Eigen::Matrix<double, D, 2>::Identity();
@@ -108,6 +113,8 @@ Polar<D, double> polar_of(const Deformation<D>& d) {
 
 template struct Deformation<2>;
 template struct Deformation<3>;
+template Deformation<2> deformation_of<2>(const Eigen::Matrix<double, 2, 2>&, Strain, const Lame&);
+template Deformation<3> deformation_of<3>(const Eigen::Matrix<double, 3, 2>&, Strain, const Lame&);
 template Deformation<2> deformation_of<2>(const Element&, const Field&, Strain, const Lame&);
 template Deformation<3> deformation_of<3>(const Element&, const Field&, Strain, const Lame&);
 template Deformation<2> deformation_of<2>(const Polar<2, double>&, const Lame&);

@@ -42,6 +42,9 @@ struct Polar {
   Number xx, xy, yy;  ///< of S
 };
 
+/// With gradient F, of any shape, also a collapsed one.
+template <int D>
+Deformation<D> deformation_of(const Eigen::Matrix<double, D, 2>& f, Strain strain, const Lame& lame);
 /// For every shape, collapsed triangles included. \pre x has the vertices of `element`.
 template <int D>
 Deformation<D> deformation_of(const Element& element, const Field& x, Strain strain, const Lame& lame);

@@ -8,9 +8,9 @@ namespace {
 
 const Element no_element;
 
-/// Element `i`, or one without vertices and area: past the end, or a free slot.
+/// Element `i`, or one without vertices and area: past the end, a free slot, or a member of a polygon.
 const Element& element_at(const ElementTable& elements, std::size_t i) {
-  return i < elements.size() ? elements[i] : no_element;
+  return i < elements.size() && elements[i].polygon < 0 ? elements[i] : no_element;
 }
 
 template <class Function>
@@ -146,6 +146,7 @@ void MembraneSheet<D>::rotate(const ElementTable& elements, const Field& x) {
     if (!all_positive(determined)) recompute_collapsed(elements, i, determined, x);
     add_forces(four, polar_[i]);
   }
+  polygons_.rotate(elements, x, force_);
 }
 
 /// Elements that collapsed, one by one; where there is none, it is as at rest.
@@ -188,11 +189,13 @@ double MembraneSheet<D>::energy(const ElementTable& elements) const {
     const Lanes xx = polar_[i].xx - 1, yy = polar_[i].yy - 1, xy = polar_[i].xy, trace = xx + yy;
     sum += area * (lame_.mu * (xx * xx + yy * yy + 2 * (xy * xy)) + lame_.lambda / 2 * (trace * trace));
   }
-  return sum[0] + sum[1] + sum[2] + sum[3];
+  return sum[0] + sum[1] + sum[2] + sum[3] + polygons_.energy(elements);
 }
 
 template <int D>
-Deformation<D> MembraneSheet<D>::deformation(std::size_t element) const {
+Deformation<D> MembraneSheet<D>::deformation(const ElementTable& elements, std::size_t element) const {
+  if (const auto polygon = elements[element].polygon; polygon >= 0)
+    return polygons_.deformation(static_cast<std::size_t>(polygon));
   return deformation_of<D>(lane<D>(polar_[element / lane_count], element % lane_count), lame_);
 }
 
@@ -209,6 +212,7 @@ void MembraneSheet<D>::add_stiffness(const ElementTable& elements, double factor
       }
     }
   }
+  polygons_.add_stiffness(elements, factor, blocks);
 }
 
 template class MembraneSheet<2>;

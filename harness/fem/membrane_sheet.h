@@ -1,19 +1,21 @@
 // All membrane elements of a sheet, four at a time (lanes.h): rotations and forces in one pass, stiffness in another.
-// A collapsed element is computed by itself (deformation_of()).
+// A collapsed element is computed by itself (deformation_of()), and so is each polygon (polygon_sheet.h).
 #pragma once
 
 #include <vector>
 
 #include "harness/fem/block_matrix.h"
 #include "harness/fem/element_stiffness.h"
+#include "harness/fem/polygon_sheet.h"
 
 namespace cutbench {
 
 template <int D>
 class MembraneSheet {
  public:
-  MembraneSheet(Strain strain, StressStiffness of_stress, const Lame& lame)
-      : strain_(strain), of_stress_(of_stress), lame_(lame) {}
+  /// \param bends  bending keeps polygons flat (polygon_sheet.h)
+  MembraneSheet(Strain strain, StressStiffness of_stress, const Lame& lame, bool bends = false)
+      : strain_(strain), of_stress_(of_stress), lame_(lame), polygons_(strain, of_stress, lame, bends) {}
   void resize(std::size_t elements);
   void reserve_spare();
 
@@ -22,12 +24,13 @@ class MembraneSheet {
     slots_[element / lane_count][i][j][element % lane_count] = slot;
   }
   void clear_slots(std::size_t element);
+  PolygonSheet<D>& polygons() { return polygons_; }
 
   /// Deformations of all elements at x, and the forces they exert; the functions below refer to this x.
   void rotate(const ElementTable& elements, const Field& x);
   const Field& force() const { return force_; }  ///< N
   double energy(const ElementTable& elements) const;
-  Deformation<D> deformation(std::size_t element) const;
+  Deformation<D> deformation(const ElementTable& elements, std::size_t element) const;
   /// Adds factor x stiffness to the blocks at the slots.
   void add_stiffness(const ElementTable& elements, double factor, BlockMatrix<D>& blocks) const;
 
@@ -43,6 +46,7 @@ class MembraneSheet {
   std::vector<Polar<D, Lanes>> polar_;                          // per four elements
   std::vector<std::array<std::array<FourSlots, 3>, 3>> slots_;  // per four elements: of their nine blocks
   Field force_;
+  PolygonSheet<D> polygons_;
 };
 
 }  // namespace cutbench

@@ -20,7 +20,8 @@ Model<D>::Model(const Sheet& sheet, const Material& material, const Physics& phy
       pins_(std::move(pins)),
       tractions_(std::move(tractions)),
       elements_(sheet),
-      membrane_(physics.strain, physics.stress_stiffness_made(), lame_of(material, physics.plane)) {
+      membrane_(physics.strain, physics.stress_stiffness_made(), lame_of(material, physics.plane),
+                physics.bending != BendingKind::none) {
   if (physics.mass == Mass::consistent) consistent_mass_.emplace();
   resize(sheet);
   ++round_;
@@ -43,10 +44,11 @@ template <int D>
 void Model<D>::update(const Sheet& sheet) {
   const EditLog& log = sheet.log();
   tied_.reset();
-  ++round_;
-  marked_.clear();
+  begin_marking();
   for (const auto& touched : log.touched) {
     if (!touched.before.alive()) continue;
+    if (const auto polygon = elements_[touched.slot()].polygon; polygon >= 0)
+      dissolve(static_cast<std::size_t>(polygon));
     incidence_.remove(touched.before.deformed, touched.slot());
     mark(touched.before.deformed);
   }
@@ -64,21 +66,82 @@ void Model<D>::update(const Sheet& sheet) {
 
 template <int D>
 void Model<D>::update_bending(const Sheet& sheet) {
-  if (!bending_) return;
-  bending_->update(sheet);
+  if (!bending_) return regrouped_.clear();
+  bending_->update(sheet, &elements_, regrouped_);
+  regrouped_.clear();
   history_.begin_change();
   for (const std::int32_t v : bending_->written_rows()) history_.mark(static_cast<std::size_t>(v));
 }
 
 template <int D>
-void Model<D>::tie(const Ties& ties) {
+void Model<D>::tie(const Sheet& sheet, const Ties& ties) {
   tied_.reset();
-  if (!ties.empty()) tied_.emplace(ties, vertices());
-  history_.begin_change();
+  begin_marking();
+  merge(sheet, ties.polygons);
+  refresh_vertices(sheet);
+  if (!regrouped_.empty()) update_bending(sheet);
+  if (!ties.ties.empty()) tied_.emplace(ties, vertices());
+}
+
+/// Those that are there already stay.
+template <int D>
+void Model<D>::merge(const Sheet& sheet, std::span<const Polygon> polygons) {
+  std::vector<std::uint8_t> stays(elements_.polygon_slots());
+  std::vector<const Polygon*> fresh;
+  for (const Polygon& polygon : polygons) {
+    const auto slot = elements_[polygon.triangles.front()()].polygon;
+    if (slot >= 0 && elements_.polygon(static_cast<std::size_t>(slot)).polygon == polygon)
+      stays[static_cast<std::size_t>(slot)] = 1;
+    else
+      fresh.push_back(&polygon);
+  }
+  for (std::size_t p = 0; p < stays.size(); ++p)
+    if (!stays[p] && elements_.polygon(p).alive()) dissolve(p);
+  for (const Polygon* const polygon : fresh) {
+    const std::size_t slot = elements_.add_polygon(sheet, *polygon);
+    membrane_.polygons().reset(slot, elements_.polygon(slot));
+    for (const TriangleIndex t : polygon->triangles) membrane_.clear_slots(t()), regrouped_.push_back(t);
+    for (const DeformedIndex d : polygon->corners) polygons_of_.append(d(), static_cast<std::int32_t>(slot));
+    mark(polygon->corners), mark(polygon->inside);
+  }
 }
 
 template <int D>
-void Model<D>::mark(const std::array<DeformedIndex, 3>& vertices) {
+void Model<D>::dissolve(std::size_t polygon) {
+  const Polygon& gone = elements_.polygon(polygon).polygon;
+  for (const DeformedIndex d : gone.corners) polygons_of_.erase(d(), static_cast<std::int32_t>(polygon));
+  mark(gone.corners), mark(gone.inside);
+  regrouped_.insert(regrouped_.end(), gone.triangles.begin(), gone.triangles.end());
+  elements_.dissolve(polygon);
+}
+
+template <int D>
+std::vector<Polygon> Model<D>::polygons() const {
+  std::vector<Polygon> all;
+  for (std::size_t p = 0; p < elements_.polygon_slots(); ++p)
+    if (elements_.polygon(p).alive()) all.push_back(elements_.polygon(p).polygon);
+  return all;
+}
+
+template <int D>
+void Model<D>::follow(Field& x) const {
+  for (std::size_t p = 0; p < elements_.polygon_slots(); ++p) {
+    const PolygonElement& polygon = elements_.polygon(p);
+    if (polygon.inside.empty()) continue;
+    const LinearMap<D> map = polygon.template map<D>(x);
+    for (std::size_t i = 0; i < polygon.inside.size(); ++i)
+      x.template segment<D>(D * polygon.polygon.inside[i].value) = map.at(polygon.inside[i]);
+  }
+}
+
+template <int D>
+void Model<D>::begin_marking() {
+  ++round_;
+  marked_.clear();
+}
+
+template <int D>
+void Model<D>::mark(std::span<const DeformedIndex> vertices) {
   for (const auto d : vertices) {
     if (d() >= marked_in_.size()) marked_in_.resize(d() + 1);
     if (std::exchange(marked_in_[d()], round_) != round_) marked_.push_back(d());
@@ -89,7 +152,7 @@ template <int D>
 void Model<D>::resize(const Sheet& sheet) {
   const std::size_t n = sheet.deformed_slots();
   const auto old = static_cast<std::size_t>(mass_.size());
-  incidence_.resize(n), blocks_.resize(n), marked_in_.resize(std::max(n, marked_in_.size()));
+  incidence_.resize(n), polygons_of_.resize(n), blocks_.resize(n), marked_in_.resize(std::max(n, marked_in_.size()));
   if (consistent_mass_) consistent_mass_->resize(n);
   held_.resize(D * n, 1), pin_of_.resize(D * n, -1), places_.resize(n);
   membrane_.resize(elements_.size());
@@ -106,32 +169,56 @@ void Model<D>::refresh_vertices(const Sheet& sheet) {
   for (const std::size_t v : marked_) history_.mark(v);
 }
 
-/// The pattern of row v, and where the elements round v find their blocks in it.
+/// The pattern of row v, and where the elements round v find their blocks in
+/// it.
 template <int D>
 void Model<D>::refresh_row(std::size_t v) {
   const auto corners = incidence_.at(v);
   columns_.clear();
-  if (!corners.empty()) columns_.push_back(static_cast<std::int32_t>(v));
-  for (const auto c : corners)
-    for (const auto d : elements_[triangle_of(c)()].vertex)
+  const auto add = [&](std::span<const DeformedIndex> with) {
+    if (columns_.empty()) columns_.push_back(static_cast<std::int32_t>(v));
+    for (const auto d : with)
       if (std::find(columns_.begin(), columns_.end(), d.value) == columns_.end()) columns_.push_back(d.value);
+  };
+  for (const auto c : corners)
+    if (const Element& e = elements_[triangle_of(c)()]; e.is_triangle()) add(e.vertex);
+  for (const std::int32_t p : polygons_of_[v]) add(elements_.polygon(static_cast<std::size_t>(p)).polygon.corners);
   blocks_.set_row(v, columns_);
+  set_polygon_slots(v);
   for (const auto c : corners) {
     const std::size_t e = triangle_of(c)();
+    if (!elements_[e].is_triangle()) continue;
     for (std::size_t j = 0; j < 3; ++j)
       membrane_.set_slot(e, static_cast<std::size_t>(corner_of(c)), j, blocks_.find(v, elements_[e].vertex[j].value));
   }
 }
 
 template <int D>
+void Model<D>::set_polygon_slots(std::size_t v) {
+  for (const std::int32_t p : polygons_of_[v]) {
+    const auto slot = static_cast<std::size_t>(p);
+    const auto& corners = elements_.polygon(slot).polygon.corners;
+    polygon_slots_.clear();
+    for (const auto d : corners) polygon_slots_.push_back(blocks_.find(v, d.value));
+    const auto own = std::find(corners.begin(), corners.end(), DeformedIndex(v));
+    membrane_.polygons().set_slots(slot, static_cast<std::size_t>(own - corners.begin()), polygon_slots_);
+  }
+}
+
+template <int D>
 void Model<D>::refresh_mass(std::size_t v) {
-  double third = 0;
-  for (const auto c : incidence_.at(v)) third += elements_[triangle_of(c)()].material_area();
-  mass_[static_cast<Eigen::Index>(v)] = material_.density * third / 3;
+  double third = 0, of_polygons = 0;
+  for (const auto c : incidence_.at(v))
+    if (const Element& e = elements_[triangle_of(c)()]; e.is_triangle()) third += e.material_area();
+  for (const std::int32_t p : polygons_of_[v])
+    of_polygons += elements_.polygon(static_cast<std::size_t>(p)).corner_area();
+  mass_[static_cast<Eigen::Index>(v)] = material_.density * (third / 3 + of_polygons);
   if (!consistent_mass_) return;
   consistent_mass_->set_row(v, columns_);
+  if (of_polygons > 0) consistent_mass_->block(consistent_mass_->first_slot(v))(0) += material_.density * of_polygons;
   for (const auto c : incidence_.at(v)) {
     const Element& e = elements_[triangle_of(c)()];
+    if (!e.is_triangle()) continue;
     for (const auto d : e.vertex)
       consistent_mass_->block(consistent_mass_->find(v, d.value))(0) +=
           material_.density * e.material_area() / (d() == v ? 6 : 12);
@@ -149,6 +236,7 @@ void Model<D>::refresh_loads(const Sheet& sheet, std::size_t v) {
   }
   if (!rest_vertex.valid()) return;
   const Point2 rest = places_[v] = sheet.rest(rest_vertex);
+  if (blocks_.columns(v).empty()) return;  // inside a polygon
   for (std::size_t k = 0; k < D; ++k) {
     for (std::size_t p = 0; p < pins_.size() && pin_of_[D * v + k] < 0; ++p)
       if (pins_[p].axes[k] && pins_[p].where.contains(rest)) pin_of_[D * v + k] = static_cast<std::int16_t>(p);
@@ -211,7 +299,8 @@ std::size_t Model<D>::unheld_pieces() const {
   return unheld;
 }
 
-// --- of a state ------------------------------------------------------------------------------------------------------
+// --- of a state
+// ------------------------------------------------------------------------------------------------------
 
 template <int D>
 void Model<D>::rotate(const Field& x) {

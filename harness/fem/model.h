@@ -1,5 +1,6 @@
-// The discrete sheet: elements, mass, bending, loads, held vertices and the system matrix. After each cut it is
-// updated: only what the cut touched is computed again, and the result equals that of a new model.
+// The discrete sheet: elements, mass, bending, loads, held vertices and the
+// system matrix. After each cut it is updated: only what the cut touched is
+// computed again, and the result equals that of a new model.
 #pragma once
 
 #include <optional>
@@ -26,30 +27,42 @@ class Model {
   Model(const Sheet& sheet, const Material& material, const Physics& physics, std::vector<Pin> pins,
         std::vector<Traction> tractions);
 
-  /// Reserves room to grow by half, so that the first cut of a running simulation copies no arrays. A copy of the model
-  /// has no such room.
+  /// Reserves room to grow by half, so that the first cut of a running
+  /// simulation copies no arrays. A copy of the model has no such room.
   void reserve_spare();
-  /// Call both after each single cut, before the next begin_cut() clears the log, and transfer() for the state: they
-  /// replace indices and add elements (Xin et al. 2018, 4.2) where the sheet's log says so.
+  /// Call both after each single cut, before the next begin_cut() clears the
+  /// log, and transfer() for the state: they replace indices and add elements
+  /// (Xin et al. 2018, 4.2) where the sheet's log says so.
   void update(const Sheet& sheet);
   void update_bending(const Sheet& sheet);  ///< nothing without bending
-  /// Constrains vertices; call it after update() and update_bending(), which remove all constraints. Forces, energies
-  /// and the matrix remain those of all vertices; a solver solves for the unknowns of tied().
-  void tie(const Ties& ties);
+  /// Constrains vertices and makes polygons of triangles; call it after
+  /// update() and update_bending(). Constraints of before are removed, and so
+  /// are polygons that `ties` no longer has; the others stay as they are.
+  /// Forces, energies and the matrix remain those of all vertices; a solver
+  /// solves for the unknowns of tied(). Vertices inside polygons are no
+  /// unknowns: they have no mass and are held, and follow() moves them. \pre
+  /// `sheet` is that of the last update().
+  void tie(const Sheet& sheet, const Ties& ties);
+  /// Gives the vertices inside polygons their values, positions or velocities.
+  void follow(Field& x) const;
 
   std::size_t vertices() const { return static_cast<std::size_t>(mass_.size()); }  ///< slots of the opened sheet
   /// Positions of the sheet's vertices, m.
   Field positions(const Sheet& sheet) const;
 
-  // --- of a state ----------------------------------------------------------------------------------------------------
-  void rotate(const Field& x);  ///< the deformation of every element; the functions below refer to this x
+  // --- of a state
+  // ----------------------------------------------------------------------------------------------------
+  void rotate(const Field& x);  ///< the deformation of every element; the
+                                ///< functions below refer to this x
   /// f += internal forces, of membrane and bending, N. \pre rotate(x).
   void add_internal_force(const Field& x, Field& f) const;
-  /// y += h (internal forces at x) - factor A v, with A of the last assemble(). Faster than one by one: bending, which
-  /// is linear, is in both. \pre rotate(x).
+  /// y += h (internal forces at x) - factor A v, with A of the last assemble().
+  /// Faster than one by one: bending, which is linear, is in both. \pre
+  /// rotate(x).
   void add_impulse(double h, const Field& x, double factor, const Field& v, Field& y);
   void add_external_force(Field& f) const { f += external_; }
-  /// A = mass_factor M + stiffness_factor K, with K the tangent at the rotated state. \pre rotate().
+  /// A = mass_factor M + stiffness_factor K, with K the tangent at the rotated
+  /// state. \pre rotate().
   void assemble(double mass_factor, double stiffness_factor);
   /// Of the last assemble(). Refers to this model.
   SystemMatrix<D> system() const;
@@ -58,19 +71,23 @@ class Model {
   void add_mass_product(double factor, const Field& x, Field& y) const;
   Energy energy(const Field& x, const Field& v) const;  ///< \pre rotate(x)
 
-  // --- of the model --------------------------------------------------------------------------------------------------
+  // --- of the model
+  // --------------------------------------------------------------------------------------------------
   const ElementTable& elements() const { return elements_; }
   const Incidence& incidence() const { return incidence_; }
   const BlockMatrix<D>& blocks() const { return blocks_; }
   const Bending* bending() const { return bending_ ? &*bending_ : nullptr; }
-  Deformation<D> deformation(std::size_t element) const { return membrane_.deformation(element); }
+  Deformation<D> deformation(std::size_t element) const { return membrane_.deformation(elements_, element); }
+  std::vector<Polygon> polygons() const;
   const Field& lumped_mass() const { return mass_; }               ///< kg, per vertex
   const Field& external_force() const { return external_; }        ///< N
   const std::vector<std::uint8_t>& held() const { return held_; }  ///< per unknown; those of freed slots are, too
-  /// Pieces no unknown of which is held: they have no equilibrium. Looks at everything.
+  /// Pieces no unknown of which is held: they have no equilibrium. Looks at
+  /// everything.
   std::size_t unheld_pieces() const;
   bool pinned(std::size_t unknown) const { return pin_of_[unknown] >= 0; }
-  /// How far from its initial place a held unknown is to be at a time, m. \pre pinned(unknown).
+  /// How far from its initial place a held unknown is to be at a time, m. \pre
+  /// pinned(unknown).
   double held_displacement(std::size_t unknown, double time) const;
   double held_velocity(std::size_t unknown) const;  ///< m/s
   const Material& material() const { return material_; }
@@ -80,9 +97,13 @@ class Model {
   void resize(const Sheet& sheet);
   void refresh_vertices(const Sheet& sheet);
   void refresh_row(std::size_t v);
+  void set_polygon_slots(std::size_t v);
   void refresh_mass(std::size_t v);
   void refresh_loads(const Sheet& sheet, std::size_t v);
-  void mark(const std::array<DeformedIndex, 3>& vertices);
+  void begin_marking();
+  void mark(std::span<const DeformedIndex> vertices);
+  void merge(const Sheet& sheet, std::span<const Polygon> polygons);
+  void dissolve(std::size_t polygon);
 
   Material material_;
   Physics physics_;
@@ -90,7 +111,8 @@ class Model {
   std::vector<Traction> tractions_;
 
   ElementTable elements_;
-  Incidence incidence_;
+  Incidence incidence_;                    // of all triangles
+  GrowingRows<std::int32_t> polygons_of_;  // per vertex: those of which it is a corner
   BlockMatrix<D> blocks_;
   MembraneSheet<D> membrane_;
   std::optional<Bending> bending_;
@@ -99,15 +121,17 @@ class Model {
   double mass_factor_ = 0, stiffness_factor_ = 0;  // of the last assemble()
   Field mass_, external_;
   std::vector<std::uint8_t> held_;
-  std::vector<std::int16_t> pin_of_;  // per unknown: the first pin that holds it, -1 where there is none
+  std::vector<std::int16_t> pin_of_;  // per unknown: the first pin that holds
+                                      // it, -1 where there is none
   std::vector<Point2> places_;        // per vertex, in rest space
   PatternHistory history_;            // of the system
   // Working storage of update().
   std::vector<std::uint32_t> marked_in_;
   std::uint32_t round_ = 0;
   std::vector<std::size_t> marked_;  // vertices whose rows change
-  std::vector<std::int32_t> columns_;
-  std::vector<Lanes> velocity_, bent_;  // of add_impulse(), per vertex
+  std::vector<std::int32_t> columns_, polygon_slots_;
+  std::vector<TriangleIndex> regrouped_;  // joined or left a polygon, and bending does not know it yet
+  std::vector<Lanes> velocity_, bent_;    // of add_impulse(), per vertex
 };
 
 }  // namespace cutbench

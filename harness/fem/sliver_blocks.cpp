@@ -11,7 +11,7 @@ template <int D>
 void SliverBlocks<D>::find_groups(const ElementTable& elements) {
   joins_.clear();
   for (const Element& e : elements) {
-    if (!e.alive()) continue;
+    if (!e.is_triangle()) continue;
     // |gradient| = opposite edge / (2 area), so AR = longest edge^2 / (2 area) = 2 area (largest |gradient|)^2.
     const std::array<double, 3> squared{squared_length(e.gradient[0]), squared_length(e.gradient[1]),
                                         squared_length(e.gradient[2])};

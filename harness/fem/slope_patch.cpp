@@ -7,11 +7,13 @@ namespace cutbench {
 
 namespace {
 
-// Smallest singular value of the quadratic part over the size of its columns. Below the first the patch widens; where
-// it can't, below the second that part of the Hessian is taken to be zero.
+// Smallest singular value of the quadratic part over the size of its columns.
+// Below the first the patch widens; where it can't, below the second that part
+// of the Hessian is taken to be zero.
 constexpr double good_fit = 0.02, some_fit = 1e-3;
 
-// A column that is less than this part of the quadratic ones, once the columns before it are taken out, is zero.
+// A column that is less than this part of the quadratic ones, once the columns
+// before it are taken out, is zero.
 constexpr double round_off = 1e-14;
 
 // Columns that keep this part are orthogonal to 1e-14 after one pass.
@@ -35,10 +37,29 @@ void SlopePatch::begin(const Sheet& sheet, TriangleIndex t) {
     add(sheet.triangle(t).deformed[k], c[k] - centre_);
     windows_.push_back({half_edge(t, static_cast<int>(k)), c[k] - centre_, c[(k + 1) % 3] - centre_});
   }
+  own_ = 3;
+}
+
+void SlopePatch::begin(const Sheet& sheet, const PolygonElement& element) {
+  terms_.clear(), offset_.clear(), windows_.clear();
+  const auto& corners = element.polygon.corners;
+  centre_ = sheet.rest(sheet.rest_vertex(corners[0])) - element.offset[0];
+  for (std::size_t i = 0; i < corners.size(); ++i) add(corners[i], element.offset[i]);
+  own_ = offset_.size();
+  const auto belongs = [&](TriangleIndex t) {
+    return std::binary_search(element.polygon.triangles.begin(), element.polygon.triangles.end(), t);
+  };
+  for (const TriangleIndex t : element.polygon.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const HalfEdge h = half_edge(t, k);
+      if (sheet.separates(h) || belongs(triangle_of(sheet.opposite(h)))) continue;
+      const Point2 right = sheet.rest(sheet.origin(h)) - centre_, left = sheet.rest(sheet.target(h)) - centre_;
+      if (cross(right, left) > 0) windows_.push_back({h, right, left});
+    }
 }
 
 /// Takes in the triangles behind the windows; false where there is none.
-bool SlopePatch::widen(const Sheet& sheet, bool first) {
+bool SlopePatch::widen(const Sheet& sheet, const ElementTable* elements, bool first) {
   next_windows_.clear();
   bool any = false;
   for (const auto& [edge, right, left] : windows_) {
@@ -49,8 +70,10 @@ bool SlopePatch::widen(const Sheet& sheet, bool first) {
     const Point2 far = sheet.rest(sheet.origin(from_far)) - centre_;
     const bool left_of_right = cross(right, far) > 0, right_of_left = cross(far, left) > 0;
     const bool seen = left_of_right && right_of_left;
-    if (seen || first)
-      add(sheet.triangle(triangle_of(from_far)).deformed[static_cast<std::size_t>(corner_of(from_far))], far);
+    const DeformedIndex vertex =
+        sheet.triangle(triangle_of(from_far)).deformed[static_cast<std::size_t>(corner_of(from_far))];
+    const bool is_unknown = !elements || !elements->is_inside(triangle_of(from_far), vertex);
+    if ((seen || first) && is_unknown) add(vertex, far);
     if (left_of_right) next_windows_.push_back({from_right, right, seen ? far : left});
     if (right_of_left) next_windows_.push_back({from_far, seen ? far : right, left});
   }
@@ -58,20 +81,22 @@ bool SlopePatch::widen(const Sheet& sheet, bool first) {
   return any;
 }
 
-/// Gram and Schmidt, twice where a column loses digits in the first pass. The linear columns come first, so that linear
-/// functions come out exact whatever is left out of the quadratic ones.
+/// Gram and Schmidt, twice where a column loses digits in the first pass. The
+/// linear columns come first, so that linear functions come out exact whatever
+/// is left out of the quadratic ones.
 void SlopePatch::factorise() {
   const std::size_t n = offset_.size();
   double sum = 0, corners = 0;
   for (std::size_t i = 0; i < n; ++i) {
     sum += squared_length(offset_[i]);
-    if (i == 2) corners = sum / 3;
+    if (i + 1 == own_) corners = sum / static_cast<double>(own_);
   }
   scale_ = std::sqrt(sum / static_cast<double>(n));
   reference_ = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const Point2 p = 1 / scale_ * offset_[i];
-    // Near points count more, by the square of their distance: then a quadratic weighs alike at all distances.
+    // Near points count more, by the square of their distance: then a quadratic
+    // weighs alike at all distances.
     const double w = weight_[i] = scale_ * scale_ / (squared_length(offset_[i]) + corners);
     orthogonal_[i] = {w, w * p.x, w * p.y, w * p.x * p.x / 2, w * p.x * p.y * M_SQRT1_2, w * p.y * p.y / 2, 0, 0};
     for (std::size_t j = 3; j < 6; ++j) reference_ += orthogonal_[i][j] * orthogonal_[i][j];
@@ -108,8 +133,8 @@ void SlopePatch::factorise() {
   }
 }
 
-/// Inverts the quadratic part, if it is far enough from singular: its smallest singular value is within 1 and sqrt(3)
-/// times 1 / |inverse|.
+/// Inverts the quadratic part, if it is far enough from singular: its smallest
+/// singular value is within 1 and sqrt(3) times 1 / |inverse|.
 bool SlopePatch::tells_quadratics() {
   const auto& r = upper_;
   if (terms_.size() < 6 || !(std::min({r[3][3], r[4][4], r[5][5]}) > good_fit * reference_)) return false;
@@ -118,7 +143,8 @@ bool SlopePatch::tells_quadratics() {
   return inverse_.norm() * good_fit * reference_ < 1;
 }
 
-/// Pseudo-inverse of the quadratic part, by one-sided Jacobi rotations (Hestenes 1958).
+/// Pseudo-inverse of the quadratic part, by one-sided Jacobi rotations
+/// (Hestenes 1958).
 void SlopePatch::invert_what_is_known() {
   Eigen::Matrix3d a = Eigen::Matrix3d::Zero(), turn = Eigen::Matrix3d::Identity();
   for (std::size_t i = 0; i < 3; ++i)
@@ -149,7 +175,7 @@ void SlopePatch::invert_what_is_known() {
       inverse_ += turn.col(j) * a.col(j).transpose() / (s * s);
 }
 
-void SlopePatch::write_terms(const std::array<Point2, 3>& corners) {
+std::span<const StencilTerm> SlopePatch::terms(const std::array<Point2, 3>& corners) {
   std::array<std::array<double, 6>, 3> row;  // of the slope at side k, over the orthogonal columns
   for (std::size_t k = 0; k < 3; ++k) {
     const Point2 a = corners[k] - centre_, b = corners[(k + 1) % 3] - centre_, side = b - a;
@@ -175,12 +201,17 @@ void SlopePatch::write_terms(const std::array<Point2, 3>& corners) {
       for (std::size_t j = 1; j < 6; ++j) sum += row[k][j] * orthogonal_[i][j];
       terms_[i].factor[k] = weight_[i] * sum;
     }
+  return terms_;
 }
 
-int SlopePatch::fit(const Sheet& sheet, TriangleIndex t) {
-  begin(sheet, t);
+int SlopePatch::fit(const Sheet& sheet, const ElementTable* elements, TriangleIndex t) {
+  const std::int32_t polygon = elements ? (*elements)[t()].polygon : -1;
+  if (polygon < 0)
+    begin(sheet, t);
+  else
+    begin(sheet, elements->polygon(static_cast<std::size_t>(polygon)));
   int reach = 1;
-  for (bool more = widen(sheet, true);; more = widen(sheet, false), ++reach) {
+  for (bool more = widen(sheet, elements, true);; more = widen(sheet, elements, false), ++reach) {
     const bool last = !more || reach == max_reach;
     if (!last && terms_.size() < 6) continue;
     factorise();
@@ -189,7 +220,6 @@ int SlopePatch::fit(const Sheet& sheet, TriangleIndex t) {
     invert_what_is_known();
     break;
   }
-  write_terms(sheet.corners(t));
   return reach;
 }
 

@@ -73,6 +73,7 @@ StepReport Stepper<D>::step(Model<D>& model, State& state) {
     state.x[k] = state.anchor[k] + model.held_displacement(i, state.time);  // exactly, so that rounding can't add up
     state.v[k] = options_.integrator == Integrator::equilibrium ? 0 : model.held_velocity(i);
   }
+  model.follow(state.x), model.follow(state.v);
   if (!state.x.allFinite() || !state.v.allFinite()) report.verdict = "not_finite", report.reason = "the state";
   return report;
 }

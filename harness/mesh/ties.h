@@ -1,6 +1,6 @@
 // Constraints on the vertices of an opened sheet: how a method can improve the finite elements without changing the
 // geometry. x = C q has a row of C for each vertex; the unknowns q have the system C^T K C, C^T M C, C^T f
-// (harness/fem/combination.h).
+// (harness/fem/combination.h). Or triangles that are one element together, a polygon (harness/fem/polygon_element.h).
 #pragma once
 
 #include <array>
@@ -29,12 +29,22 @@ struct GhostEdge {
   double stiffness, mass;      ///< length^2, length^4
 };
 
+/// Triangles of the opened sheet that are one element. Its boundary is one closed line that meets no vertex of the
+/// opened sheet twice; an incision may run into it as a slit, each lip with vertices of its own.
+struct Polygon {
+  std::vector<DeformedIndex> corners;    ///< along the boundary, counter-clockwise; three or more
+  std::vector<TriangleIndex> triangles;  ///< two or more
+  std::vector<DeformedIndex> inside;     ///< the other vertices of the triangles: no unknowns, they go along
+  bool operator==(const Polygon&) const = default;
+};
+
 struct Ties {
-  std::vector<Tie> ties;     ///< each vertex once
-  std::size_t phantoms = 0;  ///< unknowns that are no vertex of the sheet
-  std::vector<GhostEdge> ghosts;
-  std::vector<double> lumped;  ///< the area that stands for each unknown's mass, instead of C^T M C; empty: that
-  bool empty() const { return ties.empty(); }
+  std::vector<Tie> ties = {};  ///< each vertex once
+  std::size_t phantoms = 0;    ///< unknowns that are no vertex of the sheet
+  std::vector<GhostEdge> ghosts = {};
+  std::vector<double> lumped = {};  ///< the area that stands for each unknown's mass, instead of C^T M C; empty: that
+  std::vector<Polygon> polygons = {};  ///< no triangle is in two
+  bool empty() const { return ties.empty() && polygons.empty(); }
 };
 
 }  // namespace cutbench

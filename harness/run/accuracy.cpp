@@ -200,9 +200,11 @@ class AccuracyRun {
       set_assessment(row, &cut, a, base);
       solvable = a.judgement.ok;
     }
-    if (solvable && !worker.ties.empty() && !problem.takes_ties()) {
+    const bool takes_them = (worker.ties.ties.empty() || problem.takes_ties()) &&
+                            (worker.ties.polygons.empty() || problem.takes_polygons());
+    if (solvable && !takes_them) {
       row.set("status", std::string(name_of(Status::refused)));
-      row.set("reason", std::string("vertices are tied, and the problem bends"));
+      row.set("reason", std::string("vertices are tied or triangles merged, which the problem does not take"));
       solvable = false;
     }
     answer(problem, specimen, solvable ? &worker.sheet : nullptr, worker.ties, row, yardstick);

@@ -103,13 +103,14 @@ class SceneInMotion : public Simulation {
     Elasticity elasticity{.poisson = material.poisson, .plane = scene_.physics.plane};
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     if (now_.model.tied()) return {unknown, unknown};
+    const Ties ties{.polygons = now_.model.polygons()};
     StepLimits limits;
-    limits.membrane = explicit_step_limit(largest_eigenvalue(now_.sheet, {}, elasticity), material);
+    limits.membrane = explicit_step_limit(largest_eigenvalue(now_.sheet, ties, elasticity), material);
     elasticity.bending = scene_.physics.bending;
     elasticity.bending_length2 = material.bending / material.stiffness;
     limits.with_bending = elasticity.bending == BendingKind::none
                               ? limits.membrane
-                              : explicit_step_limit(largest_eigenvalue(now_.sheet, {}, elasticity), material);
+                              : explicit_step_limit(largest_eigenvalue(now_.sheet, ties, elasticity), material);
     return limits;
   }
   Balance balance() override { return balance_of(now_.model, now_.state); }
@@ -210,7 +211,7 @@ class SceneInMotion : public Simulation {
       return;
     }
     if (verdict_.name != "ok") return;  // the first fault counts
-    const TurnedOver turned = turned_over(now_.sheet, now_.state.x, D);
+    const TurnedOver turned = turned_over(now_.sheet, now_.model.elements(), now_.state.x, D);
     const bool inverted = D == 2 ? turned.triangles > 0 : turned.area > most_turned;
     char text[96];
     std::snprintf(text, sizeof text, "%zu triangles, %.2g %% of the rest area, are turned over", turned.triangles,
@@ -318,10 +319,11 @@ class SceneInMotion : public Simulation {
       if (method.tying() == CuttingMethod::Tying::nothing) continue;
       const Ties ties = method.ties(before_cuts_, now.sheet);
       result.cut.time_us.tie += watch.lap();
-      if (ties.empty()) continue;
-      now.model.tie(ties);
-      now.model.tied()->satisfy(now.model.held(), now.state.x);  // the state of before the cut need not
-      now.model.tied()->satisfy(now.model.held(), now.state.v);
+      now.model.tie(now.sheet, ties);
+      for (Field* const field : {&now.state.x, &now.state.v}) {  // the state of before the cut need not
+        if (now.model.tied()) now.model.tied()->satisfy(now.model.held(), *field);
+        now.model.follow(*field);
+      }
       result.pattern_us += watch.lap();
     }
     if (refusal) result.cut.status = Status::refused, result.reason = *refusal;
@@ -331,6 +333,10 @@ class SceneInMotion : public Simulation {
   /// A method can't be used in this scene for what it ties; empty: it can.
   std::string why_not(CuttingMethod::Tying tying) const {
     if (tying == CuttingMethod::Tying::nothing) return {};
+    if (tying == CuttingMethod::Tying::polygons)
+      return scene_.physics.bending == BendingKind::hinges
+                 ? "the method's polygons have no hinges; set bending to patches, or to none"
+                 : "";
     if (scene_.integrator == Integrator::symplectic_euler)
       return "the method ties vertices to others, which symplectic_euler does not take; choose an implicit integrator";
     if (tying == CuttingMethod::Tying::phantoms_at_rest)

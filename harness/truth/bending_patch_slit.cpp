@@ -40,20 +40,23 @@ class BendingPatchSlit : public Problem {
   }
 
   std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
-                             const Ties&) const override {
+                             const Ties& ties) const override {
     const std::vector<int> ring = rings(sheet);
     const auto exact = [&](DeformedIndex d) { return on_cylinder(specimen, sheet.rest(sheet.rest_vertex(d))); };
     std::vector<Answer> answers;
     for (const Budget& budget : budgets) {
-      BentSheet bent(sheet, {.stiffness = 10, .poisson = 0, .bending = rigidity}, bending_, 0, [&](DeformedIndex d) {
-        const bool held = ring[d()] < held_rings;
-        return Start{exact(d), {held, held, held}};
-      });
+      BentSheet bent(
+          sheet, {.stiffness = 10, .poisson = 0, .bending = rigidity}, bending_, 0,
+          [&](DeformedIndex d) {
+            const bool held = ring[d()] < held_rings;
+            return Start{exact(d), {held, held, held}};
+          },
+          ties);
       Answer& answer = answers.emplace_back();
       if (!bent.solve_to_equilibrium(budget.solver, answer)) continue;
       double squares = 0, mass = 0, largest = 0;
       for (const DeformedIndex d : vertices_in_use(sheet)) {
-        if (bent.held(d)) continue;
+        if (bent.held(d) || bent.mass(d) == 0) continue;  // no unknown: inside a polygon
         const Point3 e = bent.position(d) + -1 * exact(d);
         const double square = e.x * e.x + e.y * e.y + e.z * e.z;
         squares += bent.mass(d) * square, mass += bent.mass(d), largest = std::max(largest, square);

@@ -37,7 +37,7 @@ class Flap : public Problem {
   }
 
   std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
-                             const Ties&) const override {
+                             const Ties& ties) const override {
     const std::vector<Point2> side = sides(sheet);
     const auto in_flap = [&](DeformedIndex d) {
       const Point2 p = to_frame(specimen, side[d()]);
@@ -54,8 +54,8 @@ class Flap : public Problem {
     std::vector<Answer> answers;
     for (const Budget& budget : budgets) {
       Answer& answer = answers.emplace_back();
-      BentSheet bent(sheet, {.density = 1, .stiffness = stiffness, .poisson = 0, .bending = 1}, bending_, weight,
-                     start);
+      BentSheet bent(sheet, {.density = 1, .stiffness = stiffness, .poisson = 0, .bending = 1}, bending_, weight, start,
+                     ties);
       if (!bent.solve_to_equilibrium(budget.solver, answer)) continue;
       double squares = 0, mass = 0, tip = 0, tip_mass = 0;
       for (const DeformedIndex d : vertices_in_use(sheet)) {

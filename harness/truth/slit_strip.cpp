@@ -37,14 +37,14 @@ class SlitStrip : public Problem {
   }
 
   std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
-                             const Ties&) const override {
+                             const Ties& ties) const override {
     const Sheet whole(specimen.mesh);
     const double depth = -elastica_.at(1).z;
     std::vector<Answer> answers;
     for (const Budget& budget : budgets) {
       Answer& answer = answers.emplace_back();
       Answer of_whole;
-      BentSheet slit = hung(sheet), uncut = hung(whole);
+      BentSheet slit = hung(sheet, ties), uncut = hung(whole);
       if (!slit.solve_to_equilibrium(budget.solver, answer)) continue;
       if (!uncut.solve_to_equilibrium(budget.solver, of_whole)) {
         answer.verdict = of_whole.verdict, answer.reason = "the sheet before the cut: " + of_whole.reason;
@@ -79,7 +79,7 @@ class SlitStrip : public Problem {
   static constexpr double clamp =
       0.2;  // m, held on the exact shape: three columns of vertices at n = 10, as no fewer will do
 
-  BentSheet hung(const Sheet& sheet) const {
+  BentSheet hung(const Sheet& sheet, const Ties& ties = {}) const {
     return {sheet,
             {.density = 1, .stiffness = stiffness, .poisson = 0, .bending = 1},
             bending_,
@@ -89,7 +89,8 @@ class SlitStrip : public Problem {
               const HeavyElastica::Section s = elastica_.at(rest.x);
               const bool held = rest.x <= clamp;
               return Start{{s.x, rest.y, s.z}, {held, held, held}};
-            }};
+            },
+            ties};
   }
 
   /// Mean depth of the free end, x = 1, between two rest y.

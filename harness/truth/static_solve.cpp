@@ -29,12 +29,11 @@ std::array<DeformedIndex, 2> ends(const Sheet& sheet, HalfEdge h) {
 }  // namespace
 
 StaticSolve::StaticSolve(const Sheet& sheet, const Elastic& elastic, const Ties& ties)
-    : sheet_(sheet),
-      model_(sheet, {.stiffness = elastic.young, .poisson = elastic.poisson}, in_the_plane, {}, {}),
-      held_(model_.held()),
-      given_(Field::Zero(static_cast<Eigen::Index>(held_.size()))),
-      force_(given_) {
-  if (!ties.empty()) tied_.emplace(ties, model_.vertices());
+    : sheet_(sheet), model_(sheet, {.stiffness = elastic.young, .poisson = elastic.poisson}, in_the_plane, {}, {}) {
+  if (!ties.polygons.empty()) model_.tie(sheet, {.polygons = ties.polygons});
+  if (!ties.ties.empty()) tied_.emplace(ties, model_.vertices());
+  held_ = model_.held();
+  given_ = force_ = Field::Zero(static_cast<Eigen::Index>(held_.size()));
 }
 
 void StaticSolve::hold_border(const std::function<Eigen::Vector2d(Point2, Point2)>& value) {
@@ -84,6 +83,8 @@ void StaticSolve::hold_loose_pieces() {
     if (held) continue;
     for (const std::size_t v : piece) loose_[v] = held_[2 * v] = held_[2 * v + 1] = 1;
   }
+  for (const Polygon& polygon : model_.polygons())
+    for (const DeformedIndex d : polygon.inside) loose_[d()] = loose_[polygon.corners.front()()];
 }
 
 SystemMatrix<2> StaticSolve::held_system() const {
@@ -126,6 +127,7 @@ StaticSolve::Solution StaticSolve::solve(const Budget& budget) {
     tied_->expand(unknowns, solution.displacement);
   }
   solution.displacement += given_;
+  model_.follow(solution.displacement);
 
   answer.assemble_us = assemble_us_;
   answer.iterations = report.iterations, answer.residual = report.residual;

@@ -34,6 +34,15 @@ Eigen::Matrix2d displacement_gradient(const Element& element, const Field& displ
   return gradient;
 }
 
+LinearDisplacement displacement_in(const ElementTable& elements, std::size_t triangle, const Field& displacement) {
+  const Element& element = elements[triangle];
+  if (element.is_triangle())
+    return {displacement.segment<2>(2 * element.vertex[0].value), displacement_gradient(element, displacement)};
+  const PolygonElement& polygon = elements.polygon(static_cast<std::size_t>(element.polygon));
+  const LinearMap<2> map = polygon.map<2>(displacement);
+  return {map.at(polygon.offset_of(element.vertex[0])), map.gradient};
+}
+
 std::array<Mode, 2> williams_modes(const Elastic& elastic, const Tip& tip) {
   const auto mode = [&](const StressIntensity& k) { return Mode{williams_field(elastic, {tip.at, tip.angle}, k), k}; };
   return {mode({1, 0}), mode({0, 1})};
@@ -86,8 +95,7 @@ InteractionIntegral::InteractionIntegral(const Sheet& sheet, const ElementTable&
 StressIntensity InteractionIntegral::of(const ElementTable& elements, const Field& displacement) const {
   Eigen::Vector2d sum(0, 0);
   for (const auto& [element, mode] : weights_) {
-    const Eigen::Matrix2d gradient = displacement_gradient(elements[element], displacement);
-    const Eigen::Vector2d corner = displacement.segment<2>(2 * elements[element].vertex[0].value);
+    const auto [corner, gradient] = displacement_in(elements, element, displacement);
     for (std::size_t m = 0; m < 2; ++m)
       sum[static_cast<Eigen::Index>(m)] += mode[m].gradient.cwiseProduct(gradient).sum() + mode[m].corner.dot(corner);
   }

@@ -33,6 +33,12 @@ struct Ring {
 
 /// d u_i / d x_j in an element. \pre displacement has two values per slot.
 Eigen::Matrix2d displacement_gradient(const Element& element, const Field& displacement);
+/// The displacement in a triangle: its own linear field, or that of the polygon of which it is a member.
+struct LinearDisplacement {
+  Eigen::Vector2d at_corner;  ///< 0
+  Eigen::Matrix2d gradient;
+};
+LinearDisplacement displacement_in(const ElementTable& elements, std::size_t triangle, const Field& displacement);
 
 /// Domain form of the interaction integral (Yau, Wang and Corten 1980; Shih and Asaro 1988), in the frame of the
 /// requested curve, whatever edges a method opened:

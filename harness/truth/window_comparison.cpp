@@ -65,7 +65,7 @@ void WindowComparison::find_rim() {
 }
 
 Eigen::Matrix2d WindowComparison::stress(std::size_t element, const Field& displacement) const {
-  const Eigen::Matrix2d gradient = displacement_gradient(solve_.elements()[element], displacement);
+  const Eigen::Matrix2d gradient = displacement_in(solve_.elements(), element, displacement).gradient;
   return field_.elastic().stress((gradient + gradient.transpose()) / 2);
 }
 
@@ -75,9 +75,9 @@ WindowComparison::Sums WindowComparison::sum(const Field& displacement) const {
   std::size_t next = 0;
   for (const auto& [e, end] : elements_) {
     const Element& element = solve_.elements()[e];
-    const Eigen::Matrix2d gradient = displacement_gradient(element, displacement), here = stress(e, displacement);
+    const auto [first, gradient] = displacement_in(solve_.elements(), e, displacement);
+    const Eigen::Matrix2d here = field_.elastic().stress((gradient + gradient.transpose()) / 2);
     sums.energy += element.material_area() / 2 * here.cwiseProduct(gradient).sum();
-    const Eigen::Vector2d first = displacement.segment<2>(2 * element.vertex[0].value);
     for (; next < end; ++next) {
       const auto& [from_corner, weight, exact, moved] = samples_[next];
       const Eigen::Matrix2d off = exact - here;

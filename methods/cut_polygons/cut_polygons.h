@@ -1,0 +1,43 @@
+// Cut polygons: thin parts of crossed triangles and their neighbours are one finite element together, a polygon.
+//
+// How it works: the cut is that of conventional_split, incision and triangles alike. For the physics the thin triangles
+// that it made are merged with their neighbours on their own side of the incision (methods/tools/thin_parts.h). Each
+// polygon is a virtual element of lowest order (harness/fem/polygon_element.h, polygon_sheet.h): one deformation
+// gradient, one rotation, a stabilisation, and a mass of area / k at each of its k corners, so the mass stays diagonal
+// and the method is one for explicit integrators, too. Vertices that come to lie inside a polygon are no unknowns; they
+// go along with its linear map. Triangles that are not thin stay what they are.
+//  - A tip inside a triangle: the triangles round it are merged as any others, so that a polygon may reach round the
+//    tip, with the incision as a slit. Its gradient is then the mean over both sides, and how the slit gapes inside it
+//    is left to the stabilisation.
+//  - A second cut divides the triangles, and the polygons are made anew from all that cuts made; those far from it come
+//    out as before, and what is kept of them stays.
+//
+// Source: CutVEM (Rangarajan and Sukumar, arXiv 2508.10570, 2025), for fields on fixed meshes; Beirao da Veiga, Brezzi,
+// Cangiani, Manzini, Marini and Russo, M3AS 23 (2013), for the element.
+// Promises: the exact path, area, conforming, no vertex moved; an affine displacement is reproduced exactly.
+// Where it fails: strips between cuts, and pieces smaller than a triangle, stay as thin as they are. The field in a
+// polygon is coarser than that in the triangles that it replaces. The corners' masses keep the mass of a polygon, but
+// not its centre. The triangles stay ill-shaped for every other use, and those inside a polygon may turn over in space
+// where the polygon does not.
+#pragma once
+
+#include "harness/cut/cutting_method.h"
+
+namespace cutbench {
+
+class CutPolygons : public CuttingMethod {
+ public:
+  struct Options {
+    double thinness = 0.7;  ///< of a part, over the triangle that it is of (thin_parts.h); 0: nothing is merged
+  };
+  explicit CutPolygons(const Options& options) : options_(options) {}
+
+  void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
+  Tying tying() const override { return options_.thinness > 0 ? Tying::polygons : Tying::nothing; }
+  Ties ties(const Sheet& before, const Sheet& cut) const override;
+
+ private:
+  Options options_;
+};
+
+}  // namespace cutbench

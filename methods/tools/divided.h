@@ -1,0 +1,20 @@
+// The triangles that cuts made, found from the vertices that they made: at a cost that does not grow with the sheet.
+#pragma once
+
+#include <vector>
+
+#include "harness/mesh/sheet.h"
+
+namespace cutbench {
+
+struct DividedTriangle {
+  TriangleIndex part;    ///< of the sheet that was cut
+  TriangleIndex parent;  ///< of the sheet before its first cut: it holds the part's centroid
+};
+
+/// The triangles of `cut` that are new, in the order of their slots: those with a vertex that `before` has not. Free for
+/// a sheet of which no cut has freed a vertex, else it looks at all vertices.
+/// \param before  the sheet before its first cut, of which `cut` is a copy that was divided, but not changed otherwise
+std::vector<DividedTriangle> divided_triangles(const Sheet& before, const Sheet& cut);
+
+}  // namespace cutbench

@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""Remedies for thin triangles: the largest eigenvalue that each leaves (results/remedies) against the error of its solutions
+(results/remedies_accuracy), and a table of both."""
+
+import numpy as np
+from matplotlib.lines import Line2D
+
+from accuracy_parts.ranking import at_equal_unknowns, made_by_all, mean_excess
+from accuracy_parts.records import Records
+from common import load, style
+from common.load import of
+
+STEM = "remedies"
+KINDS = {  # colour, marker, and the methods whose remedy is of this kind
+    "the mesh": ("#0072b2", "s", ["snap_or_split", "edge_release", "warp_and_refine", "delaunay_refine"]),
+    "the unknowns": ("#d55e00", "o", ["cut_polygons", "split_and_tie", "phantom_node", "ablation:warp+thin:tie"]),
+    "the mass": ("#009e73", "^", ["phantom_node:lumped_mass"]),
+    "nothing": ("#444444", "D", ["conventional_split"]),
+}
+NAMES = {"ablation:warp+thin:tie": "warp + thin + tie", "phantom_node:lumped_mass": "phantom node, lumped mass"}
+
+
+def kind_of(method):
+    return next(kind for kind, (_, _, methods) in KINDS.items() if method in methods)
+
+
+def label(method, knob):
+    several = method == "phantom_node"
+    return NAMES.get(method, method.replace("_", " ")) + (f", {knob}" if several else "")
+
+
+def errors(folder):
+    """Excess error in percent, by (method, knob): over a fitted mesh of as many unknowns, of the cases that no method
+    failed, solved directly, and after 100 iterations over one of as many triangles."""
+    records = at_equal_unknowns(Records(folder)).ranked()
+    common = made_by_all(records.table)
+    found = {}
+    for variant in records.methods:
+        made = of(common, variant)
+        found[variant] = [mean_excess(made[made["direct"]], "ratio_equal"), mean_excess(made[~made["direct"]], "ratio")]
+    return found
+
+
+def rows_of(run, excess):
+    cuts = run.rows[run.rows["eigenvalue_ratio"].notna()]
+    rows = []
+    for (method, knob), here in cuts.groupby(["method", "knob"], sort=False):
+        ratio, bends = here["eigenvalue_ratio"], here["bending_eigenvalue_ratio"]
+        single = ratio[here["cut_family"] != "several"]
+        per_crossed = (here["geometry_us"] / here["crossed_triangles"]).median()
+        rows.append([method, knob, *np.quantile(ratio, [0.5, 0.95, 1]), *np.quantile(single, [0.95, 1]),
+                     bends.median(), bends.quantile(0.95), *excess[method, knob], per_crossed])
+    return sorted(rows, key=lambda r: r[2])
+
+
+def place_names(ax, rows):
+    """Each name beside its marker, moved up or down until it covers no other."""
+    ax.figure.draw_without_rendering()
+    taken = []
+    for row in sorted(rows, key=lambda r: r[7]):
+        text = ax.annotate(label(row[0], row[1]), (row[2], row[7]), xytext=(4, 3), textcoords="offset points", fontsize=5.4)
+        for step in (0, 6, -8, 12, -14, 18, -20):
+            text.set_position((4, 3 + step))
+            box = text.get_window_extent()
+            if not any(box.overlaps(other) for other in taken):
+                break
+        taken.append(box)
+
+
+def figure_of(run, rows):
+    figure, axes = style.panels(1, 1, 8, width=style.PAGE * 0.75)
+    ax = axes[0, 0]
+    ax.set_xscale("log")
+    for row in rows:
+        colour, marker, _ = KINDS[kind_of(row[0])]
+        ax.plot([row[2], row[3]], [row[7], row[7]], color=colour, linewidth=0.8, alpha=0.6)
+        ax.plot(row[2], row[7], marker=marker, color=colour, markersize=4.5, markeredgecolor="white", markeredgewidth=0.3)
+    ax.axhline(0, color="#888888", linewidth=0.6, linestyle="--")
+    ax.set_xlabel("largest eigenvalue / that of the uncut sheet: median, line to 95 %")
+    ax.set_ylabel("error over that of a fitted mesh of as many unknowns, - 1 (%)")
+    place_names(ax, rows)
+    kinds = [Line2D([], [], color=colour, marker=marker, linestyle="none", markersize=4, label=f"changes {kind}")
+             for kind, (colour, marker, _) in KINDS.items()]
+    style.finish(figure, [], " ".join([
+        "Left and low is good. Eigenvalues: of single and several cuts. Errors: geometric means over the plane problems with "
+        "exact answers, solved directly.", style.provenance(run, run.rows, with_crosses=False)]), kinds)
+    return figure
+
+
+def main():
+    folder = load.results_folder(STEM, __doc__)
+    run = load.read(folder, ["eigenvalue_ratio", "bending_eigenvalue_ratio", "geometry_us", "crossed_triangles"])
+    rows = rows_of(run.first_repetition(), errors(folder.with_name("remedies_accuracy")))
+    style.save(figure_of(run.first_repetition(), rows), folder, STEM)
+    names = ["method", "eigenvalue, median", "95 %", "worst", "95 %, without several", "worst", "with bending", "95 %",
+             "error %, equal unknowns", "error %, 100 CG", "us"]
+    load.print_table("Remedies: eigenvalues over the uncut sheet's, errors over a fitted mesh's, warm geometry per crossed "
+                     "triangle", names, [[label(r[0], r[1]), *r[2:]] for r in rows])
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,447 @@
+// Polygons of triangles as finite elements: the polygons that the method makes, the element, the sheet's model with
+// them, bending, motion and solvers.
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "harness/cases/cut_families.h"
+#include "harness/fem/largest_eigenvalue.h"
+#include "harness/fem/stepper.h"
+#include "harness/mesh/families.h"
+#include "harness/mesh/predicates.h"
+#include "methods/tools/divided.h"
+#include "tests/dense_solves.h"
+#include "tests/fem_helpers.h"
+#include "tests/helpers.h"
+#include "tests/truth_helpers.h"
+
+namespace cutbench {
+namespace {
+
+const std::vector<std::string> cuts_to_make{"straight",      "curved",           "partial",    "cut_out",
+                                            "recut",         "several",          "u_turn",     "tiny_loop",
+                                            "self_crossing", "through_vertices", "along_edges"};
+
+/// A sheet cut by cut_polygons.
+struct Cut {
+  Cut(const std::string& family, int n, const std::string& cuts, std::uint64_t seed, std::size_t number)
+      : before(make_sheet(family, n)), table(make_sheet(family, n), find_method("cut_polygons"), 0.7) {
+    for (const Curve& curve : make_case(cuts, seed, number, before)) EXPECT_EQ(table.cut(curve, 0.05), "");
+    ties = find_method("cut_polygons").make(0.7)->ties(before, table.sheet);
+  }
+  const Sheet& sheet() const { return table.sheet; }
+
+  Sheet before;
+  Table table;
+  Ties ties;
+};
+
+template <class Visit>
+void for_each_cut(int n, std::size_t cases, Visit visit) {
+  std::size_t turn = 0;
+  for (const std::string& cuts : cuts_to_make)
+    for (const std::string& family : families_in_turn(turn))
+      for (std::size_t i = 0; i < scaled(cases); ++i) {
+        SCOPED_TRACE(family + ", " + cuts + " " + std::to_string(i));
+        visit(Cut(family, n, cuts, 877, i));
+      }
+}
+
+/// Sides of triangles in the set that no other one in it has across an unopened edge: from a deformed vertex to the
+/// next.
+std::multimap<DeformedIndex, DeformedIndex> border_of(const Sheet& sheet, const std::set<TriangleIndex>& triangles) {
+  std::multimap<DeformedIndex, DeformedIndex> border;
+  for (const TriangleIndex t : triangles)
+    for (int k = 0; k < 3; ++k) {
+      const HalfEdge h = half_edge(t, k);
+      if (!sheet.separates(h) && triangles.contains(triangle_of(sheet.opposite(h)))) continue;
+      const auto& d = sheet.triangle(t).deformed;
+      border.emplace(d[static_cast<std::size_t>(k)], d[static_cast<std::size_t>(next_corner(k))]);
+    }
+  return border;
+}
+
+TEST(Polygons, AreConnectedWithOneBorderThatMeetsNoVertexTwice) {
+  std::size_t polygons = 0, inside = 0;
+  for_each_cut(9, 3, [&](const Cut& cut) {
+    std::set<TriangleIndex> all;
+    for (const Polygon& polygon : cut.ties.polygons) {
+      const std::set<TriangleIndex> triangles(polygon.triangles.begin(), polygon.triangles.end());
+      ASSERT_EQ(triangles.size(), polygon.triangles.size());
+      ASSERT_GE(triangles.size(), 2u);
+      for (const TriangleIndex t : triangles) EXPECT_TRUE(all.insert(t).second) << "a triangle in two polygons";
+      const auto border = border_of(cut.sheet(), triangles);
+      ASSERT_EQ(border.size(), polygon.corners.size());
+      std::set<DeformedIndex> used;
+      for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
+        const DeformedIndex from = polygon.corners[i], to = polygon.corners[(i + 1) % polygon.corners.size()];
+        ASSERT_EQ(border.count(from), 1u);
+        EXPECT_EQ(border.find(from)->second, to);
+        EXPECT_TRUE(used.insert(from).second);
+      }
+      // By Euler's formula a disc of T triangles, B of whose sides are on its border, has (T - B + 2) / 2 vertices
+      // inside.
+      EXPECT_EQ(2 * polygon.inside.size(), triangles.size() + 2 - border.size());
+      for (const DeformedIndex d : polygon.inside) {
+        EXPECT_FALSE(used.contains(d));
+        for (std::size_t t = 0; t < cut.sheet().triangle_slots(); ++t)
+          for (const DeformedIndex corner : cut.sheet().triangle(TriangleIndex(t)).deformed) {
+            const bool is_there = cut.sheet().triangle(TriangleIndex(t)).alive() && corner == d;
+            EXPECT_TRUE(!is_there || triangles.contains(TriangleIndex(t)));
+          }
+      }
+      inside += polygon.inside.size();
+    }
+    polygons += cut.ties.polygons.size();
+  });
+  EXPECT_GT(polygons, scaled(500));
+  EXPECT_GT(inside, scaled(5));
+}
+
+/// Against a look at every triangle of the sheet before.
+TEST(Polygons, DividedTrianglesLieInTheirParents) {
+  for_each_cut(7, 1, [&](const Cut& cut) {
+    std::set<TriangleIndex> parts;
+    for (const auto& [part, parent] : divided_triangles(cut.before, cut.sheet())) {
+      parts.insert(part);
+      const auto c = cut.sheet().corners(part);
+      const Point2 centroid = 1.0 / 3 * (c[0] + c[1] + c[2]);
+      TriangleIndex holder;
+      for (std::size_t t = 0; t < cut.before.triangle_slots(); ++t) {
+        const auto p = cut.before.corners(TriangleIndex(t));
+        if (orientation(p[0], p[1], centroid) > 0 && orientation(p[1], p[2], centroid) > 0 &&
+            orientation(p[2], p[0], centroid) > 0)
+          holder = TriangleIndex(t);
+      }
+      if (holder.valid()) {  // not a sliver on an edge
+        EXPECT_EQ(parent, holder);
+      }
+    }
+    for (std::size_t t = 0; t < cut.sheet().triangle_slots(); ++t) {
+      const Triangle& triangle = cut.sheet().triangle(TriangleIndex(t));
+      const bool was_there =
+          t < cut.before.triangle_slots() && cut.before.triangle(TriangleIndex(t)).vertex == triangle.vertex;
+      if (triangle.alive() && !was_there) {
+        EXPECT_TRUE(parts.contains(TriangleIndex(t)));
+      }
+    }
+  });
+}
+
+/// What is attached to a vertex keeps it out of polygons.
+TEST(Polygons, HoldNoHeldVertexInside) {
+  std::size_t free_inside = 0;
+  for (std::size_t i = 0; i < scaled(20); ++i) {
+    Sheet before(make_sheet("grid", 9)), held = before;
+    for (std::size_t v = 0; v < held.vertex_slots(); ++v) held.hold(VertexIndex(v));
+    for (const bool holds : {false, true}) {
+      Sheet sheet = holds ? held : before;
+      Locator locator(sheet);
+      const auto method = find_method("cut_polygons").make(0.7);
+      for (const Curve& curve : make_case("several", 31, i, sheet)) Cutter().cut(sheet, locator, curve, *method, {});
+      for (const Polygon& polygon : method->ties(holds ? held : before, sheet).polygons)
+        for (const DeformedIndex d : polygon.inside) {
+          EXPECT_FALSE(sheet.is_held(sheet.rest_vertex(d)));
+          free_inside += !holds;
+        }
+    }
+  }
+  EXPECT_GT(free_inside, 0u);
+}
+
+// --- the element -----------------------------------------------------------------------------------------------------
+
+/// The mean gradient is the integral of the field along the border, here by the trapezoidal rule side by side.
+TEST(PolygonElement, HasTheMeanGradientOfItsBorderAndDepartsFromNoLinearMap) {
+  Random random(3);
+  for_each_cut(7, 1, [&](const Cut& cut) {
+    for (const Polygon& polygon : cut.ties.polygons) {
+      const PolygonElement element(cut.sheet(), polygon);
+      double area = 0;
+      for (const TriangleIndex t : polygon.triangles) {
+        const auto c = cut.sheet().corners(t);
+        area += cross(c[1] - c[0], c[2] - c[0]) / 2;
+      }
+      EXPECT_NEAR(element.area, area, 1e-12 * area);
+      Field x = Field::Zero(static_cast<Eigen::Index>(2 * cut.sheet().deformed_slots())), affine = x;
+      for (auto& value : x) value = random.between(-1, 1);
+      Eigen::Matrix2d expected = Eigen::Matrix2d::Zero(), slope;
+      slope << 0.3, -0.7, 1.1, 0.2;
+      const auto place = [&](DeformedIndex d) {
+        const Point2 p = cut.sheet().rest(cut.sheet().rest_vertex(d));
+        return Eigen::Vector2d(p.x, p.y);
+      };
+      for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
+        const DeformedIndex from = polygon.corners[i], to = polygon.corners[(i + 1) % polygon.corners.size()];
+        const Eigen::Vector2d side = place(to) - place(from);
+        expected += (x.segment<2>(2 * from.value) + x.segment<2>(2 * to.value)) / 2 *
+                    Eigen::RowVector2d(side.y(), -side.x()) / area;
+        affine.segment<2>(2 * from.value) = Eigen::Vector2d(5, 2) + slope * place(from);
+      }
+      EXPECT_LE((element.map<2>(x).gradient - expected).norm(), 1e-10 * expected.norm());
+      const LinearMap<2> map = element.map<2>(affine);
+      EXPECT_LE((map.gradient - slope).norm(), 1e-11);
+      for (const TriangleIndex t : polygon.triangles)
+        for (const DeformedIndex d : cut.sheet().triangle(t).deformed)
+          EXPECT_LE((map.at(element.offset_of(d)) - Eigen::Vector2d(5, 2) - slope * place(d)).norm(), 1e-11);
+      for (std::size_t i = 0; i < polygon.corners.size(); ++i)
+        for (Eigen::Index axis = 0; axis < 2; ++axis) {
+          double departs = 0;
+          for (std::size_t j = 0; j < polygon.corners.size(); ++j)
+            departs += element.departure(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) *
+                       affine[2 * polygon.corners[j].value + axis];
+          EXPECT_LE(std::abs(departs), 1e-11);
+        }
+    }
+  });
+}
+
+constexpr Material skin{.density = 2, .stiffness = 1000, .poisson = 0.3, .bending = 0.02};
+
+/// Forces are the slope of the energy, by differences along random directions; in space with and without bending.
+template <int D>
+void forces_are_the_slope_of_the_energy(Strain strain, BendingKind bending) {
+  const Cut cut("alternating", 6, "curved", 877, 1);
+  ASSERT_FALSE(cut.ties.polygons.empty());
+  Model<D> model(cut.sheet(), skin, {.dimension = D, .strain = strain, .bending = bending}, {}, {});
+  model.tie(cut.sheet(), cut.ties);
+  Random random(5);
+  Field x = bent(model, cut.sheet());
+  for (auto& value : x) value += random.between(-0.01, 0.01);
+  Field force = Field::Zero(x.size());
+  model.rotate(x);
+  model.add_internal_force(x, force);
+  const auto energy = [&](const Field& at) {
+    model.rotate(at);
+    const Energy e = model.energy(at, Field::Zero(at.size()));
+    return e.membrane + e.bending;
+  };
+  for (int i = 0; i < 20; ++i) {
+    Field way = Field::Zero(x.size());
+    for (std::size_t d = 0; d < model.vertices(); ++d)
+      for (int axis = 0; axis < D; ++axis)
+        if (!model.held()[D * d + static_cast<std::size_t>(axis)])
+          way[static_cast<Eigen::Index>(D * d) + axis] = random.between(-1, 1);
+    constexpr double h = 1e-6;
+    const double slope = (energy(x + h * way) - energy(x - h * way)) / (2 * h);
+    EXPECT_NEAR(-force.dot(way), slope, 1e-6 * force.norm() * way.norm());
+  }
+}
+
+TEST(PolygonSheet, ForcesAreTheSlopeOfTheEnergy) {
+  for (const Strain strain : {Strain::linear, Strain::corotational}) {
+    forces_are_the_slope_of_the_energy<2>(strain, BendingKind::none);
+    forces_are_the_slope_of_the_energy<3>(strain, BendingKind::none);
+    forces_are_the_slope_of_the_energy<3>(strain, BendingKind::patches);
+  }
+}
+
+TEST(PolygonSheet, TurningCostsNothing) {
+  for_each_cut(6, 1, [&](const Cut& cut) {
+    Model<3> model(cut.sheet(), skin, {.bending = BendingKind::patches}, {}, {});
+    model.tie(cut.sheet(), cut.ties);
+    const Eigen::AngleAxisd turn(2.1, Eigen::Vector3d(1, 2, -1).normalized());
+    Field x = model.positions(cut.sheet()), force = Field::Zero(x.size());
+    for (Eigen::Index v = 0; v < x.size(); v += 3) x.segment<3>(v) = (turn * Eigen::Vector3d(x.segment<3>(v))).eval();
+    model.rotate(x);
+    model.add_internal_force(x, force);
+    const Energy energy = model.energy(x, Field::Zero(x.size()));
+    EXPECT_LE(force.cwiseAbs().maxCoeff(), 1e-8 * skin.stiffness);
+    EXPECT_LE(energy.membrane + energy.bending, 1e-20 * skin.stiffness);
+  });
+}
+
+/// In the plane the stiffness is that of the linear forces, and has no modes of zero energy but those of rigid pieces:
+/// the stabilisation leaves none.
+TEST(PolygonSheet, StiffnessIsThatOfTheForcesAndHasThreeNullModesPerPiece) {
+  for_each_cut(4, 1, [&](const Cut& cut) {
+    Model<2> model(cut.sheet(), {.density = 1, .stiffness = 1, .poisson = 0.3},
+                   {.dimension = 2, .strain = Strain::linear, .bending = BendingKind::none}, {}, {});
+    model.tie(cut.sheet(), cut.ties);
+    const Field rest = model.positions(cut.sheet());
+    model.rotate(rest);
+    model.assemble(0, 1);
+    const Eigen::MatrixXd k = dense(model);
+    Field u = Field::Random(rest.size()), force = Field::Zero(rest.size());
+    std::size_t unknowns = 0;
+    for (std::size_t i = 0; i < model.held().size(); ++i)
+      if (model.held()[i])
+        u[static_cast<Eigen::Index>(i)] = 0;
+      else
+        ++unknowns;
+    model.rotate(rest + u);
+    model.add_internal_force(rest + u, force);
+    EXPECT_LE((k * u + force).norm(), 1e-9 * force.norm());
+    const Eigen::VectorXd lambda = eigenvalues(k);
+    const auto nulls = static_cast<std::size_t>((lambda.array() < 1e-9 * lambda.maxCoeff()).count());
+    const std::size_t left_out = model.held().size() - unknowns;
+    if (lambda.maxCoeff() < 1e5) {  // otherwise a strip or a small piece is as stiff as that
+      EXPECT_EQ(nulls, left_out + 3 * count_pieces(cut.sheet()));
+    }
+    double mass = 0;
+    for (const double m : model.lumped_mass()) mass += m;
+    EXPECT_NEAR(mass, 1, 1e-12);
+    Eigen::MatrixXd m = Eigen::MatrixXd::Identity(k.rows(), k.cols());
+    for (Eigen::Index i = 0; i < k.rows(); ++i)
+      if (model.lumped_mass()[i / 2] > 0) m(i, i) = model.lumped_mass()[i / 2];
+    const double expected = largest_mode(k, m);
+    EXPECT_NEAR(largest_eigenvalue(cut.sheet(), cut.ties), expected, 1e-3 * expected);
+  });
+}
+
+// --- the model -------------------------------------------------------------------------------------------------------
+
+/// Cut by cut, against a model made anew.
+TEST(PolygonModel, FollowsCutsAsOneMadeAnew) {
+  std::size_t turn = 0, kept = 0;
+  for (const std::string& cuts : cuts_to_make)
+    for (const std::string& family : families_in_turn(turn)) {
+      SCOPED_TRACE(family + ", " + cuts);
+      const Physics physics{.bending = BendingKind::patches, .gravity = {0, 0, -10}};
+      Body<3> body(make_sheet(family, 7), skin, physics, {{.where = {{0, 0}, {0.2, 1}}}});
+      const Sheet before = body.sheet;
+      const auto method = find_method("cut_polygons").make(0.7);
+      for (std::size_t number = 0; number < 3; ++number)
+        for (const Curve& curve : make_case(cuts, 877, number, before)) {
+          if (body.cut(curve, "cut_polygons", 0.7) != Status::ok) continue;
+          kept += body.model.polygons().size();
+          const Ties ties = method->ties(before, body.sheet);
+          body.model.tie(body.sheet, ties);
+          ASSERT_EQ(body.model.polygons().size(), ties.polygons.size());
+          Model<3> fresh = body.fresh_model();
+          fresh.tie(body.sheet, ties);
+          const Field x = bent(fresh, body.sheet);
+          for (Model<3>* const model : {&body.model, &fresh}) model->rotate(x), model->assemble(1.2, 0.1);
+          EXPECT_EQ(body.model.held(), fresh.held());
+          EXPECT_LE((body.model.lumped_mass() - fresh.lumped_mass()).cwiseAbs().maxCoeff(), 1e-15);
+          EXPECT_LE((body.model.external_force() - fresh.external_force()).cwiseAbs().maxCoeff(), 1e-13);
+          const double scale = max_entry(fresh.blocks());
+          EXPECT_LE(max_difference(body.model.blocks(), fresh.blocks()), 1e-12 * scale);
+          EXPECT_LE(max_difference(body.model.bending()->matrix(), fresh.bending()->matrix()),
+                    1e-11 * max_entry(fresh.bending()->matrix()));
+        }
+    }
+  EXPECT_GT(kept, 0u) << "polygons far from a cut stay";
+}
+
+/// Every quadratic has its exact energy, per element, wherever patches know the curvature: with polygons as without.
+TEST(PolygonBending, PassesThePatchTest) {
+  for_each_cut(12, 1, [&](const Cut& cut) {
+    const Sheet& sheet = cut.sheet();
+    if (count_pieces(sheet) > 1) return;  // a piece may be too small to know a curvature
+    ElementTable elements(sheet);
+    for (const Polygon& polygon : cut.ties.polygons) elements.add_polygon(sheet, polygon);
+    const double rigidity = 0.7, poisson = 0.3, xx = 0.4, yy = -0.3, xy = 0.5;
+    const Bending plain(sheet, BendingKind::patches, rigidity, poisson),
+        merged(sheet, BendingKind::patches, rigidity, poisson, &elements);
+    Field w = Field::Zero(static_cast<Eigen::Index>(sheet.deformed_slots()));
+    for (std::size_t d = 0; d < sheet.deformed_slots(); ++d)
+      if (const VertexIndex v = sheet.rest_vertex(DeformedIndex(d)); v.valid()) {
+        const auto [x, y] = sheet.rest(v);
+        w[static_cast<Eigen::Index>(d)] = xx * x * x / 2 + xy * x * y + yy * y * y / 2 + 0.2 * x - y;
+      }
+    const double exact =
+        rigidity / 2 * ((1 - poisson) * (xx * xx + yy * yy + 2 * xy * xy) + poisson * (xx + yy) * (xx + yy));
+    // As the triangles alone have it: exact, where no strip between cuts is too narrow to know a curvature.
+    if (std::abs(plain.energy(w, 1) - exact) > 1e-9 * exact) return;
+    EXPECT_NEAR(merged.energy(w, 1), exact, 1e-8 * exact);
+    for (const Polygon& polygon : cut.ties.polygons)
+      for (const DeformedIndex d : polygon.inside) EXPECT_TRUE(merged.matrix().columns(d()).empty());
+  });
+}
+
+TEST(PolygonBending, EigenvalueWithBendingIsFarBelowThatOfTheSplit) {
+  const Elasticity bends{.bending = BendingKind::patches, .bending_length2 = 1e-4};
+  double worst_split = 0, worst = 0;
+  for (const std::string family : sheet_families())
+    for (std::size_t i = 0; i < scaled(4); ++i) {
+      const Cut cut(family, 16, "straight", 877, i);
+      const double whole = largest_eigenvalue(cut.before, {}, bends);
+      worst_split = std::max(worst_split, largest_eigenvalue(cut.sheet(), {}, bends) / whole);
+      worst = std::max(worst, largest_eigenvalue(cut.sheet(), cut.ties, bends) / whole);
+    }
+  std::cout << "largest eigenvalue with bending: split " << worst_split << ", polygons " << worst << "\n";
+  EXPECT_LE(worst, 0.1 * worst_split);
+}
+
+/// Of the split the worst is thousands.
+TEST(CutPolygons, EigenvalueStaysNearThatOfTheUncutSheet) {
+  double worst = 0, worst_split = 0;
+  for (const std::string family : sheet_families())
+    for (const std::string cuts : {"straight", "curved", "partial"})
+      for (std::size_t i = 0; i < scaled(4); ++i) {
+        const Cut cut(family, 16, cuts, 877, i);
+        const double whole = largest_eigenvalue(cut.before);
+        worst = std::max(worst, largest_eigenvalue(cut.sheet(), cut.ties) / whole);
+        worst_split = std::max(worst_split, largest_eigenvalue(cut.sheet()) / whole);
+      }
+  std::cout << "largest eigenvalue: split " << worst_split << ", polygons " << worst << "\n";
+  EXPECT_LE(worst, 20);
+  EXPECT_GE(worst_split, 1e3);
+}
+
+// --- motion ----------------------------------------------------------------------------------------------------------
+
+/// A cut sheet that is let go falls freely by every integrator, and vertices inside polygons keep to their maps.
+TEST(CutPolygons, FallFreely) {
+  for (const Integrator integrator : {Integrator::backward_euler, Integrator::midpoint, Integrator::symplectic_euler}) {
+    const Sheet before(make_sheet("delaunay", 10));
+    Body<3> body(make_sheet("delaunay", 10), {.density = 1, .stiffness = 100, .poisson = 0.3, .bending = 1e-3},
+                 {.bending = BendingKind::patches, .gravity = {0, 0, -10}});
+    for (const Curve& cut : {line({-0.1, 0.41}, {0.6, 0.52}), line({0.3, -0.1}, {0.44, 0.8})}) {
+      ASSERT_EQ(body.cut(cut, "cut_polygons", 0.7), Status::ok);
+      body.model.tie(body.sheet, find_method("cut_polygons").make(0.7)->ties(before, body.sheet));
+    }
+    Stepper<3> stepper({.integrator = integrator, .step = 1e-3, .solver = {.name = "cholmod"}});
+    for (int i = 0; i < 20; ++i) ASSERT_EQ(stepper.step(body.model, body.state).verdict, "ok");
+    for (std::size_t d = 0; d < body.sheet.deformed_slots(); ++d)
+      if (body.sheet.rest_vertex(DeformedIndex(d)).valid()) {
+        EXPECT_NEAR(body.state.v[static_cast<Eigen::Index>(3 * d + 2)], -0.2, 1e-8);
+      }
+    Field followed = body.state.x;
+    body.model.follow(followed);
+    EXPECT_LE((followed - body.state.x).cwiseAbs().maxCoeff(), 0);
+  }
+}
+
+TEST(CutPolygons, EverySolverFindsTheSameStep) {
+  const Sheet before(make_sheet("alternating", 24));
+  std::map<std::string, Field> found;
+  for (const std::string solver : {"cholmod", "cg", "multigrid", "local_global", "eigen_ldlt"}) {
+    Body<3> body(make_sheet("alternating", 24), skin, {.bending = BendingKind::patches, .gravity = {0, 0, -10}},
+                 {{.where = {{0, 0}, {0, 1}}}});
+    Stepper<3> stepper({.step = 1.0 / 240, .solver = {.name = solver, .tolerance = 1e-9, .max_iterations = 5000}});
+    for (const Curve& cut : {line({0.2, 0.41}, {1.1, 0.52}), line({0.4, 0.2}, {0.44, 0.8})}) {
+      ASSERT_EQ(body.cut(cut, "cut_polygons", 0.7), Status::ok);
+      body.model.tie(body.sheet, find_method("cut_polygons").make(0.7)->ties(before, body.sheet));
+      for (int i = 0; i < 2; ++i) ASSERT_EQ(stepper.step(body.model, body.state).verdict, "ok") << solver;
+    }
+    found[solver] = body.state.x;
+  }
+  for (const auto& [solver, x] : found) EXPECT_LE((x - found["cholmod"]).cwiseAbs().maxCoeff(), 1e-7) << solver;
+}
+
+/// Cracks open as they do by the split, and an affine field comes through (the problem of an uncut field).
+TEST(CutPolygons, CracksOpenAsTheyDoByTheSplit) {
+  const Problem& problem = find_problem("centre_crack");
+  double worst = 0;
+  for (const std::string family : sheet_families())
+    for (std::size_t member = 0; member < scaled(4); ++member) {
+      const Specimen specimen = problem.specimen(family, 24, 877, member);
+      const Sheet before(specimen.mesh), cut = cut_by(specimen, "cut_polygons", 0.7);
+      const Ties ties = find_method("cut_polygons").make(0.7)->ties(before, cut);
+      const Budget direct;
+      const Answer merged = problem.answer(specimen, cut, {&direct, 1}, ties).front();
+      ASSERT_EQ(merged.verdict, "ok") << merged.reason;
+      const auto error = [](const Answer& answer) { return measure_of(answer, "released_energy").error; };
+      worst = std::max(worst, error(merged) / error(solved(problem, specimen, cut)));
+    }
+  std::cout << "error of released energy over that of the split, at worst: " << worst << "\n";
+  EXPECT_LE(worst, 1.5);
+}
+
+}  // namespace
+}  // namespace cutbench
