@@ -57,8 +57,8 @@ def place_names(ax, rows):
     """Each name beside its marker, moved up or down until it covers no other."""
     ax.figure.draw_without_rendering()
     taken = []
-    for row in sorted(rows, key=lambda r: r[7]):
-        text = ax.annotate(label(row[0], row[1]), (row[2], row[7]), xytext=(4, 3), textcoords="offset points", fontsize=5.4)
+    for row in sorted(rows, key=lambda r: r[9]):
+        text = ax.annotate(label(row[0], row[1]), (row[2], row[9]), xytext=(4, 3), textcoords="offset points", fontsize=5.4)
         for step in (0, 6, -8, 12, -14, 18, -20):
             text.set_position((4, 3 + step))
             box = text.get_window_extent()
@@ -73,8 +73,8 @@ def figure_of(run, rows):
     ax.set_xscale("log")
     for row in rows:
         colour, marker, _ = KINDS[kind_of(row[0])]
-        ax.plot([row[2], row[3]], [row[7], row[7]], color=colour, linewidth=0.8, alpha=0.6)
-        ax.plot(row[2], row[7], marker=marker, color=colour, markersize=4.5, markeredgecolor="white", markeredgewidth=0.3)
+        ax.plot([row[2], row[3]], [row[9], row[9]], color=colour, linewidth=0.8, alpha=0.6)
+        ax.plot(row[2], row[9], marker=marker, color=colour, markersize=4.5, markeredgecolor="white", markeredgewidth=0.3)
     ax.axhline(0, color="#888888", linewidth=0.6, linestyle="--")
     ax.set_xlabel("largest eigenvalue / that of the uncut sheet: median, line to 95 %")
     ax.set_ylabel("error over that of a fitted mesh of as many unknowns, - 1 (%)")

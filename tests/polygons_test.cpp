@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <numbers>
 #include <set>
 
 #include "harness/cases/cut_families.h"
+#include "harness/cases/mixture.h"
 #include "harness/fem/largest_eigenvalue.h"
 #include "harness/fem/stepper.h"
 #include "harness/mesh/families.h"
@@ -64,41 +64,65 @@ std::multimap<DeformedIndex, DeformedIndex> border_of(const Sheet& sheet, const 
   return border;
 }
 
-TEST(Polygons, AreConnectedWithOneBorderThatMeetsNoVertexTwice) {
+/// No triangle is in two; the corners of each go round its one border, which meets none twice; what is inside is inside.
+void expect_sound(const Sheet& sheet, const std::vector<Polygon>& polygons) {
+  std::set<TriangleIndex> all;
+  for (const Polygon& polygon : polygons) {
+    const std::set<TriangleIndex> triangles(polygon.triangles.begin(), polygon.triangles.end());
+    ASSERT_EQ(triangles.size(), polygon.triangles.size());
+    ASSERT_GE(triangles.size(), 2u);
+    for (const TriangleIndex t : triangles) EXPECT_TRUE(all.insert(t).second) << "a triangle in two polygons";
+    const auto border = border_of(sheet, triangles);
+    ASSERT_EQ(border.size(), polygon.corners.size());
+    std::set<DeformedIndex> used, inside(polygon.inside.begin(), polygon.inside.end());
+    for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
+      const DeformedIndex from = polygon.corners[i], to = polygon.corners[(i + 1) % polygon.corners.size()];
+      ASSERT_EQ(border.count(from), 1u);
+      EXPECT_EQ(border.find(from)->second, to);
+      EXPECT_TRUE(used.insert(from).second);
+    }
+    // By Euler's formula a disc of T triangles, B of whose sides are on its border, has (T - B + 2) / 2 vertices inside.
+    EXPECT_EQ(2 * inside.size(), triangles.size() + 2 - border.size());
+    for (const DeformedIndex d : inside) EXPECT_FALSE(used.contains(d));
+    for (std::size_t t = 0; t < sheet.triangle_slots(); ++t)
+      for (const DeformedIndex corner : sheet.triangle(TriangleIndex(t)).deformed) {
+        const bool is_inside = sheet.triangle(TriangleIndex(t)).alive() && inside.contains(corner);
+        EXPECT_TRUE(!is_inside || triangles.contains(TriangleIndex(t)));
+      }
+  }
+}
+
+TEST(Polygons, AreSound) {
   std::size_t polygons = 0, inside = 0;
   for_each_cut(9, 3, [&](const Cut& cut) {
-    std::set<TriangleIndex> all;
-    for (const Polygon& polygon : cut.ties.polygons) {
-      const std::set<TriangleIndex> triangles(polygon.triangles.begin(), polygon.triangles.end());
-      ASSERT_EQ(triangles.size(), polygon.triangles.size());
-      ASSERT_GE(triangles.size(), 2u);
-      for (const TriangleIndex t : triangles) EXPECT_TRUE(all.insert(t).second) << "a triangle in two polygons";
-      const auto border = border_of(cut.sheet(), triangles);
-      ASSERT_EQ(border.size(), polygon.corners.size());
-      std::set<DeformedIndex> used;
-      for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
-        const DeformedIndex from = polygon.corners[i], to = polygon.corners[(i + 1) % polygon.corners.size()];
-        ASSERT_EQ(border.count(from), 1u);
-        EXPECT_EQ(border.find(from)->second, to);
-        EXPECT_TRUE(used.insert(from).second);
-      }
-      // By Euler's formula a disc of T triangles, B of whose sides are on its border, has (T - B + 2) / 2 vertices
-      // inside.
-      EXPECT_EQ(2 * polygon.inside.size(), triangles.size() + 2 - border.size());
-      for (const DeformedIndex d : polygon.inside) {
-        EXPECT_FALSE(used.contains(d));
-        for (std::size_t t = 0; t < cut.sheet().triangle_slots(); ++t)
-          for (const DeformedIndex corner : cut.sheet().triangle(TriangleIndex(t)).deformed) {
-            const bool is_there = cut.sheet().triangle(TriangleIndex(t)).alive() && corner == d;
-            EXPECT_TRUE(!is_there || triangles.contains(TriangleIndex(t)));
-          }
-      }
-      inside += polygon.inside.size();
-    }
+    expect_sound(cut.sheet(), cut.ties.polygons);
     polygons += cut.ties.polygons.size();
+    for (const Polygon& polygon : cut.ties.polygons) inside += polygon.inside.size();
   });
   EXPECT_GT(polygons, scaled(500));
   EXPECT_GT(inside, scaled(5));
+}
+
+/// One to five cuts that just meet or just miss vertices, edges and each other; the forces of every polygon are finite.
+TEST(Polygons, AreSoundAfterAdversarialCuts) {
+  for (const std::string family : sheet_families())
+    for (std::size_t i = 0; i < scaled(60); ++i) {
+      SCOPED_TRACE(family + ", case " + std::to_string(i));
+      const Sheet before(make_sheet(family, 8));
+      Sheet sheet = before;
+      Locator locator(sheet);
+      const auto method = find_method("cut_polygons").make(0.7);
+      for (const Curve& curve : make_mixture_case(877, i, before).cuts) {
+        Cutter().cut(sheet, locator, curve, *method, {});
+        const Ties ties = method->ties(before, sheet);
+        expect_sound(sheet, ties.polygons);
+        for (const Polygon& polygon : ties.polygons) {
+          const PolygonElement element(sheet, polygon);
+          EXPECT_GT(element.area, 0);
+          EXPECT_TRUE(element.departure.allFinite());
+        }
+      }
+    }
 }
 
 /// Against a look at every triangle of the sheet before.
@@ -424,8 +448,8 @@ TEST(CutPolygons, EverySolverFindsTheSameStep) {
   for (const auto& [solver, x] : found) EXPECT_LE((x - found["cholmod"]).cwiseAbs().maxCoeff(), 1e-7) << solver;
 }
 
-/// Cracks open as they do by the split, and an affine field comes through (the problem of an uncut field).
-TEST(CutPolygons, CracksOpenAsTheyDoByTheSplit) {
+/// Measured: less than half the error of the split.
+TEST(CutPolygons, CracksOpenBetterThanByTheSplit) {
   const Problem& problem = find_problem("centre_crack");
   double worst = 0;
   for (const std::string family : sheet_families())
@@ -440,7 +464,7 @@ TEST(CutPolygons, CracksOpenAsTheyDoByTheSplit) {
       worst = std::max(worst, error(merged) / error(solved(problem, specimen, cut)));
     }
   std::cout << "error of released energy over that of the split, at worst: " << worst << "\n";
-  EXPECT_LE(worst, 1.5);
+  EXPECT_LE(worst, 0.7);
 }
 
 }  // namespace
