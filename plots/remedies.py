@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Remedies for thin triangles: the largest eigenvalue that each leaves (results/remedies) against the error of its solutions
-(results/remedies_accuracy), and a table of both."""
+(results/remedies_accuracy), a table of both, and one of the errors by kind of problem and by measure."""
 
 import numpy as np
 from matplotlib.lines import Line2D
@@ -9,6 +9,7 @@ from accuracy_parts.ranking import at_equal_unknowns, made_by_all, mean_excess
 from accuracy_parts.records import Records
 from common import load, style
 from common.load import of
+from method_parts import kinds
 
 STEM = "remedies"
 KINDS = {  # colour, marker, and the methods whose remedy is of this kind
@@ -96,6 +97,10 @@ def main():
              "error %, equal unknowns", "error %, 100 CG", "us"]
     load.print_table("Remedies: eigenvalues over the uncut sheet's, errors over a fitted mesh's, warm geometry per crossed "
                      "triangle", names, [[label(r[0], r[1]), *r[2:]] for r in rows])
+    by_kind = kinds.table_of(at_equal_unknowns(Records(folder.with_name("remedies_accuracy"))).ranked())
+    columns = [c for c in by_kind.columns if c not in ("method", "knob")]
+    load.print_table(kinds.WHAT, ["method", *columns], [[label(r["method"], r["knob"]), *(r[c] for c in columns)]
+                                                        for _, r in by_kind.iterrows()])
 
 
 if __name__ == "__main__":
