@@ -47,8 +47,7 @@ void Bending::resize(const Sheet& sheet) {
   work_.stale.clear();
 }
 
-// --- what a cut makes stale
-// ------------------------------------------------------------------------------------------
+// --- what a cut makes stale ------------------------------------------------------------------------------------------
 
 /// The triangles of the element that t belongs to.
 std::span<const TriangleIndex> Bending::members(const TriangleIndex& t) const {
@@ -63,10 +62,9 @@ void Bending::mark_stale(TriangleIndex t, int distance) {
   }
 }
 
-/// Breadth first from the triangles that changed. A patch that reached a
-/// changed triangle over r edges, the first one on its way, still finds a
-/// changed one behind the same edges: neighbours of what changed are linked
-/// anew, but not logged.
+/// Breadth first from the triangles that changed. A patch that reached a changed triangle over r edges, the first one
+/// on its way, still finds a changed one behind the same edges: neighbours of what changed are linked anew, but not
+/// logged.
 void Bending::find_stale(const Sheet& sheet, std::span<const TriangleIndex> regrouped) {
   for (const TriangleIndex t : regrouped) mark_stale(t, 0);
   for (const auto& touched : sheet.log().touched) mark_stale(touched.slot, 0);
@@ -126,8 +124,7 @@ void Bending::fit_patch(const Sheet& sheet, TriangleIndex t) {
   }
 }
 
-// --- matrix
-// ----------------------------------------------------------------------------------------------------------
+// --- matrix ----------------------------------------------------------------------------------------------------------
 
 void Bending::put_on_list(std::int32_t vertex) {
   auto& listed = work_.listed_in[static_cast<std::size_t>(vertex)];
@@ -158,9 +155,8 @@ void Bending::replace_stencil(std::size_t t) {
   }
 }
 
-/// Sums a row of the matrix from the stencils that hold its vertex, in the
-/// order of their triangles, so that the sums don't depend on the cuts that led
-/// here.
+/// Sums a row of the matrix from the stencils that hold its vertex, in the order of their triangles, so that the sums
+/// don't depend on the cuts that led here.
 void Bending::write_row(std::size_t vertex) {
   auto& columns = work_.columns;
   auto& values = work_.values;

@@ -47,8 +47,7 @@ class Bending {
   void update(const Sheet& sheet, const ElementTable* elements = nullptr,
               std::span<const TriangleIndex> regrouped = {});
 
-  /// N/m. Force = -K x, energy = x K x / 2, for each coordinate. Rows of freed
-  /// vertices are empty.
+  /// N/m. Force = -K x, energy = x K x / 2, for each coordinate. Rows of freed vertices are empty.
   const BlockMatrix<1>& matrix() const { return matrix_; }
   const std::vector<std::int32_t>& written_rows() const { return work_.rows; }  ///< by the last update()
   double energy(const Field& x, int dimension) const;
@@ -60,8 +59,7 @@ class Bending {
     int distance;  ///< in unseparated edges, from the nearest triangle that
                    ///< changed
   };
-  /// A stencil that holds a vertex, and its place there; one is like another if
-  /// the triangle is.
+  /// A stencil that holds a vertex, and its place there; one is like another if the triangle is.
   struct Holder {
     std::int32_t triangle, place;
     bool operator==(const Holder& other) const { return triangle == other.triangle; }

@@ -8,8 +8,7 @@ namespace cutbench {
 
 namespace {
 
-/// \return the triangle on the other side of side k, invalid where the side is
-/// on the border or an incision.
+/// \return the triangle on the other side of side k, invalid where the side is on the border or an incision.
 TriangleIndex neighbour(const Sheet& sheet, TriangleIndex t, std::size_t k) {
   const Triangle& triangle = sheet.triangle(t);
   if (!triangle.opposite[k].valid() || triangle.mark[k] == EdgeMark::incision) return {};
@@ -27,13 +26,10 @@ double Bending::twice_area(const Sheet& sheet, TriangleIndex t) const {
   return sum;
 }
 
-/// Hessian H of the quadratic with the triangle's corners and, at the middles
-/// of its sides, the averaged slopes (that of Morley's triangle): 1/area times
-/// the sum over the sides of length x outward normal (x) gradient, made
-/// symmetric. A slope is averaged with the triangles' heights as weights (their
-/// areas, the side being common), so that the poor slope of a sliver counts
-/// little. The energy D/2 area ((1-nu) |H|^2 + nu (tr H)^2) is the sum of the
-/// squares of (Hxx
+/// Hessian H of the quadratic with the triangle's corners and, at the middles of its sides, the averaged slopes (that
+/// of Morley's triangle): 1/area times the sum over the sides of length x outward normal (x) gradient, made symmetric.
+/// A slope is averaged with the triangles' heights as weights (their areas, the side being common), so that the poor
+/// slope of a sliver counts little. The energy D/2 area ((1-nu) |H|^2 + nu (tr H)^2) is the sum of the squares of (Hxx
 /// + Hyy)/sqrt(2), (Hxx - Hyy)/sqrt(2) and Hxy with the weights below.
 void Bending::patch_rows(const Sheet& sheet, TriangleIndex t) {
   const double twice = twice_area(sheet, t);
@@ -79,9 +75,8 @@ void Bending::patch_rows(const Sheet& sheet, TriangleIndex t) {
   }
 }
 
-/// Row k: the hinge of side k, whose energy D/2 3/(A0 + A1) |sum c x|^2 the two
-/// triangles share. Bergou's cotangents add up to c x = side length x (slope on
-/// this side + slope on the other, both inward).
+/// Row k: the hinge of side k, whose energy D/2 3/(A0 + A1) |sum c x|^2 the two triangles share. Bergou's cotangents
+/// add up to c x = side length x (slope on this side + slope on the other, both inward).
 void Bending::hinge_rows(const Sheet& sheet, TriangleIndex t) {
   const double twice = cutbench::twice_area(sheet.corners(t));
   for (std::size_t k = 0; k < 3; ++k) {

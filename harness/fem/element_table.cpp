@@ -13,8 +13,7 @@ Element element_of(const Sheet& sheet, TriangleIndex t) {
   const auto c = sheet.corners(t);
   const double twice = cross(c[1] - c[0], c[2] - c[0]);
   e.area = twice / 2;
-  // Each shape function rises across the triangle, at right angles to the edge
-  // opposite its corner.
+  // Each shape function rises across the triangle, at right angles to the edge opposite its corner.
   for (std::size_t k = 0; k < 3; ++k) {
     const Point2 edge = c[(k + 2) % 3] - c[(k + 1) % 3];
     e.gradient[k] = {-edge.y / twice, edge.x / twice};

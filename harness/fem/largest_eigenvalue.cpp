@@ -55,8 +55,7 @@ class ScaledStiffness {
     for (const Element& element : elements_)
       if (element.is_triangle()) add_force(element);
     for (std::size_t p = 0; p < polygons_.size(); ++p) add_force(elements_.polygon(p), polygons_[p]);
-    // Bending acts on each coordinate alike, so that membrane and bending
-    // together are stiffest in the plane.
+    // Bending acts on each coordinate alike, so that membrane and bending together are stiffest in the plane.
     if (bending_) add_product_per_coordinate(bending_->matrix(), 2, 1, moved_, force_);
     combination_.reduce(2, force_, y);
     for (const GhostEdge& ghost : ghosts_) add_force(ghost, y);
@@ -163,8 +162,7 @@ double largest_eigenvalue(const Sheet& sheet, const Ties& ties, const Elasticity
   VectorXd q(n), before = VectorXd::Zero(n), next;
   for (double& x : q) x = static_cast<double>(bits() >> 11) * 0x1p-53 - 0.5;
   q.normalize();
-  // Without orthogonalisation: what that costs is copies of eigenvalues already
-  // found.
+  // Without orthogonalisation: what that costs is copies of eigenvalues already found.
   std::vector<double> diagonal, beside;
   bool met = false;
   for (int step = 1;; ++step) {

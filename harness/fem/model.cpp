@@ -169,8 +169,7 @@ void Model<D>::refresh_vertices(const Sheet& sheet) {
   for (const std::size_t v : marked_) history_.mark(v);
 }
 
-/// The pattern of row v, and where the elements round v find their blocks in
-/// it.
+/// The pattern of row v, and where the elements round v find their blocks in it.
 template <int D>
 void Model<D>::refresh_row(std::size_t v) {
   const auto corners = incidence_.at(v);
@@ -299,8 +298,7 @@ std::size_t Model<D>::unheld_pieces() const {
   return unheld;
 }
 
-// --- of a state
-// ------------------------------------------------------------------------------------------------------
+// --- of a state ------------------------------------------------------------------------------------------------------
 
 template <int D>
 void Model<D>::rotate(const Field& x) {

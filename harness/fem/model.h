@@ -1,6 +1,5 @@
-// The discrete sheet: elements, mass, bending, loads, held vertices and the
-// system matrix. After each cut it is updated: only what the cut touched is
-// computed again, and the result equals that of a new model.
+// The discrete sheet: elements, mass, bending, loads, held vertices and the system matrix. After each cut it is
+// updated: only what the cut touched is computed again, and the result equals that of a new model.
 #pragma once
 
 #include <optional>
@@ -30,9 +29,8 @@ class Model {
   /// Reserves room to grow by half, so that the first cut of a running
   /// simulation copies no arrays. A copy of the model has no such room.
   void reserve_spare();
-  /// Call both after each single cut, before the next begin_cut() clears the
-  /// log, and transfer() for the state: they replace indices and add elements
-  /// (Xin et al. 2018, 4.2) where the sheet's log says so.
+  /// Call both after each single cut, before the next begin_cut() clears the log, and transfer() for the state: they
+  /// replace indices and add elements (Xin et al. 2018, 4.2) where the sheet's log says so.
   void update(const Sheet& sheet);
   void update_bending(const Sheet& sheet);  ///< nothing without bending
   /// Constrains vertices and makes polygons of triangles; call it after
@@ -50,19 +48,16 @@ class Model {
   /// Positions of the sheet's vertices, m.
   Field positions(const Sheet& sheet) const;
 
-  // --- of a state
-  // ----------------------------------------------------------------------------------------------------
+  // --- of a state ----------------------------------------------------------------------------------------------------
   void rotate(const Field& x);  ///< the deformation of every element; the
                                 ///< functions below refer to this x
   /// f += internal forces, of membrane and bending, N. \pre rotate(x).
   void add_internal_force(const Field& x, Field& f) const;
-  /// y += h (internal forces at x) - factor A v, with A of the last assemble().
-  /// Faster than one by one: bending, which is linear, is in both. \pre
-  /// rotate(x).
+  /// y += h (internal forces at x) - factor A v, with A of the last assemble(). Faster than one by one: bending, which
+  /// is linear, is in both. \pre rotate(x).
   void add_impulse(double h, const Field& x, double factor, const Field& v, Field& y);
   void add_external_force(Field& f) const { f += external_; }
-  /// A = mass_factor M + stiffness_factor K, with K the tangent at the rotated
-  /// state. \pre rotate().
+  /// A = mass_factor M + stiffness_factor K, with K the tangent at the rotated state. \pre rotate().
   void assemble(double mass_factor, double stiffness_factor);
   /// Of the last assemble(). Refers to this model.
   SystemMatrix<D> system() const;
@@ -71,8 +66,7 @@ class Model {
   void add_mass_product(double factor, const Field& x, Field& y) const;
   Energy energy(const Field& x, const Field& v) const;  ///< \pre rotate(x)
 
-  // --- of the model
-  // --------------------------------------------------------------------------------------------------
+  // --- of the model --------------------------------------------------------------------------------------------------
   const ElementTable& elements() const { return elements_; }
   const Incidence& incidence() const { return incidence_; }
   const BlockMatrix<D>& blocks() const { return blocks_; }
@@ -82,12 +76,10 @@ class Model {
   const Field& lumped_mass() const { return mass_; }               ///< kg, per vertex
   const Field& external_force() const { return external_; }        ///< N
   const std::vector<std::uint8_t>& held() const { return held_; }  ///< per unknown; those of freed slots are, too
-  /// Pieces no unknown of which is held: they have no equilibrium. Looks at
-  /// everything.
+  /// Pieces no unknown of which is held: they have no equilibrium. Looks at everything.
   std::size_t unheld_pieces() const;
   bool pinned(std::size_t unknown) const { return pin_of_[unknown] >= 0; }
-  /// How far from its initial place a held unknown is to be at a time, m. \pre
-  /// pinned(unknown).
+  /// How far from its initial place a held unknown is to be at a time, m. \pre pinned(unknown).
   double held_displacement(std::size_t unknown, double time) const;
   double held_velocity(std::size_t unknown) const;  ///< m/s
   const Material& material() const { return material_; }

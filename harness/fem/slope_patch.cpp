@@ -7,13 +7,11 @@ namespace cutbench {
 
 namespace {
 
-// Smallest singular value of the quadratic part over the size of its columns.
-// Below the first the patch widens; where it can't, below the second that part
-// of the Hessian is taken to be zero.
+// Smallest singular value of the quadratic part over the size of its columns. Below the first the patch widens; where
+// it can't, below the second that part of the Hessian is taken to be zero.
 constexpr double good_fit = 0.02, some_fit = 1e-3;
 
-// A column that is less than this part of the quadratic ones, once the columns
-// before it are taken out, is zero.
+// A column that is less than this part of the quadratic ones, once the columns before it are taken out, is zero.
 constexpr double round_off = 1e-14;
 
 // Columns that keep this part are orthogonal to 1e-14 after one pass.
@@ -81,9 +79,8 @@ bool SlopePatch::widen(const Sheet& sheet, const ElementTable* elements, bool fi
   return any;
 }
 
-/// Gram and Schmidt, twice where a column loses digits in the first pass. The
-/// linear columns come first, so that linear functions come out exact whatever
-/// is left out of the quadratic ones.
+/// Gram and Schmidt, twice where a column loses digits in the first pass. The linear columns come first, so that linear
+/// functions come out exact whatever is left out of the quadratic ones.
 void SlopePatch::factorise() {
   const std::size_t n = offset_.size();
   double sum = 0, corners = 0;
@@ -95,8 +92,7 @@ void SlopePatch::factorise() {
   reference_ = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const Point2 p = 1 / scale_ * offset_[i];
-    // Near points count more, by the square of their distance: then a quadratic
-    // weighs alike at all distances.
+    // Near points count more, by the square of their distance: then a quadratic weighs alike at all distances.
     const double w = weight_[i] = scale_ * scale_ / (squared_length(offset_[i]) + corners);
     orthogonal_[i] = {w, w * p.x, w * p.y, w * p.x * p.x / 2, w * p.x * p.y * M_SQRT1_2, w * p.y * p.y / 2, 0, 0};
     for (std::size_t j = 3; j < 6; ++j) reference_ += orthogonal_[i][j] * orthogonal_[i][j];
@@ -143,8 +139,7 @@ bool SlopePatch::tells_quadratics() {
   return inverse_.norm() * good_fit * reference_ < 1;
 }
 
-/// Pseudo-inverse of the quadratic part, by one-sided Jacobi rotations
-/// (Hestenes 1958).
+/// Pseudo-inverse of the quadratic part, by one-sided Jacobi rotations (Hestenes 1958).
 void SlopePatch::invert_what_is_known() {
   Eigen::Matrix3d a = Eigen::Matrix3d::Zero(), turn = Eigen::Matrix3d::Identity();
   for (std::size_t i = 0; i < 3; ++i)

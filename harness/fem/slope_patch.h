@@ -40,8 +40,7 @@ class SlopePatch {
 
  private:
   static constexpr int max_points = 32, max_reach = 6;
-  /// Where the centroid sees through an edge: between two directions,
-  /// counter-clockwise.
+  /// Where the centroid sees through an edge: between two directions, counter-clockwise.
   struct Window {
     HalfEdge edge;
     Point2 right, left;
@@ -57,16 +56,14 @@ class SlopePatch {
   bool tells_quadratics();
   void invert_what_is_known();
 
-  // Points of the patch, as offsets from the centroid, which is the origin
-  // below.
+  // Points of the patch, as offsets from the centroid, which is the origin below.
   Point2 centre_;
   std::size_t own_ = 3;  // points: the element's corners, which come first
   std::vector<Point2> offset_;
   std::vector<StencilTerm> terms_;
   std::vector<Window> windows_, next_windows_;
-  // The fit: values of 1, x, y | x^2/2, xy/sqrt(2), y^2/2 at the points, each
-  // row times its weight, as an orthogonal matrix times an upper triangular
-  // one.
+  // The fit: values of 1, x, y | x^2/2, xy/sqrt(2), y^2/2 at the points, each row times its weight, as an orthogonal
+  // matrix times an upper triangular one.
   double scale_ = 1;  ///< unit of x and y
   std::array<double, max_points> weight_{};
   std::array<Row, max_points> orthogonal_{};
