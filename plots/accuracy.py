@@ -94,8 +94,10 @@ def main():
     records = at_equal_unknowns(Records(folder))
     by_time = excess_figure(records, "ms", "excess_percent", "total time, ms", "the body-fitted mesh with as many "
                             "triangles as the uncut sheet; methods that add many triangles can have a smaller error")
-    by_unknowns = excess_figure(records, "unknowns", "excess_equal_percent", "unknowns", "a body-fitted mesh "
-                                "with as many unknowns as the cut sheet")
+    by_unknowns = None  # as many unknowns: found between the references of two resolutions
+    if records.rows(direct=True)["resolution"].nunique() > 1:
+        by_unknowns = excess_figure(records, "unknowns", "excess_equal_percent", "unknowns", "a body-fitted mesh "
+                                    "with as many unknowns as the cut sheet")
     figures = {STEM: by_time, f"{STEM}_unknowns": by_unknowns,
                f"{STEM}_problems": problems_figure(records), f"{STEM}_budgets": budgets_figure(records),
                f"{STEM}_shape": shape_figure(records), f"{STEM}_profile": profile_figure(records)}
