@@ -135,17 +135,18 @@ TEST(SlopePatch, IsALeastSquaresFit) {
     SlopePatch patch;
     for (std::size_t t = 0; t < sheet.triangle_slots(); ++t) {
       if (!sheet.triangle(TriangleIndex(t)).alive()) continue;
-      patch.fit(sheet, TriangleIndex(t));
+      patch.fit(sheet, nullptr, TriangleIndex(t));
       const auto c = sheet.corners(TriangleIndex(t));
+      const auto terms = patch.terms(c);
       const Point2 centre = 1.0 / 3 * (c[0] + c[1] + c[2]);
       const double unit = std::sqrt(squared_length(c[1] - c[0]));
       double corners = 0;
       for (const Point2 p : c) corners += squared_length(p - centre) / 3;
-      const auto n = static_cast<Eigen::Index>(patch.terms().size());
+      const auto n = static_cast<Eigen::Index>(terms.size());
       Eigen::MatrixXd a(n, 6);
       Eigen::VectorXd weight(n);
       for (Eigen::Index i = 0; i < n; ++i) {
-        const DeformedIndex d(static_cast<std::size_t>(patch.terms()[static_cast<std::size_t>(i)].vertex));
+        const DeformedIndex d(static_cast<std::size_t>(terms[static_cast<std::size_t>(i)].vertex));
         const Point2 offset = sheet.rest(sheet.rest_vertex(d)) - centre, p = 1 / unit * offset;
         weight[i] = unit * unit / (squared_length(offset) + corners);
         a.row(i) << 1, p.x, p.y, p.x * p.x, p.x * p.y, p.y * p.y;
@@ -164,7 +165,7 @@ TEST(SlopePatch, IsALeastSquaresFit) {
                                 (svd.matrixV().transpose() * slope)) /
             unit;
         for (Eigen::Index i = 0; i < n; ++i)
-          EXPECT_NEAR(patch.terms()[static_cast<std::size_t>(i)].factor[k], expected[i], 1e-12 * expected.norm());
+          EXPECT_NEAR(terms[static_cast<std::size_t>(i)].factor[k], expected[i], 1e-12 * expected.norm());
       }
     }
   }
