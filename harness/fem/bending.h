@@ -33,104 +33,92 @@
 namespace cutbench {
 
 class Bending {
-public:
+ public:
   Bending() = default;
   /// \pre kind is not `none`, and `patches` where there are polygons; rigidity
   /// D in N m. \param elements  of the sheet, whose polygons count; null: no
   /// polygons
-  Bending(const Sheet &sheet, BendingKind kind, double rigidity, double poisson,
-          const ElementTable *elements = nullptr);
+  Bending(const Sheet& sheet, BendingKind kind, double rigidity, double poisson,
+          const ElementTable* elements = nullptr);
   /// After a cut: rebuilds the stencils near the slots in the sheet's log and
   /// the rows of the vertices in them. Equal to a new one but for the order of
   /// the columns within a row. \param regrouped  the triangles that joined or
   /// left a polygon since the last call
-  void update(const Sheet &sheet, const ElementTable *elements = nullptr,
+  void update(const Sheet& sheet, const ElementTable* elements = nullptr,
               std::span<const TriangleIndex> regrouped = {});
 
   /// N/m. Force = -K x, energy = x K x / 2, for each coordinate. Rows of freed
   /// vertices are empty.
-  const BlockMatrix<1> &matrix() const { return matrix_; }
-  const std::vector<std::int32_t> &written_rows() const {
-    return work_.rows;
-  } ///< by the last update()
-  double energy(const Field &x, int dimension) const;
-  void
-  reserve_spare(); ///< room to grow by half, before anything has to be copied
+  const BlockMatrix<1>& matrix() const { return matrix_; }
+  const std::vector<std::int32_t>& written_rows() const { return work_.rows; }  ///< by the last update()
+  double energy(const Field& x, int dimension) const;
+  void reserve_spare();  ///< room to grow by half, before anything has to be copied
 
-private:
+ private:
   struct Stale {
     TriangleIndex triangle;
-    int distance; ///< in unseparated edges, from the nearest triangle that
-                  ///< changed
+    int distance;  ///< in unseparated edges, from the nearest triangle that
+                   ///< changed
   };
   /// A stencil that holds a vertex, and its place there; one is like another if
   /// the triangle is.
   struct Holder {
     std::int32_t triangle, place;
-    bool operator==(const Holder &other) const {
-      return triangle == other.triangle;
-    }
-    bool operator<(const Holder &other) const {
-      return triangle < other.triangle;
-    }
+    bool operator==(const Holder& other) const { return triangle == other.triangle; }
+    bool operator<(const Holder& other) const { return triangle < other.triangle; }
   };
-  void resize(const Sheet &sheet);
+  void resize(const Sheet& sheet);
   void mark_stale(TriangleIndex t, int distance);
-  void find_stale(const Sheet &sheet, std::span<const TriangleIndex> regrouped);
-  std::span<const TriangleIndex> members(const TriangleIndex &t) const;
-  double twice_area(const Sheet &sheet, TriangleIndex t) const;
-  void rebuild(const Sheet &sheet);
-  void fit_patch(const Sheet &sheet, TriangleIndex t);
-  bool stencil_is_stale(const Sheet &sheet, TriangleIndex t) const;
+  void find_stale(const Sheet& sheet, std::span<const TriangleIndex> regrouped);
+  std::span<const TriangleIndex> members(const TriangleIndex& t) const;
+  double twice_area(const Sheet& sheet, TriangleIndex t) const;
+  void rebuild(const Sheet& sheet);
+  void fit_patch(const Sheet& sheet, TriangleIndex t);
+  bool stencil_is_stale(const Sheet& sheet, TriangleIndex t) const;
   void replace_stencil(std::size_t t);
   void put_on_list(std::int32_t vertex);
   void write_row(std::size_t vertex);
 
   // Terms of t's stencil, summed up in work_.
   /// The sum that begins at zero, for this vertex.
-  std::array<double, 3> &term_of(std::int32_t vertex) {
-    std::int32_t &place = work_.place[static_cast<std::size_t>(vertex)];
+  std::array<double, 3>& term_of(std::int32_t vertex) {
+    std::int32_t& place = work_.place[static_cast<std::size_t>(vertex)];
     if (place < 0) {
       place = static_cast<std::int32_t>(work_.terms.size());
       work_.terms.push_back({vertex, {}});
     }
     return work_.terms[static_cast<std::size_t>(place)].factor;
   }
-  void add_rows(const Sheet &sheet, TriangleIndex t);
-  void patch_rows(const Sheet &sheet, TriangleIndex t);
-  void hinge_rows(const Sheet &sheet, TriangleIndex t);
+  void add_rows(const Sheet& sheet, TriangleIndex t);
+  void patch_rows(const Sheet& sheet, TriangleIndex t);
+  void hinge_rows(const Sheet& sheet, TriangleIndex t);
 
   BendingKind kind_ = BendingKind::none;
   double rigidity_ = 0, poisson_ = 0;
-  GrowingRows<StencilTerm>
-      slopes_; ///< per triangle slot: SlopePatch::terms(); unused by hinges
-  std::vector<int> reach_; ///< per triangle slot: of its patch; 0 for hinges
+  GrowingRows<StencilTerm> slopes_;  ///< per triangle slot: SlopePatch::terms(); unused by hinges
+  std::vector<int> reach_;           ///< per triangle slot: of its patch; 0 for hinges
   int longest_reach_ = 0;
-  GrowingRows<StencilTerm>
-      stencils_; ///< per triangle slot: its three rows, in sqrt(N/m)
-  GrowingRows<Holder> stencils_of_; ///< per deformed vertex: the stencils that
-                                    ///< hold it, in order
+  GrowingRows<StencilTerm> stencils_;  ///< per triangle slot: its three rows, in sqrt(N/m)
+  GrowingRows<Holder> stencils_of_;    ///< per deformed vertex: the stencils that
+                                       ///< hold it, in order
   BlockMatrix<1> matrix_;
 
   /// Working storage, kept between calls so that they don't allocate.
   struct Work {
-    const ElementTable *elements = nullptr; ///< of the call under way
+    const ElementTable* elements = nullptr;  ///< of the call under way
     SlopePatch patch;
-    std::vector<Stale> stale; ///< nearest first
+    std::vector<Stale> stale;  ///< nearest first
     std::vector<std::uint32_t> stale_in,
-        refitted_in; ///< per triangle slot: the call that listed it, fitted its
-                     ///< patch
-    std::vector<std::uint32_t>
-        listed_in; ///< per deformed vertex: the call that put it in `rows`
+        refitted_in;                       ///< per triangle slot: the call that listed it, fitted its
+                                           ///< patch
+    std::vector<std::uint32_t> listed_in;  ///< per deformed vertex: the call that put it in `rows`
     std::uint32_t call = 0;
-    std::vector<std::int32_t> rows; ///< to be written
-    std::vector<std::int32_t>
-        place; ///< per deformed vertex: in `terms` or `columns`; -1: none
+    std::vector<std::int32_t> rows;   ///< to be written
+    std::vector<std::int32_t> place;  ///< per deformed vertex: in `terms` or `columns`; -1: none
     std::vector<StencilTerm> terms;
-    std::vector<std::int32_t>
-        columns;                ///< of a row under way: room for all vertices
-    std::vector<double> values; ///< likewise; all zero between rows
+    std::vector<std::int32_t> columns;  ///< of a row under way: room for all vertices
+    std::vector<double> values;         ///< likewise; all zero between rows
   } work_;
 };
 
-} // namespace cutbench
+}  // namespace cutbench

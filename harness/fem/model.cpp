@@ -10,47 +10,42 @@ namespace {
 
 std::array<double, 3> coordinates(Point3 p) { return {p.x, p.y, p.z}; }
 
-} // namespace
+}  // namespace
 
 template <int D>
-Model<D>::Model(const Sheet &sheet, const Material &material,
-                const Physics &physics, std::vector<Pin> pins,
+Model<D>::Model(const Sheet& sheet, const Material& material, const Physics& physics, std::vector<Pin> pins,
                 std::vector<Traction> tractions)
-    : material_(material), physics_(physics), pins_(std::move(pins)),
-      tractions_(std::move(tractions)), elements_(sheet),
-      membrane_(physics.strain, lame_of(material, physics.plane),
-                physics.bending != BendingKind::none) {
-  if (physics.mass == Mass::consistent)
-    consistent_mass_.emplace();
+    : material_(material),
+      physics_(physics),
+      pins_(std::move(pins)),
+      tractions_(std::move(tractions)),
+      elements_(sheet),
+      membrane_(physics.strain, lame_of(material, physics.plane), physics.bending != BendingKind::none) {
+  if (physics.mass == Mass::consistent) consistent_mass_.emplace();
   resize(sheet);
   ++round_;
   for (std::size_t e = 0; e < elements_.size(); ++e)
-    if (elements_[e].alive())
-      incidence_.add(elements_[e], e);
-  for (std::size_t v = 0; v < vertices(); ++v)
-    marked_.push_back(v);
+    if (elements_[e].alive()) incidence_.add(elements_[e], e);
+  for (std::size_t v = 0; v < vertices(); ++v) marked_.push_back(v);
   refresh_vertices(sheet);
   if (physics.bending != BendingKind::none)
-    bending_.emplace(sheet, physics.bending, material.bending,
-                     material.poisson);
+    bending_.emplace(sheet, physics.bending, material.bending, material.poisson);
 }
 
-template <int D> void Model<D>::reserve_spare() {
-  elements_.reserve_spare(), blocks_.reserve_spare(),
-      incidence_.reserve_spare(), membrane_.reserve_spare();
-  if (consistent_mass_)
-    consistent_mass_->reserve_spare();
-  if (bending_)
-    bending_->reserve_spare();
+template <int D>
+void Model<D>::reserve_spare() {
+  elements_.reserve_spare(), blocks_.reserve_spare(), incidence_.reserve_spare(), membrane_.reserve_spare();
+  if (consistent_mass_) consistent_mass_->reserve_spare();
+  if (bending_) bending_->reserve_spare();
 }
 
-template <int D> void Model<D>::update(const Sheet &sheet) {
-  const EditLog &log = sheet.log();
+template <int D>
+void Model<D>::update(const Sheet& sheet) {
+  const EditLog& log = sheet.log();
   tied_.reset();
   begin_marking();
-  for (const auto &touched : log.touched) {
-    if (!touched.before.alive())
-      continue;
+  for (const auto& touched : log.touched) {
+    if (!touched.before.alive()) continue;
     if (const auto polygon = elements_[touched.slot()].polygon; polygon >= 0)
       dissolve(static_cast<std::size_t>(polygon));
     incidence_.remove(touched.before.deformed, touched.slot());
@@ -59,197 +54,170 @@ template <int D> void Model<D>::update(const Sheet &sheet) {
   elements_.update(sheet);
   resize(sheet);
   const auto enter = [&](std::size_t e) {
-    if (!elements_[e].alive())
-      return membrane_.clear_slots(e);
+    if (!elements_[e].alive()) return membrane_.clear_slots(e);
     incidence_.add(elements_[e], e);
     mark(elements_[e].vertex);
   };
-  for (const auto &touched : log.touched)
-    enter(touched.slot());
-  for (std::size_t e = log.triangles_before; e < elements_.size(); ++e)
-    enter(e);
+  for (const auto& touched : log.touched) enter(touched.slot());
+  for (std::size_t e = log.triangles_before; e < elements_.size(); ++e) enter(e);
   refresh_vertices(sheet);
 }
 
-template <int D> void Model<D>::update_bending(const Sheet &sheet) {
-  if (!bending_)
-    return regrouped_.clear();
+template <int D>
+void Model<D>::update_bending(const Sheet& sheet) {
+  if (!bending_) return regrouped_.clear();
   bending_->update(sheet, &elements_, regrouped_);
   regrouped_.clear();
   history_.begin_change();
-  for (const std::int32_t v : bending_->written_rows())
-    history_.mark(static_cast<std::size_t>(v));
+  for (const std::int32_t v : bending_->written_rows()) history_.mark(static_cast<std::size_t>(v));
 }
 
-template <int D> void Model<D>::tie(const Sheet &sheet, const Ties &ties) {
+template <int D>
+void Model<D>::tie(const Sheet& sheet, const Ties& ties) {
   tied_.reset();
   begin_marking();
   merge(sheet, ties.polygons);
   refresh_vertices(sheet);
-  if (!regrouped_.empty())
-    update_bending(sheet);
-  if (!ties.ties.empty())
-    tied_.emplace(ties, vertices());
+  if (!regrouped_.empty()) update_bending(sheet);
+  if (!ties.ties.empty()) tied_.emplace(ties, vertices());
 }
 
 /// Those that are there already stay.
 template <int D>
-void Model<D>::merge(const Sheet &sheet, std::span<const Polygon> polygons) {
+void Model<D>::merge(const Sheet& sheet, std::span<const Polygon> polygons) {
   std::vector<std::uint8_t> stays(elements_.polygon_slots());
-  std::vector<const Polygon *> fresh;
-  for (const Polygon &polygon : polygons) {
+  std::vector<const Polygon*> fresh;
+  for (const Polygon& polygon : polygons) {
     const auto slot = elements_[polygon.triangles.front()()].polygon;
-    if (slot >= 0 &&
-        elements_.polygon(static_cast<std::size_t>(slot)).polygon == polygon)
+    if (slot >= 0 && elements_.polygon(static_cast<std::size_t>(slot)).polygon == polygon)
       stays[static_cast<std::size_t>(slot)] = 1;
     else
       fresh.push_back(&polygon);
   }
   for (std::size_t p = 0; p < stays.size(); ++p)
-    if (!stays[p] && elements_.polygon(p).alive())
-      dissolve(p);
-  for (const Polygon *const polygon : fresh) {
+    if (!stays[p] && elements_.polygon(p).alive()) dissolve(p);
+  for (const Polygon* const polygon : fresh) {
     const std::size_t slot = elements_.add_polygon(sheet, *polygon);
     membrane_.polygons().reset(slot, elements_.polygon(slot));
-    for (const TriangleIndex t : polygon->triangles)
-      membrane_.clear_slots(t()), regrouped_.push_back(t);
-    for (const DeformedIndex d : polygon->corners)
-      polygons_of_.append(d(), static_cast<std::int32_t>(slot));
+    for (const TriangleIndex t : polygon->triangles) membrane_.clear_slots(t()), regrouped_.push_back(t);
+    for (const DeformedIndex d : polygon->corners) polygons_of_.append(d(), static_cast<std::int32_t>(slot));
     mark(polygon->corners), mark(polygon->inside);
   }
 }
 
-template <int D> void Model<D>::dissolve(std::size_t polygon) {
-  const Polygon &gone = elements_.polygon(polygon).polygon;
-  for (const DeformedIndex d : gone.corners)
-    polygons_of_.erase(d(), static_cast<std::int32_t>(polygon));
+template <int D>
+void Model<D>::dissolve(std::size_t polygon) {
+  const Polygon& gone = elements_.polygon(polygon).polygon;
+  for (const DeformedIndex d : gone.corners) polygons_of_.erase(d(), static_cast<std::int32_t>(polygon));
   mark(gone.corners), mark(gone.inside);
-  regrouped_.insert(regrouped_.end(), gone.triangles.begin(),
-                    gone.triangles.end());
+  regrouped_.insert(regrouped_.end(), gone.triangles.begin(), gone.triangles.end());
   elements_.dissolve(polygon);
 }
 
-template <int D> std::vector<Polygon> Model<D>::polygons() const {
+template <int D>
+std::vector<Polygon> Model<D>::polygons() const {
   std::vector<Polygon> all;
   for (std::size_t p = 0; p < elements_.polygon_slots(); ++p)
-    if (elements_.polygon(p).alive())
-      all.push_back(elements_.polygon(p).polygon);
+    if (elements_.polygon(p).alive()) all.push_back(elements_.polygon(p).polygon);
   return all;
 }
 
-template <int D> void Model<D>::follow(Field &x) const {
+template <int D>
+void Model<D>::follow(Field& x) const {
   for (std::size_t p = 0; p < elements_.polygon_slots(); ++p) {
-    const PolygonElement &polygon = elements_.polygon(p);
-    if (polygon.inside.empty())
-      continue;
+    const PolygonElement& polygon = elements_.polygon(p);
+    if (polygon.inside.empty()) continue;
     const LinearMap<D> map = polygon.template map<D>(x);
     for (std::size_t i = 0; i < polygon.inside.size(); ++i)
-      x.template segment<D>(D * polygon.polygon.inside[i].value) =
-          map.at(polygon.inside[i]);
+      x.template segment<D>(D * polygon.polygon.inside[i].value) = map.at(polygon.inside[i]);
   }
 }
 
-template <int D> void Model<D>::begin_marking() {
+template <int D>
+void Model<D>::begin_marking() {
   ++round_;
   marked_.clear();
 }
 
-template <int D> void Model<D>::mark(std::span<const DeformedIndex> vertices) {
+template <int D>
+void Model<D>::mark(std::span<const DeformedIndex> vertices) {
   for (const auto d : vertices) {
-    if (d() >= marked_in_.size())
-      marked_in_.resize(d() + 1);
-    if (std::exchange(marked_in_[d()], round_) != round_)
-      marked_.push_back(d());
+    if (d() >= marked_in_.size()) marked_in_.resize(d() + 1);
+    if (std::exchange(marked_in_[d()], round_) != round_) marked_.push_back(d());
   }
 }
 
-template <int D> void Model<D>::resize(const Sheet &sheet) {
+template <int D>
+void Model<D>::resize(const Sheet& sheet) {
   const std::size_t n = sheet.deformed_slots();
   const auto old = static_cast<std::size_t>(mass_.size());
-  incidence_.resize(n), polygons_of_.resize(n), blocks_.resize(n),
-      marked_in_.resize(std::max(n, marked_in_.size()));
-  if (consistent_mass_)
-    consistent_mass_->resize(n);
+  incidence_.resize(n), polygons_of_.resize(n), blocks_.resize(n), marked_in_.resize(std::max(n, marked_in_.size()));
+  if (consistent_mass_) consistent_mass_->resize(n);
   held_.resize(D * n, 1), pin_of_.resize(D * n, -1), places_.resize(n);
   membrane_.resize(elements_.size());
   mass_.conservativeResize(static_cast<Eigen::Index>(n));
   external_.conservativeResize(static_cast<Eigen::Index>(D * n));
-  for (std::size_t v = old; v < n; ++v)
-    mass_[static_cast<Eigen::Index>(v)] = 0;
+  for (std::size_t v = old; v < n; ++v) mass_[static_cast<Eigen::Index>(v)] = 0;
   external_.tail(static_cast<Eigen::Index>(D * (n - old))).setZero();
 }
 
-template <int D> void Model<D>::refresh_vertices(const Sheet &sheet) {
-  for (const std::size_t v : marked_)
-    refresh_row(v), refresh_mass(v), refresh_loads(sheet, v);
+template <int D>
+void Model<D>::refresh_vertices(const Sheet& sheet) {
+  for (const std::size_t v : marked_) refresh_row(v), refresh_mass(v), refresh_loads(sheet, v);
   history_.begin_change();
-  for (const std::size_t v : marked_)
-    history_.mark(v);
+  for (const std::size_t v : marked_) history_.mark(v);
 }
 
 /// The pattern of row v, and where the elements round v find their blocks in
 /// it.
-template <int D> void Model<D>::refresh_row(std::size_t v) {
+template <int D>
+void Model<D>::refresh_row(std::size_t v) {
   const auto corners = incidence_.at(v);
   columns_.clear();
   const auto add = [&](std::span<const DeformedIndex> with) {
-    if (columns_.empty())
-      columns_.push_back(static_cast<std::int32_t>(v));
+    if (columns_.empty()) columns_.push_back(static_cast<std::int32_t>(v));
     for (const auto d : with)
-      if (std::find(columns_.begin(), columns_.end(), d.value) ==
-          columns_.end())
-        columns_.push_back(d.value);
+      if (std::find(columns_.begin(), columns_.end(), d.value) == columns_.end()) columns_.push_back(d.value);
   };
   for (const auto c : corners)
-    if (const Element &e = elements_[triangle_of(c)()]; e.is_triangle())
-      add(e.vertex);
-  for (const std::int32_t p : polygons_of_[v])
-    add(elements_.polygon(static_cast<std::size_t>(p)).polygon.corners);
+    if (const Element& e = elements_[triangle_of(c)()]; e.is_triangle()) add(e.vertex);
+  for (const std::int32_t p : polygons_of_[v]) add(elements_.polygon(static_cast<std::size_t>(p)).polygon.corners);
   blocks_.set_row(v, columns_);
   set_polygon_slots(v);
   for (const auto c : corners) {
     const std::size_t e = triangle_of(c)();
-    if (!elements_[e].is_triangle())
-      continue;
+    if (!elements_[e].is_triangle()) continue;
     for (std::size_t j = 0; j < 3; ++j)
-      membrane_.set_slot(e, static_cast<std::size_t>(corner_of(c)), j,
-                         blocks_.find(v, elements_[e].vertex[j].value));
+      membrane_.set_slot(e, static_cast<std::size_t>(corner_of(c)), j, blocks_.find(v, elements_[e].vertex[j].value));
   }
 }
 
-template <int D> void Model<D>::set_polygon_slots(std::size_t v) {
+template <int D>
+void Model<D>::set_polygon_slots(std::size_t v) {
   for (const std::int32_t p : polygons_of_[v]) {
     const auto slot = static_cast<std::size_t>(p);
-    const auto &corners = elements_.polygon(slot).polygon.corners;
+    const auto& corners = elements_.polygon(slot).polygon.corners;
     polygon_slots_.clear();
-    for (const auto d : corners)
-      polygon_slots_.push_back(blocks_.find(v, d.value));
-    const auto own =
-        std::find(corners.begin(), corners.end(), DeformedIndex(v));
-    membrane_.polygons().set_slots(
-        slot, static_cast<std::size_t>(own - corners.begin()), polygon_slots_);
+    for (const auto d : corners) polygon_slots_.push_back(blocks_.find(v, d.value));
+    const auto own = std::find(corners.begin(), corners.end(), DeformedIndex(v));
+    membrane_.polygons().set_slots(slot, static_cast<std::size_t>(own - corners.begin()), polygon_slots_);
   }
 }
 
-template <int D> void Model<D>::refresh_mass(std::size_t v) {
+template <int D>
+void Model<D>::refresh_mass(std::size_t v) {
   double third = 0, of_polygons = 0;
   for (const auto c : incidence_.at(v))
-    if (const Element &e = elements_[triangle_of(c)()]; e.is_triangle())
-      third += e.material_area();
+    if (const Element& e = elements_[triangle_of(c)()]; e.is_triangle()) third += e.material_area();
   for (const std::int32_t p : polygons_of_[v])
     of_polygons += elements_.polygon(static_cast<std::size_t>(p)).corner_area();
-  mass_[static_cast<Eigen::Index>(v)] =
-      material_.density * (third / 3 + of_polygons);
-  if (!consistent_mass_)
-    return;
+  mass_[static_cast<Eigen::Index>(v)] = material_.density * (third / 3 + of_polygons);
+  if (!consistent_mass_) return;
   consistent_mass_->set_row(v, columns_);
-  if (of_polygons > 0)
-    consistent_mass_->block(consistent_mass_->first_slot(v))(0) +=
-        material_.density * of_polygons;
+  if (of_polygons > 0) consistent_mass_->block(consistent_mass_->first_slot(v))(0) += material_.density * of_polygons;
   for (const auto c : incidence_.at(v)) {
-    const Element &e = elements_[triangle_of(c)()];
-    if (!e.is_triangle())
-      continue;
+    const Element& e = elements_[triangle_of(c)()];
+    if (!e.is_triangle()) continue;
     for (const auto d : e.vertex)
       consistent_mass_->block(consistent_mass_->find(v, d.value))(0) +=
           material_.density * e.material_area() / (d() == v ? 6 : 12);
@@ -257,7 +225,7 @@ template <int D> void Model<D>::refresh_mass(std::size_t v) {
 }
 
 template <int D>
-void Model<D>::refresh_loads(const Sheet &sheet, std::size_t v) {
+void Model<D>::refresh_loads(const Sheet& sheet, std::size_t v) {
   const auto i = static_cast<Eigen::Index>(v);
   const VertexIndex rest_vertex = sheet.rest_vertex(DeformedIndex(v));
   const auto gravity = coordinates(physics_.gravity);
@@ -265,76 +233,65 @@ void Model<D>::refresh_loads(const Sheet &sheet, std::size_t v) {
     external_[D * i + static_cast<Eigen::Index>(k)] = mass_[i] * gravity[k];
     held_[D * v + k] = 1, pin_of_[D * v + k] = -1;
   }
-  if (!rest_vertex.valid())
-    return;
+  if (!rest_vertex.valid()) return;
   const Point2 rest = places_[v] = sheet.rest(rest_vertex);
-  if (blocks_.columns(v).empty())
-    return; // inside a polygon
+  if (blocks_.columns(v).empty()) return;  // inside a polygon
   for (std::size_t k = 0; k < D; ++k) {
     for (std::size_t p = 0; p < pins_.size() && pin_of_[D * v + k] < 0; ++p)
-      if (pins_[p].axes[k] && pins_[p].where.contains(rest))
-        pin_of_[D * v + k] = static_cast<std::int16_t>(p);
+      if (pins_[p].axes[k] && pins_[p].where.contains(rest)) pin_of_[D * v + k] = static_cast<std::int16_t>(p);
     held_[D * v + k] = pin_of_[D * v + k] >= 0;
   }
-  if (tractions_.empty())
-    return;
+  if (tractions_.empty()) return;
   for (const auto c : incidence_.at(v))
     for (const HalfEdge h : {c, Sheet::previous(c)}) {
-      if (!sheet.on_border(h))
-        continue;
-      const Point2 a = sheet.rest(sheet.origin(h)),
-                   b = sheet.rest(sheet.target(h));
-      for (const Traction &traction : tractions_) {
-        if (!traction.where.contains(a) || !traction.where.contains(b))
-          continue;
+      if (!sheet.on_border(h)) continue;
+      const Point2 a = sheet.rest(sheet.origin(h)), b = sheet.rest(sheet.target(h));
+      for (const Traction& traction : tractions_) {
+        if (!traction.where.contains(a) || !traction.where.contains(b)) continue;
         const auto force = coordinates(traction.force);
         for (std::size_t k = 0; k < D; ++k)
-          external_[D * i + static_cast<Eigen::Index>(k)] +=
-              force[k] * std::sqrt(squared_length(b - a)) / 2;
+          external_[D * i + static_cast<Eigen::Index>(k)] += force[k] * std::sqrt(squared_length(b - a)) / 2;
       }
     }
 }
 
-template <int D> Field Model<D>::positions(const Sheet &sheet) const {
+template <int D>
+Field Model<D>::positions(const Sheet& sheet) const {
   Field x = Field::Zero(static_cast<Eigen::Index>(D * sheet.deformed_slots()));
   for (std::size_t v = 0; v < sheet.deformed_slots(); ++v) {
     const auto p = coordinates(sheet.position(DeformedIndex(v)));
-    for (std::size_t k = 0; k < D; ++k)
-      x[static_cast<Eigen::Index>(D * v + k)] = p[k];
+    for (std::size_t k = 0; k < D; ++k) x[static_cast<Eigen::Index>(D * v + k)] = p[k];
   }
   return x;
 }
 
 template <int D>
 double Model<D>::held_displacement(std::size_t unknown, double time) const {
-  const Pin &pin = pins_[static_cast<std::size_t>(pin_of_[unknown])];
-  return coordinates(pin.displacement)[unknown % D] +
-         held_velocity(unknown) * time;
+  const Pin& pin = pins_[static_cast<std::size_t>(pin_of_[unknown])];
+  return coordinates(pin.displacement)[unknown % D] + held_velocity(unknown) * time;
 }
 
-template <int D> double Model<D>::held_velocity(std::size_t unknown) const {
-  return coordinates(
-      pins_[static_cast<std::size_t>(pin_of_[unknown])].velocity)[unknown % D];
+template <int D>
+double Model<D>::held_velocity(std::size_t unknown) const {
+  return coordinates(pins_[static_cast<std::size_t>(pin_of_[unknown])].velocity)[unknown % D];
 }
 
-template <int D> std::size_t Model<D>::unheld_pieces() const {
+template <int D>
+std::size_t Model<D>::unheld_pieces() const {
   std::vector<std::uint8_t> seen(vertices());
   std::vector<std::size_t> front;
   std::size_t unheld = 0;
   for (std::size_t start = 0; start < vertices(); ++start) {
-    if (seen[start] || blocks_.columns(start).empty())
-      continue;
+    if (seen[start] || blocks_.columns(start).empty()) continue;
     bool held = false;
     front.assign(1, start);
     seen[start] = 1;
     while (!front.empty()) {
       const std::size_t v = front.back();
       front.pop_back();
-      for (std::size_t k = 0; k < D; ++k)
-        held |= held_[D * v + k] != 0;
+      for (std::size_t k = 0; k < D; ++k) held |= held_[D * v + k] != 0;
       for (const auto j : blocks_.columns(v))
-        if (!std::exchange(seen[static_cast<std::size_t>(j)], 1))
-          front.push_back(static_cast<std::size_t>(j));
+        if (!std::exchange(seen[static_cast<std::size_t>(j)], 1)) front.push_back(static_cast<std::size_t>(j));
     }
     unheld += !held;
   }
@@ -344,42 +301,34 @@ template <int D> std::size_t Model<D>::unheld_pieces() const {
 // --- of a state
 // ------------------------------------------------------------------------------------------------------
 
-template <int D> void Model<D>::rotate(const Field &x) {
+template <int D>
+void Model<D>::rotate(const Field& x) {
   membrane_.rotate(elements_, x);
 }
 
 template <int D>
-void Model<D>::add_internal_force(const Field &x, Field &f) const {
+void Model<D>::add_internal_force(const Field& x, Field& f) const {
   f += membrane_.force();
-  if (bending_)
-    add_product_per_coordinate(bending_->matrix(), D, -1, x, f);
+  if (bending_) add_product_per_coordinate(bending_->matrix(), D, -1, x, f);
 }
 
 template <int D>
-void Model<D>::add_impulse(double h, const Field &x, double factor,
-                           const Field &v, Field &y) {
+void Model<D>::add_impulse(double h, const Field& x, double factor, const Field& v, Field& y) {
   y += h * membrane_.force();
   velocity_.resize(vertices()), bent_.resize(vertices());
   for (std::size_t i = 0; i < vertices(); ++i) {
     Lanes at{};
     for (std::size_t k = 0; k < D; ++k)
-      velocity_[i][k] = v[static_cast<Eigen::Index>(D * i + k)],
-      at[k] = x[static_cast<Eigen::Index>(D * i + k)];
+      velocity_[i][k] = v[static_cast<Eigen::Index>(D * i + k)], at[k] = x[static_cast<Eigen::Index>(D * i + k)];
     bent_[i] =
-        h * at +
-        factor * stiffness_factor_ *
-            velocity_[i]; // K_b (h x) and factor stiffness_factor K_b v at once
+        h * at + factor * stiffness_factor_ * velocity_[i];  // K_b (h x) and factor stiffness_factor K_b v at once
   }
   for (std::size_t i = 0; i < vertices(); ++i) {
     Lanes sum = factor * blocks_.row_product(i, velocity_);
-    if (bending_)
-      sum += bending_->matrix().row_product(i, bent_);
-    for (std::size_t k = 0; k < D; ++k)
-      y[static_cast<Eigen::Index>(D * i + k)] -= sum[k];
+    if (bending_) sum += bending_->matrix().row_product(i, bent_);
+    for (std::size_t k = 0; k < D; ++k) y[static_cast<Eigen::Index>(D * i + k)] -= sum[k];
   }
-  if (consistent_mass_)
-    add_product_per_coordinate(*consistent_mass_, D, -factor * mass_factor_, v,
-                               y);
+  if (consistent_mass_) add_product_per_coordinate(*consistent_mass_, D, -factor * mass_factor_, v, y);
 }
 
 template <int D>
@@ -387,40 +336,34 @@ void Model<D>::assemble(double mass_factor, double stiffness_factor) {
   mass_factor_ = mass_factor, stiffness_factor_ = stiffness_factor;
   blocks_.set_zero();
   membrane_.add_stiffness(elements_, stiffness_factor, blocks_);
-  if (consistent_mass_)
-    return;
+  if (consistent_mass_) return;
   for (std::size_t v = 0; v < vertices(); ++v)
     if (!blocks_.columns(v).empty())
-      blocks_.block(blocks_.first_slot(v)).diagonal().array() +=
-          mass_factor * mass_[static_cast<Eigen::Index>(v)];
+      blocks_.block(blocks_.first_slot(v)).diagonal().array() += mass_factor * mass_[static_cast<Eigen::Index>(v)];
 }
 
-template <int D> SystemMatrix<D> Model<D>::system() const {
+template <int D>
+SystemMatrix<D> Model<D>::system() const {
   SystemMatrix<D> a;
-  a.blocks = &blocks_, a.held = &held_, a.elements = &elements_,
-  a.places = &places_, a.pattern = history_.now();
+  a.blocks = &blocks_, a.held = &held_, a.elements = &elements_, a.places = &places_, a.pattern = history_.now();
   a.history = &history_;
-  if (bending_)
-    a.scalar.push_back({stiffness_factor_, &bending_->matrix()});
-  if (consistent_mass_)
-    a.scalar.push_back({mass_factor_, &*consistent_mass_});
+  if (bending_) a.scalar.push_back({stiffness_factor_, &bending_->matrix()});
+  if (consistent_mass_) a.scalar.push_back({mass_factor_, &*consistent_mass_});
   return a;
 }
 
 template <int D>
-void Model<D>::add_mass_product(double factor, const Field &x, Field &y) const {
-  if (consistent_mass_)
-    return add_product_per_coordinate(*consistent_mass_, D, factor, x, y);
+void Model<D>::add_mass_product(double factor, const Field& x, Field& y) const {
+  if (consistent_mass_) return add_product_per_coordinate(*consistent_mass_, D, factor, x, y);
   for (Eigen::Index v = 0; v < mass_.size(); ++v)
-    y.template segment<D>(D * v) +=
-        factor * mass_[v] * x.template segment<D>(D * v);
+    y.template segment<D>(D * v) += factor * mass_[v] * x.template segment<D>(D * v);
 }
 
-template <int D> Energy Model<D>::energy(const Field &x, const Field &v) const {
+template <int D>
+Energy Model<D>::energy(const Field& x, const Field& v) const {
   Energy energy;
   energy.membrane = membrane_.energy(elements_);
-  if (bending_)
-    energy.bending = bending_->energy(x, D);
+  if (bending_) energy.bending = bending_->energy(x, D);
   Field momentum = Field::Zero(v.size());
   add_mass_product(1, v, momentum);
   energy.kinetic = v.dot(momentum) / 2;
@@ -431,4 +374,4 @@ template <int D> Energy Model<D>::energy(const Field &x, const Field &v) const {
 template class Model<2>;
 template class Model<3>;
 
-} // namespace cutbench
+}  // namespace cutbench
