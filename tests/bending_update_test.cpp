@@ -137,6 +137,7 @@ TEST(SlopePatch, IsALeastSquaresFit) {
       if (!sheet.triangle(TriangleIndex(t)).alive()) continue;
       patch.fit(sheet, nullptr, TriangleIndex(t));
       const auto c = sheet.corners(TriangleIndex(t));
+      const auto terms = patch.terms(c);
       const Point2 centre = 1.0 / 3 * (c[0] + c[1] + c[2]);
       const double unit = std::sqrt(squared_length(c[1] - c[0]));
       double corners = 0;
