@@ -16,7 +16,7 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 SUITE_VERSIONS = ["2", "3", "4"]  # that can be read; older column names are renamed on reading
 TEXT = ["suite_version", "sheet", "method", "knob", "seed", "cache", "status", "verdict", "reason"]
 TEXT_OF_SOME = ["cut_family", "problem", "solver", "primary",  # text in the records that have them
-                "sweep", "cut", "pose", "integrator", "mass", "bending"]
+                "sweep", "cut", "pose", "integrator", "stress_stiffness", "mass", "bending"]
 COUNTS = ["resolution", "case", "repetition"]
 VARIANT = ["method", "knob"]
 CUT = ["suite_version", "cut_family", "sheet", "resolution", "case"]  # names one cut, whatever the method
