@@ -1,23 +1,16 @@
-// Bending of a sheet that is flat at rest: one constant, positive semi-definite
-// scalar matrix for x, y and z, whose null space is what is linear in rest
-// coordinates, so rigid motions of any size cost nothing and nothing is
-// rotated.
+// Bending of a sheet that is flat at rest: one constant, positive semi-definite scalar matrix for x, y and z, whose
+// null space is what is linear in rest coordinates, so rigid motions of any size cost nothing and nothing is rotated.
 //
-//   patches  The enhanced rotation-free shell triangle (Flores and Onate, CMAME
-//   194, 2005, EBST), for a flat rest sheet:
-//            slopes from the quadratic through a triangle and its three
-//            neighbours, averaged on the sides; Hessian from them by the
-//            divergence theorem. Does not depend on the mesh: passes the
-//            bending patch test on any.
-//   hinges   The quadratic hinge (Bergou et al. 2006, A quadratic bending model
-//   for inextensible surfaces), as the row
+//   patches  The enhanced rotation-free shell triangle (Flores and Onate, CMAME 194, 2005, EBST), for a flat rest
+//            sheet: slopes from the quadratic through a triangle and its three neighbours, averaged on the sides;
+//            Hessian from them by the divergence theorem. Does not depend on the mesh: passes the bending patch test on
+//            any.
+//   hinges   The quadratic hinge (Bergou et al. 2006, A quadratic bending model for inextensible surfaces), as the row
 //            that shows how an energy depends on the mesh.
 //
-// Each triangle's energy is half the sum of the squares of three linear rows
-// over the vertices near it. What lies across an incision is not near. A
-// polygon (polygon_element.h) has the rows of one element: one quadratic, and
-// one Hessian from the slopes at its sides. Patches only; they pass the bending
-// patch test with polygons, too.
+// Each triangle's energy is half the sum of the squares of three linear rows over the vertices near it. What lies
+// across an incision is not near. A polygon (polygon_element.h) has the rows of one element: one quadratic, and one
+// Hessian from the slopes at its sides. Patches only; they pass the bending patch test with polygons, too.
 #pragma once
 
 #include <cstdint>
@@ -35,15 +28,13 @@ namespace cutbench {
 class Bending {
  public:
   Bending() = default;
-  /// \pre kind is not `none`, and `patches` where there are polygons; rigidity
-  /// D in N m. \param elements  of the sheet, whose polygons count; null: no
-  /// polygons
+  /// \pre kind is not `none`, and `patches` where there are polygons; rigidity D in N m.
+  /// \param elements  of the sheet, whose polygons count; null: no polygons
   Bending(const Sheet& sheet, BendingKind kind, double rigidity, double poisson,
           const ElementTable* elements = nullptr);
-  /// After a cut: rebuilds the stencils near the slots in the sheet's log and
-  /// the rows of the vertices in them. Equal to a new one but for the order of
-  /// the columns within a row. \param regrouped  the triangles that joined or
-  /// left a polygon since the last call
+  /// After a cut: rebuilds the stencils near the slots in the sheet's log and the rows of the vertices in them. Equal
+  /// to a new one but for the order of the columns within a row.
+  /// \param regrouped  the triangles that joined or left a polygon since the last call
   void update(const Sheet& sheet, const ElementTable* elements = nullptr,
               std::span<const TriangleIndex> regrouped = {});
 
@@ -56,8 +47,7 @@ class Bending {
  private:
   struct Stale {
     TriangleIndex triangle;
-    int distance;  ///< in unseparated edges, from the nearest triangle that
-                   ///< changed
+    int distance;  ///< in unseparated edges, from the nearest triangle that changed
   };
   /// A stencil that holds a vertex, and its place there; one is like another if the triangle is.
   struct Holder {
@@ -97,19 +87,16 @@ class Bending {
   std::vector<int> reach_;           ///< per triangle slot: of its patch; 0 for hinges
   int longest_reach_ = 0;
   GrowingRows<StencilTerm> stencils_;  ///< per triangle slot: its three rows, in sqrt(N/m)
-  GrowingRows<Holder> stencils_of_;    ///< per deformed vertex: the stencils that
-                                       ///< hold it, in order
+  GrowingRows<Holder> stencils_of_;    ///< per deformed vertex: the stencils that hold it, in order
   BlockMatrix<1> matrix_;
 
   /// Working storage, kept between calls so that they don't allocate.
   struct Work {
     const ElementTable* elements = nullptr;  ///< of the call under way
     SlopePatch patch;
-    std::vector<Stale> stale;  ///< nearest first
-    std::vector<std::uint32_t> stale_in,
-        refitted_in;                       ///< per triangle slot: the call that listed it, fitted its
-                                           ///< patch
-    std::vector<std::uint32_t> listed_in;  ///< per deformed vertex: the call that put it in `rows`
+    std::vector<Stale> stale;                          ///< nearest first
+    std::vector<std::uint32_t> stale_in, refitted_in;  ///< per triangle slot: the call that listed it, fitted its patch
+    std::vector<std::uint32_t> listed_in;              ///< per deformed vertex: the call that put it in `rows`
     std::uint32_t call = 0;
     std::vector<std::int32_t> rows;   ///< to be written
     std::vector<std::int32_t> place;  ///< per deformed vertex: in `terms` or `columns`; -1: none

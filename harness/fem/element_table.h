@@ -1,6 +1,5 @@
-// What the physics knows of the mesh: one row per triangle slot, and the
-// polygons that some triangles are members of. The elements of methods that
-// don't re-mesh may overlap in rest space and be made of material in part only.
+// What the physics knows of the mesh: one row per triangle slot, and the polygons that some triangles are members of.
+// The elements of methods that don't re-mesh may overlap in rest space and be made of material in part only.
 #pragma once
 
 #include <array>
@@ -28,8 +27,8 @@ class ElementTable {
  public:
   ElementTable() = default;
   explicit ElementTable(const Sheet& sheet);
-  /// Rewrites the rows of the slots that the sheet's log names. The same as a
-  /// new table. \pre these are members of no polygon.
+  /// Rewrites the rows of the slots that the sheet's log names. The same as a new table. \pre these are members of no
+  /// polygon.
   void update(const Sheet& sheet);
   void reserve_spare() { rows_.reserve(rows_.size() + rows_.size() / 2); }
 
@@ -41,14 +40,12 @@ class ElementTable {
     if (polygon < 0) return {&t, 1};
     return polygons_[static_cast<std::size_t>(polygon)].polygon.triangles;
   }
-  /// t, one of whose corners it is, lies in a polygon that has the vertex
-  /// inside.
+  /// t, one of whose corners it is, lies in a polygon that has the vertex inside.
   bool is_inside(TriangleIndex t, DeformedIndex vertex) const;
   auto begin() const { return rows_.begin(); }
   auto end() const { return rows_.end(); }
 
-  /// Polygons have slots, which are used again. \pre its triangles are alive,
-  /// and members of none.
+  /// Polygons have slots, which are used again. \pre its triangles are alive, and members of none.
   std::size_t add_polygon(const Sheet& sheet, const Polygon& polygon);
   void dissolve(std::size_t polygon);  ///< its triangles are elements again
   std::size_t polygon_slots() const { return polygons_.size(); }

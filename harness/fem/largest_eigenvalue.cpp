@@ -88,8 +88,7 @@ class ScaledStiffness {
                                ghost.mass * ghost.jump[k] * ghost.jump[l]);
         diagonal[ghost.unknown[k].value] += ghost.mass;
       }
-    for (Eigen::Index u = 0; u < n; ++u)  // what nothing depends on has no stiffness either, and any mass
-                                          // will do
+    for (Eigen::Index u = 0; u < n; ++u)  // what nothing depends on has no stiffness either, and any mass will do
       if (diagonal[u] == 0) entries.emplace_back(static_cast<int>(u), static_cast<int>(u), 1);
     Eigen::SparseMatrix<double> matrix(n, n);
     matrix.setFromTriplets(entries.begin(), entries.end());
@@ -151,8 +150,7 @@ double explicit_step_limit(double eigenvalue, const Material& material) {
 }
 
 double largest_eigenvalue(const Sheet& sheet, const Ties& ties, const Elasticity& elasticity) {
-  constexpr double tolerance = 1e-3;  // met at two checks, for at the first it
-                                      // may be met by the second largest
+  constexpr double tolerance = 1e-3;  // met at two checks, for at the first it may be met by the second largest
   constexpr int most_steps = 1000, between_checks = 8;
   ScaledStiffness stiffness(sheet, ties, elasticity);
   const Eigen::Index n = stiffness.size();

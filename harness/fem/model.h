@@ -26,20 +26,18 @@ class Model {
   Model(const Sheet& sheet, const Material& material, const Physics& physics, std::vector<Pin> pins,
         std::vector<Traction> tractions);
 
-  /// Reserves room to grow by half, so that the first cut of a running
-  /// simulation copies no arrays. A copy of the model has no such room.
+  /// Reserves room to grow by half, so that the first cut of a running simulation copies no arrays. A copy of the model
+  /// has no such room.
   void reserve_spare();
   /// Call both after each single cut, before the next begin_cut() clears the log, and transfer() for the state: they
   /// replace indices and add elements (Xin et al. 2018, 4.2) where the sheet's log says so.
   void update(const Sheet& sheet);
   void update_bending(const Sheet& sheet);  ///< nothing without bending
-  /// Constrains vertices and makes polygons of triangles; call it after
-  /// update() and update_bending(). Constraints of before are removed, and so
-  /// are polygons that `ties` no longer has; the others stay as they are.
-  /// Forces, energies and the matrix remain those of all vertices; a solver
-  /// solves for the unknowns of tied(). Vertices inside polygons are no
-  /// unknowns: they have no mass and are held, and follow() moves them. \pre
-  /// `sheet` is that of the last update().
+  /// Constrains vertices and makes polygons of triangles; call it after update() and update_bending(). Constraints of
+  /// before are removed, and so are polygons that `ties` no longer has; the others stay as they are. Forces, energies
+  /// and the matrix remain those of all vertices; a solver solves for the unknowns of tied(). Vertices inside polygons
+  /// are no unknowns: they have no mass and are held, and follow() moves them.
+  /// \pre `sheet` is that of the last update().
   void tie(const Sheet& sheet, const Ties& ties);
   /// Gives the vertices inside polygons their values, positions or velocities.
   void follow(Field& x) const;
@@ -49,8 +47,7 @@ class Model {
   Field positions(const Sheet& sheet) const;
 
   // --- of a state ----------------------------------------------------------------------------------------------------
-  void rotate(const Field& x);  ///< the deformation of every element; the
-                                ///< functions below refer to this x
+  void rotate(const Field& x);  ///< the deformation of every element; the functions below refer to this x
   /// f += internal forces, of membrane and bending, N. \pre rotate(x).
   void add_internal_force(const Field& x, Field& f) const;
   /// y += h (internal forces at x) - factor A v, with A of the last assemble(). Faster than one by one: bending, which
@@ -113,8 +110,7 @@ class Model {
   double mass_factor_ = 0, stiffness_factor_ = 0;  // of the last assemble()
   Field mass_, external_;
   std::vector<std::uint8_t> held_;
-  std::vector<std::int16_t> pin_of_;  // per unknown: the first pin that holds
-                                      // it, -1 where there is none
+  std::vector<std::int16_t> pin_of_;  // per unknown: the first pin that holds it, -1 where there is none
   std::vector<Point2> places_;        // per vertex, in rest space
   PatternHistory history_;            // of the system
   // Working storage of update().

@@ -1,15 +1,12 @@
-// Slopes of a bent sheet at the sides of a triangle, recovered from the
-// vertices round it: a quadratic in rest coordinates through the triangle's
-// corners and the far corners of its neighbours, six points, as in the enhanced
-// rotation-free shell triangle (Flores and Onate, CMAME 194, 2005). Where there
-// are fewer neighbours, or the six lie near a conic, so that several quadratics
-// fit them, the patch grows ring by ring and the quadratic is the best fit
+// Slopes of a bent sheet at the sides of a triangle, recovered from the vertices round it: a quadratic in rest
+// coordinates through the triangle's corners and the far corners of its neighbours, six points, as in the enhanced
+// rotation-free shell triangle (Flores and Onate, CMAME 194, 2005). Where there are fewer neighbours, or the six lie
+// near a conic, so that several quadratics fit them, the patch grows ring by ring and the quadratic is the best fit
 // (weighted least squares).
 //
-// A polygon (polygon_element.h) has one patch, which begins with all its
-// corners; vertices inside a polygon are in none. The patch does not contain
-// vertices behind an incision, or out of sight of the triangle's centroid, for
-// example behind a tip.
+// A polygon (polygon_element.h) has one patch, which begins with all its corners; vertices inside a polygon are in none.
+// The patch does not contain vertices behind an incision, or out of sight of the triangle's centroid, for example
+// behind a tip.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,14 +25,13 @@ struct StencilTerm {
 
 class SlopePatch {
  public:
-  /// Fits the patch of the element that has triangle t. Returns its reach: the
-  /// number of unseparated edges from the element to the farthest triangle that
-  /// it depends on. \param elements  null: no polygons
+  /// Fits the patch of the element that has triangle t. Returns its reach: the number of unseparated edges from the
+  /// element to the farthest triangle that it depends on.
+  /// \param elements  null: no polygons
   int fit(const Sheet& sheet, const ElementTable* elements, TriangleIndex t);
-  /// Of a triangle of the element with these corners. Row k: derivative into
-  /// the triangle, at right angles to side k, at the side's midpoint; factors
-  /// in 1/length. Exact for quadratics where the patch determines one, else for
-  /// linear functions.
+  /// Of a triangle of the element with these corners. Row k: derivative into the triangle, at right angles to side k,
+  /// at the side's midpoint; factors in 1/length. Exact for quadratics where the patch determines one, else for linear
+  /// functions.
   std::span<const StencilTerm> terms(const std::array<Point2, 3>& corners);
 
  private:
@@ -45,8 +41,7 @@ class SlopePatch {
     HalfEdge edge;
     Point2 right, left;
   };
-  using Row = std::array<double, 8>;  ///< six columns, and two of zeros that
-                                      ///< make loops even
+  using Row = std::array<double, 8>;  ///< six columns, and two of zeros that make loops even
 
   void begin(const Sheet& sheet, TriangleIndex t);
   void begin(const Sheet& sheet, const PolygonElement& polygon);

@@ -10,35 +10,12 @@
 #include "harness/mesh/locator.h"
 #include "harness/mesh/predicates.h"
 #include "harness/mesh/tolerances.h"
+#include "methods/tools/divided.h"
 #include "methods/tools/static_split.h"
 
 namespace cutbench {
 
 namespace {
-
-/// The triangle that holds p; p lies inside the sheet, clear of its edges but for rounding. Where that takes it past
-/// the border, the last triangle before it.
-TriangleIndex triangle_at(const Sheet& sheet, const Locator& locator, Point2 p) {
-  const auto step = [&](TriangleIndex t) {  // itself where it holds p, invalid beyond the border
-    const auto c = sheet.corners(t);
-    for (int k = 0; k < 3; ++k)
-      if (const auto i = static_cast<std::size_t>(k); orientation(c[i], c[(i + 1) % 3], p) < 0) {
-        const HalfEdge o = sheet.opposite(half_edge(t, k));
-        return o.valid() ? triangle_of(o) : TriangleIndex();
-      }
-    return t;
-  };
-  TriangleIndex last, t = locator.near(sheet, p);
-  for (std::size_t i = 0; t.valid() && i < sheet.triangle_slots(); ++i) {
-    const TriangleIndex next = step(t);
-    if (next == t) return t;
-    last = std::exchange(t, next);
-  }
-  // Past a notch of the border.
-  for (std::size_t i = 0; i < sheet.triangle_slots(); ++i)
-    if (sheet.triangle(TriangleIndex(i)).alive() && step(TriangleIndex(i)) == TriangleIndex(i)) return TriangleIndex(i);
-  return last;
-}
 
 class Doubling {
  public:
@@ -89,7 +66,8 @@ class Doubling {
         continue;
       }
       const auto c = cut_.corners(t);
-      parent_[i] = triangle_at(before_, locator, 1.0 / 3 * (c[0] + c[1] + c[2]));
+      const Point2 centroid = 1.0 / 3 * (c[0] + c[1] + c[2]);
+      parent_[i] = triangle_at(before_, locator.near(before_, centroid), centroid);
     }
   }
 

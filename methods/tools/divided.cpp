@@ -9,8 +9,24 @@ namespace cutbench {
 
 namespace {
 
-/// The triangle that holds p, by a walk from `start`; p lies inside the sheet, clear of its edges but for rounding.
-/// Where that takes it past the border, the last triangle before it.
+/// The triangles round the vertices that `before` has not.
+std::vector<TriangleIndex> new_triangles(const Sheet& before, const Sheet& cut) {
+  std::vector<TriangleIndex> found;
+  const bool slots_were_free = before.vertex_count() != before.vertex_slots();
+  for (std::size_t v = slots_were_free ? 0 : before.vertex_slots(); v < cut.vertex_slots(); ++v) {
+    if (!cut.triangle_of_vertex(VertexIndex(v)).valid() || !cut.is_newer(VertexIndex(v), before)) continue;
+    const HalfEdge first = cut.first_outgoing(VertexIndex(v));
+    HalfEdge h = first;
+    do found.push_back(triangle_of(h));
+    while ((h = cut.next_outgoing(h)).valid() && h != first);
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+}  // namespace
+
 TriangleIndex triangle_at(const Sheet& sheet, TriangleIndex start, Point2 p) {
   const auto step = [&](TriangleIndex t) {  // itself where it holds p, invalid beyond the border
     const auto c = sheet.corners(t);
@@ -32,24 +48,6 @@ TriangleIndex triangle_at(const Sheet& sheet, TriangleIndex start, Point2 p) {
     if (sheet.triangle(TriangleIndex(i)).alive() && step(TriangleIndex(i)) == TriangleIndex(i)) return TriangleIndex(i);
   return last;
 }
-
-/// The triangles round the vertices that `before` has not.
-std::vector<TriangleIndex> new_triangles(const Sheet& before, const Sheet& cut) {
-  std::vector<TriangleIndex> found;
-  const bool slots_were_free = before.vertex_count() != before.vertex_slots();
-  for (std::size_t v = slots_were_free ? 0 : before.vertex_slots(); v < cut.vertex_slots(); ++v) {
-    if (!cut.triangle_of_vertex(VertexIndex(v)).valid() || !cut.is_newer(VertexIndex(v), before)) continue;
-    const HalfEdge first = cut.first_outgoing(VertexIndex(v));
-    HalfEdge h = first;
-    do found.push_back(triangle_of(h));
-    while ((h = cut.next_outgoing(h)).valid() && h != first);
-  }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
-  return found;
-}
-
-}  // namespace
 
 std::vector<DividedTriangle> divided_triangles(const Sheet& before, const Sheet& cut) {
   std::vector<DividedTriangle> divided;

@@ -1,4 +1,5 @@
-// The triangles that cuts made, found from the vertices that they made: at a cost that does not grow with the sheet.
+// Which triangle a point lies in, and which triangles cuts made, found from the vertices that they made: at a cost that
+// does not grow with the sheet.
 #pragma once
 
 #include <vector>
@@ -11,6 +12,10 @@ struct DividedTriangle {
   TriangleIndex part;    ///< of the sheet that was cut
   TriangleIndex parent;  ///< of the sheet before its first cut: it holds the part's centroid
 };
+
+/// The triangle that holds p, by a walk from `start`; p lies inside the sheet, clear of its edges but for rounding.
+/// Where that takes it past the border, the last triangle before it.
+TriangleIndex triangle_at(const Sheet& sheet, TriangleIndex start, Point2 p);
 
 /// The triangles of `cut` that are new, in the order of their slots: those with a vertex that `before` has not. Free for
 /// a sheet of which no cut has freed a vertex, else it looks at all vertices.
