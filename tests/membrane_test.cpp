@@ -72,6 +72,18 @@ Eigen::MatrixXd stiffness(const Element& e, const Field& x, Strain strain, const
   return k;
 }
 
+template <int D>
+void expect_derivative_of_the_force(const Element& e, const Field& x, const Lame& lame, const Eigen::MatrixXd& k) {
+  for (Eigen::Index j = 0; j < x.size(); ++j) {
+    const double h = 1e-6;
+    Field right = x, left = x;
+    right[j] += h, left[j] -= h;
+    const Field column =
+        -(forces<D>(e, right, Strain::corotational, lame) - forces<D>(e, left, Strain::corotational, lame)) / (2 * h);
+    EXPECT_LT((column - k.col(j)).norm(), 1e-6 * k.norm());
+  }
+}
+
 const Material skin{.stiffness = 1000, .poisson = 0.45};
 
 template <class Dimension>
@@ -140,14 +152,7 @@ TYPED_TEST(Membrane, StiffnessIsTheDerivativeOfTheForceUnderTension) {
     ++tensed;
     const Eigen::MatrixXd k = stiffness<D>(e, x, Strain::corotational, lame);
     EXPECT_LT((k - k.transpose()).norm(), 1e-12 * k.norm());
-    for (Eigen::Index j = 0; j < x.size(); ++j) {
-      const double h = 1e-6;
-      Field right = x, left = x;
-      right[j] += h, left[j] -= h;
-      const Field column =
-          -(forces<D>(e, right, Strain::corotational, lame) - forces<D>(e, left, Strain::corotational, lame)) / (2 * h);
-      EXPECT_LT((column - k.col(j)).norm(), 1e-6 * k.norm());
-    }
+    expect_derivative_of_the_force<D>(e, x, lame, k);
   }
   EXPECT_GT(tensed, 100);
 }
@@ -164,14 +169,7 @@ TYPED_TEST(Membrane, FullStiffnessIsTheDerivativeOfTheForceUnderCompressionToo) 
     for (auto& value : x) value += random.between(-0.02, 0.02);
     const Eigen::MatrixXd k = stiffness<D>(e, x, Strain::corotational, lame, StressStiffness::full);
     indefinite += eigenvalues(k)[0] < -1e-6 * k.norm();
-    for (Eigen::Index j = 0; j < x.size(); ++j) {
-      const double h = 1e-6;
-      Field right = x, left = x;
-      right[j] += h, left[j] -= h;
-      const Field column =
-          -(forces<D>(e, right, Strain::corotational, lame) - forces<D>(e, left, Strain::corotational, lame)) / (2 * h);
-      EXPECT_LT((column - k.col(j)).norm(), 1e-6 * k.norm());
-    }
+    expect_derivative_of_the_force<D>(e, x, lame, k);
   }
   EXPECT_GT(indefinite, 50);
 }

@@ -1,5 +1,4 @@
-// Polygons of triangles as finite elements: the polygons that the method makes, the element, the sheet's model with
-// them, bending, motion and solvers.
+// Polygons of triangles as finite elements: the polygons that the method makes, the element, and all of a sheet.
 
 #include <gtest/gtest.h>
 
@@ -16,39 +15,11 @@
 #include "tests/dense_solves.h"
 #include "tests/fem_helpers.h"
 #include "tests/helpers.h"
+#include "tests/tied_cut.h"
 #include "tests/truth_helpers.h"
 
 namespace cutbench {
 namespace {
-
-const std::vector<std::string> cuts_to_make{"straight",      "curved",           "partial",    "cut_out",
-                                            "recut",         "several",          "u_turn",     "tiny_loop",
-                                            "self_crossing", "through_vertices", "along_edges"};
-
-/// A sheet cut by cut_polygons.
-struct Cut {
-  Cut(const std::string& family, int n, const std::string& cuts, std::uint64_t seed, std::size_t number)
-      : before(make_sheet(family, n)), table(make_sheet(family, n), find_method("cut_polygons"), 0.7) {
-    for (const Curve& curve : make_case(cuts, seed, number, before)) EXPECT_EQ(table.cut(curve, 0.05), "");
-    ties = find_method("cut_polygons").make(0.7)->ties(before, table.sheet);
-  }
-  const Sheet& sheet() const { return table.sheet; }
-
-  Sheet before;
-  Table table;
-  Ties ties;
-};
-
-template <class Visit>
-void for_each_cut(int n, std::size_t cases, Visit visit) {
-  std::size_t turn = 0;
-  for (const std::string& cuts : cuts_to_make)
-    for (const std::string& family : families_in_turn(turn))
-      for (std::size_t i = 0; i < scaled(cases); ++i) {
-        SCOPED_TRACE(family + ", " + cuts + " " + std::to_string(i));
-        visit(Cut(family, n, cuts, 877, i));
-      }
-}
 
 /// Sides of triangles in the set that no other one in it has across an unopened edge: from a deformed vertex to the
 /// next.
@@ -94,7 +65,7 @@ void expect_sound(const Sheet& sheet, const std::vector<Polygon>& polygons) {
 
 TEST(Polygons, AreSound) {
   std::size_t polygons = 0, inside = 0;
-  for_each_cut(9, 3, [&](const Cut& cut) {
+  for_each_tied_cut({cut_polygons}, 9, 3, 877, [&](const TiedCut& cut) {
     expect_sound(cut.sheet(), cut.ties.polygons);
     polygons += cut.ties.polygons.size();
     for (const Polygon& polygon : cut.ties.polygons) inside += polygon.inside.size();
@@ -127,7 +98,7 @@ TEST(Polygons, AreSoundAfterAdversarialCuts) {
 
 /// Against a look at every triangle of the sheet before.
 TEST(Polygons, DividedTrianglesLieInTheirParents) {
-  for_each_cut(7, 1, [&](const Cut& cut) {
+  for_each_tied_cut({cut_polygons}, 7, 1, 877, [&](const TiedCut& cut) {
     std::set<TriangleIndex> parts;
     for (const auto& [part, parent] : divided_triangles(cut.before, cut.sheet())) {
       parts.insert(part);
@@ -181,7 +152,7 @@ TEST(Polygons, HoldNoHeldVertexInside) {
 /// The mean gradient is the integral of the field along the border, here by the trapezoidal rule side by side.
 TEST(PolygonElement, HasTheMeanGradientOfItsBorderAndDepartsFromNoLinearMap) {
   Random random(3);
-  for_each_cut(7, 1, [&](const Cut& cut) {
+  for_each_tied_cut({cut_polygons}, 7, 1, 877, [&](const TiedCut& cut) {
     for (const Polygon& polygon : cut.ties.polygons) {
       const PolygonElement element(cut.sheet(), polygon);
       double area = 0;
@@ -228,7 +199,7 @@ constexpr Material skin{.density = 2, .stiffness = 1000, .poisson = 0.3, .bendin
 /// Forces are the slope of the energy, by differences along random directions; in space with and without bending.
 template <int D>
 void forces_are_the_slope_of_the_energy(Strain strain, BendingKind bending) {
-  const Cut cut("alternating", 6, "curved", 877, 1);
+  const TiedCut cut("alternating", 6, cut_polygons, "curved", 877, 1);
   ASSERT_FALSE(cut.ties.polygons.empty());
   Model<D> model(cut.sheet(), skin, {.dimension = D, .strain = strain, .bending = bending}, {}, {});
   model.tie(cut.sheet(), cut.ties);
@@ -264,7 +235,7 @@ TEST(PolygonSheet, ForcesAreTheSlopeOfTheEnergy) {
 }
 
 TEST(PolygonSheet, TurningCostsNothing) {
-  for_each_cut(6, 1, [&](const Cut& cut) {
+  for_each_tied_cut({cut_polygons}, 6, 1, 877, [&](const TiedCut& cut) {
     Model<3> model(cut.sheet(), skin, {.bending = BendingKind::patches}, {}, {});
     model.tie(cut.sheet(), cut.ties);
     const Eigen::AngleAxisd turn(2.1, Eigen::Vector3d(1, 2, -1).normalized());
@@ -281,7 +252,7 @@ TEST(PolygonSheet, TurningCostsNothing) {
 /// In the plane the stiffness is that of the linear forces, and has no modes of zero energy but those of rigid pieces:
 /// the stabilisation leaves none.
 TEST(PolygonSheet, StiffnessIsThatOfTheForcesAndHasThreeNullModesPerPiece) {
-  for_each_cut(4, 1, [&](const Cut& cut) {
+  for_each_tied_cut({cut_polygons}, 4, 1, 877, [&](const TiedCut& cut) {
     Model<2> model(cut.sheet(), {.density = 1, .stiffness = 1, .poisson = 0.3},
                    {.dimension = 2, .strain = Strain::linear, .bending = BendingKind::none}, {}, {});
     model.tie(cut.sheet(), cut.ties);
@@ -314,157 +285,6 @@ TEST(PolygonSheet, StiffnessIsThatOfTheForcesAndHasThreeNullModesPerPiece) {
     const double expected = largest_mode(k, m);
     EXPECT_NEAR(largest_eigenvalue(cut.sheet(), cut.ties), expected, 1e-3 * expected);
   });
-}
-
-// --- the model -------------------------------------------------------------------------------------------------------
-
-/// Cut by cut, against a model made anew.
-TEST(PolygonModel, FollowsCutsAsOneMadeAnew) {
-  std::size_t turn = 0, kept = 0;
-  for (const std::string& cuts : cuts_to_make)
-    for (const std::string& family : families_in_turn(turn)) {
-      SCOPED_TRACE(family + ", " + cuts);
-      const Physics physics{.bending = BendingKind::patches, .gravity = {0, 0, -10}};
-      Body<3> body(make_sheet(family, 7), skin, physics, {{.where = {{0, 0}, {0.2, 1}}}});
-      const Sheet before = body.sheet;
-      const auto method = find_method("cut_polygons").make(0.7);
-      for (std::size_t number = 0; number < 3; ++number)
-        for (const Curve& curve : make_case(cuts, 877, number, before)) {
-          if (body.cut(curve, "cut_polygons", 0.7) != Status::ok) continue;
-          kept += body.model.polygons().size();
-          const Ties ties = method->ties(before, body.sheet);
-          body.model.tie(body.sheet, ties);
-          ASSERT_EQ(body.model.polygons().size(), ties.polygons.size());
-          Model<3> fresh = body.fresh_model();
-          fresh.tie(body.sheet, ties);
-          const Field x = bent(fresh, body.sheet);
-          for (Model<3>* const model : {&body.model, &fresh}) model->rotate(x), model->assemble(1.2, 0.1);
-          EXPECT_EQ(body.model.held(), fresh.held());
-          EXPECT_LE((body.model.lumped_mass() - fresh.lumped_mass()).cwiseAbs().maxCoeff(), 1e-15);
-          EXPECT_LE((body.model.external_force() - fresh.external_force()).cwiseAbs().maxCoeff(), 1e-13);
-          const double scale = max_entry(fresh.blocks());
-          EXPECT_LE(max_difference(body.model.blocks(), fresh.blocks()), 1e-12 * scale);
-          EXPECT_LE(max_difference(body.model.bending()->matrix(), fresh.bending()->matrix()),
-                    1e-11 * max_entry(fresh.bending()->matrix()));
-        }
-    }
-  EXPECT_GT(kept, 0u) << "polygons far from a cut stay";
-}
-
-/// Every quadratic has its exact energy, per element, wherever patches know the curvature: with polygons as without.
-TEST(PolygonBending, PassesThePatchTest) {
-  for_each_cut(12, 1, [&](const Cut& cut) {
-    const Sheet& sheet = cut.sheet();
-    if (count_pieces(sheet) > 1) return;  // a piece may be too small to know a curvature
-    ElementTable elements(sheet);
-    for (const Polygon& polygon : cut.ties.polygons) elements.add_polygon(sheet, polygon);
-    const double rigidity = 0.7, poisson = 0.3, xx = 0.4, yy = -0.3, xy = 0.5;
-    const Bending plain(sheet, BendingKind::patches, rigidity, poisson),
-        merged(sheet, BendingKind::patches, rigidity, poisson, &elements);
-    Field w = Field::Zero(static_cast<Eigen::Index>(sheet.deformed_slots()));
-    for (std::size_t d = 0; d < sheet.deformed_slots(); ++d)
-      if (const VertexIndex v = sheet.rest_vertex(DeformedIndex(d)); v.valid()) {
-        const auto [x, y] = sheet.rest(v);
-        w[static_cast<Eigen::Index>(d)] = xx * x * x / 2 + xy * x * y + yy * y * y / 2 + 0.2 * x - y;
-      }
-    const double exact =
-        rigidity / 2 * ((1 - poisson) * (xx * xx + yy * yy + 2 * xy * xy) + poisson * (xx + yy) * (xx + yy));
-    // As the triangles alone have it: exact, where no strip between cuts is too narrow to know a curvature.
-    if (std::abs(plain.energy(w, 1) - exact) > 1e-9 * exact) return;
-    EXPECT_NEAR(merged.energy(w, 1), exact, 1e-8 * exact);
-    for (const Polygon& polygon : cut.ties.polygons)
-      for (const DeformedIndex d : polygon.inside) EXPECT_TRUE(merged.matrix().columns(d()).empty());
-  });
-}
-
-TEST(PolygonBending, EigenvalueWithBendingIsFarBelowThatOfTheSplit) {
-  const Elasticity bends{.bending = BendingKind::patches, .bending_length2 = 1e-4};
-  double worst_split = 0, worst = 0;
-  for (const std::string family : sheet_families())
-    for (std::size_t i = 0; i < scaled(4); ++i) {
-      const Cut cut(family, 16, "straight", 877, i);
-      const double whole = largest_eigenvalue(cut.before, {}, bends);
-      worst_split = std::max(worst_split, largest_eigenvalue(cut.sheet(), {}, bends) / whole);
-      worst = std::max(worst, largest_eigenvalue(cut.sheet(), cut.ties, bends) / whole);
-    }
-  std::cout << "largest eigenvalue with bending: split " << worst_split << ", polygons " << worst << "\n";
-  EXPECT_LE(worst, 0.1 * worst_split);
-}
-
-/// Of the split the worst is thousands.
-TEST(CutPolygons, EigenvalueStaysNearThatOfTheUncutSheet) {
-  double worst = 0, worst_split = 0;
-  for (const std::string family : sheet_families())
-    for (const std::string cuts : {"straight", "curved", "partial"})
-      for (std::size_t i = 0; i < scaled(4); ++i) {
-        const Cut cut(family, 16, cuts, 877, i);
-        const double whole = largest_eigenvalue(cut.before);
-        worst = std::max(worst, largest_eigenvalue(cut.sheet(), cut.ties) / whole);
-        worst_split = std::max(worst_split, largest_eigenvalue(cut.sheet()) / whole);
-      }
-  std::cout << "largest eigenvalue: split " << worst_split << ", polygons " << worst << "\n";
-  EXPECT_LE(worst, 20);
-  EXPECT_GE(worst_split, 1e3);
-}
-
-// --- motion ----------------------------------------------------------------------------------------------------------
-
-/// A cut sheet that is let go falls freely by every integrator, and vertices inside polygons keep to their maps.
-TEST(CutPolygons, FallFreely) {
-  for (const Integrator integrator : {Integrator::backward_euler, Integrator::midpoint, Integrator::symplectic_euler}) {
-    const Sheet before(make_sheet("delaunay", 10));
-    Body<3> body(make_sheet("delaunay", 10), {.density = 1, .stiffness = 100, .poisson = 0.3, .bending = 1e-3},
-                 {.bending = BendingKind::patches, .gravity = {0, 0, -10}});
-    for (const Curve& cut : {line({-0.1, 0.41}, {0.6, 0.52}), line({0.3, -0.1}, {0.44, 0.8})}) {
-      ASSERT_EQ(body.cut(cut, "cut_polygons", 0.7), Status::ok);
-      body.model.tie(body.sheet, find_method("cut_polygons").make(0.7)->ties(before, body.sheet));
-    }
-    Stepper<3> stepper({.integrator = integrator, .step = 1e-3, .solver = {.name = "cholmod"}});
-    for (int i = 0; i < 20; ++i) ASSERT_EQ(stepper.step(body.model, body.state).verdict, "ok");
-    for (std::size_t d = 0; d < body.sheet.deformed_slots(); ++d)
-      if (body.sheet.rest_vertex(DeformedIndex(d)).valid()) {
-        EXPECT_NEAR(body.state.v[static_cast<Eigen::Index>(3 * d + 2)], -0.2, 1e-8);
-      }
-    Field followed = body.state.x;
-    body.model.follow(followed);
-    EXPECT_LE((followed - body.state.x).cwiseAbs().maxCoeff(), 0);
-  }
-}
-
-TEST(CutPolygons, EverySolverFindsTheSameStep) {
-  const Sheet before(make_sheet("alternating", 24));
-  std::map<std::string, Field> found;
-  for (const std::string solver : {"cholmod", "cg", "multigrid", "local_global", "eigen_ldlt"}) {
-    Body<3> body(make_sheet("alternating", 24), skin, {.bending = BendingKind::patches, .gravity = {0, 0, -10}},
-                 {{.where = {{0, 0}, {0, 1}}}});
-    Stepper<3> stepper({.step = 1.0 / 240, .solver = {.name = solver, .tolerance = 1e-9, .max_iterations = 5000}});
-    for (const Curve& cut : {line({0.2, 0.41}, {1.1, 0.52}), line({0.4, 0.2}, {0.44, 0.8})}) {
-      ASSERT_EQ(body.cut(cut, "cut_polygons", 0.7), Status::ok);
-      body.model.tie(body.sheet, find_method("cut_polygons").make(0.7)->ties(before, body.sheet));
-      for (int i = 0; i < 2; ++i) ASSERT_EQ(stepper.step(body.model, body.state).verdict, "ok") << solver;
-    }
-    found[solver] = body.state.x;
-  }
-  for (const auto& [solver, x] : found) EXPECT_LE((x - found["cholmod"]).cwiseAbs().maxCoeff(), 1e-7) << solver;
-}
-
-/// Measured: less than half the error of the split.
-TEST(CutPolygons, CracksOpenBetterThanByTheSplit) {
-  const Problem& problem = find_problem("centre_crack");
-  double worst = 0;
-  for (const std::string family : sheet_families())
-    for (std::size_t member = 0; member < scaled(4); ++member) {
-      const Specimen specimen = problem.specimen(family, 24, 877, member);
-      const Sheet before(specimen.mesh), cut = cut_by(specimen, "cut_polygons", 0.7);
-      const Ties ties = find_method("cut_polygons").make(0.7)->ties(before, cut);
-      const Budget direct;
-      const Answer merged = problem.answer(specimen, cut, {&direct, 1}, ties).front();
-      ASSERT_EQ(merged.verdict, "ok") << merged.reason;
-      const auto error = [](const Answer& answer) { return measure_of(answer, "released_energy").error; };
-      worst = std::max(worst, error(merged) / error(solved(problem, specimen, cut)));
-    }
-  std::cout << "error of released energy over that of the split, at worst: " << worst << "\n";
-  EXPECT_LE(worst, 0.7);
 }
 
 }  // namespace

@@ -17,46 +17,13 @@
 #include "tests/dense_solves.h"
 #include "tests/fem_helpers.h"
 #include "tests/helpers.h"
+#include "tests/tied_cut.h"
 #include "tests/truth_helpers.h"
 
 namespace cutbench {
 namespace {
 
-struct TyingMethod {
-  std::string name;
-  double knob;
-  std::unique_ptr<CuttingMethod> make() const { return find_method(name).make(knob); }
-};
 const std::vector<TyingMethod> tying_methods{{"split_and_tie", 0.1}, {"phantom_node", 0}, {"phantom_node", 0.1}};
-
-/// A sheet cut by a method of which some vertices are tied.
-struct Cut {
-  Cut(const std::string& family, int n, const TyingMethod& method, const std::string& cuts, std::uint64_t seed,
-      std::size_t number)
-      : before(make_sheet(family, n)), table(make_sheet(family, n), find_method(method.name), method.knob) {
-    for (const Curve& curve : make_case(cuts, seed, number, before)) EXPECT_EQ(table.cut(curve, 0.05), "");
-    ties = method.make()->ties(before, table.sheet);
-  }
-  const Sheet& sheet() const { return table.sheet; }
-
-  Sheet before;
-  Table table;
-  Ties ties;
-};
-
-template <class Visit>
-void for_each_cut(int n, std::size_t cases, Visit visit) {
-  std::size_t turn = 0;
-  for (const TyingMethod& method : tying_methods)
-    for (const std::string cuts : {"straight", "curved", "partial", "cut_out", "recut", "several", "self_crossing",
-                                   "tiny_loop", "u_turn", "through_vertices", "along_edges"})
-      for (const std::string& family : families_in_turn(turn))
-        for (std::size_t i = 0; i < scaled(cases); ++i) {
-          SCOPED_TRACE(method.name + " " + std::to_string(method.knob) + ", " + family + ", " + cuts + " " +
-                       std::to_string(i));
-          visit(Cut(family, n, method, cuts, 641, i));
-        }
-}
 
 bool on_border(Point2 p) { return p.x == 0 || p.x == 1 || p.y == 0 || p.y == 1; }
 
@@ -126,7 +93,7 @@ Eigen::MatrixXd dense_ghosts(const Ties& ties, std::size_t vertices, const Eigen
 /// out only if x = C q can be affine.
 TEST(Ties, PatchTest) {
   std::size_t tied = 0, phantoms = 0;
-  for_each_cut(9, 2, [&](const Cut& cut) {
+  for_each_tied_cut(tying_methods, 9, 2, 641, [&](const TiedCut& cut) {
     const Sheet& sheet = cut.sheet();
     Model<2> model(sheet, {.stiffness = 1000, .poisson = 0.3},
                    {.dimension = 2, .strain = Strain::linear, .bending = BendingKind::none}, {}, {});
@@ -169,7 +136,7 @@ TEST(Ties, PatchTest) {
 
 /// Ties join what triangles do, and nothing more: the pieces of the system are those of the sheet.
 TEST(Ties, CutsStayOpen) {
-  for_each_cut(9, 3, [&](const Cut& cut) {
+  for_each_tied_cut(tying_methods, 9, 3, 641, [&](const TiedCut& cut) {
     Pieces pieces(cut.sheet());
     EXPECT_EQ(pieces.count(), count_pieces(cut.sheet()));
     const auto first = static_cast<std::int32_t>(cut.sheet().deformed_slots());
@@ -205,7 +172,7 @@ TEST(Ties, NoVertexStandsForOneThatStandsForIt) {
 }
 
 TEST(Ties, SystemIsTheDenseProduct) {
-  for_each_cut(4, 1, [&](const Cut& cut) {
+  for_each_tied_cut(tying_methods, 4, 1, 641, [&](const TiedCut& cut) {
     const Sheet& sheet = cut.sheet();
     Model<3> model(sheet, {.stiffness = 1000, .poisson = 0.3, .bending = 0.1},
                    {.bending = BendingKind::patches, .mass = Mass::consistent}, {{.where = {{0, 0}, {0.3, 0.3}}}}, {});
@@ -240,7 +207,7 @@ TEST(Ties, SystemIsTheDenseProduct) {
 }
 
 TEST(Ties, LargestEigenvalueIsThatOfADenseSolve) {
-  for_each_cut(4, 1, [&](const Cut& cut) {
+  for_each_tied_cut(tying_methods, 4, 1, 641, [&](const TiedCut& cut) {
     const Sheet& sheet = cut.sheet();
     Model<2> model(sheet, {.density = 1, .stiffness = 1, .poisson = 0.3},
                    {.dimension = 2, .strain = Strain::linear, .bending = BendingKind::none}, {}, {});
@@ -328,7 +295,7 @@ TEST(PhantomNode, VariantsBoundTheEigenvalue) {
     for (const std::string cuts : {"straight", "curved", "partial"})
       for (std::size_t i = 0; i < scaled(4); ++i) {
         SCOPED_TRACE(family + ", " + cuts + " " + std::to_string(i));
-        const Cut cut(family, 16, {"phantom_node", 0.1}, cuts, 641, i);
+        const TiedCut cut(family, 16, {"phantom_node", 0.1}, cuts, 641, i);
         const double whole = largest_eigenvalue(cut.before);
         EXPECT_LE(largest_eigenvalue(cut.sheet(), cut.ties), 1.5 * whole);
         const Ties plain = find_method("phantom_node").make(0)->ties(cut.before, cut.sheet()),
@@ -346,7 +313,7 @@ TEST(SplitAndTie, SliversAreNoStiffer) {
     for (const std::string cuts : {"straight", "curved", "partial", "border_inward"})
       for (std::size_t i = 0; i < scaled(4); ++i) {
         SCOPED_TRACE(family + ", " + cuts + " " + std::to_string(i));
-        const Cut cut(family, 16, tying_methods[0], cuts, 641, i);
+        const TiedCut cut(family, 16, tying_methods[0], cuts, 641, i);
         const double whole = largest_eigenvalue(cut.before);
         EXPECT_LE(largest_eigenvalue(cut.sheet(), cut.ties), 60 * whole);
         worst_split = std::max(worst_split, largest_eigenvalue(cut.sheet()) / whole);
