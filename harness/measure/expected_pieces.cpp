@@ -108,6 +108,56 @@ int count_grazes(const std::vector<Segment>& path, const std::vector<Segment>& o
   return count;
 }
 
+/// How often the path passes a corner of the older lines within `tolerance`, all lines of the corner on the same side of
+/// it: it may as well leave the corner on that side.
+int count_corners_passed(const std::vector<Segment>& path, const std::vector<Segment>& older,
+                         const SegmentSearch& search, double tolerance) {
+  std::map<Point, std::set<int>> passed;  // the corners, and the path's segments near each
+  for (int i = 0; i < static_cast<int>(path.size()); ++i) {
+    const auto& [a, b] = path[static_cast<std::size_t>(i)];
+    const BoxTree::Box box{{std::min(a[0], b[0]) - tolerance, std::min(a[1], b[1]) - tolerance},
+                           {std::max(a[0], b[0]) + tolerance, std::max(a[1], b[1]) + tolerance}};
+    search.for_each_in(box, [&](int line) {
+      for (const Point& p : older[static_cast<std::size_t>(line)])
+        if (distance(p, path[static_cast<std::size_t>(i)]) <= tolerance) passed[p].insert(i);
+    });
+  }
+  int count = 0;
+  for (const auto& [corner, near] : passed) {
+    std::vector<Point> ends;  // of the corner's lines, away from it
+    search.for_each_in({corner, corner}, [&](int line) {
+      const Segment& s = older[static_cast<std::size_t>(line)];
+      if (s[0] == corner || s[1] == corner) ends.push_back(s[0] == corner ? s[1] : s[0]);
+    });
+    if (ends.size() < 2) continue;
+    for (auto first = near.begin(); first != near.end();) {  // one time that the path passes: segments in a row
+      auto last = first;
+      while (std::next(last) != near.end() && *std::next(last) == *last + 1) ++last;
+      const Point &before = path[static_cast<std::size_t>(*first)][0],
+                  &after = path[static_cast<std::size_t>(*last)][1];
+      Point turn = before;
+      for (auto i = first; i != last; ++i)
+        if (const Point& p = path[static_cast<std::size_t>(*i)][1];
+            turn == before || distance(p, corner) < distance(turn, corner))
+          turn = p;
+      const auto is_left = [&](const Point& p) {
+        if (first == last) return orientation(before, after, p) > 0;
+        const bool one = orientation(before, turn, p) > 0, other = orientation(turn, after, p) > 0;
+        return orientation(before, turn, after) > 0 ? one && other : one || other;
+      };
+      const auto runs_along = [&](const Point& p) {
+        return std::any_of(first, std::next(last),
+                           [&](int i) { return distance(p, path[static_cast<std::size_t>(i)]) <= tolerance; });
+      };
+      const auto left = std::count_if(ends.begin(), ends.end(), is_left);
+      const bool on_one_side = left == 0 || left == static_cast<std::ptrdiff_t>(ends.size());
+      count += on_one_side && std::none_of(ends.begin(), ends.end(), runs_along);
+      first = std::next(last);
+    }
+  }
+  return count;
+}
+
 /// How many of the path's points lie on another piece of it, or within `tolerance`, which is none of their own: they
 /// may as well fall short of it.
 int count_points_on_itself(const std::vector<Segment>& path, double tolerance) {
@@ -217,7 +267,10 @@ ExpectedPieces expected_pieces(const std::vector<Segment>& border, const std::ve
     if (!path.empty()) may_fall_short += count_points_on_itself(path, tolerances.tip);
     if (path.empty() || tolerances.tip == 0) continue;
     may_fall_short += count_tips_passed(path, incisions, search, tolerances);
-    if (tolerances.touch > tolerances.tip) may_fall_short += count_grazes(path, older, search, tolerances.touch);
+    if (tolerances.touch > tolerances.tip) {
+      may_fall_short += count_grazes(path, older, search, tolerances.touch);
+      may_fall_short += count_corners_passed(path, older, search, tolerances.touch);
+    }
     if (path.front()[0] == path.back()[1]) continue;
     may_fall_short += count_ends_between(path, older, search, tolerances.touch);
     add_extension(path.front()[0], path.front()[1], tolerances.tip, extensions);

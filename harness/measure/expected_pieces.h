@@ -17,7 +17,8 @@ struct ExpectedPieces {
   /// - point of a path within `tip` of another piece of that path;
   /// - end of a path at the tip of an older incision and within `touch` of another line;
   /// - tip of an older incision within `touch` of a path, but no more of them than crossings of path and incisions;
-  /// - time that a path comes within `touch` of an older line and turns back, where `touch` exceeds `tip`.
+  /// - time that a path comes within `touch` of an older line and turns back, where `touch` exceeds `tip`;
+  /// - time that it passes within `touch` of a corner of older lines which all lie on one side of it, likewise.
   int least = 0;
   /// Open ends lengthened by `tip`, what passes within `touch` of the path joined to it, however thin the pieces; and
   /// one more for each

@@ -23,6 +23,7 @@ void PathCurve::read(const Sheet& sheet, const Subdivision& trace, const Polylin
   const std::size_t n = trace.nodes.size();
   parameter_of_.clear(0);  // no vertex is known yet
   chord_tolerance_ = trace.chord_tolerance;
+  closed_ = path.closed;
   simplified_ = path.curved && std::isfinite(chord_tolerance_);
   points_.clear(), left_out_.clear(), is_known_.assign(n, 0);
   for (const auto& node : trace.nodes) points_.push_back(node.place.point);

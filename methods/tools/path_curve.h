@@ -1,6 +1,7 @@
 // The requested path, kept while vertices of the incision are moved along it, merged or removed: how far may they go?
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "harness/mesh/stamped_table.h"
@@ -31,6 +32,12 @@ class PathCurve {
   }
   void set_parameter(VertexIndex v, double s) { parameter_of_.at(v) = s; }
   Point2 at(double s) const;
+  /// Whether the path's edge between vertices of these parameters stands for the piece between them. It does not where a
+  /// parameter is unknown, or where the edge closes a closed path, from its last node to its first: then all of the path
+  /// lies between them.
+  bool is_piece(double from, double to) const {
+    return from >= 0 && to >= 0 && !(closed_ && 2 * std::abs(to - from) > static_cast<double>(points_.size()));
+  }
   double chord_tolerance() const { return chord_tolerance_; }  ///< of the trace, rest units; infinity: none
   /// Whether all between two parameters is one piece of the curve, without ends or crossings of the path with itself,
   /// and may be replaced by the segment a b: the trace's nodes there lie within `tolerance` of it (rest units), and the
@@ -53,7 +60,7 @@ class PathCurve {
   std::size_t first_behind(double s) const;
 
   double chord_tolerance_ = 0;
-  bool simplified_ = false;
+  bool simplified_ = false, closed_ = false;
   std::vector<Point2> points_;          // of the nodes
   std::vector<LeftOut> left_out_;       // in ascending order of s
   std::vector<std::uint8_t> is_known_;  // node i is joined to node i + 1, and what the trace left out there is known

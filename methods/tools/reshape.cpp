@@ -282,6 +282,7 @@ bool Reshape::shorten_in(TriangleIndex t) {
 
 /// Whether the edge a b of the path may be divided at the curve's point halfway between the ends' parameters.
 bool Reshape::may_divide(double from, double to, Point2 a, Point2 b) const {
+  if (!curve_->is_piece(from, to)) return false;
   const double s = (from + to) / 2;
   const Point2 middle = curve_->at(s);
   return curve_->stays_near(from, s, a, middle, tolerance_) && curve_->stays_near(s, to, middle, b, tolerance_);
@@ -300,7 +301,7 @@ bool Reshape::split_in(TriangleIndex t) {
     double s = -1;
     if (sheet_->mark(h) == EdgeMark::path) {
       const double from = curve_->parameter(sheet_->origin(h)), to = curve_->parameter(sheet_->target(h));
-      if (from >= 0 && to >= 0 && may_divide(from, to, a, b)) s = (from + to) / 2, middle = curve_->at(s);
+      if (may_divide(from, to, a, b)) s = (from + to) / 2, middle = curve_->at(s);
     }
     const auto halves = [&](HalfEdge side) {
       if (!side.valid()) return 0.0;

@@ -33,7 +33,7 @@ bool Reshape::turn_away(VertexIndex v, VertexIndex apex, VertexIndex other) {
   if (freedom(v, n) != Freedom::along || (n.before != apex && n.after != apex)) return false;
   const VertexIndex beyond = n.before == apex ? n.after : n.before;
   const double from = curve_->parameter(apex), end = curve_->parameter(v);
-  if (from < 0 || end < 0) return false;
+  if (!curve_->is_piece(from, end)) return false;
   const Point2 at = sheet_->rest(apex), along = sheet_->rest(other) - at;
   const double side = cross(along, sheet_->rest(v) - at) > 0 ? 1 : -1;
   const double c = std::cos(enough) / std::sqrt(squared_length(along)),
@@ -62,10 +62,10 @@ bool Reshape::turn_away(VertexIndex v, VertexIndex apex, VertexIndex other) {
 void Reshape::follow_closely(VertexIndex from, VertexIndex to) {
   const HalfEdge h = find_half_edge(*sheet_, from, to);
   const double s = curve_->parameter(from), e = curve_->parameter(to);
-  if (!h.valid() || sheet_->mark(h) != EdgeMark::path || s < 0 || e < 0) return;
-  const Point2 a = sheet_->rest(from), b = sheet_->rest(to), middle = curve_->at((s + e) / 2);
+  if (!h.valid() || sheet_->mark(h) != EdgeMark::path) return;
+  const Point2 a = sheet_->rest(from), b = sheet_->rest(to);
   if (squared_length(b - a) < 0.25 * h_ * h_ || !may_divide(s, e, a, b)) return;
-  if (const VertexIndex v = split_at(h, middle); v.valid()) curve_->add(v, (s + e) / 2);
+  if (const VertexIndex v = split_at(h, curve_->at((s + e) / 2)); v.valid()) curve_->add(v, (s + e) / 2);
 }
 
 void Reshape::widen_corners() {
