@@ -31,7 +31,7 @@ struct Measured {
   const Assessment* assessment = nullptr;
   bool shapes = true;                                           ///< the assessment's shapes and forced zones are wanted
   const MotionCut* motion = nullptr;                            ///< the cut in a running scene; then `cut` is its `cut`
-  EigenvalueRatios membrane, bent;                              ///< without and with bending
+  EigenvalueRatios membrane = {}, bent = {};                    ///< without and with bending
 };
 
 /// Not measured: an empty field in CSV, null in JSON.
