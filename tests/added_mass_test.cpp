@@ -25,8 +25,21 @@ Physics physics_with(Mass mass, BendingKind bending = BendingKind::none) {
   return {.strain = Strain::linear, .bending = bending, .mass = mass};
 }
 
-/// Passes vertices at all distances; the others are seeded.
-const Curve near_vertices = line({0.1901, 0.2003}, {0.8102, 0.7999});
+const Point2 from{0.1901, 0.2003}, to{0.8102, 0.7999};
+const Curve near_vertices = line(from, to);
+
+/// Where the vertices nearest to the cut are: their slivers have held corners.
+std::vector<Point2> nearest_to_cut(const Sheet& sheet, std::size_t count) {
+  std::vector<Point2> places;
+  for (std::size_t v = 0; v < sheet.deformed_slots(); ++v) {
+    const Point2 p = sheet.rest(sheet.rest_vertex(DeformedIndex(v)));
+    if (p.x > 0.3 && p.x < 0.7) places.push_back(p);
+  }
+  const auto off = [](Point2 p) { return std::abs(cross(p - from, to - from)); };
+  std::sort(places.begin(), places.end(), [&](Point2 a, Point2 b) { return off(a) < off(b); });
+  places.resize(count);
+  return places;
+}
 
 /// M, by products with unit vectors; 1 on the diagonal of freed slots, which have no stiffness.
 template <int D>
@@ -84,7 +97,7 @@ TEST(AddedMass, BoundsTheMembraneByTheElementsOfTheUncutSheet) {
         for (Body<2>* const b : {&body, &lumped}) ASSERT_EQ(b->cut(near_vertices), Status::ok);
         const double with = dense_eigenvalue(body);
         EXPECT_LE(with, (1 + 1e-6) * limit * most);
-        EXPECT_GT(dense_eigenvalue(lumped), 10 * limit * most);
+        EXPECT_GT(dense_eigenvalue(lumped), 20 * most);
         const double unit = skin.density / skin.stiffness;  // of largest_eigenvalue()
         Elasticity elasticity{.poisson = skin.poisson, .mass = kind};
         const Sheet before(make_sheet(family, 6));
@@ -184,10 +197,13 @@ TEST(AddedMass, IsUpdatedToWhatANewOneWouldBe) {
 TEST(AddedMass, LetsExplicitStepsRunAndTheirEnergyClose) {
   for (const Mass kind : {Mass::stabilised, Mass::scaled, Mass::lumped}) {
     SCOPED_TRACE(name_of(mass_names, kind));
-    Body<3> body(make_sheet("delaunay", 8), skin, {.bending = BendingKind::patches, .mass = kind, .gravity = {0, 0, -9.81}},
-                 {{.where = {{0, 0}, {0, 1}}, .velocity = {0, 0, 0.1}},
-                  // Slivers beside it have a held corner, and one that is held on some axes.
-                  {.where = {{0.5, 0}, {0.5, 1}}, .axes = {false, true, false}}});
+    const MeshData mesh = make_sheet("delaunay", 8);
+    const auto pinned = nearest_to_cut(Sheet(mesh), 3);
+    Body<3> body(mesh, skin,
+                 {.strain = Strain::linear, .bending = BendingKind::patches, .mass = kind, .gravity = {0, 0, -9.81}},
+                 {{.where = {pinned[0], pinned[0]}, .velocity = {0, 0, 0.1}},
+                  {.where = {pinned[1], pinned[1]}, .axes = {false, true, false}},
+                  {.where = {pinned[2], pinned[2]}, .axes = {true, false, false}, .velocity = {0.05, 0, 0}}});
     const Elasticity elasticity{
         .poisson = skin.poisson, .bending = BendingKind::patches, .bending_length2 = skin.bending / skin.stiffness};
     const double step = 0.5 * explicit_step_limit(largest_eigenvalue(body.sheet, {}, elasticity), skin);
@@ -211,9 +227,10 @@ TEST(AddedMass, LetsExplicitStepsRunAndTheirEnergyClose) {
       continue;
     }
     EXPECT_EQ(verdict, "ok");
+    EXPECT_GT(std::abs(end.pin_work), 1e-4);
     EXPECT_NEAR(end.remainder, 0, 1e-9 * end.energy.kinetic);
-    EXPECT_LT(end.energy.total(), 1.5 * budget.rows().front().energy.total());
-    EXPECT_GT(end.jumps, 0);  // moving slivers become heavier
+    EXPECT_LT(budget.gains().unexplained, EnergyBudget::most_unexplained_explicit);
+    EXPECT_NE(end.jumps, 0);
   }
 }
 
