@@ -203,7 +203,7 @@ void read_integrator(const TomlReader& file, Scene& scene) {
   scene.step = reader.positive("step", scene.step);
   scene.newton = reader.count("newton", scene.newton);
   if (scene.integrator == Integrator::symplectic_euler && scene.physics.mass == Mass::consistent)
-    reader.refuse("symplectic_euler solves nothing, so it needs another mass in [physics], such as \"lumped\"");
+    reader.refuse("symplectic_euler solves nothing, so it needs mass = \"lumped\", \"stabilised\" or \"scaled\" in [physics]");
   if (scene.integrator == Integrator::symplectic_euler) exclude(reader, "symplectic_euler", {"newton"});
   if (scene.integrator != Integrator::equilibrium) return;
   exclude(reader, "equilibrium, which takes no time", {"step"});
