@@ -15,19 +15,23 @@ STEM = "remedies"
 KINDS = {  # colour, marker, and the methods whose remedy is of this kind
     "the mesh": ("#0072b2", "s", ["snap_or_split", "edge_release", "warp_and_refine", "delaunay_refine"]),
     "the unknowns": ("#d55e00", "o", ["cut_polygons", "split_and_tie", "phantom_node", "ablation:warp+thin:tie"]),
-    "the mass": ("#009e73", "^", ["phantom_node:lumped_mass"]),
+    "the mass": ("#009e73", "^", ["phantom_node:lumped_mass"]),  # and all with an added mass
     "nothing": ("#444444", "D", ["conventional_split"]),
+}
+ADDED_MASS = {  # columns of the records, and the methods that are shown with such a mass
+    "stabilised": ["conventional_split", "delaunay_refine", "warp_and_refine", "cut_polygons"],
+    "scaled": ["conventional_split"],
 }
 NAMES = {"ablation:warp+thin:tie": "warp + thin + tie", "phantom_node:lumped_mass": "phantom node, lumped mass"}
 
 
-def kind_of(method):
-    return next(kind for kind, (_, _, methods) in KINDS.items() if method in methods)
+def kind_of(row):
+    return "the mass" if row[-1] else next(kind for kind, (_, _, methods) in KINDS.items() if row[0] in methods)
 
 
-def label(method, knob):
+def label(method, knob, mass=""):
     several = method == "phantom_node"
-    return NAMES.get(method, method.replace("_", " ")) + (f", {knob}" if several else "")
+    return NAMES.get(method, method.replace("_", " ")) + (f", {knob}" if several else "") + (f", {mass} mass" if mass else "")
 
 
 def errors(folder):
@@ -43,14 +47,17 @@ def errors(folder):
 
 
 def rows_of(run, excess):
+    """Of each method, and of some with an added mass: it leaves the errors at rest and the time of the cut as they are."""
     cuts = run.rows[run.rows["eigenvalue_ratio"].notna()]
     rows = []
     for (method, knob), here in cuts.groupby(["method", "knob"], sort=False):
-        ratio, bends = here["eigenvalue_ratio"], here["bending_eigenvalue_ratio"]
-        single = ratio[here["cut_family"] != "several"]
+        single = here["cut_family"] != "several"
         per_crossed = (here["geometry_us"] / here["crossed_triangles"]).median()
-        rows.append([method, knob, *np.quantile(ratio, [0.5, 0.95, 1]), *np.quantile(single, [0.95, 1]),
-                     bends.median(), bends.quantile(0.95), *excess[method, knob], per_crossed])
+        for mass in ["", *(m for m, methods in ADDED_MASS.items() if method in methods)]:
+            prefix = f"{mass}_" if mass else ""
+            ratio, bends = here[f"{prefix}eigenvalue_ratio"], here[f"{prefix}bending_eigenvalue_ratio"]
+            rows.append([method, knob, *np.quantile(ratio, [0.5, 0.95, 1]), *np.quantile(ratio[single], [0.95, 1]),
+                         bends.median(), bends.quantile(0.95), *excess[method, knob], per_crossed, mass])
     return sorted(rows, key=lambda r: r[2])
 
 
@@ -59,7 +66,7 @@ def place_names(ax, rows):
     ax.figure.draw_without_rendering()
     taken = []
     for row in sorted(rows, key=lambda r: r[9]):
-        text = ax.annotate(label(row[0], row[1]), (row[2], row[9]), xytext=(4, 3), textcoords="offset points", fontsize=5.4)
+        text = ax.annotate(label(row[0], row[1], row[-1]), (row[2], row[9]), xytext=(4, 3), textcoords="offset points", fontsize=5.4)
         for step in (0, 6, -8, 12, -14, 18, -20):
             text.set_position((4, 3 + step))
             box = text.get_window_extent()
@@ -73,7 +80,7 @@ def figure_of(run, rows):
     ax = axes[0, 0]
     ax.set_xscale("log")
     for row in rows:
-        colour, marker, _ = KINDS[kind_of(row[0])]
+        colour, marker, _ = KINDS[kind_of(row)]
         ax.plot([row[2], row[3]], [row[9], row[9]], color=colour, linewidth=0.8, alpha=0.6)
         ax.plot(row[2], row[9], marker=marker, color=colour, markersize=4.5, markeredgecolor="white", markeredgewidth=0.3)
     ax.axhline(0, color="#888888", linewidth=0.6, linestyle="--")
@@ -90,13 +97,19 @@ def figure_of(run, rows):
 
 def main():
     folder = load.results_folder(STEM, __doc__)
-    run = load.read(folder, ["eigenvalue_ratio", "bending_eigenvalue_ratio", "geometry_us", "crossed_triangles"])
+    ratios = [f"{mass}{kind}eigenvalue_ratio" for mass in ("", *(f"{m}_" for m in ADDED_MASS)) for kind in ("", "bending_")]
+    run = load.read(folder, [*ratios, "scaled_mass_added", "scaled_bending_mass_added", "geometry_us", "crossed_triangles"])
     rows = rows_of(run.first_repetition(), errors(folder.with_name("remedies_accuracy")))
     style.save(figure_of(run.first_repetition(), rows), folder, STEM)
     names = ["method", "eigenvalue, median", "95 %", "worst", "95 %, without several", "worst", "with bending", "95 %",
              "error %, equal unknowns", "error %, 100 CG", "us"]
     load.print_table("Remedies: eigenvalues over the uncut sheet's, errors over a fitted mesh's, warm geometry per crossed "
-                     "triangle", names, [[label(r[0], r[1]), *r[2:]] for r in rows])
+                     "triangle", names, [[label(r[0], r[1], r[-1]), *r[2:-1]] for r in rows])
+    added = run.first_repetition().rows
+    added = added[added["scaled_mass_added"].notna() & (added["method"] == "conventional_split")]
+    load.print_table("Mass that scaling adds to the sheet's after conventional_split, %", ["", "median", "95 %", "worst"],
+                     [[words, *(100 * np.quantile(added[column], [0.5, 0.95, 1]))] for words, column in
+                      [("membrane", "scaled_mass_added"), ("with bending", "scaled_bending_mass_added")]])
     by_kind = kinds.table_of(at_equal_unknowns(Records(folder.with_name("remedies_accuracy"))).ranked())
     columns = [c for c in by_kind.columns if c not in ("method", "knob")]
     load.print_table(kinds.WHAT, ["method", *columns], [[label(r["method"], r["knob"]), *(r[c] for c in columns)]

@@ -370,6 +370,8 @@ TEST_F(SceneFile, SaysWhatContradictsItself) {
       {flat + pin + "displacement = [0, 0, 1]\n", ", pin 0: \"displacement\" leaves the plane"},
       {flat + "[[tractions]]\nforce = [0, 0, 1]\n", ", traction 0: \"force\" leaves the plane"},
       {"[physics]\nmass = \"consistent\"\n[integrator]\nname = \"symplectic_euler\"\n", "needs mass = \"lumped\""},
+      {"[physics]\nmass_limit = 2\n", "\"mass_limit\" is for mass = \"stabilised\" or \"scaled\""},
+      {"[physics]\nmass = \"scaled\"\nmass_limit = 0.5\n", "\"mass_limit\" must be 1 or more"},
       {"[integrator]\nname = \"symplectic_euler\"\nnewton = 1\n", "\"newton\" does not go with symplectic_euler"},
       {"[integrator]\nname = \"equilibrium\"\n", "equilibrium needs \"newton\""},
       {equilibrium + "step = 1\n", "\"step\" does not go with equilibrium"},

@@ -32,11 +32,27 @@ void pose(MeshData& mesh, const SweepPoint& point, double size) {
   }
 }
 
+/// In rest position: where the cut is judged and its eigenvalue is computed.
+Sheet flat_sheet(Scene scene) {
+  scene.mesh.reset();
+  Sheet sheet(mesh_of(scene));
+  hold_tied_vertices(pins_of(scene, sheet), scene.tractions, sheet);
+  return sheet;
+}
+
+Elasticity with_mass(Elasticity elasticity, const Scene& scene) {
+  elasticity.mass = scene.physics.mass;
+  if (adds_mass(elasticity.mass))
+    elasticity.mass_limit = scene.physics.mass_limit * largest_element_eigenvalue(flat_sheet(scene), elasticity);
+  return elasticity;
+}
+
 Elasticity elasticity_of(const Scene& scene) {
-  return {.poisson = scene.material.poisson,
-          .plane = scene.physics.plane,
-          .bending = scene.physics.bending,
-          .bending_length2 = scene.material.bending / scene.material.stiffness};
+  return with_mass({.poisson = scene.material.poisson,
+                    .plane = scene.physics.plane,
+                    .bending = scene.physics.bending,
+                    .bending_length2 = scene.material.bending / scene.material.stiffness},
+                   scene);
 }
 
 class Point {
@@ -58,14 +74,6 @@ class Point {
   void at(const std::string& what) { put("in " + what, result_.reason); }
   void conclude(const std::string& verdict, const std::string& reason) {
     put(verdict, result_.verdict), put(reason, result_.reason);
-  }
-
-  /// In rest position: where the cut is judged and its eigenvalue is computed.
-  static Sheet flat_sheet(Scene scene) {
-    scene.mesh.reset();
-    Sheet sheet(mesh_of(scene));
-    hold_tied_vertices(pins_of(scene, sheet), scene.tractions, sheet);
-    return sheet;
   }
 
   /// False: the verdict is final.
@@ -106,7 +114,7 @@ class Point {
     if (!trial_.point->eigenvalue) return;
     at("the eigenvalue");
     const Ties ties = method.ties(before_, sheet);
-    measure(Measure::eigenvalue_ratio) = largest_eigenvalue(sheet, ties) / largest_eigenvalue(before_);
+    measure(Measure::eigenvalue_ratio) = largest_eigenvalue(sheet, ties, with_mass({}, scene_)) / largest_eigenvalue(before_);
     Scene scene = scene_;
     if (ties.phantoms > 0) scene.physics.bending = BendingKind::none;  // phantom nodes do not bend
     measure(Measure::explicit_step_ratio) = explicit_step_of(scene, sheet, ties) / trial_.uncut_step_s;

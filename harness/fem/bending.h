@@ -27,6 +27,12 @@ namespace cutbench {
 
 class Bending {
  public:
+  /// A stencil that holds a vertex, and its place there; one is like another if the triangle is.
+  struct Holder {
+    std::int32_t triangle, place;
+    bool operator==(const Holder& other) const { return triangle == other.triangle; }
+    bool operator<(const Holder& other) const { return triangle < other.triangle; }
+  };
   Bending() = default;
   /// \pre kind is not `none`, and `patches` where there are polygons; rigidity D in N m.
   /// \param elements  of the sheet, whose polygons count; null: no polygons
@@ -42,18 +48,15 @@ class Bending {
   const BlockMatrix<1>& matrix() const { return matrix_; }
   const std::vector<std::int32_t>& written_rows() const { return work_.rows; }  ///< by the last update()
   double energy(const Field& x, int dimension) const;
+  /// The three rows of a triangle's energy, in sqrt(N/m); none where it is free, or not the first of its polygon.
+  std::span<const StencilTerm> stencil(std::size_t triangle) const { return stencils_[triangle]; }
+  std::span<const Holder> stencils_of(std::size_t vertex) const { return stencils_of_[vertex]; }
   void reserve_spare();  ///< room to grow by half, before anything has to be copied
 
  private:
   struct Stale {
     TriangleIndex triangle;
     int distance;  ///< in unseparated edges, from the nearest triangle that changed
-  };
-  /// A stencil that holds a vertex, and its place there; one is like another if the triangle is.
-  struct Holder {
-    std::int32_t triangle, place;
-    bool operator==(const Holder& other) const { return triangle == other.triangle; }
-    bool operator<(const Holder& other) const { return triangle < other.triangle; }
   };
   void resize(const Sheet& sheet);
   void mark_stale(TriangleIndex t, int distance);

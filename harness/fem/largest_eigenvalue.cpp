@@ -4,11 +4,12 @@
 #include <Eigen/SparseCholesky>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <random>
 #include <vector>
 
-#include "harness/fem/bending.h"
+#include "harness/fem/added_mass.h"
 #include "harness/fem/combination.h"
 #include "harness/fem/element_table.h"
 #include "harness/fem/membrane.h"
@@ -32,16 +33,20 @@ class ScaledStiffness {
       const std::size_t slot = elements_.add_polygon(sheet, polygon);
       polygons_.push_back(rest_stiffness(elements_.polygon(slot), lame_));
     }
-    VectorXd mass = VectorXd::Zero(static_cast<Eigen::Index>(combination_.vertices()));
+    lumped_ = VectorXd::Zero(static_cast<Eigen::Index>(combination_.vertices()));
     for (const Element& element : elements_)
       if (element.is_triangle())
-        for (const auto d : element.vertex) mass[d.value] += element.area / 3;
+        for (const auto d : element.vertex) lumped_[d.value] += element.area / 3;
     for (std::size_t p = 0; p < polygons_.size(); ++p)
-      for (const auto d : elements_.polygon(p).polygon.corners) mass[d.value] += elements_.polygon(p).corner_area();
-    factor(mass, ties.lumped);
+      for (const auto d : elements_.polygon(p).polygon.corners) lumped_[d.value] += elements_.polygon(p).corner_area();
     if (elasticity.bending != BendingKind::none)
       bending_.emplace(sheet, elasticity.bending, elasticity.bending_length2, elasticity.poisson, &elements_);
+    if (adds_mass(elasticity.mass)) add_mass(elasticity);
+    factor(ties.lumped);
   }
+
+  ElementModes modes() const { return {&elements_, &lumped_, bending_ ? &*bending_ : nullptr, 2 * (lame_.mu + lame_.lambda)}; }
+  double added_mass_share() const { return added_ ? added_->total() / lumped_.sum() : 0; }
 
   Eigen::Index size() const { return 2 * static_cast<Eigen::Index>(combination_.unknowns()); }
   bool is_mass_positive() const { return is_mass_positive_; }
@@ -67,20 +72,42 @@ class ScaledStiffness {
  private:
   using TwoPerUnknown = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
-  void factor(const VectorXd& mass, const std::vector<double>& lumped) {
+  void add_mass(const Elasticity& elasticity) {
+    Incidence incidence;
+    incidence.resize(combination_.vertices());
+    for (std::size_t e = 0; e < elements_.size(); ++e)
+      if (elements_[e].alive()) incidence.add(elements_[e], e);
+    std::vector<std::size_t> all(combination_.vertices());
+    std::iota(all.begin(), all.end(), 0);
+    added_.emplace(elasticity.mass, 1, elasticity.mass_limit);
+    added_->update(modes(), incidence, all);
+  }
+
+  /// Calls act(i, j, m) for the entries of the mass of the sheet's vertices, the diagonal first.
+  template <class Act>
+  void for_each_mass(const Act& act) const {
+    for (Eigen::Index i = 0; i < lumped_.size(); ++i) act(i, i, lumped_[i]);
+    for (std::size_t v = 0; added_ && v < added_->matrix().rows(); ++v) {
+      std::int32_t slot = added_->matrix().first_slot(v);
+      for (const std::int32_t j : added_->matrix().columns(v)) act(static_cast<Eigen::Index>(v), j, added_->matrix().block(slot++)(0));
+    }
+  }
+
+  void factor(const std::vector<double>& lumped) {
     const auto n = static_cast<Eigen::Index>(combination_.unknowns());
     if (n == 0) return;
     std::vector<Eigen::Triplet<double>> entries;
     VectorXd diagonal = VectorXd::Zero(n);
     for (std::size_t u = 0; u < lumped.size(); ++u)
       entries.emplace_back(u, u, diagonal[static_cast<Eigen::Index>(u)] = lumped[u]);
-    for (Eigen::Index i = 0; i < mass.size() && lumped.empty(); ++i) {
-      const auto& row = combination_.row(static_cast<std::size_t>(i));
+    for_each_mass([&](Eigen::Index i, Eigen::Index j, double mass) {
+      if (!lumped.empty()) return;
+      const auto &row = combination_.row(static_cast<std::size_t>(i)), &column = combination_.row(static_cast<std::size_t>(j));
       for (std::size_t k = 0; k < row.size; ++k)
-        for (std::size_t l = 0; l < row.size; ++l)
-          entries.emplace_back(row.unknown[k], row.unknown[l], row.weight[k] * row.weight[l] * mass[i]);
-      for (std::size_t k = 0; k < row.size; ++k) diagonal[row.unknown[k]] += mass[i];
-    }
+        for (std::size_t l = 0; l < column.size; ++l)
+          entries.emplace_back(row.unknown[k], column.unknown[l], row.weight[k] * column.weight[l] * mass);
+      for (std::size_t k = 0; k < row.size && i == j; ++k) diagonal[row.unknown[k]] += mass;
+    });
     for (const GhostEdge& ghost : ghosts_)
       for (std::size_t k = 0; k < 4 && lumped.empty(); ++k) {
         for (std::size_t l = 0; l < 4; ++l)
@@ -134,7 +161,9 @@ class ScaledStiffness {
   std::vector<Eigen::MatrixXd> polygons_;  // their stiffness
   Combination combination_;
   std::vector<GhostEdge> ghosts_;
+  VectorXd lumped_;
   std::optional<Bending> bending_;
+  std::optional<AddedMass> added_;
   Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> mass_;
   bool is_mass_positive_ = true;
   TwoPerUnknown scaled_;
@@ -142,6 +171,16 @@ class ScaledStiffness {
 };
 
 }  // namespace
+
+double largest_element_eigenvalue(const Sheet& sheet, const Elasticity& elasticity) {
+  Elasticity lumped = elasticity;
+  lumped.mass = Mass::lumped;
+  return ScaledStiffness(sheet, {}, lumped).modes().largest();
+}
+
+double added_mass_share(const Sheet& sheet, const Ties& ties, const Elasticity& elasticity) {
+  return ScaledStiffness(sheet, ties, elasticity).added_mass_share();
+}
 
 double explicit_step_limit(double eigenvalue, const Material& material) {
   const double w2 = eigenvalue * material.stiffness / material.density;

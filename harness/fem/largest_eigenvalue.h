@@ -14,9 +14,19 @@ struct Elasticity {
   Plane plane = Plane::stress;
   BendingKind bending = BendingKind::none;
   double bending_length2 = 0;  ///< D / (E h): rigidity over stiffness, area; t^2 / (12 (1 - nu^2)) of a plate t thick
+  Mass mass = Mass::lumped;    ///< consistent is not taken
+  /// Of a mass that is stabilised or scaled: the largest eigenvalue of an element (added_mass.h), 1/area, such as that of
+  /// largest_element_eigenvalue() of the uncut sheet.
+  double mass_limit = 0;
 };
 
-/// The largest eigenvalue of K u = lambda M u, 1/area, for E h = 1 and a lumped mass of 1 per area: K the linear
+/// Of any element, 1/area, as added_mass.h bounds it: no less than largest_eigenvalue() without bending.
+double largest_element_eigenvalue(const Sheet& sheet, const Elasticity& elasticity = {});
+
+/// What an added mass makes the sheet heavier against translation, over its mass.
+double added_mass_share(const Sheet& sheet, const Ties& ties, const Elasticity& elasticity);
+
+/// The largest eigenvalue of K u = lambda M u, 1/area, for E h = 1 and a mass of 1 per area, lumped with what is added: K the linear
 /// stiffness of membrane and bending of the opened sheet in its rest plane, nothing held. Membranes stiffen with
 /// 1/length^2, bending with 1/length^4. A bent sheet's may differ: that of a turned triangle is the same, but that of
 /// its neighbours is turned otherwise. Where vertices are tied, x = C q, it is that of C^T K C and C^T M C with their

@@ -31,6 +31,9 @@ Model<D>::Model(const Sheet& sheet, const Material& material, const Physics& phy
   refresh_vertices(sheet);
   if (physics.bending != BendingKind::none)
     bending_.emplace(sheet, physics.bending, material.bending, material.poisson);
+  if (!adds_mass(physics.mass)) return;
+  added_mass_.emplace(physics.mass, material.density, physics.mass_limit * element_modes().largest());
+  refresh_added_mass();
 }
 
 template <int D>
@@ -62,6 +65,7 @@ void Model<D>::update(const Sheet& sheet) {
   for (const auto& touched : log.touched) enter(touched.slot());
   for (std::size_t e = log.triangles_before; e < elements_.size(); ++e) enter(e);
   refresh_vertices(sheet);
+  if (!bending_) refresh_added_mass();
 }
 
 template <int D>
@@ -71,6 +75,12 @@ void Model<D>::update_bending(const Sheet& sheet) {
   regrouped_.clear();
   history_.begin_change();
   for (const std::int32_t v : bending_->written_rows()) history_.mark(static_cast<std::size_t>(v));
+  if (!added_mass_) return;
+  for (const std::int32_t v : bending_->written_rows()) {
+    const DeformedIndex d(static_cast<std::size_t>(v));
+    mark({&d, 1});
+  }
+  refresh_added_mass();
 }
 
 template <int D>
@@ -79,6 +89,7 @@ void Model<D>::tie(const Sheet& sheet, const Ties& ties) {
   begin_marking();
   merge(sheet, ties.polygons);
   refresh_vertices(sheet);
+  if (!bending_) refresh_added_mass();
   if (!regrouped_.empty()) update_bending(sheet);
   if (!ties.ties.empty()) tied_.emplace(ties, vertices());
 }
@@ -225,6 +236,27 @@ void Model<D>::refresh_mass(std::size_t v) {
 }
 
 template <int D>
+ElementModes Model<D>::element_modes() const {
+  const Lame lame = lame_of(material_, physics_.plane);
+  return {&elements_, &mass_, bending(), 2 * (lame.mu + lame.lambda) / material_.density};
+}
+
+/// \pre the marked vertices are those whose mass, triangles or stencils changed.
+template <int D>
+void Model<D>::refresh_added_mass() {
+  if (!added_mass_) return;
+  added_mass_->update(element_modes(), incidence_, marked_);
+  history_.begin_change();
+  for (const std::size_t v : added_mass_->written_rows()) history_.mark(v);
+}
+
+/// The part of the mass that is not in the blocks; null: none.
+template <int D>
+const BlockMatrix<1>* Model<D>::mass_matrix() const {
+  return consistent_mass_ ? &*consistent_mass_ : added_mass_ ? &added_mass_->matrix() : nullptr;
+}
+
+template <int D>
 void Model<D>::refresh_loads(const Sheet& sheet, std::size_t v) {
   const auto i = static_cast<Eigen::Index>(v);
   const VertexIndex rest_vertex = sheet.rest_vertex(DeformedIndex(v));
@@ -327,7 +359,7 @@ void Model<D>::add_impulse(double h, const Field& x, double factor, const Field&
     if (bending_) sum += bending_->matrix().row_product(i, bent_);
     for (std::size_t k = 0; k < D; ++k) y[static_cast<Eigen::Index>(D * i + k)] -= sum[k];
   }
-  if (consistent_mass_) add_product_per_coordinate(*consistent_mass_, D, -factor * mass_factor_, v, y);
+  if (const auto* mass = mass_matrix()) add_product_per_coordinate(*mass, D, -factor * mass_factor_, v, y);
 }
 
 template <int D>
@@ -347,13 +379,14 @@ SystemMatrix<D> Model<D>::system() const {
   a.blocks = &blocks_, a.held = &held_, a.elements = &elements_, a.places = &places_, a.pattern = history_.now();
   a.history = &history_;
   if (bending_) a.scalar.push_back({stiffness_factor_, &bending_->matrix()});
-  if (consistent_mass_) a.scalar.push_back({mass_factor_, &*consistent_mass_});
+  if (const auto* mass = mass_matrix()) a.scalar.push_back({mass_factor_, mass});
   return a;
 }
 
 template <int D>
 void Model<D>::add_mass_product(double factor, const Field& x, Field& y) const {
-  if (consistent_mass_) return add_product_per_coordinate(*consistent_mass_, D, factor, x, y);
+  if (const auto* mass = mass_matrix()) add_product_per_coordinate(*mass, D, factor, x, y);
+  if (consistent_mass_) return;
   for (Eigen::Index v = 0; v < mass_.size(); ++v)
     y.template segment<D>(D * v) += factor * mass_[v] * x.template segment<D>(D * v);
 }

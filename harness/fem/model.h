@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "harness/fem/added_mass.h"
 #include "harness/fem/bending.h"
 #include "harness/fem/combination.h"
 #include "harness/fem/incidence.h"
@@ -23,6 +24,7 @@ struct Energy {
 template <int D>
 class Model {
  public:
+  /// The limit of an added mass is that of this sheet's elements: \pre `sheet` is not cut yet, where there is such a mass.
   Model(const Sheet& sheet, const Material& material, const Physics& physics, std::vector<Pin> pins,
         std::vector<Traction> tractions);
 
@@ -70,7 +72,8 @@ class Model {
   const Bending* bending() const { return bending_ ? &*bending_ : nullptr; }
   Deformation<D> deformation(std::size_t element) const { return membrane_.deformation(elements_, element); }
   std::vector<Polygon> polygons() const;
-  const Field& lumped_mass() const { return mass_; }               ///< kg, per vertex
+  const Field& lumped_mass() const { return mass_; }               ///< kg, per vertex, without what is added
+  const AddedMass* added_mass() const { return added_mass_ ? &*added_mass_ : nullptr; }
   const Field& external_force() const { return external_; }        ///< N
   const std::vector<std::uint8_t>& held() const { return held_; }  ///< per unknown; those of freed slots are, too
   /// Pieces no unknown of which is held: they have no equilibrium. Looks at everything.
@@ -88,6 +91,9 @@ class Model {
   void refresh_row(std::size_t v);
   void set_polygon_slots(std::size_t v);
   void refresh_mass(std::size_t v);
+  ElementModes element_modes() const;
+  void refresh_added_mass();
+  const BlockMatrix<1>* mass_matrix() const;
   void refresh_loads(const Sheet& sheet, std::size_t v);
   void begin_marking();
   void mark(std::span<const DeformedIndex> vertices);
@@ -106,6 +112,7 @@ class Model {
   MembraneSheet<D> membrane_;
   std::optional<Bending> bending_;
   std::optional<BlockMatrix<1>> consistent_mass_;
+  std::optional<AddedMass> added_mass_;
   std::optional<TiedSystem<D>> tied_;
   double mass_factor_ = 0, stiffness_factor_ = 0;  // of the last assemble()
   Field mass_, external_;

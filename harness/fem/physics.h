@@ -41,8 +41,13 @@ enum class BendingKind : std::uint8_t { none, patches, hinges };
 constexpr EnumNames<BendingKind, 3> bending_names{
     {{BendingKind::none, "none"}, {BendingKind::patches, "patches"}, {BendingKind::hinges, "hinges"}}};
 
-enum class Mass : std::uint8_t { lumped, consistent };
-constexpr EnumNames<Mass, 2> mass_names{{{Mass::lumped, "lumped"}, {Mass::consistent, "consistent"}}};
+/// `stabilised` and `scaled`: lumped, and more for thin elements (added_mass.h).
+enum class Mass : std::uint8_t { lumped, consistent, stabilised, scaled };
+constexpr EnumNames<Mass, 4> mass_names{{{Mass::lumped, "lumped"},
+                                         {Mass::consistent, "consistent"},
+                                         {Mass::stabilised, "stabilised"},
+                                         {Mass::scaled, "scaled"}}};
+constexpr bool adds_mass(Mass mass) { return mass == Mass::stabilised || mass == Mass::scaled; }
 
 enum class Integrator : std::uint8_t { backward_euler, midpoint, symplectic_euler, equilibrium };
 constexpr EnumNames<Integrator, 4> integrator_names{{{Integrator::backward_euler, "backward_euler"},
@@ -58,6 +63,8 @@ struct Physics {
   StressStiffness stress_stiffness = StressStiffness::positive;  ///< of co-rotational strain; linear strain has none
   BendingKind bending = BendingKind::none;                       ///< none in 2D
   Mass mass = Mass::lumped;
+  /// Of a mass that is stabilised or scaled: the largest eigenvalue of an element, over that of the sheet before any cut.
+  double mass_limit = 1;
   Point3 gravity{};  ///< m/s2
 
   StressStiffness stress_stiffness_made() const {

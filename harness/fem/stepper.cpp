@@ -205,15 +205,37 @@ void Stepper<D>::explicit_step(Model<D>& model, State& state, StepReport& report
     model.system().add_product(state.v, product_);
     force_ -= product_;
   }
-  Clock clock(report.time_us.solve);
-  v_ = state.v;
-  for (Eigen::Index i = 0; i < v_.size(); ++i) {
-    const double mass = model.lumped_mass()[i / D];
-    if (mass > 0) v_[i] += h * (force_[i] / mass - alpha * v_[i]);
+  {
+    Clock clock(report.time_us.solve);
+    v_ = state.v;
+    for (Eigen::Index i = 0; i < v_.size(); ++i) {
+      const double mass = model.lumped_mass()[i / D];
+      if (mass > 0) v_[i] += h * (force_[i] / mass - alpha * v_[i]);
+    }
+    hold(model, state, h);
   }
-  hold(model, state, h);
+  if (model.added_mass()) solve_added_mass(model, state, report);
   state.v = v_;
   state.x += h * v_;
+}
+
+/// Corrects the velocities in v_ where vertices have added mass: M dv = h (f - alpha M v0), with dv given where held.
+template <int D>
+void Stepper<D>::solve_added_mass(const Model<D>& model, const State& state, StepReport& report) {
+  if (const std::uint64_t now = model.system().pattern; std::exchange(mass_of_, now) != now) {
+    Clock clock(report.time_us.setup);
+    mass_solver_.setup(model.lumped_mass(), model.added_mass()->matrix(), model.held());
+  }
+  Clock clock(report.time_us.solve);
+  const double h = options_.step, alpha = model.material().mass_damping;
+  dv_ = h * alpha * state.v;
+  for (Eigen::Index i = 0; i < v_.size(); ++i)
+    if (model.held()[static_cast<std::size_t>(i)]) dv_[i] += v_[i] - state.v[i];
+  rhs_ = h * force_;
+  model.add_mass_product(-1, dv_, rhs_);
+  dv_ = v_ - state.v;
+  mass_solver_.solve(rhs_, dv_);
+  v_ = state.v + dv_;
 }
 
 template <int D>

@@ -10,7 +10,8 @@
 //   midpoint          the same with h / 2 gives vm, the velocity at the middle of the step; v = 2 vm - v0,
 //                     x = x0 + h vm. Second order; no numerical damping of linear motion. It can gain energy where
 //                     large rotations are stiff (slivers, few Newton iterations).
-//   symplectic_euler  v = v0 + h M^-1 f(x0, v0); x = x0 + h v. Explicit: stable below 2 / omega_max.
+//   symplectic_euler  v = v0 + h M^-1 f(x0, v0); x = x0 + h v. Explicit: stable below 2 / omega_max. Mass that was
+//                     added to thin elements is factored after each cut (mass_solver.h), all other is lumped.
 //   equilibrium       f(x) + f_ext = 0 by Newton with a line search on the energy.
 //
 // Where vertices are constrained, x = x0 + C q, the implicit integrators solve C^T A C dq = C^T rhs.
@@ -20,6 +21,7 @@
 #include <string>
 
 #include "harness/fem/linear_solver.h"
+#include "harness/fem/mass_solver.h"
 #include "harness/fem/state.h"
 
 namespace cutbench {
@@ -56,8 +58,8 @@ struct StepReport {
 template <int D>
 class Stepper {
  public:
-  /// Throws InputError for an unknown solver. Symplectic Euler uses the lumped mass (scenes refuse another), and takes
-  /// no constrained vertices.
+  /// Throws InputError for an unknown solver. Symplectic Euler takes no consistent mass (scenes refuse it), and no
+  /// constrained vertices.
   explicit Stepper(const StepOptions& options);
   StepReport step(Model<D>& model, State& state);
 
@@ -65,6 +67,7 @@ class Stepper {
   void implicit_step(Model<D>& model, State& state, double h, StepReport& report);
   void right_hand_side(Model<D>& model, const State& state, double h, bool first, StepReport& report);
   void explicit_step(Model<D>& model, State& state, StepReport& report);
+  void solve_added_mass(const Model<D>& model, const State& state, StepReport& report);
   void equilibrium(Model<D>& model, State& state, StepReport& report);
   void solve(Model<D>& model, const Field& start, StepReport& report);
   void judge_newton(const Model<D>& model, double h, double before2, double last2, StepReport& report);
@@ -73,6 +76,8 @@ class Stepper {
 
   StepOptions options_;
   std::unique_ptr<LinearSolver<D>> solver_;
+  MassSolver<D> mass_solver_;
+  std::uint64_t mass_of_ = 0;  // the change of the model that it was set up after
   Field v_, x_, force_, rhs_, dv_, product_, reduced_;  // kept between steps
 };
 

@@ -209,6 +209,10 @@ void add_forced_zones(std::vector<Metric>& t) {
                of_triangles(&Assessment::outside_wedges, &Quality::ar_p99)});
 }
 
+std::function<Value(const Measured&)> of_ratio(EigenvalueRatios Measured::*which, double EigenvalueRatios::*ratio) {
+  return [which, ratio](const Measured& m) { return m.*which.*ratio >= 0 ? Value(m.*which.*ratio) : Value(); };
+}
+
 void add_stability_and_accuracy(std::vector<Metric>& t) {
   t.push_back({"eigenvalue_ratio", "", "largest eigenvalue / uncut", Direction::lower, Group::stability,
                "Largest eigenvalue of the membrane's stiffness and lumped mass (harness/fem/largest_eigenvalue.h) over "
@@ -217,14 +221,33 @@ void add_stability_and_accuracy(std::vector<Metric>& t) {
                "that of C^T K C and "
                "C^T M C, with ghost penalties where the method has them; that mass is not lumped, and no explicit "
                "step takes it, except for `phantom_node:lumped_mass`.",
-               [](const Measured& m) { return m.eigenvalue_ratio >= 0 ? Value(m.eigenvalue_ratio) : Value(); }});
+               of_ratio(&Measured::membrane, &EigenvalueRatios::lumped)});
   t.push_back(
       {"bending_eigenvalue_ratio", "", "largest eigenvalue with bending / uncut", Direction::lower, Group::stability,
        "The same with bending patches, D / (E h) = 4.2e-7 of the sheet's area (2 mm of skin on a side of 1 m) "
        "and nu = 0.45: by its root the largest stable step shrinks. Empty for phantom nodes, which do not bend.",
-       [](const Measured& m) {
-         return m.bending_eigenvalue_ratio >= 0 ? Value(m.bending_eigenvalue_ratio) : Value();
-       }});
+       of_ratio(&Measured::bent, &EigenvalueRatios::lumped)});
+  t.push_back({"stabilised_eigenvalue_ratio", "", "largest eigenvalue, stabilised mass / uncut", Direction::lower,
+               Group::stability,
+               "`eigenvalue_ratio` with `mass = \"stabilised\"` (harness/fem/added_mass.h), no element above the largest "
+               "eigenvalue of one of the uncut sheet. Empty where vertices are constrained, like the next ones.",
+               of_ratio(&Measured::membrane, &EigenvalueRatios::stabilised)});
+  t.push_back({"stabilised_bending_eigenvalue_ratio", "", "largest eigenvalue with bending, stabilised mass / uncut",
+               Direction::lower, Group::stability, "The same with bending, as in `bending_eigenvalue_ratio`.",
+               of_ratio(&Measured::bent, &EigenvalueRatios::stabilised)});
+  t.push_back({"scaled_eigenvalue_ratio", "", "largest eigenvalue, scaled mass / uncut", Direction::lower,
+               Group::stability, "`eigenvalue_ratio` with `mass = \"scaled\"`.",
+               of_ratio(&Measured::membrane, &EigenvalueRatios::scaled)});
+  t.push_back({"scaled_bending_eigenvalue_ratio", "", "largest eigenvalue with bending, scaled mass / uncut",
+               Direction::lower, Group::stability, "The same with bending.",
+               of_ratio(&Measured::bent, &EigenvalueRatios::scaled)});
+  t.push_back({"scaled_mass_added", "", "mass added by scaling / mass", Direction::lower, Group::stability,
+               "Mass that `scaled_eigenvalue_ratio` takes beside the sheet's, over the sheet's. A stabilised mass adds "
+               "none to translation.",
+               of_ratio(&Measured::membrane, &EigenvalueRatios::scaled_added)});
+  t.push_back({"scaled_bending_mass_added", "", "mass added by scaling, with bending / mass", Direction::lower,
+               Group::stability, "The same of `scaled_bending_eigenvalue_ratio`.",
+               of_ratio(&Measured::bent, &EigenvalueRatios::scaled_added)});
   t.push_back(
       {"incision_error_h", "h", "incision error", Direction::lower, Group::accuracy,
        "Hausdorff distance between the requested path inside the sheet and the opened edges, both ways; of "

@@ -17,6 +17,12 @@
 
 namespace cutbench {
 
+/// Largest eigenvalues over that of the uncut sheet with a lumped mass; negative: not measured.
+struct EigenvalueRatios {
+  double lumped = -1, stabilised = -1, scaled = -1;
+  double scaled_added = -1;  ///< mass that scaling adds, over the sheet's
+};
+
 /// What has been measured of one cut, or of several in a row. A null pointer: that has not been measured.
 struct Measured {
   double h = 0;                 ///< mean rest edge of the uncut sheet
@@ -25,7 +31,7 @@ struct Measured {
   const Assessment* assessment = nullptr;
   bool shapes = true;                                           ///< the assessment's shapes and forced zones are wanted
   const MotionCut* motion = nullptr;                            ///< the cut in a running scene; then `cut` is its `cut`
-  double eigenvalue_ratio = -1, bending_eigenvalue_ratio = -1;  ///< negative: not measured
+  EigenvalueRatios membrane = {}, bent = {};                    ///< without and with bending
 };
 
 /// Not measured: an empty field in CSV, null in JSON.

@@ -214,10 +214,22 @@ class Runner {
 
   void fill_eigenvalues(Record& row, const Worker& worker) const {
     const Ties ties = worker.method->ties(base_.sheet, worker.sheet);
-    Measured measured{.eigenvalue_ratio = largest_eigenvalue(worker.sheet, ties) / base_eigenvalue_};
+    Measured measured{.membrane = ratios(worker.sheet, ties, {}, base_eigenvalue_)};
     if (ties.phantoms == 0)  // phantom nodes do not bend
-      measured.bending_eigenvalue_ratio = largest_eigenvalue(worker.sheet, ties, bent_skin) / base_bending_;
+      measured.bent = ratios(worker.sheet, ties, bent_skin, base_bending_);
     fill(row, measured, {Group::stability});
+  }
+
+  EigenvalueRatios ratios(const Sheet& sheet, const Ties& ties, Elasticity elasticity, double base) const {
+    EigenvalueRatios ratios{.lumped = largest_eigenvalue(sheet, ties, elasticity) / base};
+    if (!ties.ties.empty()) return ratios;
+    elasticity.mass_limit = largest_element_eigenvalue(base_.sheet, elasticity);
+    elasticity.mass = Mass::stabilised;
+    ratios.stabilised = largest_eigenvalue(sheet, ties, elasticity) / base;
+    elasticity.mass = Mass::scaled;
+    ratios.scaled = largest_eigenvalue(sheet, ties, elasticity) / base;
+    ratios.scaled_added = added_mass_share(sheet, ties, elasticity);
+    return ratios;
   }
 
   /// The experiment's scene on this sheet, brought to the last step before the cut.

@@ -124,7 +124,7 @@ std::vector<SweepPoint> read_points(const TomlReader& sweep, const Scene& scene)
 void choose_for_eigenvalue(std::vector<SweepPoint>& points) {
   const auto known_from = [](const SweepPoint& p) {
     const Material& m = p.scene.material;
-    return std::tuple(p.cut, p.place, m.stiffness, m.poisson, m.bending, p.scene.physics.bending);
+    return std::tuple(p.cut, p.place, m.stiffness, m.poisson, m.bending, p.scene.physics.bending, p.scene.physics.mass);
   };
   for (std::size_t i = 0; i < points.size(); ++i)
     points[i].eigenvalue =

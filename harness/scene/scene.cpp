@@ -67,7 +67,7 @@ void read_sheet(const TomlReader& file, const std::filesystem::path& folder, Sce
 
 Physics read_physics(const TomlReader& file) {
   const TomlReader reader =
-      file.section("physics", {"dimension", "plane", "strain", "stress_stiffness", "bending", "mass", "gravity"});
+      file.section("physics", {"dimension", "plane", "strain", "stress_stiffness", "bending", "mass", "mass_limit", "gravity"});
   Physics p;
   p.dimension = reader.count("dimension", p.dimension);
   if (p.dimension != 2 && p.dimension != 3) reader.refuse("\"dimension\" is 2 (in the plane) or 3");
@@ -78,6 +78,10 @@ Physics read_physics(const TomlReader& file) {
     reader.refuse("linear strain has no stiffness from stress; leave \"stress_stiffness\" out");
   p.bending = reader.choice<BendingKind>("bending", p.bending, bending_names);
   p.mass = reader.choice<Mass>("mass", p.mass, mass_names);
+  p.mass_limit = reader.positive("mass_limit", p.mass_limit);
+  if (reader.has("mass_limit") && !adds_mass(p.mass))
+    reader.refuse("\"mass_limit\" is for mass = \"stabilised\" or \"scaled\"; leave it out");
+  if (p.mass_limit < 1) reader.refuse("\"mass_limit\" must be 1 or more: the uncut sheet stays as it is");
   p.gravity = read_vector(reader, "gravity", p);
   if (p.bending != BendingKind::none && p.dimension == 2)
     reader.refuse("a 2D scene does not bend; set bending = \"none\", or dimension = 3");
@@ -199,7 +203,7 @@ void read_integrator(const TomlReader& file, Scene& scene) {
   scene.step = reader.positive("step", scene.step);
   scene.newton = reader.count("newton", scene.newton);
   if (scene.integrator == Integrator::symplectic_euler && scene.physics.mass == Mass::consistent)
-    reader.refuse("symplectic_euler solves nothing, so it needs mass = \"lumped\" in [physics]");
+    reader.refuse("symplectic_euler solves nothing, so it needs mass = \"lumped\", \"stabilised\" or \"scaled\" in [physics]");
   if (scene.integrator == Integrator::symplectic_euler) exclude(reader, "symplectic_euler", {"newton"});
   if (scene.integrator != Integrator::equilibrium) return;
   exclude(reader, "equilibrium, which takes no time", {"step"});

@@ -6,7 +6,8 @@
 //   [material]    density, stiffness, poisson, bending, mass_damping, stiffness_damping
 //   [physics]     dimension = 2|3, plane = "stress"|"strain", strain = "corotational"|"linear",
 //                 stress_stiffness = "none"|"positive"|"full" (default: positive), bending = of bending_names,
-//                 mass = "lumped"|"consistent", gravity = [x, y, z]
+//                 mass = "lumped"|"consistent"|"stabilised"|"scaled", mass_limit = 1 (of the last two: harness/fem/
+//                 physics.h), gravity = [x, y, z]
 //   [[pins]]      near = [x, y] | box = [[x0, y0], [x1, y1]]; axes = "xyz", displacement, velocity = [x, y, z]
 //   [[tractions]] box, force = [x, y, z]
 //   [integrator]  name = "backward_euler"|"midpoint"|"symplectic_euler"|"equilibrium", step, newton

@@ -100,7 +100,9 @@ class SceneInMotion : public Simulation {
   }
   StepLimits step_limits() override {
     const Material& material = scene_.material;
-    Elasticity elasticity{.poisson = material.poisson, .plane = scene_.physics.plane};
+    Elasticity elasticity{.poisson = material.poisson, .plane = scene_.physics.plane, .mass = scene_.physics.mass};
+    if (const AddedMass* const added = now_.model.added_mass())
+      elasticity.mass_limit = added->limit() * material.density / material.stiffness;
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     if (now_.model.tied()) return {unknown, unknown};
     const Ties ties{.polygons = now_.model.polygons()};

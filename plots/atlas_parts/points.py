@@ -12,6 +12,7 @@ NAMES = {"conventional_split": "conventional split", "bowyer_watson": "Bowyer-Wa
          "global_remesh": "global remesh", "warp_and_refine": "warp and refine", "vertex_snap": "vertex snap",
          "snap_or_split": "snap or split", "edge_release": "edge release", "split_and_tie": "split and tie", "cut_polygons": "cut polygons",
          "ablation:warp+thin:tie": "warp, thin, tie", "element_deletion": "element deletion"}
+ADDED_MASS = ["stabilised", "scaled"]  # values of `mass` that are remedies
 SOLVERS = {"cg": "CG", "cg_sliver_blocks": "sliver blocks", "multigrid": "multigrid", "cholmod": "CHOLMOD",
            "local_global": "local-global"}
 
@@ -21,15 +22,16 @@ def read(folder):
     path = folder / "records.csv"
     table = load.read_records(path if path.is_file() else folder / "atlas.records.csv.gz", ["sweep", "place", EXPLICIT],
                               all_columns=True)
-    table["name"] = [name_of(m, k) for m, k in zip(table["method"], table["knob"])]
+    table["name"] = [name_of(*row) for row in zip(table["method"], table["knob"], table["mass"])]
+    table["sweep"] = table["sweep"].str.removesuffix("_added_mass")
     known = set(WORST_LAST)
     table["verdict"] = [v if v in known else "wrong" for v in table["verdict"]]  # of the oracle: what, is in the reason
     table["rank"] = table["verdict"].map(WORST_LAST.index)
     return table
 
 
-def name_of(method, knob):
-    name = NAMES.get(method, method.replace("_", " "))
+def name_of(method, knob, mass):
+    name = NAMES.get(method, method.replace("_", " ")) + (f", {mass}" if mass in ADDED_MASS else "")
     return f"phantom, ghost {knob.partition('=')[2]}" if method == "phantom_node" else name
 
 
