@@ -89,7 +89,8 @@ TEST(AddedMass, BoundsTheMembraneByTheElementsOfTheUncutSheet) {
         SCOPED_TRACE(family + ", " + name_of(mass_names, kind));
         Physics physics = physics_with(kind);
         physics.dimension = 2, physics.mass_limit = limit;
-        Body<2> body(make_sheet(family, 6), skin, physics), lumped(make_sheet(family, 6), skin, physics_with(Mass::lumped));
+        Body<2> body(make_sheet(family, 6), skin, physics),
+            lumped(make_sheet(family, 6), skin, physics_with(Mass::lumped));
         const double most = largest_of_triangles(body.sheet.to_mesh_data(), skin);
         EXPECT_NEAR(body.model.added_mass()->limit(), limit * most, 1e-12 * limit * most);
         const double uncut = dense_eigenvalue(body);
@@ -208,7 +209,8 @@ TEST(AddedMass, LetsExplicitStepsRunAndTheirEnergyClose) {
         .poisson = skin.poisson, .bending = BendingKind::patches, .bending_length2 = skin.bending / skin.stiffness};
     const double step = 0.5 * explicit_step_limit(largest_eigenvalue(body.sheet, {}, elasticity), skin);
     Stepper<3> stepper({.integrator = Integrator::symplectic_euler, .step = step, .solver = {}});
-    for (Eigen::Index i = 0; i < body.state.v.size(); ++i) body.state.v[i] = 0.3 * std::sin(static_cast<double>(37 * i * i));
+    for (Eigen::Index i = 0; i < body.state.v.size(); ++i)
+      body.state.v[i] = 0.3 * std::sin(static_cast<double>(37 * i * i));
     EnergyBudget budget(balance_of(body.model, body.state), Integrator::symplectic_euler);
     std::string verdict = "ok";
     for (int n = 0; n < 400 && verdict == "ok"; ++n) {

@@ -114,7 +114,8 @@ class Point {
     if (!trial_.point->eigenvalue) return;
     at("the eigenvalue");
     const Ties ties = method.ties(before_, sheet);
-    measure(Measure::eigenvalue_ratio) = largest_eigenvalue(sheet, ties, with_mass({}, scene_)) / largest_eigenvalue(before_);
+    measure(Measure::eigenvalue_ratio) =
+        largest_eigenvalue(sheet, ties, with_mass({}, scene_)) / largest_eigenvalue(before_);
     Scene scene = scene_;
     if (ties.phantoms > 0) scene.physics.bending = BendingKind::none;  // phantom nodes do not bend
     measure(Measure::explicit_step_ratio) = explicit_step_of(scene, sheet, ties) / trial_.uncut_step_s;

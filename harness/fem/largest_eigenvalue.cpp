@@ -45,7 +45,9 @@ class ScaledStiffness {
     factor(ties.lumped);
   }
 
-  ElementModes modes() const { return {&elements_, &lumped_, bending_ ? &*bending_ : nullptr, 2 * (lame_.mu + lame_.lambda)}; }
+  ElementModes modes() const {
+    return {&elements_, &lumped_, bending_ ? &*bending_ : nullptr, 2 * (lame_.mu + lame_.lambda)};
+  }
   double added_mass_share() const { return added_ ? added_->total() / lumped_.sum() : 0; }
 
   Eigen::Index size() const { return 2 * static_cast<Eigen::Index>(combination_.unknowns()); }
@@ -89,7 +91,8 @@ class ScaledStiffness {
     for (Eigen::Index i = 0; i < lumped_.size(); ++i) act(i, i, lumped_[i]);
     for (std::size_t v = 0; added_ && v < added_->matrix().rows(); ++v) {
       std::int32_t slot = added_->matrix().first_slot(v);
-      for (const std::int32_t j : added_->matrix().columns(v)) act(static_cast<Eigen::Index>(v), j, added_->matrix().block(slot++)(0));
+      for (const std::int32_t j : added_->matrix().columns(v))
+        act(static_cast<Eigen::Index>(v), j, added_->matrix().block(slot++)(0));
     }
   }
 
@@ -102,7 +105,8 @@ class ScaledStiffness {
       entries.emplace_back(u, u, diagonal[static_cast<Eigen::Index>(u)] = lumped[u]);
     for_each_mass([&](Eigen::Index i, Eigen::Index j, double mass) {
       if (!lumped.empty()) return;
-      const auto &row = combination_.row(static_cast<std::size_t>(i)), &column = combination_.row(static_cast<std::size_t>(j));
+      const auto &row = combination_.row(static_cast<std::size_t>(i)),
+                 &column = combination_.row(static_cast<std::size_t>(j));
       for (std::size_t k = 0; k < row.size; ++k)
         for (std::size_t l = 0; l < column.size; ++l)
           entries.emplace_back(row.unknown[k], column.unknown[l], row.weight[k] * column.weight[l] * mass);

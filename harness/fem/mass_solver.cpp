@@ -26,7 +26,8 @@ void MassSolver<D>::setup(const Field& lumped, const BlockMatrix<1>& added, cons
     Group& group = groups_[g];
     const auto n = static_cast<Eigen::Index>(group.vertices.size());
     std::fill(place.begin(), place.end(), -1);
-    for (Eigen::Index i = 0; i < n; ++i) place[static_cast<std::size_t>(group.vertices[static_cast<std::size_t>(i)])] = static_cast<int>(i);
+    for (Eigen::Index i = 0; i < n; ++i)
+      place[static_cast<std::size_t>(group.vertices[static_cast<std::size_t>(i)])] = static_cast<int>(i);
     std::vector<Eigen::Triplet<double>> entries;
     for (const std::int32_t v : group.vertices) {
       const auto row = static_cast<std::size_t>(v);

@@ -72,7 +72,7 @@ class Model {
   const Bending* bending() const { return bending_ ? &*bending_ : nullptr; }
   Deformation<D> deformation(std::size_t element) const { return membrane_.deformation(elements_, element); }
   std::vector<Polygon> polygons() const;
-  const Field& lumped_mass() const { return mass_; }               ///< kg, per vertex, without what is added
+  const Field& lumped_mass() const { return mass_; }  ///< kg, per vertex, without what is added
   const AddedMass* added_mass() const { return added_mass_ ? &*added_mass_ : nullptr; }
   const Field& external_force() const { return external_; }        ///< N
   const std::vector<std::uint8_t>& held() const { return held_; }  ///< per unknown; those of freed slots are, too

@@ -77,7 +77,7 @@ class Stepper {
   StepOptions options_;
   std::unique_ptr<LinearSolver<D>> solver_;
   MassSolver<D> mass_solver_;
-  std::uint64_t mass_of_ = 0;  // the change of the model that it was set up after
+  std::uint64_t mass_of_ = 0;                           // the change of the model that it was set up after
   Field v_, x_, force_, rhs_, dv_, product_, reduced_;  // kept between steps
 };
 

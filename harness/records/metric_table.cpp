@@ -227,11 +227,12 @@ void add_stability_and_accuracy(std::vector<Metric>& t) {
        "The same with bending patches, D / (E h) = 4.2e-7 of the sheet's area (2 mm of skin on a side of 1 m) "
        "and nu = 0.45: by its root the largest stable step shrinks. Empty for phantom nodes, which do not bend.",
        of_ratio(&Measured::bent, &EigenvalueRatios::lumped)});
-  t.push_back({"stabilised_eigenvalue_ratio", "", "largest eigenvalue, stabilised mass / uncut", Direction::lower,
-               Group::stability,
-               "`eigenvalue_ratio` with `mass = \"stabilised\"` (harness/fem/added_mass.h), no element above the largest "
-               "eigenvalue of one of the uncut sheet. Empty where vertices are constrained, like the next ones.",
-               of_ratio(&Measured::membrane, &EigenvalueRatios::stabilised)});
+  t.push_back(
+      {"stabilised_eigenvalue_ratio", "", "largest eigenvalue, stabilised mass / uncut", Direction::lower,
+       Group::stability,
+       "`eigenvalue_ratio` with `mass = \"stabilised\"` (harness/fem/added_mass.h), no element above the largest "
+       "eigenvalue of one of the uncut sheet. Empty where vertices are constrained, like the next ones.",
+       of_ratio(&Measured::membrane, &EigenvalueRatios::stabilised)});
   t.push_back({"stabilised_bending_eigenvalue_ratio", "", "largest eigenvalue with bending, stabilised mass / uncut",
                Direction::lower, Group::stability, "The same with bending, as in `bending_eigenvalue_ratio`.",
                of_ratio(&Measured::bent, &EigenvalueRatios::stabilised)});

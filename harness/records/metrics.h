@@ -29,9 +29,9 @@ struct Measured {
   const CutRun* cut = nullptr;  ///< status and times
   bool judged = false;          ///< the repetition that was judged: it has what no repetition changes
   const Assessment* assessment = nullptr;
-  bool shapes = true;                                           ///< the assessment's shapes and forced zones are wanted
-  const MotionCut* motion = nullptr;                            ///< the cut in a running scene; then `cut` is its `cut`
-  EigenvalueRatios membrane = {}, bent = {};                    ///< without and with bending
+  bool shapes = true;                         ///< the assessment's shapes and forced zones are wanted
+  const MotionCut* motion = nullptr;          ///< the cut in a running scene; then `cut` is its `cut`
+  EigenvalueRatios membrane = {}, bent = {};  ///< without and with bending
 };
 
 /// Not measured: an empty field in CSV, null in JSON.

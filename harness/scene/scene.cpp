@@ -66,8 +66,8 @@ void read_sheet(const TomlReader& file, const std::filesystem::path& folder, Sce
 }
 
 Physics read_physics(const TomlReader& file) {
-  const TomlReader reader =
-      file.section("physics", {"dimension", "plane", "strain", "stress_stiffness", "bending", "mass", "mass_limit", "gravity"});
+  const TomlReader reader = file.section(
+      "physics", {"dimension", "plane", "strain", "stress_stiffness", "bending", "mass", "mass_limit", "gravity"});
   Physics p;
   p.dimension = reader.count("dimension", p.dimension);
   if (p.dimension != 2 && p.dimension != 3) reader.refuse("\"dimension\" is 2 (in the plane) or 3");
@@ -203,7 +203,8 @@ void read_integrator(const TomlReader& file, Scene& scene) {
   scene.step = reader.positive("step", scene.step);
   scene.newton = reader.count("newton", scene.newton);
   if (scene.integrator == Integrator::symplectic_euler && scene.physics.mass == Mass::consistent)
-    reader.refuse("symplectic_euler solves nothing, so it needs mass = \"lumped\", \"stabilised\" or \"scaled\" in [physics]");
+    reader.refuse(
+        "symplectic_euler solves nothing, so it needs mass = \"lumped\", \"stabilised\" or \"scaled\" in [physics]");
   if (scene.integrator == Integrator::symplectic_euler) exclude(reader, "symplectic_euler", {"newton"});
   if (scene.integrator != Integrator::equilibrium) return;
   exclude(reader, "equilibrium, which takes no time", {"step"});
