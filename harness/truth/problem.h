@@ -5,6 +5,7 @@
 // nothing, so errors are published over ensembles.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -30,6 +31,7 @@ struct Measure {
 /// What one solver made of one cut sheet. Microseconds, steady clock, one thread.
 struct Answer {
   std::string verdict = "ok", reason;  ///< solver_stalled, not_finite; a fixed budget of iterations never stalls
+  bool refused = false;                ///< nothing was solved; the reason says why
   std::size_t unknowns = 0;            ///< free ones
   double assemble_us = 0, setup_us = 0, solve_us = 0;
   int iterations = 0;
@@ -41,6 +43,7 @@ struct Answer {
 struct Budget {
   SolverOptions solver{.name = "cholmod"};
   int iterations = 0;  ///< 0: until solved
+  bool tip_functions = false;  ///< beside the linear shape functions (harness/fem/tip_functions.h); until solved only
 };
 
 /// One member of the ensemble, before any method touched it.
@@ -50,6 +53,10 @@ struct Specimen {
   Point2 origin{};          ///< of the exact solution's frame, in rest space
   double angle = 0;         ///< of its x axis, radians
 };
+
+/// Measures that problems with tips have besides their own where a budget has tip functions: K at the tips from the
+/// functions' coefficients.
+inline constexpr std::array<const char*, 2> tip_measures{"tip_k1", "tip_k2"};
 
 class Problem {
  public:
@@ -62,6 +69,7 @@ class Problem {
   virtual bool takes_budgets() const { return true; }  ///< false: several linear solves, solved directly only
   /// False: it bends, which it does at the sheet's own vertices alone.
   virtual bool takes_ties() const { return takes_budgets(); }
+  virtual bool takes_tip_functions() const { return takes_budgets(); }  ///< false: it bends, or is solved many times
   virtual bool takes_polygons() const { return true; }  ///< false: it changes the cut sheet once more
 
   /// Member `index` on a sheet of `family` (sheet_families()) with 2 n^2 triangles; depends on the arguments alone.
