@@ -11,7 +11,7 @@ namespace cutbench {
 
 namespace {
 
-constexpr double just_short_of = 0.9;  // of the next tip or border
+constexpr double just_short_of = 0.99;  // of the next tip or border
 
 double distance(Point2 p, Point2 a, Point2 b) {
   const Point2 along = b - a;
@@ -39,7 +39,7 @@ struct CutOff {
 CutOff cut_off(double r, double radius) {
   const double s = r / radius;
   if (s >= 1) return {0, 0};
-  return {1 - s * s * s * (10 - 15 * s + 6 * s * s), -30 * s * s * (1 - s) * (1 - s) / radius};
+  return {(1 - s) * (1 - s), -2 * (1 - s) / radius};
 }
 
 }  // namespace
@@ -76,9 +76,7 @@ void TipFunctions::reach_from(std::size_t tip, HalfEdge incision) {
   const auto& [vertex, at, radius] = tips_[tip];
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   std::vector<TriangleIndex> all;
-  const auto is_reached = [&](TriangleIndex t) {
-    return !reaching_[t()].empty() && reaching_[t()].back().tip == tip;
-  };
+  const auto is_reached = [&](TriangleIndex t) { return !reaching_[t()].empty() && reaching_[t()].back().tip == tip; };
   const auto enter = [&](HalfEdge h, double at_origin, double at_target) {
     const TriangleIndex t = triangle_of(h);
     const auto a = static_cast<std::size_t>(corner_of(h)), b = (a + 1) % 3, c = (a + 2) % 3;
@@ -124,8 +122,8 @@ std::array<TipFunctions::Value, TipFunctions::per_tip> TipFunctions::at(Triangle
   std::array<Value, per_tip> values;
   for (std::size_t j = 0; j < per_tip; ++j) {
     values[j].value = chi.value * root * f[j];
-    values[j].gradient = (chi.value / (2 * root) + chi.slope * root) * f[j] * outward +
-                         chi.value / root * slope[j] * around;
+    values[j].gradient =
+        (chi.value / (2 * root) + chi.slope * root) * f[j] * outward + chi.value / root * slope[j] * around;
   }
   return values;
 }

@@ -26,9 +26,11 @@ void integrate_from_corner(const std::array<Point2, 3>& c, bool squared, Add&& a
   }
 }
 
-/// add(point, weight): the weights add up to the area. \pre each tip is a corner, or outside
+/// On triangles with sides up to `longest`. add(point, weight): the weights add up to the area. \pre each tip is a
+/// corner, or outside
 template <class Add>
-void integrate_near_tips(std::array<Point2, 3> c, std::span<const Point2> tips, Add&& add, int depth = 0) {
+void integrate_near_tips(std::array<Point2, 3> c, std::span<const Point2> tips, double longest, Add&& add,
+                         int depth = 0) {
   constexpr int deepest = 50;
   const auto is_tip = [&](Point2 p) { return std::find(tips.begin(), tips.end(), p) != tips.end(); };
   for (int k = 0; k < 2 && !is_tip(c[0]); ++k) std::rotate(c.begin(), c.begin() + 1, c.end());
@@ -37,9 +39,10 @@ void integrate_near_tips(std::array<Point2, 3> c, std::span<const Point2> tips, 
   for (std::size_t k = 0; k < 3; ++k) side[k] = squared_length(c[(k + 1) % 3] - c[k]);
   std::size_t from = static_cast<std::size_t>(std::max_element(side.begin(), side.end()) - side.begin());
   const Point2 centre = 1.0 / 3 * (c[0] + c[1] + c[2]);
-  bool divide = std::any_of(tips.begin(), tips.end(), [&](Point2 tip) {
-    return !(at_tip && tip == c[0]) && 4 * side[from] > squared_length(centre - tip);
-  });
+  bool divide = side[from] > longest * longest;
+  divide = divide || std::any_of(tips.begin(), tips.end(), [&](Point2 tip) {
+             return !(at_tip && tip == c[0]) && 4 * side[from] > squared_length(centre - tip);
+           });
   if (at_tip && !divide) {  // the side opposite, where the tip sees it at a wide angle
     const double foot = std::clamp(dot(c[0] - c[1], c[2] - c[1]) / side[1], 0.0, 1.0);
     from = 1, divide = side[1] > squared_length(c[1] + foot * (c[2] - c[1]) - c[0]);
@@ -47,8 +50,8 @@ void integrate_near_tips(std::array<Point2, 3> c, std::span<const Point2> tips, 
   if (!divide || depth == deepest) return integrate_from_corner(c, at_tip, add);
   const std::size_t to = (from + 1) % 3, apex = (from + 2) % 3;
   const Point2 middle = 0.5 * (c[from] + c[to]);
-  integrate_near_tips({c[apex], c[from], middle}, tips, add, depth + 1);
-  integrate_near_tips({c[apex], middle, c[to]}, tips, add, depth + 1);
+  integrate_near_tips({c[apex], c[from], middle}, tips, longest, add, depth + 1);
+  integrate_near_tips({c[apex], middle, c[to]}, tips, longest, add, depth + 1);
 }
 
 }  // namespace cutbench

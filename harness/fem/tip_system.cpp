@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "harness/fem/tip_quadrature.h"
@@ -51,12 +52,14 @@ TipSystem::TipSystem(const Sheet& sheet, const ElementTable& elements, const Tip
     const auto reaching = functions.reaching(t);
     if (reaching.empty()) continue;
     const std::size_t tips = reaching.size();
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& reach : reaching) least = std::min(least, functions.tips()[reach.tip].radius);
     here.setZero(3, of_tip * static_cast<Eigen::Index>(tips)), integral.setZero(3, here.cols());
     const auto part = [&](Eigen::Matrix3Xd& of, std::size_t k) {
       return of.middleCols<of_tip>(of_tip * static_cast<Eigen::Index>(k));
     };
     const auto first = [&](std::size_t k) { return of_tip * static_cast<Eigen::Index>(reaching[k].tip); };
-    integrate_near_tips(sheet.corners(t), places, [&](Point2 p, double weight) {
+    integrate_near_tips(sheet.corners(t), places, least / 16, [&](Point2 p, double weight) {
       Eigen::Index column = 0;
       for (const auto& reach : reaching)
         for (const auto& function : functions.at(t, reach, p))

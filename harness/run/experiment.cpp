@@ -171,8 +171,9 @@ Experiment read_experiment(const std::filesystem::path& file) {
   refuse_repeated(e.cut_families, name + ": \"cut_families\"");
   refuse_repeated(e.resolutions, name + ": \"resolutions\"");
   if (is_accuracy) {
-    const std::vector<std::string> keys{"problems",          "direct",   "preconditioners", "iterations", "members",
-                                        "members_nonlinear", "tip_functions", "reference"};
+    const std::vector<std::string> keys{"problems",      "direct",   "preconditioners",
+                                        "iterations",    "members",  "members_nonlinear",
+                                        "tip_functions", "reference"};
     e.accuracy = read_accuracy(reader.section("accuracy", keys), e.resolutions);
     refuse_repeated(e.accuracy->problems, name + ": \"problems\"");
     refuse_repeated(e.accuracy->direct, name + ": \"direct\"");

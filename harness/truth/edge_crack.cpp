@@ -101,8 +101,8 @@ class EdgeCrack final : public Problem {
         };
         add("k1", intensity.of(solve.elements(), displacement, of_tips).k1);
         if (of_tips.size() > 0)
-          if (const auto k = intensity_of_coefficients(*solve.tip_functions(), of_tips, tip, sheet_material,
-                                                       sheet.mean_edge()))
+          if (const auto k =
+                  intensity_of_coefficients(*solve.tip_functions(), of_tips, tip, sheet_material, sheet.mean_edge()))
             add(tip_measures[0], k->k1);
       }
       answers.push_back(std::move(answer));

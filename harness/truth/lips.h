@@ -19,8 +19,7 @@ struct LipSample {
 /// is within `reach`: the curve was not opened there.
 /// `of_tips` are coefficients of `functions`, which may be null.
 std::vector<double> opening(const Sheet& sheet, const Field& displacement, const std::vector<LipSample>& samples,
-                            double reach, const TipFunctions* functions = nullptr,
-                            const Eigen::VectorXd& of_tips = {});
+                            double reach, const TipFunctions* functions = nullptr, const Eigen::VectorXd& of_tips = {});
 /// The same of an exact field.
 std::vector<double> opening(const ElasticField& field, const std::vector<LipSample>& samples);
 

@@ -62,8 +62,7 @@ class InteractionIntegral {
   /// border is in it. The intensities of the modes are independent.
   /// \param functions  null: the field has none
   InteractionIntegral(const Sheet& sheet, const ElementTable& elements, const Elastic& elastic, const Tip& tip,
-                      const std::array<Mode, 2>& modes, const Ring& ring = {},
-                      const TipFunctions* functions = nullptr);
+                      const std::array<Mode, 2>& modes, const Ring& ring = {}, const TipFunctions* functions = nullptr);
   /// \param of_tips  coefficients of the tip functions; empty: there are none in this field
   StressIntensity of(const ElementTable& elements, const Field& displacement,
                      const Eigen::VectorXd& of_tips = {}) const;
@@ -83,7 +82,7 @@ class InteractionIntegral {
 
   std::vector<Weights> weights_;
   Eigen::Matrix2Xd of_functions_;  // the integrals of both modes, per coefficient of a tip function
-  Eigen::Matrix2d to_intensity_;  // from the integrals of both modes
+  Eigen::Matrix2d to_intensity_;   // from the integrals of both modes
 };
 
 }  // namespace cutbench

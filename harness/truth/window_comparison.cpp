@@ -80,8 +80,7 @@ WindowComparison::Sums WindowComparison::sum(const StaticSolve::Solution& soluti
     for (; next < end; ++next) {
       const auto& [from_corner, weight, exact, moved] = samples_[next];
       const auto of_tips = solve_.tip_displacement(solution, TriangleIndex(e), corner + from_corner);
-      const Eigen::Matrix2d here =
-          linear + elastic.stress((of_tips.gradient + of_tips.gradient.transpose()) / 2);
+      const Eigen::Matrix2d here = linear + elastic.stress((of_tips.gradient + of_tips.gradient.transpose()) / 2);
       const Eigen::Matrix2d off = exact - here;
       sums.error_energy += weight * off.cwiseProduct(elastic.strain(off)).sum();
       sums.worst_stress = std::max(sums.worst_stress, off.cwiseAbs().maxCoeff());
@@ -94,8 +93,8 @@ WindowComparison::Sums WindowComparison::sum(const StaticSolve::Solution& soluti
 }
 
 double WindowComparison::opening_error(const StaticSolve::Solution& solution) const {
-  const auto found = opening(sheet_, solution.displacement, lips_, sheet_.mean_edge(), solve_.tip_functions(),
-                             solution.of_tips);
+  const auto found =
+      opening(sheet_, solution.displacement, lips_, sheet_.mean_edge(), solve_.tip_functions(), solution.of_tips);
   double off = 0, scale = 0;
   for (std::size_t i = 0; i < lips_.size(); ++i)
     off += lips_[i].length * std::pow(found[i] - opening_[i], 2), scale += lips_[i].length * std::pow(opening_[i], 2);
@@ -129,9 +128,8 @@ StressIntensity WindowComparison::mean(const std::function<StressIntensity(std::
 std::vector<Measure> WindowComparison::measures(const StaticSolve::Solution& solution) const {
   const auto [after, released] = border_;
   const Sums sums = sum(solution);
-  const StressIntensity k = mean([&](std::size_t i) {
-    return intensities_[i].of(solve_.elements(), solution.displacement, solution.of_tips);
-  });
+  const StressIntensity k = mean(
+      [&](std::size_t i) { return intensities_[i].of(solve_.elements(), solution.displacement, solution.of_tips); });
   const double pull = std::hypot(window_.before.xx, window_.before.yy, window_.before.xy);
   const StressIntensity exact_k = window_.tips.empty() ? StressIntensity{} : window_.tips[0].k;
   const double intensity = std::hypot(exact_k.k1, exact_k.k2);
@@ -153,8 +151,8 @@ std::vector<Measure> WindowComparison::measures(const StaticSolve::Solution& sol
   if (solution.of_tips.size() == 0 || tips_.empty()) return measures;
   std::size_t missing = 0;
   const StressIntensity of_tips = mean([&](std::size_t i) {
-    const auto found = intensity_of_coefficients(*solve_.tip_functions(), solution.of_tips, tips_[i],
-                                                 field_.elastic(), sheet_.mean_edge());
+    const auto found = intensity_of_coefficients(*solve_.tip_functions(), solution.of_tips, tips_[i], field_.elastic(),
+                                                 sheet_.mean_edge());
     missing += !found;
     return found.value_or(StressIntensity{});
   });
