@@ -4,7 +4,7 @@
 // with K_uu that of the sheet alone. Loads act on the border, where the functions are zero.
 #pragma once
 
-#include <optional>
+#include <Eigen/Core>
 
 #include "harness/fem/element_table.h"
 #include "harness/fem/linear_solver.h"

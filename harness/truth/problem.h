@@ -42,8 +42,9 @@ struct Answer {
 /// How to solve. A budget runs so many iterations of `solver.name` from zero, whatever is reached by then.
 struct Budget {
   SolverOptions solver{.name = "cholmod"};
-  int iterations = 0;          ///< 0: until solved
-  bool tip_functions = false;  ///< beside the linear shape functions (harness/fem/tip_functions.h); until solved only
+  int iterations = 0;  ///< 0: until solved
+  /// Beside the linear shape functions (harness/fem/tip_functions.h). \pre the problem takes budgets; iterations is 0.
+  bool tip_functions = false;
 };
 
 /// One member of the ensemble, before any method touched it.
@@ -69,7 +70,6 @@ class Problem {
   virtual bool takes_budgets() const { return true; }  ///< false: several linear solves, solved directly only
   /// False: it bends, which it does at the sheet's own vertices alone.
   virtual bool takes_ties() const { return takes_budgets(); }
-  virtual bool takes_tip_functions() const { return takes_budgets(); }  ///< false: it bends, or is solved many times
   virtual bool takes_polygons() const { return true; }                  ///< false: it changes the cut sheet once more
 
   /// Member `index` on a sheet of `family` (sheet_families()) with 2 n^2 triangles; depends on the arguments alone.
