@@ -29,21 +29,21 @@ Budget with_tips() { return {.tip_functions = true}; }
 
 const std::vector<std::string> cracks{"centre_crack", "inclined_crack", "arc_crack_60", "edge_crack_40"};
 
-/// Integral of r^power over a triangle with the tip at corner 0: the side opposite in polar coordinates, by Simpson's
-/// rule over the angle.
+/// Integral of r^power over a triangle with the tip at corner 0, by polar coordinates: over the side opposite, at a
+/// distance h sinh(t) from the foot of the height h, of h^(power + 2) cosh(t)^(power + 1) / (power + 2), by Simpson's
+/// rule.
 double of_power(const std::array<Point2, 3>& c, double power) {
   const Point2 u = c[1] - c[0], v = c[2] - c[0];
-  const double height = cross(u, v) / sqrt(squared_length(v - u));
-  const double foot = dot(Point2{} - u, v - u) / sqrt(squared_length(v - u));
-  const double from = std::atan2(-foot, height), to = std::atan2(sqrt(squared_length(v - u)) - foot, height);
-  constexpr int steps = 20000;
+  const double side = sqrt(squared_length(v - u)), height = cross(u, v) / side;
+  const double from = std::asinh(dot(u, v - u) / side / height), to = std::asinh(dot(v, v - u) / side / height);
+  constexpr int steps = 2000;
   double sum = 0;
   for (int i = 0; i <= steps; ++i)
     sum += (i == 0 || i == steps ? 1
             : i % 2 == 1         ? 4
                                  : 2) *
-           std::pow(height / std::cos(from + (to - from) * i / steps), power + 2);
-  return sum * (to - from) / steps / 3 / (power + 2);
+           std::pow(std::cosh(from + (to - from) * i / steps), power + 1);
+  return std::pow(height, power + 2) * sum * (to - from) / steps / 3 / (power + 2);
 }
 
 TEST(TipQuadrature, OfPowersOfTheDistance) {
@@ -69,11 +69,14 @@ TEST(TipQuadrature, OfPowersOfTheDistance) {
 struct Case {
   Specimen specimen;
   Sheet sheet;
+  Ties ties;
 };
 Case made(const std::string& problem, const std::string& family, int n, std::size_t index,
           const std::string& method = "conventional_split") {
   const Specimen specimen = find_problem(problem).specimen(family, n, 1, index);
-  return {specimen, cut_by(specimen, method)};
+  const double knob = find_method(method).knob.value;
+  const Sheet sheet = cut_by(specimen, method, knob);
+  return {specimen, sheet, find_method(method).make(knob)->ties(Sheet(specimen.mesh), sheet)};
 }
 
 Eigen::VectorXd some_coefficients(const TipFunctions& functions, std::uint64_t seed = 3) {
@@ -90,30 +93,33 @@ TEST(TipFunctions, AreWhereIncisionsEndInsideTheSheet) {
                                         {"two_cuts_one_geometry", 2},
                                         {"edge_crack_40", 1},
                                         {"kirsch_hole", 0}}) {
-      const auto [specimen, sheet] = made(problem, "delaunay", 20, 1, method);
+      const auto [specimen, sheet, ties] = made(problem, "delaunay", 20, 1, method);
       const TipFunctions functions(sheet);
       ASSERT_EQ(functions.tips().size(), tips) << problem << ' ' << method;
       for (const auto& tip : functions.tips()) {
         const auto& ends = specimen.cuts;
         EXPECT_TRUE(sqrt(squared_length(tip.at - ends.front().points.front())) < 1e-9 ||
                     sqrt(squared_length(tip.at - ends.back().points.back())) < 1e-9);
-        for (const auto& other : functions.tips())
-          if (&other != &tip) EXPECT_LT(tip.radius, sqrt(squared_length(tip.at - other.at)));
-        if (problem != "edge_crack_40")
-          for (const double to_border : {tip.at.x, tip.at.y, 1 - tip.at.x, 1 - tip.at.y})
-            EXPECT_LT(tip.radius, to_border);
+        for (const auto& other : functions.tips()) {
+          if (&other != &tip) {
+            EXPECT_LT(tip.radius, sqrt(squared_length(tip.at - other.at)));
+          }
+        }
+        if (problem == "edge_crack_40") continue;
+        for (const double to_border : {tip.at.x, tip.at.y, 1 - tip.at.x, 1 - tip.at.y})
+          EXPECT_LT(tip.radius, to_border);
       }
     }
 }
 
-/// Across every edge that is not opened the functions are continuous, and on the lips of the tip's own incision sqrt(r)
-/// sin(theta/2) alone jumps, by 2 sqrt(r) chi. Elsewhere they are complex roots, up to their common sign.
+/// Across every edge that is not opened the functions are continuous. Across the tip's own incision they change sign,
+/// and where that is straight all but sqrt(r) sin(theta/2) are zero there.
 TEST(TipFunctions, JumpAcrossTheIncisionAlone) {
   for (const std::string& problem : cracks)
     for (const std::string family : {"grid", "delaunay"})
       for (std::size_t index = 0; index < 4; ++index) {
         SCOPED_TRACE(problem + ' ' + family + ' ' + std::to_string(index));
-        const auto [specimen, sheet] = made(problem, family, 20, index);
+        const auto [specimen, sheet, ties] = made(problem, family, 20, index);
         const TipFunctions functions(sheet);
         std::size_t lips = 0;
         for (std::size_t slot = 0; slot < sheet.triangle_slots(); ++slot) {
@@ -128,13 +134,16 @@ TEST(TipFunctions, JumpAcrossTheIncisionAlone) {
               for (std::size_t j = 0; j < TipFunctions::per_tip; ++j) {
                 Eigen::VectorXd c = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(functions.unknowns()));
                 c[static_cast<Eigen::Index>(8 * tip + 2 * j)] = 1;
-                const double jump =
-                    functions.displacement(t, p, c).value.x() - functions.displacement(o, p, c).value.x();
+                const double here = functions.displacement(t, p, c).value.x(),
+                             across = functions.displacement(o, p, c).value.x();
+                const bool opened = sheet.mark(h) == EdgeMark::incision;
+                EXPECT_NEAR(here, opened ? -across : across, 1e-12);
                 const double r = sqrt(squared_length(p - functions.tips()[tip].at)),
-                             s = std::min(1.0, r / functions.tips()[tip].radius);
-                const double expected =
-                    sheet.mark(h) == EdgeMark::incision && j == 0 ? 2 * sqrt(r) * (1 - s) * (1 - s) : 0;
-                EXPECT_NEAR(std::abs(jump), expected, 1e-12);
+                             s = std::min(1.0, r / functions.tips()[tip].radius),
+                             expected = opened && j == 0 ? sqrt(r) * (1 - s) * (1 - s) : 0;
+                if (opened && problem != "arc_crack_60") {
+                  EXPECT_NEAR(std::abs(here), expected, 1e-7);
+                }
                 lips += expected > 0;
               }
           }
@@ -145,7 +154,7 @@ TEST(TipFunctions, JumpAcrossTheIncisionAlone) {
 
 /// The functions as complex roots: F = Im, Re of w, and sin(theta) times these; w the square root of z, of either sign.
 TEST(TipFunctions, AreRootsWithTheRightDerivatives) {
-  const auto [specimen, sheet] = made("arc_crack_60", "delaunay", 20, 1);
+  const auto [specimen, sheet, ties] = made("arc_crack_60", "delaunay", 20, 1);
   const TipFunctions functions(sheet);
   std::size_t seen = 0;
   for (std::size_t slot = 0; slot < sheet.triangle_slots(); ++slot)
@@ -187,13 +196,19 @@ TEST(TipFunctions, AreRootsWithTheRightDerivatives) {
   EXPECT_GT(seen, 200u);
 }
 
+Model<2> model_of(const Sheet& sheet, const Ties& ties) {
+  Model<2> model(sheet, {.stiffness = sheet_material.young, .poisson = sheet_material.poisson},
+                 {.dimension = 2, .strain = Strain::linear}, {}, {});
+  model.tie(sheet, ties);
+  return model;
+}
+
 struct Energies {
   Model<2> model;
   TipFunctions functions;
   TipSystem system;
-  explicit Energies(const Sheet& sheet)
-      : model(sheet, {.stiffness = sheet_material.young, .poisson = sheet_material.poisson},
-              {.dimension = 2, .strain = Strain::linear}, {}, {}),
+  explicit Energies(const Sheet& sheet, const Ties& ties = {})
+      : model(model_of(sheet, ties)),
         functions(sheet),
         system(sheet, model.elements(), functions, lame_of(model.material(), Plane::stress)) {}
 };
@@ -204,7 +219,7 @@ TEST(TipFunctions, HaveTheEnergyOfTheirFields) {
   for (const std::string& problem : cracks)
     for (const std::size_t index : {0u, 1u}) {
       SCOPED_TRACE(problem);
-      const auto [specimen, sheet] = made(problem, "delaunay", 16, index);
+      const auto [specimen, sheet, ties] = made(problem, "delaunay", 16, index);
       const Energies energies(sheet);
       for (std::size_t tip = 0; tip < energies.functions.tips().size(); ++tip) {
         Eigen::VectorXd c = some_coefficients(energies.functions);
@@ -255,8 +270,8 @@ TEST(TipFunctions, HaveTheEnergyOfTheirFields) {
 TEST(TipFunctions, RigidMotionsAndStressAlongTheCutDoNothing) {
   for (const std::string method : {"conventional_split", "cut_polygons"})
     for (std::size_t index = 0; index < 4; ++index) {
-      const auto [specimen, sheet] = made("centre_crack", "delaunay", 20, index, method);
-      const Energies energies(sheet);
+      const auto [specimen, sheet, ties] = made("centre_crack", "delaunay", 20, index, method);
+      const Energies energies(sheet, ties);
       const Eigen::VectorXd c = some_coefficients(energies.functions);
       const auto moved = [&](const Eigen::Matrix2d& gradient) {
         Field u = Field::Zero(static_cast<Eigen::Index>(2 * sheet.deformed_slots()));
@@ -273,7 +288,7 @@ TEST(TipFunctions, RigidMotionsAndStressAlongTheCutDoNothing) {
       const Eigen::Vector2d along(std::cos(specimen.angle), std::sin(specimen.angle));
       stress = along * along.transpose();
       const Eigen::Matrix2d strain = sheet_material.strain(stress * sheet_material.young);
-      EXPECT_NEAR(energies.system.energy(moved(strain), c), alone, 1e-6 * alone);
+      EXPECT_NEAR(energies.system.energy(moved(strain), c), alone, 1e-5 * alone);  // quadrature
       EXPECT_GT(std::abs(energies.system.energy(
                              moved(sheet_material.strain(turn * stress * turn.transpose() * sheet_material.young)), c) -
                          alone),
@@ -286,7 +301,7 @@ TEST(TipFunctions, TheSolutionHasTheLeastEnergy) {
   for (const std::string& problem : cracks) {
     if (problem == "edge_crack_40") continue;       // loaded, not held
     for (const std::size_t index : {0u, 1u, 2u}) {  // even ones have slivers beside the tip
-      const auto [specimen, sheet] = made(problem, "grid", 12, index);
+      const auto [specimen, sheet, ties] = made(problem, "grid", 12, index);
       Energies energies(sheet);
       StaticSolve solve(sheet, sheet_material);
       solve.hold_border([](Point2 p, Point2) { return Eigen::Vector2d(p.x * p.y, 0.3 * p.y - p.x * p.x); });
@@ -321,7 +336,7 @@ TEST(TipFunctions, TheSolutionHasTheLeastEnergy) {
 }
 
 TEST(TipFunctions, KFromTheirCoefficients) {
-  const auto [specimen, sheet] = made("williams_mode_1", "delaunay", 20, 1);
+  const auto [specimen, sheet, ties] = made("williams_mode_1", "delaunay", 20, 1);
   const TipFunctions functions(sheet);
   ASSERT_EQ(functions.tips().size(), 1u);
   // The displacements of Williams, as coefficients in their frame.
@@ -344,7 +359,8 @@ TEST(TipFunctions, KFromTheirCoefficients) {
   const Tip tip{specimen.origin, specimen.angle};
   const auto found = intensity_of_coefficients(functions, c, tip, sheet_material, 0.01);
   ASSERT_TRUE(found);
-  EXPECT_NEAR(found->k1, k1, 1e-12), EXPECT_NEAR(found->k2, k2, 1e-12);
+  EXPECT_NEAR(found->k1, k1, 1e-12);
+  EXPECT_NEAR(found->k2, k2, 1e-12);
   EXPECT_FALSE(intensity_of_coefficients(functions, c, {specimen.origin + Point2{0.1, 0}}, sheet_material, 0.01));
 }
 
@@ -357,22 +373,47 @@ TEST(TipFunctions, ReproduceTheFieldAtATip) {
       for (std::size_t index = 0; index < 4; ++index) {
         SCOPED_TRACE("mode " + mode + ' ' + method + ' ' + std::to_string(index));
         const Problem& problem = find_problem("williams_mode_" + mode);
-        const auto [specimen, sheet] = made("williams_mode_" + mode, "delaunay", 40, index, method);
+        const auto [specimen, sheet, ties] = made("williams_mode_" + mode, "delaunay", 40, index, method);
         const std::array<Budget, 2> budgets{Budget{}, with_tips()};
-        const auto answers = problem.answer(specimen, sheet, budgets);
+        const auto answers = problem.answer(specimen, sheet, budgets, ties);
         ASSERT_EQ(answers[1].verdict, "ok");
         EXPECT_EQ(answers[1].unknowns, answers[0].unknowns + 8);
-        EXPECT_LT(error_of(answers[1], "energy_norm"), 0.35 * error_of(answers[0], "energy_norm"));
-        EXPECT_LT(error_of(answers[1], "tip_k" + mode), 0.03);
+        EXPECT_LT(error_of(answers[1], "energy_norm"), 0.6 * error_of(answers[0], "energy_norm"));
+        // Its error falls like sqrt(h); polygons at the tip take part of the opening over.
+        EXPECT_LT(error_of(answers[1], "tip_k" + mode), method == "cut_polygons" ? 0.4 : 0.15);
         EXPECT_LT(error_of(answers[1], "k" + mode), 0.01);
       }
+}
+
+/// Of the energy, in h: 1 without.
+TEST(TipFunctions, TheRateOfConvergenceIsBetter) {
+  for (const auto& [problem, measure, power] :
+       {std::tuple<std::string, std::string, int>{"centre_crack", "released_energy", 1},
+        {"inclined_crack", "released_energy", 1},
+        {"arc_crack_60", "released_energy", 1},
+        {"edge_crack_50", "released_energy", 1},
+        {"williams_mode_1", "energy_norm", 2},
+        {"williams_mode_2", "energy_norm", 2}}) {
+    double off[2] = {0, 0}, on[2] = {0, 0};
+    for (int level = 0; level < 2; ++level)
+      for (std::size_t index = 0; index < 4; ++index) {
+        const auto [specimen, sheet, ties] = made(problem, "delaunay", 24 << level, index);
+        const std::array<Budget, 2> budgets{Budget{}, with_tips()};
+        const auto answers = find_problem(problem).answer(specimen, sheet, budgets);
+        off[level] += std::pow(error_of(answers[0], measure), power);
+        on[level] += std::pow(error_of(answers[1], measure), power);
+      }
+    EXPECT_LT(std::log2(off[0] / off[1]), 1.2) << problem;
+    EXPECT_GT(std::log2(on[0] / on[1]), 1.4) << problem;
+    EXPECT_LT(on[1], 0.4 * off[1]) << problem;
+  }
 }
 
 TEST(TipFunctions, AStressAlongTheCutStaysExact) {
   for (const std::string family : sheet_families())
     for (std::size_t index = 0; index < 4; ++index) {
       const Problem& problem = find_problem("parallel_stress");
-      const auto [specimen, sheet] = made("parallel_stress", family, 16, index);
+      const auto [specimen, sheet, ties] = made("parallel_stress", family, 16, index);
       const Budget budget = with_tips();
       const Answer answer = problem.answer(specimen, sheet, {&budget, 1}).front();
       EXPECT_EQ(answer.verdict, "ok");
@@ -383,9 +424,7 @@ TEST(TipFunctions, AStressAlongTheCutStaysExact) {
 TEST(TipFunctions, AreRefusedWhereTheyHaveNoPlace) {
   const auto reason = [](const std::string& problem_name, const std::string& method) {
     const Problem& problem = find_problem(problem_name);
-    const Specimen specimen = problem.specimen("grid", 12, 1, 1);
-    const Sheet sheet = cut_by(specimen, method);
-    const Ties ties = find_method(method).make(0)->ties(Sheet(specimen.mesh), sheet);
+    const auto [specimen, sheet, ties] = made(problem_name, "grid", 12, 0, method);
     const std::array<Budget, 2> budgets{Budget{}, with_tips()};
     const auto answers = problem.answer(specimen, sheet, budgets, ties);
     EXPECT_FALSE(answers[0].refused);

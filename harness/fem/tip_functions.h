@@ -11,9 +11,10 @@
 //
 // A tip is a vertex inside the sheet at which one incision ends. theta is pi and -pi on the lips there, and is continued
 // from triangle to triangle across edges that are not opened. So its branch cut is the incision itself, whatever its
-// shape: on an arc theta passes pi on one side of the tangent, as the square root in the exact field does. The radius
-// ends just short of the border and of any other end or branching of incisions, so that the tip's incision leaves the
-// disc, and theta has one value everywhere. Other incisions that cross the disc end the functions.
+// shape, across which all F change sign; beside an arc theta passes pi on one side of the tangent, as in the root of the
+// exact field. The radius ends just short of the border and of any other end or branching of incisions, so that the
+// tip's incision leaves the disc, and theta has one value everywhere. Other incisions that cross the disc end the
+// functions.
 #pragma once
 
 #include <Eigen/Core>

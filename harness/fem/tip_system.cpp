@@ -46,37 +46,35 @@ TipSystem::TipSystem(const Sheet& sheet, const ElementTable& elements, const Tip
   const Eigen::Matrix3d moduli = hooke(lame);
   std::vector<Point2> places;
   for (const TipFunctions::Tip& tip : functions.tips()) places.push_back(tip.at);
-  Eigen::Matrix3Xd here, integral;
+  using Strains = Eigen::Matrix<double, 3, of_tip>;  // a column for each unknown of a tip
+  std::vector<Strains> here, integral;               // per tip that reaches the triangle
   for (std::size_t slot = 0; slot < sheet.triangle_slots(); ++slot) {
     const TriangleIndex t(slot);
     const auto reaching = functions.reaching(t);
     if (reaching.empty()) continue;
-    const std::size_t tips = reaching.size();
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto& reach : reaching) least = std::min(least, functions.tips()[reach.tip].radius);
-    here.setZero(3, of_tip * static_cast<Eigen::Index>(tips)), integral.setZero(3, here.cols());
-    const auto part = [&](Eigen::Matrix3Xd& of, std::size_t k) {
-      return of.middleCols<of_tip>(of_tip * static_cast<Eigen::Index>(k));
-    };
     const auto first = [&](std::size_t k) { return of_tip * static_cast<Eigen::Index>(reaching[k].tip); };
-    integrate_near_tips(sheet.corners(t), places, least / 16, [&](Point2 p, double weight) {
-      Eigen::Index column = 0;
-      for (const auto& reach : reaching)
-        for (const auto& function : functions.at(t, reach, p))
-          for (int a = 0; a < 2; ++a) here.col(column++) = strain(function.gradient, a);
-      integral += weight * here;
-      for (std::size_t k = 0; k < tips; ++k)
-        for (std::size_t l = 0; l < tips; ++l)
-          corner_.block<of_tip, of_tip>(first(k), first(l)) +=
-              weight * part(here, k).transpose() * moduli * part(here, l);
+    double radius = std::numeric_limits<double>::infinity();
+    for (const auto& reach : reaching) radius = std::min(radius, functions.tips()[reach.tip].radius);
+    here.resize(reaching.size()), integral.assign(reaching.size(), Strains::Zero());
+    integrate_near_tips(sheet.corners(t), places, radius / 8, [&](Point2 p, double weight) {
+      for (std::size_t k = 0; k < reaching.size(); ++k) {
+        const auto values = functions.at(t, reaching[k], p);
+        for (std::size_t j = 0; j < values.size(); ++j)
+          for (int a = 0; a < 2; ++a) here[k].col(static_cast<Eigen::Index>(2 * j) + a) = strain(values[j].gradient, a);
+        integral[k] += weight * here[k];
+        const Strains stress = weight * moduli * here[k];
+        for (std::size_t l = 0; l <= k; ++l)
+          corner_.block<of_tip, of_tip>(first(l), first(k)).noalias() += here[l].transpose() * stress;
+      }
     });
     for_each_gradient(elements, t, [&](DeformedIndex v, Point2 g) {
       for (int a = 0; a < 2; ++a)
-        for (std::size_t k = 0; k < tips; ++k)
+        for (std::size_t k = 0; k < reaching.size(); ++k)
           border_.block<1, of_tip>(2 * v.value + a, first(k)) +=
-              strain({g.x, g.y}, a).transpose() * moduli * part(integral, k);
+              strain({g.x, g.y}, a).transpose() * moduli * integral[k];
     });
   }
+  corner_.triangularView<Eigen::StrictlyLower>() = corner_.transpose();
 }
 
 double TipSystem::energy(const Field& u, const Eigen::VectorXd& c) const {
