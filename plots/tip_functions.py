@@ -58,8 +58,9 @@ def figure_of(run, table):
         ax.set_xlabel("triangles, uncut sheet")
     axes[0, 0].set_ylabel("error of the released energy, %")
     style.plain_numbers(axes[0, 0])
-    lines = [Line2D([], [], color="#444444", linestyle=line, label=f"tip functions {ON[on]}") for on, line in ((0, "--"), (1, "-"))]
-    style.finish(figure, [look for look in looks.values()], " ".join([
+    lines = [Line2D([], [], color="#444444", linestyle=line, label=f"tip functions {ON[on]}")
+             for on, line in ((0, "--"), (1, "-"))]
+    style.finish(figure, looks.values(), " ".join([
         "Error of the energy that a cut gives off, over the exact one: means over the problems of a kind, four sheets and the "
         "members of the ensemble, solved directly.",
         style.provenance(run, table, with_crosses=False, per=("sheet", "resolution", "tip_functions"))]), lines)
@@ -68,7 +69,8 @@ def figure_of(run, table):
 
 def main():
     folder = load.results_folder(STEM, __doc__)
-    everything = load.read_records(folder / "records.csv", load.TEXT + ["problem"] + load.COUNTS + ["tip_functions", MEASURE], True)
+    columns = [*load.TEXT, "problem", *load.COUNTS, "tip_functions", MEASURE]
+    everything = load.read_records(folder / "records.csv", columns, all_columns=True)
     failed = front.failed_rows(everything)
     table = everything[~failed]
     run = load.Run(table, everything[failed], load.read_context(folder / "context.json"))

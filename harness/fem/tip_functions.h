@@ -3,11 +3,10 @@
 // XFEM using a cutoff function, Int. J. Numer. Meth. Engng 75 (2008). Per tip
 //   u(p) += chi(r) sum_j F_j(r, theta) c_j,  j = 0 to 3, c_j a vector,
 //   F = sqrt(r) {sin(theta/2), cos(theta/2), sin(theta/2) sin(theta), cos(theta/2) sin(theta)},
-// which span the displacements of K1 and K2 (Williams 1957), and their rotations; chi = (1 - r / radius)^2 up to the
-// radius. The linear functions have to follow the rest, (1 - chi) F. Their error goes with its second derivatives. The
-// squares of these, for sqrt(r) exp(i theta / 2) and sqrt(r) exp(3 i theta / 2) together, times r, integrate to
-// 8.8 / radius over r; with the usual quintic, 1 - 10 s^3 + 15 s^4 - 6 s^5, to 18.4, with the best polynomial of degree 6
-// to 8.6.
+// which span the displacements of K1 and K2 (Williams 1957), and their rotations; chi = (1 - s)^2 up to the radius,
+// s = r / radius. The linear functions have to follow the rest, (1 - chi) F, and their error goes with its second
+// derivatives. Those of (1 - chi) sqrt(r) exp(i theta / 2) and (1 - chi) sqrt(r) exp(3 i theta / 2) together, squared and
+// times r, integrate over r to 53/6 / radius; with the usual quintic, 1 - 10 s^3 + 15 s^4 - 6 s^5, to 257/14.
 //
 // A tip is a vertex inside the sheet at which one incision ends. theta is pi and -pi on the lips there, and is continued
 // from triangle to triangle across edges that are not opened. So its branch cut is the incision itself, whatever its
