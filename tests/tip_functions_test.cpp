@@ -379,7 +379,7 @@ TEST(TipFunctions, ReproduceTheFieldAtATip) {
         ASSERT_EQ(answers[1].verdict, "ok");
         EXPECT_EQ(answers[1].unknowns, answers[0].unknowns + 8);
         EXPECT_LT(error_of(answers[1], "energy_norm"), 0.6 * error_of(answers[0], "energy_norm"));
-        // Its error falls like sqrt(h); polygons at the tip take part of the opening over.
+        // The linear functions take over part of the opening, polygons at the tip more of it.
         EXPECT_LT(error_of(answers[1], "tip_k" + mode), method == "cut_polygons" ? 0.4 : 0.15);
         EXPECT_LT(error_of(answers[1], "k" + mode), 0.01);
       }
