@@ -62,8 +62,8 @@ def figure_of(run, table):
              for on, line in ((0, "--"), (1, "-"))]
     style.finish(figure, looks.values(), " ".join([
         "Error of the energy that a cut gives off, over the exact one: means over the problems of a kind, four sheets and the "
-        "members of the ensemble, solved directly.",
-        style.provenance(run, table, with_crosses=False, per=("sheet", "resolution", "tip_functions"))]), lines)
+        "members of the ensemble, solved directly. Of each problem:",
+        style.provenance(run, table, with_crosses=False, per=("problem", "resolution", "tip_functions"))]), lines)
     return figure
 
 
