@@ -70,7 +70,7 @@ class Problem {
   virtual bool takes_budgets() const { return true; }  ///< false: several linear solves, solved directly only
   /// False: it bends, which it does at the sheet's own vertices alone.
   virtual bool takes_ties() const { return takes_budgets(); }
-  virtual bool takes_polygons() const { return true; }                  ///< false: it changes the cut sheet once more
+  virtual bool takes_polygons() const { return true; }  ///< false: it changes the cut sheet once more
 
   /// Member `index` on a sheet of `family` (sheet_families()) with 2 n^2 triangles; depends on the arguments alone.
   virtual Specimen specimen(const std::string& family, int n, std::uint64_t seed, std::size_t index) const = 0;
