@@ -90,8 +90,10 @@ void StaticSolve::hold_loose_pieces() {
 
 void StaticSolve::make_tip_functions(std::span<const Budget> budgets) {
   if (std::none_of(budgets.begin(), budgets.end(), [](const Budget& budget) { return budget.tip_functions; })) return;
-  if (tied_) why_no_tips_ = "the method constrains vertices, which tip functions don't take";
-  if (tied_) return;
+  if (tied_) {
+    why_no_tips_ = "the method constrains vertices, which tip functions don't take";
+    return;
+  }
   StopWatch watch;
   tips_.emplace(sheet_);
   if (tips_->tips().empty()) why_no_tips_ = "no incision ends inside the sheet, with room for tip functions";
