@@ -130,6 +130,36 @@ TEST_F(Accuracy, ProblemsOfManySolvesHaveMembersOfTheirOwn) {
   }
 }
 
+/// Solved directly, in the plane, by methods that constrain no vertex.
+TEST_F(Accuracy, TipFunctionsAreRowsOfTheirOwn) {
+  std::string text = experiment("", "\"centre_crack\", \"bending_patch_slit\"");
+  text.replace(text.find(methods), std::string(methods).size(), "[\"conventional_split\", \"split_and_tie\"]");
+  text.replace(text.find("[32, 72]"), 8, "[200, 288]");  // with room for the functions
+  write(folder_ / "e.toml", text + "tip_functions = true\nreference = false\nmembers_nonlinear = [1, 0]\n");
+  EXPECT_EQ(run("run e.toml --out r").code, 1);  // a refusal is no success
+  std::map<std::string, std::size_t> with, without;
+  for (const Record& row : rows_of(folder_ / "r/e/records.csv")) {
+    SCOPED_TRACE(row.line());
+    const std::string what = row.get("problem") + " by " + row.get("method");
+    if (row.get("tip_functions") == "0") {
+      ++without[what];
+      EXPECT_TRUE(row.get("value_tip_k1").empty());
+      continue;
+    }
+    ++with[what];
+    EXPECT_EQ(row.get("solver") + row.get("budget"), "cholmod0");
+    const bool refused = row.get("method") == "split_and_tie";
+    EXPECT_EQ(row.get("status"), refused ? "refused" : "ok");
+    EXPECT_EQ(row.get("reason").empty(), !refused);
+    EXPECT_EQ(row.get("error").empty(), refused);
+    EXPECT_EQ(row.get("value_tip_k1").empty(), refused);
+  }
+  EXPECT_EQ(with, (std::map<std::string, std::size_t>{{"centre_crack by conventional_split", 3},
+                                                      {"centre_crack by split_and_tie", 3}}));
+  EXPECT_EQ(without["centre_crack by conventional_split"], 3 * budgets);
+  EXPECT_EQ(without["bending_patch_slit by conventional_split"], 1u);
+}
+
 TEST_F(Accuracy, WithoutAReferenceNothingIsRanked) {
   std::string text = experiment();
   text.replace(text.find("members"), 0, "reference = false\n");

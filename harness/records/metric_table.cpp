@@ -365,6 +365,10 @@ void add_accuracy_run(std::vector<Metric>& t) {
       {"solver", "", "solver", Direction::none, Group::accuracy_run, "Linear solver: harness/fem/linear_solver.h."});
   t.push_back({"budget", "", "iterations allowed", Direction::none, Group::accuracy_run,
                "Iterations from zero, whatever is reached by then; 0: until solved."});
+  t.push_back(
+      {"tip_functions", "", "tip functions", Direction::none, Group::accuracy_run,
+       "1: solved with functions for the tips (harness/fem/tip_functions.h) beside the linear ones. Such rows have "
+       "two measures more: `tip_k1` and `tip_k2`, K from the functions' coefficients."});
   t.push_back({"exact_incision", "", "exact incision", Direction::none, Group::accuracy_run,
                "1: the method promises to open the requested path itself."});
   t.push_back({"cut_us", "us", "cut", Direction::lower, Group::accuracy_run,

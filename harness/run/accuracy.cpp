@@ -27,6 +27,9 @@ namespace {
 /// Errors of the reference below it are round-off: no measuring stick.
 constexpr double exact_to_rounding = 1e-9;
 
+/// Solver, budget and tip functions, too, say what was measured.
+constexpr std::size_t accuracy_key_columns = key_columns + 3;
+
 using Clock = std::chrono::steady_clock;
 
 double us_since(Clock::time_point start) {
@@ -44,10 +47,12 @@ class AccuracyRun {
         plan_(*experiment.accuracy),
         options_(options),
         file_(std::filesystem::path(options.out) / experiment.stem, identity(experiment, context, options),
-              accuracy_columns(), key_columns + 2) {
+              accuracy_columns(), accuracy_key_columns) {
     for (const Variant& v : variants_of(experiment, methods)) workers_.emplace_back(v);
     for (const auto& solver : plan_.direct) direct_.push_back({.solver = {.name = solver}});
     budgets_ = direct_;
+    if (plan_.tip_functions)
+      for (Budget with : direct_) with.tip_functions = true, budgets_.push_back(with);
     for (const auto& solver : plan_.preconditioners)
       for (int n : plan_.iterations) budgets_.push_back({.solver = {.name = solver}, .iterations = n});
     cut_options_.chord_tolerance = experiment.chord_tolerance;
@@ -95,6 +100,7 @@ class AccuracyRun {
                           e.accuracy->members,
                           e.accuracy->members_nonlinear,
                           e.accuracy->iterations,
+                          e.accuracy->tip_functions,
                           e.accuracy->reference}
                .dump() +
            shard_line(options);
@@ -156,8 +162,9 @@ class AccuracyRun {
 
   static void set_budget(Record& row, const Budget& budget) {
     row.set("solver", budget.solver.name), row.set("budget", std::int64_t{budget.iterations});
+    row.set("tip_functions", std::int64_t{budget.tip_functions});
   }
-  static std::string key(const Record& row) { return row.key(key_columns + 2); }
+  static std::string key(const Record& row) { return row.key(accuracy_key_columns); }
 
   Yardstick run_reference(const Problem& problem, const Specimen& specimen, const BaseSheet& base, Record row) {
     const auto start = Clock::now();
@@ -245,6 +252,10 @@ class AccuracyRun {
   }
 
   static void set_answer(Record& row, const Answer& answer, const Yardstick& yardstick) {
+    if (answer.refused) {
+      row.set("status", std::string(name_of(Status::refused))), row.set("reason", answer.reason);
+      return;
+    }
     row.set("unknowns", static_cast<std::int64_t>(answer.unknowns));
     row.set("assemble_us", answer.assemble_us);
     row.set("setup_us", answer.setup_us), row.set("solve_us", answer.solve_us);
@@ -281,6 +292,7 @@ const std::vector<std::string>& accuracy_columns() {
     std::vector<std::string> names = key_column_names("problem"), measures;
     for (const char* name : {"solver",
                              "budget",
+                             "tip_functions",
                              "status",
                              "verdict",
                              "reason",
@@ -308,6 +320,7 @@ const std::vector<std::string>& accuracy_columns() {
     for (const auto& problem : all_problems())
       for (const std::string& measure : problem->measures())
         if (std::find(measures.begin(), measures.end(), measure) == measures.end()) measures.push_back(measure);
+    measures.insert(measures.end(), tip_measures.begin(), tip_measures.end());
     for (const std::string& measure : measures)
       for (const char* kind : {"value_", "exact_", "error_", "excess_"}) names.push_back(kind + measure);
     return names;

@@ -20,8 +20,8 @@ constexpr const char* reference_method = "body_fitted (reference)";
 bool run_accuracy(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
                   const RunOptions& options);
 
-/// The columns of its records; the first ones as in all records (harness/records/record.h). Solver and budget, too, say
-/// what was measured.
+/// The columns of its records; the first ones as in all records (harness/records/record.h). Solver, budget and tip
+/// functions, too, say what was measured.
 const std::vector<std::string>& accuracy_columns();
 
 }  // namespace cutbench

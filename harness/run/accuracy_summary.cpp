@@ -22,7 +22,8 @@ double median(std::vector<double> values, std::size_t failed) {
 void AccuracySummary::add(const Record& row) {
   const std::string method = label(row.get("method"), row.get("knob"));
   if (std::find(methods_.begin(), methods_.end(), method) == methods_.end()) methods_.push_back(method);
-  Group& group = groups_[{method, row.get("solver"), std::stoi(row.get("budget"))}];
+  const std::string solver = row.get("solver") + (row.get("tip_functions") == "1" ? " + tips" : "");
+  Group& group = groups_[{method, solver, std::stoi(row.get("budget"))}];
   ++group.rows;
   if (row.get("verdict") != "ok" || row.get("error").empty()) {
     ++group.failed, all_ok_ = false;

@@ -28,7 +28,7 @@ class AccuracySummary {
     std::vector<double> excess, total_us;
   };
   std::vector<std::string> methods_;                                   // in order of appearance
-  std::map<std::tuple<std::string, std::string, int>, Group> groups_;  // method, solver, budget
+  std::map<std::tuple<std::string, std::string, int>, Group> groups_;  // method, solver (with tip functions), budget
   bool all_ok_ = true;
 };
 

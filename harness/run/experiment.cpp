@@ -88,6 +88,7 @@ Experiment::Accuracy read_accuracy(const TomlReader& reader, const std::vector<i
   accuracy.members = read_members("members", 1);
   accuracy.members_nonlinear =
       reader.has("members_nonlinear") ? read_members("members_nonlinear", 0) : accuracy.members;
+  accuracy.tip_functions = reader.value<bool>("tip_functions", accuracy.tip_functions);
   accuracy.reference = reader.value<bool>("reference", accuracy.reference);
   return accuracy;
 }
@@ -170,8 +171,9 @@ Experiment read_experiment(const std::filesystem::path& file) {
   refuse_repeated(e.cut_families, name + ": \"cut_families\"");
   refuse_repeated(e.resolutions, name + ": \"resolutions\"");
   if (is_accuracy) {
-    const std::vector<std::string> keys{"problems",          "direct",   "preconditioners", "iterations", "members",
-                                        "members_nonlinear", "reference"};
+    const std::vector<std::string> keys{"problems",      "direct",   "preconditioners",
+                                        "iterations",    "members",  "members_nonlinear",
+                                        "tip_functions", "reference"};
     e.accuracy = read_accuracy(reader.section("accuracy", keys), e.resolutions);
     refuse_repeated(e.accuracy->problems, name + ": \"problems\"");
     refuse_repeated(e.accuracy->direct, name + ": \"direct\"");

@@ -37,7 +37,8 @@ struct Experiment {
     std::vector<int> iterations;
     std::vector<std::pair<int, int>> members;            ///< (resolution, number of members of each problem's ensemble)
     std::vector<std::pair<int, int>> members_nonlinear;  ///< the same for problems that take no budgets; may be 0
-    bool reference = true;  ///< solve on a mesh fitted to the cut too; excess errors are measured against it
+    bool tip_functions = false;  ///< solve directly with functions for the tips (harness/fem/tip_functions.h), too
+    bool reference = true;       ///< solve on a mesh fitted to the cut too; excess errors are measured against it
   };
 
   /// Sweeps to where the methods fail (harness/run/sweep.h) instead of cut families.

@@ -86,17 +86,24 @@ class EdgeCrack final : public Problem {
     const double energy = pull * pull / sheet_material.young * released_energy(depth);
     const double before = pull * pull / (2 * sheet_material.young) * height;
     const Tip tip{specimen.origin};
+    solve.make_tip_functions(budgets);
     const InteractionIntegral intensity(sheet, solve.elements(), sheet_material, tip,
-                                        williams_modes(sheet_material, tip), ring);
+                                        williams_modes(sheet_material, tip), ring, solve.tip_functions());
     std::vector<Answer> answers;
     for (const Budget& budget : budgets) {
-      auto [displacement, answer] = solve.solve(budget);
-      if (answer.verdict != "not_finite") {
+      auto [displacement, of_tips, answer] = solve.solve(budget);
+      if (!answer.refused && answer.verdict != "not_finite") {
         // Dead loads: as much energy as they lose in work done, twice what the sheet takes up.
         const double value = solve.force().dot(displacement) / 2 - before;
         answer.measures.push_back({"released_energy", value, energy, std::abs(value - energy) / energy});
-        const double k = intensity.of(solve.elements(), displacement).k1;
-        answer.measures.push_back({"k1", k, k1, std::abs(k - k1) / k1});
+        const auto add = [&](const char* name, double k) {
+          answer.measures.push_back({name, k, k1, std::abs(k - k1) / k1});
+        };
+        add("k1", intensity.of(solve.elements(), displacement, of_tips).k1);
+        if (of_tips.size() > 0)
+          if (const auto k =
+                  intensity_of_coefficients(*solve.tip_functions(), of_tips, tip, sheet_material, sheet.mean_edge()))
+            add(tip_measures[0], k->k1);
       }
       answers.push_back(std::move(answer));
     }

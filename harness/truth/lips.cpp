@@ -8,6 +8,7 @@ namespace {
 
 struct OpenedEdge {
   Point2 from, to;
+  TriangleIndex left, right;
   Eigen::Vector2d jump_from, jump_to;  ///< of the left lip relative to the right one, m
 };
 
@@ -24,8 +25,8 @@ std::vector<OpenedEdge> opened_edges(const Sheet& sheet, const Field& displaceme
         return displacement.segment<2>(
             2 * sheet.triangle(triangle_of(lip)).deformed[static_cast<std::size_t>(corner)].value);
       };
-      edges.push_back({sheet.rest(sheet.origin(h)), sheet.rest(sheet.target(h)), moved(h, 0) - moved(o, 1),
-                       moved(h, 1) - moved(o, 0)});
+      edges.push_back({sheet.rest(sheet.origin(h)), sheet.rest(sheet.target(h)), triangle_of(h), triangle_of(o),
+                       moved(h, 0) - moved(o, 1), moved(h, 1) - moved(o, 0)});
     }
   }
   return edges;
@@ -34,7 +35,7 @@ std::vector<OpenedEdge> opened_edges(const Sheet& sheet, const Field& displaceme
 }  // namespace
 
 std::vector<double> opening(const Sheet& sheet, const Field& displacement, const std::vector<LipSample>& samples,
-                            double reach) {
+                            double reach, const TipFunctions* functions, const Eigen::VectorXd& of_tips) {
   const std::vector<OpenedEdge> edges = opened_edges(sheet, displacement);
   std::vector<double> gapes;
   for (const LipSample& sample : samples) {
@@ -46,8 +47,13 @@ std::vector<double> opening(const Sheet& sheet, const Field& displacement, const
       if (distance > nearest) continue;
       nearest = distance;
       const double sign = cross(along, sample.normal) > 0 ? 1 : -1;
-      gape =
-          sign * ((1 - s) * edge.jump_from + s * edge.jump_to).dot(Eigen::Vector2d(sample.normal.x, sample.normal.y));
+      Eigen::Vector2d jump = (1 - s) * edge.jump_from + s * edge.jump_to;
+      if (of_tips.size() > 0) {
+        const Point2 p = edge.from + s * along;
+        jump += functions->displacement(edge.left, p, of_tips).value;
+        jump -= functions->displacement(edge.right, p, of_tips).value;
+      }
+      gape = sign * jump.dot(Eigen::Vector2d(sample.normal.x, sample.normal.y));
     }
     gapes.push_back(gape);
   }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "harness/fem/tip_functions.h"
 #include "harness/truth/elastic_field.h"
 #include "harness/truth/stress_intensity.h"
 
@@ -16,8 +17,9 @@ struct LipSample {
 
 /// The gape at each sample, m along its normal: that of the nearest opened edge at that place. 0 where no opened edge
 /// is within `reach`: the curve was not opened there.
+/// `of_tips` are coefficients of `functions`, which may be null.
 std::vector<double> opening(const Sheet& sheet, const Field& displacement, const std::vector<LipSample>& samples,
-                            double reach);
+                            double reach, const TipFunctions* functions = nullptr, const Eigen::VectorXd& of_tips = {});
 /// The same of an exact field.
 std::vector<double> opening(const ElasticField& field, const std::vector<LipSample>& samples);
 

@@ -5,6 +5,7 @@
 // nothing, so errors are published over ensembles.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -30,6 +31,7 @@ struct Measure {
 /// What one solver made of one cut sheet. Microseconds, steady clock, one thread.
 struct Answer {
   std::string verdict = "ok", reason;  ///< solver_stalled, not_finite; a fixed budget of iterations never stalls
+  bool refused = false;                ///< nothing was solved; the reason says why
   std::size_t unknowns = 0;            ///< free ones
   double assemble_us = 0, setup_us = 0, solve_us = 0;
   int iterations = 0;
@@ -41,6 +43,8 @@ struct Answer {
 struct Budget {
   SolverOptions solver{.name = "cholmod"};
   int iterations = 0;  ///< 0: until solved
+  /// Beside the linear shape functions (harness/fem/tip_functions.h). \pre the problem takes budgets; iterations is 0.
+  bool tip_functions = false;
 };
 
 /// One member of the ensemble, before any method touched it.
@@ -50,6 +54,10 @@ struct Specimen {
   Point2 origin{};          ///< of the exact solution's frame, in rest space
   double angle = 0;         ///< of its x axis, radians
 };
+
+/// Measures that problems with tips have besides their own where a budget has tip functions: K at the tips from the
+/// functions' coefficients.
+inline constexpr std::array<const char*, 2> tip_measures{"tip_k1", "tip_k2"};
 
 class Problem {
  public:

@@ -1,5 +1,6 @@
 #include "harness/truth/static_solve.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -87,6 +88,23 @@ void StaticSolve::hold_loose_pieces() {
     for (const DeformedIndex d : polygon.inside) loose_[d()] = loose_[polygon.corners.front()()];
 }
 
+void StaticSolve::make_tip_functions(std::span<const Budget> budgets) {
+  if (std::none_of(budgets.begin(), budgets.end(), [](const Budget& budget) { return budget.tip_functions; })) return;
+  if (tied_) {
+    why_no_tips_ = "the method constrains vertices, which tip functions don't take";
+    return;
+  }
+  StopWatch watch;
+  tips_.emplace(sheet_);
+  if (tips_->tips().empty()) why_no_tips_ = "no incision ends inside the sheet, with room for tip functions";
+  with_tips_.emplace(sheet_, elements(), *tips_, lame_of(model_.material(), in_the_plane.plane));
+  tips_us_ = watch.lap();
+}
+
+double StaticSolve::tip_energy(const Solution& solution) const {
+  return solution.of_tips.size() == 0 ? 0 : with_tips_->energy(solution.displacement, solution.of_tips);
+}
+
 SystemMatrix<2> StaticSolve::held_system() const {
   SystemMatrix<2> system = model_.system();
   system.held = &held_;
@@ -94,6 +112,11 @@ SystemMatrix<2> StaticSolve::held_system() const {
 }
 
 StaticSolve::Solution StaticSolve::solve(const Budget& budget) {
+  if (budget.tip_functions && !why_no_tips_.empty()) {
+    Solution refused;
+    refused.answer.refused = true, refused.answer.reason = why_no_tips_;
+    return refused;
+  }
   StopWatch watch;
   if (!std::exchange(assembled_, true)) {
     model_.rotate(Field::Zero(given_.size()));
@@ -119,9 +142,14 @@ StaticSolve::Solution StaticSolve::solve(const Budget& budget) {
   watch.lap();
   solver->setup(system);
   answer.setup_us = watch.lap();
-  const SolveReport report = solver->solve(right_, solution.displacement);
+  SolveReport report;
+  if (budget.tip_functions)
+    report = with_tips_->solve(*solver, given_, right_, solution.displacement, solution.of_tips);
+  else
+    report = solver->solve(right_, solution.displacement);
   answer.solve_us = watch.lap();
   for (const auto h : *system.held) answer.unknowns += !h;
+  answer.unknowns += static_cast<std::size_t>(solution.of_tips.size());
   if (tied_) {
     const Field unknowns = solution.displacement;
     tied_->expand(unknowns, solution.displacement);
@@ -129,7 +157,7 @@ StaticSolve::Solution StaticSolve::solve(const Budget& budget) {
   solution.displacement += given_;
   model_.follow(solution.displacement);
 
-  answer.assemble_us = assemble_us_;
+  answer.assemble_us = assemble_us_ + (budget.tip_functions ? tips_us_ : 0);
   answer.iterations = report.iterations, answer.residual = report.residual;
   if (!solution.displacement.allFinite())
     answer.verdict = "not_finite", answer.reason = "the displacement is not finite";

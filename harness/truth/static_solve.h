@@ -8,6 +8,7 @@
 
 #include "harness/fem/combination.h"
 #include "harness/fem/model.h"
+#include "harness/fem/tip_system.h"
 #include "harness/truth/elastic_field.h"
 #include "harness/truth/problem.h"
 
@@ -28,9 +29,14 @@ class StaticSolve {
   /// equilibrium.
   void hold_loose_pieces();
 
+  /// Makes the functions that budgets with `tip_functions` add, if one of these has them. Such budgets are refused where
+  /// a vertex is constrained, and where no tip has functions.
+  void make_tip_functions(std::span<const Budget> budgets);
+
   struct Solution {
-    Field displacement;  ///< two values per slot of a deformed vertex, m
-    Answer answer;       ///< all but the measures
+    Field displacement;         ///< two values per slot of a deformed vertex, m: of the linear shape functions
+    Eigen::VectorXd of_tips{};  ///< of the tip functions, m / sqrt(length); empty without
+    Answer answer;              ///< all but the measures
   };
   /// Call it after all functions above. The first call assembles; that time is part of every answer.
   Solution solve(const Budget& budget);
@@ -39,6 +45,13 @@ class StaticSolve {
   /// Whether hold_loose_pieces() found this vertex in one.
   bool loose(DeformedIndex d) const { return !loose_.empty() && loose_[d()]; }
   const Field& force() const { return force_; }  ///< N
+  const TipFunctions* tip_functions() const { return tips_ ? &*tips_ : nullptr; }
+  /// J: what the tip functions add to the energy of the linear ones; 0 without.
+  double tip_energy(const Solution& solution) const;
+  /// What they add to the displacement at a point of a triangle.
+  TipFunctions::Displacement tip_displacement(const Solution& solution, TriangleIndex t, Point2 p) const {
+    return solution.of_tips.size() == 0 ? TipFunctions::Displacement{} : tips_->displacement(t, p, solution.of_tips);
+  }
 
  private:
   SystemMatrix<2> held_system() const;
@@ -46,10 +59,13 @@ class StaticSolve {
   const Sheet& sheet_;
   Model<2> model_;
   std::optional<TiedSystem<2>> tied_;
+  std::optional<TipFunctions> tips_;
+  std::optional<TipSystem> with_tips_;  // made with tips_
+  std::string why_no_tips_;
   std::vector<std::uint8_t> held_, loose_;
   Field given_, force_;
   Field right_;  // of the assembled system, tied where anything is
-  double assemble_us_ = 0;
+  double assemble_us_ = 0, tips_us_ = 0;
   bool assembled_ = false;
 };
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <numbers>
 
 #include "harness/truth/quadrature.h"
 
@@ -43,18 +44,35 @@ LinearDisplacement displacement_in(const ElementTable& elements, std::size_t tri
   return {map.at(polygon.offset_of(element.vertex[0])), map.gradient};
 }
 
+std::optional<StressIntensity> intensity_of_coefficients(const TipFunctions& functions, const Eigen::VectorXd& c,
+                                                         const Tip& tip, const Elastic& elastic, double reach) {
+  std::optional<std::size_t> nearest;
+  double least = reach * reach;
+  for (std::size_t i = 0; i < functions.tips().size(); ++i) {
+    const double distance = squared_length(functions.tips()[i].at - tip.at);
+    if (distance <= least) least = distance, nearest = i;
+  }
+  if (!nearest) return std::nullopt;
+  const Eigen::Vector2d opening = c.segment<2>(static_cast<Eigen::Index>(2 * TipFunctions::per_tip * *nearest)),
+                        along(std::cos(tip.angle), std::sin(tip.angle)), across(-along.y(), along.x());
+  const double factor = elastic.young * std::sqrt(2 * std::numbers::pi) / 4;
+  return StressIntensity{factor * across.dot(opening), factor * along.dot(opening)};
+}
+
 std::array<Mode, 2> williams_modes(const Elastic& elastic, const Tip& tip) {
   const auto mode = [&](const StressIntensity& k) { return Mode{williams_field(elastic, {tip.at, tip.angle}, k), k}; };
   return {mode({1, 0}), mode({0, 1})};
 }
 
 InteractionIntegral::InteractionIntegral(const Sheet& sheet, const ElementTable& elements, const Elastic& elastic,
-                                         const Tip& tip, const std::array<Mode, 2>& modes, const Ring& ring) {
+                                         const Tip& tip, const std::array<Mode, 2>& modes, const Ring& ring,
+                                         const TipFunctions* functions) {
   Eigen::Matrix2d of_modes;
   of_modes << modes[0].k.k1, modes[0].k.k2, modes[1].k.k1, modes[1].k.k2;
   to_intensity_ = elastic.young / 2 * of_modes.inverse();
   Eigen::Matrix2d turn;
   turn << 0, -tip.curvature, tip.curvature, 0;
+  if (functions) of_functions_ = Eigen::Matrix2Xd::Zero(2, static_cast<Eigen::Index>(functions->unknowns()));
   for (std::size_t e = 0; e < elements.size(); ++e) {
     if (!elements[e].alive()) continue;
     const auto corners = sheet.corners(TriangleIndex(e));
@@ -83,17 +101,32 @@ InteractionIntegral::InteractionIntegral(const Sheet& sheet, const ElementTable&
         const Eigen::Matrix2d of_gradient =
             mode.stress * growth.grad_v.transpose() - growth.q * turn.transpose() * mode.stress;
         const Eigen::Vector2d of_displacement = -turn.transpose() * mode.stress * growth.grad_q;
-        weights.mode[m].gradient +=
-            weight * (elastic.stress(of_stress) + of_gradient + of_displacement * from_corner.transpose());
+        const Eigen::Matrix2d of_any_gradient = weight * (elastic.stress(of_stress) + of_gradient);
+        weights.mode[m].gradient += of_any_gradient + weight * of_displacement * from_corner.transpose();
         weights.mode[m].corner += weight * of_displacement;
+        if (functions) add_functions(m, *functions, TriangleIndex(e), p, of_any_gradient, weight * of_displacement);
       }
     });
     weights_.push_back(weights);
   }
 }
 
-StressIntensity InteractionIntegral::of(const ElementTable& elements, const Field& displacement) const {
+void InteractionIntegral::add_functions(std::size_t mode, const TipFunctions& functions, TriangleIndex t, Point2 p,
+                                        const Eigen::Matrix2d& of_gradient, const Eigen::Vector2d& of_value) {
+  for (const auto& reach : functions.reaching(t)) {
+    auto unknown = static_cast<Eigen::Index>(2 * TipFunctions::per_tip * reach.tip);
+    for (const auto& [value, gradient] : functions.at(t, reach, p)) {
+      of_functions_.block<1, 2>(static_cast<Eigen::Index>(mode), unknown) +=
+          (of_gradient * gradient + value * of_value).transpose();
+      unknown += 2;
+    }
+  }
+}
+
+StressIntensity InteractionIntegral::of(const ElementTable& elements, const Field& displacement,
+                                        const Eigen::VectorXd& of_tips) const {
   Eigen::Vector2d sum(0, 0);
+  if (of_tips.size() > 0) sum = of_functions_ * of_tips;
   for (const auto& [element, mode] : weights_) {
     const auto [corner, gradient] = displacement_in(elements, element, displacement);
     for (std::size_t m = 0; m < 2; ++m)

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "harness/fem/block_matrix.h"
 #include "harness/fem/element_table.h"
+#include "harness/fem/tip_functions.h"
 #include "harness/truth/exact_fields.h"
 
 namespace cutbench {
@@ -40,6 +42,12 @@ struct LinearDisplacement {
 };
 LinearDisplacement displacement_in(const ElementTable& elements, std::size_t triangle, const Field& displacement);
 
+/// K at the end of a cut from the coefficients of the tip functions there: sin(theta/2) alone jumps across the cut, and
+/// the lips are 8 K / E sqrt(r / 2 pi) apart (Williams 1957), so K = E sqrt(2 pi) / 4 c_0, K1 normal to the cut and K2
+/// along it. Nothing where no tip with functions is within `reach`.
+std::optional<StressIntensity> intensity_of_coefficients(const TipFunctions& functions, const Eigen::VectorXd& c,
+                                                         const Tip& tip, const Elastic& elastic, double reach);
+
 /// Domain form of the interaction integral (Yau, Wang and Corten 1980; Shih and Asaro 1988), in the frame of the
 /// requested curve, whatever edges a method opened:
 ///   I = integral of s_ij g'_ij + s'_ij g_ij - s_ij e'_ij div V,  g_ij = u_i,k V_k,j - (q w u)_i,j,
@@ -52,9 +60,12 @@ class InteractionIntegral {
  public:
   /// \pre inside the ring the cut is straight or an arc, as the tip says, and free of traction; no other tip and no
   /// border is in it. The intensities of the modes are independent.
+  /// \param functions  null: the field has none
   InteractionIntegral(const Sheet& sheet, const ElementTable& elements, const Elastic& elastic, const Tip& tip,
-                      const std::array<Mode, 2>& modes, const Ring& ring = {});
-  StressIntensity of(const ElementTable& elements, const Field& displacement) const;
+                      const std::array<Mode, 2>& modes, const Ring& ring = {}, const TipFunctions* functions = nullptr);
+  /// \param of_tips  coefficients of the tip functions; empty: there are none in this field
+  StressIntensity of(const ElementTable& elements, const Field& displacement,
+                     const Eigen::VectorXd& of_tips = {}) const;
 
  private:
   /// Of one mode: times the displacement gradient, and times the displacement of the element's first corner.
@@ -66,8 +77,12 @@ class InteractionIntegral {
     std::size_t element;
     std::array<Weight, 2> mode;
   };
+  void add_functions(std::size_t mode, const TipFunctions& functions, TriangleIndex t, Point2 p,
+                     const Eigen::Matrix2d& of_gradient, const Eigen::Vector2d& of_value);
+
   std::vector<Weights> weights_;
-  Eigen::Matrix2d to_intensity_;  // from the integrals of both modes
+  Eigen::Matrix2Xd of_functions_;  // the integrals of both modes, per coefficient of a tip function
+  Eigen::Matrix2d to_intensity_;   // from the integrals of both modes
 };
 
 }  // namespace cutbench

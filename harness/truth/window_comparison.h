@@ -12,7 +12,7 @@ class WindowComparison {
  public:
   WindowComparison(const WindowCase& window, const Specimen& specimen, const Sheet& sheet, const StaticSolve& solve,
                    const ElasticField& field);
-  std::vector<Measure> measures(const Field& displacement) const;
+  std::vector<Measure> measures(const StaticSolve::Solution& solution) const;
 
  private:
   /// A point of a quadrature rule.
@@ -27,6 +27,7 @@ class WindowComparison {
   };
   struct RimEdge {
     std::size_t element;
+    Point2 middle;
     double length, hoop;  ///< exact hoop stress in its middle
     Eigen::Vector2d tangent;
   };
@@ -37,11 +38,11 @@ class WindowComparison {
   bool looked_at(std::size_t element) const;
   void sample_elements();
   void find_rim();
-  Sums sum(const Field& displacement) const;
-  double opening_error(const Field& displacement) const;
-  double rim_error(const Field& displacement) const;
-  StressIntensity mean_intensity(const Field& displacement) const;
-  Eigen::Matrix2d stress(std::size_t element, const Field& displacement) const;
+  Sums sum(const StaticSolve::Solution& solution) const;
+  double opening_error(const StaticSolve::Solution& solution) const;
+  double rim_error(const StaticSolve::Solution& solution) const;
+  /// Over the tips where K is measured, of each tip's.
+  StressIntensity mean(const std::function<StressIntensity(std::size_t i)>& of_tip) const;
   Point2 in_rest(Point2 local) const;
   Point2 turned(Point2 local) const;
 
@@ -55,7 +56,8 @@ class WindowComparison {
   std::vector<LipSample> lips_;
   std::vector<double> opening_;
   std::vector<RimEdge> rim_;
-  std::vector<InteractionIntegral> intensities_;  ///< per tip, where K is measured
+  std::vector<Tip> tips_;  ///< where K is measured
+  std::vector<InteractionIntegral> intensities_;
 };
 
 }  // namespace cutbench

@@ -48,12 +48,14 @@ class WindowProblem final : public Problem {
     StaticSolve solve(sheet, sheet_material, ties);
     solve.hold_border([&](Point2 p, Point2 inside) { return field.displacement(p, inside); });
     solve.hold_loose_pieces();
+    solve.make_tip_functions(budgets);
     const WindowComparison comparison(window_, specimen, sheet, solve, field);
     std::vector<Answer> answers;
     for (const Budget& budget : budgets) {
-      auto [displacement, answer] = solve.solve(budget);
-      if (answer.verdict != "not_finite") answer.measures = comparison.measures(displacement);
-      answers.push_back(std::move(answer));
+      StaticSolve::Solution solution = solve.solve(budget);
+      if (!solution.answer.refused && solution.answer.verdict != "not_finite")
+        solution.answer.measures = comparison.measures(solution);
+      answers.push_back(std::move(solution.answer));
     }
     return answers;
   }

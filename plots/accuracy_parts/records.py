@@ -17,11 +17,14 @@ EXACT = 1e-5  # a fitted mesh that errs less is exact but for rounding: there is
 
 
 class Records:
-    """The rows with: failed, ratio (error over the reference's), ms, variant columns, direct (solved to the end)."""
+    """The rows with: failed, ratio (error over the reference's), ms, variant columns, direct (solved to the end). Those
+    solved with tip functions are left out."""
 
     def __init__(self, folder):
         table = load.read_records(folder / "records.csv", load.TEXT + ["problem", "solver", "primary"] + load.COUNTS + NEEDED,
                                   all_columns=True)
+        if "tip_functions" in table:
+            table = table[table["tip_functions"] != 1]
         failed = front.failed_rows(table)
         fitted = table[(table["method"] == REFERENCE[0]) & ~failed].groupby("problem")["error"].median()
         self.exact = set(fitted[fitted < EXACT].index)
