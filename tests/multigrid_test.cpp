@@ -130,10 +130,10 @@ LevelRows rows_of(const BlockMatrix<2>& a) {
   return rows;
 }
 
-std::vector<std::int32_t> all_of(const LevelRows& rows) {
+RowChanges all_of(const LevelRows& rows) {
   std::vector<std::int32_t> all(rows.size());
   std::iota(all.begin(), all.end(), 0);
-  return all;
+  return {all, all};
 }
 
 /// The hats' place and value by another way: the distance to the three pairs of lines of a node's hexagon.
@@ -281,11 +281,13 @@ TEST(Coarsening, FollowsTheCuts) {
     std::uint64_t seen = 0;
     std::size_t n = 0;
     double value = 1;
+    std::vector<Point2> places;
     for (const Curve& curve : {line({0.2, 0.31}, {0.9, 0.52}), line({0.5, 0.1}, {0.61, 0.93}),
                                line({0.52, 0.1}, {0.63, 0.93}), line({-0.1, 0.8}, {0.3, 1.1})}) {
       ASSERT_EQ(body.cut(curve, method), Status::ok);
       const SystemMatrix<2> a = body.model.system();
       std::vector<std::int32_t> changed;
+      RowChanges changes;
       fine.resize(a.vertices());
       std::set<std::int32_t> marked;
       if (n > 0) {
@@ -295,17 +297,20 @@ TEST(Coarsening, FollowsTheCuts) {
       for (std::size_t i = 0; i < a.vertices(); ++i) {
         if (i < n && !marked.contains(static_cast<std::int32_t>(i))) continue;
         changed.push_back(static_cast<std::int32_t>(i));
-        fine.blocks.set(i, a.blocks->columns(i));
-        fine.set_scalars(i, a.blocks->columns(i), std::vector<double>(a.blocks->columns(i).size(), value));
+        const bool moves = i < n && length((*a.places)[i] - places[i]) > 0;
+        if (fine.blocks.set(i, a.blocks->columns(i)).is_new || moves)
+          changes.links.push_back(static_cast<std::int32_t>(i));
+        if (fine.set_scalars(i, a.blocks->columns(i), std::vector<double>(a.blocks->columns(i).size(), value)))
+          changes.rows.push_back(static_cast<std::int32_t>(i));
       }
       EXPECT_TRUE(n == 0 || 2 * changed.size() < n);
-      ++value, n = a.vertices(), seen = a.pattern;
+      ++value, n = a.vertices(), seen = a.pattern, places = *a.places;
       // Groups that come and go.
       Coarsening::Regrouping regrouping{changed, {}};
       for (std::size_t k = 2; k < changed.size(); k += 17) regrouping.groups.push_back({changed[k - 2], changed[k]});
-      first.update(fine, *a.places, changed, regrouping), first.multiply(fine, coarse);
-      second.update(coarse, first.coarse_places(), first.changed()), second.multiply(coarse, coarsest);
-      EXPECT_TRUE(changed.size() == n || 2 * first.changed().size() < first.coarse_size());
+      first.update(fine, *a.places, changes, regrouping), first.multiply(fine, coarse);
+      second.update(coarse, first.coarse_places(), first.changes()), second.multiply(coarse, coarsest);
+      EXPECT_TRUE(changed.size() == n || 2 * first.changes().rows.size() < first.coarse_size());
 
       Coarsening::Regrouping groups;
       for (std::size_t k = 0; k < first.coarse_size(); ++k)

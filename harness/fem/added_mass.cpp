@@ -35,7 +35,7 @@ void ElementModes::bending_rows(std::size_t triangle, BendingRows& rows) const {
   Eigen::Index next = 0;
   for (const auto& [vertex, factor] : stencil) {
     const auto holders = static_cast<double>(bending->stencils_of(static_cast<std::size_t>(vertex)).size());
-    rows.row(next++) = Eigen::Map<const Eigen::RowVector3d>(factor.data()) * std::sqrt(holders / (*lumped)[vertex]);
+    rows.row(next++) = Eigen::Map<const Eigen::RowVector3d>(factor.data()) * std::sqrt(holders / lumped[vertex]);
   }
 }
 
@@ -56,7 +56,7 @@ void AddedMass::list(std::size_t vertex) {
 }
 
 void AddedMass::update(const ElementModes& modes, const Incidence& incidence, std::span<const std::size_t> changed) {
-  const auto vertices = static_cast<std::size_t>(modes.lumped->size()), triangles = modes.elements->size();
+  const auto vertices = static_cast<std::size_t>(modes.lumped.size()), triangles = modes.elements->size();
   ++round_;
   rows_.clear();
   matrix_.resize(vertices), place_.resize(vertices, -1), listed_in_.resize(vertices);
@@ -131,7 +131,7 @@ void AddedMass::write_row(const ElementModes& modes, const Incidence& incidence,
     for (const auto& [triangle, place] : stencils) {
       const Eigen::Matrix3d& f = bent_[static_cast<std::size_t>(triangle)];
       if (f.isZero(0)) continue;
-      const auto share = (*modes.lumped)[static_cast<Eigen::Index>(v)] / static_cast<double>(stencils.size());
+      const auto share = modes.lumped[static_cast<Eigen::Index>(v)] / static_cast<double>(stencils.size());
       add(own, kind_ == Mass::scaled ? share * f(0, 0) : 0);
       if (kind_ == Mass::scaled) continue;
       const auto terms = modes.bending->stencil(static_cast<std::size_t>(triangle));

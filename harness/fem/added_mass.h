@@ -39,7 +39,7 @@ namespace cutbench {
 /// What elements are made of, and the sheet they are in.
 struct ElementModes {
   const ElementTable* elements;
-  const Field* lumped;     ///< kg, per vertex
+  FieldView lumped;        ///< kg, per vertex
   const Bending* bending;  ///< null: none
   double speed2;           ///< m2/s2: 2 (mu + lambda) / density
 

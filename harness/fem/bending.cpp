@@ -15,6 +15,7 @@ Bending::Bending(const Sheet& sheet, BendingKind kind, double rigidity, double p
 
 void Bending::reserve_spare() {
   slopes_.reserve_spare(), stencils_.reserve_spare(), stencils_of_.reserve_spare(), matrix_.reserve_spare();
+  cutbench::reserve_spare(reach_, work_.stale_in, work_.refitted_in, work_.listed_in, work_.place);
 }
 
 void Bending::update(const Sheet& sheet, const ElementTable* elements, std::span<const TriangleIndex> regrouped) {
@@ -43,7 +44,7 @@ void Bending::resize(const Sheet& sheet) {
   work_.stale_in.resize(triangles), work_.refitted_in.resize(triangles);
   stencils_of_.resize(vertices), matrix_.resize(vertices);
   work_.listed_in.resize(vertices), work_.place.resize(vertices, -1);
-  work_.columns.resize(vertices), work_.values.resize(vertices);
+  work_.row.resize(vertices);
   work_.stale.clear();
 }
 
@@ -158,27 +159,18 @@ void Bending::replace_stencil(std::size_t t) {
 /// Sums a row of the matrix from the stencils that hold its vertex, in the order of their triangles, so that the sums
 /// don't depend on the cuts that led here.
 void Bending::write_row(std::size_t vertex) {
-  auto& columns = work_.columns;
-  auto& values = work_.values;
-  std::int32_t n = 0;
-  const auto sum_at = [&](std::int32_t column) -> double& {
-    std::int32_t& place = work_.place[static_cast<std::size_t>(column)];
-    if (place < 0) place = n, columns[static_cast<std::size_t>(n++)] = column;
-    return values[static_cast<std::size_t>(place)];
-  };
+  RowSum& row = work_.row;
+  row.clear();
   const auto stencils = stencils_of_[vertex];
-  if (!stencils.empty()) sum_at(static_cast<std::int32_t>(vertex));
+  if (!stencils.empty()) row.add(static_cast<std::int32_t>(vertex), 0);
   for (const auto& [t, mine] : stencils) {
     const auto terms = stencils_[static_cast<std::size_t>(t)];
     const auto f = terms[static_cast<std::size_t>(mine)].factor;
-    for (const auto& [column, g] : terms) sum_at(column) += f[0] * g[0] + f[1] * g[1] + f[2] * g[2];
+    for (const auto& [column, g] : terms) row.add(column, f[0] * g[0] + f[1] * g[1] + f[2] * g[2]);
   }
-  matrix_.set_row(vertex, {columns.data(), static_cast<std::size_t>(n)});
+  matrix_.set_row(vertex, row.columns());
   std::int32_t slot = matrix_.first_slot(vertex);
-  for (std::size_t k = 0; k < static_cast<std::size_t>(n); ++k) {
-    matrix_.block(slot++)(0) = std::exchange(values[k], 0);
-    work_.place[static_cast<std::size_t>(columns[k])] = -1;
-  }
+  for (const double value : row.sums()) matrix_.block(slot++)(0) = value;
 }
 
 }  // namespace cutbench

@@ -20,6 +20,7 @@
 #include "harness/fem/element_table.h"
 #include "harness/fem/growing_rows.h"
 #include "harness/fem/physics.h"
+#include "harness/fem/row_sum.h"
 #include "harness/fem/slope_patch.h"
 #include "harness/mesh/sheet.h"
 
@@ -102,10 +103,9 @@ class Bending {
     std::vector<std::uint32_t> listed_in;              ///< per deformed vertex: the call that put it in `rows`
     std::uint32_t call = 0;
     std::vector<std::int32_t> rows;   ///< to be written
-    std::vector<std::int32_t> place;  ///< per deformed vertex: in `terms` or `columns`; -1: none
+    std::vector<std::int32_t> place;  ///< per deformed vertex: in `terms`; -1: none
     std::vector<StencilTerm> terms;
-    std::vector<std::int32_t> columns;  ///< of a row under way: room for all vertices
-    std::vector<double> values;         ///< likewise; all zero between rows
+    RowSum row;
   } work_;
 };
 

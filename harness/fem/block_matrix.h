@@ -14,6 +14,7 @@ namespace cutbench {
 
 /// D values per vertex, those of one vertex together.
 using Field = Eigen::VectorXd;
+using FieldView = Eigen::Map<const Field>;
 
 template <int D>
 class BlockMatrix {
@@ -23,7 +24,7 @@ class BlockMatrix {
   std::size_t rows() const { return columns_.size(); }
   void resize(std::size_t rows) { columns_.resize(rows); }
   /// Room for half as many blocks again, before they have to be copied.
-  void reserve_spare() { columns_.reserve_spare(), blocks_.reserve(blocks_.size() + blocks_.size() / 2); }
+  void reserve_spare() { columns_.reserve_spare(), cutbench::reserve_spare(blocks_); }
   /// Gives row i these columns, the diagonal first; its values become zero. Where the row has outgrown its room it
   /// moves to the end, so slots of this row change, of others not. \pre `columns` is empty (a row of zeros), or begins
   /// with i and holds no column twice.

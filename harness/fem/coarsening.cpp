@@ -34,11 +34,13 @@ std::int32_t Coarsening::new_coarse(Node node) {
   auto coarse = static_cast<std::int32_t>(places_.size());
   if (free_.empty()) {
     places_.emplace_back(), node_.emplace_back(), next_part_.emplace_back();
-    members_.resize(places_.size()), is_named_.grow(places_.size());
+    members_.resize(places_.size());
+    for (Marks* marks : {&is_named_, &is_renumbered_, &is_touched_}) marks->grow(places_.size());
   } else {
     coarse = free_.back();
     free_.pop_back();
   }
+  is_renumbered_.insert(coarse), touch(coarse);
   const auto c = static_cast<std::size_t>(coarse);
   places_[c] = node_place(node, spacing_), node_[c] = node, next_part_[c] = -1;
   if (node == group_node) return coarse;
@@ -51,7 +53,8 @@ std::int32_t Coarsening::new_coarse(Node node) {
 void Coarsening::free_coarse(std::int32_t coarse) {
   members_.set(static_cast<std::size_t>(coarse), {});
   places_[static_cast<std::size_t>(coarse)] = node_place(group_node, spacing_);
-  free_.push_back(coarse), changed_coarse_.push_back(coarse);
+  free_.push_back(coarse);
+  is_renumbered_.insert(coarse), touch(coarse);
 }
 
 std::int32_t Coarsening::part_of(std::int32_t fine, Node node) const {
@@ -66,13 +69,13 @@ std::int32_t Coarsening::group_of(std::size_t fine) const {
 
 // --- update ----------------------------------------------------------------------------------------------------------
 
-void Coarsening::update(const LevelRows& fine, const std::vector<Point2>& places, std::span<const std::int32_t> changed,
+void Coarsening::update(const LevelRows& fine, const std::vector<Point2>& places, const RowChanges& changes,
                         const Regrouping& regrouping) {
-  begin(fine.size(), changed);
+  begin(fine.size());
   regroup(regrouping);
-  for (const std::int32_t v : changed) {
-    leave_nodes(v);
-    if (!fine.blocks[static_cast<std::size_t>(v)].empty()) enter_nodes(v, places[static_cast<std::size_t>(v)]);
+  for (const std::int32_t v : changes.links) {
+    const bool is_there = !fine.blocks[static_cast<std::size_t>(v)].empty();
+    place(v, is_there ? hats(v, places[static_cast<std::size_t>(v)]) : std::span<const Entry>());
   }
   find_members();
   for (auto first = entries_.begin(), last = first; first != entries_.end(); first = last) {
@@ -83,16 +86,14 @@ void Coarsening::update(const LevelRows& fine, const std::vector<Point2>& places
     if (!std::binary_search(entries_.begin(), entries_.end(), Entry{node, 0, 0},
                             [](const Entry& a, const Entry& b) { return a.node < b.node; }))
       free_parts(node);
-  find_changed(fine, changed);
+  find_touched(fine, changes);
 }
 
-void Coarsening::begin(std::size_t fine_size, std::span<const std::int32_t> changed) {
+void Coarsening::begin(std::size_t fine_size) {
   parents_.resize(fine_size), place_in_node_.resize(fine_size, -1);
-  for (Marks* marks : {&is_changed_, &has_new_parents_, &is_touched_}) marks->clear(fine_size);
-  is_named_.clear(coarse_size());
-  nodes_.clear(), with_new_parents_.clear(), entries_.clear(), changed_coarse_.clear();
-  for (const std::int32_t v : changed)
-    is_changed_.insert(v), has_new_parents_.insert(v), with_new_parents_.push_back(v);
+  for (Marks* marks : {&is_placed_, &has_new_parents_, &is_listed_}) marks->clear(fine_size);
+  for (Marks* marks : {&is_named_, &is_renumbered_, &is_touched_}) marks->clear(coarse_size());
+  nodes_.clear(), with_new_parents_.clear(), entries_.clear(), touched_.clear();
 }
 
 void Coarsening::regroup(const Regrouping& regrouping) {
@@ -117,30 +118,41 @@ void Coarsening::regroup(const Regrouping& regrouping) {
   }
 }
 
-/// The unknown's nodes are to be divided again; of its parents, only its group is left.
-void Coarsening::leave_nodes(std::int32_t fine) {
+/// The unknown's nodes are to be divided again. Where its hats are others, it leaves its nodes and enters theirs: of its
+/// parents, only its group is left.
+void Coarsening::place(std::int32_t fine, std::span<const Entry> hats) {
   const auto v = static_cast<std::size_t>(fine);
   const std::int32_t group = part_of(fine, group_node);
   for (const Weight& parent : parents(v))
     if (parent.other != group) nodes_.push_back(node_[static_cast<std::size_t>(parent.other)]);
+  const auto is_old = [&](const Entry& hat) {
+    return std::ranges::any_of(parents(v), [&](const Weight& parent) {
+      return node_[static_cast<std::size_t>(parent.other)] == hat.node && parent.weight == hat.weight;
+    });
+  };
+  if (hats.size() + (group < 0 ? 0 : 1) == parents(v).size() && std::ranges::all_of(hats, is_old)) return;
   const Weight kept{group, 1};
   parents_.set(v, {&kept, group < 0 ? 0u : 1u});
+  is_placed_.insert(fine);
+  if (has_new_parents_.insert(fine)) with_new_parents_.push_back(fine);
+  for (const Entry& hat : hats) entries_.push_back(hat), nodes_.push_back(hat.node);
 }
 
-/// The hats that are not zero at the unknown: those of the corners of its lattice triangle.
-void Coarsening::enter_nodes(std::int32_t fine, Point2 place) {
+auto Coarsening::hats(std::int32_t fine, Point2 place) -> std::span<const Entry> {
+  hats_.clear();
   const double b = place.y / (spacing_ * sqrt3 / 2), a = place.x / spacing_ - b / 2;
-  if (!(std::abs(a) < farthest_node && std::abs(b) < farthest_node)) return;
+  if (!(std::abs(a) < farthest_node && std::abs(b) < farthest_node)) return hats_;
   const auto i = static_cast<std::int64_t>(std::floor(a)), j = static_cast<std::int64_t>(std::floor(b));
   const double f = a - static_cast<double>(i), g = b - static_cast<double>(j);
   const auto add = [&](std::int64_t di, std::int64_t dj, double weight) {
     if (const auto w = static_cast<float>(weight); w > least_weight)
-      entries_.push_back({node_key(i + di, j + dj), fine, w}), nodes_.push_back(entries_.back().node);
+      hats_.push_back({node_key(i + di, j + dj), fine, w});
   };
   const bool lower = f + g < 1;
   add(lower ? 0 : 1, lower ? 0 : 1, std::abs(1 - f - g));
   add(1, 0, lower ? f : 1 - g);
   add(0, 1, lower ? g : 1 - f);
+  return hats_;
 }
 
 /// Adds what else is in the supports of the nodes' hats.
@@ -151,7 +163,7 @@ void Coarsening::find_members() {
     if (const auto first = first_part_.find(node); first != first_part_.end())
       for (std::int32_t part = first->second; part >= 0; part = next_part_[static_cast<std::size_t>(part)])
         for (const Weight& member : members(static_cast<std::size_t>(part)))
-          if (!is_changed_.holds(member.other)) entries_.push_back({node, member.other, member.weight});
+          if (!is_placed_.holds(member.other)) entries_.push_back({node, member.other, member.weight});
   std::sort(entries_.begin(), entries_.end(),
             [](const Entry& a, const Entry& b) { return std::tie(a.node, a.fine) < std::tie(b.node, b.fine); });
 }
@@ -169,11 +181,14 @@ void Coarsening::divide(const LevelRows& fine, std::span<const Entry> members) {
   name_parts(members);
   for (std::size_t k = 0; k < members.size(); ++k) {
     if (joined_.find(k) != k) continue;
-    changed_coarse_.push_back(part_[k]);
+    const auto is_same = [](const Weight& one, const Weight& other) {
+      return one.other == other.other && one.weight == other.weight;
+    };
     part_members_.clear();
     for (std::size_t l = k; l < members.size(); ++l)
       if (part_[l] == part_[k]) part_members_.push_back({members[l].fine, members[l].weight});
-    members_.set(static_cast<std::size_t>(part_[k]), part_members_);
+    if (std::ranges::equal(this->members(static_cast<std::size_t>(part_[k])), part_members_, is_same)) continue;
+    members_.set(static_cast<std::size_t>(part_[k]), part_members_), touch(part_[k]);
   }
 }
 
@@ -220,86 +235,78 @@ void Coarsening::free_parts(Node node) {
   first_part_.erase(first);
 }
 
-/// A row of P^T A P depends on the rows of A of its members, and on the parents of the columns of these.
-void Coarsening::find_changed(const LevelRows& fine, std::span<const std::int32_t> changed) {
-  is_coarse_changed_.clear(coarse_size());
-  for (const std::int32_t coarse : changed_coarse_) is_coarse_changed_.insert(coarse);
-  for (const std::int32_t v : changed) put_parents_on_list(v);
+/// A row of P^T A P depends on its members, on their rows of A, and on the parents of the columns of these.
+void Coarsening::find_touched(const LevelRows& fine, const RowChanges& changes) {
+  for (const std::int32_t v : changes.rows) touch_parents(v);
   for (const std::int32_t v : with_new_parents_) {
-    put_parents_on_list(v);  // its row may be empty
+    touch_parents(v);  // its row may be empty
     for (const SweepRows* rows : {&fine.blocks, &fine.scalars})
-      for (const std::int32_t other : (*rows)[static_cast<std::size_t>(v)]) put_parents_on_list(other);
+      for (const std::int32_t other : (*rows)[static_cast<std::size_t>(v)]) touch_parents(other);
   }
-  std::sort(changed_coarse_.begin(), changed_coarse_.end());
-  changed_coarse_.erase(std::unique(changed_coarse_.begin(), changed_coarse_.end()), changed_coarse_.end());
+  std::sort(touched_.begin(), touched_.end());
 }
 
-void Coarsening::put_parents_on_list(std::int32_t fine) {
-  if (!is_touched_.insert(fine)) return;
-  for (const Weight& parent : parents(static_cast<std::size_t>(fine)))
-    if (is_coarse_changed_.insert(parent.other)) changed_coarse_.push_back(parent.other);
+void Coarsening::touch(std::int32_t coarse) {
+  if (is_touched_.insert(coarse)) touched_.push_back(coarse);
+}
+
+void Coarsening::touch_parents(std::int32_t fine) {
+  if (!is_listed_.insert(fine)) return;
+  for (const Weight& parent : parents(static_cast<std::size_t>(fine))) touch(parent.other);
+}
+
+void Coarsening::reserve_spare() {
+  parents_.reserve_spare(), members_.reserve_spare();
+  cutbench::reserve_spare(places_, node_, next_part_, place_in_node_, half_begin_);
 }
 
 // --- product ---------------------------------------------------------------------------------------------------------
 
 void Coarsening::multiply(const LevelRows& fine, LevelRows& coarse) {
   coarse.resize(coarse_size());
-  place_in_row_.resize(coarse_size(), -1);
+  row_.resize(coarse_size());
   half_begin_.resize(fine_size()), has_half_.clear(fine_size()), half_.clear();
-  for (const std::int32_t i : changed_coarse_) {
-    multiply_blocks(fine.blocks, static_cast<std::size_t>(i), coarse.blocks);
-    multiply_scalars(fine, static_cast<std::size_t>(i), coarse);
+  changes_.rows.clear(), changes_.links.clear();
+  for (const std::int32_t i : touched_) {
+    const bool links = multiply_blocks(fine.blocks, static_cast<std::size_t>(i), coarse.blocks),
+               scalars = multiply_scalars(fine, static_cast<std::size_t>(i), coarse);
+    if (links || scalars) changes_.rows.push_back(i);
+    if (links || is_renumbered_.holds(i)) changes_.links.push_back(i);
   }
 }
 
-/// The place of a column in the row at hand.
-std::size_t Coarsening::place_of(std::int32_t column) {
-  auto& place = place_in_row_[static_cast<std::size_t>(column)];
-  if (place < 0) place = static_cast<std::int32_t>(columns_.size()), columns_.push_back(column);
-  return static_cast<std::size_t>(place);
-}
-
-void Coarsening::begin_row() {
-  for (const std::int32_t j : columns_) place_in_row_[static_cast<std::size_t>(j)] = -1;
-  columns_.clear(), sums_.clear();
-}
-
-void Coarsening::multiply_blocks(const SweepRows& fine, std::size_t coarse, SweepRows& rows) {
-  begin_row();
+bool Coarsening::multiply_blocks(const SweepRows& fine, std::size_t coarse, SweepRows& rows) {
+  row_.clear();
   for (const Weight& member : members(coarse))
     for (const std::int32_t j : fine[static_cast<std::size_t>(member.other)])
-      for (const Weight& parent : parents(static_cast<std::size_t>(j))) place_of(parent.other);
-  rows.set(coarse, columns_);
+      for (const Weight& parent : parents(static_cast<std::size_t>(j))) row_.add(parent.other, 0);
+  return rows.set(coarse, row_.columns()).is_new;
 }
 
 /// Rows of A P first, which several coarse rows need: see half_.
-void Coarsening::multiply_scalars(const LevelRows& fine, std::size_t coarse, LevelRows& rows) {
+bool Coarsening::multiply_scalars(const LevelRows& fine, std::size_t coarse, LevelRows& rows) {
   for (const Weight& member : members(coarse))
     if (has_half_.insert(member.other)) multiply_half(fine, static_cast<std::size_t>(member.other));
-  begin_row();
+  row_.clear();
   for (const Weight& member : members(coarse)) {
     const auto [first, last] = half_begin_[static_cast<std::size_t>(member.other)];
-    for (std::size_t k = first; k < last; ++k) add_to_row(half_[k].other, double(member.weight) * half_[k].value);
+    for (std::size_t k = first; k < last; ++k) row_.add(half_[k].other, double(member.weight) * half_[k].value);
   }
-  rows.set_scalars(coarse, columns_, sums_);
+  return rows.set_scalars(coarse, row_.columns(), row_.sums());
 }
 
 void Coarsening::multiply_half(const LevelRows& fine, std::size_t v) {
-  begin_row();
-  std::size_t slot = fine.scalars.first_slot(v);
+  row_.clear();
+  const double* value = fine.scalar.data() + fine.scalars.first_slot(v);
   for (const std::int32_t j : fine.scalars[v]) {
-    const double value = fine.scalar[slot++];
     for (const Weight& parent : parents(static_cast<std::size_t>(j)))
-      add_to_row(parent.other, double(parent.weight) * value);
+      row_.add(parent.other, double(parent.weight) * *value);
+    ++value;
   }
-  half_begin_[v] = {half_.size(), half_.size() + columns_.size()};
-  for (std::size_t k = 0; k < columns_.size(); ++k) half_.push_back({columns_[k], sums_[k]});
-}
-
-void Coarsening::add_to_row(std::int32_t column, double value) {
-  const std::size_t place = place_of(column);
-  if (place == sums_.size()) sums_.push_back(0);
-  sums_[place] += value;
+  const auto columns = row_.columns();
+  const auto sums = row_.sums();
+  half_begin_[v] = {half_.size(), half_.size() + columns.size()};
+  for (std::size_t k = 0; k < columns.size(); ++k) half_.push_back({columns[k], sums[k]});
 }
 
 }  // namespace cutbench

@@ -9,7 +9,8 @@
 //
 // The same step is made again on the coarse unknowns: their places are the nodes, their links the coarse matrix.
 //
-// After a cut the nodes round what changed are divided again, and nothing else is.
+// After a cut the nodes round what changed are divided again, and nothing else is. What comes out as it was is not
+// passed on to the next level.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +21,7 @@
 #include "harness/base/points.h"
 #include "harness/base/union_find.h"
 #include "harness/fem/level_rows.h"
+#include "harness/fem/row_sum.h"
 
 namespace cutbench {
 
@@ -43,13 +45,16 @@ class Coarsening {
   /// \param fine     rows of the fine level, symmetric; an empty row belongs to no unknown. Unknowns that share a block
   ///                 are linked
   /// \param places   of the fine unknowns, rest units; one whose place is not finite is in no hat's support
-  /// \param changed  the fine unknowns whose rows or places are not those of the last call; at the first call, all
-  void update(const LevelRows& fine, const std::vector<Point2>& places, std::span<const std::int32_t> changed,
+  /// \param changes  since the last call; at the first call, all
+  void update(const LevelRows& fine, const std::vector<Point2>& places, const RowChanges& changes,
               const Regrouping& regrouping = {});
-  /// The coarse unknowns whose rows of P^T A P the last update() has changed, for any matrix A with the fine rows.
-  const std::vector<std::int32_t>& changed() const { return changed_coarse_; }
-  /// Gives these coarse unknowns the rows of P^T A P, with the values of the scalars.
+  /// Gives the coarse unknowns the rows of P^T A P, with the values of the scalars, where the last update() or the fine
+  /// rows may have changed them.
   void multiply(const LevelRows& fine, LevelRows& coarse);
+  /// Of the coarse rows, by the last multiply().
+  const RowChanges& changes() const { return changes_; }
+  /// Room for half as many unknowns again, before anything has to be copied.
+  void reserve_spare();
 
   std::size_t fine_size() const { return parents_.size(); }
   std::size_t coarse_size() const { return places_.size(); }  ///< with numbers that are free
@@ -85,10 +90,11 @@ class Coarsening {
     std::uint32_t round_ = 0;
   };
 
-  void begin(std::size_t fine_size, std::span<const std::int32_t> changed);
+  void begin(std::size_t fine_size);
   void regroup(const Regrouping& regrouping);
-  void leave_nodes(std::int32_t fine);
-  void enter_nodes(std::int32_t fine, Point2 place);
+  void place(std::int32_t fine, std::span<const Entry> hats);
+  /// The hats that are not zero there: those of the corners of its lattice triangle. Valid until the next call.
+  std::span<const Entry> hats(std::int32_t fine, Point2 place);
   void find_members();
   void divide(const LevelRows& fine, std::span<const Entry> members);
   void name_parts(std::span<const Entry> members);
@@ -96,13 +102,11 @@ class Coarsening {
   std::int32_t part_of(std::int32_t fine, Node node) const;
   std::int32_t new_coarse(Node node);
   void free_coarse(std::int32_t coarse);
-  void find_changed(const LevelRows& fine, std::span<const std::int32_t> changed);
-  void put_parents_on_list(std::int32_t fine);
-  void begin_row();
-  std::size_t place_of(std::int32_t column);
-  void add_to_row(std::int32_t column, double value);
-  void multiply_blocks(const SweepRows& fine, std::size_t coarse, SweepRows& rows);
-  void multiply_scalars(const LevelRows& fine, std::size_t coarse, LevelRows& rows);
+  void find_touched(const LevelRows& fine, const RowChanges& changes);
+  void touch(std::int32_t coarse);
+  void touch_parents(std::int32_t fine);
+  bool multiply_blocks(const SweepRows& fine, std::size_t coarse, SweepRows& rows);  // true: it has changed
+  bool multiply_scalars(const LevelRows& fine, std::size_t coarse, LevelRows& rows);
   void multiply_half(const LevelRows& fine, std::size_t v);
 
   double spacing_;
@@ -111,13 +115,16 @@ class Coarsening {
   std::vector<Node> node_;               // per coarse unknown, or that of groups
   std::vector<std::int32_t> next_part_;  // per coarse unknown: the next one of the same node, or -1
   std::unordered_map<Node, std::int32_t> first_part_;
-  std::vector<std::int32_t> free_, changed_coarse_;
+  std::vector<std::int32_t> free_;
+  RowChanges changes_;
 
   // Working storage of update().
-  Marks is_changed_, has_new_parents_, is_touched_;  // of fine unknowns
-  Marks is_named_, is_coarse_changed_;               // of coarse ones
-  std::vector<Node> nodes_;                          // to be divided again
+  Marks is_placed_, has_new_parents_, is_listed_;  // of fine unknowns
+  Marks is_named_, is_renumbered_, is_touched_;    // of coarse ones
+  std::vector<Node> nodes_;                        // to be divided again
+  std::vector<Entry> hats_;
   std::vector<std::int32_t> with_new_parents_;
+  std::vector<std::int32_t> touched_;        // coarse unknowns whose rows may have changed
   std::vector<Entry> entries_;               // the members of those nodes
   std::vector<std::int32_t> place_in_node_;  // per fine unknown: its place among the members at hand, or -1
   std::vector<std::int32_t> part_;           // per member at hand: its coarse unknown
@@ -125,9 +132,7 @@ class Coarsening {
   std::vector<Weight> part_members_;
   UnionFind joined_;
   // Working storage of multiply().
-  std::vector<std::int32_t> place_in_row_;  // per coarse unknown, or -1
-  std::vector<std::int32_t> columns_;
-  std::vector<double> sums_;
+  RowSum row_;
   struct Product {
     std::int32_t other;
     double value;

@@ -8,6 +8,12 @@
 
 namespace cutbench {
 
+/// Room for half as many items again, before they have to be copied.
+template <class... Vectors>
+void reserve_spare(Vectors&... vectors) {
+  (vectors.reserve(vectors.size() + vectors.size() / 2), ...);
+}
+
 /// Rows of T, one after the other. A row that outgrows its room moves to the end; its old place stays unused.
 template <class T>
 class GrowingRows {
@@ -20,9 +26,7 @@ class GrowingRows {
   std::size_t slots() const { return items_.size(); }
 
   /// Room for half as many rows and items again, before they have to be copied.
-  void reserve_spare() {
-    rows_.reserve(rows_.size() + rows_.size() / 2), items_.reserve(items_.size() + items_.size() / 2);
-  }
+  void reserve_spare() { cutbench::reserve_spare(rows_, items_); }
 
   /// \pre `items` is not part of this.
   void set(std::size_t i, std::span<const T> items) {

@@ -46,7 +46,8 @@ class ScaledStiffness {
   }
 
   ElementModes modes() const {
-    return {&elements_, &lumped_, bending_ ? &*bending_ : nullptr, 2 * (lame_.mu + lame_.lambda)};
+    return {
+        &elements_, {lumped_.data(), lumped_.size()}, bending_ ? &*bending_ : nullptr, 2 * (lame_.mu + lame_.lambda)};
   }
   double added_mass_share() const { return added_ ? added_->total() / lumped_.sum() : 0; }
 

@@ -1,8 +1,11 @@
 #include "harness/fem/level_rows.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace cutbench {
 
-std::span<const std::int32_t> SweepRows::set(std::size_t i, std::span<const std::int32_t> columns) {
+auto SweepRows::set(std::size_t i, std::span<const std::int32_t> columns) -> Placed {
   // Which side a column is on is a coin toss: branches would cost more than writing everything twice.
   const auto own = static_cast<std::int32_t>(i);
   const auto n = static_cast<std::int32_t>(columns.size());
@@ -19,15 +22,21 @@ std::span<const std::int32_t> SweepRows::set(std::size_t i, std::span<const std:
   std::copy(order_.begin() + n + 1, order_.begin() + above, order_.begin() + below);
   order_.resize(columns.size()), ordered_.resize(columns.size());
   for (std::size_t k = 0; k < columns.size(); ++k) ordered_[k] = columns[static_cast<std::size_t>(order_[k])];
-  columns_.set(i, ordered_);
-  return order_;
+  const bool is_new = !std::ranges::equal(columns_[i], ordered_);
+  if (is_new) columns_.set(i, ordered_);
+  return {order_, is_new};
 }
 
-void LevelRows::set_scalars(std::size_t i, std::span<const std::int32_t> columns, std::span<const double> values) {
-  const auto order = scalars.set(i, columns);
+bool LevelRows::set_scalars(std::size_t i, std::span<const std::int32_t> columns, std::span<const double> values) {
+  const auto [order, is_new] = scalars.set(i, columns);
   scalar.resize(scalars.slots());
-  for (std::size_t k = 0; k < order.size(); ++k)
-    scalar[scalars.first_slot(i) + k] = values[static_cast<std::size_t>(order[k])];
+  double* to = scalar.data() + scalars.first_slot(i);
+  bool changes = is_new;
+  for (const std::int32_t place : order) {
+    const double value = values[static_cast<std::size_t>(place)];
+    changes |= std::exchange(*to++, value) != value;
+  }
+  return changes;
 }
 
 }  // namespace cutbench

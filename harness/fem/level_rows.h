@@ -13,10 +13,13 @@ class SweepRows {
  public:
   std::size_t size() const { return columns_.size(); }
   void resize(std::size_t rows) { columns_.resize(rows), below_.resize(rows); }
-  void reserve_spare() { columns_.reserve_spare(), below_.reserve(below_.size() + below_.size() / 2); }
-  /// Gives row i these columns, each once and i among them, or none. Returns, for each entry of the row, its place among
-  /// `columns`; valid until the next call.
-  std::span<const std::int32_t> set(std::size_t i, std::span<const std::int32_t> columns);
+  void reserve_spare() { columns_.reserve_spare(), cutbench::reserve_spare(below_); }
+  struct Placed {
+    std::span<const std::int32_t> order;  ///< for each entry of the row, its place among the columns that were given
+    bool is_new;                          ///< the row was another before
+  };
+  /// Gives row i these columns, each once and i among them, or none. The result is valid until the next call.
+  Placed set(std::size_t i, std::span<const std::int32_t> columns);
 
   std::span<const std::int32_t> operator[](std::size_t i) const { return columns_[i]; }
   std::span<const std::int32_t> below(std::size_t i) const { return columns_[i].first(below_[i]); }
@@ -42,10 +45,15 @@ struct LevelRows {
   std::size_t size() const { return blocks.size(); }
   void resize(std::size_t rows) { blocks.resize(rows), scalars.resize(rows); }
   /// Room to grow by half, before anything has to be copied.
-  void reserve_spare() {
-    blocks.reserve_spare(), scalars.reserve_spare(), scalar.reserve(scalar.size() + scalar.size() / 2);
-  }
-  void set_scalars(std::size_t i, std::span<const std::int32_t> columns, std::span<const double> values);
+  void reserve_spare() { blocks.reserve_spare(), scalars.reserve_spare(), cutbench::reserve_spare(scalar); }
+  /// True if the row was another before.
+  bool set_scalars(std::size_t i, std::span<const std::int32_t> columns, std::span<const double> values);
+};
+
+/// What is different since the last time.
+struct RowChanges {
+  std::vector<std::int32_t> rows;   ///< rows with other columns or scalars
+  std::vector<std::int32_t> links;  ///< unknowns that blocks link to others than before, or whose place is another
 };
 
 }  // namespace cutbench

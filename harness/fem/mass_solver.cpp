@@ -5,7 +5,7 @@
 namespace cutbench {
 
 template <int D>
-void MassSolver<D>::setup(const Field& lumped, const BlockMatrix<1>& added, const std::vector<std::uint8_t>& held) {
+void MassSolver<D>::setup(const FieldView& lumped, const BlockMatrix<1>& added, const std::vector<std::uint8_t>& held) {
   used_ = 0;
   for (int axis = 0; axis < D; ++axis) {
     Group& group = groups_[used_];

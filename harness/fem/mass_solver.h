@@ -14,7 +14,7 @@ template <int D>
 class MassSolver {
  public:
   /// Factors lumped + added for the vertices with added mass, without held unknowns. Cost: grows with all cuts so far.
-  void setup(const Field& lumped, const BlockMatrix<1>& added, const std::vector<std::uint8_t>& held);
+  void setup(const FieldView& lumped, const BlockMatrix<1>& added, const std::vector<std::uint8_t>& held);
   /// dv = M^-1 p at the unknowns of those vertices that are not held; the others stay. \pre p has what held unknowns
   /// take along subtracted: p - M dv of them.
   void solve(const Field& p, Field& dv);

@@ -39,6 +39,8 @@ Model<D>::Model(const Sheet& sheet, const Material& material, const Physics& phy
 template <int D>
 void Model<D>::reserve_spare() {
   elements_.reserve_spare(), blocks_.reserve_spare(), incidence_.reserve_spare(), membrane_.reserve_spare();
+  polygons_of_.reserve_spare();
+  cutbench::reserve_spare(mass_, external_, held_, pin_of_, places_, marked_in_);
   if (consistent_mass_) consistent_mass_->reserve_spare();
   if (bending_) bending_->reserve_spare();
 }
@@ -162,15 +164,11 @@ void Model<D>::mark(std::span<const DeformedIndex> vertices) {
 template <int D>
 void Model<D>::resize(const Sheet& sheet) {
   const std::size_t n = sheet.deformed_slots();
-  const auto old = static_cast<std::size_t>(mass_.size());
   incidence_.resize(n), polygons_of_.resize(n), blocks_.resize(n), marked_in_.resize(std::max(n, marked_in_.size()));
   if (consistent_mass_) consistent_mass_->resize(n);
   held_.resize(D * n, 1), pin_of_.resize(D * n, -1), places_.resize(n);
   membrane_.resize(elements_.size());
-  mass_.conservativeResize(static_cast<Eigen::Index>(n));
-  external_.conservativeResize(static_cast<Eigen::Index>(D * n));
-  for (std::size_t v = old; v < n; ++v) mass_[static_cast<Eigen::Index>(v)] = 0;
-  external_.tail(static_cast<Eigen::Index>(D * (n - old))).setZero();
+  mass_.resize(n), external_.resize(D * n);
 }
 
 template <int D>
@@ -222,7 +220,7 @@ void Model<D>::refresh_mass(std::size_t v) {
     if (const Element& e = elements_[triangle_of(c)()]; e.is_triangle()) third += e.material_area();
   for (const std::int32_t p : polygons_of_[v])
     of_polygons += elements_.polygon(static_cast<std::size_t>(p)).corner_area();
-  mass_[static_cast<Eigen::Index>(v)] = material_.density * (third / 3 + of_polygons);
+  mass_[v] = material_.density * (third / 3 + of_polygons);
   if (!consistent_mass_) return;
   consistent_mass_->set_row(v, columns_);
   if (of_polygons > 0) consistent_mass_->block(consistent_mass_->first_slot(v))(0) += material_.density * of_polygons;
@@ -238,7 +236,7 @@ void Model<D>::refresh_mass(std::size_t v) {
 template <int D>
 ElementModes Model<D>::element_modes() const {
   const Lame lame = lame_of(material_, physics_.plane);
-  return {&elements_, &mass_, bending(), 2 * (lame.mu + lame.lambda) / material_.density};
+  return {&elements_, view_of(mass_), bending(), 2 * (lame.mu + lame.lambda) / material_.density};
 }
 
 /// \pre the marked vertices are those whose mass, triangles or stencils changed.
@@ -258,11 +256,10 @@ const BlockMatrix<1>* Model<D>::mass_matrix() const {
 
 template <int D>
 void Model<D>::refresh_loads(const Sheet& sheet, std::size_t v) {
-  const auto i = static_cast<Eigen::Index>(v);
   const VertexIndex rest_vertex = sheet.rest_vertex(DeformedIndex(v));
   const auto gravity = coordinates(physics_.gravity);
   for (std::size_t k = 0; k < D; ++k) {
-    external_[D * i + static_cast<Eigen::Index>(k)] = mass_[i] * gravity[k];
+    external_[D * v + k] = mass_[v] * gravity[k];
     held_[D * v + k] = 1, pin_of_[D * v + k] = -1;
   }
   if (!rest_vertex.valid()) return;
@@ -281,8 +278,7 @@ void Model<D>::refresh_loads(const Sheet& sheet, std::size_t v) {
       for (const Traction& traction : tractions_) {
         if (!traction.where.contains(a) || !traction.where.contains(b)) continue;
         const auto force = coordinates(traction.force);
-        for (std::size_t k = 0; k < D; ++k)
-          external_[D * i + static_cast<Eigen::Index>(k)] += force[k] * std::sqrt(squared_length(b - a)) / 2;
+        for (std::size_t k = 0; k < D; ++k) external_[D * v + k] += force[k] * std::sqrt(squared_length(b - a)) / 2;
       }
     }
 }
@@ -369,8 +365,7 @@ void Model<D>::assemble(double mass_factor, double stiffness_factor) {
   membrane_.add_stiffness(elements_, stiffness_factor, blocks_);
   if (consistent_mass_) return;
   for (std::size_t v = 0; v < vertices(); ++v)
-    if (!blocks_.columns(v).empty())
-      blocks_.block(blocks_.first_slot(v)).diagonal().array() += mass_factor * mass_[static_cast<Eigen::Index>(v)];
+    if (!blocks_.columns(v).empty()) blocks_.block(blocks_.first_slot(v)).diagonal().array() += mass_factor * mass_[v];
 }
 
 template <int D>
@@ -387,8 +382,10 @@ template <int D>
 void Model<D>::add_mass_product(double factor, const Field& x, Field& y) const {
   if (const auto* mass = mass_matrix()) add_product_per_coordinate(*mass, D, factor, x, y);
   if (consistent_mass_) return;
-  for (Eigen::Index v = 0; v < mass_.size(); ++v)
-    y.template segment<D>(D * v) += factor * mass_[v] * x.template segment<D>(D * v);
+  for (std::size_t v = 0; v < mass_.size(); ++v) {
+    const auto at = static_cast<Eigen::Index>(D * v);
+    y.template segment<D>(at) += factor * mass_[v] * x.template segment<D>(at);
+  }
 }
 
 template <int D>
@@ -399,7 +396,7 @@ Energy Model<D>::energy(const Field& x, const Field& v) const {
   Field momentum = Field::Zero(v.size());
   add_mass_product(1, v, momentum);
   energy.kinetic = v.dot(momentum) / 2;
-  energy.potential = -external_.dot(x);
+  energy.potential = -external_force().dot(x);
   return energy;
 }
 

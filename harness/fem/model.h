@@ -55,7 +55,7 @@ class Model {
   /// y += h (internal forces at x) - factor A v, with A of the last assemble(). Faster than one by one: bending, which
   /// is linear, is in both. \pre rotate(x).
   void add_impulse(double h, const Field& x, double factor, const Field& v, Field& y);
-  void add_external_force(Field& f) const { f += external_; }
+  void add_external_force(Field& f) const { f += external_force(); }
   /// A = mass_factor M + stiffness_factor K, with K the tangent at the rotated state. \pre rotate().
   void assemble(double mass_factor, double stiffness_factor);
   /// Of the last assemble(). Refers to this model.
@@ -72,9 +72,9 @@ class Model {
   const Bending* bending() const { return bending_ ? &*bending_ : nullptr; }
   Deformation<D> deformation(std::size_t element) const { return membrane_.deformation(elements_, element); }
   std::vector<Polygon> polygons() const;
-  const Field& lumped_mass() const { return mass_; }  ///< kg, per vertex, without what is added
+  FieldView lumped_mass() const { return view_of(mass_); }  ///< kg, per vertex, without what is added
   const AddedMass* added_mass() const { return added_mass_ ? &*added_mass_ : nullptr; }
-  const Field& external_force() const { return external_; }        ///< N
+  FieldView external_force() const { return view_of(external_); }  ///< N
   const std::vector<std::uint8_t>& held() const { return held_; }  ///< per unknown; those of freed slots are, too
   /// Pieces no unknown of which is held: they have no equilibrium. Looks at everything.
   std::size_t unheld_pieces() const;
@@ -86,6 +86,9 @@ class Model {
   const Physics& physics() const { return physics_; }
 
  private:
+  static FieldView view_of(const std::vector<double>& values) {
+    return {values.data(), static_cast<Eigen::Index>(values.size())};
+  }
   void resize(const Sheet& sheet);
   void refresh_vertices(const Sheet& sheet);
   void refresh_row(std::size_t v);
@@ -115,7 +118,7 @@ class Model {
   std::optional<AddedMass> added_mass_;
   std::optional<TiedSystem<D>> tied_;
   double mass_factor_ = 0, stiffness_factor_ = 0;  // of the last assemble()
-  Field mass_, external_;
+  std::vector<double> mass_, external_;            // with room to grow, which a Field has not
   std::vector<std::uint8_t> held_;
   std::vector<std::int16_t> pin_of_;  // per unknown: the first pin that holds it, -1 where there is none
   std::vector<Point2> places_;        // per vertex, in rest space

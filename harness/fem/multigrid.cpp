@@ -33,6 +33,9 @@ double median_edge(const SweepRows& links, const std::vector<Point2>& places) {
   return *middle;
 }
 
+/// All places that are not finite are alike.
+bool is_same(Point2 a, Point2 b) { return (a.x == b.x && a.y == b.y) || (std::isnan(a.x) && std::isnan(b.x)); }
+
 /// The inverse of a block, or zero where it is not positive definite.
 template <class Block>
 Block inverse_of(const Block& block) {
@@ -73,29 +76,28 @@ bool Multigrid<D>::find_changed(const SystemMatrix<D>& a) {
 /// The row of A; the scalar matrices in one, each with its factor.
 template <int D>
 void Multigrid<D>::read_row(const SystemMatrix<D>& a, std::size_t i) {
-  const auto order = rows_.blocks.set(i, a.blocks->columns(i));
+  const auto [order, is_linked_anew] = rows_.blocks.set(i, a.blocks->columns(i));
   slots_.resize(rows_.blocks.slots());
   for (std::size_t k = 0; k < order.size(); ++k)
     slots_[rows_.blocks.first_slot(i) + k] = a.blocks->first_slot(i) + order[k];
-  columns_.clear(), values_.clear();
+  scalars_.clear();
   for (const auto& term : a.scalar) {
     std::int32_t slot = term.matrix->first_slot(i);
-    for (const std::int32_t j : term.matrix->columns(i)) {
-      auto& place = place_in_row_[static_cast<std::size_t>(j)];
-      if (place < 0) place = static_cast<std::int32_t>(columns_.size()), columns_.push_back(j), values_.push_back(0);
-      values_[static_cast<std::size_t>(place)] += term.factor * term.matrix->block(slot++)(0);
-    }
+    for (const std::int32_t j : term.matrix->columns(i)) scalars_.add(j, term.factor * term.matrix->block(slot++)(0));
   }
-  for (const std::int32_t j : columns_) place_in_row_[static_cast<std::size_t>(j)] = -1;
-  rows_.set_scalars(i, columns_, values_);
+  const bool has_new_scalars = rows_.set_scalars(i, scalars_.columns(), scalars_.sums()),
+             is_elsewhere = read_place(a, i);
+  if (is_linked_anew || has_new_scalars) changes_.rows.push_back(static_cast<std::int32_t>(i));
+  if (is_linked_anew || is_elsewhere) changes_.links.push_back(static_cast<std::int32_t>(i));
 }
 
 template <int D>
-void Multigrid<D>::read_place(const SystemMatrix<D>& a, std::size_t i) {
+bool Multigrid<D>::read_place(const SystemMatrix<D>& a, std::size_t i) {
   const auto held = a.held->begin() + static_cast<std::ptrdiff_t>(D * i);
   const bool needs_no_correction = std::find(held, held + D, 0) == held + D;
   const bool is_known = a.places && i < a.places->size() && !needs_no_correction;
-  places_[i] = is_known ? (*a.places)[i] : Point2{std::numeric_limits<double>::quiet_NaN(), 0};
+  const Point2 place = is_known ? (*a.places)[i] : Point2{std::numeric_limits<double>::quiet_NaN(), 0};
+  return !is_same(std::exchange(places_[i], place), place);
 }
 
 template <int D>
@@ -152,10 +154,10 @@ Coarsening::Regrouping Multigrid<D>::regroup(const SystemMatrix<D>& a) {
 
 template <int D>
 void Multigrid<D>::update(CoarseLevel& level, const LevelRows& fine, const std::vector<Point2>& places,
-                          std::span<const std::int32_t> changed, const Coarsening::Regrouping& regrouping) {
-  level.from.update(fine, places, changed, regrouping);
+                          const RowChanges& changes, const Coarsening::Regrouping& regrouping) {
+  level.from.update(fine, places, changes, regrouping);
   level.from.multiply(fine, level.rows);
-  level.matrix.follow(level.rows, level.from.changed());
+  level.matrix.follow(level.rows, level.from.changes().rows);
   level.resize();
 }
 
@@ -169,13 +171,13 @@ void Multigrid<D>::make_levels(const SystemMatrix<D>& a) {
   Coarsening::Regrouping regrouping = regroup(a);
   const LevelRows* fine = &rows_;
   const std::vector<Point2>* places = &places_;
-  std::vector<std::int32_t> all = changed_;
+  RowChanges all = changes_;
   for (; fine->size() > fewest_coarsened; spacing *= 2) {
     CoarseLevel& level = coarse_.emplace_back(spacing);
     update(level, *fine, *places, all, regrouping);
     if (const std::size_t n = level.rows.size(); n == 0 || 10 * n > 8 * fine->size()) return coarse_.pop_back();
-    level.rows.reserve_spare(), level.matrix.follow(level.rows);
-    fine = &level.rows, places = &level.from.coarse_places(), all = level.from.changed();
+    level.from.reserve_spare(), level.rows.reserve_spare(), level.matrix.follow(level.rows);
+    fine = &level.rows, places = &level.from.coarse_places(), all = level.from.changes();
     regrouping = {};
   }
 }
@@ -185,12 +187,12 @@ void Multigrid<D>::update_levels(const SystemMatrix<D>& a) {
   Coarsening::Regrouping regrouping = regroup(a);
   const LevelRows* fine = &rows_;
   const std::vector<Point2>* places = &places_;
-  std::span<const std::int32_t> changed = changed_;
-  if (!float_is_new_) finest_.matrix.follow(rows_, changed_), finest_.resize();
-  if (!double_is_new_) finest_in_doubles_.matrix.follow(rows_, changed_), finest_in_doubles_.resize();
+  const RowChanges* changes = &changes_;
+  if (!float_is_new_) finest_.matrix.follow(rows_, changes_.rows), finest_.resize();
+  if (!double_is_new_) finest_in_doubles_.matrix.follow(rows_, changes_.rows), finest_in_doubles_.resize();
   for (CoarseLevel& level : coarse_) {
-    update(level, *fine, *places, changed, regrouping);
-    fine = &level.rows, places = &level.from.coarse_places(), changed = level.from.changed();
+    update(level, *fine, *places, *changes, regrouping);
+    fine = &level.rows, places = &level.from.coarse_places(), changes = &level.from.changes();
     regrouping = {};
   }
 }
@@ -301,9 +303,9 @@ void Multigrid<D>::setup(const SystemMatrix<D>& a) {
   if (!changed_.empty()) {
     const std::size_t n = a.vertices();
     if (!follows) rows_ = {}, factors_.clear();
-    rows_.resize(n), places_.resize(n), place_in_row_.resize(n, -1), place_in_front_.resize(n, -1);
-    for (const std::int32_t i : changed_)
-      read_row(a, static_cast<std::size_t>(i)), read_place(a, static_cast<std::size_t>(i));
+    rows_.resize(n), places_.resize(n), scalars_.resize(n), place_in_front_.resize(n, -1);
+    changes_ = {};
+    for (const std::int32_t i : changed_) read_row(a, static_cast<std::size_t>(i));
     if (!follows)
       for (const auto& term : a.scalar) factors_.push_back(term.factor);
     follows ? update_levels(a) : make_levels(a);

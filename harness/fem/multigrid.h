@@ -54,13 +54,13 @@ class Multigrid final : public Preconditioner<D> {
 
   bool find_changed(const SystemMatrix<D>& a);
   void read_row(const SystemMatrix<D>& a, std::size_t i);
-  void read_place(const SystemMatrix<D>& a, std::size_t i);
+  bool read_place(const SystemMatrix<D>& a, std::size_t i);  // true: it is another
   Coarsening::Regrouping regroup(const SystemMatrix<D>& a);
   void find_held(const SystemMatrix<D>& a);
   void make_levels(const SystemMatrix<D>& a);
   void update_levels(const SystemMatrix<D>& a);
-  void update(CoarseLevel& level, const LevelRows& fine, const std::vector<Point2>& places,
-              std::span<const std::int32_t> changed, const Coarsening::Regrouping& regrouping);
+  void update(CoarseLevel& level, const LevelRows& fine, const std::vector<Point2>& places, const RowChanges& changes,
+              const Coarsening::Regrouping& regrouping);
   void look_at_sizes(const SystemMatrix<D>& a);
   void fill_coarse_levels();
   template <class S>
@@ -81,6 +81,7 @@ class Multigrid final : public Preconditioner<D> {
   std::vector<std::int32_t> slots_;     // per slot of rows_.blocks: where A keeps the block
   std::vector<Point2> places_;          // per vertex; NaN where no hat is wanted
   std::vector<std::int32_t> changed_;   // vertices whose rows the levels have not followed yet
+  RowChanges changes_;                  // what is different there
   std::size_t slots_made_ = 0;          // slots of rows_ when the levels were made
   double rows_us_ = 0;
   bool in_doubles_ = false, float_is_new_ = true, double_is_new_ = true;  // new: the rows are to be set
@@ -95,9 +96,9 @@ class Multigrid final : public Preconditioner<D> {
   double trace_ = 0, coarse_trace_ = 0;  // of A, at the last setup() and when the coarse matrices were computed
   bool coarse_are_old_ = true;
   // Working storage.
-  std::vector<std::int32_t> place_;                   // per coarse unknown: its place in the row at hand
-  std::vector<std::int32_t> columns_, place_in_row_;  // the second: per vertex, or -1
-  std::vector<double> values_, sorted_;
+  std::vector<std::int32_t> place_;  // per coarse unknown: its place in the row at hand
+  RowSum scalars_;                   // of the row at hand
+  std::vector<double> sorted_;
   std::vector<std::int32_t> front_, place_in_front_;  // the second: per vertex, or -1
 };
 

@@ -1,0 +1,39 @@
+// A sparse row that is summed up, in any order of its columns.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace cutbench {
+
+class RowSum {
+ public:
+  /// Before rows with columns below `columns`.
+  void resize(std::size_t columns) {
+    if (columns > place_.size()) place_.resize(columns, -1), columns_.resize(columns + 1), sums_.resize(columns + 1);
+  }
+  /// Whether a column is new is a coin toss, so there is no branch: it is written behind the last one in any case.
+  void add(std::int32_t column, double value) {
+    std::int32_t& place = place_[static_cast<std::size_t>(column)];
+    const bool is_new = place < 0;
+    place = is_new ? static_cast<std::int32_t>(size_) : place;
+    columns_[size_] = column;
+    size_ += is_new;
+    sums_[static_cast<std::size_t>(place)] += value;
+  }
+  std::span<const std::int32_t> columns() const { return {columns_.data(), size_}; }
+  std::span<const double> sums() const { return {sums_.data(), size_}; }
+  void clear() {
+    for (std::size_t k = 0; k < size_; ++k) place_[static_cast<std::size_t>(columns_[k])] = -1, sums_[k] = 0;
+    size_ = 0;
+  }
+
+ private:
+  std::size_t size_ = 0;
+  std::vector<std::int32_t> place_;    // per column: in the row, or -1
+  std::vector<std::int32_t> columns_;  // room for one more than all
+  std::vector<double> sums_;           // zero behind the row
+};
+
+}  // namespace cutbench
