@@ -31,8 +31,9 @@ def read(folder):
 
 
 def name_of(method, knob, mass):
-    name = NAMES.get(method, method.replace("_", " ")) + (f", {mass}" if mass in ADDED_MASS else "")
-    return f"phantom, ghost {knob.partition('=')[2]}" if method == "phantom_node" else name
+    if mass in ADDED_MASS:  # after a conventional split
+        return f"{mass} mass"
+    return f"phantom, ghost {knob.partition('=')[2]}" if method == "phantom_node" else NAMES.get(method, method.replace("_", " "))
 
 
 def worst(rows, by):
