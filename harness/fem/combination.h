@@ -52,7 +52,8 @@ class TiedSystem {
   TiedSystem(const Ties& ties, std::size_t vertices) : combination_(ties, vertices), ghosts_(ties.ghosts) {}
 
   const Combination& combination() const { return combination_; }
-  /// \pre the pattern of `a` and the values of its scalar matrices are those of the first call. \param stiffness  N/m, of the sheet: for ghost penalties
+  /// \pre the pattern of `a` and the values of its scalar matrices are those of the first call.
+  /// \param stiffness  N/m, of the sheet: for ghost penalties
   void assemble(const SystemMatrix<D>& a, double stiffness = 0);
   /// Of the last assemble(); refers to this. No element table: preconditioners find no slivers, whose vertices are
   /// constrained.
@@ -72,6 +73,17 @@ class TiedSystem {
   void satisfy(const std::vector<std::uint8_t>& held, Field& x) const;
 
  private:
+  /// Block `from` of A, times the weight, is a part of block `to`.
+  struct Share {
+    std::int32_t from, to;
+    double weight;
+  };
+  /// The same without the axes on which vertex i or j is held; part 0: the blocks, k: scalar matrix k - 1.
+  struct SplitShare {
+    Share share;
+    std::size_t part, i, j;
+  };
+
   void extrapolate(std::int32_t tied, const std::vector<std::uint8_t>& held, Field& x) const;
   void find_near(const SystemMatrix<D>& a);
   template <class Act>
@@ -84,16 +96,6 @@ class TiedSystem {
   Combination combination_;
   std::vector<GhostEdge> ghosts_;
   double ghost_stiffness_ = 0;
-  /// Block `from` of A, times the weight, is a part of block `to`.
-  struct Share {
-    std::int32_t from, to;
-    double weight;
-  };
-  /// The same without the axes on which vertex i or j is held; part 0: the blocks, k: scalar matrix k - 1.
-  struct SplitShare {
-    Share share;
-    std::size_t part, i, j;
-  };
   std::vector<std::uint8_t> near_;  // per unknown: its row is not that of A
   std::vector<Share> shares_;
   std::vector<SplitShare> split_shares_;
