@@ -3,6 +3,7 @@
 // from its masters, three unconstrained vertices or phantom nodes.
 #pragma once
 
+#include <algorithm>
 #include <span>
 
 #include "harness/fem/system_matrix.h"
@@ -26,6 +27,9 @@ class Combination {
   const Row& row(std::size_t vertex) const { return rows_[vertex]; }
   bool is_phantom(std::int32_t unknown) const { return static_cast<std::size_t>(unknown) >= vertices(); }
   const std::vector<std::int32_t>& tied() const { return tied_; }  ///< constrained vertices, in rising order
+  bool is_tied(std::size_t vertex) const {
+    return std::binary_search(tied_.begin(), tied_.end(), static_cast<std::int32_t>(vertex));
+  }
 
   /// x = C q and r = C^T f, for `dimension` values per vertex and unknown. Unknowns of constrained vertices are
   /// ignored.
@@ -39,15 +43,17 @@ class Combination {
 };
 
 /// The system C^T A C with ghost penalties, for a system A of all vertices. Held unknowns of A are data: their rows of
-/// C are zero. An unknown of q is held where its vertex is held, and where nothing depends on it. Assemble it whenever
-/// A changes: the pattern is built once, the values each time from the blocks of A. After a cut, make a new one.
+/// C are zero, or left to the solver's projection. An unknown of q is held where its vertex is held, and where nothing
+/// depends on it. Assemble it whenever A changes. Only rows near constrained vertices are computed; all others are those
+/// of A, copied, and scalar matrices, which are constant between cuts, are computed once. After a cut, make a new one.
 template <int D>
 class TiedSystem {
  public:
   TiedSystem(const Ties& ties, std::size_t vertices) : combination_(ties, vertices), ghosts_(ties.ghosts) {}
 
   const Combination& combination() const { return combination_; }
-  /// \pre the pattern of `a` is that of the first call. \param stiffness  N/m, of the sheet: for ghost penalties
+  /// \pre the pattern of `a` and the values of its scalar matrices are those of the first call.
+  /// \param stiffness  N/m, of the sheet: for ghost penalties
   void assemble(const SystemMatrix<D>& a, double stiffness = 0);
   /// Of the last assemble(); refers to this. No element table: preconditioners find no slivers, whose vertices are
   /// constrained.
@@ -67,16 +73,35 @@ class TiedSystem {
   void satisfy(const std::vector<std::uint8_t>& held, Field& x) const;
 
  private:
+  /// Block `from` of A, times the weight, is a part of block `to`.
+  struct Share {
+    std::int32_t from, to;
+    double weight;
+  };
+  /// The same without the axes on which vertex i or j is held; part 0: the blocks, k: scalar matrix k - 1.
+  struct SplitShare {
+    Share share;
+    std::size_t part, i, j;
+  };
+
   void extrapolate(std::int32_t tied, const std::vector<std::uint8_t>& held, Field& x) const;
+  void find_near(const SystemMatrix<D>& a);
+  template <class Act>
+  void for_each_share(const SystemMatrix<D>& a, const Act& act) const;
+  bool is_split(std::size_t vertex) const;
   void set_pattern(const SystemMatrix<D>& a);
   void find_places(const SystemMatrix<D>& a);
   bool acts(const GhostEdge& ghost, std::size_t axis) const;
-  void add(std::size_t i, std::size_t j, typename BlockMatrix<D>::Block block);
 
   Combination combination_;
   std::vector<GhostEdge> ghosts_;
   double ghost_stiffness_ = 0;
+  std::vector<std::uint8_t> near_;  // per unknown: its row is not that of A
+  std::vector<Share> shares_;
+  std::vector<SplitShare> split_shares_;
   BlockMatrix<D> blocks_;
+  std::vector<BlockMatrix<1>> scalars_;  // C^T (scalar matrix of A) C
+  std::vector<double> factors_;
   std::vector<std::uint8_t> held_, held_vertices_;  // per unknown of q, and of A
   std::uint64_t pattern_ = 0;
   std::vector<Point2> places_;  // of the unknowns: phantom nodes lie amid the vertices that depend on them
