@@ -170,8 +170,8 @@ def stability():
     bands = panels.legends(set())[0][1]
     figure.legend(handles=bands, loc="lower left", ncol=len(bands), bbox_to_anchor=(0.125, 0.1), fontsize=8.5, handlelength=1.2,
                   columnspacing=1.4)
-    figure.text(0.008, 0.02, "Columns: from harmless (left) to harmful. Each cell is the worst of three places (cuts in a row: one), one sheet of 800 triangles; "
-                "h: mean edge.\nAn explicit step with ties or phantom nodes is predicted, not made. All: docs/stability.md.",
+    figure.text(0.008, 0.02, "Columns: from harmless (left) to harmful. A cell: the worst of eight places on four sheets of 800 triangles (cuts in a "
+                "row: of one);\nh: mean edge. Stabilised, scaled mass: after a conventional split. Steps with ties or phantom nodes are predicted.",
                 fontsize=9, color="#555555", linespacing=1.35)
     return figure
 

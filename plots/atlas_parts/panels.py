@@ -16,14 +16,16 @@ VERDICTS = {  # colour and words of what is not ok
 EXPLICIT_BANDS = [(0.3, "#1a9850", "≥ 0.3"), (0.1, "#91cf60", "≥ 0.1"), (0.01, "#e6f598", "≥ 0.01"),
                   (1e-4, "#fee08b", "≥ 1e-4"), (-np.inf, "#fdae61", "< 1e-4")]
 COST_BANDS = [(3, "#006d2c", "≤ 3 ms"), (10, "#41ab5d", "≤ 10"), (30, "#a1d99b", "≤ 30"), (np.inf, "#e5f5e0", "> 30")]
-OK = "#74c476"
+OK, UNKNOWN = "#74c476", "#f7f7f7"
 PLAIN = {"rolled", "turned_over", "step_poisson", "vertex_static", "piece_static"}  # panels without bands
 
 
 def band_colour(row, measure):
     if row.verdict != "ok":
         return VERDICTS[row.verdict][0]
-    if measure == "explicit" and not np.isnan(row.explicit):
+    if measure == "explicit":
+        if np.isnan(row.explicit):
+            return UNKNOWN
         return next(colour for least, colour, _ in EXPLICIT_BANDS if row.explicit >= least)
     if measure == "cost" and not np.isnan(row.step_us):
         return next(colour for most, colour, _ in COST_BANDS if row.step_us / 1000 <= most)
@@ -110,7 +112,8 @@ def legends(verdicts, panel=None):
     """(what it is about, handles) for each row of the legend. For a `panel` alone: those of its colours."""
     def patches(bands):
         return [Patch(color=colour, label=words) for _, colour, words in bands]
-    explicit = ("ok, explicit step:", patches(EXPLICIT_BANDS))
+    unknown = Patch(facecolor=UNKNOWN, edgecolor="#aaaaaa", linewidth=0.5, label="not known")
+    explicit = ("ok, explicit step:", [*patches(EXPLICIT_BANDS), unknown])
     cost = ("ok, cost of a step:", patches(COST_BANDS) + [Patch(color=OK, label="not timed")])
     others = ("not ok:", patches((v, *VERDICTS[v]) for v in VERDICTS if v in verdicts))
     if panel is None:
