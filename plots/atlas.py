@@ -50,7 +50,7 @@ OWN_ROWS = {"in_a_row", "explicit", "in_a_row_solvers", "step_poisson"}  # panel
 MAPS = [(integrator, newton, damping) for damping in (0.0, 1e-3) for integrator in INTEGRATORS for newton in (1, 3)]
 SECTIONS = ["a   one cut comes near something: explicit step (bending included), as a share of the uncut sheet's", None,
             "b   after ordinary single cuts: price of the cut and explicit step (from the eigenvalue); after four; and explicit runs",
-            "c   implicit steps of 1/240 s after the cut, in each method by CG, sliver blocks, multigrid, CHOLMOD, local-global",
+            "c   implicit steps of 1/240 s; rows of a method: CG, sliver blocks, multigrid, CHOLMOD, local-global",
             "d   step × stiffness right after a cut by conventional split: verdicts, solved by CHOLMOD",
             "e   solvers cut short, and large deformations (in each method by solvers, or by integrators × Newton iterations)"]
 
@@ -133,15 +133,15 @@ def main():
     caption = ("A cell is one setting and one method: the worst of its cuts. Values go from harmless (left) to harmful; h is the "
                "mean edge of the uncut sheet. Why steps shrink: the largest eigenvalue of the membrane grows as (h / altitude)² of the thinnest "
                "triangle, that of bending faster. At 1e-12 h, the snap distance, the path goes through the vertex. Tie: corners of thin triangles "
-               "follow their neighbours. Ghost: a penalty on jumps of the gradient across the edges of cut triangles. Stabilised, scaled "
-               "mass: thin triangles of a conventional split get mass. Ties and phantom nodes: their explicit step is predicted, the "
-               "program makes none. b, left: time of a cut over that of the conventional "
+               "follow their neighbours. Ghost: a penalty on jumps of the gradient across the edges of cut triangles. Stabilised mass: "
+               "thin triangles of a conventional split get mass against their stiff modes; white: rounding leaves no eigenvalue. (To scale all of "
+               "their mass would add 88 times the sheet's.) Ties and phantom nodes: their explicit step is predicted, the program makes none. b, left: time of a cut over that of the conventional "
                "split, and incision error, medians; a dot at the median of the explicit step, a line to what 95 % of the cuts have; dashed "
                "0.3, dotted 0.1; green: above both. b, right: 300 steps of symplectic Euler without damping, ok where the energy stays. d: a row "
                f"is a stiffness, a column a step. e: Euler, midpoint with 1 and 3 Newton iterations each. {len(rows)} points, "
                f"{rows['sweep'].nunique()} sweeps; seed {context.get('seed')}, commit {str(context.get('commit'))[:10]}. How to read "
                f"it: docs/stability.md. Command: {context.get('command')}")
-    style.save(page(rows, caption), folder, "atlas")
+    style.save(page(points.on_the_page(rows), caption), folder, "atlas")
     for panel in set(CELLS) & set(rows["sweep"]):
         alone(rows, panel, folder)
     load.write_beside(folder / "atlas.md", table.text_of(rows, context))

@@ -154,7 +154,7 @@ def chart(methods):
 
 def stability():
     """Four panels of the atlas, large enough to be read beside the text."""
-    rows = points.read(load.REPOSITORY / "results/reference")
+    rows = points.on_the_page(points.read(load.REPOSITORY / "results/reference"))
     shown = ["vertex", "border", "strip", "in_a_row"]
     figure, axes = plt.subplots(1, 4, figsize=(WIDTH, 3.6))
     figure.subplots_adjust(left=0.135, right=0.99, top=0.88, bottom=0.29, wspace=0.1)
@@ -171,7 +171,7 @@ def stability():
     figure.legend(handles=bands, loc="lower left", ncol=len(bands), bbox_to_anchor=(0.125, 0.1), fontsize=8.5, handlelength=1.2,
                   columnspacing=1.4)
     figure.text(0.008, 0.02, "Columns: from harmless (left) to harmful. A cell: the worst of eight places on four sheets of 800 triangles (cuts in a "
-                "row: of one);\nh: mean edge. Stabilised, scaled mass: after a conventional split. Steps with ties or phantom nodes are predicted.",
+                "row: of one);\nh: mean edge. Stabilised mass: after a conventional split; white: not known. Steps with ties or phantom nodes are predicted.",
                 fontsize=9, color="#555555", linespacing=1.35)
     return figure
 

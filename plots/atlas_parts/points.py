@@ -36,6 +36,11 @@ def name_of(method, knob, mass):
     return f"phantom, ghost {knob.partition('=')[2]}" if method == "phantom_node" else NAMES.get(method, method.replace("_", " "))
 
 
+def on_the_page(rows):
+    """Without the scaled mass, which has long steps because it makes the sheet many times heavier: no remedy to be shown beside others."""
+    return rows[rows["mass"] != "scaled"]
+
+
 def worst(rows, by):
     """A row for each value of `by`, in the order of the records: the worst verdict of its cases, and the worst measures."""
     groups = rows.groupby(by, sort=False)
