@@ -222,6 +222,8 @@ def as_text(name, table):
         shown[column] = [f"{x:.3g}" if np.isfinite(x) else "-" for x in shown[column]]
     of_all = [c for c in ("method", "knob", "cuts", "failed", "rank") if c in shown]
     what = TITLES.get(name, "medians over the cuts of all families, sheets and sizes; the best shapes first")
+    if table.attrs.get("note"):
+        what += f". {table.attrs['note']}"
     return "\n".join([f"{name}: {what}\n"] + [shown[of_all + block].to_string(index=False) + "\n"
                                                for block in blocks(shown[shown.columns.difference(of_all, sort=False)])])
 
