@@ -5,6 +5,8 @@ import argparse
 import functools
 import gzip
 import json
+import re
+import shlex
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -169,7 +171,25 @@ def read_context(path):
         stop(f"{path} can't be read: {error}")
     if not isinstance(context, dict):
         stop(f"{path} is not an object of keys and values")
+    if isinstance(context.get("command"), str):
+        context["command"] = pasteable(context["command"])
     return context
+
+
+def pasteable(command):
+    """A command line of `cutbench run` for a shell. Contexts hold its words with a space between them, so the blanks in the
+    command of a program have lost their quotes; it goes on to the next option that `run` has. What is quoted stays so."""
+    option = "methods|command|resolutions|sweeps|cases|repetitions|seed|out|jobs|shard"
+
+    def quoted(match):
+        try:
+            if len(shlex.split(match[2])) == 1:
+                return match[0]
+        except ValueError:  # an apostrophe in it
+            pass
+        return match[1] + shlex.quote(match[2])
+
+    return re.sub(rf"( --command[ =])(.*?)(?= --(?:{option})[ =]|$)", quoted, command)
 
 
 def write_beside(path, text):

@@ -60,7 +60,7 @@ def write_names(figure, ax, table):
         text = ax.annotate(row["method"].replace("_", " "), (row["us_per_crossed_all"], row["excess_percent_all"]),
                            xytext=(0, 0), textcoords="offset points", fontsize=5, color="#222222", ha="center",
                            va="center", zorder=5)
-        for up in range(0, 40):
+        for up in range(5, 45):
             text.set_position((0, up))
             box = text.get_window_extent()
             if not any(box.overlaps(other) for other in taken):
@@ -97,6 +97,7 @@ def draw(folder, beside):
     right.set_ylim(len(order) - 0.5, -0.5)
     right.tick_params(axis="y", length=0, pad=6)
     right.set_xlabel(f"excess error, {measure.short}, %")
+    left.margins(x=0.15)  # for the names
     log_x_axis(left)
     percent_axis(left, table["excess_percent_all"])
     zero_line(left)
