@@ -45,7 +45,7 @@ def excess_figure(records, x, y, label, zero):
         f"body-fitted mesh, minus one. Zero is the error of {zero}. Marker: median over {len(records.problems)} plane "
         "problems and their ensembles at one resolution; bars: quartiles. ×: failed/tried; a failed case counts as "
         "infinitely bad."),
-        front.legend_entries())
+        front.legend_entries(looks.values()))
     return figure
 
 
@@ -73,7 +73,7 @@ def problems_figure(records):
     style.finish(figure, records.looks.values(), records.caption(
         "Error of each problem's primary measure against the total time (cut, assembly, direct solve). Marker: median "
         "over all sheets and the ensemble at one resolution; bars: quartiles. The time of the body-fitted mesh includes "
-        "the meshing of the whole sheet. ×: failed/tried."), front.legend_entries())
+        "the meshing of the whole sheet. ×: failed/tried."), front.legend_entries(records.looks.values()))
     return figure
 
 

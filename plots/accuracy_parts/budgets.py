@@ -5,6 +5,12 @@ from common import front, style
 from common.load import of
 
 
+def write_iterations(ax, points, look):
+    for _, p in points.iterrows():
+        ax.annotate(f"{p['budget']}", (p["x"], p["y"]), xytext=(3.5, 0.5), textcoords="offset points", fontsize=4.2,
+                    color=look.colour, zorder=5)
+
+
 def budgets_figure(records):
     """A row per sheet, a column per solver: excess error over time at the highest resolution with an ensemble, a point per
     budget."""
@@ -25,6 +31,8 @@ def budgets_figure(records):
             for variant, look in records.looks.items():
                 points = of(cells, variant).sort_values("budget")
                 front.draw(ax, points[points["budget"] > 0], look)
+                if look.program or variant == next(iter(records.looks)):
+                    write_iterations(ax, points[(points["budget"] > 0) & (points["layer"] > 0)], look)
                 done = points[(points["budget"] == 0) & (points["layer"] > 0)]
                 ax.plot(done["x"], done["y"], linestyle="", marker=look.marker, markersize=4.5, markeredgewidth=0.9,
                         markerfacecolor="none", markeredgecolor=look.colour, zorder=4)
@@ -42,5 +50,5 @@ def budgets_figure(records):
         f"Excess error against total time at {top} triangles, after {', '.join(map(str, records.budgets))} iterations of "
         "conjugate gradients that start from zero (filled markers) and after the direct solve (hollow markers). "
         "Preconditioner: the diagonal block of each vertex (cg), or joint blocks of the vertices round slivers (cg sliver "
-        "blocks). Marker: median over problems and ensembles; bars: quartiles."), front.legend_entries())
+        "blocks). Beside the markers of the first method, and of programs: the iterations. Marker: median over problems and ensembles; bars: quartiles."), front.legend_entries(records.looks.values()))
     return figure

@@ -52,12 +52,16 @@ def of_methods_there(table):
     return table[~table["failed"].groupby(key).transform("all")]
 
 
-def write_names(figure, ax, table):
+def written(method, programs):
+    return method.replace("_", " ") + style.PROGRAM * (method in programs)
+
+
+def write_names(figure, ax, table, programs):
     """Each method's name at the mean of its sheets, moved up until it covers no other. The limits of the axes must be set."""
     figure.draw_without_rendering()
     taken = []
     for _, row in table.sort_values("excess_percent_all").iterrows():
-        text = ax.annotate(row["method"].replace("_", " "), (row["us_per_crossed_all"], row["excess_percent_all"]),
+        text = ax.annotate(written(row["method"], programs), (row["us_per_crossed_all"], row["excess_percent_all"]),
                            xytext=(0, 0), textcoords="offset points", fontsize=5, color="#222222", ha="center",
                            va="center", zorder=5)
         for up in range(5, 45):
@@ -93,7 +97,7 @@ def draw(folder, beside):
                    transform=right.get_yaxis_transform())
         right.plot(ends[0], i, "o", color="#0072b2", markersize=3.2)
         right.plot(ends[1], i, "D", color="white", markeredgecolor="#d55e00", markeredgewidth=0.8, markersize=3)
-    right.set_yticks(range(len(order)), [name.replace("_", " ") for name in order], fontsize=5.5)
+    right.set_yticks(range(len(order)), [written(name, records.programs) for name in order], fontsize=5.5)
     right.set_ylim(len(order) - 0.5, -0.5)
     right.tick_params(axis="y", length=0, pad=6)
     right.set_xlabel(f"excess error, {measure.short}, %")
@@ -101,7 +105,7 @@ def draw(folder, beside):
     log_x_axis(left)
     percent_axis(left, table["excess_percent_all"])
     zero_line(left)
-    write_names(figure, left, table)
+    write_names(figure, left, table, records.programs)
     right.axvline(0, color="#111111", linewidth=0.6, zorder=0)
     values = np.concatenate([table["excess_percent_all"], table[f"excess_percent_cg_{BUDGET}"]])
     if (values > 100).any():
@@ -116,7 +120,7 @@ def draw(folder, beside):
         "Left: error against the cost of the cut; lower left is better. Large marker, with the name: all sheets; colours are "
         "those beside the names on the right. Excess error: the error of each problem's primary measure over that of "
         f"{measure.fitted}, minus one; geometric means over {len(records.problems)} plane problems, all sizes and members. "
-        f"{measure.note} Right: the same after a direct solve, and after "
+        f"{measure.note}{style.PROGRAM_TIME * bool(records.programs)} Right: the same after a direct solve, and after "
         f"{BUDGET} iterations of conjugate gradients (Jacobi preconditioner)."), entries)
     style.save(figure, folder, STEM)
     return table
