@@ -309,7 +309,7 @@ def main():
         tables[method_accuracy.STEM] = method_accuracy.draw(folder, beside)
         tables[method_kinds.STEM] = method_kinds.table_of(at_equal_unknowns(Records(beside)).ranked())
     write_tables(folder, tables)
-    method_gallery.draw(folder)
+    method_gallery.draw(folder, set(run.everything()["method"]))
 
 
 if __name__ == "__main__":

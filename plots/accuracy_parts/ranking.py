@@ -20,7 +20,8 @@ class Measure:
 
 
 EQUAL_UNKNOWNS = Measure("ratio_equal", "at equal unknowns", "a body-fitted mesh with as many unknowns")
-AS_MANY_TRIANGLES = Measure("ratio", "as many triangles", "a body-fitted mesh of as many triangles as the uncut sheet",
+AS_MANY_TRIANGLES = Measure("ratio", "over a fitted mesh of as many triangles",
+                            "a body-fitted mesh of as many triangles as the uncut sheet",
                             "With one resolution errors at equal unknowns are not known: how the fitted mesh's error falls "
                             "takes two.")
 

@@ -28,15 +28,16 @@ def shape_figure(records):
             here = records.rows(sheet=sheet, **condition)
             for variant, look in records.methods.items():
                 dots = of(here, variant).dropna(subset=["ratio", "ar_max_cut"])
-                ax.plot(dots["ar_max_cut"], dots["ratio"], linestyle="", marker="o", markersize=1.3,
-                        markeredgewidth=0, color=look.colour, alpha=0.45, zorder=2, rasterized=True)
+                ax.plot(dots["ar_max_cut"], dots["ratio"], linestyle="", marker="o",
+                        markersize=1.8 if look.program else 1.3, markeredgewidth=0, color=look.colour,
+                        alpha=0.9 if look.program else 0.45, zorder=3 if look.program else 2, rasterized=True)
             bins = decades(of_harness(records, here))
             ax.plot(bins.index, bins["ratio"], color="#c00000", linewidth=1.1, marker="_", markersize=4, zorder=4)
             ax.axhline(1, color="#111111", linewidth=0.5, zorder=1)
             ax.set_xscale("log")
             ax.set_yscale("log")
             ax.set_title(title if sheet == records.sheets[0] else "", fontsize=6.3)
-        row[0].set_ylabel(f"{style.sheet_title(sheet)}\nerror / fitted mesh's")
+        row[0].set_ylabel(f"{style.sheet_title(sheet)}\nerror / fitted mesh's", fontsize=6)
     for ax in axes.flat:
         ax.xaxis.set_major_locator(LogLocator(numticks=4))
         ax.xaxis.set_minor_formatter(NullFormatter())

@@ -88,7 +88,7 @@ def draw(folder, beside):
         # Where the name goes, so that the limits of the axes include it.
         left.plot(row["us_per_crossed_all"], row["excess_percent_all"], "o", color=colour, markersize=3)
     left.set_xlabel("µs per crossed triangle, the cut alone")
-    left.set_ylabel(f"excess error, {measure.short}, %")
+    left.set_ylabel(f"excess error {measure.short}, %")
     order = list(table["method"])
     for i, (_, row) in enumerate(table.iterrows()):
         ends = row["excess_percent_all"], row[f"excess_percent_cg_{BUDGET}"]
@@ -100,7 +100,7 @@ def draw(folder, beside):
     right.set_yticks(range(len(order)), [written(name, records.programs) for name in order], fontsize=5.5)
     right.set_ylim(len(order) - 0.5, -0.5)
     right.tick_params(axis="y", length=0, pad=6)
-    right.set_xlabel(f"excess error, {measure.short}, %")
+    right.set_xlabel(f"excess error {measure.short}, %")
     left.margins(x=0.15)  # for the names
     log_x_axis(left)
     percent_axis(left, table["excess_percent_all"])
