@@ -8,7 +8,7 @@ import io
 
 from accuracy_parts.budgets import budgets_figure
 from accuracy_parts.profile import profile_figure
-from accuracy_parts.ranking import at_equal_unknowns, print_ranking
+from accuracy_parts.ranking import AS_MANY_TRIANGLES, at_equal_unknowns, print_ranking
 from accuracy_parts.records import REFERENCE, Records, cells_of, label_edges, log_x_axis, percent_axis, zero_line
 from accuracy_parts.shape import print_shapes, print_statements, shape_figure
 from common import front, load, style
@@ -45,7 +45,7 @@ def excess_figure(records, x, y, label, zero):
         f"body-fitted mesh, minus one. Zero is the error of {zero}. Marker: median over {len(records.problems)} plane "
         "problems and their ensembles at one resolution; bars: quartiles. ×: failed/tried; a failed case counts as "
         "infinitely bad."),
-        front.legend_entries())
+        front.legend_entries(looks.values()))
     return figure
 
 
@@ -73,7 +73,7 @@ def problems_figure(records):
     style.finish(figure, records.looks.values(), records.caption(
         "Error of each problem's primary measure against the total time (cut, assembly, direct solve). Marker: median "
         "over all sheets and the ensemble at one resolution; bars: quartiles. The time of the body-fitted mesh includes "
-        "the meshing of the whole sheet. ×: failed/tried."), front.legend_entries())
+        "the meshing of the whole sheet. ×: failed/tried."), front.legend_entries(records.looks.values()))
     return figure
 
 
@@ -81,6 +81,8 @@ def write_text(folder, records):
     """Prints the tables and writes them beside the figures."""
     text = io.StringIO()
     with contextlib.redirect_stdout(text):
+        if records.rows(direct=True)["resolution"].nunique() < 2:
+            print(f"\n{STEM}_unknowns is not drawn. {AS_MANY_TRIANGLES.note}")
         print_ranking(records.in_plane(), "in plane")
         print_ranking(records.out_of_plane(), "out of plane")
         print_shapes(records)

@@ -119,12 +119,13 @@ def ranking(table, variants, sheets):
     return ranks.sort_values("sum", kind="stable")
 
 
-def label(variant):
+def label(variant, programs=()):
     look = style.KNOWN.get(variant)
-    return look.label if look else variant[0].replace("_", " ") + (f", {variant[1]}" if variant[1] else "")
+    name = look.label if look else variant[0].replace("_", " ") + (f", {variant[1]}" if variant[1] else "")
+    return name + style.PROGRAM * (variant[0] in programs)
 
 
-def dot_figure(table, fine, order, sheets, measures):
+def dot_figure(table, fine, order, sheets, measures, programs):
     """A row per method, best shapes on top, a panel per measure; a marker per sheet at the median, a line from quartile
     to quartile, a tick at the worst. Hollow: with the closer chord tolerance."""
     height = 0.34 * len(order) + 1.5
@@ -160,16 +161,18 @@ def dot_figure(table, fine, order, sheets, measures):
             decades = int(np.ceil(np.log10(high / low) / 3))  # three labels have room
             ax.xaxis.set_major_locator(LogLocator(base=10.0 ** max(1, decades)))
             ax.xaxis.set_minor_locator(NullLocator())
-    axes[0, 0].set_yticks(range(len(order)), [label(v) for v in order])
+    axes[0, 0].set_yticks(range(len(order)), [label(v, programs) for v in order])
     axes[0, 0].set_ylim(len(order) - 0.5, -0.5)
     return figure, axes[0]
 
 
-def legend(sheets, fine):
+def legend(sheets, fine, some_failed):
     entries = [Line2D([], [], linestyle="", marker=MARKERS.get(s, OTHER)[0], color=MARKERS.get(s, OTHER)[1], markersize=3,
                       label=style.sheet_title(s)) for s in sheets]
     entries.append(Line2D([], [], linestyle="", marker="|", color="#444444", markersize=4, label="worst cut"))
-    entries.append(Line2D([], [], linestyle="", marker="x", color="#444444", markersize=3, label="worst cut that did not fail"))
+    if some_failed:
+        entries.append(Line2D([], [], linestyle="", marker="x", color="#444444", markersize=3,
+                              label="worst cut that did not fail"))
     if fine is not None:
         entries.append(Line2D([], [], linestyle="", marker="o", color="white", markeredgecolor="#444444", markersize=3,
                               label="chord tolerance 0.01"))
@@ -222,6 +225,8 @@ def as_text(name, table):
         shown[column] = [f"{x:.3g}" if np.isfinite(x) else "-" for x in shown[column]]
     of_all = [c for c in ("method", "knob", "cuts", "failed", "rank") if c in shown]
     what = TITLES.get(name, "medians over the cuts of all families, sheets and sizes; the best shapes first")
+    if table.attrs.get("note"):
+        what += f". {table.attrs['note']}"
     return "\n".join([f"{name}: {what}\n"] + [shown[of_all + block].to_string(index=False) + "\n"
                                                for block in blocks(shown[shown.columns.difference(of_all, sort=False)])])
 
@@ -255,23 +260,26 @@ def main():
     sheets = style.sheet_order(table["sheet"])
     ranks = ranking(table, sorted(set(zip(table["method"], table["knob"]))), sheets)
     order = list(ranks.index)
+    programs = load.programs(run.everything(), run.context)
 
     for name, measures, what in (
             (f"{STEM}_shapes", SHAPES, "Shapes of triangles after a cut, by method. Altitude and angle: of the triangles "
              "that the cut made or changed, where there are any. Eigenvalue: the largest one of stiffness and lumped mass; "
              "the largest stable step of an explicit integrator shrinks by its square root."),
             (f"{STEM}_price", PRICE, "The cost of a cut, by method: vertices added at rest, distance between the "
-             "requested path and the incision, and time of the geometry (warm caches).")):
-        figure, axes = dot_figure(table, fine, order, sheets, measures)
+             "requested path and the incision, and time of the geometry (warm caches)."
+             + style.PROGRAM_TIME * bool(programs))):
+        figure, axes = dot_figure(table, fine, order, sheets, measures, programs)
         if measures is SHAPES:
             axes[2].set_xlim(90, 182)
-        style.finish(figure, [], caption(what, run, run.rows), legend(sheets, fine))
+        style.finish(figure, [], caption(what, run, run.rows),
+                     legend(sheets, fine, table["failed"].any()))
         style.save(figure, folder, name)
     if jumps is not None:
-        figure, _ = dot_figure(jumps, None, order, sheets, JUMP)
+        figure, _ = dot_figure(jumps, None, order, sheets, JUMP, programs)
         style.finish(figure, [], caption(
             "Jumps of energies and of the residual force at the instant of a cut in a moving sheet, relative to the value "
-            "before the cut. Jumps below 10⁻¹² are drawn at 10⁻¹².", jumps_run, jumps), legend(sheets, None))
+            "before the cut. Jumps below 10⁻¹² are drawn at 10⁻¹².", jumps_run, jumps), legend(sheets, None, False))
         style.save(figure, folder, f"{STEM}_jumps")
     ours = next((v for v in order if v[0] == OURS), order[0])
     tables = {STEM: summary(table, jumps, order, ranks), BY_SHEET: method_details.by_sheet_and_family(table, order, sheets),
@@ -301,7 +309,7 @@ def main():
         tables[method_accuracy.STEM] = method_accuracy.draw(folder, beside)
         tables[method_kinds.STEM] = method_kinds.table_of(at_equal_unknowns(Records(beside)).ranked())
     write_tables(folder, tables)
-    method_gallery.draw(folder)
+    method_gallery.draw(folder, set(run.everything()["method"]))
 
 
 if __name__ == "__main__":

@@ -127,9 +127,12 @@ def draw_method(ax, title, result, norm):
     return faces
 
 
-def draw(folder):
-    """Writes folder/method_gallery.png and .pdf."""
-    methods = all_methods()
+def draw(folder, only=None):
+    """Writes folder/method_gallery.png and .pdf. \\param only  names, those of other methods are left out; None: all"""
+    methods = [m for m in all_methods() if only is None or m["name"] in only]
+    if not methods:
+        return
+    left_out = sorted(set(only or ()) - {m["name"] for m in methods})
     results = cut_by_all(methods)
     columns = 3
     figure, axes = style.panels(-(-len(methods) // columns), columns, 2.75)
@@ -144,10 +147,12 @@ def draw(folder):
         bar.set_label("aspect ratio")
         bar.set_ticks([2, 3, 5, 10, 20, 50], labels=["2", "3", "5", "10", "20", "50"])
         bar.ax.minorticks_off()
-    style.finish(figure, [], f"The same cut by every method, at rest, near the tip of the cut. Each knob (the number beside "
+    which = "every method" if only is None else "every method of the run"
+    missing = f"Not drawn, as `cutbench methods` does not have them: {', '.join(left_out)}. " if left_out else ""
+    style.finish(figure, [], f"The same cut by {which}, at rest, near the tip of the cut. Each knob (the number beside "
                  f"the name) has its default. The sheet is the paper's grid of {2 * SQUARES ** 2} triangles; the chord "
                  "tolerance is 0.05 h. Blue: requested path. Red: incision. AR: largest aspect ratio of the triangles that "
-                 f"the cut made or changed. Constrained vertices are not marked. {style.AR_DEFINITION} "
+                 f"the cut made or changed. {missing}Constrained vertices are not marked. {style.AR_DEFINITION} "
                  "Command: plots/method_gallery.py")
     style.save(figure, folder, "method_gallery")
 

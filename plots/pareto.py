@@ -5,6 +5,7 @@ and the Pareto front, and prints a ranking."""
 
 import argparse
 import difflib
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -73,9 +74,9 @@ def columns_asked(table, args):
     return axes
 
 
-def curve_looks(cells, present):
+def curve_looks(cells, present, programs):
     """The Look of each curve: the method's, its line by the solver; and the legend's entries of the solvers."""
-    looks = style.looks(set(zip(cells["method"], cells["knob"])))
+    looks = style.looks(set(zip(cells["method"], cells["knob"])), programs)
     solvers = list(dict.fromkeys(cells["solver"])) if "solver" in present else []
     lines = dict(zip(solvers, LINES * len(solvers)))
     entries = [Line2D([], [], color="#777777", linestyle=line, linewidth=0.8, label=solver)
@@ -90,7 +91,7 @@ def axis_label(axis):
 
 def figure_of(cells, run, args, x, y, present):
     sheets = style.sheet_order(cells["sheet"])
-    looks, lines, entries = curve_looks(cells, present)
+    looks, lines, entries = curve_looks(cells, present, load.programs(run.everything(), run.context))
     columns = min(2, len(sheets))
     figure, axes = style.panels(-(-len(sheets) // columns), columns, 4.4 if columns > 1 else 6, sharex=True,
                                 sharey=True)
@@ -106,7 +107,7 @@ def figure_of(cells, run, args, x, y, present):
             named = dict(zip(["method", "knob"] + present, key))
             look = looks[named["method"], named["knob"]]
             if len(lines) > 1:
-                look = style.Look(look.label, look.colour, look.marker, lines[named["solver"]], look.width)
+                look = replace(look, line=lines[named["solver"]])
             size = 0.7 + 0.6 * budgets.index(named["budget"]) / max(1, len(budgets) - 1) if "budget" in named else 1
             front.draw(ax, points.sort_values("resolution"), look, size)
         if ax.get_yscale() == "log":
@@ -121,7 +122,7 @@ def figure_of(cells, run, args, x, y, present):
         f"{args.name}: {axis_label(y)} against {axis_label(x)}. Marker: median of the ensemble at one resolution; bars: "
         f"quartiles. A failed case counts as infinitely bad (×: failed/tried).{where}{more}",
         style.provenance(run, run.rows, with_machine="_us" in x.column + y.column, with_crosses=False)]),
-        front.legend_entries() + entries)
+        front.legend_entries(looks.values()) + entries)
     return figure
 
 

@@ -286,7 +286,7 @@ def provenance(results):
             continue
         whose = "the project's own run" if file.parent.name == "reference" else "run here"
         stem = file.name.partition(".")[0] if file.parent.name == "reference" else file.parent.name
-        rows.append([stem, whose, str(context.get("command")), str(context.get("seed")), str(context.get("commit"))[:10]
+        rows.append([stem, whose, load.pasteable(str(context.get("command"))), str(context.get("seed")), str(context.get("commit"))[:10]
                      + (" with uncommitted changes" if context.get("dirty") else ""), str(context.get("cpu"))])
     return table_of(["records", "whose", "command", "seed", "commit", "machine"], rows) if rows else ""
 

@@ -7,6 +7,7 @@ usage: check_accuracy_plots.py RESULTS with RESULTS/accuracy of such a run"""
 import contextlib
 import csv
 import io
+import shlex
 import shutil
 import subprocess
 import sys
@@ -157,6 +158,18 @@ def check_factor(folder):
     expect("cases that are all alone have a factor", np.isnan(factor_per_decade(table[table["case"] == 0])[0]))
 
 
+def check_commands():
+    """A shell makes of a caption's command the words that were given, though the context has only their text."""
+    sys.path.insert(0, str(PLOTS))
+    from common import load
+    for words in (["--out", "r", "--command", "mine=python3 mine.py {mesh} {path} {out}"],
+                  ["--command", "a=node --flag x {mesh}", "--command", "b=python3 it's.py {out}", "--seed", "3"],
+                  ["--command", "plain", "--cases", "1"], ["--cases", "1"]):
+        shown = load.pasteable(" ".join(["cutbench run e.toml", *words]))
+        expect(f"not as given: {shown}", shlex.split(shown)[3:] == words)
+        expect(f"quoted again: {shown}", load.pasteable(shown) == shown)
+
+
 def check_missing_columns(results):
     folder = results / "without"
     shutil.copytree(results / "accuracy", folder / "accuracy")
@@ -178,6 +191,7 @@ def main():
     if problems:  # the rest would only repeat them
         print("\n".join(problems))
         return 1
+    check_commands()
     check_equal_unknowns(results / "accuracy")
     check_factor(results / "accuracy")
     check_failures(results)

@@ -5,6 +5,21 @@ from common import front, style
 from common.load import of
 
 
+def write_iterations(figure, curves):
+    """Beside the points of each (panel, points, look), where the number covers no other. The limits must be set."""
+    figure.draw_without_rendering()
+    taken = []
+    for ax, points, look in curves:
+        for _, p in points.iterrows():
+            text = ax.annotate(f"{p['budget']:.0f}", (p["x"], p["y"]), xytext=(3.5, 0.5), textcoords="offset points",
+                               fontsize=4.2, color=look.colour, zorder=5)
+            box = text.get_window_extent()
+            if any(box.overlaps(other) for other in taken):
+                text.remove()
+            else:
+                taken.append(box)
+
+
 def budgets_figure(records):
     """A row per sheet, a column per solver: excess error over time at the highest resolution with an ensemble, a point per
     budget."""
@@ -16,7 +31,7 @@ def budgets_figure(records):
     records = records.with_rows(records.rows(resolution=top))
     table = records.table
     figure, axes = style.panels(len(records.sheets), len(records.solvers), 3.7, sharex=True, sharey=True)
-    everything = []
+    everything, numbered = [], []
     for row, sheet in zip(axes, records.sheets):
         for ax, solver in zip(row, records.solvers):
             here = table[(table["sheet"] == sheet) & (table["direct"] | (table["solver"] == solver))]
@@ -25,6 +40,8 @@ def budgets_figure(records):
             for variant, look in records.looks.items():
                 points = of(cells, variant).sort_values("budget")
                 front.draw(ax, points[points["budget"] > 0], look)
+                if look.program or variant == next(iter(records.looks)):
+                    numbered.append((ax, points[(points["budget"] > 0) & (points["layer"] > 0)], look))
                 done = points[(points["budget"] == 0) & (points["layer"] > 0)]
                 ax.plot(done["x"], done["y"], linestyle="", marker=look.marker, markersize=4.5, markeredgewidth=0.9,
                         markerfacecolor="none", markeredgecolor=look.colour, zorder=4)
@@ -35,6 +52,7 @@ def budgets_figure(records):
             ax.set_title(solver.replace("_", " ") if sheet == records.sheets[0] else "", loc="left")
     for ax in axes.flat:
         percent_axis(ax, everything)
+    write_iterations(figure, numbered)
     label_edges(axes, "total time, ms", "")
     for row, sheet in zip(axes, records.sheets):
         row[0].set_ylabel(f"{style.sheet_title(sheet)}\nexcess error, %")
@@ -42,5 +60,5 @@ def budgets_figure(records):
         f"Excess error against total time at {top} triangles, after {', '.join(map(str, records.budgets))} iterations of "
         "conjugate gradients that start from zero (filled markers) and after the direct solve (hollow markers). "
         "Preconditioner: the diagonal block of each vertex (cg), or joint blocks of the vertices round slivers (cg sliver "
-        "blocks). Marker: median over problems and ensembles; bars: quartiles."), front.legend_entries())
+        "blocks). Beside the markers of the first method, and of programs: the iterations, where there is room. Marker: median over problems and ensembles; bars: quartiles."), front.legend_entries(records.looks.values()))
     return figure

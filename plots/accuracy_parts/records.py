@@ -32,7 +32,8 @@ class Records:
         self.table = table.assign(failed=failed, ratio=1 + table["excess_error"], ms=table["total_us"] / 1000,
                                   excess_percent=100 * table["excess_error"], direct=table["budget"] == 0)
         self.run = load.Run(table[~failed], table[failed], load.read_context(folder / "context.json"))
-        self.looks = style.looks(set(zip(table["method"], table["knob"])))
+        self.programs = load.programs(table, self.run.context)
+        self.looks = style.looks(set(zip(table["method"], table["knob"])), self.programs)
         self.methods = {v: look for v, look in self.looks.items() if v != REFERENCE}
         self.sheets = style.sheet_order(table["sheet"])
         self.problems = list(dict.fromkeys(table["problem"]))

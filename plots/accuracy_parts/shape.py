@@ -28,15 +28,16 @@ def shape_figure(records):
             here = records.rows(sheet=sheet, **condition)
             for variant, look in records.methods.items():
                 dots = of(here, variant).dropna(subset=["ratio", "ar_max_cut"])
-                ax.plot(dots["ar_max_cut"], dots["ratio"], linestyle="", marker="o", markersize=1.3,
-                        markeredgewidth=0, color=look.colour, alpha=0.45, zorder=2, rasterized=True)
-            bins = decades(here[here["method"] != REFERENCE[0]])
+                ax.plot(dots["ar_max_cut"], dots["ratio"], linestyle="", marker="o",
+                        markersize=1.8 if look.program else 1.3, markeredgewidth=0, color=look.colour,
+                        alpha=0.9 if look.program else 0.45, zorder=3 if look.program else 2, rasterized=True)
+            bins = decades(of_harness(records, here))
             ax.plot(bins.index, bins["ratio"], color="#c00000", linewidth=1.1, marker="_", markersize=4, zorder=4)
             ax.axhline(1, color="#111111", linewidth=0.5, zorder=1)
             ax.set_xscale("log")
             ax.set_yscale("log")
             ax.set_title(title if sheet == records.sheets[0] else "", fontsize=6.3)
-        row[0].set_ylabel(f"{style.sheet_title(sheet)}\nerror / fitted mesh's")
+        row[0].set_ylabel(f"{style.sheet_title(sheet)}\nerror / fitted mesh's", fontsize=6)
     for ax in axes.flat:
         ax.xaxis.set_major_locator(LogLocator(numticks=4))
         ax.xaxis.set_minor_formatter(NullFormatter())
@@ -49,8 +50,20 @@ def shape_figure(records):
     style.finish(figure, [], records.caption(
         "Does the error depend on the shape of the triangles? Error over that of the body-fitted mesh, direct solver, "
         "against the largest aspect ratio of the triangles that the cut made or changed; plane problems, a dot for each case. "
+        f"{but_programs(records)}"
         f"{' '.join(shape_statements(records))} {style.AR_DEFINITION}"), [*dots, line])
     return figure
+
+
+def of_harness(records, table):
+    """The rows of the methods that the claim is about: neither those of the reference nor of programs."""
+    return table[~table["method"].isin({REFERENCE[0], *records.programs})]
+
+
+def but_programs(records):
+    """What a figure or table has to say where of_harness() leaves programs out."""
+    names = ", ".join(sorted(name.replace("_", " ") for name in records.programs))
+    return f"Programs ({names}) are in no fit and in no median over all methods. " if names else ""
 
 
 def decades(table):
@@ -110,7 +123,7 @@ def shape_statements(records):
     found = []
     for title, condition in shape_columns(records):
         table = records.rows(**condition)
-        factor, low, high, n = factor_per_decade(table[(table["method"] != REFERENCE[0]) & ~table["failed"]])
+        factor, low, high, n = factor_per_decade(of_harness(records, table[~table["failed"]]))
         if not n or np.isnan(factor):
             continue
         title = title.replace("\n", " ")
@@ -150,14 +163,15 @@ def starts_at(medians):
 def print_shapes(records):
     """Prints how much the shape of the triangles slows the solver, and from which decade on, for each method."""
     lags = {(solver, budget): lags_of(records, solver, budget) for solver in records.solvers for budget in records.budgets}
+    kept = {key: of_harness(records, table) for key, table in lags.items()}
     rows = [[solver, str(budget), *(by_decade(table).get(d, np.nan) for d in range(7))]
-            for (solver, budget), table in lags.items()]
+            for (solver, budget), table in kept.items()]
     if not rows:
         return
-    sizes = next(iter(lags.values())).groupby("decade").size()
+    sizes = next(iter(kept.values())).groupby("decade").size()
     rows.append(["cases", "", *(str(sizes.get(d, 0)) for d in range(7))])
     load.print_table("Error after so many iterations over the same sheet's own, solved directly: medians over all methods "
-                     "by the largest aspect ratio of the cut", ["solver", "iterations", "AR 1-10", "10-100", "100-1000",
+                     f"by the largest aspect ratio of the cut. {but_programs(records)}".strip(), ["solver", "iterations", "AR 1-10", "10-100", "100-1000",
                                                                 "1e3-1e4", "1e4-1e5", "1e5-1e6", "1e6-1e7"], rows)
     starts = [[look.label, solver, *(starts_at(by_decade(of(lags[solver, budget], variant))) for budget in records.budgets)]
               for variant, look in records.methods.items() if variant[0] != REFERENCE[0] for solver in records.solvers]
@@ -167,7 +181,7 @@ def print_shapes(records):
 
 def print_statements(records):
     records = records.in_plane()
-    print("\nDoes the error depend on the aspect ratio? All sheets:")
+    print("\nDoes the error depend on the aspect ratio? " + but_programs(records) + "All sheets:")
     for statement in shape_statements(records):
         print(f"  {statement}")
     for sheet in records.sheets:

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.lines import Line2D
 
-from common import load
+from common import load, style
 
 SOLVE = ["solver", "budget"]  # columns of records whose cuts were solved
 FRONT_LINE = dict(color="#111111", linewidth=0.7, linestyle=(0, (1, 1)), zorder=2.5)
@@ -53,12 +53,17 @@ def cells(table, x, y, by, panel=()):
 
 
 def draw(ax, points, look, size=1.0):
-    """One curve of a panel, its points in order; those behind the front pale. Bars: quartiles."""
+    """One curve of a panel, its points in order; those behind the front pale, but not those of a program, which has its
+    name beside the first. Bars: quartiles."""
     made = points[points["layer"] > 0]
-    ax.plot(made["x"], made["y"], color=look.colour, linestyle=look.line, linewidth=0.5 * look.width, alpha=BEHIND,
+    behind = 1.0 if look.program else BEHIND
+    if look.program and len(made):
+        ax.annotate(look.label.removesuffix(style.PROGRAM), (made["x"].iloc[0], made["y"].iloc[0]), xytext=(-3, 3),
+                    textcoords="offset points", ha="right", fontsize=4.8, color=look.colour, zorder=5)
+    ax.plot(made["x"], made["y"], color=look.colour, linestyle=look.line, linewidth=0.5 * look.width, alpha=behind,
             zorder=2)
     for _, p in made.iterrows():
-        alpha = 1.0 if p["layer"] == 1 else BEHIND
+        alpha = 1.0 if p["layer"] == 1 else behind
         bars = dict(color=look.colour, linewidth=0.7, alpha=0.5 * alpha, zorder=1.5)
         ax.hlines(p["y"], *_finite(p["x_q1"], p["x_q3"], p["x"]), **bars)
         ax.vlines(p["x"], *_finite(p["y_q1"], p["y_q3"], p["y"]), **bars)
@@ -98,8 +103,9 @@ def _of(points, variant):
     return points[(points["method"] == variant[0]) & (points["knob"] == variant[1])]
 
 
-def legend_entries():
-    return [Line2D([], [], label="Pareto front (other points: pale)", **FRONT_LINE)]
+def legend_entries(looks):
+    others = "other points: pale, but for programs" if any(look.program for look in looks) else "other points: pale"
+    return [Line2D([], [], label=f"Pareto front ({others})", **FRONT_LINE)]
 
 
 def scale(axis, values):

@@ -5,7 +5,10 @@ import argparse
 import functools
 import gzip
 import json
+import re
+import shlex
 import sys
+import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,6 +20,7 @@ SUITE_VERSIONS = ["2", "3", "4"]  # that can be read; older column names are ren
 TEXT = ["suite_version", "sheet", "method", "knob", "seed", "cache", "status", "verdict", "reason"]
 TEXT_OF_SOME = ["cut_family", "problem", "solver", "primary",  # text in the records that have them
                 "sweep", "cut", "pose", "integrator", "stress_stiffness", "mass", "bending"]
+OPTIONAL = ["process_us"]  # read wherever it is: which methods are programs
 COUNTS = ["resolution", "case", "repetition"]
 VARIANT = ["method", "knob"]
 CUT = ["suite_version", "cut_family", "sheet", "resolution", "case"]  # names one cut, whatever the method
@@ -95,7 +99,7 @@ def run_of(records, context, measures):
 
 
 def read_records(path, columns, all_columns=False):
-    """The table with `columns`, or with all columns of the file, which must include `columns`. Names of older versions are
+    """The table with `columns` and those of OPTIONAL, or with all columns of the file, which must include `columns`. Names of older versions are
     replaced by those of today."""
     if not path.is_file():
         unfinished = path.with_name(path.name + ".part")
@@ -113,7 +117,7 @@ def read_records(path, columns, all_columns=False):
             file.seek(start)
             table = pd.read_csv(file, dtype=str, keep_default_na=False).rename(columns=names)
             if not all_columns:
-                table = table[columns]
+                table = table[[*columns, *(c for c in OPTIONAL if c in table and c not in columns)]]
         for column in table.columns.difference(TEXT + TEXT_OF_SOME):
             table[column] = table[column].replace("", "nan").astype(float)
         table = table.astype({column: int for column in COUNTS})
@@ -169,7 +173,43 @@ def read_context(path):
         stop(f"{path} can't be read: {error}")
     if not isinstance(context, dict):
         stop(f"{path} is not an object of keys and values")
+    if isinstance(context.get("command"), str):
+        context["command"] = pasteable(context["command"])
     return context
+
+
+def pasteable(command):
+    """A command line of `cutbench run` for a shell. Contexts hold its words with a space between them, so the blanks in the
+    command of a program have lost their quotes; it goes on to the next option that `run` has. What is quoted stays so."""
+    option = "methods|command|resolutions|sweeps|cases|repetitions|seed|out|jobs|shard"
+
+    def quoted(match):
+        try:
+            if len(shlex.split(match[2])) == 1:
+                return match[0]
+        except ValueError:  # an apostrophe in it
+            pass
+        return match[1] + shlex.quote(match[2])
+
+    return re.sub(rf"( --command[ =])(.*?)(?= --(?:{option})[ =]|$)", quoted, command)
+
+
+def programs(table, context):
+    """Names of the methods that are programs of their own: with a time of the process in the records, given to `cutbench
+    run` by --command, or with a command in its experiment file, where that is still there."""
+    found = set(table.loc[table["process_us"].notna(), "method"]) if "process_us" in table else set()
+    try:
+        words = shlex.split(str(context.get("command") or "").replace(" --command=", " --command "))
+    except ValueError:  # a quote without its other one
+        words = []
+    found |= {name.partition("=")[0] for option, name in zip(words, words[1:]) if option == "--command"}
+    for file in (word for word in words if word.endswith(".toml")):
+        try:
+            methods = tomllib.loads((REPOSITORY / file).read_text(encoding="utf-8")).get("methods", [])
+        except (OSError, ValueError):
+            continue
+        found |= {m["name"] for m in methods if isinstance(m, dict) and "command" in m and "name" in m}
+    return found & set(table["method"])
 
 
 def write_beside(path, text):

@@ -39,6 +39,7 @@ class Look:
     marker: str
     line: str = "-"
     width: float = 1.0  # points; curves drawn first are wider, so that one hidden behind another can still be seen
+    program: bool = False  # a program of its own, no method of the harness
 
     def drawn(self):
         """Keywords for plot()."""
@@ -55,13 +56,16 @@ KNOWN = {  # in the order of the legend
     ("body_fitted (reference)", ""): Look("body-fitted mesh (reference)", "#111111", "*", "--"),
     ("every_edge", ""): Look("every edge tested", "#8a8a8a", "h", ":"),
 }
+PROGRAM = " (program)"
+PROGRAM_TIME = (" The time of a program is that of its process, from start to end unless it reports its own, not of the "
+                "geometry with warm caches.")
 FREE_COLOURS = ["#009e73", "#cc79a7", "#e69f00", "#7b3294", "#8c564b", "#b2182b", "#66a61e", "#01665e"]
 FREE_MARKERS = ["P", "X", "<", ">", "p", "H", "d", "8"]
 SHEETS = {"grid": "the paper's grid", "alternating": "alternating", "delaunay": "Delaunay", "graded": "graded"}
 
 
-def looks(variants):
-    """The Look of each (method, knob), in the order of the legend. A method that KNOWN does not name gets the free
+def looks(variants, programs=()):
+    """The Look of each (method, knob), in the order of the legend; those whose method is one of `programs` say so. A method that KNOWN does not name gets the free
     colour its name hashes to (the next one if another method of this figure has it), its knobs lighter shades of it."""
     chosen = {v: look for v, look in KNOWN.items() if v in variants}
     unknown = sorted(set(variants) - set(KNOWN), key=lambda v: (v[0], natural(v[1])))
@@ -76,9 +80,11 @@ def looks(variants):
             colours[method] = FREE_COLOURS[slot % len(FREE_COLOURS)]
         for i, (_, knob) in enumerate(v for v in unknown if v[0] == method):
             label = names.get(method, method.replace("_", " ")) + (f", {knob}" if knob else "")
+            label += PROGRAM * (method in programs)
             marker = FREE_MARKERS[(zlib.crc32(method.encode()) + i) % len(FREE_MARKERS)]
             line = ("-", "--", "-.", ":")[(i + any(m == method for m, _ in KNOWN)) % 4]
-            chosen[method, knob] = Look(label, lighter(colours[method], min(0.25 * i, 0.6)), marker, line)
+            chosen[method, knob] = Look(label, lighter(colours[method], min(0.25 * i, 0.6)), marker, line,
+                                        program=method in programs)
     return chosen
 
 
@@ -193,7 +199,10 @@ def plain_numbers(ax):
 
 
 def legend_entry(look):
-    return Line2D([], [], label=look.label, **look.drawn())
+    drawn = look.drawn()
+    if look.marker == "*":  # looks smaller than others of its size
+        drawn |= dict(markersize=drawn["markersize"] + 2.5, markeredgecolor=look.colour)
+    return Line2D([], [], label=look.label, **drawn)
 
 
 def provenance(run, cases, with_machine=False, with_crosses=True, per=("sheet", "resolution")):

@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from accuracy_parts.ranking import made_by_all, mean_excess
+from accuracy_parts.ranking import made_by_all, mean_excess, ranked_by
 from accuracy_parts.records import CASE, REFERENCE
 from common.load import of
 
@@ -32,7 +32,8 @@ def interval(kinds):
     """Of mean_over(), 95 %, of kinds drawn with replacement (bootstrap)."""
     draw, values = np.random.default_rng(1), np.log1p(np.array(list(kinds.values())) / 100)
     means = draw.choice(values, (DRAWS, len(values))).mean(axis=1)
-    return [f"{100 * (np.exp(m) - 1):+.0f}" for m in np.quantile(means, [0.025, 0.975])]
+    ends = 100 * (np.exp(np.quantile(means, [0.025, 0.975])) - 1)
+    return " to ".join(f"{end:+.0f}" for end in ends) if np.isfinite(ends).all() else "-"
 
 
 def by_measure(direct, fitted, measure):
@@ -44,7 +45,8 @@ def by_measure(direct, fitted, measure):
 
 
 def table_of(records):
-    """A row per method, most accurate first. \\param records  ranked, at_equal_unknowns()"""
+    """A row per method, most accurate first, by ranked_by(). \\param records  ranked, at_equal_unknowns()"""
+    measure = ranked_by(records)
     table = records.table[records.table["direct"] & (records.table["problem"] != TWICE)]
     table = table.assign(kind=table["problem"].map(kind_of))
     table = table[table["kind"].notna()]
@@ -54,13 +56,17 @@ def table_of(records):
     rows = []
     for variant in records.methods:
         made = of(common, variant)
-        kinds = {kind: mean_excess(made[made["kind"] == kind], "ratio_equal") for kind in KINDS if (made["kind"] == kind).any()}
+        kinds = {kind: mean_excess(made[made["kind"] == kind], measure.column) for kind in KINDS if (made["kind"] == kind).any()}
         keeps = {kind: value for kind, value in kinds.items() if kind != MOUTH}
         if not keeps:
             continue
         rows.append({"method": variant[0], "knob": variant[1], "error, kinds": mean_over(kinds),
-                     "error, without tip field": mean_over(keeps), "error, its 95 %": " to ".join(interval(keeps)),
+                     "error, without tip field": mean_over(keeps), "error, its 95 %": interval(keeps),
                      **{f"error, {kind}": value for kind, value in kinds.items()},
                      **{f"error, by {m}": by_measure(made[made["kind"] != MOUTH], fitted, m) for m in MEASURES
                         if f"error_{m}" in made}})
-    return pd.DataFrame(rows).sort_values("error, without tip field", kind="stable")
+    if not rows:
+        return pd.DataFrame(columns=["method", "knob", "error, kinds"])
+    result = pd.DataFrame(rows).sort_values("error, without tip field", kind="stable")
+    result.attrs["note"] = measure.note and f"{measure.note} All here are over {measure.fitted}."
+    return result
