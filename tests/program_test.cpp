@@ -61,14 +61,15 @@ TEST_F(Programs, EachFailureIsNamed) {
   };
   const std::string unused = " # {mesh} {path} {out}";
   for (const Case& c : std::vector<Case>{
-           {"exit 3" + unused, "", 1, "failed (crashed): exit code 3"},
+           {"exit 2" + unused, "", 1, "failed (crashed): exit code 2"},
+           {"python3 none.py" + unused, "", 1, "failed (crashed): exit code 2: python3: can't open file"},
            {"echo first >&2; echo the reason >&2; exit 1" + unused, "", 1, "failed (crashed): exit code 1: the reason"},
            {"kill -SEGV $$" + unused, "", 1, "failed (crashed): ended by signal 11"},
            {"sleep 60" + unused, "--command-time-limit 0.3", 1, "failed (timed_out): ended at its time limit"},
            {"sleep 60 & while :; do :; done" + unused, "--command-time-limit 0.3", 1, "failed (timed_out): "},
            {"python3 -c \"x = bytearray(10**9)\"" + unused, "--command-memory-limit 200", 1,
             "failed (crashed): exit code 1: MemoryError"},
-           {"echo too hard >&2; exit 2" + unused, "", 2, "program refuses this cut: too hard"},
+           {"echo too hard >&2; exit 3" + unused, "", 2, "program refuses this cut: too hard"},
            {"true" + unused, "", 1, "failed (no_result): the program ended well, but wrote no {out}"},
            {"echo nonsense >{out}" + unused, "", 1, "failed (no_result): out.obj: no triangles"},
            {"cp {mesh} {out}" + unused, "", 1, "failed (wrong_pieces): wrong_pieces: 1 instead of 2"},
@@ -243,3 +244,35 @@ TEST_F(Programs, CanBeAddedToAnExperiment) {
 
 }  // namespace
 }  // namespace cutbench
+/// Not one line of the table, but nothing in the medians: a mistake in a command must not look like success.
+TEST_F(Programs, ThatMakeNoCutAreNamed) {
+  write(folder_ / "e.toml", small_experiment());
+  write(folder_ / "c.toml",
+        "claim = \"c\"\nsheets = [\"delaunay\"]\nresolutions = [72]\ncases = 4\nmethods = "
+        "\"all\"\n[campaign]\ntime_limit_s = 60\n");
+  write(folder_ / "a.toml",
+        "claim = \"c\"\nsheets = [\"grid\"]\nresolutions = [200]\nmethods = \"all\"\n[accuracy]\n"
+        "problems = [\"centre_crack\"]\nmembers = [1]\nreference = false\ndirect = [\"cholmod\"]\n");
+  const auto run_alone = [&](const std::string& experiment, const std::string& command) {
+    return run("run " + experiment + " --out r --cases 1 --methods mine --command 'mine=" + command +
+               " # {mesh} {path} {out}'");
+  };
+  for (const char* experiment : {"e.toml", "a.toml", "c.toml"}) {
+    const Result missing = run_alone(experiment, "python3 none.py");
+    EXPECT_EQ(missing.code, 1) << experiment;
+    EXPECT_NE(missing.error.find("exit code 2: python3: can't open file"), std::string::npos) << missing.error;
+    const Result refuses = run_alone(experiment, "echo too hard >&2; exit 3");
+    EXPECT_EQ(refuses.code, 1) << experiment;
+    EXPECT_NE(refuses.error.find(": mine made none of its "), std::string::npos) << refuses.error;
+    EXPECT_NE(refuses.error.find(" results right; the last: refused: too hard\n"), std::string::npos) << refuses.error;
+    const std::vector<std::string> table = lines_of(refuses.out);
+    EXPECT_TRUE(std::any_of(table.begin(), table.end(), [](const std::string& line) {
+      return line.find("mine") != std::string::npos;
+    })) << refuses.out;
+  }
+  const Result right = run("run e.toml --out r --cases 1 --methods mine --command 'mine=" + split + "'");
+  EXPECT_EQ(right.code, 0);
+  EXPECT_EQ(right.error.find("none of its"), std::string::npos) << right.error;
+  for (const Record& row : records("e")) EXPECT_EQ(row.get("method"), "mine");
+}
+

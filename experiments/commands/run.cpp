@@ -175,7 +175,7 @@ Command add_run(CLI::App& app) {
       "  cutbench run experiments/method_comparison.toml --resolutions 800 --cases 2 --out results/small\n"
       "exit codes:\n"
       "  0  all cuts were judged correct\n"
-      "  1  a method failed, a result is wrong, or a file can't be written\n"
+      "  1  a method failed, a result is wrong, a --command made no cut, or a file can't be written\n"
       "  2  bad input: an option or a file");
   return {command, [arguments](const std::string& line) { return run_all(*arguments, line); }};
 }

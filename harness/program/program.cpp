@@ -59,7 +59,7 @@ class Program : public CuttingMethod {
     write_mesh(sheet.to_mesh_data(), files.mesh);
     write_path({curve_}, files.path);
     const ProgramEnd end = run_program(files.filled_in(settings_.command), settings_.folder, settings_.limits);
-    if (end.how == ProgramEnd::How::exited && end.code == 2)
+    if (end.how == ProgramEnd::How::exited && end.code == exit_refused)
       throw CutRefused(end.message.empty() ? "the program refuses this cut, without a reason" : end.message);
     if (end.how == ProgramEnd::How::timed_out) throw CutFailed(verdict_timed_out, end.text());
     if (!end.succeeded()) throw CutFailed(verdict_crashed, end.text());
