@@ -72,7 +72,7 @@ TEST_F(Programs, EachFailureIsNamed) {
            {"echo too hard >&2; exit 3" + unused, "", 2, "program refuses this cut: too hard"},
            {"true" + unused, "", 1, "failed (no_result): the program ended well, but wrote no {out}"},
            {"echo nonsense >{out}" + unused, "", 1, "failed (no_result): out.obj: no triangles"},
-           {"cp {mesh} {out}" + unused, "", 1, "failed (wrong_pieces): wrong_pieces: 1 instead of 2"},
+           {"cp {mesh} {out}" + unused, "", 1, "failed (wrong_pieces): not_opened: the path at ("},
            {"no_such_program" + unused, "", 1, "failed (crashed): exit code 127: "},
            {"cp {mesh} {out}", "", 2, "its command lacks {path}; such as: "}}) {
     const Result made = cut_by(c.command, c.more);
@@ -94,6 +94,26 @@ TEST_F(Programs, AResultTooCloseToItselfIsRefused) {
       folder_ / "path.json",
       R"({"cuts":[{"polyline":[[0.5967568027844311,0.30112806395172453],[0.398799080976413,0.7039807385691422],)"
       R"([0.9967200980491203,0.0016368765536538816],[0.8410462482739741,0.34855717342487513],)"
+/// A cut is wrong for the same reason, in the same words, whether `cut` or `score` judges it.
+TEST_F(Programs, AreJudgedAsScoreJudges) {
+  const std::string kept = " && cp {out} kept.obj";
+  for (const auto& [command, verdict] : std::vector<std::pair<std::string, std::string>>{
+           {split + " && sed -E -i \"s/([.][0-9]{6})[0-9]+/\\1/g\" {out}", "rounded"},
+           {"cat {path} >/dev/null; cp {mesh} {out}", "wrong_pieces"},
+           {split + " && sed -E -i \"s/^f ([0-9]+) ([0-9]+)/f \\2 \\1/\" {out}", "inverted"},
+           {split + " && sed -i \"\\$ d\" {out}", "leak"}}) {
+    const Result made = cut_by(command + kept);
+    EXPECT_EQ(made.code, 1) << command << made.error;
+    const Result scored = run("score --mesh sheet.obj --path path.json --result kept.obj");
+    EXPECT_EQ(scored.code, 1);
+    const std::vector<std::string> lines = lines_of(scored.out);
+    ASSERT_GE(lines.size(), 3u) << scored.out << scored.error;
+    EXPECT_EQ(lines[0], "failed: " + verdict);
+    EXPECT_EQ(made.error, "failed (" + verdict + "): " + lines[1] + "\n" + lines[2] + "\n");
+    EXPECT_EQ(lines[2].substr(0, 6), "mend: ");
+  }
+}
+
       R"([0.4656824756620728,0.27567981533165953],[1.0697074778404851,0.3929520445473573]]},)"
       R"({"polyline":[[0.8410462482746501,0.3485571734233654],[0.46568247566207366,0.2756798153316598]]},)"
       R"({"closed":true,"polyline":[[0.6408600646157762,0.09581844004706838],[0.6408600388758943,0.09581844597755454],)"

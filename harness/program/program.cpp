@@ -6,8 +6,7 @@
 #include <sstream>
 
 #include "harness/base/errors.h"
-#include "harness/cut/cut.h"
-#include "harness/judge/oracle_request.h"
+#include "harness/judge/assessment.h"
 #include "harness/mesh/mesh_io.h"
 #include "harness/path/cut_failed.h"
 #include "harness/program/adopt.h"
@@ -83,16 +82,15 @@ class Program : public CuttingMethod {
   }
 
   void judge(const Sheet& sheet, const MeshData& result) const {
-    const oracle::Request request = request_for(sheet, {&curve_, 1}, promises_of_programs, options_, false);
-    oracle::Mesh mesh;
-    for (Point2 p : result.rest) mesh.rest.push_back({p.x, p.y});
-    mesh.triangles = result.triangles;
-    const oracle::Judgement judgement = oracle::judge(request, mesh);
-    if (!judgement.ok) throw CutFailed(judgement.verdict, judgement.problems.front());
+    const Assessment a = judge_result(sheet, result, {&curve_, 1}, promises_of_everybody, options_);
+    if (a.judgement.ok) return;
+    const Finding& f = a.findings.front();
+    throw CutFailed(a.judgement.verdict, f.cause + ": " + f.text + "\nmend: " + f.mend);
   }
 
   ProgramSettings settings_;
   Curve curve_;
+  /// As `cutbench score` does, and in its words.
   CutOptions options_;
 };
 
