@@ -239,7 +239,14 @@ TEST_F(Programs, FaultsAreMadeSmall) {
   EXPECT_LT(small.triangles.size(), 20u);
   EXPECT_EQ(read_path(folder_ / "fault.small.json").front().points.size(), 5u);
   EXPECT_EQ(run("cut --mesh fault.small.obj --path fault.small.json --out out.obj" + command).code, 1);
-  EXPECT_EQ(read(folder_ / "fault.small.svg").substr(0, 4), "<svg");
+  const std::string drawing = read(folder_ / "fault.small.svg");
+  EXPECT_EQ(drawing.substr(0, 4), "<svg");
+  const std::vector<std::string> told = lines_of(read(folder_ / "fault.txt"));  // of the smaller one last
+  const auto small_part =
+      std::find_if(told.begin(), told.end(), [](const std::string& line) { return line.starts_with("fault.small: "); });
+  ASSERT_LT(small_part + 1, told.end());
+  const std::string its_fault = (small_part + 1)->substr((small_part + 1)->find("cut 1 "));
+  EXPECT_NE(drawing.find(its_fault), std::string::npos) << drawing.substr(drawing.find("<text"));
   const Result right = run("reduce --mesh sheet.obj --path path.json --out none --method example");
   EXPECT_EQ(right.code, 2);
   EXPECT_NE(right.error.find("nothing to reduce: example cuts this sheet right"), std::string::npos) << right.error;
