@@ -53,6 +53,14 @@ TEST_F(Programs, TheirOwnTimeCounts) {
   EXPECT_EQ(nlohmann::json::parse(read(folder_ / "report.json"))["process_us"], 12.5);
 }
 
+TEST_F(Programs, ATimeThatIsMissingIsNoted) {
+  for (const std::string time : {": {time}", "echo 12.5 >{time}"}) {
+    const Result made = cut_by(split + " && " + time);
+    EXPECT_EQ(made.code, 0);
+    EXPECT_EQ(made.error, "note: program wrote no {\"us\": NUMBER} to {time}; its time from start to end counts\n");
+  }
+}
+
 TEST_F(Programs, EachFailureIsNamed) {
   struct Case {
     std::string command, more;
@@ -86,14 +94,6 @@ TEST_F(Programs, EachFailureIsNamed) {
       2);
 }
 
-/// The second cut runs beside the first within the snap distance. The oracle allows for such a result, but a sheet that
-/// took it over was broken, and the third cut ended by an internal error.
-TEST_F(Programs, AResultTooCloseToItselfIsRefused) {
-  write_mesh(make_sheet("graded", 6), folder_ / "sheet.obj");
-  write(
-      folder_ / "path.json",
-      R"({"cuts":[{"polyline":[[0.5967568027844311,0.30112806395172453],[0.398799080976413,0.7039807385691422],)"
-      R"([0.9967200980491203,0.0016368765536538816],[0.8410462482739741,0.34855717342487513],)"
 /// A cut is wrong for the same reason, in the same words, whether `cut` or `score` judges it.
 TEST_F(Programs, AreJudgedAsScoreJudges) {
   const std::string kept = " && cp {out} kept.obj";
@@ -114,6 +114,14 @@ TEST_F(Programs, AreJudgedAsScoreJudges) {
   }
 }
 
+/// The second cut runs beside the first within the snap distance. The oracle allows for such a result, but a sheet that
+/// took it over was broken, and the third cut ended by an internal error.
+TEST_F(Programs, AResultTooCloseToItselfIsRefused) {
+  write_mesh(make_sheet("graded", 6), folder_ / "sheet.obj");
+  write(
+      folder_ / "path.json",
+      R"({"cuts":[{"polyline":[[0.5967568027844311,0.30112806395172453],[0.398799080976413,0.7039807385691422],)"
+      R"([0.9967200980491203,0.0016368765536538816],[0.8410462482739741,0.34855717342487513],)"
       R"([0.4656824756620728,0.27567981533165953],[1.0697074778404851,0.3929520445473573]]},)"
       R"({"polyline":[[0.8410462482746501,0.3485571734233654],[0.46568247566207366,0.2756798153316598]]},)"
       R"({"closed":true,"polyline":[[0.6408600646157762,0.09581844004706838],[0.6408600388758943,0.09581844597755454],)"
@@ -269,8 +277,6 @@ TEST_F(Programs, CanBeAddedToAnExperiment) {
   }
 }
 
-}  // namespace
-}  // namespace cutbench
 /// Not one line of the table, but nothing in the medians: a mistake in a command must not look like success.
 TEST_F(Programs, ThatMakeNoCutAreNamed) {
   write(folder_ / "e.toml", small_experiment());
@@ -303,3 +309,5 @@ TEST_F(Programs, ThatMakeNoCutAreNamed) {
   for (const Record& row : records("e")) EXPECT_EQ(row.get("method"), "mine");
 }
 
+}  // namespace
+}  // namespace cutbench

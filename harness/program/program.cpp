@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdio>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include "harness/base/errors.h"
 #include "harness/judge/assessment.h"
@@ -67,10 +69,19 @@ class Program : public CuttingMethod {
     adopt(sheet, result);
     trace.along.clear();  // what the path runs along is open as well
     const double own = reported_us(files.time);
+    if (own <= 0 && settings_.command.find("{time}") != std::string::npos) note_no_time();
     notes.program_us = own > 0 ? own : end.us;
   }
 
  private:
+  /// Once in a process: a run makes many cuts.
+  void note_no_time() const {
+    static bool told = false;
+    if (!std::exchange(told, true))
+      std::fprintf(stderr, "note: %s wrote no {\"us\": NUMBER} to {time}; its time from start to end counts\n",
+                   settings_.name.c_str());
+  }
+
   static MeshData read_result(const std::filesystem::path& file) {
     if (std::error_code none; !std::filesystem::exists(file, none))
       throw CutFailed(verdict_no_result, "the program ended well, but wrote no {out}");
@@ -81,6 +92,7 @@ class Program : public CuttingMethod {
     }
   }
 
+  /// As `cutbench score` does, and in its words.
   void judge(const Sheet& sheet, const MeshData& result) const {
     const Assessment a = judge_result(sheet, result, {&curve_, 1}, promises_of_everybody, options_);
     if (a.judgement.ok) return;
@@ -90,7 +102,6 @@ class Program : public CuttingMethod {
 
   ProgramSettings settings_;
   Curve curve_;
-  /// As `cutbench score` does, and in its words.
   CutOptions options_;
 };
 
