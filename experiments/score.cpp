@@ -35,6 +35,18 @@ void print_findings(const Assessment& a, std::size_t cuts) {
   }
 }
 
+/// Where another number of pieces than the exact path's is right.
+void print_why_another_number(const oracle::Judgement& j, std::size_t cuts) {
+  if (!j.ok || j.expected_pieces == 0 || j.pieces == j.expected_pieces) return;
+  std::cout
+      << j.pieces << " pieces instead of " << j.expected_pieces << " are right, too: " << j.least_pieces << " to "
+      << j.most_pieces
+      << " are allowed, since the incision may lie beside the path, and pieces or gaps thinner than that may come or "
+         "go";
+  if (cuts > 1) std::cout << "; score the " << cuts << " cuts one after the other to have each judged more narrowly";
+  std::cout << '\n';
+}
+
 void print(const Assessment& a, double h, std::size_t cuts) {
   const oracle::Judgement& j = a.judgement;
   std::cout << (j.ok ? "ok" : "failed: " + j.verdict) << '\n';
@@ -43,6 +55,7 @@ void print(const Assessment& a, double h, std::size_t cuts) {
     if (a.findings.empty() || problem != a.findings.front().cause + ": " + a.findings.front().text)
       std::cout << problem << '\n';
   if (!a.measured) return;
+  print_why_another_number(j, cuts);
   std::cout << number(a.connected, "%.0f", j.pieces) << " pieces ("
             << number(a.connected && j.expected_pieces > 0, "%.0f", j.expected_pieces) << " expected), incision error "
             << number(a.connected, "%.4g", j.incision_error / h) << " h, area change "

@@ -52,6 +52,14 @@ class Accuracy : public Program {
 constexpr std::size_t budgets = 1 + 2 * 2;
 constexpr std::size_t cases = 2 * (2 + 1);  // problems x members
 
+TEST_F(Accuracy, CasesAreMembers) {
+  write(folder_ / "e.toml", experiment());
+  std::set<std::string> members;
+  for (const Record& row : run_and_read("--cases 3 --resolutions 72 --methods conventional_split", "r"))
+    members.insert(row.get("case"));
+  EXPECT_EQ(members, (std::set<std::string>{"0", "1", "2"}));
+}
+
 TEST_F(Accuracy, EveryRowIsThereAndAddsUp) {
   write(folder_ / "e.toml", experiment("", "\"centre_crack\", \"parallel_stress\""));
   const auto rows = run_and_read("", "r");

@@ -263,6 +263,62 @@ TEST(Findings, OtherRestPositions) {
   EXPECT_EQ(a.findings.front().cause, "other_rest");
 }
 
+std::optional<Made> cut_across() {
+  return make(Sheet(make_sheet("delaunay", 9)), {{Curve::Kind::polyline, false, {{-0.1, 0.43}, {1.1, 0.52}}}},
+              "conventional_split");
+}
+
+TEST(Findings, AllTrianglesReversedAreFlipped) {
+  auto made = cut_across();
+  ASSERT_TRUE(made);
+  for (auto& t : made->result.triangles) std::swap(t[0], t[1]);
+  const Assessment a = assess_result(made->before, made->result, made->cuts, promises_of_everybody, {});
+  ASSERT_EQ(a.findings.size(), 1u);
+  EXPECT_EQ(a.findings.front().cause, "flipped");
+  EXPECT_NE(a.findings.front().text.find("every triangle"), std::string::npos);
+}
+
+/// A triangle with vertices of its own is a piece more.
+TEST(Findings, TheSmallestOfTooManyPiecesIsNamed) {
+  auto made = cut_across();
+  ASSERT_TRUE(made);
+  MeshData& mesh = made->result;
+  for (const std::size_t t : {std::size_t{3}, mesh.triangles.size() / 2}) {
+    MeshData torn = mesh;
+    for (auto& v : torn.triangles[t]) {
+      torn.rest.push_back(rest(mesh, v)), torn.deformed.push_back(mesh.deformed[static_cast<std::size_t>(v)]);
+      v = static_cast<std::int32_t>(torn.rest.size() - 1);
+    }
+    drop_unused(torn);
+    const Assessment a = assess_result(made->before, torn, made->cuts, promises_of_everybody, {});
+    ASSERT_EQ(a.findings.size(), 1u);
+    const Finding& found = a.findings.front();
+    EXPECT_EQ(found.cause, "extra_pieces") << found.text;
+    EXPECT_EQ(found.text.find("3 pieces instead of 2; the smallest: area "), 0u) << found.text;
+    const auto& [i, j, k] = mesh.triangles[t];
+    const double area = 0.5 * cross(rest(mesh, j) - rest(mesh, i), rest(mesh, k) - rest(mesh, i));
+    EXPECT_NEAR(std::stod(found.text.substr(found.text.find("area ") + 5)), area, 0.01 * area);
+    ASSERT_TRUE(found.place);
+    EXPECT_LT(length(Point2{(*found.place)[0], (*found.place)[1]} - centre(mesh, t)), 1e-12);
+  }
+}
+
+/// A loop so flat that a slit lies within the tolerance of it.
+TEST(Findings, ALoopThatBecameASlitIsNamed) {
+  const Sheet sheet(make_sheet("grid", 10));
+  const double h = sheet.mean_edge();
+  const Point2 a{0.31, 0.47}, b{0.31 + 2.5 * h, 0.52}, c = 0.5 * (a + b) + Point2{0, 0.04 * h};
+  const auto made = make(sheet, {{Curve::Kind::polyline, false, {a, b}}}, "conventional_split");
+  ASSERT_TRUE(made);
+  const std::vector<Curve> asked{{Curve::Kind::polyline, true, {a, b, c}}};
+  const Assessment found = assess_result(sheet, made->result, asked, promises_of_everybody, {});
+  EXPECT_EQ(found.judgement.verdict, "wrong_pieces");
+  ASSERT_EQ(found.findings.size(), 1u);
+  EXPECT_EQ(found.findings.front().cause, "lost_loop") << found.findings.front().text;
+  ASSERT_TRUE(found.findings.front().place);
+  EXPECT_NEAR((*found.findings.front().place)[0], (a.x + b.x + c.x) / 3, 0.1 * h);
+}
+
 TEST(Findings, LostDigitsAreSeenAndShortNumbersAreNot) {
   using Points = std::vector<oracle::Point>;
   Random random(3);

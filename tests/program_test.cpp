@@ -53,6 +53,14 @@ TEST_F(Programs, TheirOwnTimeCounts) {
   EXPECT_EQ(nlohmann::json::parse(read(folder_ / "report.json"))["process_us"], 12.5);
 }
 
+TEST_F(Programs, ATimeThatIsMissingIsNoted) {
+  for (const std::string time : {": {time}", "echo 12.5 >{time}"}) {
+    const Result made = cut_by(split + " && " + time);
+    EXPECT_EQ(made.code, 0);
+    EXPECT_EQ(made.error, "note: program wrote no {\"us\": NUMBER} to {time}; its time from start to end counts\n");
+  }
+}
+
 TEST_F(Programs, EachFailureIsNamed) {
   struct Case {
     std::string command, more;
@@ -61,17 +69,18 @@ TEST_F(Programs, EachFailureIsNamed) {
   };
   const std::string unused = " # {mesh} {path} {out}";
   for (const Case& c : std::vector<Case>{
-           {"exit 3" + unused, "", 1, "failed (crashed): exit code 3"},
+           {"exit 2" + unused, "", 1, "failed (crashed): exit code 2"},
+           {"python3 none.py" + unused, "", 1, "failed (crashed): exit code 2: python3: can't open file"},
            {"echo first >&2; echo the reason >&2; exit 1" + unused, "", 1, "failed (crashed): exit code 1: the reason"},
            {"kill -SEGV $$" + unused, "", 1, "failed (crashed): ended by signal 11"},
            {"sleep 60" + unused, "--command-time-limit 0.3", 1, "failed (timed_out): ended at its time limit"},
            {"sleep 60 & while :; do :; done" + unused, "--command-time-limit 0.3", 1, "failed (timed_out): "},
            {"python3 -c \"x = bytearray(10**9)\"" + unused, "--command-memory-limit 200", 1,
             "failed (crashed): exit code 1: MemoryError"},
-           {"echo too hard >&2; exit 2" + unused, "", 2, "program refuses this cut: too hard"},
+           {"echo too hard >&2; exit 3" + unused, "", 2, "program refuses this cut: too hard"},
            {"true" + unused, "", 1, "failed (no_result): the program ended well, but wrote no {out}"},
            {"echo nonsense >{out}" + unused, "", 1, "failed (no_result): out.obj: no triangles"},
-           {"cp {mesh} {out}" + unused, "", 1, "failed (wrong_pieces): wrong_pieces: 1 instead of 2"},
+           {"cp {mesh} {out}" + unused, "", 1, "failed (wrong_pieces): not_opened: the path at ("},
            {"no_such_program" + unused, "", 1, "failed (crashed): exit code 127: "},
            {"cp {mesh} {out}", "", 2, "its command lacks {path}; such as: "}}) {
     const Result made = cut_by(c.command, c.more);
@@ -83,6 +92,26 @@ TEST_F(Programs, EachFailureIsNamed) {
   EXPECT_EQ(
       run("cut --mesh sheet.obj --path path.json --out out.obj --method example --command 'x {mesh}{path}{out}'").code,
       2);
+}
+
+/// A cut is wrong for the same reason, in the same words, whether `cut` or `score` judges it.
+TEST_F(Programs, AreJudgedAsScoreJudges) {
+  const std::string kept = " && cp {out} kept.obj";
+  for (const auto& [command, verdict] : std::vector<std::pair<std::string, std::string>>{
+           {split + " && sed -E -i \"s/([.][0-9]{6})[0-9]+/\\1/g\" {out}", "rounded"},
+           {"cat {path} >/dev/null; cp {mesh} {out}", "wrong_pieces"},
+           {split + " && sed -E -i \"s/^f ([0-9]+) ([0-9]+)/f \\2 \\1/\" {out}", "inverted"},
+           {split + " && sed -i \"\\$ d\" {out}", "leak"}}) {
+    const Result made = cut_by(command + kept);
+    EXPECT_EQ(made.code, 1) << command << made.error;
+    const Result scored = run("score --mesh sheet.obj --path path.json --result kept.obj");
+    EXPECT_EQ(scored.code, 1);
+    const std::vector<std::string> lines = lines_of(scored.out);
+    ASSERT_GE(lines.size(), 3u) << scored.out << scored.error;
+    EXPECT_EQ(lines[0], "failed: " + verdict);
+    EXPECT_EQ(made.error, "failed (" + verdict + "): " + lines[1] + "\n" + lines[2] + "\n");
+    EXPECT_EQ(lines[2].substr(0, 6), "mend: ");
+  }
 }
 
 /// The second cut runs beside the first within the snap distance. The oracle allows for such a result, but a sheet that
@@ -218,7 +247,14 @@ TEST_F(Programs, FaultsAreMadeSmall) {
   EXPECT_LT(small.triangles.size(), 20u);
   EXPECT_EQ(read_path(folder_ / "fault.small.json").front().points.size(), 5u);
   EXPECT_EQ(run("cut --mesh fault.small.obj --path fault.small.json --out out.obj" + command).code, 1);
-  EXPECT_EQ(read(folder_ / "fault.small.svg").substr(0, 4), "<svg");
+  const std::string drawing = read(folder_ / "fault.small.svg");
+  EXPECT_EQ(drawing.substr(0, 4), "<svg");
+  const std::vector<std::string> told = lines_of(read(folder_ / "fault.txt"));  // of the smaller one last
+  const auto small_part =
+      std::find_if(told.begin(), told.end(), [](const std::string& line) { return line.starts_with("fault.small: "); });
+  ASSERT_LT(small_part + 1, told.end());
+  const std::string its_fault = (small_part + 1)->substr((small_part + 1)->find("cut 1 "));
+  EXPECT_NE(drawing.find(its_fault), std::string::npos) << drawing.substr(drawing.find("<text"));
   const Result right = run("reduce --mesh sheet.obj --path path.json --out none --method example");
   EXPECT_EQ(right.code, 2);
   EXPECT_NE(right.error.find("nothing to reduce: example cuts this sheet right"), std::string::npos) << right.error;
@@ -239,6 +275,38 @@ TEST_F(Programs, CanBeAddedToAnExperiment) {
     EXPECT_EQ(refused.code, 2);
     EXPECT_NE(refused.error.find(what), std::string::npos) << refused.error;
   }
+}
+
+/// Not one line of the table, but nothing in the medians: a mistake in a command must not look like success.
+TEST_F(Programs, ThatMakeNoCutAreNamed) {
+  write(folder_ / "e.toml", small_experiment());
+  write(folder_ / "c.toml",
+        "claim = \"c\"\nsheets = [\"delaunay\"]\nresolutions = [72]\ncases = 4\nmethods = "
+        "\"all\"\n[campaign]\ntime_limit_s = 60\n");
+  write(folder_ / "a.toml",
+        "claim = \"c\"\nsheets = [\"grid\"]\nresolutions = [200]\nmethods = \"all\"\n[accuracy]\n"
+        "problems = [\"centre_crack\"]\nmembers = [1]\nreference = false\ndirect = [\"cholmod\"]\n");
+  const auto run_alone = [&](const std::string& experiment, const std::string& command) {
+    return run("run " + experiment + " --out r --cases 1 --methods mine --command 'mine=" + command +
+               " # {mesh} {path} {out}'");
+  };
+  for (const char* experiment : {"e.toml", "a.toml", "c.toml"}) {
+    const Result missing = run_alone(experiment, "python3 none.py");
+    EXPECT_EQ(missing.code, 1) << experiment;
+    EXPECT_NE(missing.error.find("exit code 2: python3: can't open file"), std::string::npos) << missing.error;
+    const Result refuses = run_alone(experiment, "echo too hard >&2; exit 3");
+    EXPECT_EQ(refuses.code, 1) << experiment;
+    EXPECT_NE(refuses.error.find(": mine made none of its "), std::string::npos) << refuses.error;
+    EXPECT_NE(refuses.error.find(" results right; the last: refused: too hard\n"), std::string::npos) << refuses.error;
+    const std::vector<std::string> table = lines_of(refuses.out);
+    EXPECT_TRUE(std::any_of(table.begin(), table.end(), [](const std::string& line) {
+      return line.find("mine") != std::string::npos;
+    })) << refuses.out;
+  }
+  const Result right = run("run e.toml --out r --cases 1 --methods mine --command 'mine=" + split + "'");
+  EXPECT_EQ(right.code, 0);
+  EXPECT_EQ(right.error.find("none of its"), std::string::npos) << right.error;
+  for (const Record& row : records("e")) EXPECT_EQ(row.get("method"), "mine");
 }
 
 }  // namespace

@@ -248,6 +248,22 @@ TEST_F(Score, NothingToCutIsOk) {
   EXPECT_NE(out_.find("changed triangles: 0"), std::string::npos) << out_;
 }
 
+/// The incision's chords and the path inclose slivers, which an incision beside the path lacks: score says so.
+TEST_F(Score, SaysWhyAnotherNumberOfPiecesIsRight) {
+  const MeshData result = make_result(across, "conventional_split");
+  expect_ok(result);
+  EXPECT_EQ(out_.find("are right, too"), std::string::npos) << out_;
+  write_mesh(result, folder_ / "sheet.obj");  // cut again along the same path
+  expect_ok(result);
+  const json report = json::parse(read(folder_ / "score.json"));
+  EXPECT_EQ(report["pieces"], 2);
+  const int expected = report["expected_pieces"];
+  ASSERT_GT(expected, 2);
+  EXPECT_NE(out_.find("\n2 pieces instead of " + std::to_string(expected) + " are right, too: 2 to "),
+            std::string::npos)
+      << out_;
+}
+
 class Fault : public Score, public testing::WithParamInterface<std::size_t> {
  protected:
   void SetUp() override {

@@ -37,10 +37,10 @@ Exit reduce(const ReduceArguments& arguments) {
   save({name, arguments.mesh + ", " + arguments.path + " by " + row->name, whole, fault}, folder, contender, options,
        time_limit_s, arguments.seconds);
   const std::string small = (folder / (name + ".small")).string();
-  const Finding finding{"reduced", fault.text(), "", {}};
-  WholeFile(small + ".svg",
-            result_as_svg(Sheet(read_mesh(small + ".obj")), {}, read_path(small + ".json"), {&finding, 1}))
-      .place();
+  const CutCase part{read_mesh(small + ".obj"), read_path(small + ".json")};
+  const std::string text = try_in_isolation(contender, part, options, time_limit_s).text();
+  const Finding finding{"reduced", text.substr(0, text.find('\n')), "", {}};
+  WholeFile(small + ".svg", result_as_svg(Sheet(part.mesh), {}, part.cuts, {&finding, 1})).place();
   std::cout << text_of(folder / (name + ".txt")) << small << ".svg: a drawing\n";
   return done;
 }

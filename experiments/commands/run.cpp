@@ -72,12 +72,15 @@ Experiment read_part(const std::string& file, const RunArguments& arguments, con
     for (const MethodRow& row : all_methods()) e.methods.push_back({row.name, {}});
   std::vector<std::string> methods = arguments.methods;
   const bool with_peer = e.campaign && std::erase(methods, "peer") > 0;
-  restrict_to(e.methods, methods, "--methods", [](const auto& m) { return m.method; });
-  if (with_peer && methods.empty()) e.methods.clear();
+  std::vector<Experiment::Entry> programs;  // they run whether --methods names them or not
   for (const std::string& command : arguments.commands) {
     e.programs.push_back(program_in(command));
-    e.methods.push_back({e.programs.back().name, {}});
+    programs.push_back({e.programs.back().name, {}});
+    std::erase(methods, programs.back().method);
   }
+  restrict_to(e.methods, methods, "--methods", [](const auto& m) { return m.method; });
+  if (methods.empty() && !arguments.methods.empty()) e.methods.clear();
+  e.methods.insert(e.methods.end(), programs.begin(), programs.end());
   restrict_to(e.resolutions, arguments.resolutions, "--resolutions", [](int r) { return r; });
   if (e.atlas)
     restrict_to(e.atlas->sweeps, arguments.sweeps, "--sweeps", [](const Sweep& s) { return s.name; });
@@ -86,6 +89,10 @@ Experiment read_part(const std::string& file, const RunArguments& arguments, con
   if (e.campaign && !arguments.methods.empty()) e.campaign->peer = with_peer;
   if (e.campaign && !arguments.resolutions.empty()) e.campaign->mesh_files.clear();
   if (arguments.cases > 0) e.cases = arguments.cases;
+  if (arguments.cases > 0 && e.accuracy)
+    for (auto* members : {&e.accuracy->members, &e.accuracy->members_nonlinear})
+      for (auto& [resolution, number] : *members)
+        if (number > 0) number = arguments.cases;
   if (arguments.repetitions > 0) e.repetitions = arguments.repetitions;
   if (arguments.seed == "commit")
     e.seed = seed_of_commit(context);
@@ -151,13 +158,18 @@ Command add_run(CLI::App& app) {
   auto arguments = std::make_shared<RunArguments>();
   auto* command = app.add_subcommand("run", "run experiments; what was interrupted goes on where it stopped");
   command->add_option("experiments", arguments->experiments, "experiment files (TOML)")->required();
-  command->add_option("--methods", arguments->methods, "only these of the experiment, comma-separated")->delimiter(',');
+  command
+      ->add_option("--methods", arguments->methods,
+                   "only these of the experiment, and names of --command, comma-separated")
+      ->delimiter(',');
   command->add_option("--command", arguments->commands,
                       "NAME=COMMAND: a program as one more method, such as: mine=python3 mine.py {mesh} {path} {out}");
   command->add_option("--resolutions", arguments->resolutions, "only these of the experiment (triangles)")
       ->delimiter(',');
   command->add_option("--sweeps", arguments->sweeps, "only these [[sweeps]] of the experiment")->delimiter(',');
-  command->add_option("--cases", arguments->cases, "number of cases, instead of the experiment's")
+  command
+      ->add_option("--cases", arguments->cases,
+                   "number of cases, or of members of an accuracy run, instead of the experiment's")
       ->check(CLI::PositiveNumber);
   command->add_option("--repetitions", arguments->repetitions, "of each cut, instead of the experiment's")
       ->check(CLI::PositiveNumber);
@@ -175,7 +187,7 @@ Command add_run(CLI::App& app) {
       "  cutbench run experiments/method_comparison.toml --resolutions 800 --cases 2 --out results/small\n"
       "exit codes:\n"
       "  0  all cuts were judged correct\n"
-      "  1  a method failed, a result is wrong, or a file can't be written\n"
+      "  1  a method failed, a result is wrong, a --command made no cut, or a file can't be written\n"
       "  2  bad input: an option or a file");
   return {command, [arguments](const std::string& line) { return run_all(*arguments, line); }};
 }

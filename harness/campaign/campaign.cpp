@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 #include "harness/base/isolated.h"
 #include "harness/base/progress.h"
@@ -14,6 +15,7 @@
 #include "harness/mesh/families.h"
 #include "harness/mesh/mesh_io.h"
 #include "harness/records/record.h"
+#include "harness/run/right_results.h"
 
 namespace cutbench {
 
@@ -66,6 +68,20 @@ class Campaign {
   }
 
   RecordFile& file() { return file_; }
+
+  /// Why cuts of each method went wrong or were refused, as far as this process knows.
+  RightResults results() const {
+    RightResults results;
+    for (const std::string& line : file_.lines()) {
+      const Record row(campaign_columns(), line);
+      const auto count = [&row](Count::Kind kind) { return std::stoll(row.get(count_names[kind])); };
+      const std::int64_t right = count(Count::ok) + count(Count::deviated);
+      const auto why = last_reason_.find(row.get("method"));
+      results.add(row.get("method"), right, count(Count::tried) - count(Count::noop) - right,
+                  why == last_reason_.end() ? "" : why->second);
+    }
+    return results;
+  }
 
   /// Of all rows, also those that an interrupted run had written.
   CampaignSummary summary() const {
@@ -152,6 +168,10 @@ class Campaign {
       count[Count::tried] = std::max<std::int64_t>(1, count[Count::tried]);  // it may have crashed before its first cut
       count[Count::cases] = 1, count[Count::near_event_cases] = drawn_[k].near_event;
       std::transform(count.begin(), count.end(), sums[family].begin(), sums[family].begin(), std::plus<>());
+      if (fault.kind != Count::ok)
+        last_reason_[contender.method] = fault.text();
+      else if (results[k].refusal.front() != 0)
+        last_reason_[contender.method] = std::string("refused: ") + results[k].refusal.data();
       slowest[family] = std::max(slowest[family], results[k].slowest_us);
       if (fault.kind != Count::ok && family > 0 &&
           saved[family]++ < (contender.variant ? saved_per_row : saved_per_row_of_peer))
@@ -205,6 +225,7 @@ class Campaign {
   std::vector<Contender> contenders_;
   std::vector<std::size_t> numbers_;  // of the shard's cases
   std::vector<std::string> families_;
+  std::map<std::string, std::string> last_reason_;  // by method: of what was refused or is wrong
   // Of the sheet under way.
   std::string sheet_name_;
   MeshData mesh_;
@@ -231,7 +252,7 @@ bool run_campaign(const Experiment& experiment, const std::vector<MethodRow>& me
   campaign.file().finish(context, experiment.stem, experiment.claim, options.command, experiment.seed);
   const CampaignSummary summary = campaign.summary();
   if (!options.quiet) summary.print(experiment.stem, experiment.seed);
-  return summary.all_ok();
+  return campaign.results().report(experiment, options.quiet) && summary.all_ok();
 }
 
 }  // namespace cutbench

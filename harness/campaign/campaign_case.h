@@ -46,7 +46,7 @@ class Subject {
   virtual ~Subject() = default;
   struct Result {
     Count::Kind outcome = Count::ok;  ///< ok ... wrong; of a program also crashed and timed_out
-    std::string verdict, reason;      ///< from failed on
+    std::string verdict, reason;      ///< from refused on
     double us = 0;                    ///< the cut's own time
     bool carefully = false;           ///< CutOutcome::carefully
   };
@@ -71,6 +71,7 @@ struct CaseResult {
   Count::Kind fault = Count::ok;  ///< from failed on (crashed: by an exception, or a program); ok: none
   std::array<char, 24> verdict{};
   std::array<char, 400> reason{};
+  std::array<char, 400> refusal{};  ///< the last reason
 };
 
 /// Makes the cuts and counts their outcomes as it goes. A cut that is refused or fails changes nothing, and the next

@@ -128,27 +128,49 @@ Assessment assess(const Sheet& before, const Sheet& after, const oracle::Judgeme
   return result;
 }
 
+namespace {
+
+/// What a result that anybody made is judged by.
+struct Exam {
+  oracle::Request request;
+  oracle::Mesh mesh;
+  Assessment assessment;
+
+  Exam(const Sheet& before, const MeshData& result, std::span<const Curve> cuts, const Promises& asked,
+       const CutOptions& options)
+      : request(request_for(before, cuts, asked, options, true)) {
+    for (Point2 p : result.rest) mesh.rest.push_back({p.x, p.y});
+    mesh.triangles = result.triangles;
+    oracle::Judgement& judgement = assessment.judgement;
+    try {
+      judgement = oracle::judge(request, mesh);
+    } catch (const std::invalid_argument& error) {
+      throw InputError(error.what());
+    }
+    assessment.connected = judgement.verdict != "not_finite" && judgement.verdict != "bad_index" &&
+                           oracle::half_edges(mesh).repeated.empty();
+    assessment.measured = can_be_measured(judgement, mesh);
+    find_faults(assessment, request, mesh, result.deformed);
+  }
+};
+
+}  // namespace
+
+Assessment judge_result(const Sheet& before, const MeshData& result, std::span<const Curve> cuts, const Promises& asked,
+                        const CutOptions& options) {
+  return Exam(before, result, cuts, asked, options).assessment;
+}
+
 Assessment assess_result(const Sheet& before, const MeshData& result, std::span<const Curve> cuts,
                          const Promises& asked, const CutOptions& options) {
-  const oracle::Request request = request_for(before, cuts, asked, options, true);
-  oracle::Mesh mesh;
-  for (Point2 p : result.rest) mesh.rest.push_back({p.x, p.y});
-  mesh.triangles = result.triangles;
-  Assessment a;
-  try {
-    a.judgement = oracle::judge(request, mesh);
-  } catch (const std::invalid_argument& error) {
-    throw InputError(error.what());
-  }
-  a.connected = a.judgement.verdict != "not_finite" && a.judgement.verdict != "bad_index" &&
-                oracle::half_edges(mesh).repeated.empty();
-  a.measured = can_be_measured(a.judgement, mesh);
-  find_faults(a, request, mesh, result.deformed);
+  Exam exam(before, result, cuts, asked, options);
+  Assessment& a = exam.assessment;
   if (!a.measured) return a;
-  measure(a, mesh, changed_triangles(request.before, mesh), forced_corners_of(before, cuts), before.mean_edge());
-  a.vertices_added = difference(count_places(mesh), count_places(request.before));
-  a.deformed_vertices_added = difference(mesh.rest.size(), request.before.rest.size());
-  a.triangles_added = difference(mesh.triangles.size(), request.before.triangles.size());
+  const oracle::Mesh &mesh = exam.mesh, &was = exam.request.before;
+  measure(a, mesh, changed_triangles(was, mesh), forced_corners_of(before, cuts), before.mean_edge());
+  a.vertices_added = difference(count_places(mesh), count_places(was));
+  a.deformed_vertices_added = difference(mesh.rest.size(), was.rest.size());
+  a.triangles_added = difference(mesh.triangles.size(), was.triangles.size());
   return a;
 }
 

@@ -36,6 +36,9 @@ Assessment assess(const Sheet& before, const Sheet& after, const oracle::Judgeme
 /// \throw InputError: the oracle can't use the sheet before.
 Assessment assess_result(const Sheet& before, const MeshData& result, std::span<const Curve> cuts,
                          const Promises& asked, const CutOptions& options);
+/// The judgement and the findings of assess_result(), without the measures.
+Assessment judge_result(const Sheet& before, const MeshData& result, std::span<const Curve> cuts, const Promises& asked,
+                        const CutOptions& options);
 /// Of everybody: the path is opened, and the area stays. Vertices may move.
 constexpr Promises promises_of_everybody{.exact_incision = true, .keeps_area = true};
 std::vector<oracle::ForcedCorner> forced_corners_of(const Sheet& before, std::span<const Curve> cuts);

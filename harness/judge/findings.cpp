@@ -69,7 +69,10 @@ class Causes {
     try_one(lost_triangle());
     try_one(one_vertex());
     try_one(beside_path());
+    try_one(extra_pieces());
     try_one(not_opened());
+    try_one(lost_loop());
+    try_one(pieces("pieces", "open the whole path, and nothing beside it"));
   }
 
   void compare_places() {
@@ -159,6 +162,8 @@ class Causes {
   }
 
   std::optional<Finding> flipped() const {
+    if (every_triangle_turns_back())
+      return Finding{"flipped", "every triangle has its corners in clockwise order", "swap two corners of each", {}};
     std::optional<Finding> folded;
     for (int t = 0; t < static_cast<int>(after_.triangles.size()); ++t) {
       const auto& [a, b, c] = after_.triangles[t];
@@ -175,6 +180,12 @@ class Causes {
             centre(t)};
     }
     return folded;
+  }
+
+  bool every_triangle_turns_back() const {
+    return std::all_of(after_.triangles.begin(), after_.triangles.end(), [this](const auto& t) {
+      return orientation(after_.rest[t[0]], after_.rest[t[1]], after_.rest[t[2]]) < 0;
+    });
   }
 
   /// A neighbour has an edge in the same direction, or all of its edges are alone.
@@ -359,6 +370,83 @@ class Causes {
       if (const double share = off / distance(s[0], s[1]); share < least) least = share, best = e;
     }
     return best;
+  }
+
+  // --- pieces --------------------------------------------------------------------------------------------------------
+
+  struct Piece {
+    double area = 0;
+    int largest = 0;  // triangle
+    double largest_area = -1;
+  };
+  std::vector<Piece> all_pieces(const std::vector<int>& piece) const {
+    std::vector<Piece> all(static_cast<std::size_t>(judgement_.pieces));
+    for (int t = 0; t < static_cast<int>(piece.size()); ++t) {
+      const double a = area_of(t);
+      Piece& p = all[piece[t]];
+      p.area += a;
+      if (a > p.largest_area) p.largest_area = a, p.largest = t;
+    }
+    return all;
+  }
+  double area_of(int t) const {
+    const auto& [a, b, c] = after_.triangles[t];
+    return oracle::cross(minus(after_.rest[b], after_.rest[a]), minus(after_.rest[c], after_.rest[a])) / 2;
+  }
+
+  /// The smallest pieces, where there is another number of them than the path makes.
+  std::optional<Finding> pieces(const char* cause, const char* mend) const {
+    if (judgement_.verdict != "wrong_pieces") return {};
+    std::vector<Piece> all = all_pieces(oracle::pieces_of_triangles(edges_));
+    std::sort(all.begin(), all.end(), [](const Piece& a, const Piece& b) { return a.area < b.area; });
+    std::string text = std::to_string(judgement_.pieces) + " pieces instead of " +
+                       std::to_string(judgement_.expected_pieces) + "; the smallest:";
+    for (std::size_t i = 0; i < std::min<std::size_t>(all.size(), 3); ++i)
+      text += (i > 0 ? ", area " : " area ") + number(all[i].area, "%.3g") + " round " + at(centre(all[i].largest));
+    return Finding{cause, text, mend, centre(all.front().largest)};
+  }
+
+  std::optional<Finding> extra_pieces() const {
+    if (judgement_.pieces <= judgement_.expected_pieces) return {};
+    return pieces("extra_pieces",
+                  "nothing but the path parts triangles: give the triangles on both sides of every other edge the same "
+                  "vertices");
+  }
+
+  /// The smallest closed cut whose middle lies in a piece much larger than what it cuts out.
+  std::optional<Finding> lost_loop() const {
+    if (judgement_.verdict != "wrong_pieces" || judgement_.pieces >= judgement_.expected_pieces) return {};
+    const std::vector<int> piece = oracle::pieces_of_triangles(edges_);
+    const std::vector<Piece> all = all_pieces(piece);
+    double smallest = std::numeric_limits<double>::infinity();
+    Point place{};
+    for (std::size_t cut = 0; cut < request_.cuts.size(); ++cut) {
+      const std::vector<Segment> path = path_of(cut);
+      if (path.empty() || path.front()[0] != path.back()[1]) continue;
+      double twice = 0;
+      Point middle{0, 0};
+      for (const auto& [a, b] : path) {
+        twice += oracle::cross(minus(a, path.front()[0]), minus(b, path.front()[0]));
+        for (std::size_t i = 0; i < 2; ++i) middle[i] += a[i] / static_cast<double>(path.size());
+      }
+      const double inside = std::abs(twice) / 2;
+      for (int t = 0; t < static_cast<int>(piece.size()); ++t)
+        if (holds(t, middle) && all[piece[t]].area > 2 * inside && inside < smallest) smallest = inside, place = middle;
+    }
+    if (!std::isfinite(smallest)) return {};
+    return Finding{
+        "lost_loop",
+        std::to_string(judgement_.pieces) + " pieces instead of " + std::to_string(judgement_.expected_pieces) +
+            ": the closed cut round " + at(place) + " cuts out an area of " + number(smallest, "%.3g") +
+            ", which is no piece of its own",
+        "a small loop must not shrink to a point or a line: give it three vertices at least, and open all its "
+        "edges",
+        place};
+  }
+  bool holds(int t, const Point& p) const {
+    const auto& [a, b, c] = after_.triangles[t];
+    return orientation(after_.rest[a], after_.rest[b], p) >= 0 && orientation(after_.rest[b], after_.rest[c], p) >= 0 &&
+           orientation(after_.rest[c], after_.rest[a], p) >= 0;
   }
 
   Finding other() const {

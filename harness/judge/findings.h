@@ -22,7 +22,7 @@ struct Finding {
 ///   rounded         rest positions have lost digits: single precision, or a few decimals
 ///   other_rest      hardly a vertex of the sheet is where it was: no rest positions (`vt`), or another sheet
 ///   moved_vertex    a vertex of the sheet is not where it was, though asked to stay (keeps_vertices)
-///   flipped         a triangle's corners run clockwise
+///   flipped         a triangle's corners run clockwise, or those of all
 ///   folded          a triangle is turned over or flat, because a corner of it has moved
 ///   lips_differ     the two lips of an incision are nearly, but not bit for bit, at one place
 ///   t_junction      an edge is divided on one side only
@@ -30,6 +30,9 @@ struct Finding {
 ///   one_vertex      two fans of triangles share a vertex where the path parts them
 ///   shifted         the incision lies beside the path
 ///   not_opened      the path is not open where it should be
+///   extra_pieces    something is parted that the path does not part
+///   lost_loop       what a closed path cuts out is not there
+///   pieces          another number of pieces than the path makes, for none of these reasons
 ///   other           none of these; the text is the oracle's
 /// Empty where the result is right. \param judgement  of `after` by `request`
 std::vector<Finding> find_causes(const oracle::Request& request, const oracle::Mesh& after,

@@ -238,6 +238,7 @@ class Judge {
     judgement_.expected_pieces = expected.expected;
     int most = expected.most;
     if (judgement_.pieces > most) most += count_hairs(edges, requested, 2 * flattening);
+    judgement_.least_pieces = expected.least, judgement_.most_pieces = most;
     if (judgement_.pieces < expected.least || judgement_.pieces > most)
       problems_.add("wrong_pieces",
                     std::to_string(judgement_.pieces) + " instead of " + std::to_string(expected.expected));

@@ -52,6 +52,7 @@ struct Judgement {
   std::vector<std::string> problems;  ///< one line each, at most five per verdict
   int pieces = 0;                     ///< sets of triangles connected through shared edges
   int expected_pieces = 0;
+  int least_pieces = 0, most_pieces = 0;  ///< allowed, where the number hangs on less than the tolerances
   /// Hausdorff distance between the path inside the sheet and the opened edges, both ways, sampled every 0.02 mean
   /// edges; the path is flattened to 1e-5 mean edges. Infinite where edges were opened and no path was given.
   double incision_error = 0;

@@ -8,7 +8,8 @@ namespace cutbench {
 
 /// What a method (or the coordinates) can't do: the cut failed and the sheet is rolled back.
 struct CutFailed : std::runtime_error {
-  /// `name`: of the verdict, such as not_terminated or inverted (results/README.md); `why`: one line.
+  /// `name`: of the verdict, such as not_terminated or inverted (results/README.md); `why`: one
+  /// line, of a program's result a second one with the mend.
   CutFailed(std::string name, const std::string& why) : std::runtime_error(why), verdict(std::move(name)) {}
   std::string verdict;
 };

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdio>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include "harness/base/errors.h"
-#include "harness/cut/cut.h"
-#include "harness/judge/oracle_request.h"
+#include "harness/judge/assessment.h"
 #include "harness/mesh/mesh_io.h"
 #include "harness/path/cut_failed.h"
 #include "harness/program/adopt.h"
@@ -59,7 +60,7 @@ class Program : public CuttingMethod {
     write_mesh(sheet.to_mesh_data(), files.mesh);
     write_path({curve_}, files.path);
     const ProgramEnd end = run_program(files.filled_in(settings_.command), settings_.folder, settings_.limits);
-    if (end.how == ProgramEnd::How::exited && end.code == 2)
+    if (end.how == ProgramEnd::How::exited && end.code == exit_refused)
       throw CutRefused(end.message.empty() ? "the program refuses this cut, without a reason" : end.message);
     if (end.how == ProgramEnd::How::timed_out) throw CutFailed(verdict_timed_out, end.text());
     if (!end.succeeded()) throw CutFailed(verdict_crashed, end.text());
@@ -68,10 +69,19 @@ class Program : public CuttingMethod {
     adopt(sheet, result);
     trace.along.clear();  // what the path runs along is open as well
     const double own = reported_us(files.time);
+    if (own <= 0 && settings_.command.find("{time}") != std::string::npos) note_no_time();
     notes.program_us = own > 0 ? own : end.us;
   }
 
  private:
+  /// Once in a process: a run makes many cuts.
+  void note_no_time() const {
+    static bool told = false;
+    if (!std::exchange(told, true))
+      std::fprintf(stderr, "note: %s wrote no {\"us\": NUMBER} to {time}; its time from start to end counts\n",
+                   settings_.name.c_str());
+  }
+
   static MeshData read_result(const std::filesystem::path& file) {
     if (std::error_code none; !std::filesystem::exists(file, none))
       throw CutFailed(verdict_no_result, "the program ended well, but wrote no {out}");
@@ -82,13 +92,12 @@ class Program : public CuttingMethod {
     }
   }
 
+  /// As `cutbench score` does, and in its words.
   void judge(const Sheet& sheet, const MeshData& result) const {
-    const oracle::Request request = request_for(sheet, {&curve_, 1}, promises_of_programs, options_, false);
-    oracle::Mesh mesh;
-    for (Point2 p : result.rest) mesh.rest.push_back({p.x, p.y});
-    mesh.triangles = result.triangles;
-    const oracle::Judgement judgement = oracle::judge(request, mesh);
-    if (!judgement.ok) throw CutFailed(judgement.verdict, judgement.problems.front());
+    const Assessment a = judge_result(sheet, result, {&curve_, 1}, promises_of_everybody, options_);
+    if (a.judgement.ok) return;
+    const Finding& f = a.findings.front();
+    throw CutFailed(a.judgement.verdict, f.cause + ": " + f.text + "\nmend: " + f.mend);
   }
 
   ProgramSettings settings_;

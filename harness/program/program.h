@@ -25,10 +25,13 @@ constexpr Promises promises_of_programs{.keeps_area = true, .conforming = true};
 
 /// A row of the table of methods. A cut is the program's alone, as it stands in the file, once the oracle has accepted
 /// it. Else the cut has failed, with the oracle's verdict, or `crashed` (it ended by a signal or with another exit code
-/// than 0 and 2), `timed_out`, or `no_result` (there is no file, or one that can't be read). Exit code 2 refuses the
+/// than 0 and 3), `timed_out`, or `no_result` (there is no file, or one that can't be read). Exit code 3 refuses the
 /// cut. The last line that the program wrote to standard error is the reason.
 /// Throws InputError: a name with other letters, a command without one of the three files, or a folder that is not there.
 MethodRow method_of_program(const ProgramSettings& settings);
+
+/// By this exit code a program refuses a cut. Not 2, by which interpreters say that they can't open a script.
+constexpr int exit_refused = 3;
 
 /// Verdicts of programs that made no result.
 constexpr const char *verdict_crashed = "crashed", *verdict_timed_out = "timed_out", *verdict_no_result = "no_result";

@@ -17,6 +17,7 @@
 #include "harness/mesh/families.h"
 #include "harness/records/metrics.h"
 #include "harness/run/accuracy_summary.h"
+#include "harness/run/right_results.h"
 #include "harness/run/worker.h"
 #include "harness/truth/problem.h"
 
@@ -335,7 +336,9 @@ bool run_accuracy(const Experiment& experiment, const std::vector<MethodRow>& me
   run.file().finish(context, experiment.stem, experiment.claim, options.command, experiment.seed);
   const AccuracySummary summary = run.summary();
   if (!options.quiet) summary.print(experiment.stem, run.minutes());
-  return summary.all_ok();
+  RightResults results;
+  for (const std::string& line : run.file().lines()) results.add(Record(accuracy_columns(), line));
+  return results.report(experiment, options.quiet) && summary.all_ok();
 }
 
 }  // namespace cutbench

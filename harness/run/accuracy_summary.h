@@ -24,7 +24,7 @@ class AccuracySummary {
 
  private:
   struct Group {
-    std::size_t rows = 0, failed = 0;
+    std::size_t rows = 0, refused = 0, failed = 0;
     std::vector<double> excess, total_us;
   };
   std::vector<std::string> methods_;                                   // in order of appearance

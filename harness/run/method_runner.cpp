@@ -18,6 +18,7 @@
 #include "harness/records/metrics.h"
 #include "harness/run/chill_caches.h"
 #include "harness/run/every_edge.h"
+#include "harness/run/right_results.h"
 #include "harness/run/summary.h"
 #include "harness/run/worker.h"
 #include "harness/scene/simulation.h"
@@ -170,8 +171,8 @@ class Runner {
         summary.ok = false;
       }
       file_.append(row);
-      if (row.get("status") != name_of(Status::refused))
-        summary_.add(resolution, worker.variant.row->name, worker.variant.knob_text(), summary);
+      summary.refused = row.get("status") == name_of(Status::refused);
+      summary_.add(resolution, worker.variant.row->name, worker.variant.knob_text(), summary);
     }
   }
 
@@ -256,7 +257,7 @@ class Runner {
 
   void summarize(int resolution, const Variant& variant, Summary::Cut cut, const CutRun& run) {
     cut.geometry_us = run.time_us.total(), cut.crossed_triangles = static_cast<double>(run.crossed_triangles);
-    if (run.status == Status::refused) return;  // in no time
+    cut.refused = run.status == Status::refused;
     cut.ok = cut.ok && run.verdict == "ok";
     summary_.add(resolution, variant.row->name, variant.knob_text(), cut);
   }
@@ -315,7 +316,9 @@ bool run_methods(const Experiment& experiment, const std::vector<MethodRow>& met
   runner.run();
   runner.file().finish(context, experiment.stem, experiment.claim, options.command, experiment.seed);
   if (!options.quiet) runner.summary().print(experiment.stem);
-  return runner.summary().all_ok();
+  RightResults results;
+  for (const std::string& line : runner.file().lines()) results.add(Record(column_names(), line));
+  return results.report(experiment, options.quiet) && runner.summary().all_ok();
 }
 
 }  // namespace cutbench

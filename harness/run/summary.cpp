@@ -11,7 +11,7 @@ namespace {
 std::string median(const std::vector<Summary::Cut>& cuts, double (*value)(const Summary::Cut&), const char* format) {
   std::vector<double> values;
   for (const auto& cut : cuts)
-    if (cut.ok && value(cut) >= 0) values.push_back(value(cut));
+    if (cut.ok && !cut.refused && value(cut) >= 0) values.push_back(value(cut));
   if (values.empty()) return "-";
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -29,16 +29,17 @@ void Summary::add(int resolution, const std::string& method, const std::string& 
 
 void Summary::print(const std::string& title) const {
   std::printf("\n%s: medians over sheets, cases and repetitions\n", title.c_str());
-  std::printf("%9s  %-20s %-10s %7s %6s %9s %11s %9s %9s %9s %9s\n", "triangles", "method", "knob", "cuts", "failed",
-              "max AR", "AR > 3", "vertices", "us/cut", "crossed", "ns/cr.");
-  std::printf("%9s  %-20s %-10s %7s %6s %9s %11s %9s %9s %9s %9s\n", "", "", "", "", "", "(changed)", "(changed)",
-              "added", "", "triangles", "triangle");
+  std::printf("%9s  %-20s %-10s %7s %7s %6s %9s %11s %9s %9s %9s %9s\n", "triangles", "method", "knob", "cuts",
+              "refused", "failed", "max AR", "AR > 3", "vertices", "us/cut", "crossed", "ns/cr.");
+  std::printf("%9s  %-20s %-10s %7s %7s %6s %9s %11s %9s %9s %9s %9s\n", "", "", "", "", "", "", "(changed)",
+              "(changed)", "added", "", "triangles", "triangle");
   for (const auto& [key, cuts] : cuts_) {
     const auto& [resolution, method, knob] = key;
     const auto failed = std::count_if(cuts.begin(), cuts.end(), [](const Cut& c) { return !c.ok; });
+    const auto refused = std::count_if(cuts.begin(), cuts.end(), [](const Cut& c) { return c.refused; });
     std::printf(
-        "%9d  %-20s %-10s %7zu %6td %9s %11s %9s %9s %9s %9s\n", resolution, method.c_str(), knob.c_str(), cuts.size(),
-        failed,
+        "%9d  %-20s %-10s %7zu %7td %6td %9s %11s %9s %9s %9s %9s\n", resolution, method.c_str(), knob.c_str(),
+        cuts.size(), refused, failed,
         median(
             cuts, [](const Cut& c) { return c.ar_max_cut; }, "%.1f")
             .c_str(),

@@ -12,7 +12,7 @@ class Summary {
  public:
   /// One measured cut. Negative: not measured.
   struct Cut {
-    bool ok = true;
+    bool ok = true, refused = false;
     double crossed_triangles = -1, vertices_added = -1, ar_max_cut = -1, over_3_cut = -1, geometry_us = -1;
   };
   void add(int resolution, const std::string& method, const std::string& knob, const Cut& cut);
