@@ -7,6 +7,7 @@ usage: check_accuracy_plots.py RESULTS with RESULTS/accuracy of such a run"""
 import contextlib
 import csv
 import io
+import json
 import shlex
 import shutil
 import subprocess
@@ -170,6 +171,57 @@ def check_commands():
         expect(f"quoted again: {shown}", load.pasteable(shown) == shown)
 
 
+def check_program(results):
+    """One resolution, and one of the methods a program: figures and tables without nan, and the program named as one."""
+    folder = results / "one_size"
+    shutil.copytree(results / "accuracy", folder)
+    rows = [row for row in read(folder / "records.csv") if row["resolution"] == "200"]
+    for row in rows:
+        if of(row, "bowyer_watson", "rounds=1"):
+            row["method"], row["knob"] = "my_own", ""
+    write(folder / "records.csv", rows)
+    context = json.loads((folder / "context.json").read_text(encoding="utf-8"))
+    context["command"] += " --command my_own=python3 my_own.py {mesh} {path} {out}"
+    (folder / "context.json").write_text(json.dumps(context), encoding="utf-8")
+    import accuracy
+    from accuracy_parts import budgets, shape
+    from accuracy_parts.ranking import at_equal_unknowns
+    from accuracy_parts.records import Records
+    from method_parts import accuracy as method_accuracy
+    from method_parts import kinds
+    from method_comparison import as_text
+    records = at_equal_unknowns(Records(folder))
+    expect(f"not the one program: {records.programs}", records.programs == {"my_own"})
+    expect("errors at equal unknowns, of one size", records.table["ratio_equal"].isna().all())
+    for name, figure in (("accuracy", accuracy.excess_figure(records, "ms", "excess_percent", "time", "nothing")),
+                         ("problems", accuracy.problems_figure(records)), ("budgets", budgets.budgets_figure(records))):
+        for ax in figure.axes:
+            if not ax.get_visible():
+                continue
+            named = [t for t in ax.texts if t.get_text() == "my own"]
+            pale = [line for line in ax.lines if line.get_color() == records.looks["my_own", ""].colour
+                    and (line.get_alpha() or 1) < 1]
+            expect(f"the program has no name in a panel of {name}", len(named) == 1)
+            expect(f"the program is pale in {name}", not pale)
+        expect(f"{name} does not say that it is a program",
+               any(t.get_text() == "my own (program)" for t in figure.legends[0].get_texts()))
+    numbers = {t.get_text() for ax in budgets.budgets_figure(records).axes for t in ax.texts}
+    expect(f"no iterations in the figure of budgets: {numbers}", "10" in numbers)
+    all_rows = records.rows(direct=True)
+    kept = set(shape.of_harness(records, all_rows)["method"])
+    expect(f"in the fit over shape: {kept}", kept == {"conventional_split", "bowyer_watson"})
+    text = io.StringIO()
+    with contextlib.redirect_stdout(text):
+        accuracy.write_text(folder, records)
+        table = method_accuracy.draw(folder, folder)
+    text = text.getvalue() + as_text(method_accuracy.STEM, table) + as_text(kinds.STEM, kinds.table_of(records.ranked()))
+    expect("a table has nan", "nan" not in text.lower())
+    expect("the program is in no table", "my own (program)" in text and "my_own" in text)
+    order = table["excess_percent_all"]
+    expect("there is no ranking", order.notna().all() and order.is_monotonic_increasing)
+    expect("method_comparison_accuracy.png is not there", (folder / "method_comparison_accuracy.png").is_file())
+
+
 def check_missing_columns(results):
     folder = results / "without"
     shutil.copytree(results / "accuracy", folder / "accuracy")
@@ -195,6 +247,7 @@ def main():
     check_equal_unknowns(results / "accuracy")
     check_factor(results / "accuracy")
     check_failures(results)
+    check_program(results)
     check_missing_columns(results)
     print("\n".join(problems))
     return bool(problems)

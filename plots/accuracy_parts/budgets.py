@@ -60,5 +60,6 @@ def budgets_figure(records):
         f"Excess error against total time at {top} triangles, after {', '.join(map(str, records.budgets))} iterations of "
         "conjugate gradients that start from zero (filled markers) and after the direct solve (hollow markers). "
         "Preconditioner: the diagonal block of each vertex (cg), or joint blocks of the vertices round slivers (cg sliver "
-        "blocks). Beside the markers of the first method, and of programs: the iterations, where there is room. Marker: median over problems and ensembles; bars: quartiles."), front.legend_entries(records.looks.values()))
+        "blocks). Beside the markers of the first method, and of programs: the iterations, where there is room. Marker: "
+        "median over problems and ensembles; bars: quartiles."), front.legend_entries(records.looks.values()))
     return figure

@@ -97,6 +97,7 @@ def print_ranking(records, title):
         "in percent, over problems, resolutions and members, of the cases that no method failed. "
         + ("Ranked at equal unknowns: over a fitted mesh refined to as many as the cut sheet has; beside it over one of as "
            "many triangles as the uncut sheet, where triangles alone can win" if measure == EQUAL_UNKNOWNS else
-           f"{measure.note} Ranked over {measure.fitted}, where triangles alone can win") + (f". CG: after {records.enough()} iterations" if budgets else ""),
+           f"{measure.note} Ranked over {measure.fitted}, where triangles alone can win")
+        + (f". CG: after {records.enough()} iterations" if budgets else ""),
         ["sheet", "method", "cases", "failed %", "excess %, equal unknowns", "as many triangles", "more unknowns, %",
          "median ms", "of it cut", *(f"as many triangles, {s}" for s in solvers)], rows)

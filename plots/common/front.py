@@ -54,11 +54,12 @@ def cells(table, x, y, by, panel=()):
 
 def draw(ax, points, look, size=1.0):
     """One curve of a panel, its points in order; those behind the front pale, but not those of a program, which has its
-    name beside the first. Bars: quartiles."""
+    name beside the first of the panel. Bars: quartiles."""
     made = points[points["layer"] > 0]
     behind = 1.0 if look.program else BEHIND
-    if look.program and len(made):
-        ax.annotate(look.label.removesuffix(style.PROGRAM), (made["x"].iloc[0], made["y"].iloc[0]), xytext=(-3, 3),
+    name = look.label.removesuffix(style.PROGRAM)
+    if look.program and len(made) and name not in {text.get_text() for text in ax.texts}:
+        ax.annotate(name, (made["x"].iloc[0], made["y"].iloc[0]), xytext=(-3, 3),
                     textcoords="offset points", ha="right", fontsize=4.8, color=look.colour, zorder=5)
     ax.plot(made["x"], made["y"], color=look.colour, linestyle=look.line, linewidth=0.5 * look.width, alpha=behind,
             zorder=2)

@@ -99,8 +99,8 @@ def run_of(records, context, measures):
 
 
 def read_records(path, columns, all_columns=False):
-    """The table with `columns` and those of OPTIONAL, or with all columns of the file, which must include `columns`. Names of older versions are
-    replaced by those of today."""
+    """The table with `columns` and those of OPTIONAL, or with all columns of the file, which must include `columns`. Names
+    of older versions are replaced by those of today."""
     if not path.is_file():
         unfinished = path.with_name(path.name + ".part")
         stop(f"{unfinished} is of a run that has not ended; give the same command again to continue it" if unfinished.is_file()

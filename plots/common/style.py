@@ -65,8 +65,9 @@ SHEETS = {"grid": "the paper's grid", "alternating": "alternating", "delaunay": 
 
 
 def looks(variants, programs=()):
-    """The Look of each (method, knob), in the order of the legend; those whose method is one of `programs` say so. A method that KNOWN does not name gets the free
-    colour its name hashes to (the next one if another method of this figure has it), its knobs lighter shades of it."""
+    """The Look of each (method, knob), in the order of the legend; those whose method is one of `programs` say so. A method
+    that KNOWN does not name gets the free colour its name hashes to (the next one if another method of this figure has
+    it), its knobs lighter shades of it."""
     chosen = {v: look for v, look in KNOWN.items() if v in variants}
     unknown = sorted(set(variants) - set(KNOWN), key=lambda v: (v[0], natural(v[1])))
     colours = {method: look.colour for (method, _), look in reversed(KNOWN.items())}

@@ -113,14 +113,17 @@ def draw(folder, beside):
         right.xaxis.set_major_formatter("{x:g}")
     entries = [Line2D([], [], linestyle="", marker=m, color="#666666", markersize=3, label=style.sheet_title(s))
                for s, m in zip(records.sheets, MARKERS)]
-    entries += [Line2D([], [], linestyle="", marker="o", color="#0072b2", markersize=3.2, label="solved directly"),
-                Line2D([], [], linestyle="", marker="D", color="white", markeredgecolor="#d55e00", markersize=3,
-                       label=f"{BUDGET} iterations of CG")]
+    entries.append(Line2D([], [], linestyle="", marker="o", color="#0072b2", markersize=3.2, label="solved directly"))
+    stopped = ""
+    if table[f"excess_percent_cg_{BUDGET}"].notna().any():
+        entries.append(Line2D([], [], linestyle="", marker="D", color="white", markeredgecolor="#d55e00", markersize=3,
+                              label=f"{BUDGET} iterations of CG"))
+        stopped = f", and after {BUDGET} iterations of conjugate gradients (Jacobi preconditioner)"
     style.finish(figure, [], records.caption(
         "Left: error against the cost of the cut; lower left is better. Large marker, with the name: all sheets; colours are "
         "those beside the names on the right. Excess error: the error of each problem's primary measure over that of "
         f"{measure.fitted}, minus one; geometric means over {len(records.problems)} plane problems, all sizes and members. "
-        f"{measure.note}{style.PROGRAM_TIME * bool(records.programs)} Right: the same after a direct solve, and after "
-        f"{BUDGET} iterations of conjugate gradients (Jacobi preconditioner)."), entries)
+        f"{measure.note}{style.PROGRAM_TIME * bool(records.programs)} Right: the same after a direct solve"
+        f"{stopped}."), entries)
     style.save(figure, folder, STEM)
     return table
