@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 
 #include "harness/cases/cut_families.h"
 #include "harness/cut/cut_all.h"
@@ -278,29 +279,44 @@ TEST(Findings, AllTrianglesReversedAreFlipped) {
   EXPECT_NE(a.findings.front().text.find("every triangle"), std::string::npos);
 }
 
-/// A triangle with vertices of its own is a piece more.
+/// A flat triangle beside the incision that has vertices of its own is a piece more.
 TEST(Findings, TheSmallestOfTooManyPiecesIsNamed) {
   auto made = cut_across();
   ASSERT_TRUE(made);
   MeshData& mesh = made->result;
-  for (const std::size_t t : {std::size_t{3}, mesh.triangles.size() / 2}) {
-    MeshData torn = mesh;
-    for (auto& v : torn.triangles[t]) {
-      torn.rest.push_back(rest(mesh, v)), torn.deformed.push_back(mesh.deformed[static_cast<std::size_t>(v)]);
-      v = static_cast<std::int32_t>(torn.rest.size() - 1);
+  std::set<std::pair<std::int32_t, std::int32_t>> edges;
+  for (const auto& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) edges.insert({t[k], t[(k + 1) % 3]});
+  const auto on_path = [](Point2 p) { return std::abs(p.y - 0.43 - 0.075 * (p.x + 0.1)) < 1e-12; };
+  const auto place_of = [&](std::int32_t v) { return rest(mesh, v); };
+  std::size_t torn = mesh.triangles.size(), corner = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto p = mesh.triangles[t][k], q = mesh.triangles[t][(k + 1) % 3];
+      if (on_path(place_of(p)) && on_path(place_of(q)) && place_of(p).x > 0.4) torn = t, corner = k;
     }
-    drop_unused(torn);
-    const Assessment a = assess_result(made->before, torn, made->cuts, promises_of_everybody, {});
-    ASSERT_EQ(a.findings.size(), 1u);
-    const Finding& found = a.findings.front();
-    EXPECT_EQ(found.cause, "extra_pieces") << found.text;
-    EXPECT_EQ(found.text.find("3 pieces instead of 2; the smallest: area "), 0u) << found.text;
-    const auto& [i, j, k] = mesh.triangles[t];
-    const double area = 0.5 * cross(rest(mesh, j) - rest(mesh, i), rest(mesh, k) - rest(mesh, i));
-    EXPECT_NEAR(std::stod(found.text.substr(found.text.find("area ") + 5)), area, 0.01 * area);
-    ASSERT_TRUE(found.place);
-    EXPECT_LT(length(Point2{(*found.place)[0], (*found.place)[1]} - centre(mesh, t)), 1e-12);
-  }
+  ASSERT_LT(torn, mesh.triangles.size());
+  const auto add = [&](Point2 p) {
+    mesh.rest.push_back(p), mesh.deformed.push_back({p.x, p.y, 0});
+    return static_cast<std::int32_t>(mesh.rest.size() - 1);
+  };
+  const auto was = mesh.triangles[torn];
+  const auto p = was[corner], q = was[(corner + 1) % 3], apex = was[(corner + 2) % 3];
+  const Point2 a = place_of(p), b = place_of(q), inside = 0.5 * (a + b) + 0.02 * (place_of(apex) - 0.5 * (a + b));
+  const std::int32_t middle = add(inside);
+  mesh.triangles[torn] = {q, apex, middle};
+  mesh.triangles.push_back({apex, p, middle});
+  const std::int32_t own_p = add(a), own_q = add(b), own_middle = add(inside);
+  mesh.triangles.push_back({own_p, own_q, own_middle});
+  const Assessment found = assess_result(made->before, mesh, made->cuts, promises_of_everybody, {});
+  ASSERT_EQ(found.findings.size(), 1u);
+  const Finding& f = found.findings.front();
+  EXPECT_EQ(f.cause, "extra_pieces") << f.text;
+  ASSERT_EQ(f.text.find("3 pieces instead of 2; the smallest: area "), 0u) << f.text;
+  const double area = 0.5 * cross(b - a, inside - a);
+  EXPECT_NEAR(std::stod(f.text.substr(f.text.find("area ") + 5)), area, 0.01 * area);
+  ASSERT_TRUE(f.place);
+  EXPECT_LT(length(Point2{(*f.place)[0], (*f.place)[1]} - 1.0 / 3 * (a + b + inside)), 1e-12);
 }
 
 /// A loop so flat that a slit lies within the tolerance of it.
