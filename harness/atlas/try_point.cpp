@@ -70,7 +70,7 @@ class Point {
   }
 
  private:
-  double& measure(Measure::Kind kind) { return result_.measure[kind]; }
+  double& measure(PointMeasure::Kind kind) { return result_.measure[kind]; }
   void at(const std::string& what) { put("in " + what, result_.reason); }
   void conclude(const std::string& verdict, const std::string& reason) {
     put(verdict, result_.verdict), put(reason, result_.reason);
@@ -100,25 +100,25 @@ class Point {
       if (outcome.status == Status::failed) return conclude("failed", outcome.reason), false;
     }
     conclude("ok", "");
-    measure(Measure::geometry_us) = us, measure(Measure::incision_error_h) = error / before_.mean_edge();
+    measure(PointMeasure::geometry_us) = us, measure(PointMeasure::incision_error_h) = error / before_.mean_edge();
     measure_sheet(judged.sheet, *make());
     return true;
   }
 
   void measure_sheet(const Sheet& sheet, const CuttingMethod& method) {
     const Assessment a = assess(before_, sheet, {}, {});
-    measure(Measure::triangles) = static_cast<double>(sheet.triangle_count());
-    measure(Measure::vertices_added) = static_cast<double>(a.vertices_added);
+    measure(PointMeasure::triangles) = static_cast<double>(sheet.triangle_count());
+    measure(PointMeasure::vertices_added) = static_cast<double>(a.vertices_added);
     if (a.cut.triangles > 0)
-      measure(Measure::ar_max_cut) = a.cut.ar_max, measure(Measure::altitude_min_h_cut) = a.cut.altitude_min;
+      measure(PointMeasure::ar_max_cut) = a.cut.ar_max, measure(PointMeasure::altitude_min_h_cut) = a.cut.altitude_min;
     if (!trial_.point->eigenvalue) return;
     at("the eigenvalue");
     const Ties ties = method.ties(before_, sheet);
-    measure(Measure::eigenvalue_ratio) =
+    measure(PointMeasure::eigenvalue_ratio) =
         largest_eigenvalue(sheet, ties, with_mass({}, scene_)) / largest_eigenvalue(before_);
     Scene scene = scene_;
     if (ties.phantoms > 0) scene.physics.bending = BendingKind::none;  // phantom nodes do not bend
-    measure(Measure::explicit_step_ratio) = explicit_step_of(scene, sheet, ties) / trial_.uncut_step_s;
+    measure(PointMeasure::explicit_step_ratio) = explicit_step_of(scene, sheet, ties) / trial_.uncut_step_s;
     conclude("ok", "");
   }
 
@@ -143,7 +143,7 @@ class Point {
 
   void note_steps(const Simulation& motion) {
     const auto& steps = motion.steps();
-    measure(Measure::steps) = static_cast<double>(steps.size());
+    measure(PointMeasure::steps) = static_cast<double>(steps.size());
     if (steps.empty()) return;
     std::vector<double> us;
     double iterations = 0, residual = 0;
@@ -152,12 +152,12 @@ class Point {
       iterations += s.step.iterations, residual = std::max(residual, s.step.residual);
     }
     std::nth_element(us.begin(), us.begin() + static_cast<std::ptrdiff_t>(us.size() / 2), us.end());
-    measure(Measure::step_us) = us[us.size() / 2];
-    measure(Measure::iterations) = iterations / static_cast<double>(steps.size());
-    measure(Measure::residual) = residual;
+    measure(PointMeasure::step_us) = us[us.size() / 2];
+    measure(PointMeasure::iterations) = iterations / static_cast<double>(steps.size());
+    measure(PointMeasure::residual) = residual;
     if (!motion.budget()) return;
     const EnergyBudget::Gains gains = motion.budget()->gains();
-    measure(Measure::energy_gain) =
+    measure(PointMeasure::energy_gain) =
         scene_.integrator == Integrator::symplectic_euler ? gains.unexplained : gains.remainder;
   }
 
@@ -175,7 +175,7 @@ class Point {
       const DeformedIndex d(v);
       if (a.rest_vertex(d).valid()) farthest = std::max(farthest, length(a.position(d) + -1 * b.position(d)));
     }
-    measure(Measure::drift_h) = farthest / before_.mean_edge();
+    measure(PointMeasure::drift_h) = farthest / before_.mean_edge();
   }
 
   const Trial& trial_;

@@ -27,7 +27,7 @@ struct Trial {
 };
 
 /// What is measured, in the order of the records' columns.
-struct Measure {
+struct PointMeasure {
   enum Kind {
     triangles,
     vertices_added,

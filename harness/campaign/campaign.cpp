@@ -31,7 +31,7 @@ struct Drawn {
   bool near_event = false;
 };
 
-std::string text_of_file(const std::filesystem::path& file) {
+std::string text_of_mesh(const std::filesystem::path& file) {
   std::ifstream in(file);
   return {std::istreambuf_iterator<char>(in), {}};
 }
@@ -103,7 +103,7 @@ class Campaign {
     std::string text = context.identity(false) + e.stem + std::to_string(e.seed) + "," + std::to_string(e.cases) + "," +
                        std::to_string(e.chord_tolerance) + "," + std::to_string(e.campaign->time_limit_s);
     for (const auto& program : e.programs) text += fingerprint_of_program(program);
-    for (const auto& file : e.campaign->mesh_files) text += text_of_file(file);
+    for (const auto& file : e.campaign->mesh_files) text += text_of_mesh(file);
     return text + shard_line(options);
   }
 

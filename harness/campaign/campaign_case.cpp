@@ -78,7 +78,7 @@ class PeerAtWork : public Subject {
   CutOptions options_;
 };
 
-void put(const std::string& text, std::span<char> to) {
+void copy_to_array(const std::string& text, std::span<char> to) {
   const std::size_t size = text.copy(to.data(), to.size() - 1);
   to[size] = 0;
 }
@@ -87,7 +87,7 @@ void note_fault(CaseResult& result, std::int32_t cut, Count::Kind fault, const s
                 const std::string& reason) {
   if (result.fault != Count::ok) return;
   result.cut = cut, result.fault = fault;
-  put(verdict, result.verdict), put(reason, result.reason);
+  copy_to_array(verdict, result.verdict), copy_to_array(reason, result.reason);
 }
 
 }  // namespace
@@ -116,7 +116,7 @@ void try_case(const Contender& contender, const Sheet& sheet, const std::vector<
       ++result.count[made.outcome];
       result.count[Count::carefully] += made.carefully;
       result.slowest_us = std::max(result.slowest_us, made.us);
-      if (made.outcome == Count::refused) put(made.reason, result.refusal);
+      if (made.outcome == Count::refused) copy_to_array(made.reason, result.refusal);
       if (made.outcome >= Count::failed) note_fault(result, number, made.outcome, made.verdict, made.reason);
       if (made.outcome > Count::failed) return;
     } catch (const std::exception& error) {  // the program would end by it

@@ -11,14 +11,14 @@ namespace {
 
 using BendingRows = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-Eigen::Vector2d vector(Point2 p) { return {p.x, p.y}; }
+Eigen::Vector2d eigen_vector(Point2 p) { return {p.x, p.y}; }
 
 }  // namespace
 
 ElementModes::InPlane ElementModes::membrane(std::size_t triangle) const {
   const Element& element = (*elements)[triangle];
   Eigen::Matrix2d t = Eigen::Matrix2d::Zero();
-  for (const Point2 g : element.gradient) t += 3 * speed2 * vector(g) * vector(g).transpose();
+  for (const Point2 g : element.gradient) t += 3 * speed2 * eigen_vector(g) * eigen_vector(g).transpose();
   // The determinant is known without a difference, so that the smaller eigenvalue of a sliver has all its digits.
   const double determinant = 27 * speed2 * speed2 / (4 * element.area * element.area);
   const double larger = t.trace() / 2 + std::hypot((t(0, 0) - t(1, 1)) / 2, t(0, 1));
@@ -122,9 +122,9 @@ void AddedMass::write_row(const ElementModes& modes, const Incidence& incidence,
     if (f.isZero(0)) continue;
     add(own, kind_ == Mass::scaled ? density_ * e.material_area() / 3 * f(0, 0) : 0);  // the diagonal comes first
     if (kind_ == Mass::scaled) continue;
-    const Eigen::Vector2d pull =
-        density_ * modes.speed2 * e.material_area() * f * vector(e.gradient[static_cast<std::size_t>(corner_of(c))]);
-    for (std::size_t k = 0; k < 3; ++k) add(e.vertex[k].value, pull.dot(vector(e.gradient[k])));
+    const Eigen::Vector2d pull = density_ * modes.speed2 * e.material_area() * f *
+                                 eigen_vector(e.gradient[static_cast<std::size_t>(corner_of(c))]);
+    for (std::size_t k = 0; k < 3; ++k) add(e.vertex[k].value, pull.dot(eigen_vector(e.gradient[k])));
   }
   if (modes.bending) {
     const auto stencils = modes.bending->stencils_of(v);

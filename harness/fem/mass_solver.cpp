@@ -50,14 +50,14 @@ template <int D>
 void MassSolver<D>::solve(const Field& p, Field& dv) {
   for (std::size_t g = 0; g < used_; ++g) {
     Group& group = groups_[g];
-    const auto& [vertices, axes, factor, unused] = group;
-    const auto each = [&](const auto& act) {
-      for (std::size_t k = 0; k < axes.size(); ++k)
-        for (std::size_t i = 0; i < vertices.size(); ++i)
-          act(D * vertices[i] + axes[k], group.values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)));
+    const auto each = [&group](const auto& act) {
+      for (std::size_t k = 0; k < group.axes.size(); ++k)
+        for (std::size_t i = 0; i < group.vertices.size(); ++i)
+          act(D * group.vertices[i] + group.axes[k],
+              group.values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)));
     };
     each([&](Eigen::Index unknown, double& value) { value = p[unknown]; });
-    group.values = factor.solve(group.values).eval();
+    group.values = group.factor.solve(group.values).eval();
     each([&](Eigen::Index unknown, double& value) { dv[unknown] = value; });
   }
 }

@@ -73,7 +73,8 @@ TipFunctions::TipFunctions(const Sheet& sheet) : sheet_(sheet), reaching_(sheet.
 
 /// From the lip on the left of the incision, seen from the tip.
 void TipFunctions::reach_from(std::size_t tip, HalfEdge incision) {
-  const auto& [vertex, at, radius] = tips_[tip];
+  const VertexIndex vertex = tips_[tip].vertex;
+  const Point2 at = tips_[tip].at;
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   std::vector<TriangleIndex> all;
   const auto is_reached = [&](TriangleIndex t) { return !reaching_[t()].empty() && reaching_[t()].back().tip == tip; };
@@ -93,7 +94,7 @@ void TipFunctions::reach_from(std::size_t tip, HalfEdge incision) {
     for (int k = 0; k < 3; ++k) {
       const HalfEdge h = half_edge(all[i], k), across = sheet_.opposite(h);
       if (sheet_.separates(h) || is_reached(triangle_of(across)) ||
-          distance(at, sheet_.rest(sheet_.origin(h)), sheet_.rest(sheet_.target(h))) >= radius)
+          distance(at, sheet_.rest(sheet_.origin(h)), sheet_.rest(sheet_.target(h))) >= tips_[tip].radius)
         continue;
       const auto theta = reaching_[all[i]()].back().theta;
       enter(across, theta[static_cast<std::size_t>(next_corner(k))], theta[static_cast<std::size_t>(k)]);

@@ -123,7 +123,9 @@ int count_corners_passed(const std::vector<Segment>& path, const std::vector<Seg
     });
   }
   int count = 0;
-  for (const auto& [corner, near] : passed) {
+  for (const auto& entry : passed) {
+    const Point& corner = entry.first;
+    const std::set<int>& near = entry.second;
     std::vector<Point> ends;  // of the corner's lines, away from it
     search.for_each_in({corner, corner}, [&](int line) {
       const Segment& s = older[static_cast<std::size_t>(line)];

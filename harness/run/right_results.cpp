@@ -24,7 +24,9 @@ void RightResults::add(const std::string& method, std::int64_t right, std::int64
 
 bool RightResults::report(const Experiment& experiment, bool quiet) const {
   bool programs_work = true;
-  for (const auto& [method, counts] : methods_) {
+  for (const auto& entry : methods_) {
+    const auto& method = entry.first;
+    const auto& counts = entry.second;
     if (counts.right > 0 || counts.others == 0) continue;
     programs_work &= std::none_of(experiment.programs.begin(), experiment.programs.end(),
                                   [&](const ProgramSettings& program) { return program.name == method; });

@@ -96,8 +96,8 @@ class EdgeCrack final : public Problem {
         // Dead loads: as much energy as they lose in work done, twice what the sheet takes up.
         const double value = solve.force().dot(displacement) / 2 - before;
         answer.measures.push_back({"released_energy", value, energy, std::abs(value - energy) / energy});
-        const auto add = [&](const char* name, double k) {
-          answer.measures.push_back({name, k, k1, std::abs(k - k1) / k1});
+        const auto add = [&measures = answer.measures, k1](const char* name, double k) {
+          measures.push_back({name, k, k1, std::abs(k - k1) / k1});
         };
         add("k1", intensity.of(solve.elements(), displacement, of_tips).k1);
         if (of_tips.size() > 0)
