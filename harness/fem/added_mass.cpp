@@ -97,7 +97,7 @@ bool AddedMass::find_bent(const ElementModes& modes, std::size_t triangle) {
   f.setZero();
   modes.bending_rows(triangle, bending_rows_);
   if (bending_rows_.squaredNorm() <= limit_) return was;  // the sum of the eigenvalues
-  const auto svd = bending_rows_.jacobiSvd(Eigen::ComputeThinV);
+  const auto svd = bending_rows_.jacobiSvd(Eigen::ComputeFullV);
   const Eigen::Vector3d eigenvalue = svd.singularValues().cwiseAbs2();
   if (kind_ == Mass::scaled)
     f(0, 0) = std::max(0.0, eigenvalue[0] / limit_ - 1);
