@@ -181,6 +181,17 @@ TEST(Problems, TruthIsThatOfTheRequestedCurve) {
   for (std::size_t m = 0; m < 3; ++m) EXPECT_GT(lost.measures[m].error, 1.3 * full.measures[m].error);
 }
 
+/// The prescribed displacements jump where the method opened the border, not beside it: no edge of the border is torn.
+TEST(Problems, AMovedMouthConvergesToo) {
+  for (const std::string method : {"edge_release", "snap_or_split", "vertex_snap", "warp_and_refine"})
+    for (const std::string mode : {"1", "2"}) {
+      auto all = series_of(find_problem("williams_mode_" + mode), "delaunay", method, 16);
+      EXPECT_GT(all["energy_norm"].rate(), 0.3) << method;
+      EXPECT_LT(all["energy_norm"].error[2], 0.35) << method;
+      EXPECT_NEAR(all["k" + mode].ratio[2], 1, 0.1) << method;
+    }
+}
+
 /// The same final geometry by one cut and by two.
 TEST(Problems, TwoCutsAreAsGoodAsOne) {
   for (const auto& row : whole_sheet_methods())

@@ -5,27 +5,13 @@
 #include <utility>
 
 #include "harness/base/stop_watch.h"
+#include "harness/truth/border_edges.h"
 
 namespace cutbench {
 
 namespace {
 
 const Physics in_the_plane{.dimension = 2, .strain = Strain::linear, .bending = BendingKind::none};
-
-template <class Visit>
-void for_each_border_edge(const Sheet& sheet, Visit visit) {
-  for (std::size_t t = 0; t < sheet.triangle_slots(); ++t)
-    for (int k = 0; k < 3; ++k)
-      if (const TriangleIndex slot(t); sheet.triangle(slot).alive() && sheet.on_border(half_edge(slot, k)))
-        visit(half_edge(slot, k));
-}
-
-/// The deformed vertices of the ends of a half-edge.
-std::array<DeformedIndex, 2> ends(const Sheet& sheet, HalfEdge h) {
-  const auto& deformed = sheet.triangle(triangle_of(h)).deformed;
-  return {deformed[static_cast<std::size_t>(corner_of(h))],
-          deformed[static_cast<std::size_t>(next_corner(corner_of(h)))]};
-}
 
 }  // namespace
 
@@ -38,13 +24,21 @@ StaticSolve::StaticSolve(const Sheet& sheet, const Elastic& elastic, const Ties&
 }
 
 void StaticSolve::hold_border(const std::function<Eigen::Vector2d(Point2, Point2)>& value) {
+  Field values = Field::Zero(given_.size());
   for_each_border_edge(sheet_, [&](HalfEdge h) {
     const auto corners = sheet_.corners(triangle_of(h));
     const Point2 inside = 1.0 / 3 * (corners[0] + corners[1] + corners[2]);
-    for (const DeformedIndex d : ends(sheet_, h)) {
-      if (std::exchange(held_[2 * d()], 1)) continue;
-      held_[2 * d() + 1] = 1;
-      given_.segment<2>(2 * d.value) = value(sheet_.rest(sheet_.rest_vertex(d)), inside);
+    for (const DeformedIndex d : deformed_ends(sheet_, h))
+      values.segment<2>(2 * d.value) = value(sheet_.rest(sheet_.rest_vertex(d)), inside);
+  });
+  hold_border(values);
+}
+
+void StaticSolve::hold_border(const Field& value) {
+  for_each_border_edge(sheet_, [&](HalfEdge h) {
+    for (const DeformedIndex d : deformed_ends(sheet_, h)) {
+      held_[2 * d()] = held_[2 * d() + 1] = 1;
+      given_.segment<2>(2 * d.value) = value.segment<2>(2 * d.value);
     }
   });
 }
@@ -62,7 +56,7 @@ void StaticSolve::pull_border(const std::function<bool(Point2, Point2)>& where, 
   for_each_border_edge(sheet_, [&](HalfEdge h) {
     const Point2 a = sheet_.rest(sheet_.origin(h)), b = sheet_.rest(sheet_.target(h));
     if (!where(a, b)) return;
-    for (const DeformedIndex d : ends(sheet_, h))
+    for (const DeformedIndex d : deformed_ends(sheet_, h))
       force_.segment<2>(2 * d.value) += std::sqrt(squared_length(b - a)) / 2 * force;
   });
 }

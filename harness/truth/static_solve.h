@@ -21,6 +21,8 @@ class StaticSolve {
   /// Gives every vertex of the sheet's border its displacement: `value` of its rest position, and of a point inside a
   /// triangle there, which says on which lip it is.
   void hold_border(const std::function<Eigen::Vector2d(Point2, Point2)>& value);
+  /// The same by a value for each deformed vertex, in two coordinates each; read on the border alone.
+  void hold_border(const Field& value);
   /// Gives one coordinate (0 or 1) of all vertices at p its displacement.
   void hold(Point2 p, int axis, double value);
   /// Force per length on the border edges that `where` says yes to (by their ends), N/m.

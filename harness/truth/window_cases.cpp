@@ -92,6 +92,7 @@ WindowCase williams(int mode) {
   window.measures = {"energy_norm", "displacement_l2", "strain_energy", "k1", "k2"};
   window.field = [=](const Axes& frame) { return williams_field(sheet_material, frame, k); };
   window.cuts = {line({-2, 0}, {0, 0})};
+  window.mouth = true;
   window.tips = {straight_tip({0, 0}, 0, k)};
   return window;
 }

@@ -5,6 +5,7 @@
 
 #include "harness/mesh/families.h"
 #include "harness/truth/members.h"
+#include "harness/truth/mouth.h"
 #include "harness/truth/window_comparison.h"
 
 namespace cutbench {
@@ -46,7 +47,10 @@ class WindowProblem final : public Problem {
                              const Ties& ties) const override {
     const ElasticField field = window_.field({specimen.origin, specimen.angle});
     StaticSolve solve(sheet, sheet_material, ties);
-    solve.hold_border([&](Point2 p, Point2 inside) { return field.displacement(p, inside); });
+    if (window_.mouth)
+      solve.hold_border(continued_over_the_mouth(field, sheet));
+    else
+      solve.hold_border([&](Point2 p, Point2 inside) { return field.displacement(p, inside); });
     solve.hold_loose_pieces();
     solve.make_tip_functions(budgets);
     const WindowComparison comparison(window_, specimen, sheet, solve, field);

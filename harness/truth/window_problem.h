@@ -39,6 +39,7 @@ struct WindowCase {
   std::vector<WindowTip> tips{};
   std::vector<LipSample> lips{};  ///< where the opening is compared
   double rim = 0;                 ///< radius of the hole round the origin
+  bool mouth = false;             ///< the cut is a ray along the negative x axis, out through the border
 };
 
 /// Members with even index lie along the x axis of the mesh, at a distance of 0.5e-6 to 0.5 cells (evenly in its
