@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "harness/base/errors.h"
+#include "harness/mesh/families.h"
 
 namespace cutbench {
 
@@ -72,6 +73,14 @@ double MethodOptions::knob() const {
     value = number(setting.substr(equals + 1), "--set " + name);
   }
   return value;
+}
+
+void set_resolution(Scene& scene, int resolution) {
+  if (resolution == 0) return;
+  squares_per_side(resolution);
+  if (!scene.mesh_file.empty())
+    throw InputError("--resolution: this scene's sheet is read from a file; leave the option out");
+  scene.resolution = resolution;
 }
 
 void print_notes(const MeshData& mesh) {

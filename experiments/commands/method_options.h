@@ -7,6 +7,7 @@
 
 #include "harness/cut/cut.h"
 #include "harness/program/program.h"
+#include "harness/scene/scene.h"
 #include "methods/registry.h"
 
 namespace cutbench {
@@ -33,6 +34,9 @@ struct MethodOptions {
   /// Throws InputError: not the knob of the method, or not a number. The method checks the range.
   double knob() const;
 };
+
+/// Throws InputError: not 2 n^2, or the scene's sheet is read from a file. \param resolution  0: as it is
+void set_resolution(Scene& scene, int resolution);
 
 /// Notes on what reading the mesh changed, on standard error.
 void print_notes(const MeshData& mesh);

@@ -32,12 +32,7 @@ Exit run_scene(const SimulateArguments& arguments, const std::string& command_li
   const MethodRow row = arguments.method.row();
   const double knob = arguments.method.knob();
   const auto method = row.make(knob);
-  if (arguments.resolution > 0) {
-    squares_per_side(arguments.resolution);
-    if (!scene.mesh_file.empty())
-      throw InputError("--resolution: this scene's sheet is read from a file; leave the option out");
-    scene.resolution = arguments.resolution;
-  }
+  set_resolution(scene, arguments.resolution);
   if (!arguments.solver.empty()) {
     check_names({arguments.solver}, solver_names(), "--solver");
     scene.solver.name = arguments.solver;

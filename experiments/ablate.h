@@ -1,0 +1,43 @@
+// `cutbench ablate`: what each part of a scene's model is worth: the change of the result without it, and the time saved.
+#pragma once
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "harness/cut/cut.h"
+#include "harness/scene/scene.h"
+
+namespace cutbench {
+
+struct AblatedScene {
+  std::string without;  ///< what is left out: a row's name
+  Scene scene;
+};
+
+/// The scene, and the scene without each part that it has, one at a time: bending, the stiffness from stress, Newton's
+/// iterations but the first, the rotation of elements (linear strain), the third dimension (and bending with it), every
+/// second step, and three of four triangles.
+std::vector<AblatedScene> ablations_of(const Scene& scene);
+
+/// Where a simulation ends, and what it took.
+struct Ablation {
+  std::string without, verdict = "ok", reason;
+  double deflection = 0;     ///< m: largest distance of a vertex from its rest position
+  double gape = 0;           ///< m: largest distance between vertices that were one before the cuts; 0 without cuts
+  double deviation = 0;      ///< m: largest distance of a vertex from where the whole model has it; NaN: other vertices
+  double ms_per_second = 0;  ///< of computing, for a simulated second; in equilibrium: of the solve
+  int steps = 0;
+};
+
+/// Runs them one after the other, the whole model first. What can't be started has the verdict `refused`. A run that takes
+/// more than `time_limit` seconds of processor time, or ten times as long as the whole model, is `timed_out`.
+/// The last row is explicit: symplectic Euler at 0.9 of the largest step that the whole model's cut sheet allows, unless
+/// there is none (vertices are tied) or the scene is in equilibrium or explicit already.
+std::vector<Ablation> ablate(const Scene& scene, CuttingMethod& method, const CutOptions& options, double time_limit);
+
+void print_ablations(const std::vector<Ablation>& rows);
+nlohmann::ordered_json json_of(const std::vector<Ablation>& rows);
+
+}  // namespace cutbench
