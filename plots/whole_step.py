@@ -42,13 +42,14 @@ def setting_name(setting):
     return f"{cuts:g} cut{'' if cuts == 1 else 's'}, step 1/{1 / step:.0f} s, E t {stiffness:g} N/m"
 
 
-def draw(ax, table, scale=1.0, named=None):
-    """The methods of a setting: a small marker for the smaller sheet, a large one for the larger; full where on the front."""
+def draw(ax, table, scale=1.0):
+    """The methods of a setting, a small marker for the smaller sheet, a large one for the larger; pale behind the front.
+    Returns the rows that are drawn."""
     sizes = sorted(set(table["resolution"]))
     for method, here in table.groupby("method", sort=False):
         here = here[np.isfinite(here["ms"])].sort_values("resolution")
         colour, marker = look(method)
-        ax.plot(here["ms"], here["error"], color=colour, linewidth=0.5 * scale, alpha=0.3, zorder=1)
+        ax.plot(here["ms"], here["error"], color=colour, linewidth=0.4 * scale, alpha=0.2, zorder=1)
         for _, p in here.iterrows():
             first = p["layer"] == 1
             bars = dict(color=colour, linewidth=0.6 * scale, alpha=0.55 if first else 0.15, zorder=1.5)
@@ -70,7 +71,7 @@ def draw(ax, table, scale=1.0, named=None):
     ax.yaxis.set_major_locator(plt.FixedLocator([0.02, 0.05, 0.1, 0.2, 0.5, 1]))
     ax.yaxis.set_minor_locator(plt.NullLocator())
     ax.yaxis.set_major_formatter(lambda y, _: f"{100 * y:g} %")
-    return made if named == "all" else best
+    return made
 
 
 def name_of(p, with_solver):
@@ -129,13 +130,13 @@ def pages(table, column, context, by_solver):
     settings = sorted(set(table[SETTING].itertuples(index=False, name=None)), key=lambda s: (s[2], -s[1], s[0]))
     columns = min(3, len(settings))
     rows = -(-len(settings) // columns)
-    figure, axes = style.panels(rows, columns, 4.6 * rows, width=style.PAGE)
+    figure, axes = style.panels(rows, columns, 5.6, width=style.PAGE)
     for ax in axes.flat[len(settings):]:
         ax.set_visible(False)
     drawn = []
     for i, (ax, setting) in enumerate(zip(axes.flat, settings)):
         here = at(table, setting)
-        drawn.append((ax, draw(ax, here), here[np.isfinite(here["ms"])]))
+        drawn.append((ax, draw(ax, here)))
         ax.set_title(setting_name(setting), fontsize=6, loc="left")
         ax.set_xlabel("ms for a cut and the 0.25 s after it" if i + columns >= len(settings) else "")
         ax.set_ylabel("" if i % columns else f"error, {points.MEASURES[column]}", fontsize=6)
@@ -144,32 +145,40 @@ def pages(table, column, context, by_solver):
         f"Lower left is better; {solver}. Time: median over sheets and cuts, bars quartiles. Error: |relative error|, geometric mean "
         "over kinds of problems in plane at rest; bars: bootstrap over the kinds, of the ratio to a fitted mesh. Hollow: energy came "
         f"from nowhere in over half of the motions. {words(table, context)}."), entries(table))
-    for ax, named, everything in drawn:
-        write_names(ax, named, everything, 4.3, by_solver)
+    for ax, made in drawn:
+        write_names(ax, made[made["layer"] == 1], made, 4.3, by_solver)
     return figure
 
 
 def summary(best, same, context):
     """readme_chart.png: one setting, left each method by its fastest solver, right all by the same."""
-    figure, axes = plt.subplots(1, 2, figsize=(9, 5.2), sharey=True)
+    figure, axes = plt.subplots(1, 2, figsize=(9, 5.6), sharex=True, sharey=True)
     figure.subplots_adjust(left=0.07, right=0.995, top=0.86, bottom=0.185, wspace=0.04)
-    setting = summarised(best)
+    setting, drawn = summarised(best), []
     for ax, table, title in ((axes[0], best, "each by its fastest solver"), (axes[1], same, f"all by {SAME}")):
         here = at(table, setting)
-        named = draw(ax, here, 1.7, "all")
+        drawn.append((ax, draw(ax, here, 1.7)))
         ax.set_title(title, loc="left", fontsize=9.5, fontweight="bold")
         ax.set_xlabel("ms for a cut and the 0.25 s of motion after it", fontsize=9)
         ax.tick_params(labelsize=8.5)
-        largest = named[named["resolution"] == named["resolution"].max()]
-        write_names(ax, largest, named, 7, False)
+    limits = np.array([ax.dataLim.intervalx for ax in axes])
+    for ax, made in drawn:
+        ax.set_xlim(limits[:, 0].min() / 1.5, limits[:, 1].max() * 2)
+        write_names(ax, made[(made["layer"] == 1) | (made["resolution"] == made["resolution"].max())], made, 7, False)
     axes[0].set_ylabel("error of the cut sheet's solution", fontsize=9)
     handles = entries(best, 1.6)
     figure.legend(handles=handles, loc="upper left", ncol=-(-len(handles) // 2), fontsize=8.5, borderaxespad=0.2, handletextpad=0.3,
                   columnspacing=1.2)
     figure.text(0.02, 0.015, f"Lower left is better. {setting_name(setting)}. {words(best, context)}.\n"
                 "Bars: quartiles of the time; how the error changes with the kind of problem. Hollow: energy grew in over half of "
-                "the motions.", fontsize=8, color="#555555")
+                f"the motions.{absent(at(best, setting))}", fontsize=8, color="#555555")
     return figure
+
+
+def absent(table):
+    """Which methods are in no chart of this setting, in words."""
+    lost = [m.replace("_", " ") for m, here in table.groupby("method", sort=False) if not np.isfinite(here["ms"]).any()]
+    return f" Motions that ended early, by any solver: {', '.join(lost)}." if lost else ""
 
 
 def at(table, setting):
