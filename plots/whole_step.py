@@ -9,6 +9,7 @@ import io
 
 import matplotlib.pyplot as plt
 import numpy as np
+import pandas as pd
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import LogLocator, NullFormatter
@@ -143,17 +144,17 @@ def pages(table, column, context, by_solver):
     solver = "each by its fastest solver of CG with sliver blocks, multigrid (MG) and CHOLMOD (direct)" if by_solver else f"all by {SAME}"
     style.finish(figure, [], (
         f"Lower left is better; {solver}. Time: median over sheets and cuts, bars quartiles. Error: |relative error|, geometric mean "
-        "over kinds of problems in plane at rest; bars: bootstrap over the kinds, of the ratio to a fitted mesh. Hollow: energy came "
-        f"from nowhere in over half of the motions. {words(table, context)}."), entries(table))
+        "over kinds of problems in plane at rest; bars: bootstrap over the kinds, of the ratio to a fitted mesh. Hollow, and not on the "
+        f"front: energy came from nowhere in over half of the motions. {words(table, context)}."), entries(table))
     for ax, made in drawn:
         write_names(ax, made[made["layer"] == 1], made, 4.3, by_solver)
     return figure
 
 
-def summary(best, same, context):
+def summary(best, same, methods, context):
     """readme_chart.png: one setting, left each method by its fastest solver, right all by the same."""
     figure, axes = plt.subplots(1, 2, figsize=(9, 5.6), sharex=True, sharey=True)
-    figure.subplots_adjust(left=0.07, right=0.995, top=0.86, bottom=0.185, wspace=0.04)
+    figure.subplots_adjust(left=0.07, right=0.995, top=0.86, bottom=0.19, wspace=0.04)
     setting, drawn = summarised(best), []
     for ax, table, title in ((axes[0], best, "each by its fastest solver"), (axes[1], same, f"all by {SAME}")):
         here = at(table, setting)
@@ -170,15 +171,15 @@ def summary(best, same, context):
     figure.legend(handles=handles, loc="upper left", ncol=-(-len(handles) // 2), fontsize=8.5, borderaxespad=0.2, handletextpad=0.3,
                   columnspacing=1.2)
     figure.text(0.02, 0.015, f"Lower left is better. {setting_name(setting)}. {words(best, context)}.\n"
-                "Bars: quartiles of the time; how the error changes with the kind of problem. Hollow: energy grew in over half of "
-                f"the motions.{absent(at(best, setting))}", fontsize=8, color="#555555")
+                "Bars: quartiles of the time; how the error changes with the kind of problem. Hollow, no part of the front: energy grew in over half of "
+                f"the motions.\n{absent(pd.concat([made for _, made in drawn]), methods)}", fontsize=8, color="#555555")
     return figure
 
 
-def absent(table):
-    """Which methods are in no chart of this setting, in words."""
-    lost = [m.replace("_", " ") for m, here in table.groupby("method", sort=False) if not np.isfinite(here["ms"]).any()]
-    return f" Motions that ended early, by any solver: {', '.join(lost)}." if lost else ""
+def absent(drawn, methods):
+    """Which methods are in no panel, in words."""
+    lost = [m.replace("_", " ") for m in methods if m not in set(drawn["method"])]
+    return f"Not shown (refuses the scene, ended early, or no published error): {', '.join(lost)}." if lost else ""
 
 
 def at(table, setting):
@@ -247,7 +248,7 @@ def main():
         if len(table):
             style.save(pages(table, column, context, way == "best"), folder,
                        STEM + "_same_solver" * (way == "same") + "_energy_norm" * (column != "error"))
-    figure = summary(fronts["error", "best"], fronts["error", "same"], context)
+    figure = summary(fronts["error", "best"], fronts["error", "same"], rows["method"].unique(), context)
     figure.savefig(folder / "readme_chart.png", dpi=150)
     plt.close(figure)
     load.write_beside(folder / f"{STEM}.txt", tables(cost, fronts))
