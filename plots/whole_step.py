@@ -237,19 +237,36 @@ def tables(cost, fronts):
     return text.getvalue()
 
 
+def read(folder):
+    """The rows and the context of a run, or those that are published in the folder."""
+    published = not (folder / "records.csv").is_file() and (folder / f"{STEM}.records.csv.gz").is_file()
+    rows = load.read_records(folder / (f"{STEM}.records.csv.gz" if published else "records.csv"),
+                             [*SETTING, *points.TIMES, "solver"], all_columns=True)
+    return rows, load.read_context(folder / (f"{STEM}.context.json" if published else "context.json"))
+
+
+def ways(cost):
+    """How the solver of each method is chosen."""
+    return {"best": points.best_of(cost), "same": cost[cost["solver"] == SAME]}
+
+
+def readme_chart(folder):
+    rows, context = read(folder)
+    error = points.errors("error")
+    best, same = (points.joined(some, error) for some in ways(points.costs(rows)).values())
+    return summary(best, same, rows["method"].unique(), context)
+
+
 def main():
     folder = load.results_folder(STEM, __doc__)
-    rows = load.read_records(folder / "records.csv", [*SETTING, *points.TIMES, "solver"], all_columns=True)
-    context = load.read_context(folder / "context.json")
+    rows, context = read(folder)
     cost = points.costs(rows)
-    ways = {"best": points.best_of(cost), "same": cost[cost["solver"] == SAME]}
     fronts = {(column, way): points.joined(some, points.errors(column))
-              for column in points.MEASURES for way, some in ways.items()}
+              for column in points.MEASURES for way, some in ways(cost).items()}
     for (column, way), table in fronts.items():
-        if len(table):
-            style.save(pages(table, column, context, way == "best"), folder,
-                       STEM + "_same_solver" * (way == "same") + "_energy_norm" * (column != "error"))
-    figure = summary(fronts["error", "best"], fronts["error", "same"], rows["method"].unique(), context)
+        style.save(pages(table, column, context, way == "best"), folder,
+                   STEM + "_same_solver" * (way == "same") + "_energy_norm" * (column != "error"))
+    figure = readme_chart(folder)
     figure.savefig(folder / "readme_chart.png", dpi=150)
     plt.close(figure)
     load.write_beside(folder / f"{STEM}.txt", tables(cost, fronts))
