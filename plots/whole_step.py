@@ -142,7 +142,9 @@ def pages(table, column, context, by_solver):
         ax.set_title(setting_name(setting), fontsize=6, loc="left")
         ax.set_xlabel("ms for a cut and the 0.25 s after it" if i + columns >= len(settings) else "")
         ax.set_ylabel("" if i % columns else f"error, {points.MEASURES[column]}", fontsize=6)
-    solver = "each by its fastest solver of CG with sliver blocks, multigrid (MG) and CHOLMOD (direct)" if by_solver else f"all by {SAME}"
+    solver = f"all by {SAME}"
+    if by_solver:
+        solver = "each by its fastest solver of CG with sliver blocks, multigrid (MG) and CHOLMOD (direct)"
     style.finish(figure, [], (
         f"Lower left is better; {solver}. Time: median over sheets and cuts, bars quartiles. Error: |relative error|, geometric mean "
         "over kinds of problems in plane at rest; bars: bootstrap over the kinds, of the ratio to a fitted mesh. Hollow, and not on the "
