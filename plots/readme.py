@@ -1,48 +1,30 @@
 #!/usr/bin/env python3
 """The figures of README.md: readme_gallery.png, the same cut by every method, made by the program that
-experiments/reproduce builds, and from the records in results/reference readme_chart.png, time against the largest
-eigenvalue, and readme_atlas.png, where methods stop working. Writes them there."""
+experiments/reproduce builds, and from the records in results/reference readme_chart.png, the time of a cut and of the
+motion after it against the error, and readme_atlas.png, where methods stop working. Writes them there."""
 
 import argparse
 import io
 from pathlib import Path
 
 import matplotlib.pyplot as plt
-import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.patheffects import withStroke
 from PIL import Image
 
 import atlas
 import method_gallery
+import whole_step
 from atlas_parts import panels, points
 from common import load, style  # style: the fonts and axes of every figure
 
-STEM = "method_comparison"
 WIDTH = 9.0  # inches; at 150 dpi twice the pixels of a page that is not a high-resolution one
 DPI = 150
 WINDOW = (0.345, 0.765, 0.355, 0.59)  # of the unit sheet: a stretch between vertices, a bend and the tip
 BANDS = {3: "#fbdca4", 10: "#f29d4b", 30: "#c8551b"}  # colours of aspect ratios above these
 MESH, PATH, INCISION = "#8d8d8d", "#0072b2", "#a50021"
-GROUPS = {  # of the methods, by what they promise: colour, marker, words
-    "tolerance": ("#0072b2", "o", "incision within 0.1 edge lengths of the path"),
-    "moved": ("#d55e00", "s", "incision moved by up to one edge length"),
-    "removed": ("#777777", "X", "triangles removed, no incision"),
-}
-PLACES = {  # of the names in the chart: which side of the name is at the marker, and how many points higher; others: left, 0
-    "example": ("right", 5), "conventional_split": ("right", -7), "bowyer_watson": ("right", 0),
-    "cgal_refine": ("right", 0), "global_remesh": ("right", 0), "edge_release": ("right", 0),
-    "snap_or_split": ("right", 0), "vertex_snap": ("right", -11), "phantom_node": ("left", -5),
-}
-
-
-def group(method):
-    if "keeps_area" not in method["promises"]:
-        return "removed"
-    return "moved" if method["incision_bound"]["longest_edges"] > 0 else "tolerance"
 
 
 # ---- the gallery
@@ -96,59 +78,6 @@ def gallery(methods):
     return figure
 
 
-# ---- the chart
-
-
-def statistics(methods):
-    """Per method: x, y, the 95 % quantile of y, the name, its group."""
-    run = load.read_reference(STEM, ["crossed_triangles", "geometry_us", "eigenvalue_ratio"]).first_repetition()
-    rows = run.rows[run.rows["status"] != "noop"]
-    points = []
-    for method in methods:
-        cuts = rows[rows["method"] == method["name"]]
-        eigenvalues = cuts["eigenvalue_ratio"].dropna()
-        points.append(((cuts["geometry_us"] / cuts["crossed_triangles"]).median(), eigenvalues.median(),
-                       eigenvalues.quantile(0.95), method["name"], group(method)))
-    return run, rows, points
-
-
-def write_names(ax, points):
-    """Each name beside its marker, where PLACES says, in front of the bars that it crosses."""
-    for x, y, _, name, kind in points:
-        side, up = PLACES.get(name, ("left", 0))
-        ax.annotate(name, (x, y), xytext=(7 if side == "left" else -7, up), textcoords="offset points", ha=side,
-                    va="center_baseline", fontsize=9, color=GROUPS[kind][0], zorder=2.5,
-                    path_effects=[withStroke(linewidth=2.5, foreground="white")])
-
-
-def chart(methods):
-    run, rows, points = statistics(methods)
-    figure, ax = plt.subplots(figsize=(WIDTH, 5.0), dpi=DPI)
-    figure.subplots_adjust(left=0.075, right=0.99, top=0.935, bottom=0.175)
-    ax.set(xscale="log", yscale="log", xlim=(0.19, 260), ylim=(0.3, 2e8))
-    for x, y, top, _, kind in points:
-        colour, marker, _ = GROUPS[kind]
-        ax.plot([x, x], [y, top], color=colour, linewidth=1.2, alpha=0.55, marker="_", markersize=5, markevery=[1])
-        ax.plot(x, y, marker, color=colour, markersize=7, markeredgecolor="white", markeredgewidth=0.6, zorder=3)
-    ax.set_xlabel("time of the cut, µs per crossed triangle", fontsize=10)
-    ax.set_ylabel("largest eigenvalue, cut over uncut sheet", fontsize=10)
-    ax.xaxis.set_major_formatter(lambda x, _: f"{x:g}")
-    ax.tick_params(labelsize=9)
-    handles = [Line2D([], [], linestyle="", marker=marker, color=colour, markersize=7, label=words)
-               for colour, marker, words in GROUPS.values()]
-    ax.legend(handles=handles, loc="lower left", bbox_to_anchor=(-0.03, 1), ncol=3, fontsize=9, handletextpad=0.2,
-              borderaxespad=0.2, columnspacing=1.2)
-    write_names(ax, points)
-    sheets = rows.groupby("method")["sheet"].nunique()
-    some = "".join(f"{method} cuts {n} of the {sheets.max()} kinds of sheets. " for method, n in sheets.items()
-                   if n < sheets.max())
-    made = f"{load.count(rows)} cuts, eigenvalues of {rows['eigenvalue_ratio'].count()} of them"
-    figure.text(0.075, 0.014, "Lower left is better. Marker: median over the cuts of all sheets, sizes and cut families. "
-                f"Bar: up to the 95 % quantile.\n{some}{made}, commit {str(run.context['commit'])[:10]}.",
-                fontsize=9, color="#555555", linespacing=1.35)
-    return figure
-
-
 # ---- the atlas in short
 
 
@@ -194,7 +123,7 @@ def main():
     folder = parser.parse_args().out
     methods = method_gallery.all_methods()
     save(gallery(methods), folder / "readme_gallery.png")
-    save(chart(methods), folder / "readme_chart.png")
+    save(whole_step.readme_chart(load.REPOSITORY / "results/reference"), folder / "readme_chart.png")
     save(stability(), folder / "readme_atlas.png")
 
 

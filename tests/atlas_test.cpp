@@ -7,6 +7,7 @@
 #include <cmath>
 #include <csignal>
 #include <map>
+#include <regex>
 
 #include "harness/atlas/placed_cuts.h"
 #include "harness/mesh/families.h"
@@ -165,6 +166,56 @@ newton = 20)",
   keys("r", whole), keys("s1", parts), keys("s2", parts);
   std::sort(whole.begin(), whole.end()), std::sort(parts.begin(), parts.end());
   EXPECT_EQ(whole, parts);
+}
+
+/// Each time in the table of plots/whole_step.py is the cut's share of the cuts and the update, the first step after them
+/// and as many more as 0.25 s have; and on a front what takes longer errs less.
+TEST_F(Atlas, WholeStepsAgainstErrors) {
+  write(folder_ / "atlas.toml", R"(claim = "c"
+sheets = ["delaunay"]
+resolutions = [800]
+methods = ["conventional_split", "delaunay_refine", "edge_release", "longest_edge"]
+)" + sweep("steps", R"(steps = 3
+cut = "in_a_row"
+place = [1.0, 4.0]
+pose = "stretched"
+pose_amount = 1.05
+step_s = 0.016666666666666666
+solver = ["multigrid", "cholmod"])"));
+  ASSERT_EQ(run("run atlas.toml --out r").code, 0);
+  std::map<std::string, double> total;  // ms, by cuts, method and solver
+  for (const Record& row : records_of("r")) {
+    const auto number = [&](const char* column) { return std::stod(row.get(column)); };
+    ASSERT_EQ(row.get("steps"), "3");
+    EXPECT_GT(number("cut_update_us"), 0);
+    total[row.get("place") + " " + row.get("method") + " " + row.get("solver")] =
+        (number("cut_update_us") / number("place") + number("first_step_us") + 14 * number("step_us")) / 1000;
+  }
+  const Result drawn =
+      run("methods >/dev/null; /usr/bin/python3 '" CUTBENCH_TEST_CASES "/../../plots/whole_step.py' --results r/atlas");
+  ASSERT_EQ(drawn.code, 0) << drawn.error;
+  for (const char* picture : {"whole_step.png", "whole_step_same_solver.png", "readme_chart.png"})
+    EXPECT_GT(fs::file_size(folder_ / "r/atlas" / picture), 10000u) << picture;
+
+  const std::regex gap("  +");
+  std::string front, setting;
+  double ms_before = 0, error_before = 0;
+  int rows = 0;
+  for (const std::string& line : lines_of(read(folder_ / "r/atlas/whole_step.txt"))) {
+    if (line.starts_with("Fronts: ")) front = line, setting = "";
+    const std::vector<std::string> cells(std::sregex_token_iterator(line.begin(), line.end(), gap, -1), {});
+    if (front.empty() || cells.size() != 13 || cells[0] == "setting") continue;
+    const double ms = std::stod(cells[4]), error = std::stod(cells[8]);
+    const std::string name = cells[0].substr(0, 1) + " " + cells[1] + " " + cells[3];
+    ASSERT_TRUE(total.contains(name)) << line;
+    EXPECT_NEAR(ms, total[name], 1e-3 * ms) << line;
+    if (cells[0] == setting) {
+      EXPECT_GT(ms, ms_before) << line;
+      EXPECT_LT(error, error_before) << line;
+    }
+    setting = cells[0], ms_before = ms, error_before = error, ++rows;
+  }
+  EXPECT_GE(rows, 8);  // two settings, two ways to choose the solver, two measures of the error
 }
 
 class Saboteur : public CuttingMethod {

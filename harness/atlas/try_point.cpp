@@ -146,11 +146,13 @@ class Point {
     measure(PointMeasure::steps) = static_cast<double>(steps.size());
     if (steps.empty()) return;
     std::vector<double> us;
-    double iterations = 0, residual = 0;
+    double iterations = 0, residual = 0, cut_update = 0;
     for (const LoggedStep& s : steps) {
       us.push_back(s.step.time_us.total());
+      cut_update += s.total_us() - us.back();
       iterations += s.step.iterations, residual = std::max(residual, s.step.residual);
     }
+    measure(PointMeasure::cut_update_us) = cut_update, measure(PointMeasure::first_step_us) = us.front();
     std::nth_element(us.begin(), us.begin() + static_cast<std::ptrdiff_t>(us.size() / 2), us.end());
     measure(PointMeasure::step_us) = us[us.size() / 2];
     measure(PointMeasure::iterations) = iterations / static_cast<double>(steps.size());

@@ -38,6 +38,8 @@ struct PointMeasure {
     eigenvalue_ratio,
     explicit_step_ratio,
     steps,
+    cut_update_us,
+    first_step_us,
     step_us,
     iterations,
     residual,
@@ -45,7 +47,7 @@ struct PointMeasure {
     drift_h
   };
 };
-constexpr std::array<const char*, 14> measure_names{"triangles",
+constexpr std::array<const char*, 16> measure_names{"triangles",
                                                     "vertices_added",
                                                     "ar_max_cut",
                                                     "altitude_min_h_cut",
@@ -54,6 +56,8 @@ constexpr std::array<const char*, 14> measure_names{"triangles",
                                                     "eigenvalue_ratio",
                                                     "explicit_step_ratio",
                                                     "steps",
+                                                    "cut_update_us",
+                                                    "first_step_us",
                                                     "step_us",
                                                     "iterations",
                                                     "residual",

@@ -40,6 +40,11 @@ void add_atlas(std::vector<Metric>& t) {
       "value that an explicit step with its ties would have; the program makes none.");
   add("steps", "", "steps made", Direction::higher,
       "Steps of the motion that were made; fewer than asked where it ended.");
+  add("cut_update_us", "us", "cuts and update", Direction::lower,
+      "In the motion, nothing warmed up: all cuts of the point, the state of new vertices, elements, mass, loads, "
+      "bending and the pattern of the system.");
+  add("first_step_us", "us", "time of the first step", Direction::lower,
+      "The one right after the cuts, in which the solver is set up from nothing.");
   add("step_us", "us", "time of a step", Direction::lower, "Median over the steps of the motion.");
   add("energy_gain", "", "energy gained", Direction::lower,
       "What the energy budget can't explain over the largest kinetic and elastic energy: of an explicit motion all but "

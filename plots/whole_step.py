@@ -1,0 +1,278 @@
+#!/usr/bin/env python3
+"""Speed against accuracy: the time of a cut and of the 0.25 s of motion after it, by every method (results/whole_step),
+against the error of the cut sheet's solutions (the published rows of method_comparison_accuracy). A Pareto chart per
+setting, each method by its fastest solver and all by the same one; readme_chart.png, one setting; and whole_step.txt, the
+fronts in numbers."""
+
+import contextlib
+import io
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
+from matplotlib.ticker import LogLocator, NullFormatter
+
+from common import front, load, style
+from whole_step_parts import points
+from whole_step_parts.points import SETTING
+
+STEM = "whole_step"
+SAME = "multigrid"
+REAL_TIME_MS = 1000 * points.BETWEEN_S
+GROUPS = {  # colour, marker, methods
+    "moves vertices": ("#0072b2", "o", ["warp_and_refine", "vertex_snap", "cisamr"]),
+    "moves the path": ("#d55e00", "s", ["snap_or_split", "edge_release"]),
+    "constrains or doubles vertices": ("#7b3294", "D", ["split_and_tie", "cut_polygons", "phantom_node"]),
+    "refines": ("#009e73", "^", ["delaunay_refine", "cgal_refine", "longest_edge", "global_remesh"]),
+    "splits crossed triangles": ("#111111", "v", ["conventional_split", "cgal_cdt", "bowyer_watson", "example"]),
+    "deletes triangles": ("#b8860b", "X", ["element_deletion"]),
+}
+OTHER = ("#777777", "P")
+SOLVERS = {"cg_sliver_blocks": "CG", "multigrid": "MG", "cholmod": "direct"}
+SUMMARY = (4, 1 / 240, 1000)  # the setting of readme_chart.png
+
+
+def look(method):
+    return next(((colour, marker) for colour, marker, methods in GROUPS.values() if method in methods), OTHER)
+
+
+def setting_name(setting):
+    cuts, step, stiffness = setting
+    return f"{cuts:g} cut{'' if cuts == 1 else 's'}, step 1/{1 / step:.0f} s, E t {stiffness:g} N/m"
+
+
+def draw(ax, table, scale=1.0):
+    """The methods of a setting, a small marker for the smaller sheet, a large one for the larger; pale behind the front.
+    Returns the rows that are drawn."""
+    sizes = sorted(set(table["resolution"]))
+    for method, here in table.groupby("method", sort=False):
+        here = here[np.isfinite(here["ms"])].sort_values("resolution")
+        colour, marker = look(method)
+        ax.plot(here["ms"], here["error"], color=colour, linewidth=0.4 * scale, alpha=0.2, zorder=1)
+        for _, p in here.iterrows():
+            first = p["layer"] == 1
+            bars = dict(color=colour, linewidth=0.6 * scale, alpha=0.55 if first else 0.15, zorder=1.5)
+            ax.hlines(p["error"], p["ms_low"], p["ms_high"] if np.isfinite(p["ms_high"]) else p["ms"], **bars)
+            ax.vlines(p["ms"], p["error_low"], p["error_high"], **bars)
+            ax.plot(p["ms"], p["error"], marker, color=colour if p["grew"] <= 0.5 else "white", markeredgecolor=colour,
+                    markersize=scale * (2.6 + 1.6 * sizes.index(p["resolution"])), alpha=1 if first else 0.45,
+                    markeredgewidth=0.7 * scale, zorder=3 if first else 2)
+    best = table[table["layer"] == 1].sort_values("ms")
+    ax.plot(best["ms"], best["error"], **front.FRONT_LINE)
+    ax.set(xscale="log", yscale="log")
+    made = table[np.isfinite(table["ms"])]
+    ax.set_xlim(made["ms"].min() / 1.7, made["ms"].max() * 2.2)
+    ax.set_ylim(made["error"].min() / 1.25, made["error"].max() * 1.25)
+    ax.axvline(REAL_TIME_MS, color="#999999", linewidth=0.7, linestyle="--", zorder=0)
+    span = made["ms"].max() / made["ms"].min()
+    ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if span < 15 else (1, 3) if span < 300 else (1,)))
+    ax.xaxis.set_minor_formatter(NullFormatter())
+    ax.xaxis.set_major_formatter(lambda x, _: f"{x:g}")
+    ax.yaxis.set_major_locator(plt.FixedLocator([0.02, 0.05, 0.1, 0.2, 0.5, 1]))
+    ax.yaxis.set_minor_locator(plt.NullLocator())
+    ax.yaxis.set_major_formatter(lambda y, _: f"{100 * y:g} %")
+    return made
+
+
+def name_of(p, with_solver):
+    return p["method"].replace("_", " ") + (f" ({SOLVERS.get(p['solver'], p['solver'])})" if with_solver else "")
+
+
+def write_names(ax, named, everything, size, with_solver):
+    """Each name near its marker, where it covers no marker and no other name; a thin line to it where it is further off."""
+    figure = ax.figure
+    figure.draw_without_rendering()
+    where = ax.transData.transform
+    taken = [where((p["ms"], p["error"])) for _, p in everything.iterrows()]
+    boxes, frame, reach = [], ax.get_window_extent(), figure.dpi / 72
+    for _, p in named.sort_values("error").iterrows():
+        colour, _ = look(p["method"])
+        text = ax.annotate(name_of(p, with_solver), (p["ms"], p["error"]), xytext=(0, 0), textcoords="offset points",
+                           fontsize=size, color=colour, va="center", zorder=4,
+                           path_effects=[withStroke(linewidth=1.5, foreground="white")])
+        box = text.get_window_extent()
+        width, height = box.width / reach, box.height / reach
+        best = None
+        for distance in np.arange(5, 90, 3):
+            for angle in np.radians([0, 180, -35, -145, 35, 145, -90, 90]):
+                x = distance * np.cos(angle) - width / 2 + np.cos(angle) * width / 2
+                y = distance * np.sin(angle)
+                here = box.translated(x * reach, y * reach)
+                inside = frame.x0 <= here.x0 and here.x1 <= frame.x1 and frame.y0 <= here.y0 and here.y1 <= frame.y1
+                faults = sum(here.overlaps(other) for other in boxes) * 10 + (not inside) * 20 + sum(
+                    here.x0 - 2 < q[0] < here.x1 + 2 and here.y0 - 2 < q[1] < here.y1 + 2 for q in taken)
+                if best is None or faults < best[0]:
+                    best = (faults, x, y, here, distance)
+            if best[0] == 0:
+                break
+        text.set_position((best[1], best[2]))
+        boxes.append(best[3].padded(-0.12 * height * reach))
+        if best[4] > 11:
+            ax.annotate("", (p["ms"], p["error"]), xytext=(best[1] + width / 2, best[2]), textcoords="offset points",
+                        arrowprops=dict(arrowstyle="-", color=colour, linewidth=0.4, alpha=0.6, shrinkB=2, shrinkA=size / 2))
+
+
+def entries(table, scale=1.0):
+    there = set(table["method"])
+    handles = [Line2D([], [], linestyle="", marker=marker, color=colour, markersize=4 * scale, label=group)
+               for group, (colour, marker, methods) in GROUPS.items() if there & set(methods)]
+    return handles + [Line2D([], [], label="front", **front.FRONT_LINE),
+                      Line2D([], [], color="#999999", linewidth=0.7, linestyle="--", label="real time")]
+
+
+def words(table, context):
+    sizes = " and ".join(f"{n}" for n in sorted(set(table["resolution"])))
+    return (f"{sizes} triangles (small and large marker, joined); commit {str(context.get('commit'))[:10]}, seed "
+            f"{context.get('seed')}")
+
+
+def pages(table, column, context, by_solver):
+    settings = sorted(set(table[SETTING].itertuples(index=False, name=None)), key=lambda s: (s[2], -s[1], s[0]))
+    columns = min(3, len(settings))
+    rows = -(-len(settings) // columns)
+    figure, axes = style.panels(rows, columns, 5.6, width=style.PAGE)
+    for ax in axes.flat[len(settings):]:
+        ax.set_visible(False)
+    drawn = []
+    for i, (ax, setting) in enumerate(zip(axes.flat, settings)):
+        here = at(table, setting)
+        drawn.append((ax, draw(ax, here)))
+        ax.set_title(setting_name(setting), fontsize=6, loc="left")
+        ax.set_xlabel("ms for a cut and the 0.25 s after it" if i + columns >= len(settings) else "")
+        ax.set_ylabel("" if i % columns else f"error, {points.MEASURES[column]}", fontsize=6)
+    solver = f"all by {SAME}"
+    if by_solver:
+        solver = "each by its fastest solver of CG with sliver blocks, multigrid (MG) and CHOLMOD (direct)"
+    style.finish(figure, [], (
+        f"Lower left is better; {solver}. Time: median over sheets and cuts, bars quartiles. Error: |relative error|, geometric mean "
+        "over kinds of problems in plane at rest; bars: bootstrap over the kinds, of the ratio to a fitted mesh. Hollow, and not on the "
+        f"front: energy came from nowhere in over half of the motions. {words(table, context)}."), entries(table))
+    for ax, made in drawn:
+        write_names(ax, made[made["layer"] == 1], made, 4.3, by_solver)
+    return figure
+
+
+def summary(best, same, methods, context):
+    """readme_chart.png: one setting, left each method by its fastest solver, right all by the same."""
+    figure, axes = plt.subplots(1, 2, figsize=(9, 5.6), sharex=True, sharey=True)
+    figure.subplots_adjust(left=0.07, right=0.995, top=0.86, bottom=0.19, wspace=0.04)
+    setting, drawn = summarised(best), []
+    for ax, table, title in ((axes[0], best, "each by its fastest solver"), (axes[1], same, f"all by {SAME}")):
+        here = at(table, setting)
+        drawn.append((ax, draw(ax, here, 1.7)))
+        ax.set_title(title, loc="left", fontsize=9.5, fontweight="bold")
+        ax.set_xlabel("ms for a cut and the 0.25 s of motion after it", fontsize=9)
+        ax.tick_params(labelsize=8.5)
+    limits = np.array([ax.dataLim.intervalx for ax in axes])
+    for ax, made in drawn:
+        ax.set_xlim(limits[:, 0].min() / 1.5, limits[:, 1].max() * 2)
+        write_names(ax, made[(made["layer"] == 1) | (made["resolution"] == made["resolution"].max())], made, 7, False)
+    axes[0].set_ylabel("error of the cut sheet's solution", fontsize=9)
+    handles = entries(best, 1.6)
+    figure.legend(handles=handles, loc="upper left", ncol=-(-len(handles) // 2), fontsize=8.5, borderaxespad=0.2, handletextpad=0.3,
+                  columnspacing=1.2)
+    figure.text(0.02, 0.015, f"Lower left is better. {setting_name(setting)}. {words(best, context)}.\n"
+                "Bars: quartiles of the time; how the error changes with the kind of problem. Hollow, no part of the front: energy grew in over half of "
+                f"the motions.\n{absent(pd.concat([made for _, made in drawn]), methods)}", fontsize=8, color="#555555")
+    return figure
+
+
+def absent(drawn, methods):
+    """Which methods are in no panel, in words."""
+    lost = [m.replace("_", " ") for m in methods if m not in set(drawn["method"])]
+    return f"Not shown (refuses the scene, ended early, or no published error): {', '.join(lost)}." if lost else ""
+
+
+def at(table, setting):
+    return table[np.isclose(table[SETTING].to_numpy(float), setting).all(axis=1)]
+
+
+def summarised(table):
+    """SUMMARY, or the first setting of records that lack it."""
+    return SUMMARY if len(at(table, SUMMARY)) else tuple(table[SETTING].iloc[0])
+
+
+def print_fronts(table, title):
+    rows = []
+    for setting, here in table.groupby(SETTING):
+        for _, p in here[here["layer"] == 1].sort_values("ms").iterrows():
+            rows.append([setting_name(setting), p["method"], str(p["resolution"]), p["solver"], p["ms"], p["ms_low"], p["ms_high"],
+                         p["cut_ms"], 100 * p["error"], 100 * p["error_low"], 100 * p["error_high"], f"{p['failed']}/{p['n']}",
+                         f"{100 * p['grew']:.0f}"])
+    load.print_table(title, ["setting", "method", "triangles", "solver", "ms", "q1", "q3", "of it cut", "error %", "from", "to",
+                             "ended early", "energy grew %"], rows)
+
+
+def print_costs(cost):
+    """All methods, also at sizes whose error is not known."""
+    rows = []
+    for (setting, method), here in best_groups(cost):
+        cells = {p["resolution"]: p for _, p in here.iterrows()}
+        rows.append([setting_name(setting), method, *(
+            f"{load.number(cells[n]['ms'])} {SOLVERS.get(cells[n]['solver'], cells[n]['solver'])}" if n in cells else "-"
+            for n in sorted(set(cost["resolution"])))])
+    load.print_table("ms for a cut and the 0.25 s after it, by the fastest solver (inf: half of the motions ended early)",
+                     ["setting", "method", *(str(n) for n in sorted(set(cost["resolution"])))], rows)
+
+
+def best_groups(cost):
+    best = points.best_of(cost)
+    return [((key[:3], key[3]), here) for key, here in best.groupby([*SETTING, "method"])]
+
+
+def tables(cost, fronts):
+    text = io.StringIO()
+    with contextlib.redirect_stdout(text):
+        counts = fronts["error", "best"]
+        settings = len(counts[SETTING].drop_duplicates())
+        share = counts[counts["layer"] == 1].groupby("method")[SETTING].apply(lambda t: len(t.drop_duplicates()))
+        load.print_table(f"On the front in how many of the {settings} settings, each by its fastest solver",
+                         ["method", "settings"], [[m, str(n)] for m, n in share.sort_values(ascending=False, kind="stable").items()])
+        for (column, kind), table in fronts.items():
+            solver = "each by its fastest solver" if kind == "best" else f"all by {SAME}"
+            print_fronts(table, f"Fronts: time against error ({points.MEASURES[column]}, {table['kinds'].max()} kinds of problems "
+                                f"in plane), {solver}")
+        print_costs(cost)
+        print("\nOut of plane, and of 12,800 triangles, the errors of all methods are not known.")
+    return text.getvalue()
+
+
+def read(folder):
+    """The rows and the context of a run, or those that are published in the folder."""
+    published = not (folder / "records.csv").is_file() and (folder / f"{STEM}.records.csv.gz").is_file()
+    rows = load.read_records(folder / (f"{STEM}.records.csv.gz" if published else "records.csv"),
+                             [*SETTING, *points.TIMES, "solver"], all_columns=True)
+    return rows, load.read_context(folder / (f"{STEM}.context.json" if published else "context.json"))
+
+
+def ways(cost):
+    """How the solver of each method is chosen."""
+    return {"best": points.best_of(cost), "same": cost[cost["solver"] == SAME]}
+
+
+def readme_chart(folder):
+    rows, context = read(folder)
+    error = points.errors("error")
+    best, same = (points.joined(some, error) for some in ways(points.costs(rows)).values())
+    return summary(best, same, rows["method"].unique(), context)
+
+
+def main():
+    folder = load.results_folder(STEM, __doc__)
+    rows, context = read(folder)
+    cost = points.costs(rows)
+    fronts = {(column, way): points.joined(some, points.errors(column))
+              for column in points.MEASURES for way, some in ways(cost).items()}
+    for (column, way), table in fronts.items():
+        style.save(pages(table, column, context, way == "best"), folder,
+                   STEM + "_same_solver" * (way == "same") + "_energy_norm" * (column != "error"))
+    figure = readme_chart(folder)
+    figure.savefig(folder / "readme_chart.png", dpi=150)
+    plt.close(figure)
+    load.write_beside(folder / f"{STEM}.txt", tables(cost, fronts))
+
+
+if __name__ == "__main__":
+    main()

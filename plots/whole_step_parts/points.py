@@ -1,0 +1,87 @@
+"""What a method costs in a scene that is cut again and again, and what the cut sheets' solutions err."""
+
+import numpy as np
+import pandas as pd
+
+from accuracy_parts.ranking import made_by_all
+from accuracy_parts.records import CASE, REFERENCE
+from common import front, load
+from method_parts.accuracy import of_methods_there
+from method_parts.kinds import KINDS, MOUTH, TWICE, kind_of
+
+SETTING = ["place", "step_s", "stiffness_n_m"]  # cuts in the sheet, step, stiffness
+BETWEEN_S = 0.25  # from one cut to the next
+TIMES = ["cut_update_us", "first_step_us", "step_us"]
+TO_THE_END = {"ok", "energy_growth", "inverted"}  # verdicts of motions that made all their steps
+PUBLISHED = load.REPOSITORY / "results/reference/method_comparison_accuracy.direct.records.csv.gz"
+MEASURES = {"error": "released energy (hole: rim stress)", "error_energy_norm": "energy norm"}
+DRAWS = 2000
+
+
+def steps_between(step_s):
+    return np.round(BETWEEN_S / step_s)
+
+
+def costs(rows):
+    """A row per setting, method, size and solver: ms for one cut and the 0.25 s after it, the median and the quartiles of
+    all sheets but those that the method refuses. A case whose motion ended early costs infinitely much. `grew`: share of
+    the cases in which energy came from nowhere."""
+    made = rows["verdict"].isin(TO_THE_END)
+    total = (rows["cut_update_us"] / rows["place"] + rows["first_step_us"]
+             + (steps_between(rows["step_s"]) - 1) * rows["step_us"]) / 1000
+    rows = rows.assign(ms=total.where(made, np.inf), made=made, cut_ms=rows["cut_update_us"] / rows["place"] / 1000)
+    refused = (rows["verdict"] == "refused").groupby([rows["method"], rows["sheet"]]).transform("all")
+    found = []
+    for key, here in rows[~refused].groupby([*SETTING, "method", "resolution", "solver"], sort=False):
+        low, middle, high = load.with_failures(here["ms"])
+        found.append(dict(zip([*SETTING, "method", "resolution", "solver"], key)) | {
+            "ms": middle, "ms_low": low, "ms_high": high, "cut_ms": here["cut_ms"].quantile(0.5), "n": len(here),
+            "failed": int((~here["made"]).sum()), "grew": (here["verdict"] == "energy_growth").mean(),
+            "sheets": here["sheet"].nunique()})
+    return pd.DataFrame(found)
+
+
+def best_of(table):
+    """Of each setting, method and size the solver that is the fastest in the median."""
+    return table.loc[table.groupby([*SETTING, "method", "resolution"], sort=False)["ms"].idxmin()]
+
+
+def _by_kind(rows, column):
+    """Geometric means of a positive column, by kind of problem."""
+    return np.exp(np.log(rows[column]).groupby(rows["kind"]).mean()).reindex([k for k in KINDS if k != MOUTH]).dropna()
+
+
+def errors(column):
+    """From the published rows, by (method, size): the absolute relative error, a geometric mean over kinds of problems in
+    plane. It is the fitted mesh's, times the ratio to it in the cases that the method made, so that a method that refuses
+    a sheet is not better for it. Its interval: how the ratio changes as kinds are drawn anew (bootstrap, 95 %)."""
+    table = load.read_records(PUBLISHED, load.TEXT + ["problem", "solver", "primary", "budget", "error"] + load.COUNTS,
+                              all_columns=True)
+    table = table.assign(kind=table["problem"].map(kind_of), failed=front.failed_rows(table), size=table[column].abs())
+    table = table[(table["budget"] == 0) & (table["problem"] != TWICE) & table["kind"].notna() & (table["kind"] != MOUTH)]
+    table = made_by_all(of_methods_there(table))
+    table = table[table["size"] > 0]
+    fitted = table[table["method"] == REFERENCE[0]]
+    pairs = table.merge(fitted[CASE + ["size"]], on=CASE, suffixes=("", "_fitted"))
+    pairs["ratio"] = pairs["size"] / pairs["size_fitted"]
+    draw, found = np.random.default_rng(1), []
+    for (method, resolution), here in pairs.groupby(["method", "resolution"], sort=False):
+        level = _by_kind(fitted[fitted["resolution"] == resolution], "size")
+        ratios = np.log(_by_kind(here, "ratio"))
+        middle = np.exp(np.log(level).mean())
+        means = draw.choice(ratios, (DRAWS, len(ratios))).mean(axis=1)
+        low, high = middle * np.exp(np.quantile(means, [0.025, 0.975]))
+        found.append({"method": method, "resolution": resolution, "error": middle * np.exp(ratios.mean()), "error_low": low,
+                      "error_high": high, "cases": len(here), "kinds": len(ratios)})
+    return pd.DataFrame(found)
+
+
+def joined(cost, error):
+    """Both, of the methods and sizes that have both, with the layer of the front in each setting. A row with energy from
+    nowhere in more than half of its motions is on none: what went wrong has no price."""
+    table = cost.merge(error, on=["method", "resolution"])
+    sound = table["ms"].where(table["grew"] <= 0.5, np.inf)
+    table["layer"] = 0
+    for index in table.groupby(SETTING).groups.values():
+        table.loc[index, "layer"] = load.front_layers(sound[index], table.loc[index, "error"])
+    return table
