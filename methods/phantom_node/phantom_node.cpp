@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <span>
+#include <tuple>
 #include <utility>
 
 #include "harness/base/union_find.h"
@@ -15,11 +17,16 @@ namespace cutbench {
 
 namespace {
 
+/// Of the height of a triangle on the edge at which an incision enters it: one that ends nearer to that edge stays
+/// closed there, for the triangles between the lips and the tip get stiff in inverse proportion.
+constexpr double least_depth = 0.1;
+
 class Doubling {
  public:
   Doubling(const Sheet& before, const Sheet& cut) : before_(before), cut_(cut) {
     find_triangles();
     join_parts();
+    find_open_tips();
     join_copies();
   }
 
@@ -30,15 +37,17 @@ class Doubling {
     if (options.lumped_mass) lump(ties.lumped);
     if (options.ghost > 0) add_ghosts(options.ghost, ties.ghosts);
     std::vector<std::uint8_t> seen(vertices_.size());
-    for (std::size_t i = 0; i < near_.size(); ++i)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const DeformedIndex d = triangle(i).deformed[k];
-        if (std::exchange(seen[number_of(d)], 1)) continue;
-        if (is_new(triangle(i).vertex[k]))
-          ties.ties.push_back(tie_of(d, i));
-        else if (const DeformedIndex one = unknown(number_of(d)); one != d)
-          ties.ties.push_back({d, {one, one, one}, {1, 0, 0}});
-      }
+    // The slit parts last: where a lip enters one, it goes along with the part that it comes from.
+    for (const bool slit : {false, true})
+      for (std::size_t i = 0; i < near_.size(); ++i)
+        for (std::size_t k = 0; k < 3 && is_slit(i) == slit; ++k) {
+          const DeformedIndex d = triangle(i).deformed[k];
+          if (std::exchange(seen[number_of(d)], 1)) continue;
+          if (is_new(triangle(i).vertex[k]))
+            ties.ties.push_back(tie_of(d, i));
+          else if (const DeformedIndex one = unknown(number_of(d)); one != d)
+            ties.ties.push_back({d, {one, one, one}, {1, 0, 0}});
+        }
     return ties;
   }
 
@@ -95,18 +104,101 @@ class Doubling {
       for (int k = 0; k < 3; ++k) {
         const HalfEdge h = half_edge(near_[i].part, k);
         if (cut_.separates(h)) continue;
-        const TriangleIndex u = triangle_of(cut_.opposite(h));
-        const auto found =
-            std::lower_bound(near_.begin(), near_.end(), u, [](const auto& a, TriangleIndex b) { return a.part < b; });
-        if (found != near_.end() && found->part == u) visit(i, static_cast<std::size_t>(found - near_.begin()));
+        if (const std::size_t j = place_of(triangle_of(cut_.opposite(h))); j < near_.size()) visit(i, j, h);
       }
+  }
+  std::size_t place_of(TriangleIndex t) const {
+    const auto found =
+        std::lower_bound(near_.begin(), near_.end(), t, [](const auto& a, TriangleIndex b) { return a.part < b; });
+    return found != near_.end() && found->part == t ? static_cast<std::size_t>(found - near_.begin()) : near_.size();
   }
 
   void join_parts() {
     parts_.reset(near_.size());
-    for_each_joint([&](std::size_t i, std::size_t j) {
+    for_each_joint([&](std::size_t i, std::size_t j, HalfEdge) {
       if (near_[i].parent == near_[j].parent) parts_.join(i, j);
     });
+  }
+
+  /// A piece of an edge of the sheet along which a slit part is joined to one beyond the edge.
+  struct Piece {
+    std::size_t part, far;    ///< far: the corner of its parent opposite the edge
+    std::size_t i, j, group;  ///< group: of pieces without an incision between them
+    HalfEdge h;
+    bool operator<(const Piece& b) const { return std::tie(part, far, h) < std::tie(b.part, b.far, b.h); }
+  };
+
+  /// An incision ends in part i, which lies on both sides of it.
+  bool is_slit(std::size_t i) { return slit_[parts_.find(i)] != 0; }
+
+  /// Finds the edges at which incisions enter slit parts, and what must not be joined across them.
+  void find_open_tips() {
+    slit_.assign(near_.size(), 0);
+    std::vector<std::pair<std::size_t, HalfEdge>> lips;
+    for (std::size_t i = 0; i < near_.size(); ++i)
+      for (int k = 0; k < 3; ++k)
+        if (const HalfEdge h = half_edge(near_[i].part, k); cut_.separates(h) && !cut_.on_border(h))
+          if (const std::size_t j = place_of(triangle_of(cut_.opposite(h)));
+              j < near_.size() && parts_.find(i) == parts_.find(j))
+            slit_[parts_.find(i)] = 1, lips.emplace_back(i, h);
+    if (lips.empty()) return;
+    std::vector<Piece> pieces;
+    for_each_joint([&](std::size_t i, std::size_t j, HalfEdge h) {
+      if (near_[i].parent == near_[j].parent || !is_slit(i)) return;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (!corner_at(j, parent(i).vertex[k])) pieces.push_back({parts_.find(i), k, i, j, pieces.size(), h});
+    });
+    std::sort(pieces.begin(), pieces.end());
+    for (auto first = pieces.begin(), last = first; first != pieces.end(); first = last) {
+      last = std::find_if(first, pieces.end(),
+                          [&](const Piece& p) { return p.part != first->part || p.far != first->far; });
+      open_edge({first, last}, lips);
+    }
+    std::sort(apart_.begin(), apart_.end());
+  }
+
+  /// The pieces on the two sides of an incision that enters here have nothing in common. A copy of an end of the edge goes
+  /// along with the pieces next to it.
+  void open_edge(std::span<Piece> pieces, std::span<const std::pair<std::size_t, HalfEdge>> lips) {
+    const auto c = before_.corners(near_[pieces[0].i].parent);
+    const std::size_t far = pieces[0].far;
+    for (const auto& [i, h] : lips) {
+      if (parts_.find(i) != pieces[0].part || !is_end(pieces, cut_.origin(h))) continue;
+      const double depth =
+          cross(c[(far + 1) % 3] - cut_.rest(cut_.target(h)), c[(far + 2) % 3] - cut_.rest(cut_.target(h)));
+      if (depth < least_depth * cross(c[1] - c[0], c[2] - c[0])) return;
+    }
+    for (std::size_t n = 0; n < pieces.size(); ++n)
+      for (Piece& a : pieces)
+        for (Piece& b : pieces)
+          if (touch(a.h, b.h)) a.group = b.group = std::min(a.group, b.group);
+    for (const std::size_t corner : {(far + 1) % 3, (far + 2) % 3}) {
+      const auto distance = [&](const Piece& p) {
+        return std::min(squared_length(cut_.rest(cut_.origin(p.h)) - c[corner]),
+                        squared_length(cut_.rest(cut_.target(p.h)) - c[corner]));
+      };
+      const auto next = std::min_element(pieces.begin(), pieces.end(),
+                                         [&](const Piece& a, const Piece& b) { return distance(a) < distance(b); });
+      for (const Piece& p : pieces)
+        if (p.group != next->group)
+          for (const HalfEdge h : {p.h, cut_.opposite(p.h)}) apart_.emplace_back(h, parent(p.i).vertex[corner]);
+    }
+  }
+
+  bool is_end(std::span<const Piece> pieces, VertexIndex v) const {
+    return is_new(v) && std::any_of(pieces.begin(), pieces.end(),
+                                    [&](const Piece& p) { return cut_.origin(p.h) == v || cut_.target(p.h) == v; });
+  }
+
+  /// They have a vertex of the opened sheet in common.
+  bool touch(HalfEdge a, HalfEdge b) const {
+    for (const HalfEdge from : {a, Sheet::next(a)})
+      for (const HalfEdge to : {b, Sheet::next(b)})
+        if (deformed_origin(from) == deformed_origin(to)) return true;
+    return false;
+  }
+  DeformedIndex deformed_origin(HalfEdge h) const {
+    return cut_.triangle(triangle_of(h)).deformed[static_cast<std::size_t>(corner_of(h))];
   }
 
   void join_copies() {
@@ -115,10 +207,12 @@ class Doubling {
       for (std::size_t k = 0; k < 3; ++k)
         if (const auto corner = corner_at(i, triangle(i).vertex[k]))
           copies_.join(copy(i, *corner), number_of(triangle(i).deformed[k]));
-    for_each_joint([&](std::size_t i, std::size_t j) {
+    for_each_joint([&](std::size_t i, std::size_t j, HalfEdge h) {
       if (near_[i].parent == near_[j].parent) return;
       for (std::size_t k = 0; k < 3; ++k)
-        if (const auto other = corner_at(j, parent(i).vertex[k])) copies_.join(copy(i, k), copy(j, *other));
+        if (const auto other = corner_at(j, parent(i).vertex[k]);
+            other && !std::binary_search(apart_.begin(), apart_.end(), std::pair(h, parent(i).vertex[k])))
+          copies_.join(copy(i, k), copy(j, *other));
     });
   }
 
@@ -166,7 +260,7 @@ class Doubling {
       return first + 1 != parts.end() && first[1].first == near_[i].parent;
     };
     std::set<std::pair<std::size_t, std::size_t>> done;
-    for_each_joint([&](std::size_t i, std::size_t j) {
+    for_each_joint([&](std::size_t i, std::size_t j, HalfEdge) {
       if (near_[i].parent == near_[j].parent || !(is_divided(i) || is_divided(j))) return;
       if (!done.insert(std::minmax(parts_.find(i), parts_.find(j))).second) return;
       const auto& corners = parent(i).vertex;
@@ -186,9 +280,12 @@ class Doubling {
     while (corner_at(i, parent(j).vertex[far])) ++far;
     const double slope_c = length / cross(edge, c[k] - a), slope_d = length / cross(edge, d[far] - a);  // signed
     const double foot_c = dot(c[k] - a, edge) / (length * length), foot_d = dot(d[far] - a, edge) / (length * length);
+    // A slit part has a field for each lip here: its own copy of the corner k, and its neighbour's of the edge's ends.
+    const auto end = [&](std::size_t corner) {
+      return unknown(is_slit(i) ? copy(j, *corner_at(j, parent(i).vertex[corner])) : copy(i, corner));
+    };
     GhostEdge ghost;
-    ghost.unknown = {unknown(copy(i, k)), unknown(copy(i, (k + 1) % 3)), unknown(copy(i, (k + 2) % 3)),
-                     unknown(copy(j, far))};
+    ghost.unknown = {unknown(copy(i, k)), end((k + 1) % 3), end((k + 2) % 3), unknown(copy(j, far))};
     ghost.jump = {slope_c, (foot_c - 1) * slope_c - (foot_d - 1) * slope_d, foot_d * slope_d - foot_c * slope_c,
                   -slope_d};
     ghost.stiffness = factor * length * length, ghost.mass = ghost.stiffness * length * length;
@@ -223,7 +320,9 @@ class Doubling {
   std::vector<DeformedIndex> vertices_;  // of these triangles; a vertex's number is its place here
   UnionFind parts_;                      // of triangles of one parent
   UnionFind copies_;                     // of vertices, and three for the corners of the parent of each part
-  std::vector<std::int32_t> phantom_;    // per copy that is no vertex: its number
+  std::vector<std::uint8_t> slit_;       // per part, at its first triangle
+  std::vector<std::pair<HalfEdge, VertexIndex>> apart_;  // joints that do not join the copies of this end of their edge
+  std::vector<std::int32_t> phantom_;                    // per copy that is no vertex: its number
   std::size_t phantoms_ = 0;
 };
 
