@@ -4,11 +4,11 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <span>
+#include <tuple>
 #include <utility>
 
 #include "harness/base/union_find.h"
-#include "harness/mesh/locator.h"
-#include "harness/mesh/predicates.h"
 #include "harness/mesh/tolerances.h"
 #include "methods/tools/divided.h"
 #include "methods/tools/static_split.h"
@@ -17,16 +17,16 @@ namespace cutbench {
 
 namespace {
 
+/// Of the height of a triangle on the edge at which an incision enters it: one that ends nearer to that edge stays
+/// closed there, for the triangles between the lips and the tip get stiff in inverse proportion.
+constexpr double least_depth = 0.1;
+
 class Doubling {
  public:
-  Doubling(const Sheet& before, const Sheet& cut)
-      : before_(before),
-        cut_(cut),
-        parent_(cut.triangle_slots()),
-        parts_(cut.triangle_slots()),
-        copies_(cut.deformed_slots() + 3 * cut.triangle_slots()) {
-    find_parents();
+  Doubling(const Sheet& before, const Sheet& cut) : before_(before), cut_(cut) {
+    find_triangles();
     join_parts();
+    find_open_tips();
     join_copies();
   }
 
@@ -36,145 +36,256 @@ class Doubling {
     ties.phantoms = phantoms_;
     if (options.lumped_mass) lump(ties.lumped);
     if (options.ghost > 0) add_ghosts(options.ghost, ties.ghosts);
-    std::vector<std::uint8_t> seen(cut_.deformed_slots());
-    for (std::size_t i = 0; i < cut_.triangle_slots(); ++i) {
-      const TriangleIndex t(i);
-      if (!cut_.triangle(t).alive()) continue;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const DeformedIndex d = cut_.triangle(t).deformed[k];
-        if (std::exchange(seen[d()], 1)) continue;
-        if (is_new(cut_.triangle(t).vertex[k]))
-          ties.ties.push_back(tie_of(d, t));
-        else if (const DeformedIndex one = unknown(d()); one != d)
-          ties.ties.push_back({d, {one, one, one}, {1, 0, 0}});
-      }
-    }
+    std::vector<std::uint8_t> seen(vertices_.size());
+    // The slit parts last: where a lip enters one, it goes along with the part that it comes from.
+    for (const bool slit : {false, true})
+      for (std::size_t i = 0; i < near_.size(); ++i)
+        for (std::size_t k = 0; k < 3 && is_slit(i) == slit; ++k) {
+          const DeformedIndex d = triangle(i).deformed[k];
+          if (std::exchange(seen[number_of(d)], 1)) continue;
+          if (is_new(triangle(i).vertex[k]))
+            ties.ties.push_back(tie_of(d, i));
+          else if (const DeformedIndex one = unknown(number_of(d)); one != d)
+            ties.ties.push_back({d, {one, one, one}, {1, 0, 0}});
+        }
     return ties;
   }
 
  private:
   bool is_new(VertexIndex v) const { return cut_.is_newer(v, before_); }
 
-  void find_parents() {
-    const Locator locator(before_);
-    for (std::size_t i = 0; i < parent_.size(); ++i) {
-      const TriangleIndex t(i);
-      const Triangle& triangle = cut_.triangle(t);
-      if (!triangle.alive()) continue;
-      if (i < before_.triangle_slots() && before_.triangle(t).vertex == triangle.vertex) {
-        parent_[i] = t;
-        continue;
+  /// What cuts divided, and the triangles beside it.
+  void find_triangles() {
+    near_ = divided_triangles(before_, cut_);
+    for (std::size_t i = 0, divided = near_.size(); i < divided; ++i)
+      for (int k = 0; k < 3; ++k) {
+        const HalfEdge h = half_edge(near_[i].part, k);
+        if (cut_.separates(h)) continue;
+        const TriangleIndex u = triangle_of(cut_.opposite(h));
+        const auto& corners = cut_.triangle(u).vertex;
+        if (std::none_of(corners.begin(), corners.end(), [&](VertexIndex v) { return is_new(v); }))
+          near_.push_back({u, whole_parent(u, near_[i].parent)});
       }
-      const auto c = cut_.corners(t);
-      const Point2 centroid = 1.0 / 3 * (c[0] + c[1] + c[2]);
-      parent_[i] = triangle_at(before_, locator.near(before_, centroid), centroid);
-    }
+    std::sort(near_.begin(), near_.end(), [](const auto& a, const auto& b) { return a.part < b.part; });
+    const auto same = [](const auto& a, const auto& b) { return a.part == b.part; };
+    near_.erase(std::unique(near_.begin(), near_.end(), same), near_.end());
+    for (std::size_t i = 0; i < near_.size(); ++i)
+      vertices_.insert(vertices_.end(), triangle(i).deformed.begin(), triangle(i).deformed.end());
+    std::sort(vertices_.begin(), vertices_.end());
+    vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
   }
 
-  /// The corner of t's parent that is vertex v; none where it isn't one.
-  std::optional<std::size_t> corner_at(TriangleIndex t, VertexIndex v) const {
-    const auto& corners = before_.triangle(parent_[t()]).vertex;
+  /// Its own slot, unless it was made anew beside one that was divided.
+  TriangleIndex whole_parent(TriangleIndex t, TriangleIndex beside) const {
+    if (t() < before_.triangle_slots() && before_.triangle(t).vertex == cut_.triangle(t).vertex) return t;
+    const auto c = cut_.corners(t);
+    return triangle_at(before_, beside, 1.0 / 3 * (c[0] + c[1] + c[2]));
+  }
+
+  const Triangle& triangle(std::size_t i) const { return cut_.triangle(near_[i].part); }
+  const Triangle& parent(std::size_t i) const { return before_.triangle(near_[i].parent); }
+  std::size_t number_of(DeformedIndex d) const {
+    return static_cast<std::size_t>(std::lower_bound(vertices_.begin(), vertices_.end(), d) - vertices_.begin());
+  }
+
+  /// The corner of i's parent that is vertex v; none where it isn't one.
+  std::optional<std::size_t> corner_at(std::size_t i, VertexIndex v) const {
+    const auto& corners = parent(i).vertex;
     const auto found = std::find(corners.begin(), corners.end(), v);
     if (found == corners.end()) return {};
     return static_cast<std::size_t>(found - corners.begin());
   }
-  /// The number of what t's part has at a corner of its parent. Numbers of vertices come first.
-  std::size_t copy(TriangleIndex t, std::size_t corner) {
-    return cut_.deformed_slots() + 3 * parts_.find(t()) + corner;
-  }
+  /// The number of what i's part has at a corner of its parent. Numbers of vertices come first.
+  std::size_t copy(std::size_t i, std::size_t corner) { return vertices_.size() + 3 * parts_.find(i) + corner; }
 
   template <class Visit>
   void for_each_joint(Visit visit) const {
-    for (std::size_t i = 0; i < cut_.triangle_slots(); ++i)
-      for (int k = 0; k < 3 && cut_.triangle(TriangleIndex(i)).alive(); ++k)
-        if (const HalfEdge h = half_edge(TriangleIndex(i), k); !cut_.separates(h))
-          visit(TriangleIndex(i), triangle_of(cut_.opposite(h)));
+    for (std::size_t i = 0; i < near_.size(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        const HalfEdge h = half_edge(near_[i].part, k);
+        if (cut_.separates(h)) continue;
+        if (const std::size_t j = place_of(triangle_of(cut_.opposite(h))); j < near_.size()) visit(i, j, h);
+      }
+  }
+  std::size_t place_of(TriangleIndex t) const {
+    const auto found =
+        std::lower_bound(near_.begin(), near_.end(), t, [](const auto& a, TriangleIndex b) { return a.part < b; });
+    return found != near_.end() && found->part == t ? static_cast<std::size_t>(found - near_.begin()) : near_.size();
   }
 
   void join_parts() {
-    for_each_joint([&](TriangleIndex t, TriangleIndex u) {
-      if (parent_[t()] == parent_[u()]) parts_.join(t(), u());
+    parts_.reset(near_.size());
+    for_each_joint([&](std::size_t i, std::size_t j, HalfEdge) {
+      if (near_[i].parent == near_[j].parent) parts_.join(i, j);
     });
   }
 
-  void join_copies() {
-    for (std::size_t i = 0; i < cut_.triangle_slots(); ++i) {
-      const TriangleIndex t(i);
-      if (!cut_.triangle(t).alive()) continue;
+  /// A piece of an edge of the sheet along which a slit part is joined to one beyond the edge.
+  struct Piece {
+    std::size_t part, far;    ///< far: the corner of its parent opposite the edge
+    std::size_t i, j, group;  ///< group: of pieces without an incision between them
+    HalfEdge h;
+    bool operator<(const Piece& b) const { return std::tie(part, far, h) < std::tie(b.part, b.far, b.h); }
+  };
+
+  /// An incision ends in part i, which lies on both sides of it.
+  bool is_slit(std::size_t i) { return slit_[parts_.find(i)] != 0; }
+
+  /// Finds the edges at which incisions enter slit parts, and what must not be joined across them.
+  void find_open_tips() {
+    slit_.assign(near_.size(), 0);
+    std::vector<std::pair<std::size_t, HalfEdge>> lips;
+    for (std::size_t i = 0; i < near_.size(); ++i)
+      for (int k = 0; k < 3; ++k)
+        if (const HalfEdge h = half_edge(near_[i].part, k); cut_.separates(h) && !cut_.on_border(h))
+          if (const std::size_t j = place_of(triangle_of(cut_.opposite(h)));
+              j < near_.size() && parts_.find(i) == parts_.find(j))
+            slit_[parts_.find(i)] = 1, lips.emplace_back(i, h);
+    if (lips.empty()) return;
+    std::vector<Piece> pieces;
+    for_each_joint([&](std::size_t i, std::size_t j, HalfEdge h) {
+      if (near_[i].parent == near_[j].parent || !is_slit(i)) return;
       for (std::size_t k = 0; k < 3; ++k)
-        if (const auto corner = corner_at(t, cut_.triangle(t).vertex[k]))
-          copies_.join(copy(t, *corner), cut_.triangle(t).deformed[k]());
+        if (!corner_at(j, parent(i).vertex[k])) pieces.push_back({parts_.find(i), k, i, j, pieces.size(), h});
+    });
+    std::sort(pieces.begin(), pieces.end());
+    for (auto first = pieces.begin(), last = first; first != pieces.end(); first = last) {
+      last = std::find_if(first, pieces.end(),
+                          [&](const Piece& p) { return p.part != first->part || p.far != first->far; });
+      open_edge({first, last}, lips);
     }
-    for_each_joint([&](TriangleIndex t, TriangleIndex u) {
-      if (parent_[t()] == parent_[u()]) return;
-      const auto& corners = before_.triangle(parent_[t()]).vertex;
+    std::sort(apart_.begin(), apart_.end());
+  }
+
+  /// The pieces on the two sides of an incision that enters here have nothing in common. A copy of an end of the edge goes
+  /// along with the pieces next to it.
+  void open_edge(std::span<Piece> pieces, std::span<const std::pair<std::size_t, HalfEdge>> lips) {
+    const auto c = before_.corners(near_[pieces[0].i].parent);
+    const std::size_t far = pieces[0].far;
+    for (const auto& [i, h] : lips) {
+      if (parts_.find(i) != pieces[0].part || !is_end(pieces, cut_.origin(h))) continue;
+      const double depth =
+          cross(c[(far + 1) % 3] - cut_.rest(cut_.target(h)), c[(far + 2) % 3] - cut_.rest(cut_.target(h)));
+      if (depth < least_depth * cross(c[1] - c[0], c[2] - c[0])) return;
+    }
+    for (std::size_t n = 0; n < pieces.size(); ++n)
+      for (Piece& a : pieces)
+        for (Piece& b : pieces)
+          if (touch(a.h, b.h)) a.group = b.group = std::min(a.group, b.group);
+    for (const std::size_t corner : {(far + 1) % 3, (far + 2) % 3}) {
+      const auto distance = [&](const Piece& p) {
+        return std::min(squared_length(cut_.rest(cut_.origin(p.h)) - c[corner]),
+                        squared_length(cut_.rest(cut_.target(p.h)) - c[corner]));
+      };
+      const auto next = std::min_element(pieces.begin(), pieces.end(),
+                                         [&](const Piece& a, const Piece& b) { return distance(a) < distance(b); });
+      for (const Piece& p : pieces)
+        if (p.group != next->group)
+          for (const HalfEdge h : {p.h, cut_.opposite(p.h)}) apart_.emplace_back(h, parent(p.i).vertex[corner]);
+    }
+  }
+
+  bool is_end(std::span<const Piece> pieces, VertexIndex v) const {
+    return is_new(v) && std::any_of(pieces.begin(), pieces.end(),
+                                    [&](const Piece& p) { return cut_.origin(p.h) == v || cut_.target(p.h) == v; });
+  }
+
+  /// They have a vertex of the opened sheet in common.
+  bool touch(HalfEdge a, HalfEdge b) const {
+    for (const HalfEdge from : {a, Sheet::next(a)})
+      for (const HalfEdge to : {b, Sheet::next(b)})
+        if (deformed_origin(from) == deformed_origin(to)) return true;
+    return false;
+  }
+  DeformedIndex deformed_origin(HalfEdge h) const {
+    return cut_.triangle(triangle_of(h)).deformed[static_cast<std::size_t>(corner_of(h))];
+  }
+
+  void join_copies() {
+    copies_.reset(vertices_.size() + 3 * near_.size());
+    for (std::size_t i = 0; i < near_.size(); ++i)
       for (std::size_t k = 0; k < 3; ++k)
-        if (const auto other = corner_at(u, corners[k])) copies_.join(copy(t, k), copy(u, *other));
+        if (const auto corner = corner_at(i, triangle(i).vertex[k]))
+          copies_.join(copy(i, *corner), number_of(triangle(i).deformed[k]));
+    for_each_joint([&](std::size_t i, std::size_t j, HalfEdge h) {
+      if (near_[i].parent == near_[j].parent) return;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (const auto other = corner_at(j, parent(i).vertex[k]);
+            other && !std::binary_search(apart_.begin(), apart_.end(), std::pair(h, parent(i).vertex[k])))
+          copies_.join(copy(i, k), copy(j, *other));
     });
   }
 
   void number_phantoms() {
-    phantom_.assign(3 * cut_.triangle_slots(), -1);
-    for (std::size_t i = 0; i < cut_.triangle_slots(); ++i) {
-      if (!cut_.triangle(TriangleIndex(i)).alive()) continue;
+    phantom_.assign(3 * near_.size(), -1);
+    for (std::size_t i = 0; i < near_.size(); ++i)
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t one = copies_.find(copy(TriangleIndex(i), k));
-        if (one < cut_.deformed_slots()) continue;
-        if (auto& number = phantom_[one - cut_.deformed_slots()]; number < 0)
+        const std::size_t one = copies_.find(copy(i, k));
+        if (one < vertices_.size()) continue;
+        if (auto& number = phantom_[one - vertices_.size()]; number < 0)
           number = static_cast<std::int32_t>(phantoms_++);
       }
+  }
+
+  /// A third of the mass of each part to each copy of its parent's corners. Looks at the whole sheet.
+  void lump(std::vector<double>& lumped) {
+    lumped.assign(cut_.deformed_slots() + phantoms_, 0);
+    std::size_t i = 0;
+    for (std::size_t slot = 0; slot < cut_.triangle_slots(); ++slot) {
+      const TriangleIndex t(slot);
+      if (!cut_.triangle(t).alive()) continue;
+      const auto c = cut_.corners(t);
+      const double share = std::max(0.0, cross(c[1] - c[0], c[2] - c[0])) / 6;
+      while (i < near_.size() && near_[i].part < t) ++i;
+      for (std::size_t k = 0; k < 3; ++k)
+        lumped[i < near_.size() && near_[i].part == t ? unknown(copy(i, k))() : whole_unknown(t, k)()] += share;
     }
   }
 
-  /// A third of the mass of each part to each copy of its parent's corners.
-  void lump(std::vector<double>& lumped) {
-    lumped.assign(cut_.deformed_slots() + phantoms_, 0);
-    for (std::size_t i = 0; i < cut_.triangle_slots(); ++i) {
-      const TriangleIndex t(i);
-      if (!cut_.triangle(t).alive()) continue;
-      const auto c = cut_.corners(t);
-      for (std::size_t k = 0; k < 3; ++k)
-        lumped[unknown(copy(t, k))()] += std::max(0.0, cross(c[1] - c[0], c[2] - c[0])) / 6;
-    }
+  /// Of a triangle away from all divided ones.
+  DeformedIndex whole_unknown(TriangleIndex t, std::size_t corner) {
+    const DeformedIndex d = cut_.triangle(t).deformed[corner];
+    const std::size_t number = number_of(d);
+    return number < vertices_.size() && vertices_[number] == d ? unknown(number) : d;
   }
 
   /// Across every edge of the sheet at which two parts are joined, one of them of a divided parent.
   void add_ghosts(double factor, std::vector<GhostEdge>& ghosts) {
-    constexpr std::size_t none = static_cast<std::size_t>(-1);
-    std::vector<std::size_t> first_part(before_.triangle_slots(), none);
-    std::vector<std::uint8_t> divided(before_.triangle_slots());
-    for (std::size_t i = 0; i < cut_.triangle_slots(); ++i) {
-      if (!cut_.triangle(TriangleIndex(i)).alive()) continue;
-      std::size_t& first = first_part[parent_[i]()];
-      if (first == none) first = parts_.find(i);
-      divided[parent_[i]()] |= first != parts_.find(i);
-    }
+    std::vector<std::pair<TriangleIndex, std::size_t>> parts;  // with their parents
+    for (std::size_t i = 0; i < near_.size(); ++i)
+      if (parts_.find(i) == i) parts.emplace_back(near_[i].parent, i);
+    std::sort(parts.begin(), parts.end());
+    const auto is_divided = [&](std::size_t i) {
+      const auto first = std::lower_bound(parts.begin(), parts.end(), std::pair(near_[i].parent, std::size_t{0}));
+      return first + 1 != parts.end() && first[1].first == near_[i].parent;
+    };
     std::set<std::pair<std::size_t, std::size_t>> done;
-    for_each_joint([&](TriangleIndex t, TriangleIndex u) {
-      const TriangleIndex p = parent_[t()], q = parent_[u()];
-      if (p == q || !(divided[p()] || divided[q()])) return;
-      if (!done.insert(std::minmax(parts_.find(t()), parts_.find(u()))).second) return;
-      const auto& corners = before_.triangle(p).vertex;
-      for (std::size_t k = 0; k < 3; ++k)  // the corner of p opposite the edge that both have
-        if (!corner_at(u, corners[k]) && corner_at(u, corners[(k + 1) % 3]) && corner_at(u, corners[(k + 2) % 3]))
-          ghosts.push_back(ghost_across(t, u, k, factor));
+    for_each_joint([&](std::size_t i, std::size_t j, HalfEdge) {
+      if (near_[i].parent == near_[j].parent || !(is_divided(i) || is_divided(j))) return;
+      if (!done.insert(std::minmax(parts_.find(i), parts_.find(j))).second) return;
+      const auto& corners = parent(i).vertex;
+      for (std::size_t k = 0; k < 3; ++k)  // the corner of i's parent opposite the edge that both have
+        if (!corner_at(j, corners[k]) && corner_at(j, corners[(k + 1) % 3]) && corner_at(j, corners[(k + 2) % 3]))
+          ghosts.push_back(ghost_across(i, j, k, factor));
     });
   }
 
-  GhostEdge ghost_across(TriangleIndex t, TriangleIndex u, std::size_t k, double factor) {
-    const auto c = before_.corners(parent_[t()]), d = before_.corners(parent_[u()]);
+  GhostEdge ghost_across(std::size_t i, std::size_t j, std::size_t k, double factor) {
+    const auto c = before_.corners(near_[i].parent), d = before_.corners(near_[j].parent);
     const Point2 a = c[(k + 1) % 3], edge = c[(k + 2) % 3] - a;
     const double length = std::sqrt(squared_length(edge));
     // A field that is 1 at the corner k alone has the slope 1 / height there, along the normal into the triangle; at
     // the ends of the edge it is what makes the field of all three constant.
-    const auto& across = before_.triangle(parent_[u()]).vertex;
     std::size_t far = 0;
-    while (corner_at(t, across[far])) ++far;
+    while (corner_at(i, parent(j).vertex[far])) ++far;
     const double slope_c = length / cross(edge, c[k] - a), slope_d = length / cross(edge, d[far] - a);  // signed
     const double foot_c = dot(c[k] - a, edge) / (length * length), foot_d = dot(d[far] - a, edge) / (length * length);
+    // A slit part has a field for each lip here: its own copy of the corner k, and its neighbour's of the edge's ends.
+    const auto end = [&](std::size_t corner) {
+      return unknown(is_slit(i) ? copy(j, *corner_at(j, parent(i).vertex[corner])) : copy(i, corner));
+    };
     GhostEdge ghost;
-    ghost.unknown = {unknown(copy(t, k)), unknown(copy(t, (k + 1) % 3)), unknown(copy(t, (k + 2) % 3)),
-                     unknown(copy(u, far))};
+    ghost.unknown = {unknown(copy(i, k)), end((k + 1) % 3), end((k + 2) % 3), unknown(copy(j, far))};
     ghost.jump = {slope_c, (foot_c - 1) * slope_c - (foot_d - 1) * slope_d, foot_d * slope_d - foot_c * slope_c,
                   -slope_d};
     ghost.stiffness = factor * length * length, ghost.mass = ghost.stiffness * length * length;
@@ -182,17 +293,18 @@ class Doubling {
   }
 
   DeformedIndex unknown(std::size_t number) {
-    const std::size_t one = copies_.find(number), vertices = cut_.deformed_slots();
-    return DeformedIndex(one < vertices ? one : vertices + static_cast<std::size_t>(phantom_[one - vertices]));
+    const std::size_t one = copies_.find(number), vertices = vertices_.size();
+    if (one < vertices) return vertices_[one];
+    return DeformedIndex(cut_.deformed_slots() + static_cast<std::size_t>(phantom_[one - vertices]));
   }
 
-  Tie tie_of(DeformedIndex d, TriangleIndex t) {
+  Tie tie_of(DeformedIndex d, std::size_t i) {
     const Point2 p = cut_.rest(cut_.rest_vertex(d));
-    const auto c = before_.corners(parent_[t()]);
+    const auto c = before_.corners(near_[i].parent);
     const double twice = cross(c[1] - c[0], c[2] - c[0]);
     Tie tie{d, {}, {}};
     for (std::size_t k = 0; k < 3; ++k) {
-      tie.masters[k] = unknown(copy(t, k));
+      tie.masters[k] = unknown(copy(i, k));
       const Point2 from = c[(k + 1) % 3], to = c[(k + 2) % 3];
       const double area = cross(from - p, to - p);
       // A path that is no farther from an edge goes along it, so this is the rounding of a crossing.
@@ -204,10 +316,13 @@ class Doubling {
   }
 
   const Sheet &before_, &cut_;
-  std::vector<TriangleIndex> parent_;  // per triangle
-  UnionFind parts_;                    // of triangles of one parent
-  UnionFind copies_;                   // of vertices, and three for the corners of the parent of each part
-  std::vector<std::int32_t> phantom_;  // per copy that is no vertex: its number
+  std::vector<DividedTriangle> near_;    // and undivided ones that are their own parents; a triangle is its place here
+  std::vector<DeformedIndex> vertices_;  // of these triangles; a vertex's number is its place here
+  UnionFind parts_;                      // of triangles of one parent
+  UnionFind copies_;                     // of vertices, and three for the corners of the parent of each part
+  std::vector<std::uint8_t> slit_;       // per part, at its first triangle
+  std::vector<std::pair<HalfEdge, VertexIndex>> apart_;  // joints that do not join the copies of this end of their edge
+  std::vector<std::int32_t> phantom_;                    // per copy that is no vertex: its number
   std::size_t phantoms_ = 0;
 };
 

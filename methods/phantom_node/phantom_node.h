@@ -7,24 +7,29 @@
 // joined along it, or along a piece of it, share the copies of its two ends. All vertices that cuts made are
 // constrained to the corners of their part by their barycentric coordinates (Ties, harness/mesh/ties.h). So sums over
 // the triangles of a part are exact integrals over it, for any number of cuts, junctions and loops.
-//  - Tip rule: a parent that is not completely divided, because the path ends inside it, has one part and a continuous
-//    field. So for the unknowns the incision ends at the edge where the last completely crossed parent ends; the lips
-//    reach up to the tip, but coincide beyond that edge. A path that crosses no parent completely opens nothing.
-//  - Two copies of a vertex of the sheet that belong to the same part are one unknown: there the path ends, too.
+//  - Tip rule: a part that lies on both sides of an incision, because that ends inside, is slit. It has one copy of each
+//    corner, but its field is linear in each of its triangles only: where the incision enters, the two lips go along with
+//    the copies beyond the edge, and all other vertices, the tip among them, with the part's own. So the jump goes
+//    linearly to zero from the edge to the tip, and ahead of the tip the field is continuous.
+//    Where that cannot be, the incision ends for the unknowns where it enters the part (the lips reach up to the tip, but
+//    coincide): where it enters at a corner, or from another slit part, or ends within a tenth of the triangle's height
+//    of the edge at which it enters. At a bend inside the part it ends at the bend.
+//  - Copies of a vertex of the sheet that belong to the same part are one unknown.
 //  - Supports (pins, border displacements) act on the sheet's own vertices and on crossings of the border.
 //
 // A part with almost no material makes unknowns with almost no stiffness and mass. Two variants, for sheets at rest,
 // bound the consequences:
 //  - `ghost`: a penalty on the jump of the normal derivative across the edges at which the parts of a divided parent
 //    are joined to its neighbours, `ghost` times edge length squared in K, to the fourth power in M.
-//  - a lumped mass, a third of a part's to each corner of its parent: then no part has a larger eigenvalue than its
-//    parent (Menouillard, Rethore, Combescure and Bung, IJNME 68 (2006)).
+//  - a lumped mass, a third of a part's to each corner of its parent: then no part that is not slit has a larger
+//    eigenvalue than its parent (Menouillard, Rethore, Combescure and Bung, IJNME 68 (2006)).
 //
 // Source: Hansbo and Hansbo, CMAME 193 (2004); Molino, Bao and Fedkiw, A virtual node algorithm (2004); Song, Areias
-// and Belytschko, IJNME 67 (2006); Richardson, Hegemann, Sifakis, Hellrung and Teran, IJNME 88 (2011) for parts and
+// and Belytschko, IJNME 67 (2006); Rabczuk, Zi, Gerstenberger and Wall, IJNME 75 (2008) for a jump that vanishes at a tip
+// inside a triangle (theirs is linear in two overlapping triangles); Richardson, Hegemann, Sifakis, Hellrung and Teran, IJNME 88 (2011) for parts and
 // junctions; Burman and Hansbo, Applied Numerical Mathematics 62 (2012) for the ghost penalty.
 // Promises: the exact path, area, conforming, no vertex moved; an affine displacement is reproduced exactly.
-// Where it fails: the opening is too short by up to a triangle at each tip, and at a bend of the path inside a triangle
+// Where it fails: the opening is too short where the tip rule cannot hold, and at a bend of the path inside a triangle
 // the stress is constant. Without a variant, thin parts are as ill-conditioned as slivers; no penalty reaches a piece
 // smaller than a triangle. The system is assembled again after each cut, not updated.
 #pragma once
