@@ -2,11 +2,11 @@
 //
 // How it works. embed: the Delaunay split. improve: in a zone round the path, edges are split, flipped and collapsed in
 // turn, until every edge fits the field (methods/adaptive_remesh/size_field.h), or for ten rounds:
-//  - an edge longer than 4/3 of the field at its middle is divided there, also one of the path, an incision or the
+//  - an edge longer than sqrt(2) times the field at its middle is divided there, also one of the path, an incision or the
 //    border;
 //  - an edge that separates nothing is flipped where it is not Delaunay (exact in_circle);
-//  - an edge shorter than 4/5 of the field is collapsed, where no new edge becomes longer than 4/3 of it, and no
-//    triangle gets an aspect ratio beyond 3 that was not there before.
+//  - an edge shorter than 1 / sqrt(2) of it is collapsed, where no new edge becomes too long, and no triangle gets an
+//    aspect ratio beyond 3 and beyond those that were there.
 // The zone is what the split changed, and the triangles in the reach of the path's tips, and of tips of earlier cuts at
 // which the path goes on: behind the blade, where these are tips no more, collapses make the mesh coarse again. The zone
 // does not grow, so that the cost follows the triangles near the cut.
@@ -18,8 +18,8 @@
 //
 // Source: Narain, Samii and O'Brien, Adaptive anisotropic remeshing for cloth simulation, ACM TOG 31(6), 2012 (split,
 // flip, collapse; section 4); Pfaff, Narain, de Joya and O'Brien, Adaptive tearing and cracking of thin sheets, ACM TOG
-// 33(4), 2014 (fine at tips, coarse behind). The bounds 4/3 and 4/5: Botsch and Kobbelt, A remeshing approach to
-// multiresolution modeling, SGP 2004. Narain's field is a tensor; here it is a number, and nothing is moved.
+// 33(4), 2014 (fine at tips, coarse behind). The bounds sqrt(2) and 1 / sqrt(2), a quasi-unit mesh: Frey and George, Mesh
+// Generation, 2000. Narain's field is a tensor; here it is a number, and nothing is moved.
 // Promises: the exact path, area, conforming; not that vertices stay: those too close together are removed, and what
 // they carried is lost.
 // Where it fails: no aspect ratio is promised. Vertices of curved paths and of older incisions stay, however close
@@ -29,6 +29,7 @@
 // (h / h_tip)^2.
 #pragma once
 
+#include <numbers>
 #include <vector>
 
 #include "harness/cut/cutting_method.h"
@@ -47,7 +48,7 @@ class AdaptiveRemesh : public CuttingMethod {
 
   void improve(Sheet& sheet, MethodNotes& notes) override;
 
-  static constexpr double longest = 4.0 / 3, shortest = 4.0 / 5;  ///< edges that fit, over the field
+  static constexpr double longest = std::numbers::sqrt2, shortest = 1 / longest;  ///< edges that fit, over the field
 
  private:
   bool flips_alone() const { return options_.tip == 0; }
