@@ -7,6 +7,7 @@
 
 #include "harness/base/names.h"
 #include "harness/mesh/mesh_data.h"
+#include "methods/adaptive_remesh/adaptive_remesh.h"
 #include "methods/bowyer_watson/bowyer_watson.h"
 #include "methods/cgal_cdt/cgal_cdt.h"
 #include "methods/cgal_refine/cgal_refine.h"
@@ -44,6 +45,15 @@ std::vector<MethodRow>& table() {
        {},
        exact_split,
        [](double) { return std::make_unique<ConventionalSplit>(); }},
+      {"adaptive_remesh",
+       "edges round the cut are split, flipped and collapsed to a size field that is fine at the tips",
+       {"tip", 0.5, "edge length asked for at the tips, mean rest edges, 0.1 to 1; 0: flips alone"},
+       {.exact_incision = true, .keeps_area = true, .conforming = true, .keeps_vertices = false},
+       [](double tip) {
+         if (!(tip == 0 || (tip >= 0.1 && tip <= 1)))
+           throw InputError("adaptive_remesh: tip must be 0, or a number from 0.1 to 1");
+         return std::make_unique<AdaptiveRemesh>(AdaptiveRemesh::Options{.tip = tip});
+       }},
       {"bowyer_watson",
        "the paper's method: Bowyer-Watson in each crossed triangle, then local split",
        {"rounds", 1, "rounds of the local split; 0: the best diagonal alone"},

@@ -1,0 +1,223 @@
+#include "methods/adaptive_remesh/adaptive_remesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "harness/mesh/one_ring.h"
+#include "harness/mesh/predicates.h"
+#include "harness/mesh/quality.h"
+#include "harness/mesh/tolerances.h"
+
+namespace cutbench {
+
+namespace {
+
+constexpr double refused = std::numeric_limits<double>::infinity();
+
+/// What meets at a vertex.
+struct Meeting {
+  int path = 0, incision = 0, edges = 0;
+  bool inside = true;  // not on the border
+
+  Meeting(const Sheet& sheet, VertexIndex v) {
+    for_each_outgoing(sheet, v, [&](HalfEdge h) {
+      path += sheet.mark(h) == EdgeMark::path, incision += sheet.mark(h) == EdgeMark::incision;
+      inside &= !sheet.on_border(h), ++edges;
+    });
+  }
+  bool is_tip() const { return inside && path + incision == 1; }
+  bool was_tip() const { return inside && path > 0 && incision == 1; }
+};
+
+/// The origin of h, on a piece of path that goes on along h, may leave the path as it is without it.
+bool is_straight_on(const Sheet& sheet, HalfEdge h) {
+  VertexIndex before;
+  const VertexIndex v = sheet.origin(h), after = sheet.target(h);
+  for_each_outgoing(sheet, v, [&](HalfEdge o) {
+    if (o != h && sheet.mark(o) == EdgeMark::path) before = sheet.target(o);
+  });
+  const Point2 a = sheet.rest(before), b = sheet.rest(after), p = sheet.rest(v);
+  if (dot(p - a, b - p) <= 0) return false;
+  if (std::abs(cross(b - a, p - a)) > straight_border_tolerance * sheet.snap() * std::sqrt(squared_length(b - a)))
+    return false;
+  // A single edge between two tips would not open.
+  return !(Meeting(sheet, before).is_tip() && Meeting(sheet, after).is_tip());
+}
+
+/// The origin of h may be collapsed along it, as far as borders and incisions are concerned.
+bool may_go(const Sheet& sheet, HalfEdge h) {
+  constexpr int widest = 64;  // a vertex with thousands of edges would be looked at once for each
+  const VertexIndex v = sheet.origin(h);
+  if (sheet.is_held(v)) return false;
+  const Meeting at(sheet, v);
+  if (!at.inside || at.incision > 0 || at.edges > widest) return false;
+  if (at.path == 0) return true;
+  return at.path == 2 && sheet.mark(h) == EdgeMark::path && is_straight_on(sheet, h);
+}
+
+}  // namespace
+
+// --- the zone --------------------------------------------------------------------------------------------------------
+
+void AdaptiveRemesh::add(TriangleIndex t) {
+  if (in_zone_.insert(t)) zone_.push_back(t);
+}
+
+void AdaptiveRemesh::add_star(const Sheet& sheet, VertexIndex v) {
+  for_each_outgoing(sheet, v, [&](HalfEdge h) { add(triangle_of(h)); });
+}
+
+/// Adds to reached_ the vertices within `radius` of those in it, along edges.
+void AdaptiveRemesh::flood(const Sheet& sheet, double radius) {
+  distance_.clear(sheet.vertex_slots());
+  for (const VertexIndex v : reached_) distance_.insert(v, 0);
+  for (std::size_t i = 0; i < reached_.size(); ++i) {
+    const VertexIndex v = reached_[i];
+    for_each_outgoing(sheet, v, [&](HalfEdge h) {
+      const double d = distance_.at(v) + std::sqrt(squared_length(sheet, h));
+      if (d <= radius && distance_.insert(sheet.target(h), d)) reached_.push_back(sheet.target(h));
+    });
+  }
+}
+
+void AdaptiveRemesh::find_zone(const Sheet& sheet) {
+  constexpr double detour = 1.5;  // of a way along edges
+  const double h = sheet.mean_edge();
+  field_.begin(h, (flips_alone() ? 1 : options_.tip) * h, options_.growth);
+  zone_.clear(), in_zone_.clear(sheet.triangle_slots());
+  for_each_changed(sheet, [&](TriangleIndex t) { add(t); });
+
+  // Tips that the field has to know: all that reach into the zone.
+  reached_ = sheet.log().path_vertices;
+  flood(sheet, detour * (field_.reach() + h));
+  for (const VertexIndex v : reached_)
+    if (Meeting(sheet, v).is_tip()) field_.add_tip(sheet.rest(v));
+
+  reached_.clear();
+  for (const VertexIndex v : sheet.log().path_vertices)
+    if (const Meeting at(sheet, v); at.is_tip() || at.was_tip()) reached_.push_back(v);
+  flood(sheet, detour * field_.reach());
+  for (const VertexIndex v : reached_) add_star(sheet, v);
+}
+
+// --- split -----------------------------------------------------------------------------------------------------------
+
+bool AdaptiveRemesh::split(Sheet& sheet, HalfEdge h) {
+  const HalfEdge o = sheet.opposite(h);
+  const Point2 middle = 0.5 * sheet.rest(sheet.origin(h)) + 0.5 * sheet.rest(sheet.target(h));
+  if (!halves_are_positive(sheet, h, middle) || !halves_are_positive(sheet, o, middle)) return false;
+  const VertexIndex apex = sheet.origin(Sheet::previous(h));
+  const bool left = in_zone_.holds(triangle_of(h)), right = o.valid() && in_zone_.holds(triangle_of(o));
+  const VertexIndex v = sheet.split_edge(h, 0.5, middle);
+  in_zone_.grow(sheet.triangle_slots());
+  for_each_outgoing(sheet, v, [&](HalfEdge out) {
+    const bool is_left = sheet.target(out) == apex || sheet.origin(Sheet::previous(out)) == apex;
+    if (is_left ? left : right) add(triangle_of(out));
+    doubtful_.push_back(triangle_of(out));
+  });
+  return true;
+}
+
+bool AdaptiveRemesh::split_long(Sheet& sheet, std::size_t most_vertices) {
+  bool any = false;
+  for (std::size_t i = 0; i < zone_.size(); ++i) {
+    const TriangleIndex t = zone_[i];
+    while (sheet.triangle(t).alive() && sheet.log().new_vertices.size() < most_vertices) {
+      HalfEdge worst;
+      double most = longest;
+      const auto c = sheet.corners(t);
+      for (int k = 0; k < 3; ++k)
+        if (const double length =
+                field_.relative_length(c[static_cast<std::size_t>(k)], c[static_cast<std::size_t>(next_corner(k))]);
+            length > most)
+          worst = half_edge(t, k), most = length;
+      if (!worst.valid() || !split(sheet, worst)) break;
+      any = true;
+    }
+  }
+  return any;
+}
+
+// --- flip ------------------------------------------------------------------------------------------------------------
+
+/// Lawson's flips from the doubtful triangles on, of edges with the zone on one side at least.
+void AdaptiveRemesh::flip(Sheet& sheet) {
+  open_.clear();
+  const auto open = [&](TriangleIndex t) {
+    for (int k = 0; k < 3; ++k) open_.push_back(half_edge(t, k));
+  };
+  for (const TriangleIndex t : doubtful_)
+    if (sheet.triangle(t).alive()) open(t);
+  doubtful_.clear();
+  while (!open_.empty()) {
+    const HalfEdge h = open_.back();
+    open_.pop_back();
+    if (sheet.separates(h)) continue;
+    const TriangleIndex t = triangle_of(h), u = triangle_of(sheet.opposite(h));
+    if (!in_zone_.holds(t) && !in_zone_.holds(u)) continue;
+    const auto c = sheet.corners(t);
+    if (in_circle(c[0], c[1], c[2], sheet.rest(sheet.origin(Sheet::previous(sheet.opposite(h))))) <= 0) continue;
+    if (sheet.flip(h)) open(t), open(u);
+  }
+}
+
+// --- collapse --------------------------------------------------------------------------------------------------------
+
+/// The largest aspect ratio after the origin of h went to its target; `refused` where that may not be.
+double AdaptiveRemesh::worst_after_collapse(const Sheet& sheet, HalfEdge h) const {
+  constexpr double max_aspect = 3;
+  if (!may_go(sheet, h)) return refused;
+  const VertexIndex b = sheet.target(h);
+  const Point2 to = sheet.rest(b);
+  double before = 0, after = 0;
+  for_each_outgoing(sheet, sheet.origin(h), [&](HalfEdge out) {
+    const VertexIndex c = sheet.target(out), d = sheet.origin(Sheet::previous(out));
+    const Point2 p = sheet.rest(c), q = sheet.rest(d);
+    before = std::max(before, oriented_aspect(sheet.rest(sheet.origin(h)), p, q));
+    if (c != b && d != b) after = std::max(after, oriented_aspect(to, p, q));
+    if (c != b && field_.relative_length(to, p) > longest) after = refused;
+  });
+  return after <= std::max(before, max_aspect) ? after : refused;
+}
+
+bool AdaptiveRemesh::collapse_short(Sheet& sheet) {
+  bool any = false;
+  for (const TriangleIndex t : zone_) {
+    if (!sheet.triangle(t).alive()) continue;
+    HalfEdge best;
+    double least = refused;
+    for (int k = 0; k < 3; ++k) {
+      const HalfEdge edge = half_edge(t, k);
+      if (sheet.on_border(edge) || sheet.mark(edge) == EdgeMark::incision) continue;
+      if (field_.relative_length(sheet.rest(sheet.origin(edge)), sheet.rest(sheet.target(edge))) >= shortest) continue;
+      for (const HalfEdge h : {edge, sheet.opposite(edge)})
+        if (const double worst = worst_after_collapse(sheet, h); worst < least) best = h, least = worst;
+    }
+    if (!best.valid()) continue;
+    const VertexIndex kept = sheet.target(best);
+    if (!sheet.collapse(best)) continue;
+    any = true;
+    for_each_outgoing(sheet, kept, [&](HalfEdge out) { doubtful_.push_back(triangle_of(out)); });
+  }
+  return any;
+}
+
+void AdaptiveRemesh::improve(Sheet& sheet, MethodNotes& notes) {
+  constexpr int most_rounds = 10;
+  constexpr std::size_t per_path_vertex = 20, at_least = 1000;
+  find_zone(sheet);
+  const EditLog& log = sheet.log();
+  const std::size_t most_vertices = log.new_vertices.size() + per_path_vertex * log.path_vertices.size() + at_least;
+  doubtful_ = zone_;
+  notes.stopped_early = true;
+  for (int round = 0; round < most_rounds && notes.stopped_early; ++round) {
+    bool changed = !flips_alone() && split_long(sheet, most_vertices);
+    flip(sheet);
+    changed |= !flips_alone() && collapse_short(sheet);
+    flip(sheet);
+    notes.stopped_early = changed;
+  }
+}
+
+}  // namespace cutbench

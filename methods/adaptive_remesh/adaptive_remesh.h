@@ -1,0 +1,75 @@
+// Adaptive remeshing: the triangles round the cut follow a size field that is fine at the tips.
+//
+// How it works. embed: the Delaunay split. improve: in a zone round the path, edges are split, flipped and collapsed in
+// turn, until every edge fits the field (methods/adaptive_remesh/size_field.h), or for ten rounds:
+//  - an edge longer than sqrt(2) times the field at its middle is divided there, also one of the path, an incision or the
+//    border;
+//  - an edge that separates nothing is flipped where it is not Delaunay (exact in_circle);
+//  - an edge shorter than 1 / sqrt(2) of it is collapsed, where no new edge becomes too long, and no triangle gets an
+//    aspect ratio beyond 3 and beyond those that were there.
+// The zone is what the split changed, and the triangles in the reach of the path's tips, and of tips of earlier cuts at
+// which the path goes on: behind the blade, where these are tips no more, collapses make the mesh coarse again. The zone
+// does not grow, so that the cost follows the triangles near the cut.
+//
+// Frozen: border, older incisions and the path stay where they are, with their vertices, and so do held vertices
+// (Sheet::hold). The one exception is a vertex inside a straight piece of the path, where the path crossed an edge: it
+// may go, since without it the path is the same to rounding. Sheet::flip and Sheet::collapse refuse by exact predicates
+// what would turn a triangle over, so the area stays.
+//
+// Source: Narain, Samii and O'Brien, Adaptive anisotropic remeshing for cloth simulation, ACM TOG 31(6), 2012 (split,
+// flip, collapse; section 4); Pfaff, Narain, de Joya and O'Brien, Adaptive tearing and cracking of thin sheets, ACM TOG
+// 33(4), 2014 (fine at tips, coarse behind). The bounds sqrt(2) and 1 / sqrt(2), a quasi-unit mesh: Frey and George, Mesh
+// Generation, 2000. Narain's field is a tensor; here it is a number, and nothing is moved.
+// Promises: the exact path, area, conforming; not that vertices stay: those too close together are removed, and what
+// they carried is lost.
+// Where it fails: no aspect ratio is promised. Vertices of curved paths and of older incisions stay, however close
+// together, with short edges and needles between them; behind the blade the lips of the incision stay as fine as they
+// were at the tip. In a graded sheet the mean edge is wrong on both sides. Flips and collapses of old edges change the
+// deformed surface where the sheet is bent. Fine triangles at the tip make the largest eigenvalue grow as
+// (h / h_tip)^2.
+#pragma once
+
+#include <numbers>
+#include <vector>
+
+#include "harness/cut/cutting_method.h"
+#include "harness/mesh/stamped_table.h"
+#include "methods/adaptive_remesh/size_field.h"
+
+namespace cutbench {
+
+class AdaptiveRemesh : public CuttingMethod {
+ public:
+  struct Options {
+    double tip = 0.5;     ///< h_tip: the field at a tip, mean rest edges, in (0, 1]; 0: flips alone
+    double growth = 0.3;  ///< g: of the field with the distance from the tip
+  };
+  explicit AdaptiveRemesh(const Options& options) : options_(options) {}
+
+  void improve(Sheet& sheet, MethodNotes& notes) override;
+
+  static constexpr double longest = std::numbers::sqrt2, shortest = 1 / longest;  ///< edges that fit, over the field
+
+ private:
+  bool flips_alone() const { return options_.tip == 0; }
+  void find_zone(const Sheet& sheet);
+  void flood(const Sheet& sheet, double radius);
+  void add_star(const Sheet& sheet, VertexIndex v);
+  void add(TriangleIndex t);
+  bool split_long(Sheet& sheet, std::size_t most_vertices);
+  bool split(Sheet& sheet, HalfEdge h);
+  void flip(Sheet& sheet);
+  bool collapse_short(Sheet& sheet);
+  double worst_after_collapse(const Sheet& sheet, HalfEdge h) const;
+
+  Options options_;
+  SizeField field_;
+  std::vector<TriangleIndex> zone_;
+  StampedSet<TriangleIndex> in_zone_;
+  std::vector<TriangleIndex> doubtful_;  // changed since the last flips
+  std::vector<HalfEdge> open_;
+  std::vector<VertexIndex> reached_;  // by the flood, its sources first
+  StampedTable<VertexIndex, double> distance_;
+};
+
+}  // namespace cutbench

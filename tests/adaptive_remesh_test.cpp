@@ -1,0 +1,159 @@
+// adaptive_remesh: edges fit the size field, what is frozen stays, and the work follows the cut.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "harness/cases/cut_families.h"
+#include "harness/mesh/families.h"
+#include "harness/mesh/one_ring.h"
+#include "methods/registry.h"
+#include "tests/helpers.h"
+
+namespace cutbench {
+namespace {
+
+double distance(Point2 a, Point2 b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
+Curve line(std::vector<Point2> points) { return {Curve::Kind::polyline, false, std::move(points)}; }
+
+class Remeshed {
+ public:
+  Remeshed(const std::string& family, int n, double tip)
+      : sheet(make_sheet(family, n)), method_(find_method("adaptive_remesh").make(tip)), locator_(sheet) {}
+
+  CutOutcome cut(const Curve& curve) { return cutter_.cut(sheet, locator_, curve, *method_, {}); }
+  /// Calls look(a, b) for the ends of every edge, once or twice.
+  template <class Look>
+  void for_each_edge(Look look) const {
+    for (std::size_t t = 0; t < sheet.triangle_slots(); ++t)
+      if (const Triangle& triangle = sheet.triangle(TriangleIndex(t)); triangle.alive())
+        for (std::size_t k = 0; k < 3; ++k) look(triangle.vertex[k], triangle.vertex[(k + 1) % 3]);
+  }
+  std::size_t vertices_near(Point2 p, double radius) const {
+    std::size_t count = 0;
+    for (std::size_t v = 0; v < sheet.vertex_slots(); ++v)
+      count += sheet.triangle_of_vertex(VertexIndex(v)).valid() && distance(sheet.rest(VertexIndex(v)), p) < radius;
+    return count;
+  }
+
+  Sheet sheet;
+
+ private:
+  std::unique_ptr<CuttingMethod> method_;
+  Locator locator_;
+  Cutter cutter_;
+};
+
+/// The formula of the field, with its gradation of 0.3, at p near one tip.
+double field(double h, double tip, Point2 p, Point2 at) { return std::min(h, tip * h + 0.3 * distance(p, at)); }
+
+TEST(AdaptiveRemesh, NoEdgeNearATipIsTooLongForTheField) {
+  constexpr double tip = 0.3;
+  std::size_t edges = 0, early = 0, cuts = 0;
+  for (const std::string family : sheet_families())
+    for (std::size_t i = 0; i < scaled(20); ++i) {
+      Random random(900 + i);
+      const Point2 a{random.between(0.3, 0.4), random.between(0.3, 0.7)};
+      const Point2 b{random.between(0.6, 0.7), random.between(0.3, 0.7)};
+      Remeshed body(family, 20, tip);
+      const double h = body.sheet.mean_edge();
+      const CutOutcome outcome = body.cut(line({a, b}));
+      ASSERT_EQ(outcome.status, Status::ok) << outcome.reason;
+      ++cuts;
+      if (!outcome.reason.empty()) {  // the limit of rounds was met
+        ++early;
+        continue;
+      }
+      body.for_each_edge([&](VertexIndex v, VertexIndex w) {
+        const Point2 p = body.sheet.rest(v), q = body.sheet.rest(w), middle = 0.5 * (p + q);
+        for (const Point2 at : {a, b}) {
+          if (distance(middle, at) > (1 - tip) / 0.3 * h) continue;
+          ++edges;
+          EXPECT_LE(distance(p, q), (1 + 1e-12) * std::numbers::sqrt2 * field(h, tip, middle, at)) << family << i;
+        }
+      });
+    }
+  EXPECT_GT(edges, 100 * cuts);  // the rings of fine triangles are there
+  EXPECT_LE(early, cuts / 10);
+}
+
+/// Beside a straight path, whose vertices may go: against flips alone.
+TEST(AdaptiveRemesh, CollapsesMostShortEdges) {
+  const auto short_edges = [](const std::string& family, std::size_t i, double tip) {
+    Random random(300 + i);
+    const double from = random.between(0.2, 0.8), to = random.between(0.2, 0.8);
+    Remeshed body(family, 20, tip);
+    EXPECT_EQ(body.cut(line({{-0.1, from}, {1.1, to}})).status, Status::ok);
+    const double h = body.sheet.mean_edge();
+    std::size_t count = 0;
+    body.for_each_edge(
+        [&](VertexIndex v, VertexIndex w) { count += distance(body.sheet.rest(v), body.sheet.rest(w)) < 0.4 * h; });
+    return count;
+  };
+  for (const std::string family : {"grid", "alternating", "delaunay"}) {  // in a graded sheet h says little
+    std::size_t before = 0, after = 0;
+    for (std::size_t i = 0; i < scaled(20); ++i)
+      before += short_edges(family, i, 0), after += short_edges(family, i, 1);
+    EXPECT_LT(after, before / 2) << family;
+  }
+}
+
+TEST(AdaptiveRemesh, NothingFrozenMoves) {
+  std::size_t gone_when_free = 0;
+  for (const std::string family : sheet_families())
+    for (const char* cuts : {"recut", "several", "partial"})
+      for (const bool held : {false, true})
+        for (std::size_t i = 0; i < scaled(5); ++i) {
+          Remeshed body(family, 12, 0.4);
+          if (held)
+            for (std::size_t v = 0; v < body.sheet.vertex_slots(); ++v) body.sheet.hold(VertexIndex(v));
+          for (const Curve& curve : make_case(cuts, 17, i, body.sheet)) {
+            const Sheet before = body.sheet;
+            body.cut(curve);
+            for (std::size_t k = 0; k < before.vertex_slots(); ++k) {
+              const VertexIndex v(k);
+              if (!before.triangle_of_vertex(v).valid()) continue;
+              bool frozen = before.is_held(v);
+              for_each_separating_end(before, v, [&](VertexIndex) { frozen = true; });
+              const bool stays = body.sheet.triangle_of_vertex(v).valid() && body.sheet.rest(v) == before.rest(v) &&
+                                 !body.sheet.is_newer(v, before);
+              EXPECT_TRUE(stays || !frozen) << family << " " << cuts << " " << i << ", vertex " << k;
+              gone_when_free += !stays;
+            }
+          }
+        }
+  EXPECT_GT(gone_when_free, scaled(100));
+}
+
+TEST(AdaptiveRemesh, CoarsensBehindTheBlade) {
+  for (const std::string family : sheet_families()) {
+    Remeshed body(family, 24, 0.2);
+    const Point2 stop{0.52, 0.51};
+    ASSERT_EQ(body.cut(line({{0.21, 0.42}, stop})).status, Status::ok);
+    const double radius = 2 * body.sheet.mean_edge();
+    const std::size_t at_tip = body.vertices_near(stop, radius);
+    ASSERT_EQ(body.cut(line({stop, {0.83, 0.58}})).status, Status::ok);
+    EXPECT_LT(body.vertices_near(stop, radius), 0.8 * static_cast<double>(at_tip)) << family;
+  }
+}
+
+/// The same cut, in cells, of grids of 512 to 8,192 triangles, whose mean edges differ by 1 % of a cell.
+TEST(AdaptiveRemesh, WorkFollowsTheCutAndNotTheSheet) {
+  std::vector<std::size_t> touched;
+  for (const int n : {16, 32, 64}) {
+    Remeshed body("grid", n, 0.25);
+    const double cell = 1.0 / n;
+    ASSERT_EQ(body.cut(line({{0.5 - 2.25 * cell, 0.5 - 0.375 * cell}, {0.5 + 2.125 * cell, 0.5 + 0.75 * cell}})).status,
+              Status::ok);
+    touched.push_back(body.sheet.log().touched.size() + body.sheet.log().new_vertices.size());
+  }
+  const auto [least, most] = std::ranges::minmax(touched);
+  EXPECT_GT(least, 10U);
+  EXPECT_LT(most, 1.3 * static_cast<double>(least));
+}
+
+}  // namespace
+}  // namespace cutbench
