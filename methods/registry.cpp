@@ -57,7 +57,7 @@ std::vector<MethodRow>& table() {
       {"active_node",
        "the tip is a vertex that moves with the blade, flips edges, takes in what is near and leaves a path vertex "
        "every h",
-       {"spacing", 1, "between vertices of the path, in mean rest edges, 0.25 to 4"},
+       {"spacing", 1, "between vertices of the path, in mean rest edges, 0.25 to 4; 0: every crossing stays"},
        {.exact_incision = false,
         .keeps_area = true,
         .conforming = true,

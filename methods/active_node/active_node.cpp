@@ -24,6 +24,12 @@ HalfEdge edge_between(const Sheet& sheet, VertexIndex from, VertexIndex to) {
 void ActiveNode::adapt(Sheet& sheet, Subdivision& trace, const Polyline& path) {
   way_.clear(), turned_.clear();
   curve_.read(sheet, trace, path);
+  node_length_.assign(1, 0);
+  for (std::size_t i = 1; i < trace.nodes.size(); ++i) {
+    const Point2 piece = trace.nodes[i].place.point - trace.nodes[i - 1].place.point;
+    node_length_.push_back(node_length_.back() + std::sqrt(squared_length(piece)));
+  }
+  warp_.run(sheet, trace, curve_);
 }
 
 void ActiveNode::embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) {
@@ -34,23 +40,34 @@ void ActiveNode::embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) {
 
 /// False where the harness has embedded the path in its own way instead.
 bool ActiveNode::is_as_traced(const Sheet& sheet) const {
-  for (std::size_t i = 0; i < way_.size(); ++i)
-    if (way_[i]() >= sheet.vertex_slots() || !sheet.triangle_of_vertex(way_[i]).valid() ||
-        sheet.rest(way_[i]) != curve_.at(static_cast<double>(i)))
-      return false;
-  return true;
+  return std::all_of(way_.begin(), way_.end(), [&](VertexIndex v) {
+    if (v() >= sheet.vertex_slots() || !sheet.triangle_of_vertex(v).valid()) return false;
+    const double s = curve_.parameter(v);
+    return s < 0 || sheet.rest(v) == curve_.at(s);
+  });
 }
 
-void ActiveNode::measure_way(const Sheet& sheet) {
+void ActiveNode::measure_way() {
   length_.assign(way_.size(), 0), stop_.assign(way_.size(), way_.size() - 1);
-  for (std::size_t i = 1; i < way_.size(); ++i)
-    length_[i] = length_[i - 1] + std::sqrt(squared_length(sheet.rest(way_[i]) - sheet.rest(way_[i - 1])));
+  for (std::size_t i = 1; i < way_.size(); ++i) {
+    const double s = curve_.parameter(way_[i]);
+    length_[i] = s >= 0 ? node_length_[static_cast<std::size_t>(s)] : length_[i - 1];
+  }
   Reshape::Neighbours neighbours;
   for (std::size_t i = way_.size() - 1; i-- > 0;) {
-    const bool goes_on = i > 0 && reshape_.freedom(way_[i], neighbours) == Reshape::Freedom::along &&
+    const bool goes_on = i > 0 && spacing_ > 0 &&
+                         curve_.is_piece(curve_.parameter(way_[i]), curve_.parameter(way_[i + 1])) &&
+                         reshape_.freedom(way_[i], neighbours) == Reshape::Freedom::along &&
                          (neighbours.before == way_[i + 1] || neighbours.after == way_[i + 1]);
     stop_[i] = goes_on ? stop_[i + 1] : i;
   }
+}
+
+/// The curve's parameter at a length of the way.
+double ActiveNode::parameter_at(double length) const {
+  const auto behind = std::upper_bound(node_length_.begin() + 1, node_length_.end() - 1, length);
+  const double from = *(behind - 1);
+  return static_cast<double>(behind - 1 - node_length_.begin()) + (length - from) / (*behind - from);
 }
 
 /// How far along the way the next vertex of the path is to be, the last one being at `from` before crossing i: equal
@@ -95,16 +112,29 @@ bool ActiveNode::advance(Sheet& sheet, VertexIndex node, VertexIndex to) {
 /// Moves the node from crossing i on to the length `to` of the way, before the next crossing.
 bool ActiveNode::slide(Sheet& sheet, std::size_t i, VertexIndex last, double to) {
   const VertexIndex node = way_[i], next = way_[i + 1];
-  const double s = static_cast<double>(i) + (to - length_[i]) / (length_[i + 1] - length_[i]);
-  const double from = curve_.parameter(last);
+  const double s = parameter_at(to);
   const Point2 p = curve_.at(s);
-  if (sheet.is_held(node) || !reshape_.is_near_curve(from, s, sheet.rest(last), p) ||
+  if (sheet.is_held(node) || !reshape_.is_near_curve(curve_.parameter(last), s, sheet.rest(last), p) ||
       !reshape_.is_near_curve(s, curve_.parameter(next), p, sheet.rest(next)))
     return false;
   make_room(sheet, node, p, {});
   if (!sheet.move(node, p)) return false;
   curve_.set_parameter(node, s);
   return true;
+}
+
+/// A new vertex of the path between `last` and `next`, at the length `to` of the way; invalid where there can be none.
+VertexIndex ActiveNode::leave_between(Sheet& sheet, VertexIndex last, VertexIndex next, double to) {
+  const HalfEdge h = edge_between(sheet, last, next);
+  const double here = curve_.parameter(last), there = curve_.parameter(next), s = parameter_at(to);
+  if (!h.valid() || sheet.mark(h) != EdgeMark::path || !curve_.is_piece(here, there) || s <= here || s >= there)
+    return {};
+  const Point2 p = curve_.at(s);
+  if (!reshape_.is_near_curve(here, s, sheet.rest(last), p) || !reshape_.is_near_curve(s, there, p, sheet.rest(next)))
+    return {};
+  const VertexIndex v = reshape_.split_at(h, p);
+  if (v.valid()) curve_.add(v, s);
+  return v;
 }
 
 /// Vertices of the sheet in the node's way are merged with it.
@@ -137,7 +167,7 @@ void ActiveNode::improve(Sheet& sheet, MethodNotes&) {
   near_ = options_.near * std::min(1.0, options_.spacing) * sheet.mean_edge();
   reshape_.begin(sheet, curve_);
   delaunay_.begin(sheet);
-  measure_way(sheet);
+  measure_way();
 
   constexpr double close = 0.05;  // of the spacing: so far from its target the next vertex of the path may be
   VertexIndex last;
@@ -153,7 +183,15 @@ void ActiveNode::improve(Sheet& sheet, MethodNotes&) {
       settle(sheet, node);
     }
     last = node;
-    if (i + 1 < way_.size()) target = next_target(i + 1, at);
+    if (i + 1 == way_.size()) break;
+    target = next_target(i + 1, at);
+    while (spacing_ > 0 && target < length_[i + 1] - close * spacing_) {  // no crossing is met before it
+      const VertexIndex v = leave_between(sheet, last, way_[i + 1], target);
+      if (!v.valid()) break;
+      settle(sheet, v);
+      last = v, at = target;
+      target = next_target(i + 1, at);
+    }
   }
 }
 

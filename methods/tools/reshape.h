@@ -65,6 +65,9 @@ class Reshape {
   bool is_near_curve(double from, double to, Point2 a, Point2 b) const {
     return curve_->stays_near(from, to, a, b, tolerance_);
   }
+  /// Splits an edge with a new vertex at p, which may lie beside it; invalid, unchanged, where a triangle would not stay
+  /// positive.
+  VertexIndex split_at(HalfEdge h, Point2 p);
 
  private:
   bool is_tip(VertexIndex v) const;
@@ -73,7 +76,6 @@ class Reshape {
   bool flip_one(TriangleIndex t);
   bool smooth(VertexIndex v);
   bool slide(VertexIndex v, const Neighbours& neighbours);
-  VertexIndex split_at(HalfEdge h, Point2 p);
   bool turn_away(VertexIndex v, VertexIndex apex, VertexIndex other);
   void follow_closely(VertexIndex from, VertexIndex to);
   void widen_corners();
