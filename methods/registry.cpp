@@ -64,8 +64,8 @@ std::vector<MethodRow>& table() {
         .keeps_vertices = false,
         .incision_bound = {.longest_edges = 0, .chord_tolerances = 1}},
        [](double spacing) {
-         if (!(spacing >= 0.25 && spacing <= 4))
-           throw InputError("active_node: spacing must be a number from 0.25 to 4");
+         if (!(spacing == 0 || (spacing >= 0.25 && spacing <= 4)))
+           throw InputError("active_node: spacing must be 0, or a number from 0.25 to 4");
          return std::make_unique<ActiveNode>(ActiveNode::Options{.spacing = spacing});
        }},
       {"cgal_cdt",
