@@ -7,6 +7,7 @@
 
 #include "harness/base/names.h"
 #include "harness/mesh/mesh_data.h"
+#include "methods/active_node/active_node.h"
 #include "methods/adaptive_remesh/adaptive_remesh.h"
 #include "methods/bowyer_watson/bowyer_watson.h"
 #include "methods/cgal_cdt/cgal_cdt.h"
@@ -62,6 +63,20 @@ std::vector<MethodRow>& table() {
          if (!(rounds >= 0 && rounds <= most_rounds && rounds == std::floor(rounds)))
            throw InputError("bowyer_watson: rounds must be a whole number from 0 to " + std::to_string(most_rounds));
          return std::make_unique<BowyerWatson>(BowyerWatson::Options{.rounds = static_cast<int>(rounds)});
+       }},
+      {"active_node",
+       "the tip is a vertex that moves with the blade, flips edges, takes in what is near and leaves a path vertex "
+       "every h",
+       {"spacing", 1, "between vertices of the path, in mean rest edges, 0.25 to 4; 0: every crossing stays"},
+       {.exact_incision = false,
+        .keeps_area = true,
+        .conforming = true,
+        .keeps_vertices = false,
+        .incision_bound = {.longest_edges = 0, .chord_tolerances = 1}},
+       [](double spacing) {
+         if (!(spacing == 0 || (spacing >= 0.25 && spacing <= 4)))
+           throw InputError("active_node: spacing must be 0, or a number from 0.25 to 4");
+         return std::make_unique<ActiveNode>(ActiveNode::Options{.spacing = spacing});
        }},
       {"cgal_cdt",
        "CGAL's constrained Delaunay triangulation of the strip of crossed triangles",

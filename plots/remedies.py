@@ -13,7 +13,8 @@ from method_parts import kinds
 
 STEM = "remedies"
 KINDS = {  # colour, marker, and the methods whose remedy is of this kind
-    "the mesh": ("#0072b2", "s", ["snap_or_split", "edge_release", "warp_and_refine", "delaunay_refine", "adaptive_remesh"]),
+    "the mesh": ("#0072b2", "s", ["snap_or_split", "edge_release", "active_node", "warp_and_refine", "delaunay_refine",
+                                  "adaptive_remesh"]),
     "the unknowns": ("#d55e00", "o", ["cut_polygons", "split_and_tie", "phantom_node", "ablation:warp+thin:tie"]),
     "the mass": ("#009e73", "^", ["phantom_node:lumped_mass"]),  # and all with an added mass
     "nothing": ("#444444", "D", ["conventional_split"]),

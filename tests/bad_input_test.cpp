@@ -79,6 +79,7 @@ TEST_F(BadInput, Options) {
               {knob("cut_polygons", "thinness=2"), 2, "thinness must be a number from 0 to 1"},
               {knob("split_and_tie", "thinness=-1"), 2, "thinness must be a number from 0 to 0.3"},
               {knob("vertex_snap", "reach=0.6"), 2, "reach must be a number from 0 to 0.5"},
+              {knob("active_node", "spacing=0.1"), 2, "spacing must be 0, or a number from 0.25 to 4"},
               {knob("warp_and_refine", "reach=-1"), 2, "reach must be a number from 0 to 0.5"},
               {good + " --chord-tolerance 1x", 2, "\"1x\" is not a number"},
               {"simulate " + std::string(CUTBENCH_TEST_CASES) +

@@ -17,24 +17,25 @@ constexpr const char* families[] = {"straight", "curved", "partial", "cut_out", 
 
 TEST(Reshape, HeldVerticesStayWhereTheyAre) {
   std::size_t moved_when_free = 0;
-  for (const std::string family : families)
-    for (std::size_t i = 0; i < scaled(5); ++i)
-      for (const bool held : {false, true}) {
-        Sheet sheet(make_sheet("delaunay", 12));
-        if (held)
-          for (std::size_t v = 0; v < sheet.vertex_slots(); ++v) sheet.hold(VertexIndex(v));
-        const Sheet before = sheet;
-        Locator locator(sheet);
-        Cutter cutter;
-        const auto method = find_method("warp_and_refine").make(find_method("warp_and_refine").knob.value);
-        for (const Curve& curve : make_case(family, 5, i, sheet)) cutter.cut(sheet, locator, curve, *method, {});
-        for (std::size_t k = 0; k < before.vertex_slots(); ++k) {
-          const VertexIndex v(k);
-          const bool stays = sheet.triangle_of_vertex(v).valid() && sheet.rest(v) == before.rest(v);
-          moved_when_free += !held && !stays;
-          EXPECT_TRUE(!held || stays) << family << " " << i << ", vertex " << k;
+  for (const char* name : {"warp_and_refine", "active_node"})
+    for (const std::string family : families)
+      for (std::size_t i = 0; i < scaled(5); ++i)
+        for (const bool held : {false, true}) {
+          Sheet sheet(make_sheet("delaunay", 12));
+          if (held)
+            for (std::size_t v = 0; v < sheet.vertex_slots(); ++v) sheet.hold(VertexIndex(v));
+          const Sheet before = sheet;
+          Locator locator(sheet);
+          Cutter cutter;
+          const auto method = find_method(name).make(find_method(name).knob.value);
+          for (const Curve& curve : make_case(family, 5, i, sheet)) cutter.cut(sheet, locator, curve, *method, {});
+          for (std::size_t k = 0; k < before.vertex_slots(); ++k) {
+            const VertexIndex v(k);
+            const bool stays = sheet.triangle_of_vertex(v).valid() && sheet.rest(v) == before.rest(v);
+            moved_when_free += !held && !stays;
+            EXPECT_TRUE(!held || stays) << name << ", " << family << " " << i << ", vertex " << k;
+          }
         }
-      }
   EXPECT_GT(moved_when_free, scaled(100));
 }
 
@@ -71,7 +72,7 @@ TEST(WarpAndRefine, LeavesNothingIllShapedThatNothingForces) {
 /// The incision of a curved cut is nowhere farther from the requested curve than the chord tolerance: what the trace
 /// leaves out and what later steps move or merge share one budget.
 TEST(WarpAndRefine, KeepsTheChordToleranceOfCurves) {
-  for (const char* name : {"warp_and_refine", "cisamr"})
+  for (const char* name : {"warp_and_refine", "cisamr", "active_node"})
     for (const std::string sheet_family : sheet_families())
       for (const char* family : {"curved", "cut_out"})
         for (const double tolerance : {0.05, 0.01})

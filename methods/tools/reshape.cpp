@@ -123,7 +123,6 @@ double Reshape::worst_after_collapse(HalfEdge h) const {
   return worst;
 }
 
-/// Whether the path allows that the edge `towards` is collapsed, by moving its origin v to its target.
 bool Reshape::may_leave_out(VertexIndex v, HalfEdge towards) const {
   Neighbours n;
   if (is_wide(*sheet_, v)) return false;

@@ -52,21 +52,30 @@ class Reshape {
   /// Triangles that the cut has made or changed so far.
   std::vector<TriangleIndex> changed_triangles() const;
 
- private:
   /// How a vertex may move.
   enum class Freedom : std::uint8_t { none, along, free };
   struct Neighbours {
-    VertexIndex before, after;  // on the path
+    VertexIndex before, after;  ///< on the path, in either direction; set where the freedom is `along`
   };
   Freedom freedom(VertexIndex v, Neighbours& neighbours) const;
-  bool is_tip(VertexIndex v) const;
+  /// Whether the path allows that the edge `towards` is collapsed, by moving its origin v to its target: what is left
+  /// out stays within the tolerance of the curve.
   bool may_leave_out(VertexIndex v, HalfEdge towards) const;
+  /// Whether the segment a b may stand for the curve between these parameters.
+  bool is_near_curve(double from, double to, Point2 a, Point2 b) const {
+    return curve_->stays_near(from, to, a, b, tolerance_);
+  }
+  /// Splits an edge with a new vertex at p, which may lie beside it; invalid, unchanged, where a triangle would not stay
+  /// positive.
+  VertexIndex split_at(HalfEdge h, Point2 p);
+
+ private:
+  bool is_tip(VertexIndex v) const;
   double worst_after_collapse(HalfEdge h) const;
   bool shorten_at(VertexIndex v);
   bool flip_one(TriangleIndex t);
   bool smooth(VertexIndex v);
   bool slide(VertexIndex v, const Neighbours& neighbours);
-  VertexIndex split_at(HalfEdge h, Point2 p);
   bool turn_away(VertexIndex v, VertexIndex apex, VertexIndex other);
   void follow_closely(VertexIndex from, VertexIndex to);
   void widen_corners();

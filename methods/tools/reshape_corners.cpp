@@ -8,9 +8,7 @@
 
 namespace cutbench {
 
-/// Splits an edge with a new vertex at p, which may lie beside it. The vertex is made on the edge and then moved, so
-/// that its deformed position is interpolated in the old triangles. Where a triangle would not stay positive the edge
-/// is left whole, and the index is invalid.
+/// The vertex is made on the edge and then moved, so that its deformed position is interpolated in the old triangles.
 VertexIndex Reshape::split_at(HalfEdge h, Point2 p) {
   const Point2 a = sheet_->rest(sheet_->origin(h)), edge = sheet_->rest(sheet_->target(h)) - a;
   const double lambda = dot(p - a, edge) / squared_length(edge);

@@ -45,7 +45,7 @@ bool Warp::stays_near(int target, const PathCurve& curve) const {
 int Warp::move_to_path(Sheet& sheet, const PathCurve& curve) {
   const VertexIndex v = run_.vertex;
   const bool on_border = sheet.on_border(sheet.first_outgoing(v));
-  if (on_border && !is_straight_at(sheet, v)) return -1;
+  if (on_border ? !is_straight_at(sheet, v) : options_.border_only) return -1;
   targets_.clear();
   for (const int n : run_.nodes) {
     if (sheet.mark(path_.place(n).edge) != EdgeMark::none) return -1;  // an older incision ends or passes at v

@@ -9,7 +9,7 @@ WORST_LAST = ["ok", "refused", "solver_stalled", "newton_failed", "inverted", "e
               "wrong", "timed_out", "crashed"]
 NAMES = {"conventional_split": "conventional split", "bowyer_watson": "Bowyer-Watson", "cgal_cdt": "CGAL CDT",
          "delaunay_refine": "Delaunay refine", "cgal_refine": "CGAL refine", "longest_edge": "longest edge",
-         "global_remesh": "global remesh", "warp_and_refine": "warp and refine", "vertex_snap": "vertex snap",
+         "global_remesh": "global remesh", "warp_and_refine": "warp and refine", "vertex_snap": "vertex snap", "active_node": "active node",
          "snap_or_split": "snap or split", "edge_release": "edge release", "split_and_tie": "split and tie", "cut_polygons": "cut polygons",
          "ablation:warp+thin:tie": "warp, thin, tie", "element_deletion": "element deletion"}
 ADDED_MASS = ["stabilised", "scaled"]  # values of `mass` that are remedies
