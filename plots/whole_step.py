@@ -22,10 +22,11 @@ STEM = "whole_step"
 SAME = "multigrid"
 REAL_TIME_MS = 1000 * points.BETWEEN_S
 GROUPS = {  # colour, marker, methods
-    "moves vertices": ("#0072b2", "o", ["warp_and_refine", "vertex_snap", "cisamr"]),
+    "moves vertices": ("#0072b2", "o", ["warp_and_refine", "vertex_snap", "cisamr", "active_node"]),
     "moves the path": ("#d55e00", "s", ["snap_or_split", "edge_release"]),
     "constrains or doubles vertices": ("#7b3294", "D", ["split_and_tie", "cut_polygons", "phantom_node"]),
-    "refines": ("#009e73", "^", ["delaunay_refine", "cgal_refine", "longest_edge", "global_remesh"]),
+    "refines": ("#009e73", "^", ["delaunay_refine", "cgal_refine", "longest_edge", "global_remesh",
+                                   "adaptive_remesh"]),
     "splits crossed triangles": ("#111111", "v", ["conventional_split", "cgal_cdt", "bowyer_watson", "example"]),
     "deletes triangles": ("#b8860b", "X", ["element_deletion"]),
 }
