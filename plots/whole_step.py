@@ -32,6 +32,7 @@ GROUPS = {  # colour, marker, methods
 }
 OTHER = ("#777777", "P")
 SOLVERS = {"cg_sliver_blocks": "CG", "multigrid": "MG", "cholmod": "direct"}
+FAR = 4  # times the median error: such a method is not drawn
 SUMMARY = (4, 1 / 240, 1000)  # the setting of readme_chart.png
 
 
@@ -48,8 +49,9 @@ def draw(ax, table, scale=1.0):
     """The methods of a setting, a small marker for the smaller sheet, a large one for the larger; pale behind the front.
     Returns the rows that are drawn."""
     sizes = sorted(set(table["resolution"]))
+    table = made = table[np.isfinite(table["ms"]) & (table["error"] < FAR * table["error"].median())]
     for method, here in table.groupby("method", sort=False):
-        here = here[np.isfinite(here["ms"])].sort_values("resolution")
+        here = here.sort_values("resolution")
         colour, marker = look(method)
         ax.plot(here["ms"], here["error"], color=colour, linewidth=0.4 * scale, alpha=0.2, zorder=1)
         for _, p in here.iterrows():
@@ -63,7 +65,6 @@ def draw(ax, table, scale=1.0):
     best = table[table["layer"] == 1].sort_values("ms")
     ax.plot(best["ms"], best["error"], **front.FRONT_LINE)
     ax.set(xscale="log", yscale="log")
-    made = table[np.isfinite(table["ms"])]
     ax.set_xlim(made["ms"].min() / 1.7, made["ms"].max() * 2.2)
     ax.set_ylim(made["error"].min() / 1.25, made["error"].max() * 1.25)
     ax.axvline(REAL_TIME_MS, color="#999999", linewidth=0.7, linestyle="--", zorder=0)
@@ -170,7 +171,7 @@ def summary(best, same, methods, context):
     for ax, made in drawn:
         ax.set_xlim(limits[:, 0].min() / 1.5, limits[:, 1].max() * 2)
         write_names(ax, made[(made["layer"] == 1) | (made["resolution"] == made["resolution"].max())], made, 7, False)
-    axes[0].set_ylabel("error of the cut sheet's solution", fontsize=9)
+    axes[0].set_ylabel(f"error of the cut sheet's solution, {points.MEASURES[points.LEADS]}", fontsize=9)
     handles = entries(best, 1.6)
     figure.legend(handles=handles, loc="upper left", ncol=-(-len(handles) // 2), fontsize=8.5, borderaxespad=0.2, handletextpad=0.3,
                   columnspacing=1.2)
@@ -183,7 +184,7 @@ def summary(best, same, methods, context):
 def absent(drawn, methods):
     """Which methods are in no panel, in words."""
     lost = [m.replace("_", " ") for m in methods if m not in set(drawn["method"])]
-    return f"Not shown (refuses the scene, ended early, or no published error): {', '.join(lost)}." if lost else ""
+    return f"Not shown (refuses the scene, ended early, no published error, or one of {FAR} times the median): {', '.join(lost)}." if lost else ""
 
 
 def at(table, setting):
@@ -226,7 +227,7 @@ def best_groups(cost):
 def tables(cost, fronts):
     text = io.StringIO()
     with contextlib.redirect_stdout(text):
-        counts = fronts["error", "best"]
+        counts = fronts[points.LEADS, "best"]
         settings = len(counts[SETTING].drop_duplicates())
         share = counts[counts["layer"] == 1].groupby("method")[SETTING].apply(lambda t: len(t.drop_duplicates()))
         load.print_table(f"On the front in how many of the {settings} settings, each by its fastest solver",
@@ -255,7 +256,7 @@ def ways(cost):
 
 def readme_chart(folder):
     rows, context = read(folder)
-    error = points.errors("error")
+    error = points.errors(points.LEADS)
     best, same = (points.joined(some, error) for some in ways(points.costs(rows)).values())
     return summary(best, same, rows["method"].unique(), context)
 
@@ -268,7 +269,7 @@ def main():
               for column in points.MEASURES for way, some in ways(cost).items()}
     for (column, way), table in fronts.items():
         style.save(pages(table, column, context, way == "best"), folder,
-                   STEM + "_same_solver" * (way == "same") + "_energy_norm" * (column != "error"))
+                   STEM + "_same_solver" * (way == "same") + "_released_energy" * (column != points.LEADS))
     figure = readme_chart(folder)
     figure.savefig(folder / "readme_chart.png", dpi=150)
     plt.close(figure)
