@@ -19,7 +19,7 @@ namespace {
 
 /// Of the height of a triangle on the edge at which an incision enters it: one that ends nearer to that edge stays
 /// closed there, for the triangles between the lips and the tip get stiff in inverse proportion.
-constexpr double least_depth = 0.1;
+constexpr double least_depth = 0.05;
 
 class Doubling {
  public:
@@ -34,7 +34,6 @@ class Doubling {
     number_phantoms();
     Ties ties;
     ties.phantoms = phantoms_;
-    if (options.lumped_mass) lump(ties.lumped);
     if (options.ghost > 0) add_ghosts(options.ghost, ties.ghosts);
     std::vector<std::uint8_t> seen(vertices_.size());
     // The slit parts last: where a lip enters one, it goes along with the part that it comes from.
@@ -48,6 +47,7 @@ class Doubling {
           else if (const DeformedIndex one = unknown(number_of(d)); one != d)
             ties.ties.push_back({d, {one, one, one}, {1, 0, 0}});
         }
+    if (options.lumped_mass) lump(ties);
     return ties;
   }
 
@@ -227,24 +227,34 @@ class Doubling {
       }
   }
 
-  /// A third of the mass of each part to each copy of its parent's corners. Looks at the whole sheet.
-  void lump(std::vector<double>& lumped) {
-    lumped.assign(cut_.deformed_slots() + phantoms_, 0);
-    std::size_t i = 0;
+  /// A third of the mass of each part to each copy of its parent's corners, where it is slit to those that its vertices
+  /// depend on. Looks at the whole sheet.
+  void lump(Ties& ties) {
+    ties.lumped.assign(cut_.deformed_slots() + phantoms_, 0);
+    std::vector<const Tie*> tie_of_vertex(vertices_.size());
+    for (const Tie& tie : ties.ties) tie_of_vertex[number_of(tie.vertex)] = &tie;
     for (std::size_t slot = 0; slot < cut_.triangle_slots(); ++slot) {
       const TriangleIndex t(slot);
       if (!cut_.triangle(t).alive()) continue;
       const auto c = cut_.corners(t);
       const double share = std::max(0.0, cross(c[1] - c[0], c[2] - c[0])) / 6;
-      while (i < near_.size() && near_[i].part < t) ++i;
-      for (std::size_t k = 0; k < 3; ++k)
-        lumped[i < near_.size() && near_[i].part == t ? unknown(copy(i, k))() : whole_unknown(t, k)()] += share;
+      const std::size_t i = place_of(t);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const DeformedIndex d = cut_.triangle(t).deformed[k];
+        if (i == near_.size())
+          ties.lumped[whole_unknown(d)()] += share;
+        else if (!is_slit(i))
+          ties.lumped[unknown(copy(i, k))()] += share;
+        else if (const Tie* const tie = tie_of_vertex[number_of(d)]; tie == nullptr)
+          ties.lumped[d()] += share;
+        else
+          for (std::size_t l = 0; l < 3; ++l) ties.lumped[tie->masters[l]()] += share * std::max(0.0, tie->weights[l]);
+      }
     }
   }
 
   /// Of a triangle away from all divided ones.
-  DeformedIndex whole_unknown(TriangleIndex t, std::size_t corner) {
-    const DeformedIndex d = cut_.triangle(t).deformed[corner];
+  DeformedIndex whole_unknown(DeformedIndex d) {
     const std::size_t number = number_of(d);
     return number < vertices_.size() && vertices_[number] == d ? unknown(number) : d;
   }
