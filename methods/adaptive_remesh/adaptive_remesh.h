@@ -41,7 +41,7 @@ namespace cutbench {
 class AdaptiveRemesh : public CuttingMethod {
  public:
   struct Options {
-    double tip = 0.5;     ///< h_tip: the field at a tip, mean rest edges, in (0, 1]; 0: flips alone
+    double tip = 0.2;     ///< h_tip: the field at a tip, mean rest edges, in (0, 1]; 0: flips alone
     double growth = 0.3;  ///< g: of the field with the distance from the tip
   };
   explicit AdaptiveRemesh(const Options& options) : options_(options) {}
