@@ -48,7 +48,7 @@ std::vector<MethodRow>& table() {
        [](double) { return std::make_unique<ConventionalSplit>(); }},
       {"adaptive_remesh",
        "edges round the cut are split, flipped and collapsed to a size field that is fine at the tips",
-       {"tip", 0.5, "edge length asked for at the tips, mean rest edges, 0.1 to 1; 0: flips alone"},
+       {"tip", 0.2, "edge length asked for at the tips, mean rest edges, 0.1 to 1; 0: flips alone"},
        {.exact_incision = true, .keeps_area = true, .conforming = true, .keeps_vertices = false},
        [](double tip) {
          if (!(tip == 0 || (tip >= 0.1 && tip <= 1)))

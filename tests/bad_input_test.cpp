@@ -76,6 +76,7 @@ TEST_F(BadInput, Options) {
               {knob("delaunay_refine", "bound=1001"), 2, "bound must be 0, or a number from 2 to 1000"},
               {knob("longest_edge", "cap=101"), 2, "cap must be a number from 0 to 100"},
               {knob("snap_or_split", "tolerance=0.6"), 2, "tolerance must be a number from 0 to 0.5"},
+              {knob("adaptive_remesh", "tip=0.05"), 2, "tip must be 0, or a number from 0.1 to 1"},
               {knob("cut_polygons", "thinness=2"), 2, "thinness must be a number from 0 to 1"},
               {knob("split_and_tie", "thinness=-1"), 2, "thinness must be a number from 0 to 0.3"},
               {knob("vertex_snap", "reach=0.6"), 2, "reach must be a number from 0 to 0.5"},

@@ -17,16 +17,16 @@
 // what would turn a triangle over, so the area stays.
 //
 // Source: Narain, Samii and O'Brien, Adaptive anisotropic remeshing for cloth simulation, ACM TOG 31(6), 2012 (split,
-// flip, collapse; section 4); Pfaff, Narain, de Joya and O'Brien, Adaptive tearing and cracking of thin sheets, ACM TOG
+// flip, collapse); Pfaff, Narain, de Joya and O'Brien, Adaptive tearing and cracking of thin sheets, ACM TOG
 // 33(4), 2014 (fine at tips, coarse behind). The bounds sqrt(2) and 1 / sqrt(2), a quasi-unit mesh: Frey and George, Mesh
 // Generation, 2000. Narain's field is a tensor; here it is a number, and nothing is moved.
 // Promises: the exact path, area, conforming; not that vertices stay: those too close together are removed, and what
 // they carried is lost.
 // Where it fails: no aspect ratio is promised. Vertices of curved paths and of older incisions stay, however close
 // together, with short edges and needles between them; behind the blade the lips of the incision stay as fine as they
-// were at the tip. In a graded sheet the mean edge is wrong on both sides. Flips and collapses of old edges change the
-// deformed surface where the sheet is bent. Fine triangles at the tip make the largest eigenvalue grow as
-// (h / h_tip)^2.
+// were at the tip. In a graded sheet the mean edge is too large here and too small there. Flips and collapses of old
+// edges change the deformed surface where the sheet is bent. Fine triangles at the tip have eigenvalues of
+// (h / h_tip)^2 times those of the sheet.
 #pragma once
 
 #include <numbers>
@@ -41,7 +41,7 @@ namespace cutbench {
 class AdaptiveRemesh : public CuttingMethod {
  public:
   struct Options {
-    double tip = 0.5;     ///< h_tip: the field at a tip, mean rest edges, in (0, 1]; 0: flips alone
+    double tip = 0.2;     ///< h_tip: the field at a tip, mean rest edges, in (0, 1]; 0: flips alone
     double growth = 0.3;  ///< g: of the field with the distance from the tip
   };
   explicit AdaptiveRemesh(const Options& options) : options_(options) {}

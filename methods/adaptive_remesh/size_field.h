@@ -3,8 +3,8 @@
 //
 //     s(p) = min(h, h_tip + g |p - nearest tip|).
 //
-// Source: an isotropic size field as in Narain, Samii and O'Brien 2012 (section 4), there from curvature, velocity and
-// contact; fine at the tips as in Pfaff, Narain, de Joya and O'Brien 2014 (section 4), there from stress. g bounds the
+// Source: an isotropic size field as in Narain, Samii and O'Brien 2012, there from curvature, velocity and
+// contact; fine at the tips as in Pfaff, Narain, de Joya and O'Brien 2014, there from stress. g bounds the
 // gradation (Borouchaki, Hecht and Frey 1998).
 #pragma once
 
