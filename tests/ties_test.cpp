@@ -402,7 +402,7 @@ TEST(PhantomNode, OpensUpToTheTip) {
   EXPECT_GE(open, 10u);
 }
 
-/// However little material a part has. (A slit part is stiffer: the least depth of a tip bounds it.) (Pieces smaller than a triangle have no neighbour for a penalty.)
+/// However little material a part has. (A slit part may be stiffer: most_stiffness bounds it.) (Pieces smaller than a triangle have no neighbour for a penalty.)
 TEST(PhantomNode, VariantsBoundTheEigenvalue) {
   double worst = 0;
   for (const std::string family : sheet_families())
