@@ -17,9 +17,10 @@ namespace cutbench {
 
 namespace {
 
-/// Of the height of a triangle on the edge at which an incision enters it: one that ends nearer to that edge stays
-/// closed there, for the triangles between the lips and the tip get stiff in inverse proportion.
-constexpr double least_depth = 0.05;
+/// A tip whose lips would be stiffer stays closed: of the shape function of a lip's vertex on the edge at which it enters,
+/// the integral of the squared gradient over a triangle, times the squared weight of the phantom node there. It grows
+/// without bound as the tip comes near the edge, or near the line through a bend of the path and the edge.
+constexpr double most_stiffness = 3;
 
 class Doubling {
  public:
@@ -134,14 +135,14 @@ class Doubling {
   /// Finds the edges at which incisions enter slit parts, and what must not be joined across them.
   void find_open_tips() {
     slit_.assign(near_.size(), 0);
-    std::vector<std::pair<std::size_t, HalfEdge>> lips;
     for (std::size_t i = 0; i < near_.size(); ++i)
       for (int k = 0; k < 3; ++k)
         if (const HalfEdge h = half_edge(near_[i].part, k); cut_.separates(h) && !cut_.on_border(h))
           if (const std::size_t j = place_of(triangle_of(cut_.opposite(h)));
               j < near_.size() && parts_.find(i) == parts_.find(j))
-            slit_[parts_.find(i)] = 1, lips.emplace_back(i, h);
-    if (lips.empty()) return;
+            slit_[parts_.find(i)] = 1;
+    for (std::size_t i = 0; i < near_.size(); ++i)
+      if (is_slit(i)) in_slit_parts_.push_back(i);
     std::vector<Piece> pieces;
     for_each_joint([&](std::size_t i, std::size_t j, HalfEdge h) {
       if (near_[i].parent == near_[j].parent || !is_slit(i)) return;
@@ -152,42 +153,57 @@ class Doubling {
     for (auto first = pieces.begin(), last = first; first != pieces.end(); first = last) {
       last = std::find_if(first, pieces.end(),
                           [&](const Piece& p) { return p.part != first->part || p.far != first->far; });
-      open_edge({first, last}, lips);
+      open_edge({first, last});
     }
     std::sort(apart_.begin(), apart_.end());
   }
 
   /// The pieces on the two sides of an incision that enters here have nothing in common. A copy of an end of the edge goes
   /// along with the pieces next to it.
-  void open_edge(std::span<Piece> pieces, std::span<const std::pair<std::size_t, HalfEdge>> lips) {
-    const auto c = before_.corners(near_[pieces[0].i].parent);
-    const std::size_t far = pieces[0].far;
-    for (const auto& [i, h] : lips) {
-      if (parts_.find(i) != pieces[0].part || !is_end(pieces, cut_.origin(h))) continue;
-      const double depth =
-          cross(c[(far + 1) % 3] - cut_.rest(cut_.target(h)), c[(far + 2) % 3] - cut_.rest(cut_.target(h)));
-      if (depth < least_depth * cross(c[1] - c[0], c[2] - c[0])) return;
-    }
+  void open_edge(std::span<Piece> pieces) {
     for (std::size_t n = 0; n < pieces.size(); ++n)
       for (Piece& a : pieces)
         for (Piece& b : pieces)
           if (touch(a.h, b.h)) a.group = b.group = std::min(a.group, b.group);
-    for (const std::size_t corner : {(far + 1) % 3, (far + 2) % 3}) {
+    const auto c = before_.corners(near_[pieces[0].i].parent);
+    const std::size_t first = (pieces[0].far + 1) % 3, second = (first + 1) % 3;
+    const std::array<Point2, 2> ends{c[first], c[second]};
+    std::array<std::size_t, 2> group_at{};
+    for (std::size_t e = 0; e < 2; ++e) {
       const auto distance = [&](const Piece& p) {
-        return std::min(squared_length(cut_.rest(cut_.origin(p.h)) - c[corner]),
-                        squared_length(cut_.rest(cut_.target(p.h)) - c[corner]));
+        return std::min(squared_length(cut_.rest(cut_.origin(p.h)) - ends[e]),
+                        squared_length(cut_.rest(cut_.target(p.h)) - ends[e]));
       };
       const auto next = std::min_element(pieces.begin(), pieces.end(),
                                          [&](const Piece& a, const Piece& b) { return distance(a) < distance(b); });
-      for (const Piece& p : pieces)
-        if (p.group != next->group)
-          for (const HalfEdge h : {p.h, cut_.opposite(p.h)}) apart_.emplace_back(h, parent(p.i).vertex[corner]);
+      group_at[e] = next->group;
     }
+    for (const Piece& p : pieces)
+      for (const HalfEdge h : {p.h, Sheet::next(p.h)}) {
+        double weight = 0;
+        for (std::size_t e = 0; e < 2; ++e)
+          if (p.group != group_at[e])
+            weight +=
+                std::sqrt(squared_length(cut_.rest(cut_.origin(h)) - ends[1 - e]) / squared_length(ends[1] - ends[0]));
+        if (is_new(cut_.origin(h)) && !is_soft(p.part, deformed_origin(h), weight)) return;
+      }
+    for (const Piece& p : pieces)
+      for (std::size_t e = 0; e < 2; ++e)
+        if (p.group != group_at[e])
+          for (const HalfEdge h : {p.h, cut_.opposite(p.h)})
+            apart_.emplace_back(h, parent(p.i).vertex[e == 0 ? first : second]);
   }
 
-  bool is_end(std::span<const Piece> pieces, VertexIndex v) const {
-    return is_new(v) && std::any_of(pieces.begin(), pieces.end(),
-                                    [&](const Piece& p) { return cut_.origin(p.h) == v || cut_.target(p.h) == v; });
+  bool is_soft(std::size_t part, DeformedIndex d, double weight) {
+    for (const std::size_t i : in_slit_parts_)
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (parts_.find(i) != part || triangle(i).deformed[k] != d) continue;
+        const auto c = cut_.corners(near_[i].part);
+        const double across = squared_length(c[(k + 2) % 3] - c[(k + 1) % 3]),
+                     twice_area = cross(c[1] - c[0], c[2] - c[0]);
+        if (weight * weight * across > most_stiffness * 2 * twice_area) return false;
+      }
+    return true;
   }
 
   /// They have a vertex of the opened sheet in common.
@@ -331,6 +347,7 @@ class Doubling {
   UnionFind parts_;                      // of triangles of one parent
   UnionFind copies_;                     // of vertices, and three for the corners of the parent of each part
   std::vector<std::uint8_t> slit_;       // per part, at its first triangle
+  std::vector<std::size_t> in_slit_parts_;
   std::vector<std::pair<HalfEdge, VertexIndex>> apart_;  // joints that do not join the copies of this end of their edge
   std::vector<std::int32_t> phantom_;                    // per copy that is no vertex: its number
   std::size_t phantoms_ = 0;

@@ -12,8 +12,8 @@
 //    the copies beyond the edge, and all other vertices, the tip among them, with the part's own. So the jump goes
 //    linearly to zero from the edge to the tip, and ahead of the tip the field is continuous.
 //    Where that cannot be, the incision ends for the unknowns where it enters the part (the lips reach up to the tip, but
-//    coincide): where it enters at a corner, or from another slit part, or ends within a twentieth of the triangle's height
-//    of the edge at which it enters. At a bend inside the part it ends at the bend.
+//    coincide): where it enters at a corner, or from another slit part, or where the lips would be too stiff because the
+//    tip is close to the edge at which it enters. At a bend inside the part it ends at the bend.
 //  - Copies of a vertex of the sheet that belong to the same part are one unknown.
 //  - Supports (pins, border displacements) act on the sheet's own vertices and on crossings of the border.
 //
