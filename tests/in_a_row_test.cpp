@@ -27,7 +27,8 @@ class InARow : public testing::TestWithParam<std::size_t> {
   }
   /// Those that refine, or mesh the whole sheet each time, need as long for ten cuts as others for a hundred.
   std::size_t cuts() const {
-    const bool long_ones = row().name == "global_remesh" || row().knob.name == "bound";
+    const bool long_ones =
+        row().name == "global_remesh" || row().name == "adaptive_remesh" || row().knob.name == "bound";
     return scaled(long_ones ? 50 : 500);
   }
 };

@@ -26,7 +26,8 @@
 // together, with short edges and needles between them; behind the blade the lips of the incision stay as fine as they
 // were at the tip. In a graded sheet the mean edge is too large here and too small there. Flips and collapses of old
 // edges change the deformed surface where the sheet is bent. Fine triangles at the tip have eigenvalues of
-// (h / h_tip)^2 times those of the sheet.
+// (h / h_tip)^2 times those of the sheet. Tips of hundreds of cuts in one place fill it with fine triangles, each of
+// which is measured from all of them.
 #pragma once
 
 #include <numbers>
