@@ -98,7 +98,8 @@ Run run(const AblatedScene& ablated, CuttingMethod& method, const CutOptions& op
     for (const LoggedStep& step : motion->steps()) us += step.total_us();
     result.row.steps = static_cast<int>(motion->steps().size());
     result.row.ms_per_second = us / 1000 / (at_rest ? 1 : motion->time());
-    if (motion->time() < end_of(scene) * (1 - 1e-9)) result.end.reset();  // a verdict ended it early
+    const std::string& verdict = motion->verdict().name;
+    if (verdict != "ok" && verdict != "inverted" && verdict != "energy_growth") result.end.reset();  // it ended early
     if (result.end)
       result.row.deflection = largest_deflection(*result.end), result.row.gape = largest_gape(*result.end);
     if (ablated.without.empty() && !at_rest) result.explicit_limit = motion->step_limits().with_bending;
@@ -180,7 +181,7 @@ void print_ablations(const std::vector<Ablation>& rows) {
     number(12, row.deflection), number(9, percent(row.deflection, whole.deflection));
     number(9, row.gape), number(11, percent(row.gape, whole.gape));
     number(9, 100 * row.deviation / whole.deflection), number(12, row.ms_per_second);
-    number(9, -percent(row.ms_per_second, whole.ms_per_second));
+    number(9, 100 * (1 - row.ms_per_second / whole.ms_per_second));
     std::printf("\n");
   }
 }

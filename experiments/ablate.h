@@ -24,9 +24,10 @@ std::vector<AblatedScene> ablations_of(const Scene& scene);
 /// Where a simulation ends, and what it took.
 struct Ablation {
   std::string without, verdict = "ok", reason;
-  double deflection = 0;     ///< m: largest distance of a vertex from its rest position
-  double gape = 0;           ///< m: largest distance between vertices that were one before the cuts; 0 without cuts
-  double deviation = 0;      ///< m: largest distance of a vertex from where the whole model has it; NaN: other vertices
+  // Largest distances at the end, m; NaN where a verdict ended the run early.
+  double deflection = std::numeric_limits<double>::quiet_NaN();  ///< of a vertex from its rest position
+  double gape = std::numeric_limits<double>::quiet_NaN();        ///< of vertices that were one before the cuts
+  double deviation = std::numeric_limits<double>::quiet_NaN();   ///< from the whole model; NaN on another sheet, too
   double ms_per_second = 0;  ///< of computing, for a simulated second; in equilibrium: of the solve
   int steps = 0;
 };

@@ -203,7 +203,7 @@ def print_fronts(table, title):
             rows.append([setting_name(setting), p["method"], str(p["resolution"]), p["solver"], p["ms"], p["ms_low"], p["ms_high"],
                          p["cut_ms"], 100 * p["error"], 100 * p["error_low"], 100 * p["error_high"], f"{p['failed']}/{p['n']}",
                          f"{100 * p['grew']:.0f}"])
-    load.print_table(title, ["setting", "method", "triangles", "solver", "ms", "q1", "q3", "of it cut", "error %", "from", "to",
+    load.print_table(title, ["setting", "method", "triangles", "solver", "ms", "q1", "q3", "cut, ms", "error %", "from", "to",
                              "ended early", "energy grew %"], rows)
 
 

@@ -55,6 +55,16 @@ TEST_F(Ablate, AFallingPieceFallsAlikeWithoutWhatDoesNotAct) {
   EXPECT_NE(result.out.find("(whole model)"), std::string::npos);
 }
 
+TEST_F(Ablate, ARunThatEndsEarlyHasNoResult) {
+  const auto result =
+      run("ablate '" + scenes + "falling_piece.toml' --resolution 200 --time-limit 1e-6 --report r.json");
+  EXPECT_EQ(result.code, 1) << result.error;
+  for (const auto& [without, row] : rows_of(read(folder_ / "r.json"))) {
+    EXPECT_EQ(row["verdict"], "timed_out") << without;
+    EXPECT_TRUE(row["deflection_m"].is_null() && row["gape_m"].is_null() && row["deviation_m"].is_null()) << without;
+  }
+}
+
 TEST_F(Ablate, BadInput) {
   expect_refused("ablate missing.toml", "missing.toml");
   const std::string scene = "ablate '" + scenes + "falling_piece.toml' ";

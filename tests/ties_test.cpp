@@ -262,7 +262,7 @@ TEST(Ties, CracksOpenAsTheyDoByTheSplitAlone) {
         EXPECT_LE(less, name == "phantom_node" ? 0.25 : 0.1);
         lost += less, ++cases;
       }
-    EXPECT_LE(lost, 0.08 * static_cast<double>(cases));
+    EXPECT_LE(lost, 0.08 * static_cast<double>(cases));  // the sanitizers' six cases of phantom_node: 0.071
   }
 }
 

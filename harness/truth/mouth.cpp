@@ -45,9 +45,8 @@ Field continued_over_the_mouth(const ElasticField& field, const Sheet& sheet) {
     }
     // Of the angles that differ by whole turns, those whose mean over both ends is nearest to 0.
     const double turn = 2 * std::numbers::pi, middle = (angle.front() + angle.back()) / 2;
-    for (std::size_t i = 0; i < part.size(); ++i) {
+    for (std::size_t i = 0; i < part.size(); ++i)
       value(part[i]) = on_side(field, rest(part[i]), angle[i] > turn * std::round(middle / turn));
-    }
   }
   return values;
 }

@@ -16,7 +16,7 @@
 // may go, since without it the path is the same to rounding. Sheet::flip and Sheet::collapse refuse by exact predicates
 // what would turn a triangle over, so the area stays.
 //
-// Source: Narain, Samii and O'Brien, Adaptive anisotropic remeshing for cloth simulation, ACM TOG 31(6), 2012 (split,
+// Source, cited from memory: Narain, Samii and O'Brien, Adaptive anisotropic remeshing for cloth simulation, ACM TOG 31(6), 2012 (split,
 // flip, collapse); Pfaff, Narain, de Joya and O'Brien, Adaptive tearing and cracking of thin sheets, ACM TOG
 // 33(4), 2014 (fine at tips, coarse behind). The bounds sqrt(2) and 1 / sqrt(2), a quasi-unit mesh: Frey and George, Mesh
 // Generation, 2000. Narain's field is a tensor; here it is a number, and nothing is moved.

@@ -25,9 +25,10 @@
 //    eigenvalue than its parent (Menouillard, Rethore, Combescure and Bung, IJNME 68 (2006)).
 //
 // Source: Hansbo and Hansbo, CMAME 193 (2004); Molino, Bao and Fedkiw, A virtual node algorithm (2004); Song, Areias
-// and Belytschko, IJNME 67 (2006); Rabczuk, Zi, Gerstenberger and Wall, IJNME 75 (2008) for a jump that vanishes at a tip
-// inside a triangle (theirs is linear in two overlapping triangles); Richardson, Hegemann, Sifakis, Hellrung and Teran, IJNME 88 (2011) for parts and
-// junctions; Burman and Hansbo, Applied Numerical Mathematics 62 (2012) for the ghost penalty.
+// and Belytschko, IJNME 67 (2006); Rabczuk, Zi, Gerstenberger and Wall, IJNME 75 (2008), for a jump that vanishes at a
+// tip inside a triangle (cited from memory; theirs is another element); Richardson, Hegemann, Sifakis, Hellrung and
+// Teran, IJNME 88 (2011), for parts and junctions; Burman and Hansbo, Applied Numerical Mathematics 62 (2012), for the
+// ghost penalty.
 // Promises: the exact path, area, conforming, no vertex moved; an affine displacement is reproduced exactly.
 // Where it fails: the opening is too short where the tip rule cannot hold, and at a bend of the path inside a triangle
 // the stress is constant. Without a variant, thin parts are as ill-conditioned as slivers; no penalty reaches a piece
