@@ -150,7 +150,7 @@ def pages(table, column, context, by_solver):
     style.finish(figure, [], (
         f"Lower left is better; {solver}. Time: median over sheets and cuts, bars quartiles. Error: |relative error|, geometric mean "
         "over kinds of problems in plane at rest; bars: bootstrap over the kinds, of the ratio to a fitted mesh. Hollow, and not on the "
-        f"front: energy came from nowhere in over half of the motions. {words(table, context)}."), entries(table))
+        f"front: energy came from nowhere in over half of the motions. {words(table, context)}."), entries(pd.concat([made for _, made in drawn])))
     for ax, made in drawn:
         write_names(ax, made[made["layer"] == 1], made, 4.3, by_solver)
     return figure
@@ -172,7 +172,7 @@ def summary(best, same, methods, context):
         ax.set_xlim(limits[:, 0].min() / 1.5, limits[:, 1].max() * 2)
         write_names(ax, made[(made["layer"] == 1) | (made["resolution"] == made["resolution"].max())], made, 7, False)
     axes[0].set_ylabel(f"error of the cut sheet's solution, {points.MEASURES[points.LEADS]}", fontsize=9)
-    handles = entries(best, 1.6)
+    handles = entries(pd.concat([made for _, made in drawn]), 1.6)
     figure.legend(handles=handles, loc="upper left", ncol=-(-len(handles) // 2), fontsize=8.5, borderaxespad=0.2, handletextpad=0.3,
                   columnspacing=1.2)
     figure.text(0.02, 0.015, f"Lower left is better. {setting_name(setting)}. {words(best, context)}.\n"
