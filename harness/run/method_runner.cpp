@@ -113,8 +113,8 @@ class Runner {
   }
 
   Case drawn(const std::string& sheet, int resolution, const std::string& family, std::size_t i) const {
-    const std::uint64_t seed =
-        experiment_.own_cuts ? own_seed(experiment_.seed, sheet + '_' + std::to_string(resolution)) : experiment_.seed;
+    std::uint64_t seed = experiment_.seed;
+    if (experiment_.own_cuts) seed = own_seed(own_seed(seed, sheet), std::to_string(resolution));
     return {sheet, family, resolution, i, make_case(family, seed, i, base_.sheet), {}};
   }
 
