@@ -1,0 +1,147 @@
+#!/usr/bin/env python3
+"""Is results/reference what experiments/publish.toml says, of today's suite version and of clean trees? And does
+experiments/publish do what it promises, on a small project of its own? Prints every disagreement; exit code 1 if there is any.
+usage: check_published.py PROGRAM, that of this tree"""
+
+import csv
+import gzip
+import importlib.machinery
+import importlib.util
+import json
+import subprocess
+import sys
+import tempfile
+import tomllib
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+REFERENCE = ROOT / "results" / "reference"
+loader = importlib.machinery.SourceFileLoader("publish", str(ROOT / "experiments/publish"))
+publish = importlib.util.module_from_spec(importlib.util.spec_from_loader("publish", loader))
+sys.dont_write_bytecode = True
+loader.exec_module(publish)
+
+problems = []
+
+
+def expect(what, condition):
+    if not condition:
+        problems.append(what)
+
+
+def names_of(stages):
+    names = set(publish.KEPT) | set(publish.FROM_REFERENCE)
+    for stage in stages.values():
+        names |= set().union(*publish.published(stage))
+    return names
+
+
+def check_reference(program):
+    stages = tomllib.loads((ROOT / "experiments/publish.toml").read_text(encoding="utf-8"))
+    made, there = names_of(stages), {f.name for f in REFERENCE.iterdir()}
+    for name in sorted(there - made):
+        problems.append(f"results/reference/{name}: no stage of experiments/publish.toml makes it")
+    for name in sorted(made - there - {"publish.json"}):
+        problems.append(f"results/reference/{name} is missing; experiments/publish makes it")
+    said = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
+    version = said.splitlines()[0].rpartition(" ")[2]
+    for file in sorted(REFERENCE.glob("*.records.csv.gz")):
+        with gzip.open(file, "rt", encoding="utf-8", newline="") as rows:
+            found = {row["suite_version"] for row in csv.DictReader(rows)}
+        expect(f"results/reference/{file.name}: suite version {', '.join(sorted(found))}, today's is {version}; publish it again",
+               found == {version})
+    for file in sorted(REFERENCE.glob("*.context.json")):
+        expect(f"results/reference/{file.name}: of a tree with changes that no commit holds",
+               json.loads(file.read_text(encoding="utf-8"))["dirty"] is False)
+
+
+# --- a small project ----------------------------------------------------------------------------------------------------
+
+ROWS = "suite_version,problem,budget\n5,a,0\n5,a,100\n5,b,0\n"
+
+
+def git(folder, *words):
+    subprocess.run(["git", "-c", "user.name=a", "-c", "user.email=a@b", *words], cwd=folder, check=True,
+                   capture_output=True)
+
+
+def make_project(folder):
+    for part in ("harness", "methods", "experiments", "plots", "results/reference", "results/a"):
+        (folder / part).mkdir(parents=True)
+        (folder / part / "keep").write_text("", encoding="utf-8")
+    (folder / "CMakeLists.txt").write_text("", encoding="utf-8")
+    (folder / "plots/readme.py").write_text("", encoding="utf-8")
+    (folder / ".gitignore").write_text("/results/*\n!/results/reference/\n", encoding="utf-8")
+    git(folder, "init", "-q")
+    git(folder, "add", "-A")
+    git(folder, "commit", "-qm", "all")
+    publish.ROOT, publish.RESULTS, publish.WORK = folder, folder / "results", folder / "results/publish"
+    publish.WORK.mkdir()
+
+
+def refusal(function, *arguments):
+    try:
+        function(*arguments)
+    except SystemExit as stopped:
+        return str(stopped)
+    return ""
+
+
+def check_clean_tree(folder):
+    expect("a clean tree is refused", publish.clean_commit())
+    (folder / "harness/new").write_text("x", encoding="utf-8")
+    expect("a changed tree is not refused by name", "harness/new" in refusal(publish.clean_commit))
+    (folder / "harness/new").unlink()
+
+
+def check_resumed(folder):
+    state = publish.read_state(False)
+    state["done"].append("first")
+    publish.write_state(state)
+    expect("what is done is forgotten", publish.read_state(False)["done"] == ["first"])
+    expect("--quick takes what is done for its own", publish.read_state(True)["done"] == [])
+    (folder / "plots/keep").write_text("x", encoding="utf-8")
+    git(folder, "commit", "-qam", "a figure")
+    expect("records depend on figures", publish.read_state(False)["done"] == ["first"])
+    (folder / "methods/keep").write_text("x", encoding="utf-8")
+    git(folder, "commit", "-qam", "a method")
+    expect("records of older code are kept", publish.read_state(False)["done"] == [])
+
+
+def check_assembled(folder):
+    reference = folder / "results/reference"
+    (folder / "results/a/records.csv").write_text(ROWS, encoding="utf-8")
+    (folder / "results/a/context.json").write_text('{"dirty": false}', encoding="utf-8")
+    (folder / "results/a/a.txt").write_text("text", encoding="utf-8")
+    for old in ("old.png", "tracking.md"):
+        (reference / old).write_text(old, encoding="utf-8")
+    stages = {"s": {"records": ["a"], "direct": ["a"], "files": ["renamed.txt=a/a.txt"]}}
+    state = {"seconds": {"s": 90.0}}
+    new = folder / "results/publish/reference"
+    publish.assemble(stages, state, "c0ffee", new)
+    publish.replace_reference(new, whole=False)
+    expect("a part of the stages removes what others made", (reference / "old.png").is_file())
+    publish.replace_reference(new, whole=True)
+    expect("a file that no stage makes stays", not (reference / "old.png").exists())
+    expect("what experiments/track keeps there goes", (reference / "tracking.md").is_file())
+    expect("the records are not whole", gzip.decompress((reference / "a.records.csv.gz").read_bytes()).decode() == ROWS)
+    direct = gzip.decompress((reference / "a.direct.records.csv.gz").read_bytes()).decode().splitlines()
+    expect("other rows than those of the direct solve", [line[2] for line in direct[1:]] == ["a", "b"] and len(direct) == 3)
+    expect("not under its name", (reference / "renamed.txt").read_text(encoding="utf-8") == "text")
+    about = json.loads((reference / "publish.json").read_text(encoding="utf-8"))
+    expect(f"publish.json: {about}", about["commit"] == "c0ffee" and about["minutes"] == {"s": 1.5})
+    packed = (reference / "a.records.csv.gz").read_bytes()
+    publish.assemble(stages, state, "c0ffee", new)
+    expect("the same records are packed differently", (new / "a.records.csv.gz").read_bytes() == packed)
+    (folder / "results/a/context.json").write_text('{"dirty": true}', encoding="utf-8")
+    expect("records of a changed tree are published", "changed" in refusal(publish.assemble, stages, state, "c0ffee", new))
+
+
+check_reference(sys.argv[1])
+with tempfile.TemporaryDirectory() as temporary:
+    make_project(Path(temporary))
+    check_clean_tree(Path(temporary))
+    check_resumed(Path(temporary))
+    check_assembled(Path(temporary))
+print("\n".join(problems))
+sys.exit(bool(problems))
