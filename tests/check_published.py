@@ -39,6 +39,7 @@ def names_of(stages):
 def check_reference(program):
     stages = tomllib.loads((ROOT / "experiments/publish.toml").read_text(encoding="utf-8"))
     made, there = names_of(stages), {f.name for f in REFERENCE.iterdir()}
+    made |= {name for name in there if name.removesuffix(".caption.txt") + ".png" in made}
     for name in sorted(there - made):
         problems.append(f"results/reference/{name}: no stage of experiments/publish.toml makes it")
     for name in sorted(made - there - {"publish.json"}):
@@ -112,10 +113,11 @@ def check_assembled(folder):
     reference = folder / "results/reference"
     (folder / "results/a/records.csv").write_text(ROWS, encoding="utf-8")
     (folder / "results/a/context.json").write_text('{"dirty": false}', encoding="utf-8")
-    (folder / "results/a/a.txt").write_text("text", encoding="utf-8")
+    for file in ("a.txt", "a.png", "a.caption.txt"):
+        (folder / "results/a" / file).write_text("text", encoding="utf-8")
     for old in ("old.png", "tracking.md"):
         (reference / old).write_text(old, encoding="utf-8")
-    stages = {"s": {"records": ["a"], "direct": ["a"], "files": ["renamed.txt=a/a.txt"]}}
+    stages = {"s": {"records": ["a"], "direct": ["a"], "files": ["renamed.txt=a/a.txt", "a/a.png"]}}
     state = {"seconds": {"s": 90.0}}
     new = folder / "results/publish/reference"
     publish.assemble(stages, state, "c0ffee", new)
@@ -128,6 +130,7 @@ def check_assembled(folder):
     direct = gzip.decompress((reference / "a.direct.records.csv.gz").read_bytes()).decode().splitlines()
     expect("other rows than those of the direct solve", [line[2] for line in direct[1:]] == ["a", "b"] and len(direct) == 3)
     expect("not under its name", (reference / "renamed.txt").read_text(encoding="utf-8") == "text")
+    expect("a figure without its caption", (reference / "a.caption.txt").is_file())
     about = json.loads((reference / "publish.json").read_text(encoding="utf-8"))
     expect(f"publish.json: {about}", about["commit"] == "c0ffee" and about["minutes"] == {"s": 1.5})
     packed = (reference / "a.records.csv.gz").read_bytes()
