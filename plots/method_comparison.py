@@ -218,7 +218,8 @@ def main():
     if fine is not None:
         tables[f"{STEM}_fine"] = summary(fine, None, order, ranks)
         tables[f"{AGAINST}_fine"] = method_details.against(fine, ours, order)
-    defaults = set(order)
+    knobs = {m["name"]: m["knob"] for m in method_gallery.all_methods()}
+    defaults = set(order) | {(name, f"{knob['name']}={knob['default']:g}") for name, knob in knobs.items() if knob}
     for kind, draw, what in (
             ("knobs", partial(method_sweeps.draw_knobs, defaults=defaults), "What each method's knob changes, medians: lower is better. "
              "The aspect ratio is that of the triangles outside forced wedges. A marker without a line: bound 0, which sets "
