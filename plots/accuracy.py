@@ -1,52 +1,21 @@
 #!/usr/bin/env python3
-"""How accurate a cut sheet is, and what the accuracy costs: the error of each problem's primary measure over that of a
-body-fitted mesh, against time and unknowns, for the direct solve and for fixed numbers of iterations of conjugate gradients.
+"""How accurate a cut sheet is, and what the accuracy costs: the error of each problem's primary measure against time and
+unknowns, for the direct solve and for fixed numbers of iterations of conjugate gradients.
 Also: whether the error depends on the shape of the triangles, and which share of all cases is solved within a given time."""
 
 import contextlib
 import io
 
 from accuracy_parts.budgets import budgets_figure
+from accuracy_parts.errors import error_figure
 from accuracy_parts.profile import profile_figure
-from accuracy_parts.ranking import AS_MANY_TRIANGLES, at_equal_unknowns, print_ranking
-from accuracy_parts.records import REFERENCE, Records, cells_of, label_edges, log_x_axis, percent_axis, zero_line
+from accuracy_parts.ranking import at_equal_unknowns, print_ranking
+from accuracy_parts.records import Records, cells_of, label_edges, log_x_axis
 from accuracy_parts.shape import print_shapes, print_statements, shape_figure
 from common import front, load, style
 from common.load import of
 
 STEM = "accuracy"
-
-
-def excess_figure(records, x, y, label, zero):
-    """A panel per sheet: excess error `y` of the direct solve over `x`, all problems in plane, a point per resolution.
-    `zero`: what it is compared with."""
-    records = records.in_plane().ranked()
-    looks = records.methods
-    direct = records.rows(direct=True)
-    cells = cells_of(direct[direct["method"] != REFERENCE[0]], x, y,
-                     ["sheet", "method", "knob", "resolution"], ["sheet"])
-    figure, axes = style.panels(-(-len(records.sheets) // 2), min(2, len(records.sheets)), 4.4, sharex=True,
-                                sharey=True)
-    for i, ax in enumerate(axes.flat):
-        ax.set_visible(i < len(records.sheets))
-    for sheet, ax in zip(records.sheets, axes.flat):
-        here = cells[cells["sheet"] == sheet]
-        for variant, look in looks.items():
-            front.draw(ax, of(here, variant).sort_values("resolution"), look)
-        front.draw_front(ax, here)
-        front.draw_failures(ax, here, looks)
-        zero_line(ax)
-        log_x_axis(ax)
-        percent_axis(ax, cells["y"])
-        ax.set_title(style.sheet_title(sheet), loc="left")
-    label_edges(axes, label, "excess error, %")
-    style.finish(figure, looks.values(), records.caption(
-        f"Excess error against {label.partition(',')[0]}, direct solve. Excess error: the error of the primary measure over that of a "
-        f"body-fitted mesh, minus one. Zero is the error of {zero}. Marker: median over {len(records.problems)} plane "
-        "problems and their ensembles at one resolution; bars: quartiles. ×: failed/tried; a failed case counts as "
-        "infinitely bad."),
-        front.legend_entries(looks.values()))
-    return figure
 
 
 def problems_figure(records):
@@ -81,8 +50,6 @@ def write_text(folder, records):
     """Prints the tables and writes them beside the figures."""
     text = io.StringIO()
     with contextlib.redirect_stdout(text):
-        if records.rows(direct=True)["resolution"].nunique() < 2:
-            print(f"\n{STEM}_unknowns is not drawn. {AS_MANY_TRIANGLES.note}")
         print_ranking(records.in_plane(), "in plane")
         print_ranking(records.out_of_plane(), "out of plane")
         print_shapes(records)
@@ -94,13 +61,7 @@ def write_text(folder, records):
 def main():
     folder = load.results_folder(STEM, __doc__)
     records = at_equal_unknowns(Records(folder))
-    by_time = excess_figure(records, "ms", "excess_percent", "total time, ms", "the body-fitted mesh with as many "
-                            "triangles as the uncut sheet; methods that add many triangles can have a smaller error")
-    by_unknowns = None  # as many unknowns: found between the references of two resolutions
-    if records.rows(direct=True)["resolution"].nunique() > 1:
-        by_unknowns = excess_figure(records, "unknowns", "excess_equal_percent", "unknowns", "a body-fitted mesh "
-                                    "with as many unknowns as the cut sheet")
-    figures = {STEM: by_time, f"{STEM}_unknowns": by_unknowns,
+    figures = {STEM: error_figure(records, "ms", "total time, ms"), f"{STEM}_unknowns": error_figure(records, "unknowns", "unknowns"),
                f"{STEM}_problems": problems_figure(records), f"{STEM}_budgets": budgets_figure(records),
                f"{STEM}_shape": shape_figure(records), f"{STEM}_profile": profile_figure(records)}
     for stem, figure in figures.items():

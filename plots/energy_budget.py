@@ -1,16 +1,19 @@
 #!/usr/bin/env python3
 """The energy budget of each scene. Stacked areas: kinetic energy, elastic energy (membrane and bending), and the losses by
 damping and by backward Euler. Line: work of gravity and of the pinned vertices. The gap between the line and the areas is
-the remainder, which is the error of the linearisation, and the jumps at cuts. Dotted: time of a cut, or start of a blade's
-cut. The title of each panel states remainder and jumps, and the largest ones by any method."""
+the remainder, which is the error of the linearisation, and the jumps at cuts; energy_budget.txt has both in numbers. Dotted:
+time of a cut, or start of a blade's cut."""
 
 import argparse
+import contextlib
+import io
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 import pandas as pd
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.ticker import MaxNLocator
 
 import contact_sheet
 from common import load, render, scene_panels, style
@@ -34,14 +37,19 @@ def panel(ax, folder, description):
     for cut in description["cuts"]:
         ax.axvline(cut["time_s"], color="#b0001e", linewidth=0.7, linestyle=":")
     ax.set_xlim(0, b["time_s"].iloc[-1])
-    ax.set_ylim(0)
-    others = [read_budget(d.parent).iloc[-1] for d in sorted(folder.parent.glob("*/simulation.json"))]
-    verdicts = sorted({render.read_description(d.parent)["verdict"] for d in folder.parent.glob("*/simulation.json")} - {"ok"})
-    end = b.iloc[-1]
-    worst = {c: max((o[c] for o in others), key=abs) for c in ("remainder_j", "jumps_j")}
-    ax.set_title(f"{description['scene'].replace('_', ' ')}{': ' if verdicts else ''}{', '.join(verdicts)}\nremainder "
-                 f"{end['remainder_j']:.2g} J, largest {worst['remainder_j']:.2g}\njumps {end['jumps_j']:.2g} J, "
-                 f"largest {worst['jumps_j']:.2g}", fontsize=4.8, pad=2, color="#b0001e" if verdicts else "black")
+    failed = [] if description["verdict"] == "ok" else [description["verdict"].replace("_", " ")]
+    ax.set_title(": ".join([contact_sheet.title(description["scene"]), *failed]), loc="left", color="#b0001e" if failed else "black")
+
+
+def numbers(folder):
+    """Scene, method and verdict; who else has another one; remainder and jumps at the end, J, and the largest of any method."""
+    description = render.read_description(folder)
+    everyone = [render.read_description(d.parent) for d in sorted(folder.parent.glob("*/simulation.json"))]
+    others = ", ".join(f"{d['method']}: {d['verdict']}" for d in everyone if d["verdict"] != "ok" and d["method"] != description["method"])
+    ends = [read_budget(d.parent).iloc[-1] for d in sorted(folder.parent.glob("*/simulation.json"))]
+    own = read_budget(folder).iloc[-1]
+    return [description["scene"], description["method"], description["verdict"], others or "-",
+            *(cell for c in ("remainder_j", "jumps_j") for cell in (f"{own[c]:.2g}", f"{max((e[c] for e in ends), key=abs):.2g}"))]
 
 
 def main():
@@ -52,23 +60,29 @@ def main():
     folders = contact_sheet.folders_of(results)
     descriptions = [render.read_description(d) for d in folders]
     n = scene_panels.same((d["triangles_before"] for d in descriptions), "the number of triangles")
-    rows = (len(folders) + 1) // 2
-    figure, axes = plt.subplots(rows, 2, figsize=(style.WIDTH, 1.12 * rows), squeeze=False, layout="constrained")
+    columns = min(4, len(folders))
+    rows = -(-len(folders) // columns)
+    figure, axes = plt.subplots(rows, columns, figsize=(style.PAGE, 1.05 * rows), squeeze=False, sharey=True)
     for ax in axes.flat[len(folders):]:
         ax.axis("off")
-    for ax, folder, description in zip(axes.flat, folders, descriptions):
+    for i, (ax, folder, description) in enumerate(zip(axes.flat, folders, descriptions)):
         panel(ax, folder, description)
-    for ax in axes[:, 0]:
-        ax.set_ylabel("energy, J")
-    for i, ax in enumerate(axes.flat[:len(folders)]):
-        if i + 2 >= len(folders):
-            ax.set_xlabel("time, s")
-    style.finish(figure, [], f"{' '.join(__doc__.split())} By {contact_sheet.METHOD}; n = {n} triangles before the cuts, "
+        ax.set_ylabel("" if i % columns else "energy, J")
+        ax.set_xlabel("time, s" if i + columns >= len(folders) else "")
+        ax.xaxis.set_major_locator(MaxNLocator(3))
+    axes[0, 0].set_ylim(0)
+    by = " or ".join(sorted({d["method"] for d in descriptions}))
+    style.finish(figure, [], f"{' '.join(__doc__.split())} By {by}; n = {n} triangles before the cuts, "
                  f"{' or '.join(sorted({d['solver'] for d in descriptions}))}, as the scene files state. No seed: the cuts are in experiments/scenes; {scene_panels.commits(descriptions)}. "
                  "Command: plots/energy_budget.py",
                  [Patch(color=c, label=name) for name, c in PARTS.items()]
                  + [Line2D([], [], color="black", linewidth=0.8, label="work of gravity and pins")])
     style.save(figure, results, "energy_budget")
+    text = io.StringIO()
+    with contextlib.redirect_stdout(text):
+        load.print_table(f"Energy budgets: remainder and jumps at cuts, J, and the largest by any method; {scene_panels.commits(descriptions)}",
+                         ["scene", "method", "verdict", "not ok", "remainder", "largest", "jumps", "largest"], [numbers(f) for f in folders])
+    load.write_beside(results / "energy_budget.txt", text.getvalue())
 
 
 if __name__ == "__main__":

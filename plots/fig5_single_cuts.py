@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Figure 5 of the paper: single cuts, straight and curved."""
 
+from common.close_ups import main
 from common.render import Camera
-from common.scene_panels import Shot, main
+from common.scene_panels import Shot
 
 FROM_ABOVE = Camera(centre=(0.5, 0.5, -0.2), azimuth=25, elevation=42)
 

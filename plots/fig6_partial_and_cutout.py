@@ -2,8 +2,9 @@
 """Figure 6 of the paper: a cut from a side, and a part cut out, which falls."""
 
 from common import fall
+from common.close_ups import main
 from common.render import Camera
-from common.scene_panels import Shot, folders, main
+from common.scene_panels import Shot, folders
 
 if __name__ == "__main__":
     main("fig6_partial_and_cutout", __doc__,

@@ -6,13 +6,12 @@ method_comparison_accuracy (against exact solutions), method_comparison_jumps (c
 method_comparison_knobs and method_comparison_ablation (parts of
 warp_and_refine)."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 import pandas as pd
-from matplotlib.lines import Line2D
-from matplotlib.ticker import LogLocator, NullLocator
 
 import method_gallery
 from accuracy_parts.ranking import at_equal_unknowns
@@ -21,8 +20,10 @@ from common import load, style
 from common.load import of
 from method_parts import accuracy as method_accuracy
 from method_parts import details as method_details
+from method_parts import dots
 from method_parts import kinds as method_kinds
 from method_parts import sweeps as method_sweeps
+from method_parts.dots import spread
 
 STEM = "method_comparison"
 MEASURES = ["crossed_triangles", "vertices_added", "angle_max_deg_cut", "altitude_min_h_cut", "ar_max_cut", "ar_p99_cut",
@@ -31,9 +32,6 @@ MEASURES = ["crossed_triangles", "vertices_added", "angle_max_deg_cut", "altitud
             "wedge_area_rest2", "forced_corners", "eigenvalue_ratio", "incision_error_h", "area_change", "geometry_us"]
 JUMPS = ["membrane_j", "membrane_jump_j", "bending_j", "bending_jump_j", "residual_n", "residual_jump_n", "kinetic_j",
          "kinetic_jump_j", "momentum_jump_kg_m_s"]
-MARKERS = {"grid": ("o", "#0072b2"), "alternating": ("s", "#e69f00"), "delaunay": ("^", "#009e73"),
-           "graded": ("D", "#cc79a7")}
-OTHER = ("P", "#666666")
 
 
 @dataclass(frozen=True)
@@ -43,16 +41,18 @@ class Measure:
     label: str
     worst: float = np.inf  # what a failed cut counts as
     linear: bool = False
+    limits: tuple = ()  # of the axis; empty: what the values need
+    written: Callable = dots.two_digits  # a median as text
 
 
-SHAPES = [Measure("eigenvalue_ratio", "largest eigen-\nvalue / uncut"),
-          Measure("altitude_min_h_cut", "smallest\naltitude (h)", -np.inf),
-          Measure("angle_max_deg_cut", "largest\nangle (°)", linear=True)]
-PRICE = [Measure("vertices_per_crossed", "vertices added\nper crossed tri.", linear=True),
-         Measure("incision_error_h", "incision\nerror (h)"),
-         Measure("us_per_crossed", "µs per\ncrossed tri.")]
-JUMP = [Measure("membrane_jump", "membrane\nenergy"), Measure("bending_jump", "bending\nenergy"),
-        Measure("residual_jump", "residual\nforce")]
+SHAPES = [Measure("eigenvalue_ratio", "largest eigenvalue / uncut"),
+          Measure("altitude_min_h_cut", "smallest altitude, h", -np.inf),
+          Measure("angle_max_deg_cut", "largest angle, °", linear=True, limits=(88, 183), written="{:.0f}".format)]
+PRICE = [Measure("us_per_crossed", "µs per crossed triangle"),
+         Measure("incision_error_h", "incision error, h", limits=(0.004, 2)),
+         Measure("vertices_per_crossed", "vertices added per crossed tri.", linear=True)]
+JUMP = [Measure("membrane_jump", "membrane energy"), Measure("bending_jump", "bending energy"),
+        Measure("residual_jump", "residual force")]
 ROUNDING = 1e-12  # relative jumps below it are rounding errors
 OURS = "warp_and_refine"  # the project's own method
 BY_SHEET, AGAINST, ALTITUDE = f"{STEM}_by_sheet", f"{STEM}_pairs", f"{STEM}_altitude"
@@ -95,22 +95,12 @@ def jumped(run):
     return rows
 
 
-def spread(values, worst=np.inf):
-    """q1, median and q3, in which a failed cut is infinitely bad, and the worst of the cuts that did not fail."""
-    values = np.asarray(values.dropna(), float)
-    if not len(values):
-        return (np.nan,) * 4
-    sign = 1 if worst > 0 else -1
-    q = sign * np.array(load.with_failures(sign * values))
-    return (*(q if sign > 0 else q[::-1]), sign * max(sign * values[np.isfinite(values)], default=-np.inf))
-
-
 def ranking(table, variants, sheets):
     """The variants, best first: by the sum of their ranks in the three measures of shape, each the mean over the sheets
     of the rank of the median there. Also the ranks."""
     ranks = pd.DataFrame(index=variants, columns=[m.column for m in SHAPES], dtype=float)
     for m in SHAPES:
-        per_sheet = pd.DataFrame({s: {v: np.sign(m.worst) * spread(of(table, v, s)[m.column], m.worst)[1] for v in variants}
+        per_sheet = pd.DataFrame({s: {v: np.sign(m.worst) * spread(of(table, v, s)[m.column], m.worst)[0][2] for v in variants}
                                   for s in sheets})
         per_sheet = per_sheet.rank(na_option="bottom")
         there = pd.DataFrame({s: {v: len(of(table, v, s)) > 0 for v in variants} for s in sheets})
@@ -119,74 +109,20 @@ def ranking(table, variants, sheets):
     return ranks.sort_values("sum", kind="stable")
 
 
-def label(variant, programs=()):
-    look = style.KNOWN.get(variant)
-    name = look.label if look else variant[0].replace("_", " ") + (f", {variant[1]}" if variant[1] else "")
-    return name + style.PROGRAM * (variant[0] in programs)
-
-
-def dot_figure(table, fine, order, sheets, measures, programs):
-    """A row per method, best shapes on top, a panel per measure; a marker per sheet at the median, a line from quartile
-    to quartile, a tick at the worst. Hollow: with the closer chord tolerance."""
-    height = 0.34 * len(order) + 1.5
-    figure, axes = style.panels(1, len(measures), height, sharey=True)
-    offsets = np.linspace(-0.3, 0.3, len(sheets)) if len(sheets) > 1 else [0]
-    for ax, m in zip(axes[0], measures):
-        if not m.linear:
-            ax.set_xscale("log")
-        for row, variant in enumerate(order):
-            if row % 2:
-                ax.axhspan(row - 0.5, row + 0.5, color="#f4f4f4", linewidth=0, zorder=0)
-            for sheet, offset in zip(sheets, offsets):
-                marker, colour = MARKERS.get(sheet, OTHER)
-                for data, hollow in ((table, False), (fine, True)):
-                    if data is None or m.column not in data:
-                        continue
-                    q1, median, q3, worst = spread(of(data, variant, sheet)[m.column], m.worst)
-                    if not np.isfinite(median):
-                        continue
-                    if not hollow:
-                        ax.hlines(row + offset, q1, min(q3, 1e30), color=colour, linewidth=0.8, alpha=0.6, zorder=2)
-                        if np.isfinite(worst):
-                            failed = np.isinf(of(data, variant, sheet)[m.column]).any()
-                            ax.plot(worst, row + offset, "x" if failed else "|", color=colour, markersize=2.6,
-                                    markeredgewidth=0.5, alpha=0.8)
-                    ax.plot(median, row + offset, marker, color="white" if hollow else colour, markersize=2.3,
-                            markeredgecolor=colour, markeredgewidth=0.5, zorder=3 if hollow else 4)
-        ax.set_xlabel(m.label)
-        ax.grid(axis="y", visible=False)
-        ax.tick_params(axis="y", length=0)
-        if not m.linear:
-            low, high = ax.get_xlim()
-            decades = int(np.ceil(np.log10(high / low) / 3))  # three labels have room
-            ax.xaxis.set_major_locator(LogLocator(base=10.0 ** max(1, decades)))
-            ax.xaxis.set_minor_locator(NullLocator())
-    axes[0, 0].set_yticks(range(len(order)), [label(v, programs) for v in order])
-    axes[0, 0].set_ylim(len(order) - 0.5, -0.5)
-    return figure, axes[0]
-
-
-def legend(sheets, fine, some_failed):
-    entries = [Line2D([], [], linestyle="", marker=MARKERS.get(s, OTHER)[0], color=MARKERS.get(s, OTHER)[1], markersize=3,
-                      label=style.sheet_title(s)) for s in sheets]
-    entries.append(Line2D([], [], linestyle="", marker="|", color="#444444", markersize=4, label="worst cut"))
-    if some_failed:
-        entries.append(Line2D([], [], linestyle="", marker="x", color="#444444", markersize=3,
-                              label="worst cut that did not fail"))
-    if fine is not None:
-        entries.append(Line2D([], [], linestyle="", marker="o", color="white", markeredgecolor="#444444", markersize=3,
-                              label="chord tolerance 0.01"))
-    return entries
-
-
 def caption(what, run, rows):
     families = ", ".join(sorted(set(rows["cut_family"])))
     sizes = sorted(set(rows["resolution"]))
     size = f"{sizes[0]}" if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]}"
-    return (f"{what} Marker: median of the cuts on one kind of sheet (cut families: {families}; {size} triangles). Line: "
-            "quartiles. The method with the best shapes is on top, by the sum of the ranks of its median eigenvalue, "
-            "altitude and angle. All knobs have their defaults. A method has no marker for a kind of sheet that it refuses. "
-            + style.provenance(run, rows, with_crosses=False, per=["sheet"]))
+    return (f"{what} Over the cuts (families: {families}; {size} triangles) of the even sheets, and apart of the graded one. "
+            "Within a family of methods, and among the families, the best shapes are on top, by the sum of the ranks of "
+            "median eigenvalue, altitude and angle. All knobs have their defaults. A method has no marker for a kind of sheet "
+            "that it refuses. " + style.provenance(run, rows, with_crosses=False, per=["sheet"]))
+
+
+def draw_dots(folder, name, table, order, measures, text, programs):
+    figure = dots.figure_of(table, order, measures, [1 if m.linear else 1.5 for m in measures], programs)
+    style.finish(figure, [], text, dots.legend(table))
+    style.save(figure, folder, name)
 
 
 def summary(table, jumps, order, ranks):
@@ -197,10 +133,11 @@ def summary(table, jumps, order, ranks):
         row = {"method": variant[0], "knob": variant[1], "cuts": len(cuts), "failed": int(cuts["failed"].sum()),
                "rank": ranks.loc[[variant], "sum"].iloc[0] / len(SHAPES)}
         for m in SHAPES + PRICE:
-            _, row[f"{m.column}_median"], _, row[f"{m.column}_worst"] = spread(cuts[m.column], m.worst)
+            quantiles, row[f"{m.column}_worst"] = spread(cuts[m.column], m.worst)
+            row[f"{m.column}_median"] = quantiles[2]
         for kind in ("strict", "outside_wedges"):
             for which in ("max", "p99"):
-                row[f"ar_{which}_cut_{kind}_median"] = spread(cuts[f"ar_{which}_cut_{kind}"])[1]
+                row[f"ar_{which}_cut_{kind}_median"] = spread(cuts[f"ar_{which}_cut_{kind}"])[0][2]
             of_cuts = cuts[f"ar_max_cut_{kind}"].notna() | cuts["failed"]  # else no triangle was changed
             below = (cuts[f"ar_max_cut_{kind}"] < 3) & ~cuts["failed"]
             row[f"ar_below_3_{kind}"] = f"{int(below.sum())}/{int(of_cuts.sum())}"
@@ -263,24 +200,16 @@ def main():
     programs = load.programs(run.everything(), run.context)
 
     for name, measures, what in (
-            (f"{STEM}_shapes", SHAPES, "Shapes of triangles after a cut, by method. Altitude and angle: of the triangles "
-             "that the cut made or changed, where there are any. Eigenvalue: the largest one of stiffness and lumped mass; "
-             "the largest stable step of an explicit integrator shrinks by its square root."),
-            (f"{STEM}_price", PRICE, "The cost of a cut, by method: vertices added at rest, distance between the "
-             "requested path and the incision, and time of the geometry (warm caches)."
-             + style.PROGRAM_TIME * bool(programs))):
-        figure, axes = dot_figure(table, fine, order, sheets, measures, programs)
-        if measures is SHAPES:
-            axes[2].set_xlim(90, 182)
-        style.finish(figure, [], caption(what, run, run.rows),
-                     legend(sheets, fine, table["failed"].any()))
-        style.save(figure, folder, name)
+            (f"{STEM}_shapes", SHAPES, "Triangles after a cut: a small altitude makes a large eigenvalue, by whose square root the "
+             "stable explicit step shrinks. Altitude and angle: of the triangles that the cut made or changed, where there are "
+             "any. Eigenvalue: the largest one of stiffness and lumped mass."),
+            (f"{STEM}_price", PRICE, "What a cut costs: time of the geometry (warm caches), distance between the requested path and "
+             "the incision (h: mean edge), vertices added at rest." + style.PROGRAM_TIME * bool(programs))):
+        draw_dots(folder, name, table, order, measures, caption(what, run, run.rows), programs)
     if jumps is not None:
-        figure, _ = dot_figure(jumps, None, order, sheets, JUMP, programs)
-        style.finish(figure, [], caption(
-            "Jumps of energies and of the residual force at the instant of a cut in a moving sheet, relative to the value "
-            "before the cut. Jumps below 10⁻¹² are drawn at 10⁻¹².", jumps_run, jumps), legend(sheets, None, False))
-        style.save(figure, folder, f"{STEM}_jumps")
+        draw_dots(folder, f"{STEM}_jumps", jumps.assign(failed=False), order, JUMP, caption(
+            "Jumps at the instant of a cut in a moving sheet, relative to the value before the cut. Jumps below 10⁻¹² are drawn "
+            "at 10⁻¹².", jumps_run, jumps), programs)
     ours = next((v for v in order if v[0] == OURS), order[0])
     tables = {STEM: summary(table, jumps, order, ranks), BY_SHEET: method_details.by_sheet_and_family(table, order, sheets),
               ALTITUDE: method_details.altitude_law(table, order), AGAINST: method_details.against(table, ours, order)}
@@ -289,11 +218,12 @@ def main():
     if fine is not None:
         tables[f"{STEM}_fine"] = summary(fine, None, order, ranks)
         tables[f"{AGAINST}_fine"] = method_details.against(fine, ours, order)
-    defaults = set(order)
+    knobs = {m["name"]: m["knob"] for m in method_gallery.all_methods()}
+    defaults = set(order) | {(name, f"{knob['name']}={knob['default']:g}") for name, knob in knobs.items() if knob}
     for kind, draw, what in (
-            ("knobs", partial(method_sweeps.draw_knobs, defaults=defaults), "Medians for each setting of each method's knob. "
-             "The first and the last setting are written beside their markers; the default has a large marker. Lower left "
-             "is better. AR: of the triangles outside forced wedges. A marker without a line: bound 0, which sets no bound."),
+            ("knobs", partial(method_sweeps.draw_knobs, defaults=defaults), "What each method's knob changes, medians: lower is better. "
+             "The aspect ratio is that of the triangles outside forced wedges. A marker without a line: bound 0, which sets "
+             "no bound, or a variant without a knob."),
             ("ablation", method_sweeps.draw_ablation, "The parts of warp_and_refine: the steps before the split "
              "(rows) and after it (columns). Medians. AR: of the triangles outside forced wedges.")):
         beside = folder.with_name(f"{folder.name}_{kind}")
@@ -302,7 +232,7 @@ def main():
         swept_run, swept = read_cuts(beside)
         swept_ranks = ranking(swept, sorted(set(zip(swept["method"], swept["knob"]))), style.sheet_order(swept["sheet"]))
         draw(folder, swept, what + " " + style.provenance(
-            swept_run, swept_run.rows, with_crosses=False, per=["sheet"] if kind == "knobs" else []))
+            swept_run, swept_run.rows, with_crosses=False, per=[]))
         tables[f"{STEM}_{kind}"] = summary(swept, None, list(swept_ranks.index), swept_ranks)
     if (folder.with_name(method_accuracy.STEM) / "records.csv").is_file():
         beside = folder.with_name(method_accuracy.STEM)

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """A cut whose four control points were picked on the moving sheet, by rays from an eye above it (the paper's 4.1.1)."""
 
+from common.close_ups import main
 from common.render import Camera
-from common.scene_panels import Shot, main
+from common.scene_panels import Shot
 
 if __name__ == "__main__":
     main("picked_cut", __doc__,

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """A blade that advances while the sheet moves: during its advance and after its end."""
 
+from common.close_ups import main
 from common.render import Camera
-from common.scene_panels import Shot, main
+from common.scene_panels import Shot
 
 FROM_ABOVE = Camera(centre=(0.5, 0.5, -0.2), azimuth=25, elevation=42)
 

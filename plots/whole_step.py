@@ -11,33 +11,19 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.lines import Line2D
-from matplotlib.patheffects import withStroke
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from common import front, load, style
+from common import front, load, names, style
+from common.families import FAMILIES, family
 from whole_step_parts import points
 from whole_step_parts.points import SETTING
 
 STEM = "whole_step"
 SAME = "multigrid"
 REAL_TIME_MS = 1000 * points.BETWEEN_S
-GROUPS = {  # colour, marker, methods
-    "moves vertices": ("#0072b2", "o", ["warp_and_refine", "vertex_snap", "cisamr", "active_node"]),
-    "moves the path": ("#d55e00", "s", ["snap_or_split", "edge_release"]),
-    "constrains or doubles vertices": ("#7b3294", "D", ["split_and_tie", "cut_polygons", "phantom_node"]),
-    "refines": ("#009e73", "^", ["delaunay_refine", "cgal_refine", "longest_edge", "global_remesh",
-                                   "adaptive_remesh"]),
-    "splits crossed triangles": ("#111111", "v", ["conventional_split", "cgal_cdt", "bowyer_watson", "example"]),
-    "deletes triangles": ("#b8860b", "X", ["element_deletion"]),
-}
-OTHER = ("#777777", "P")
 SOLVERS = {"cg_sliver_blocks": "CG", "multigrid": "MG", "cholmod": "direct"}
 FAR = 4  # times the median error: such a method is not drawn
 SUMMARY = (4, 1 / 240, 1000)  # the setting of readme_chart.png
-
-
-def look(method):
-    return next(((colour, marker) for colour, marker, methods in GROUPS.values() if method in methods), OTHER)
 
 
 def setting_name(setting):
@@ -52,7 +38,7 @@ def draw(ax, table, scale=1.0):
     table = made = table[np.isfinite(table["ms"]) & (table["error"] < FAR * table["error"].median())]
     for method, here in table.groupby("method", sort=False):
         here = here.sort_values("resolution")
-        colour, marker = look(method)
+        colour, marker = family(method).colour, family(method).marker
         ax.plot(here["ms"], here["error"], color=colour, linewidth=0.4 * scale, alpha=0.2, zorder=1)
         for _, p in here.iterrows():
             first = p["layer"] == 1
@@ -83,43 +69,15 @@ def name_of(p, with_solver):
 
 
 def write_names(ax, named, everything, size, with_solver):
-    """Each name near its marker, where it covers no marker and no other name; a thin line to it where it is further off."""
-    figure = ax.figure
-    figure.draw_without_rendering()
-    where = ax.transData.transform
-    taken = [where((p["ms"], p["error"])) for _, p in everything.iterrows()]
-    boxes, frame, reach = [], ax.get_window_extent(), figure.dpi / 72
-    for _, p in named.sort_values("error").iterrows():
-        colour, _ = look(p["method"])
-        text = ax.annotate(name_of(p, with_solver), (p["ms"], p["error"]), xytext=(0, 0), textcoords="offset points",
-                           fontsize=size, color=colour, va="center", zorder=4,
-                           path_effects=[withStroke(linewidth=1.5, foreground="white")])
-        box = text.get_window_extent()
-        width, height = box.width / reach, box.height / reach
-        best = None
-        for distance in np.arange(5, 90, 3):
-            for angle in np.radians([0, 180, -35, -145, 35, 145, -90, 90]):
-                x = distance * np.cos(angle) - width / 2 + np.cos(angle) * width / 2
-                y = distance * np.sin(angle)
-                here = box.translated(x * reach, y * reach)
-                inside = frame.x0 <= here.x0 and here.x1 <= frame.x1 and frame.y0 <= here.y0 and here.y1 <= frame.y1
-                faults = sum(here.overlaps(other) for other in boxes) * 10 + (not inside) * 20 + sum(
-                    here.x0 - 2 < q[0] < here.x1 + 2 and here.y0 - 2 < q[1] < here.y1 + 2 for q in taken)
-                if best is None or faults < best[0]:
-                    best = (faults, x, y, here, distance)
-            if best[0] == 0:
-                break
-        text.set_position((best[1], best[2]))
-        boxes.append(best[3].padded(-0.12 * height * reach))
-        if best[4] > 11:
-            ax.annotate("", (p["ms"], p["error"]), xytext=(best[1] + width / 2, best[2]), textcoords="offset points",
-                        arrowprops=dict(arrowstyle="-", color=colour, linewidth=0.4, alpha=0.6, shrinkB=2, shrinkA=size / 2))
+    """Each name near its marker; the best first."""
+    names.place(ax, [(p["ms"], p["error"], name_of(p, with_solver), family(p["method"]).colour)
+                     for _, p in named.sort_values("error").iterrows()], everything[["ms", "error"]].to_numpy(), size)
 
 
 def entries(table, scale=1.0):
     there = set(table["method"])
-    handles = [Line2D([], [], linestyle="", marker=marker, color=colour, markersize=4 * scale, label=group)
-               for group, (colour, marker, methods) in GROUPS.items() if there & set(methods)]
+    handles = [Line2D([], [], linestyle="", marker=f.marker, color=f.colour, markersize=4 * scale, label=f.name)
+               for f in FAMILIES if there & set(f.methods)]
     return handles + [Line2D([], [], label="front", **front.FRONT_LINE),
                       Line2D([], [], color="#999999", linewidth=0.7, linestyle="--", label="real time")]
 

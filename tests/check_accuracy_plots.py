@@ -120,8 +120,8 @@ def check_failures(results):
     from accuracy_parts.ranking import at_equal_unknowns, print_ranking
     from accuracy_parts.records import Records
     records = at_equal_unknowns(Records(folder))
-    for x, y in (("ms", "excess_percent"), ("unknowns", "excess_equal_percent")):
-        figure = accuracy.excess_figure(records, x, y, x, "nothing")
+    for x in ("ms", "unknowns"):
+        figure = accuracy.error_figure(records, x, x)
         texts = [t.get_text() for ax in figure.axes for t in ax.texts]
         expect(f"failures are not shown over {x}: {texts}", any(t.startswith("× ") for t in texts))
     ranking = io.StringIO()
@@ -139,6 +139,20 @@ def check_ranked_cases(records):
     expect(f"cases that somebody failed are ranked: {set(made['case'])}", set(made["case"]) == {1, 2})
     sizes = made.groupby(["method", "knob"]).size()
     expect(f"methods are ranked on different cases: {sizes.to_dict()}", sizes.nunique() == 1)
+
+
+def check_errors(folder):
+    """Of errors that are known: every method's 3 times the fitted mesh's, whatever the problem; and x is the median."""
+    from accuracy_parts import errors
+    from accuracy_parts.records import REFERENCE, Records
+    records = Records(folder)
+    table = records.table.copy()
+    levels = {"centre_crack": 0.02, "arc_crack_45": 0.08}
+    table["error"] = table["problem"].map(levels) * table["method"].map(lambda m: 1 if m == REFERENCE[0] else 3)
+    points = errors.points(errors.throughout(records.with_rows(table).in_plane().ranked()), "unknowns")
+    wanted = [4 if m == REFERENCE[0] else 12 for m in points["method"]]  # the geometric mean of 2 and 8 %, and 3 times it
+    expect(f"errors that are known: {points}", all((abs(points[y] - wanted) < 1e-9).all() for y in ("y", "y_q1", "y_q3")))
+    expect(f"sheets and sizes: {len(points)}", len(points) == 3 * 4)
 
 
 def check_factor(folder):
@@ -193,7 +207,7 @@ def check_program(results):
     records = at_equal_unknowns(Records(folder))
     expect(f"not the one program: {records.programs}", records.programs == {"my_own"})
     expect("errors at equal unknowns, of one size", records.table["ratio_equal"].isna().all())
-    for name, figure in (("accuracy", accuracy.excess_figure(records, "ms", "excess_percent", "time", "nothing")),
+    for name, figure in (("accuracy", accuracy.error_figure(records, "ms", "time")),
                          ("problems", accuracy.problems_figure(records)), ("budgets", budgets.budgets_figure(records))):
         for ax in figure.axes:
             if not ax.get_visible():
@@ -245,6 +259,7 @@ def main():
         return 1
     check_commands()
     check_equal_unknowns(results / "accuracy")
+    check_errors(results / "accuracy")
     check_factor(results / "accuracy")
     check_failures(results)
     check_program(results)

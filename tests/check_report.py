@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes the report page of a folder that holds one simulated scene, and reads it: one file that needs nothing else, every
-section, the scene's verdict, what was not run said. Also: how lips are compared, on lips whose difference is known. Prints
-every disagreement; exit code 1 if there is any.
+section, the scene's verdict, what was not run said. Also: how lips are compared, on lips whose difference is known, where
+close-ups look, and what of a caption is drawn. Prints every disagreement; exit code 1 if there is any.
 usage: check_report.py RESULTS with RESULTS/picked_cut/picked_cut/METHOD of `cutbench simulate --frames`"""
 
 import subprocess
@@ -84,7 +84,49 @@ def check_lips():
         expect(f"{name}: turned by {found[1]}", abs(found[1] - degrees / np.sqrt(2)) < 1e-4)
 
 
+def check_close_ups():
+    """Two flat pieces of a sheet beside an incision, each turned its own way: the camera of a place looks at the piece that was
+    asked for, along its normal, its rest x to the right."""
+    from common import close_ups, render
+    n = 20
+    x, y = np.meshgrid(np.linspace(0, 0.5, n + 1), np.linspace(0, 1, 2 * n + 1))
+    half = np.stack([x.ravel(), y.ravel()], axis=1)
+    corner = np.arange(2 * n)[:, None] * (n + 1) + np.arange(n)
+    one = np.stack([corner, corner + 1, corner + n + 2], axis=-1).reshape(-1, 3)
+    other = np.stack([corner, corner + n + 2, corner + n + 1], axis=-1).reshape(-1, 3)
+    triangles = np.concatenate([one, other])
+    rng = np.random.default_rng(3)
+    turns = [np.linalg.qr(rng.normal(size=(3, 3)))[0] for _ in range(2)]
+    turns = [q * np.sign(np.linalg.det(q)) for q in turns]
+    rest = np.concatenate([half, half + [0.5, 0]])
+    flat = np.hstack([rest, np.zeros((len(rest), 1))])
+    deformed = np.concatenate([flat[:len(half)] @ turns[0].T, flat[len(half):] @ turns[1].T + [0, 0, 3]])
+    frame = render.Frame(0, deformed, rest, np.concatenate([triangles, triangles + len(half)]))
+    place = np.array([0.5, 0.5])  # on the incision
+    for turn, shift in zip(turns, (0, 3)):
+        target = turn @ [*place, 0] + [0, 0, shift]
+        camera = close_ups.facing(frame, place, target)
+        axes = np.array([camera.right, camera.normal])
+        expect(f"the camera's axes: {axes}", np.allclose(axes, [turn[:, 0], turn[:, 2]], atol=1e-9))
+        expect(f"it looks at {camera.centre}", np.allclose(camera.centre, target, atol=1e-9))
+
+
+def check_captions():
+    """Whole sentences, as many as two lines hold; the whole caption is kept for the file beside the figure."""
+    from common import style
+    figure = style.plt.figure(figsize=(style.WIDTH, 1))
+    caption = "A short one. " + "Words that fill more than a line, and a little bit of the next one, as sentences do. " * 2
+    lines = style.two_lines(figure, caption.strip(), style.WIDTH - 0.1)
+    expect(f"not the sentences that fit: {lines}", len(lines) <= 2 and caption.startswith(" ".join(lines)) and lines[-1].endswith("do."))
+    expect("the caption is not kept", figure.get_label() == caption.strip())
+    lines = style.two_lines(figure, "one sentence " * 40, style.WIDTH - 0.1)
+    expect(f"a long sentence: {lines}", len(lines) == 2 and lines[1].endswith("…"))
+    style.plt.close(figure)
+
+
 check_lips()
+check_close_ups()
+check_captions()
 check_page(Path(sys.argv[1]))
 print("\n".join(problems))
 sys.exit(1 if problems else 0)

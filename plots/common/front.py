@@ -60,9 +60,9 @@ def draw(ax, points, look, size=1.0):
     name = look.label.removesuffix(style.PROGRAM)
     if look.program and len(made) and name not in {text.get_text() for text in ax.texts}:
         ax.annotate(name, (made["x"].iloc[0], made["y"].iloc[0]), xytext=(-3, 3),
-                    textcoords="offset points", ha="right", fontsize=4.8, color=look.colour, zorder=5)
-    ax.plot(made["x"], made["y"], color=look.colour, linestyle=look.line, linewidth=0.5 * look.width, alpha=behind,
-            zorder=2)
+                    textcoords="offset points", ha="right", fontsize=7, color=look.colour, zorder=5)
+    ax.plot(made["x"], made["y"], color=look.colour, linestyle=look.line, linewidth=0.5 * look.width,
+            alpha=1 if (made["layer"] == 1).all() else behind, zorder=2)
     for _, p in made.iterrows():
         alpha = 1.0 if p["layer"] == 1 else behind
         bars = dict(color=look.colour, linewidth=0.7, alpha=0.5 * alpha, zorder=1.5)

@@ -2,6 +2,7 @@
 differ."""
 
 import tomllib
+from pathlib import Path
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -12,8 +13,9 @@ TIPS = 0.02  # of the curve, at either end: left out where lips are compared
 
 
 def requested(scene):
-    """Points close together on the first cut of a scene file, one cubic Bezier in rest space, m."""
-    with open(load.REPOSITORY / "experiments/scenes" / f"{scene}.toml", "rb") as file:
+    """Points close together on the first cut of a scene, one cubic Bezier in rest space, m. \\param scene  a file, or the name of
+    one of experiments/scenes"""
+    with open(scene if isinstance(scene, Path) else load.REPOSITORY / "experiments/scenes" / f"{scene}.toml", "rb") as file:
         p = np.array(tomllib.load(file)["cuts"][0]["bezier"])
     t = np.linspace(0, 1, 2001)[:, None]
     return (1 - t) ** 3 * p[0] + 3 * (1 - t) ** 2 * t * p[1] + 3 * (1 - t) * t ** 2 * p[2] + t ** 3 * p[3]

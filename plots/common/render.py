@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import matplotlib
 import numpy as np
 from matplotlib.collections import PolyCollection
-from matplotlib.colors import LogNorm, Normalize
+from matplotlib.colors import BoundaryNorm, ListedColormap, Normalize
 
 from common import load
 
@@ -196,8 +196,9 @@ def lit(normals, towards_eye, sky, base_front, base_back, contrast=1.0):
 
 
 SCALARS = {  # name, scale, colours
-    "aspect_ratio": ("aspect ratio = longest edge / height on it", LogNorm(1, 100), "viridis_r"),
-    "strain": ("strain: largest |principal stretch - 1|", Normalize(0, 0.15), "viridis"),
+    "aspect_ratio": ("aspect ratio = longest edge / height on it", BoundaryNorm([1, 3, 10, 30], 4, extend="max"),
+                     ListedColormap(["#f7f3ee", "#fbdca4", "#f29d4b", "#c8551b"])),
+    "strain": ("strain: largest |principal stretch - 1|", Normalize(0, 0.15), matplotlib.colormaps["viridis"]),
 }
 
 
@@ -221,7 +222,7 @@ def draw(ax, frame, camera, wireframe=False, colour=None, ground=None, lips=True
     front, back = FRONT, BACK
     if colour:
         _, norm, colours = SCALARS[colour]
-        front = back = matplotlib.colormaps[colours](norm(frame.cell[colour][parent]))[:, :3]
+        front = back = colours(norm(frame.cell[colour][parent]))[:, :3]
     shade = lit(smooth, to_eye, mean[:, 3:], front, back, 0.25 if colour else 1.0)
 
     flat, near = camera.project(points)

@@ -10,7 +10,7 @@ from matplotlib.cm import ScalarMappable
 
 from common import load, render, style
 
-GAP, TITLE = 0.04, 0.25  # inches
+GAP, TITLE = 0.04, 0.28  # inches
 
 
 @dataclass(frozen=True)
@@ -113,8 +113,8 @@ def draw(shots, panels, wireframe, colour, text, label):
     boxes = {s: s.box or render.extent([f for _, f in column], s.camera, s.ground) for s, column in zip(shots, panels)}
     height = max((width - GAP) * (b[3] - b[2]) / (b[1] - b[0]) for b in boxes.values())
     figure = plt.figure(figsize=(style.WIDTH, 1))
-    lines = style.wrapped(figure, text, style.WIDTH - 0.1)
-    below = 0.115 * len(lines) + 0.08 + (0.38 if colour else 0)
+    lines = style.two_lines(figure, text, style.WIDTH - 0.1)
+    below = 0.125 * len(lines) + 0.08 + (0.38 if colour else 0)
     total = below + rows * (height + TITLE) + heading
     figure.set_size_inches(style.WIDTH, total)
     figure.text(0.05 / style.WIDTH, 0.04 / total, "\n".join(lines), fontsize=style.CAPTION_SIZE, va="bottom",
@@ -126,7 +126,7 @@ def draw(shots, panels, wireframe, colour, text, label):
         render.draw(ax, frame, shot.camera, wireframe=wireframe, colour=colour, ground=shot.ground)
         render.blank(ax, boxes[shot])
         figure.text(middle, (bottom + height + 0.01) / total,
-                    f"{look_of(description).label}\n{label(description, frame)}", ha="center", va="bottom", fontsize=6,
+                    f"{look_of(description).label}\n{label(description, frame)}", ha="center", va="bottom", fontsize=7,
                     linespacing=1.1)
     if heading:
         for c, shot in enumerate(shots):
@@ -136,8 +136,8 @@ def draw(shots, panels, wireframe, colour, text, label):
         name, norm, colours = render.SCALARS[colour]
         ax = figure.add_axes([0.2, (below - 0.16) / total, 0.6, 0.07 / total])
         bar = figure.colorbar(ScalarMappable(norm, colours), cax=ax, orientation="horizontal", extend="max")
-        bar.set_label(name, fontsize=6.2, labelpad=1)
-        bar.ax.tick_params(labelsize=6, pad=1)
+        bar.set_label(name, labelpad=1)
+        bar.ax.tick_params(pad=1)
     return figure
 
 

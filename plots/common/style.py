@@ -1,6 +1,7 @@
-"""The style of every figure: one colour, marker and line for each method and knob, sizes for a column of 8.5 cm, the
-caption below the axes. The same data give the same bytes."""
+"""The style of every figure: one colour, marker and line for each method and knob, sizes for a column of 8.5 cm, two lines
+of the caption below the axes and all of it in a file beside the figure. The same data give the same bytes."""
 
+import re
 import zlib
 from dataclasses import dataclass
 
@@ -17,10 +18,10 @@ from common.load import VARIANT, count, cut_columns, family_column, stop
 
 WIDTH = 8.5 / 2.54  # inches, of a column
 PAGE = 17.4 / 2.54  # of two, and the space between them
-CAPTION_SIZE = 6.2
+CAPTION_SIZE = 7
 matplotlib.rcParams.update({
-    "font.family": "DejaVu Sans", "font.size": 7, "axes.titlesize": 7, "axes.labelsize": 7, "legend.fontsize": 6.5,
-    "xtick.labelsize": 6.5, "ytick.labelsize": 6.5, "axes.linewidth": 0.6,
+    "font.family": "DejaVu Sans", "font.size": 7, "axes.titlesize": 7, "axes.labelsize": 7, "legend.fontsize": 7,
+    "xtick.labelsize": 7, "ytick.labelsize": 7, "axes.linewidth": 0.6,
     "axes.grid": True, "grid.color": "#e3e3e3", "grid.linewidth": 0.5,
     "axes.axisbelow": True, "legend.frameon": False,
     "xtick.major.width": 0.6, "ytick.major.width": 0.6, "xtick.minor.width": 0.4, "ytick.minor.width": 0.4,
@@ -228,13 +229,13 @@ def provenance(run, cases, with_machine=False, with_crosses=True, per=("sheet", 
 
 
 def finish(figure, looks_drawn, caption, extra=()):
-    """Puts the legend above the panels and the caption below, and makes the figure higher by their heights."""
+    """Puts the legend above the panels and the caption's beginning below, and makes the figure higher by their heights."""
     renderer, (width, height) = figure.canvas.get_renderer(), figure.get_size_inches()
-    text = figure.text(0.05 / width, 0, "\n".join(wrapped(figure, caption, width - 0.1)), fontsize=CAPTION_SIZE,
+    text = figure.text(0.05 / width, 0, "\n".join(two_lines(figure, caption, width - 0.1)), fontsize=CAPTION_SIZE,
                        va="bottom", linespacing=1.2, parse_math=False, in_layout=False)
     caption_height = text.get_window_extent(renderer).height / figure.dpi + 0.08
     handles = [legend_entry(look) for look in looks_drawn] + list(extra)
-    for columns in (6, 5, 4, 3, 2, 1):
+    for columns in range(8, 0, -1):
         legend = figure.legend(handles=handles, loc="upper center", ncol=columns, handlelength=2.1, columnspacing=1.2,
                                handletextpad=0.5, borderaxespad=0.2)
         box = legend.get_window_extent(renderer)
@@ -247,6 +248,18 @@ def finish(figure, looks_drawn, caption, extra=()):
     figure.set_layout_engine("constrained", rect=(0, caption_height / total, 1, height / total), h_pad=0.03, w_pad=0.03)
     figure.draw_without_rendering()
     figure.set_layout_engine("none")  # so that the PDF and the PNG have the same layout
+
+
+def two_lines(figure, caption, width):
+    """The first sentences of a caption, those that fit into two lines of at most `width` inches; an ellipsis ends a first
+    sentence that does not. save() writes the whole caption to a file."""
+    figure.set_label(caption)
+    sentences = re.split(r"(?<=[.;]) (?=[A-Z×])", caption)
+    for n in range(len(sentences), 0, -1):
+        lines = wrapped(figure, " ".join(sentences[:n]), width)
+        if len(lines) <= 2:
+            return lines
+    return [lines[0], lines[1].rpartition(" ")[0] + " …"]
 
 
 def wrapped(figure, text, width):
@@ -269,7 +282,12 @@ def wrapped(figure, text, width):
 
 
 def save(figure, folder, stem):
-    """Writes folder/stem.pdf and .png (300 dpi) and prints where."""
+    """Writes folder/stem.pdf and .png (300 dpi), the whole caption to stem.caption.txt, and prints where."""
+    if figure.get_label():
+        try:
+            (folder / f"{stem}.caption.txt").write_text(f"{figure.get_label()}\n", encoding="utf-8")
+        except OSError as error:
+            stop(f"{folder / stem}.caption.txt can't be written: {error.strerror}")
     for suffix, metadata in (("pdf", {"CreationDate": None}), ("png", {"Software": None})):
         path = folder / f"{stem}.{suffix}"
         try:

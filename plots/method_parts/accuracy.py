@@ -1,20 +1,25 @@
-"""The accuracy figure and table of method_comparison.py: the error of every method's cut sheet against the cost of the
-cut, after a direct solve and after a fixed number of iterations of conjugate gradients."""
+"""The accuracy figure and table of method_comparison.py: the error of every method's cut sheet beside the cost of the cut,
+after a direct solve and after a fixed number of iterations of conjugate gradients."""
 
 import numpy as np
 import pandas as pd
 from matplotlib.lines import Line2D
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from accuracy_parts.ranking import at_equal_unknowns, made_by_all, mean_excess, ranked_by
-from accuracy_parts.records import Records, log_x_axis, percent_axis, zero_line
-from common import style
+from accuracy_parts.records import Records
+from common import families, load, style
 from common.load import of
+from method_parts import dots, kinds
 
 STEM = "method_comparison_accuracy"
 WHAT = ("error over that of a body-fitted mesh, minus one: of a mesh with as many triangles as the uncut sheet, or with as "
         "many unknowns as the cut sheet; geometric means over the cases that no method failed; the most accurate first")
 BUDGET = 100  # iterations of conjugate gradients
-MARKERS = ["o", "s", "^", "D", "v", "P"]
+BESIDE = 0.33  # of a row, below the means
+SHOWN = 8  # times the fitted mesh's error: what is larger is written at the edge
+KINDS = {kind: dict(marker=marker, markersize=3, markeredgewidth=0.7, markerfacecolor="white")
+         for kind, marker in zip(kinds.KINDS, ("s", "^", ">", "o", "v"))}
 
 
 def summary(folder):
@@ -52,78 +57,69 @@ def of_methods_there(table):
     return table[~table["failed"].groupby(key).transform("all")]
 
 
-def written(method, programs):
-    return method.replace("_", " ") + style.PROGRAM * (method in programs)
-
-
-def write_names(figure, ax, table, programs):
-    """Each method's name at the mean of its sheets, moved up until it covers no other. The limits of the axes must be set."""
-    figure.draw_without_rendering()
-    taken = []
-    for _, row in table.sort_values("excess_percent_all").iterrows():
-        text = ax.annotate(written(row["method"], programs), (row["us_per_crossed_all"], row["excess_percent_all"]),
-                           xytext=(0, 0), textcoords="offset points", fontsize=5, color="#222222", ha="center",
-                           va="center", zorder=5)
-        for up in range(5, 45):
-            text.set_position((0, up))
-            box = text.get_window_extent()
-            if not any(box.overlaps(other) for other in taken):
-                break
-        taken.append(box)
-
-
 def draw(folder, beside):
-    """Left: error against the price of the cut, a small marker per sheet and the name at the mean of all. Right: solved to
-    the end, and by a few iterations."""
+    """A row for each method, by families, the least errors on top: the error by kinds of problems and their mean, the error
+    after a few iterations where there are any, and the price of the cut. Returns the table of summary()."""
     records, table = summary(beside)
     measure = ranked_by(records)
-    figure, axes = style.panels(1, 2, 9.5, width=style.PAGE)
-    left, right = axes[0]
-    looks = style.many_looks(table["method"])
-    for _, row in table.iterrows():
-        colour = looks[row["method"]].colour
-        for sheet, marker in zip(records.sheets, MARKERS):
-            left.plot(row[f"us_per_crossed_{sheet}"], row[f"excess_percent_{sheet}"], marker, color=colour, markersize=2.2,
-                      alpha=0.55, markeredgewidth=0)
-        # Where the name goes, so that the limits of the axes include it.
-        left.plot(row["us_per_crossed_all"], row["excess_percent_all"], "o", color=colour, markersize=3)
-    left.set_xlabel("µs per crossed triangle, the cut alone")
-    left.set_ylabel(f"excess error {measure.short}, %")
-    order = list(table["method"])
-    for i, (_, row) in enumerate(table.iterrows()):
-        ends = row["excess_percent_all"], row[f"excess_percent_cg_{BUDGET}"]
-        right.plot(ends, (i, i), color="#999999", linewidth=0.8, zorder=1)
-        right.plot(-0.015, i, "s", color=looks[row["method"]].colour, markersize=2.5, clip_on=False,
-                   transform=right.get_yaxis_transform())
-        right.plot(ends[0], i, "o", color="#0072b2", markersize=3.2)
-        right.plot(ends[1], i, "D", color="white", markeredgecolor="#d55e00", markeredgewidth=0.8, markersize=3)
-    right.set_yticks(range(len(order)), [written(name, records.programs) for name in order], fontsize=5.5)
-    right.set_ylim(len(order) - 0.5, -0.5)
-    right.tick_params(axis="y", length=0, pad=6)
-    right.set_xlabel(f"excess error {measure.short}, %")
-    left.margins(x=0.15)  # for the names
-    log_x_axis(left)
-    percent_axis(left, table["excess_percent_all"])
-    zero_line(left)
-    write_names(figure, left, table, records.programs)
-    right.axvline(0, color="#111111", linewidth=0.6, zorder=0)
-    values = np.concatenate([table["excess_percent_all"], table[f"excess_percent_cg_{BUDGET}"]])
-    if (values > 100).any():
-        right.set_xscale("symlog", linthresh=10, linscale=0.7)
-        right.xaxis.set_major_formatter("{x:g}")
-    entries = [Line2D([], [], linestyle="", marker=m, color="#666666", markersize=3, label=style.sheet_title(s))
-               for s, m in zip(records.sheets, MARKERS)]
-    entries.append(Line2D([], [], linestyle="", marker="o", color="#0072b2", markersize=3.2, label="solved directly"))
-    stopped = ""
-    if table[f"excess_percent_cg_{BUDGET}"].notna().any():
-        entries.append(Line2D([], [], linestyle="", marker="D", color="white", markeredgecolor="#d55e00", markersize=3,
-                              label=f"{BUDGET} iterations of CG"))
-        stopped = f", and after {BUDGET} iterations of conjugate gradients (Jacobi preconditioner)"
+    by_kind = kinds.table_of(records)
+    by_kind = by_kind.merge(table, on=load.VARIANT, how="left")
+    stopped, price = f"excess_percent_cg_{BUDGET}", "us_per_crossed_all"
+    some_stopped = by_kind[stopped].notna().any()
+    order = list(by_kind[load.VARIANT].itertuples(index=False, name=None))
+    figure, axes, variants = dots.table_of_dots(order, [2.2, 1, 1][:2 + some_stopped], records.programs)
+    left, right, numbers = axes[0], axes[-1], [{} for _ in axes]
+    for y, variant in variants:
+        row, colour = of(by_kind, variant).iloc[0], families.family(variant[0]).colour
+        errors = {kind: row[f"error, {kind}"] for kind in kinds.KINDS
+                  if f"error, {kind}" in row and np.isfinite(row[f"error, {kind}"])}
+        left.hlines(y, *(1 + kinds.interval(errors) / 100), color=colour, linewidth=2.6, alpha=0.45, zorder=2)
+        for kind, value in errors.items():
+            left.plot(1 + value / 100, y + BESIDE, color="#555555", zorder=5, **KINDS[kind])
+            if 1 + value / 100 > SHOWN:
+                left.annotate(f"{kind} {value:+,.0f} % →", (1, y + BESIDE + 0.1), xycoords=left.get_yaxis_transform(),
+                              ha="right", va="center", fontsize=7, color="#555555")
+        left.plot(1 + row["error, kinds"] / 100, y, color=colour, **dots.MEDIAN | dict(markersize=5))
+        numbers[0][y] = row["error, kinds"]
+        if some_stopped:
+            axes[1].plot(1 + row[stopped] / 100, y, color=colour, **dots.APART)
+            numbers[1][y] = row[stopped]
+        right.plot(row[price], y, color=colour, **dots.MEDIAN)
+        numbers[-1][y] = row[price]
+    left.set_xlabel("error, solved directly, %")
+    if some_stopped:
+        axes[1].set_xlabel(f"after {BUDGET} iterations, %")
+        axes[1].margins(x=0.12)
+    for ax in axes[:-1]:
+        percent_axis(ax)
+    right.set_xlabel("µs per crossed tri.")
+    right.set_xscale("log")
+    dots.decades(right)
+    for ax, places in zip(axes[:-1], numbers):
+        dots.write_numbers(ax, places, "{:+,.0f}".format)
+    dots.write_numbers(right, numbers[-1])
+    grey = dict(linestyle="", color="#666666")
+    entries = [Line2D([], [], linestyle="", color="#444444", label="mean", **dots.MEDIAN),
+               Line2D([], [], color="#444444", linewidth=2.6, alpha=0.45, label="its 95 % interval")]
+    entries += [Line2D([], [], label=kind, **grey, **KINDS[kind]) for kind in kinds.KINDS if f"error, {kind}" in by_kind]
     style.finish(figure, [], records.caption(
-        "Left: error against the cost of the cut; lower left is better. Large marker, with the name: all sheets; colours are "
-        "those beside the names on the right. Excess error: the error of each problem's primary measure over that of "
-        f"{measure.fitted}, minus one; geometric means over {len(records.problems)} plane problems, all sizes and members. "
-        f"{measure.note}{style.PROGRAM_TIME * bool(records.programs)} Right: the same after a direct solve"
-        f"{stopped}."), entries)
+        f"Errors over those of a mesh that fits the cut, {measure.short.removeprefix('over a fitted mesh ')}: left of 0 is better. "
+        "Mean over kinds of problems in plane; the interval draws the kinds anew. "
+        f"Error: of each problem's primary measure, over that of {measure.fitted}, minus one; geometric means over sheets, sizes "
+        f"and members. {measure.note}{style.PROGRAM_TIME * bool(records.programs)}"
+        + f" After {BUDGET} iterations of conjugate gradients (Jacobi preconditioner): all {len(records.problems)} problems." * bool(some_stopped)), entries)
     style.save(figure, folder, STEM)
     return table
+
+
+def percent_axis(ax):
+    """A logarithmic axis of ratios, labelled by what they are above or below one."""
+    ax.set_xscale("log")
+    low, high = ax.get_xlim()
+    high = min(high, SHOWN)
+    ax.set_xlim(low, high)
+    ticks = [t for t in (0.25, 0.5, 1, 2, 4, 8, 16, 32) if low <= t <= high]
+    ax.xaxis.set_major_locator(FixedLocator(ticks))
+    ax.xaxis.set_minor_locator(NullLocator())
+    ax.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{100 * (x - 1):+,.0f}" if x != 1 else "0"))
+    ax.axvline(1, color="#111111", linewidth=0.8, zorder=1)

@@ -28,10 +28,13 @@ def mean_over(kinds):
 
 
 def interval(kinds):
-    """Of mean_over(), 95 %, of kinds drawn with replacement (bootstrap)."""
+    """The ends of that of mean_over(), 95 %, of kinds drawn with replacement (bootstrap)."""
     draw, values = np.random.default_rng(1), np.log1p(np.array(list(kinds.values())) / 100)
     means = draw.choice(values, (DRAWS, len(values))).mean(axis=1)
-    ends = 100 * (np.exp(np.quantile(means, [0.025, 0.975])) - 1)
+    return 100 * (np.exp(np.quantile(means, [0.025, 0.975])) - 1)
+
+
+def in_words(ends):
     return " to ".join(f"{end:+.0f}" for end in ends) if np.isfinite(ends).all() else "-"
 
 
@@ -59,7 +62,7 @@ def table_of(records):
         if not kinds:
             continue
         rows.append({"method": variant[0], "knob": variant[1], "error, kinds": mean_over(kinds),
-                     "error, its 95 %": interval(kinds),
+                     "error, its 95 %": in_words(interval(kinds)),
                      **{f"error, {kind}": value for kind, value in kinds.items()},
                      **{f"error, by {m}": by_measure(made, fitted, m) for m in MEASURES
                         if f"error_{m}" in made}})

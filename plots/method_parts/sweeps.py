@@ -3,11 +3,19 @@
 
 import numpy as np
 from matplotlib.colors import LogNorm, Normalize
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
-from common import style
+from common import families, style
+from common.load import of
 
 BEFORE = ["nothing", "snap", "warp", "thin", "warp+thin"]
 AFTER = ["nothing", "flips", "smoothing", "refine", "tie"]
+CURVES = [  # column, label, and how it is drawn
+    ("eigenvalue_ratio", "largest eigenvalue / uncut", dict(color="#0072b2", marker="o", markersize=3.4, linewidth=1.2)),
+    ("ar_max_cut_outside_wedges", "largest aspect ratio", dict(color="#d55e00", marker="s", markersize=3, linewidth=1.2)),
+    ("us_per_crossed", "µs per crossed triangle", dict(color="#666666", marker="^", markersize=3, linewidth=1, linestyle="--")),
+]
 OFF_AT_ZERO = {"cgal_refine", "delaunay_refine"}  # bound=0 sets no bound
 
 
@@ -22,42 +30,44 @@ def below_three(rows):
     return float((~(rows["ar_max_cut_outside_wedges"] >= 3) & ~rows["failed"]).mean())
 
 
+def settings_by_method(table):
+    """{method: [(variant, what is written below it)]}, the settings of a knob in their order. A variant `method:part` is
+    the last setting of the method."""
+    found = {}
+    for method, knob in sorted(set(zip(table["method"], table["knob"])), key=lambda v: (v[0], style.natural(v[1]))):
+        name, _, part = method.partition(":")
+        found.setdefault(name, []).append(((method, knob), part.replace("_", "\n") or knob.partition("=")[2] or "-"))
+    return found
+
+
 def draw_knobs(folder, table, caption, defaults):
-    """A panel for each sheet and measure of shape; in it a curve for each method through the settings of its knob, with a
-    large marker at the default. The setting bound=0 is not joined to the others."""
-    sheets = style.sheet_order(table["sheet"])
-    measures = [("eigenvalue_ratio", "largest eigenvalue / uncut"), ("ar_max_cut_outside_wedges", "largest AR")]
-    figure, axes = style.panels(len(measures), len(sheets), 4.6, sharex=True, sharey="row")
-    variants = sorted(set(zip(table["method"], table["knob"])), key=lambda v: (v[0], style.natural(v[1])))
-    names = list(dict.fromkeys(name for name, _ in variants))
-    looks = style.many_looks(names)
-    for row, (column, label) in zip(axes, measures):
-        for ax, sheet in zip(row, sheets):
-            ax.set_xscale("log")
-            ax.set_yscale("log")
-            for name in names:
-                knobs = [knob for n, knob in variants if n == name]
-                points = []
-                for knob in knobs:
-                    rows = table[(table["method"] == name) & (table["knob"] == knob) & (table["sheet"] == sheet)]
-                    points.append((median(rows, "us_per_crossed"), median(rows, column)))
-                x, y = np.array(points).T
-                look = looks[name]
-                joined = slice(1 if name in OFF_AT_ZERO else 0, None)
-                ax.plot(x[joined], y[joined], color=look.colour, linewidth=0.8)
-                for (px, py), knob in zip(points, knobs):
-                    is_default = (name, knob) in defaults
-                    ax.plot(px, py, look.marker, color=look.colour, markersize=4.2 if is_default else 2.4, zorder=3,
-                            markeredgecolor="#111111" if is_default else "white", markeredgewidth=0.4)
-                    if np.isfinite(px) and np.isfinite(py) and knob in (knobs[0], knobs[-1]):
-                        ax.annotate(knob.partition("=")[2], (px, py), xytext=(1.5, 1.5), textcoords="offset points",
-                                    fontsize=4.2, color=look.colour)
-        row[0].set_ylabel(label)
-    for ax, sheet in zip(axes[0], sheets):
-        ax.set_title(style.sheet_title(sheet))
-    for ax in axes[-1]:
-        ax.set_xlabel("µs per crossed triangle")
-    style.finish(figure, [looks[name] for name in names], caption)
+    """A panel for each method: medians of eigenvalue, aspect ratio and time by the setting of its knob, on one axis. Grey: the
+    default. A line does not join bound=0 to the others, which sets no bound, nor a variant that has no knob."""
+    methods = settings_by_method(table)
+    groups = families.grouped(methods)
+    methods = {m: methods[m] for _, names in groups for m in names}
+    columns = min(4, len(methods))
+    figure, axes = style.panels(-(-len(methods) // columns), columns, 3.4, width=style.PAGE, sharey=True)
+    for ax in axes.flat[len(methods):]:
+        ax.set_visible(False)
+    for (method, settings), ax in zip(methods.items(), axes.flat):
+        knob = next((k.partition("=")[0] for (_, k), _ in settings if k), "")
+        joined = slice(method in OFF_AT_ZERO, len(settings) - sum(":" in m for (m, _), _ in settings))
+        for column, _, looks in CURVES:
+            values = [median(of(table, variant), column) for variant, _ in settings]
+            x = np.arange(len(values))
+            ax.plot(x[joined], values[joined], **looks | dict(marker=""))
+            ax.plot(x, values, **looks | dict(linestyle=""))
+        for x, (variant, _) in enumerate(settings):
+            if variant in defaults:
+                ax.axvspan(x - 0.4, x + 0.4, color="#e6e6e6", linewidth=0, zorder=0)
+        ax.set_yscale("log")
+        ax.set_xticks(range(len(settings)), [written for _, written in settings])
+        ax.grid(axis="x", visible=False)
+        ax.set_title(families.name(method), loc="left", fontweight="bold", color=families.family(method).colour)
+        ax.set_title(knob, loc="right")
+    entries = [Line2D([], [], label=label, **looks) for _, label, looks in CURVES]
+    style.finish(figure, [], caption, entries + [Patch(color="#e6e6e6", label="default")])
     style.save(figure, folder, "method_comparison_knobs")
 
 

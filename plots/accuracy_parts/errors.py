@@ -1,0 +1,83 @@
+"""The error itself, over time or unknowns: every method against the same truth, whatever the size of its sheet."""
+
+import numpy as np
+import pandas as pd
+
+from accuracy_parts.profile import members_throughout
+from accuracy_parts.ranking import made_by_all
+from accuracy_parts.records import REFERENCE, label_edges, log_x_axis
+from common import front, load, style
+from common.load import of
+
+DRAWS = 2000
+
+
+def throughout(records):
+    """The direct solves of the problems, and of their members, that are on all sizes, so that sizes can be compared."""
+    records = members_throughout(records)
+    table = records.rows(direct=True)
+    sizes = table.groupby("problem")["resolution"].nunique()
+    return records.with_rows(table[table["problem"].isin(sizes[sizes == sizes.max()].index)])
+
+
+def by_problem(table):
+    """Geometric mean of the error, of each problem."""
+    made = table[(table["error"] > 0) & ~table["failed"]]
+    return np.exp(np.log(made["error"]).groupby(made["problem"]).mean())
+
+
+def interval(mine, reference):
+    """95 %, by drawing the problems anew, of the mean of `mine` over that of `reference`, times the latter: the problems'
+    own levels cancel. Both are of by_problem()."""
+    logs = np.log(mine / reference).dropna().to_numpy()
+    if not len(logs):
+        return np.nan, np.nan
+    means = np.random.default_rng(1).choice(logs, (DRAWS, len(logs))).mean(axis=1)
+    return np.exp(np.log(reference).mean() + np.quantile(means, [0.025, 0.975]))
+
+
+def points(records, x):
+    """A row per sheet, resolution and variant, as front.draw() takes it: median of column `x`; the geometric mean over
+    problems of the error in percent, of the cases that no method failed, and its interval."""
+    rows = []
+    for (sheet, resolution), here in records.table.groupby(["sheet", "resolution"], sort=False):
+        common = made_by_all(here)
+        reference = by_problem(of(common, REFERENCE))
+        for variant in records.looks:
+            tried, made = of(here, variant), of(common, variant)
+            errors = by_problem(made)
+            y = 100 * np.exp(np.log(errors).mean())
+            low, high = (y, y) if variant == REFERENCE else (100 * end for end in interval(errors, reference))
+            q1, middle, q3 = load.with_failures(made[x])
+            rows.append({"sheet": sheet, "resolution": resolution, "method": variant[0], "knob": variant[1], "x": middle,
+                         "x_q1": q1, "x_q3": q3, "x_made": tried.loc[~tried["failed"], x].median(), "y": y, "y_q1": low,
+                         "y_q3": high, "n": len(tried), "failed": int(tried["failed"].sum())})
+    found = pd.DataFrame(rows)
+    return found.assign(layer=np.isfinite(found[["x", "y"]]).all(axis=1).astype(int))  # none is pale
+
+
+def error_figure(records, x, label):
+    """A panel per sheet: error of the direct solve over `x`, a point per resolution."""
+    records = throughout(records.in_plane().ranked())
+    cells = points(records, x)
+    columns = min(2, len(records.sheets))
+    figure, axes = style.panels(-(-len(records.sheets) // columns), columns, 5.2, width=style.PAGE, sharex=True, sharey=True)
+    for ax in axes.flat[len(records.sheets):]:
+        ax.set_visible(False)
+    for sheet, ax in zip(records.sheets, axes.flat):
+        here = cells[cells["sheet"] == sheet]
+        for variant, look in records.looks.items():
+            front.draw(ax, of(here, variant).sort_values("resolution"), look)
+        front.draw_failures(ax, here, records.looks)
+        log_x_axis(ax)
+        ax.set_yscale("log")
+        style.plain_numbers(ax)
+        ax.set_title(style.sheet_title(sheet), loc="left")
+    label_edges(axes, label, "relative error, %")
+    style.finish(figure, records.looks.values(), records.caption(
+        f"Error of a cut sheet's solution against {label.partition(',')[0]}, a marker for each size of the sheet: lower left is "
+        f"better. Geometric mean over {len(records.problems)} plane problems, solved directly. The error is the relative one of each "
+        "primary measure, over the cases that no method failed. Bars: quartiles over the cases, and the 95 % interval of the error "
+        "over the fitted mesh's, by drawing the problems anew. The time (cut, assembly, solve) of the fitted mesh includes meshing the "
+        "whole sheet. ×: failed/tried."))
+    return figure

@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+"""Does the edge of a cut swirl? How far the lips turn away from those on a fine sheet, by method, over several cuts and
+materials (experiments/swirl); and what the conventional split turns beside each other method."""
+
+import contextlib
+import io
+
+import numpy as np
+import pandas as pd
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+from common import families, lips, load, render, scene_panels, style
+
+STEM = "swirl"
+FINE, COARSER = 3362, 1682
+MATERIALS = {"skin": "o", "stiff_in_bending": "^", "soft_in_plane": "s"}
+CONVENTIONAL = "conventional_split"
+
+
+def measured(results):
+    """A row per cut, material and method: distance (mm) and angle (degrees) between the lips and those of the fine sheet, and
+    the verdict. Method COARSER is a sheet of so many triangles. Also the descriptions."""
+    rows, described = [], []
+    for scene in sorted(results.glob("*/scene.toml")):
+        curve = lips.requested(scene)
+        length = lips.distances_along(curve)[-1]
+        cut, _, material = scene.parent.name.partition("_")
+        found = {}
+        for file in sorted(scene.parent.glob("*/simulation.json")):
+            description = render.read_description(file.parent)
+            described.append(description)
+            name = file.parent.name.removeprefix("reference_")
+            found[name] = (description, lips.by_side(render.read_frame(file.parent, 1e9), curve))
+        truth = found.pop(str(FINE), (None, None))[1]
+        if truth is None:
+            load.stop(f"{scene.parent} has no frames of a sheet of {FINE} triangles; experiments/swirl makes them")
+        for name, (description, both) in found.items():
+            off, turn = lips.difference(both, truth, length)
+            method = name if name == str(COARSER) else description["method"].partition(" ")[0]
+            rows.append({"cut": int(cut), "material": material, "method": method, "mm": 1000 * off, "degrees": turn,
+                         "verdict": description["verdict"]})
+    if not rows:
+        load.stop(f"{results} has no scenes; experiments/swirl makes them")
+    return pd.DataFrame(rows), described
+
+
+def ratios(rows):
+    """[method, ratio, low, high, n]: the angle by the conventional split over that by each other method, of the same cut and
+    material; geometric mean with its 95 % interval by drawing the cuts anew: the materials of one cut are no trials of their own."""
+    angle = rows.pivot_table(index=["cut", "material"], columns="method", values="degrees")
+    found = []
+    for method in angle.columns:
+        if method not in (CONVENTIONAL, str(COARSER)):
+            each = np.exp(np.log(angle[CONVENTIONAL] / angle[method]).groupby("cut").mean())
+            found.append([families.name(method), *load.ratio(each, np.ones(len(each)))])
+    return found
+
+
+def draw(rows, described):
+    methods = list(rows[rows["method"] != str(COARSER)].groupby("method")["degrees"].median().sort_values().index)
+    figure, axes = style.panels(1, 1, 4.2, width=style.PAGE * 0.62)
+    ax = axes[0, 0]
+    for i, method in enumerate(methods):
+        here = rows[rows["method"] == method]
+        colour = families.family(method).colour
+        for material, marker in MATERIALS.items():
+            some = here[here["material"] == material]
+            ax.plot(some["degrees"], np.full(len(some), i), marker, color=colour, markersize=4, markerfacecolor="none")
+        ax.plot(here["degrees"].median(), i, "|", color=colour, markersize=16, markeredgewidth=2)
+    worth = rows.loc[rows["method"] == str(COARSER), "degrees"].median()
+    ax.axvline(worth, color="black", linewidth=0.8, linestyle=":")
+    ax.set_xscale("log")
+    ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    ax.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
+    ax.xaxis.set_minor_formatter(NullFormatter())
+    ax.set_xlabel("lips turned by, degrees")
+    ax.set_yticks(range(len(methods)), [families.name(m) for m in methods])
+    ax.set_ylim(len(methods) - 0.5, -0.5)
+    n = scene_panels.same((d["triangles_before"] for d in described if d["triangles_before"] not in (FINE, COARSER)), "the number of triangles")
+    cuts = rows["cut"].nunique()
+    grey = dict(linestyle="", color="#444444")
+    style.finish(figure, [], (
+        f"Lips against those on a fine sheet, {cuts} cuts and {len(MATERIALS)} materials. Root mean square of the angle along both lips, edge by "
+        f"edge, {described[0]['step_s'] and 0.2:g} s after the cut, against the same scene on {FINE} triangles; n = {n} triangles before the cut; "
+        f"direct solver. Dotted: median difference of a sheet of {COARSER} triangles. {scene_panels.commits(described)}. Command: experiments/swirl"),
+        [Line2D([], [], marker=marker, markersize=4, markerfacecolor="none", label=material.replace("_", " "), **grey)
+         for material, marker in MATERIALS.items()]
+        + [Line2D([], [], marker="|", markersize=9, markeredgewidth=2, label="median", **grey),
+           Line2D([], [], color="black", linewidth=0.8, linestyle=":", label=f"sheet of {COARSER}")])
+    return figure
+
+
+def main():
+    results = load.results_folder(STEM, __doc__)
+    rows, described = measured(results)
+    style.save(draw(rows, described), results, STEM)
+    text = io.StringIO()
+    with contextlib.redirect_stdout(text):
+        load.print_table("Angle of the lips by the conventional split over that by", ["method", "ratio", "from", "to (95 %)", "cuts"],
+                         [[*row[:-1], str(row[-1])] for row in ratios(rows)])
+        load.print_table(f"Lips against those of a sheet of {FINE} triangles; {scene_panels.commits(described)}", list(rows.columns),
+                         [[str(r.cut), r.material, r.method, r.mm, r.degrees, r.verdict] for r in rows.itertuples()])
+    load.write_beside(results / f"{STEM}.txt", text.getvalue())
+
+
+if __name__ == "__main__":
+    main()
