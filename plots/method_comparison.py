@@ -29,7 +29,8 @@ STEM = "method_comparison"
 MEASURES = ["crossed_triangles", "vertices_added", "angle_max_deg_cut", "altitude_min_h_cut", "ar_max_cut", "ar_p99_cut",
             "ar_max_cut_strict", "ar_p99_cut_strict", "ar_max_cut_outside_wedges", "ar_max_cut_away_from_wedges",
             "ar_p99_cut_outside_wedges",
-            "wedge_area_rest2", "forced_corners", "eigenvalue_ratio", "incision_error_h", "area_change", "geometry_us"]
+            "wedge_area_rest2", "forced_corners", "eigenvalue_ratio", "bending_eigenvalue_ratio",
+            "stabilised_eigenvalue_ratio", "incision_error_h", "area_change", "geometry_us"]
 JUMPS = ["membrane_j", "membrane_jump_j", "bending_j", "bending_jump_j", "residual_n", "residual_jump_n", "kinetic_j",
          "kinetic_jump_j", "momentum_jump_kg_m_s"]
 

@@ -16,8 +16,8 @@ KEY = ["cut_family", "sheet", "resolution", "case"]
 def by_sheet_and_family(table, order, sheets):
     """A row per method: by sheet the cuts with every aspect ratio below 3 outside forced wedges, and away from them, of
     those that changed triangles; median eigenvalues by family over all sheets, on the first sheet, and there of curved
-    cuts, and of those that meet nothing at less than asin(1/3); their tails, and those of the even sheets; the time at the
-    largest resolution, and that of all cuts over all their crossed triangles; failures by verdict."""
+    cuts, and of those that meet nothing at less than asin(1/3); their tails, those of the even sheets, those with bending and
+    those with a stabilised mass; the time at the largest resolution, and that of all cuts over all their crossed triangles; failures by verdict."""
     rows = []
     families = list(dict.fromkeys(table["cut_family"]))
     largest = table["resolution"].max()
@@ -46,6 +46,9 @@ def by_sheet_and_family(table, order, sheets):
         row["eigenvalue, even sheets"] = eigenvalue[~graded].median()
         row["eigenvalue, even sheets, 95 %"] = eigenvalue[~graded].quantile(0.95)
         row["eigenvalue, graded"] = eigenvalue[graded].median()
+        for name, column in (("with bending", "bending_eigenvalue_ratio"), ("stabilised mass", "stabilised_eigenvalue_ratio")):
+            for share, of_share in ((0.5, ""), (0.95, ", 95 %")):
+                row[f"eigenvalue, {name}{of_share}"] = cuts[column].quantile(share)
         us = cuts.loc[cuts["resolution"] == largest, "us_per_crossed"]
         for name, share in (("q1", 0.25), ("median", 0.5), ("q3", 0.75)):
             row[f"us, {largest}, {name}"] = us.quantile(share)
