@@ -59,7 +59,7 @@ def ratios(rows):
 
 def draw(rows, described):
     methods = list(rows[rows["method"] != str(COARSER)].groupby("method")["degrees"].median().sort_values().index)
-    figure, axes = style.panels(1, 1, 4.2, width=style.PAGE * 0.62)
+    figure, axes = style.panels(1, 1, 4.2, width=style.PAGE * 0.7)
     ax = axes[0, 0]
     for i, method in enumerate(methods):
         here = rows[rows["method"] == method]
@@ -77,13 +77,15 @@ def draw(rows, described):
     ax.set_xlabel("lips turned by, degrees")
     ax.set_yticks(range(len(methods)), [families.name(m) for m in methods])
     ax.set_ylim(len(methods) - 0.5, -0.5)
-    n = scene_panels.same((d["triangles_before"] for d in described if d["triangles_before"] not in (FINE, COARSER)), "the number of triangles")
+    n = scene_panels.same((d["triangles_before"] for d in described if d["triangles_before"] not in (FINE, COARSER)),
+                          "the number of triangles")
     cuts = rows["cut"].nunique()
     grey = dict(linestyle="", color="#444444")
     style.finish(figure, [], (
-        f"Lips against those on a fine sheet, {cuts} cuts and {len(MATERIALS)} materials. Root mean square of the angle along both lips, edge by "
-        f"edge, {described[0]['step_s'] and 0.2:g} s after the cut, against the same scene on {FINE} triangles; n = {n} triangles before the cut; "
-        f"direct solver. Dotted: median difference of a sheet of {COARSER} triangles. {scene_panels.commits(described)}. Command: experiments/swirl"),
+        f"Lips against those on a fine sheet, {cuts} cuts and {len(MATERIALS)} materials. Root mean square of the "
+        f"angle along both lips, edge by edge, against the same scene on {FINE} triangles. n = {n} triangles before the cut; direct "
+        f"solver. Dotted: median difference of a sheet of {COARSER} triangles. {scene_panels.commits(described)}. Command: "
+        f"experiments/swirl --cuts {cuts}"),
         [Line2D([], [], marker=marker, markersize=4, markerfacecolor="none", label=material.replace("_", " "), **grey)
          for material, marker in MATERIALS.items()]
         + [Line2D([], [], marker="|", markersize=9, markeredgewidth=2, label="median", **grey),

@@ -124,7 +124,21 @@ def check_captions():
     style.plt.close(figure)
 
 
+def check_swirl():
+    """Angles twice those of the conventional split in one cut, half in another: the materials of a cut count once."""
+    import pandas as pd
+    import swirl
+    rows = pd.DataFrame([(cut, material, method, angle * (1 if method == swirl.CONVENTIONAL else factor))
+                         for cut, factor, materials in ((0, 2, "abc"), (1, 0.5, "a"))
+                         for material, angle in zip(materials, (1, 3, 7)) for method in (swirl.CONVENTIONAL, "cgal_cdt")],
+                        columns=["cut", "material", "method", "degrees"])
+    (name, ratio, low, high, n), = swirl.ratios(rows)
+    expect(f"the swirl's ratio: {name} {ratio} [{low}, {high}] {n}",
+           np.allclose([ratio, low, high, n], [1, 0.5, 2, 2]) and name == "CGAL CDT")
+
+
 check_lips()
+check_swirl()
 check_close_ups()
 check_captions()
 check_page(Path(sys.argv[1]))

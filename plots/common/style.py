@@ -90,13 +90,6 @@ def looks(variants, programs=()):
     return chosen
 
 
-def many_looks(names):
-    """A Look for each name, for figures with more methods than FREE_COLOURS: colours as different as possible."""
-    markers = "osD^vPX<>phd8*"
-    return {name: Look(name.replace("_", " "), matplotlib.colors.to_hex(plt.get_cmap("tab20")((2 * i + i // 10) % 20)),
-                       markers[i % len(markers)], width=0.8) for i, name in enumerate(sorted(names))}
-
-
 def natural(knob):
     """Sorts rounds=2 before rounds=10."""
     name, _, value = knob.partition("=")

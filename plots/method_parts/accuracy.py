@@ -59,10 +59,13 @@ def of_methods_there(table):
 
 def draw(folder, beside):
     """A row for each method, by families, the least errors on top: the error by kinds of problems and their mean, the error
-    after a few iterations where there are any, and the price of the cut. Returns the table of summary()."""
+    after a few iterations where there are any, and the price of the cut. None is drawn of problems of no kind. Returns the table
+    of summary()."""
     records, table = summary(beside)
     measure = ranked_by(records)
     by_kind = kinds.table_of(records)
+    if by_kind.empty:
+        return table
     by_kind = by_kind.merge(table, on=load.VARIANT, how="left")
     stopped, price = f"excess_percent_cg_{BUDGET}", "us_per_crossed_all"
     some_stopped = by_kind[stopped].notna().any()
@@ -106,8 +109,9 @@ def draw(folder, beside):
         f"Errors over those of a mesh that fits the cut, {measure.short.removeprefix('over a fitted mesh ')}: left of 0 is better. "
         "Mean over kinds of problems in plane; the interval draws the kinds anew. "
         f"Error: of each problem's primary measure, over that of {measure.fitted}, minus one; geometric means over sheets, sizes "
-        f"and members. {measure.note}{style.PROGRAM_TIME * bool(records.programs)}"
-        + f" After {BUDGET} iterations of conjugate gradients (Jacobi preconditioner): all {len(records.problems)} problems." * bool(some_stopped)), entries)
+        f"and members.{' ' * bool(measure.note)}{measure.note}{style.PROGRAM_TIME * bool(records.programs)}"
+        + f" After {BUDGET} iterations of conjugate gradients (Jacobi preconditioner): all {len(records.problems)} "
+        "problems." * bool(some_stopped)), entries)
     style.save(figure, folder, STEM)
     return table
 
