@@ -15,9 +15,9 @@ function marker(group, radius, hollow) {
     "stroke-width": ["cross", "plus"].includes(group.shape) ? 2.5 : 1.5 });
 }
 
-// 1, 2, 5 of each decade, as many of them as fit.
+// Round numbers of each decade, as many of them as fit.
 function ticks(low, high, most) {
-  for (const leads of [[1, 2, 5], [1, 3], [1]]) {
+  for (const leads of [[1, 1.5, 2, 3, 4, 5, 7], [1, 2, 5], [1, 3], [1]]) {
     const found = [];
     for (let d = Math.floor(Math.log10(low)); d <= Math.log10(high); d++)
       for (const lead of leads) if (lead * 10 ** d >= low && lead * 10 ** d <= high) found.push(lead * 10 ** d);
@@ -44,11 +44,11 @@ function makeChart(data) {
     const line = (x1, y1, x2, y2, stroke) => svg.append(element("line", { x1, y1, x2, y2, stroke }));
     for (const t of ticks(limits.x0, limits.x1, box.width / 55)) {
       line(x(t), box.top, x(t), box.bottom, "#e3e3e3");
-      svg.append(element("text", { x: x(t), y: box.bottom + 15, "text-anchor": "middle" }, +t.toPrecision(1)));
+      svg.append(element("text", { x: x(t), y: box.bottom + 15, "text-anchor": "middle" }, +t.toPrecision(2)));
     }
     for (const t of ticks(limits.y0, limits.y1, 12)) {
       line(box.left, y(t), box.right, y(t), "#e3e3e3");
-      svg.append(element("text", { x: box.left - 5, y: y(t) + 4, "text-anchor": "end" }, `${+(100 * t).toPrecision(1)} %`));
+      svg.append(element("text", { x: box.left - 5, y: y(t) + 4, "text-anchor": "end" }, `${+(100 * t).toPrecision(2)} %`));
     }
     line(box.left, box.bottom, box.right, box.bottom, "#333");
     line(box.left, box.top, box.left, box.bottom, "#333");
@@ -105,7 +105,7 @@ function makeChart(data) {
     const label = `Time against error, ${points.length} points, ${points.filter((p) => p.layer === 1).length} on the front`;
     const svg = element("svg", { width, height, role: "group", "aria-label": label }, element("title", {}, label));
     const note = [data.absent[key], "Small marker: the smaller sheet. Strong: on the front; bars: quartiles of the time, and how the error changes with the kind " +
-      "of problem. Hollow, on no front: energy grew in over half of the motions.", ...data.origins.map((o) => `results/${o.file}: commit ${o.commit}, seed ${o.seed}, ${o.command}.`)];
+      "of problem. Hollow, on no front: energy grew in over half of the motions."];
     document.querySelector("#chart-note").textContent = note.filter(Boolean).join(" ");
     place.replaceChildren(svg);
     if (!points.length) return void svg.append(element("text", { x: 20, y: 40 }, "There are no records of this setting."));
@@ -128,6 +128,7 @@ function makeChart(data) {
     picture.append(drawn);
     document.querySelector("#legend").append(element("li", {}, picture, g.name));
   }
+  document.querySelector("#chart-records ul").append(...data.origins.map(sourceLine));
   let shown = "";
   state.onChange.push(() => {
     menus.forEach((m) => m.show());

@@ -61,3 +61,6 @@ function digits(x) {
 }
 
 const words = (name) => name.replaceAll("_", " ");
+
+const sourceLine = (from) => element("li", {}, element("code", {}, `results/${from.file}`), `: commit ${from.commit}, seed ${from.seed}, `,
+  element("code", {}, from.command));

@@ -78,9 +78,8 @@ function makeTable(data) {
     if (focused) head.querySelector(`[data-key="${focused}"] button`)?.focus();
   }
 
-  const used = Object.entries(data.origins).map(([stem, from]) => `${words(stem)}: commit ${from.commit}, seed ${from.seed}, ${from.command}`);
-  document.querySelector("#table-note").append(
-    `Bold: the best of a column. ${data.setting ? `Cut and motion after it: ${data.setting}. ` : ""}Records: ${used.join("; ")}.`);
+  document.querySelector("#table-note").append("Bold: the best of a column." + (data.setting ? ` Cut and motion after it: ${data.setting}.` : ""));
+  document.querySelector("#table-records ul").append(...Object.values(data.origins).map(sourceLine));
   document.querySelector("#columns dl").append(...data.columns.flatMap((column) =>
     [element("dt", {}, column.label), element("dd", {}, column.definition)]));
   state.onChange.push(show);
