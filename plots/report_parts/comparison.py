@@ -76,9 +76,10 @@ def files_of(results, stem):
 
 
 def origin(files):
-    """Where numbers are from: the file, the command, the commit, the seed."""
+    """Where numbers are from: the file, the command, the commit, the seed, the suite version."""
     context = load.read_context(files[1])
-    return {"file": "/".join(files[0].parts[-2:]), "command": str(context.get("command")), "seed": str(context.get("seed")),
+    version = pd.read_csv(files[0], usecols=["suite_version"], dtype=str, comment="#", nrows=1)["suite_version"].iloc[0]
+    return {"version": version, "file": "/".join(files[0].parts[-2:]), "command": str(context.get("command")), "seed": str(context.get("seed")),
             "commit": str(context.get("commit"))[:10] + (" with uncommitted changes" if context.get("dirty") else "")}
 
 

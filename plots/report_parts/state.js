@@ -62,5 +62,5 @@ function digits(x) {
 
 const words = (name) => name.replaceAll("_", " ");
 
-const sourceLine = (from) => element("li", {}, element("code", {}, `results/${from.file}`), `: commit ${from.commit}, seed ${from.seed}, `,
+const sourceLine = (from) => element("li", {}, element("code", {}, `results/${from.file}`), `: suite version ${from.version}, commit ${from.commit}, seed ${from.seed}, `,
   element("code", {}, from.command));

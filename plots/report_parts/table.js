@@ -78,7 +78,8 @@ function makeTable(data) {
     if (focused) head.querySelector(`[data-key="${focused}"] button`)?.focus();
   }
 
-  document.querySelector("#table-note").append("Bold: the best of a column." + (data.setting ? ` Cut and motion after it: ${data.setting}.` : ""));
+  document.querySelector("#table-note").append("Bold: the best of a column. Compare within a column: each is of one run, with a version " +
+    "and a machine of its own." + (data.setting ? ` Cut and motion after it: ${data.setting}.` : ""));
   document.querySelector("#table-records ul").append(...Object.values(data.origins).map(sourceLine));
   document.querySelector("#columns dl").append(...data.columns.flatMap((column) =>
     [element("dt", {}, column.label), element("dd", {}, column.definition)]));
