@@ -211,7 +211,12 @@ async function drive(steps) {
   for (const hash of FRESH) { const frame = await open(1280, hash); found.steps["fresh " + hash] = read(frame); frame.remove(); }
   const frame = await open(1280, "");
   for (const hash of HASHES) { await go(frame, hash); found.steps[hash] = read(frame); }
-  const act = async (name, what) => { await go(frame, "#find="); await what(frame.contentDocument, frame.contentWindow); await wait(50); found.steps[name] = read(frame); };
+  const act = async (name, what) => {
+    await go(frame, "#find=");
+    await what(frame.contentDocument, frame.contentWindow);
+    await wait(50);
+    found.steps[name] = read(frame);
+  };
   await act("heading", (page) => page.querySelector("th[data-key=error_percent] button").click());
   await act("heading twice", (page) => { for (const i of [1, 2]) page.querySelector("th[data-key=error_percent] button").click(); });
   await act("method", (page) => page.querySelector("#row-vertex_snap button").click());
@@ -219,7 +224,11 @@ async function drive(steps) {
   await act("find", (page, w) => { const m = page.querySelector("input[name=find]"); m.value = "refine"; m.dispatchEvent(new w.Event("input")); });
   await act("point", (page, w) => page.querySelector(".point[data-method=adaptive_remesh]").dispatchEvent(new w.MouseEvent("click", { bubbles: true })));
   await act("enter", (page, w) => page.querySelector(".point[data-method=cisamr]").dispatchEvent(new w.KeyboardEvent("keydown", { key: "Enter", bubbles: true })));
-  await act("focus", (page) => { const p = page.querySelector(".point[data-method=cisamr]"); p.focus(); found.told = [page.querySelector("#point").textContent, p.getAttribute("aria-label")]; });
+  await act("focus", (page) => {
+    const point = page.querySelector(".point[data-method=cisamr]");
+    point.focus();
+    found.told = [page.querySelector("#point").textContent, point.getAttribute("aria-label")];
+  });
   await act("unfold", (page) => page.querySelector("#claim-2 summary").click());
   await act("link", (page) => page.querySelector("nav a[href='#claims']").click());
   found.requests = frame.contentWindow.performance.getEntriesByType("resource").map((r) => r.name);
@@ -246,7 +255,7 @@ def browse(folder, fresh, hashes):
     done = subprocess.run([chromium, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", f"--user-data-dir={folder}/profile",
                            "--allow-file-access-from-files", "--enable-logging=stderr", "--hide-scrollbars", "--window-size=1400,1000",
                            "--virtual-time-budget=60000", "--dump-dom", f"file://{folder}/driver.html"],
-                          capture_output=True, text=True, timeout=240)
+                          capture_output=True, text=True, timeout=600)
     for line in done.stderr.splitlines():
         expect(f"the console: {line}", "CONSOLE" not in line)
     text = re.search(r'<pre id="found">(.*?)</pre>', done.stdout, re.S)

@@ -73,7 +73,7 @@ def heading(name, title):
 def comparison_part(results):
     """The table and the chart; the scripts fill them."""
     table, points = comparison.Comparison(results).as_json(), chart.as_json(results)
-    if not table["columns"]:
+    if not table["methods"]:
         return (heading("table", "All methods") + f"<p>{badge('not run')} <code>experiments/reproduce method_comparison</code> "
                 "makes the records.</p>", "")
     parts = [heading("table", "All methods"), (HERE / "table.html").read_text(encoding="utf-8"), data("comparison", table)]
