@@ -247,10 +247,7 @@ drive().catch((e) => { document.querySelector("#found").textContent = JSON.strin
 </script>"""
 
 
-def browse(folder, fresh, hashes):
-    chromium = shutil.which("chromium")
-    if not chromium:
-        sys.exit("check_report_page.py: chromium is missing; experiments/set_up browser installs it")
+def browse(chromium, folder, fresh, hashes):
     (folder / "driver.html").write_text(DRIVER.replace("FRESH", json.dumps(fresh)).replace("HASHES", json.dumps(hashes)), encoding="utf-8")
     done = subprocess.run([chromium, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", f"--user-data-dir={folder}/profile",
                            "--allow-file-access-from-files", "--enable-logging=stderr", "--hide-scrollbars", "--window-size=1400,1000",
@@ -319,6 +316,9 @@ def check_chart(what, step, truth):
 
 
 def main():
+    chromium = shutil.which("chromium")
+    if not chromium:
+        sys.exit("check_report_page.py: chromium is missing; experiments/set_up browser installs it")
     oracle = Oracle()
     everything = oracle.table()
     columns = sorted({c for numbers in everything.values() for c in numbers})
@@ -336,7 +336,7 @@ def main():
         expect(f"report.py: {made.returncode} {made.stderr}", made.returncode == 0 and not made.stderr)
         page = folder / "report.html"
         expect(f"{page.stat().st_size} bytes", page.stat().st_size < 6e6)
-        found = browse(folder, ["", link, figure, "#sort=nonsense&sheet=nowhere&open=nobody"], [*sorts, *filter_hashes, *settings])
+        found = browse(chromium, folder, ["", link, figure, "#sort=nonsense&sheet=nowhere&open=nobody"], [*sorts, *filter_hashes, *settings])
     steps = found["steps"]
 
     check_numbers("at first", steps["fresh "], everything)
