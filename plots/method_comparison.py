@@ -180,7 +180,12 @@ def write_tables(folder, tables):
 
 
 def read_cuts(folder):
-    run = load.read(folder, MEASURES).first_repetition()
+    return cuts_of(load.read(folder, MEASURES))
+
+
+def cuts_of(run):
+    """Each cut of a run once, as measured(), but for the kinds of sheets that a method refuses altogether."""
+    run = run.first_repetition()
     table = measured(run)
     table["failed"] = (table["verdict"] != "ok") | table["status"].isin(["failed", "refused"])
     # A kind of sheet that a method is not made for says nothing about it.

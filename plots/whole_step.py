@@ -31,11 +31,16 @@ def setting_name(setting):
     return f"{cuts:g} cut{'' if cuts == 1 else 's'}, step 1/{1 / step:.0f} s, E t {stiffness:g} N/m"
 
 
+def near(table):
+    """The rows of a setting that are drawn: the motions ended, and the error is not FAR off."""
+    return table[np.isfinite(table["ms"]) & (table["error"] < FAR * table["error"].median())]
+
+
 def draw(ax, table, scale=1.0):
     """The methods of a setting, a small marker for the smaller sheet, a large one for the larger; pale behind the front.
     Returns the rows that are drawn."""
     sizes = sorted(set(table["resolution"]))
-    table = made = table[np.isfinite(table["ms"]) & (table["error"] < FAR * table["error"].median())]
+    table = made = near(table)
     for method, here in table.groupby("method", sort=False):
         here = here.sort_values("resolution")
         colour, marker = family(method).colour, family(method).marker

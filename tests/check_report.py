@@ -13,6 +13,7 @@ import numpy as np
 
 PLOTS = Path(__file__).resolve().parent.parent / "plots"
 sys.path.insert(0, str(PLOTS))
+HEADINGS = {"h2", "h3"}
 VOID = {"meta", "link", "img", "br"}
 problems = []
 
@@ -26,14 +27,18 @@ class Page(HTMLParser):
     def __init__(self):
         super().__init__()
         self.open, self.sources, self.headings, self.text = [], [], [], {}
+        self.names = set()
 
     def handle_starttag(self, tag, attributes):
         if tag not in VOID:
             self.open.append(tag)
         for name, value in attributes:
+            if name == "id":
+                expect(f"two parts are called {value}", value not in self.names)
+                self.names.add(value)
             if name in ("src", "href"):
                 self.sources.append(value)
-        if tag == "h2":
+        if tag in HEADINGS:
             self.headings.append("")
         if tag == "img":
             expect("a picture has neither a size nor a name", {"width", "height", "alt"} <= {n for n, _ in attributes})
@@ -42,7 +47,7 @@ class Page(HTMLParser):
         expect(f"</{tag}> closes <{self.open[-1:]}>", self.open and self.open.pop() == tag)
 
     def handle_data(self, data):
-        if self.open[-1:] == ["h2"]:
+        if self.open and self.open[-1] in HEADINGS:
             self.headings[-1] += data
         elif self.headings:
             self.text[self.headings[-1]] = self.text.get(self.headings[-1], "") + data
@@ -55,12 +60,13 @@ def check_page(results):
     page.feed((results / "report.html").read_text(encoding="utf-8"))
     expect(f"left open: {page.open}", not page.open)
     for source in page.sources:
-        expect(f"needs {source[:60]}", source.startswith(("data:", "#")))
-    import report
-    for section in report.SECTIONS:
+        expect(f"needs {source[:60]}", source.startswith("data:") or (source[0] == "#" and source[1:] in page.names))
+    from report_parts.sections import SECTIONS
+    for section in SECTIONS:
         expect(f"no section {section.title}", section.title in page.headings)
     scene = page.text["Cut picked on the deformed sheet"]
     expect(f"the scene's verdict: {scene}", "1 of 1 simulations" in scene and "conventional_split" in scene)
+    expect("the comparison that was not run is not said to be", "not run" in page.text["All methods "])
     expect("a figure that was not run is not said to be", "not run" in page.text["Figure 5: single cuts"])
     expect("one that was run is said not to be", "not run" not in scene)
 

@@ -53,18 +53,30 @@ def _by_kind(rows, column):
 
 
 def errors(column):
-    """From the published rows, by (method, size): the absolute relative error, a geometric mean over kinds of problems in
-    plane. It is the fitted mesh's, times the ratio to it in the cases that the method made, so that a method that refuses
-    a sheet is not better for it. Its interval: how the ratio changes as kinds are drawn anew (bootstrap, 95 %)."""
+    """errors_of() the published rows."""
+    return errors_of(published(column))
+
+
+def published(column):
+    """The published rows of direct solves in plane of the cases that all methods made, with `kind` and `size`, the absolute
+    relative error."""
     table = load.read_records(PUBLISHED, load.TEXT + ["problem", "solver", "primary", "budget", "error"] + load.COUNTS,
                               all_columns=True)
     table = table.assign(kind=table["problem"].map(kind_of), failed=front.failed_rows(table), size=table[column].abs())
     table = table[(table["budget"] == 0) & (table["problem"] != TWICE) & table["kind"].notna()]
     table = made_by_all(of_methods_there(table))
-    table = table[table["size"] > 0]
+    return table[table["size"] > 0]
+
+
+def errors_of(table, pooled=False):
+    """Of rows of published(), by (method, size) or, `pooled`, by method with size 0: the geometric mean of `size` over kinds of
+    problems. It is the fitted mesh's, times the ratio to it in the cases that the method made, so that a method that
+    refuses a sheet is not better for it. Its interval: how the ratio changes as kinds are drawn anew (bootstrap, 95 %)."""
     fitted = table[table["method"] == REFERENCE[0]]
     pairs = table.merge(fitted[CASE + ["size"]], on=CASE, suffixes=("", "_fitted"))
     pairs["ratio"] = pairs["size"] / pairs["size_fitted"]
+    if pooled:
+        fitted, pairs = fitted.assign(resolution=0), pairs.assign(resolution=0)
     draw, found = np.random.default_rng(1), []
     for (method, resolution), here in pairs.groupby(["method", "resolution"], sort=False):
         level = _by_kind(fitted[fitted["resolution"] == resolution], "size")
