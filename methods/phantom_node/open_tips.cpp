@@ -23,7 +23,7 @@ struct OpenTips::Piece {
   bool operator<(const Piece& b) const { return std::tie(part, far, h) < std::tie(b.part, b.far, b.h); }
 };
 
-OpenTips::OpenTips(const Parts& parts) : parts_(parts) {
+OpenTips::OpenTips(const Parts& parts, bool lumped_mass) : parts_(parts), lumped_mass_(lumped_mass) {
   find_slit_parts();
   std::vector<Piece> pieces;
   parts_.for_each_joint([&](std::size_t i, std::size_t j, HalfEdge h) {
@@ -84,7 +84,7 @@ void OpenTips::open_edge(std::span<Piece> pieces) {
         if (p.group != group_at[e])
           weight += std::sqrt(squared_length(parts_.cut().rest(parts_.cut().origin(h)) - ends[1 - e]) /
                               squared_length(ends[1] - ends[0]));
-      if (parts_.is_new(parts_.cut().origin(h)) && !is_soft(p.part, deformed_origin(h), weight)) return;
+      if (parts_.is_new(parts_.cut().origin(h)) && !is_soft(p, deformed_origin(h), weight)) return;
     }
   for (const Piece& p : pieces)
     for (std::size_t e = 0; e < 2; ++e)
@@ -93,16 +93,26 @@ void OpenTips::open_edge(std::span<Piece> pieces) {
           apart_.emplace_back(h, parts_.parent(p.i).vertex[e == 0 ? first : second]);
 }
 
-bool OpenTips::is_soft(std::size_t part, DeformedIndex d, double weight) const {
+bool OpenTips::is_soft(const Piece& p, DeformedIndex d, double weight) const {
+  const double most = most_stiffness * (lumped_mass_ ? share_of_parent(p.j) : 1);
   for (const std::size_t i : in_slit_parts_)
     for (std::size_t k = 0; k < 3; ++k) {
-      if (parts_.part(i) != part || parts_.triangle(i).deformed[k] != d) continue;
+      if (parts_.part(i) != p.part || parts_.triangle(i).deformed[k] != d) continue;
       const auto c = parts_.cut().corners(parts_.slot(i));
       const double across = squared_length(c[(k + 2) % 3] - c[(k + 1) % 3]),
                    twice_area = cross(c[1] - c[0], c[2] - c[0]);
-      if (weight * weight * across > most_stiffness * 2 * twice_area) return false;
+      if (weight * weight * across > most * 2 * twice_area) return false;
     }
   return true;
+}
+
+/// Of the area of its parent, that of the part of i.
+double OpenTips::share_of_parent(std::size_t i) const {
+  const auto twice_area = [](const std::array<Point2, 3>& c) { return cross(c[1] - c[0], c[2] - c[0]); };
+  double sum = 0;
+  for (std::size_t j = 0; j < parts_.size(); ++j)
+    if (parts_.part(j) == parts_.part(i)) sum += twice_area(parts_.cut().corners(parts_.slot(j)));
+  return sum / twice_area(parts_.before().corners(parts_.parent_slot(i)));
 }
 
 /// They have a vertex of the opened sheet in common.

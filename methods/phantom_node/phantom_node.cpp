@@ -17,13 +17,16 @@ namespace {
 
 class Doubling {
  public:
-  Doubling(const Sheet& before, const Sheet& cut) : parts_(before, cut), tips_(parts_), cut_(cut) { join_copies(); }
+  Doubling(const Sheet& before, const Sheet& cut, const PhantomNode::Options& options)
+      : options_(options), parts_(before, cut), tips_(parts_, options.lumped_mass), cut_(cut) {
+    join_copies();
+  }
 
-  Ties run(const PhantomNode::Options& options) {
+  Ties run() {
     number_phantoms();
     Ties ties;
     ties.phantoms = phantoms_;
-    if (options.ghost > 0) add_ghosts(options.ghost, ties.ghosts);
+    if (options_.ghost > 0) add_ghosts(options_.ghost, ties.ghosts);
     std::vector<std::uint8_t> seen(parts_.vertices().size());
     // The slit parts last: where a lip enters one, it goes along with the part that it comes from.
     for (const bool slit : {false, true})
@@ -36,7 +39,7 @@ class Doubling {
           else if (const DeformedIndex one = unknown(parts_.number_of(d)); one != d)
             ties.ties.push_back({d, {one, one, one}, {1, 0, 0}});
         }
-    if (options.lumped_mass) lump(ties);
+    if (options_.lumped_mass) lump(ties);
     return ties;
   }
 
@@ -171,6 +174,7 @@ class Doubling {
     return tie;
   }
 
+  const PhantomNode::Options options_;
   const Parts parts_;
   const OpenTips tips_;
   const Sheet& cut_;
@@ -185,6 +189,6 @@ void PhantomNode::embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) {
   notes.recovered_segments = embed_by_static_split(sheet, trace, patch_work_);
 }
 
-Ties PhantomNode::ties(const Sheet& before, const Sheet& cut) const { return Doubling(before, cut).run(options_); }
+Ties PhantomNode::ties(const Sheet& before, const Sheet& cut) const { return Doubling(before, cut, options_).run(); }
 
 }  // namespace cutbench
