@@ -39,6 +39,7 @@ constexpr Promises exact_split{.exact_incision = true, .keeps_area = true, .conf
 
 namespace {
 
+/// The baseline, then by name.
 std::vector<MethodRow>& table() {
   static std::vector<MethodRow> rows{
       {"conventional_split",
@@ -46,6 +47,20 @@ std::vector<MethodRow>& table() {
        {},
        exact_split,
        [](double) { return std::make_unique<ConventionalSplit>(); }},
+      {"active_node",
+       "the tip is a vertex that moves with the blade, flips edges, takes in what is near and leaves a path vertex "
+       "every h",
+       {"spacing", 1, "between vertices of the path, in mean rest edges, 0.25 to 4; 0: every crossing stays"},
+       {.exact_incision = false,
+        .keeps_area = true,
+        .conforming = true,
+        .keeps_vertices = false,
+        .incision_bound = {.longest_edges = 0, .chord_tolerances = 1}},
+       [](double spacing) {
+         if (!(spacing == 0 || (spacing >= 0.25 && spacing <= 4)))
+           throw InputError("active_node: spacing must be 0, or a number from 0.25 to 4");
+         return std::make_unique<ActiveNode>(ActiveNode::Options{.spacing = spacing});
+       }},
       {"adaptive_remesh",
        "edges round the cut are split, flipped and collapsed to a size field that is fine at the tips",
        {"tip", 0.2, "edge length asked for at the tips, mean rest edges, 0.1 to 1; 0: flips alone"},
@@ -63,20 +78,6 @@ std::vector<MethodRow>& table() {
          if (!(rounds >= 0 && rounds <= most_rounds && rounds == std::floor(rounds)))
            throw InputError("bowyer_watson: rounds must be a whole number from 0 to " + std::to_string(most_rounds));
          return std::make_unique<BowyerWatson>(BowyerWatson::Options{.rounds = static_cast<int>(rounds)});
-       }},
-      {"active_node",
-       "the tip is a vertex that moves with the blade, flips edges, takes in what is near and leaves a path vertex "
-       "every h",
-       {"spacing", 1, "between vertices of the path, in mean rest edges, 0.25 to 4; 0: every crossing stays"},
-       {.exact_incision = false,
-        .keeps_area = true,
-        .conforming = true,
-        .keeps_vertices = false,
-        .incision_bound = {.longest_edges = 0, .chord_tolerances = 1}},
-       [](double spacing) {
-         if (!(spacing == 0 || (spacing >= 0.25 && spacing <= 4)))
-           throw InputError("active_node: spacing must be 0, or a number from 0.25 to 4");
-         return std::make_unique<ActiveNode>(ActiveNode::Options{.spacing = spacing});
        }},
       {"cgal_cdt",
        "CGAL's constrained Delaunay triangulation of the strip of crossed triangles",
@@ -120,19 +121,6 @@ std::vector<MethodRow>& table() {
          return std::make_unique<DelaunayRefine>(
              DelaunayRefinement::Options{.bound = bound == 0 ? std::numeric_limits<double>::infinity() : bound});
        }},
-      {"global_remesh",
-       "the whole sheet is meshed again by CGAL with the path in it",
-       {},
-       {.exact_incision = true, .keeps_area = true, .conforming = true, .keeps_vertices = false},
-       [](double) { return std::make_unique<GlobalRemesh>(); }},
-      {"longest_edge",
-       "local split by longest-edge propagation, with Delaunay flips",
-       {"cap", 8, "vertices that the split may make, per vertex of the path; 0: flips alone"},
-       exact_split,
-       [](double cap) {
-         if (!(cap >= 0 && cap <= 100)) throw InputError("longest_edge: cap must be a number from 0 to 100");
-         return std::make_unique<LongestEdge>(LongestEdge::Options{.cap = cap});
-       }},
       {"edge_release",
        "the path is rounded to existing edges, which are opened: a staircase",
        {},
@@ -156,6 +144,19 @@ std::vector<MethodRow>& table() {
        {},
        exact_split,
        [](double) { return std::make_unique<Example>(); }},
+      {"global_remesh",
+       "the whole sheet is meshed again by CGAL with the path in it",
+       {},
+       {.exact_incision = true, .keeps_area = true, .conforming = true, .keeps_vertices = false},
+       [](double) { return std::make_unique<GlobalRemesh>(); }},
+      {"longest_edge",
+       "local split by longest-edge propagation, with Delaunay flips",
+       {"cap", 8, "vertices that the split may make, per vertex of the path; 0: flips alone"},
+       exact_split,
+       [](double cap) {
+         if (!(cap >= 0 && cap <= 100)) throw InputError("longest_edge: cap must be a number from 0 to 100");
+         return std::make_unique<LongestEdge>(LongestEdge::Options{.cap = cap});
+       }},
       {"phantom_node",
        "crossed triangles are doubled with phantom nodes, and the field is linear in each part",
        {"ghost", 0, "ghost penalty, dimensionless, for statics: usually 0.01 to 1; 0: none"},

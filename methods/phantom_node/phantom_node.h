@@ -22,7 +22,9 @@
 //  - `ghost`: a penalty on the jump of the normal derivative across the edges at which the parts of a divided parent
 //    are joined to its neighbours, `ghost` times edge length squared in K, to the fourth power in M.
 //  - a lumped mass, a third of a part's to each corner of its parent: then no part that is not slit has a larger
-//    eigenvalue than its parent (Menouillard, Rethore, Combescure and Bung, IJNME 68 (2006)).
+//    eigenvalue than its parent (Menouillard, Rethore, Combescure and Bung, IJNME 68 (2006)). A lip in a slit part
+//    stiffens copies whose mass may come from a thin part alone, the one beyond the edge. So the limit that keeps a tip
+//    closed is lower here, by the share that this part has of its parent's area.
 //
 // Source: Hansbo and Hansbo, CMAME 193 (2004); Molino, Bao and Fedkiw, A virtual node algorithm (2004); Song, Areias
 // and Belytschko, IJNME 67 (2006); Rabczuk, Zi, Gerstenberger and Wall, IJNME 75 (2008), for a jump that vanishes at a

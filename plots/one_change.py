@@ -1,0 +1,133 @@
+#!/usr/bin/env python3
+"""What one kind of change does against thin triangles, alone and with others: the mesh, the unknowns, the mass and the solver
+on the same cuts (results/one_change), the functions on the same cracks (results/one_change_accuracy). A figure and a table,
+one row per change."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.ticker import LogLocator, NullFormatter
+
+from common import load, style
+
+STEM = "one_change"
+KINDS = {"nothing": "#444444", "mesh": "#0072b2", "unknowns": "#d55e00", "functions": "#7b3294", "mass": "#009e73",
+         "solver": "#b8860b", "together": "#111111"}
+CUT = ["cut", "sheet", "resolution", "case"]
+ERROR = "error_released_energy"
+
+
+@dataclass(frozen=True)
+class Change:
+    kind: str
+    method: str = "conventional_split"
+    mass: str = "lumped"
+    solver: str = "cg"
+    tips: int = 0
+
+    def label(self):
+        parts = [self.method.replace("_", " ")] if self.kind not in ("functions", "mass", "solver") else []
+        parts += ["tip functions"] * self.tips
+        parts += [f"{self.mass} mass"] if self.mass != "lumped" else []
+        parts += [self.solver] if self.solver != "cg" else []
+        return ", ".join(parts)
+
+    def short(self):
+        """For the figure."""
+        if self.kind != "together":
+            return f"{self.kind}: {self.label()}"
+        return f"{self.method.replace('_', ' ')}, tips, {'mass, ' if self.mass != 'lumped' else ''}multigrid"
+
+
+BASE = Change("nothing")
+CHANGES = [
+    BASE, Change("mesh", "warp_and_refine"), Change("mesh", "adaptive_remesh"), Change("unknowns", "cut_polygons"),
+    Change("unknowns", "split_and_tie"), Change("unknowns", "phantom_node"), Change("functions", tips=1),
+    Change("mass", mass="stabilised"), Change("solver", solver="multigrid"),
+    Change("together", "conventional_split", "stabilised", "multigrid", 1),
+    Change("together", "warp_and_refine", "stabilised", "multigrid", 1),
+    Change("together", "adaptive_remesh", "stabilised", "multigrid", 1),
+    Change("together", "cut_polygons", "lumped", "multigrid", 1),
+]
+
+
+def ratio(here, base, column):
+    """Median over the cuts of the time over that of the baseline on the same cut."""
+    pairs = here.merge(base[CUT + [column]], on=CUT, suffixes=("", "_base"))
+    return (pairs[column] / pairs[f"{column}_base"]).median()
+
+
+def rows_of(cuts, errors):
+    """Of each change the numbers of the table, by name; sizes: the numbers of triangles."""
+    sizes = sorted(set(cuts["resolution"]))
+    rows = []
+    for change in CHANGES:
+        of_mass = cuts[(cuts["method"] == change.method) & (cuts["mass"] == change.mass)]
+        here = of_mass[of_mass["solver"] == change.solver]
+        if change.kind == "functions":  # at rest only
+            here = here[:0]
+        eigenvalue = of_mass["eigenvalue_ratio"].dropna()  # of one solver: it depends on none
+        cracks = errors[(errors["method"] == change.method) & (errors["tip_functions"] == change.tips)]
+        if change == BASE:
+            base = here
+        row = dict(zip(["eigenvalue", "95 %", "worst"], np.quantile(eigenvalue, [0.5, 0.95, 1])))
+        for n in sizes:
+            row[f"error %, {n}"] = 100 * cracks.loc[cracks["resolution"] == n, ERROR].abs().mean()
+        for n in sizes:
+            row[f"iterations, {n}"] = here.loc[here["resolution"] == n, "iterations"].median()
+        for n in sizes:
+            row[f"a step, {n}"] = ratio(here[here["resolution"] == n], base, "step_us")
+        row["first step"] = ratio(here, base, "first_step_us")
+        row["cut and update"] = ratio(here, base, "cut_update_us")
+        row["energy grew %"] = 100 * (here["verdict"] == "energy_growth").mean()
+        rows.append((change, row))
+    return rows, sizes
+
+
+def figure_of(rows, size, caption):
+    figure, axes = style.panels(1, 4, 7.6, width=style.PAGE, sharey=True)
+    panels = [("largest eigenvalue /\nuncut: median,\nline to worst", "eigenvalue"), ("error of the\nreleased energy,\n%", f"error %, {size}"),
+              ("iterations of a\nstep (hollow: of\nmultigrid)", f"iterations, {size}"), ("time of a step /\nthat of the first\nrow", f"a step, {size}")]
+    y = -np.arange(len(rows))
+    for ax, (title, column) in zip(axes[0], panels):
+        ax.set_xscale("log"), ax.set_xlabel(title, fontsize=6.5)
+        ax.axvline(rows[0][1][column], color="#999999", linewidth=0.6, linestyle="--", zorder=0)
+        for at, (change, row) in zip(y, rows):
+            colour = KINDS[change.kind]
+            if column == "eigenvalue":
+                ax.plot([row["eigenvalue"], row["worst"]], [at, at], color=colour, linewidth=0.8, alpha=0.6)
+            hollow = column.startswith("iterations") and change.solver != "cg"
+            ax.plot(row[column], at, "o", color="white" if hollow else colour, markeredgecolor=colour, markersize=4)
+        ax.axhline(0.5 - sum(change.kind != "together" for change, _ in rows), color="#999999", linewidth=0.5)
+        if column != "eigenvalue":
+            ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+            ax.xaxis.set_major_formatter(lambda x, _: f"{x:g}")
+            ax.xaxis.set_minor_formatter(NullFormatter())
+    axes[0, 0].set_yticks(y, [change.short() for change, _ in rows], fontsize=6)
+    style.finish(figure, [], caption)
+    return figure
+
+
+def main():
+    folder = load.results_folder(STEM, __doc__)
+    numbers = ["eigenvalue_ratio", "iterations", "step_us", "first_step_us", "cut_update_us"]
+    cuts = load.read_records(folder / "records.csv", load.TEXT + ["cut", "mass", "solver"] + load.COUNTS + numbers)
+    errors = load.read_records(folder.with_name("one_change_accuracy") / "records.csv",
+                               load.TEXT + ["problem", "tip_functions", ERROR] + load.COUNTS)
+    rows, sizes = rows_of(cuts, errors)
+    context = load.read_context(folder / "context.json")
+    made = cuts[CUT].drop_duplicates()
+    drawn = made[made["resolution"] == sizes[-1]]
+    style.save(figure_of(rows, sizes[-1], (
+        f"Left is good. Above the line one change of conventional split, lumped mass and CG; below it several together (tips: tip functions, mass: stabilised). {sizes[-1]} triangles, "
+        f"{len(drawn)} cuts (eigenvalues: {len(made)}, also of {sizes[0]} triangles). Errors: {errors['problem'].nunique()} cracks at rest, where mass "
+        "and solver change nothing; steps are without tip functions. "
+        f"Commit {str(context.get('commit'))[:10]}, seed {context.get('seed')}.")), folder, STEM)
+    load.print_table("Each change alone, and together: largest eigenvalue over the uncut sheet's (median, 95 %, worst), mean error of the released "
+                     "energy at cracks, iterations of a step (median); medians of times over those of the first row on the same cuts; share of "
+                     "motions in which energy grew", ["change", "by", *rows[0][1]],
+                     [[change.kind, change.label(), *row.values()] for change, row in rows])
+
+
+if __name__ == "__main__":
+    main()
