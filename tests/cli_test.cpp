@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include "harness/records/record.h"
@@ -159,6 +160,31 @@ TEST_F(Cli, RunWritesOneRowPerRepetition) {
                           "seed", "command", "claim"})
     EXPECT_TRUE(context.contains(key)) << key;
   EXPECT_NE(result.out.find("bowyer_watson"), std::string::npos);  // the table
+}
+
+/// They depend on the sheet and the size alone: a part of the run has the same.
+TEST_F(Cli, EachSheetAndSizeDrawsItsOwnCuts) {
+  const std::string text = small_experiment("quality = false\n");
+  write(folder_ / "shared.toml", text);
+  write(folder_ / "own.toml", text + "own_cuts = true\n");
+  std::string both = text + "own_cuts = true\n";
+  both.replace(both.find("[200]"), 5, "[200, 800]");
+  write(folder_ / "both.toml", both);
+  for (const std::string stem : {"shared", "own", "both"}) ASSERT_EQ(run("run " + stem + ".toml --out r").code, 0);
+  const auto curves = [&](const std::string& stem, const std::string& resolution) {
+    std::set<std::string> found;  // by what only the same curve gives on the same sheet
+    for (const std::string& line : lines_of(read(folder_ / "r" / stem / "records.csv"))) {
+      const Record row(column_names(), line);
+      if (row.get("resolution") != resolution || row.get("repetition") != "0") continue;
+      std::string key;
+      for (const char* column : {"sheet", "cut_family", "case", "incision_error_h"}) key += row.get(column), key += ' ';
+      found.insert(key);
+    }
+    return found;
+  };
+  const auto own = curves("own", "200"), shared = curves("shared", "200");
+  EXPECT_EQ(curves("both", "200"), own);
+  for (const std::string& curve : own) EXPECT_FALSE(shared.contains(curve)) << curve;
 }
 
 TEST_F(Cli, RunIsDeterministic) {

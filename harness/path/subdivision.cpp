@@ -21,14 +21,14 @@ int Subdivision::face_of(TriangleIndex t) {
   return face_of_.at(t);
 }
 
-int Subdivision::node_of(const Place& place) {
-  if (place.kind == Place::Kind::edge) return node_on_edge(place);
-  if (place.kind == Place::Kind::face) return node_inside(place);
+int Subdivision::node_of(const Place& place, double merging_distance) {
+  if (place.kind == Place::Kind::edge) return node_on_edge(place, merging_distance);
+  if (place.kind == Place::Kind::face) return node_inside(place, merging_distance);
   if (node_at_.insert(place.vertex, static_cast<int>(nodes.size()))) nodes.push_back({place, place.vertex, -1});
   return node_at_.at(place.vertex);
 }
 
-int Subdivision::node_on_edge(Place place) {
+int Subdivision::node_on_edge(Place place, double merging_distance) {
   if (const HalfEdge h = first_half_edge(*sheet_, place.edge); h != place.edge)
     place.edge = h, place.lambda = 1 - place.lambda;
   const HalfEdge o = sheet_->opposite(place.edge);
@@ -36,7 +36,7 @@ int Subdivision::node_on_edge(Place place) {
   int& head = face(left).on_edge[static_cast<std::size_t>(corner_of(place.edge))];
   int before = -1, after = head;
   for (; after >= 0; before = after, after = node(after).next) {
-    if (within(node(after).place.point, place.point, sheet_->snap())) return after;
+    if (within(node(after).place.point, place.point, merging_distance)) return after;
     if (node(after).place.lambda > place.lambda) break;
   }
   const int made = static_cast<int>(nodes.size());
@@ -53,10 +53,10 @@ int Subdivision::node_on_edge(Place place) {
   return made;
 }
 
-int Subdivision::node_inside(const Place& place) {
+int Subdivision::node_inside(const Place& place, double merging_distance) {
   int& head = face(face_of(place.face)).inside;
   for (int i = head; i >= 0; i = node(i).next)
-    if (within(node(i).place.point, place.point, sheet_->snap())) return i;
+    if (within(node(i).place.point, place.point, merging_distance)) return i;
   nodes.push_back({place, {}, head});
   return head = static_cast<int>(nodes.size() - 1);
 }

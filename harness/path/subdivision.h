@@ -63,7 +63,9 @@ class Subdivision {
   int find_face(TriangleIndex t) const { return face_of_.get(t, -1); }
   /// The node at a place; one that lies within the snap distance on the same edge or in the same triangle is taken for
   /// it.
-  int node_of(const Place& place);
+  int node_of(const Place& place) { return node_of(place, sheet_->snap()); }
+  /// A node of its own at a place inside an edge or a triangle, however near the others are. \pre none is at that point.
+  int add_node(const Place& place) { return node_of(place, -1); }
   void add_segment(int face, int from, int to);
   void add_along(int from, int to, HalfEdge edge);
   /// The first node on an edge, given by its first half; -1 where there is none.
@@ -82,8 +84,9 @@ class Subdivision {
   std::size_t crossed_triangles() const;
 
  private:
-  int node_on_edge(Place place);
-  int node_inside(const Place& place);
+  int node_of(const Place& place, double merging_distance);
+  int node_on_edge(Place place, double merging_distance);
+  int node_inside(const Place& place, double merging_distance);
 
   const Sheet* sheet_ = nullptr;
   StampedTable<TriangleIndex, int> face_of_;

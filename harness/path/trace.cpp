@@ -102,7 +102,8 @@ bool Tracer::is_free(const Place& place) const {
   return true;
 }
 
-/// One edge between two tips has nothing to open, since tips stay whole: it gets a node in between, on the path.
+/// One edge between two tips has nothing to open, since tips stay whole: it gets a node in between, on the path. Between
+/// tips less than two snap distances apart, too.
 void Tracer::split_lone_piece() {
   const Place a = trace_.node(0).place, b = trace_.node(1).place;
   if (!is_free(a) || !is_free(b)) return;
@@ -113,18 +114,19 @@ void Tracer::split_lone_piece() {
     Place place;
     place.kind = Place::Kind::edge, place.edge = h;
     place.lambda = dot(middle - from, edge) / dot(edge, edge), place.point = from + place.lambda * edge;
-    trace_.node_of(place);
+    trace_.add_node(place);
   } else if (!trace_.segments.empty()) {
     const TrianglePassage& only = passages_.front();
     const auto crossed = std::find_if(trace_.faces.begin(), trace_.faces.end(),
                                       [](const Subdivision::Face& face) { return face.segments >= 0; });
     const TriangleIndex t = crossed->triangle;
     int node = only.count > 0 ? trace_.node_of(place_in(t, point(only.first + only.count / 2))) : 0;
-    if (node < 2) node = trace_.node_of(place_in(t, middle));  // a path that goes to and fro
+    if (node < 2) node = trace_.add_node(place_in(t, middle));  // a path that goes to and fro
     // Once more in the order of the path, in which methods insert them: else an edge from tip to tip might come first.
     const Place between = trace_.node(node).place;
     trace_.reset(*sheet_);
-    const int face = trace_.face_of(t), from = trace_.node_of(a), at = trace_.node_of(between), to = trace_.node_of(b);
+    const int face = trace_.face_of(t), from = trace_.add_node(a), at = trace_.add_node(between),
+              to = trace_.add_node(b);
     trace_.add_segment(face, from, at), trace_.add_segment(face, at, to);
   }
 }

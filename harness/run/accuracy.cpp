@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "harness/base/own_seed.h"
 #include "harness/base/progress.h"
 #include "harness/cut/cut_all.h"
 #include "harness/judge/assessment.h"
@@ -118,13 +119,6 @@ class AccuracyRun {
     return problem.takes_budgets() ? budgets_ : direct_;
   }
 
-  /// Each problem draws its own members, so that one lucky position doesn't tell in all of them. FNV-1a of the name.
-  std::uint64_t seed_of(const Problem& problem) const {
-    std::uint64_t hash = 0xCBF29CE484222325u;
-    for (const char c : problem.name()) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3u;
-    return experiment_.seed ^ hash;
-  }
-
   void run_member(const Problem& problem, const std::string& family, int resolution, std::size_t i) {
     Record start(accuracy_columns());
     start.set("suite_version", std::string(suite_version)), start.set("problem", problem.name());
@@ -144,7 +138,8 @@ class AccuracyRun {
                     [&](const Worker& worker) { return is_done(of_worker(worker), problem); }))
       return;
 
-    const Specimen specimen = problem.specimen(family, squares_per_side(resolution), seed_of(problem), i);
+    const Specimen specimen =
+        problem.specimen(family, squares_per_side(resolution), own_seed(experiment_.seed, problem.name()), i);
     const BaseSheet base{Sheet(specimen.mesh)};
     Yardstick yardstick;
     if (plan_.reference) yardstick = run_reference(problem, specimen, base, of_reference);

@@ -149,8 +149,8 @@ Experiment read_experiment(const std::filesystem::path& file) {
   else if (is_atlas)
     known.insert(known.end(), {"sweeps", "cases", "time_limit_s"});
   else
-    known.insert(known.end(), {"cases", "cut_families", "repetitions", "times", "cold", "quality", "eigenvalue_cases",
-                               "every_edge", "scene", "cut_time", "scene_cases"});
+    known.insert(known.end(), {"cases", "own_cuts", "cut_families", "repetitions", "times", "cold", "quality",
+                               "eigenvalue_cases", "every_edge", "scene", "cut_time", "scene_cases"});
   check_keys(table, known, name);
   const TomlReader reader{table, name};
   Experiment e;
@@ -186,6 +186,7 @@ Experiment read_experiment(const std::filesystem::path& file) {
   e.seed = static_cast<std::uint64_t>(reader.value<std::int64_t>("seed", 1));
   e.cases = reader.count("cases", is_atlas ? 1000000 : 1), e.repetitions = reader.count("repetitions", 1);
   e.cold = reader.value<bool>("cold", false), e.quality = reader.value<bool>("quality", true);
+  e.own_cuts = reader.value<bool>("own_cuts", false);
   e.eigenvalue_cases = reader.count("eigenvalue_cases", 0, 0);
   e.every_edge = reader.value<bool>("every_edge", false);
   e.times = reader.value<bool>("times", true);

@@ -57,6 +57,7 @@ struct Experiment {
   std::uint64_t seed = 1;                 ///< for development; published figures use --seed commit
   int cases = 1;                  ///< per sheet, resolution and cut family; of a campaign per sheet and resolution; of
                                   ///< an atlas the most of a point
+  bool own_cuts = false;          ///< each sheet and size has cuts of its own, instead of the same as all others
   int repetitions = 1;            ///< of each cut, warm
   bool times = true;              ///< false: no times are recorded, and all cores may work
   bool cold = false;              ///< cut once more with cold caches

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/base/isolated.h"
+#include "harness/base/own_seed.h"
 #include "harness/base/progress.h"
 #include "harness/cases/cut_families.h"
 #include "harness/cut/cut_all.h"
@@ -101,7 +102,8 @@ class Runner {
                           e.scene_text,
                           e.cut_time,
                           e.scene_cases,
-                          e.eigenvalue_cases}
+                          e.eigenvalue_cases,
+                          e.own_cuts}
                .dump() +
            shard_line(options);
   }
@@ -111,7 +113,9 @@ class Runner {
   }
 
   Case drawn(const std::string& sheet, int resolution, const std::string& family, std::size_t i) const {
-    return {sheet, family, resolution, i, make_case(family, experiment_.seed, i, base_.sheet), {}};
+    std::uint64_t seed = experiment_.seed;
+    if (experiment_.own_cuts) seed = own_seed(own_seed(seed, sheet), std::to_string(resolution));
+    return {sheet, family, resolution, i, make_case(family, seed, i, base_.sheet), {}};
   }
 
   Record start_row(const Case& c, const std::string& method, const std::string& knob, int repetition,

@@ -63,7 +63,7 @@ void PathGraph::write(Subdivision& trace) const {
   trace.reset(*sheet_);
   std::vector<int> number(nodes_.size(), -1);
   for (std::size_t i = 0; i < nodes_.size(); ++i)
-    if (!nodes_[i].gone) number[i] = trace.node_of(nodes_[i].place);
+    if (!nodes_[i].gone) number[i] = trace.add_node(nodes_[i].place);
   for (const Piece& piece : pieces_) {
     if (piece.gone) continue;
     const int from = number[static_cast<std::size_t>(piece.from)], to = number[static_cast<std::size_t>(piece.to)];
