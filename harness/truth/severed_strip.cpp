@@ -94,7 +94,9 @@ class SeveredStrip : public Problem {
  public:
   SeveredStrip(Integrator integrator, double step) : integrator_(integrator), step_(step) {}
 
-  std::string name() const override { return std::string("severed_strip_").append(name_of(integrator_names, integrator_)); }
+  std::string name() const override {
+    return std::string("severed_strip_").append(name_of(integrator_names, integrator_));
+  }
   std::string effect() const override { return "the halves of a stretched strip cut across swing back"; }
   std::string truth() const override { return "a bar released at one end: a triangle wave (nu = 0; Graff 2.1, 2.2)"; }
   std::vector<std::string> measures() const override { return {"lip_motion", "lip_speed", "arrival", "energy_kept"}; }
