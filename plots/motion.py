@@ -23,14 +23,13 @@ def names_of(everything, failed):
     for method in made.groupby("method")[MEASURE].mean().sort_values().index:
         rows = everything["method"] == method
         lost = int((rows & failed).sum())
-        names[method] = method.replace("_", " ") + (f" ({lost} of {int(rows.sum())} not made)" if lost else "")
+        names[method] = method.replace("_", " ") + (f" ({lost} of {int(rows.sum())} refused or failed)" if lost else "")
     return names
 
 
 def figure_of(run, table, names):
     figure, axes = style.panels(1, len(PROBLEMS), 8.6, width=style.PAGE, sharey=True)
     sizes = sorted(set(table["resolution"]))
-    # A method that refuses some sheets is compared with the mesh fitted to the cut on the others alone.
     for ax, (problem, title) in zip(axes[0], PROBLEMS.items()):
         here = table[table["problem"] == problem]
         for size, colour, marker in zip(sizes, COLOURS, MARKERS):
@@ -51,7 +50,7 @@ def figure_of(run, table, names):
              for size, colour, marker in zip(sizes, COLOURS, MARKERS)]
     style.finish(figure, [], " ".join([
         "Root mean square over one period of the lips' displacement against a released bar, over its amplitude; means over "
-        "four sheets and the members. Step: a wave passes one square. Of each problem:",
+        "four sheets (cisamr: the two it takes) and the members. Step: a wave passes one square. Of each problem:",
         style.provenance(run, table, with_crosses=False, per=("problem", "resolution"))]), lines)
     return figure
 
