@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iostream>
 #include <numbers>
 
 #include "tests/truth_helpers.h"
@@ -105,6 +106,31 @@ TEST(SeveredStrip, WrongCutsHaveLargerErrors) {
   const Budget direct;
   EXPECT_EQ(problem->answer(specimen, cut_by(specimen, "conventional_split"), {&direct, 1}).front().verdict,
             "not_severed");
+}
+
+/// A path on a column of vertices cuts through no triangle: what it errs by beyond the fitted mesh is due to the sheet.
+TEST(SeveredStrip, SliversDoNotShowAndAMovedPathDoes) {
+  const auto problem = severed_strip(Integrator::midpoint);
+  constexpr int n = 30;
+  for (const char* family : {"grid", "alternating"})
+    for (const double off : {0.0, 1e-5, 1e-3, 0.1, 0.3, 0.5}) {
+      Specimen specimen = problem->specimen(family, n, 1, 1);
+      const double a = (15 + off) / n;
+      specimen.origin = {a, 0};
+      specimen.cuts = {{Curve::Kind::polyline, false, {{a, -0.1}, {a, 1.1}}}};
+      const double fitted = error_of(*problem, specimen, body_fitted(specimen), "lip_motion");
+      const double split = error_of(*problem, specimen, cut_by(specimen, "conventional_split"), "lip_motion");
+      const double released = error_of(*problem, specimen, cut_by(specimen, "edge_release"), "lip_motion");
+      std::cout << family << ", " << off << " squares from a column: conventional_split " << 100 * (split / fitted - 1)
+                << " %, edge_release " << 100 * (released / fitted - 1) << " % over the fitted mesh\n";
+      EXPECT_LT(split, 1.1 * fitted) << off;
+      if (off < 0.01) {
+        EXPECT_NEAR(released, split, 0.01 * split) << off;
+      }
+      if (off > 0.2) {
+        EXPECT_GT(released, 1.5 * split) << off;
+      }
+    }
 }
 
 }  // namespace
