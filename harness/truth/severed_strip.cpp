@@ -98,7 +98,7 @@ class SeveredStrip : public Problem {
     return std::string("severed_strip_").append(name_of(integrator_names, integrator_));
   }
   std::string effect() const override { return "the halves of a stretched strip cut across swing back"; }
-  std::string truth() const override { return "a bar released at one end: a triangle wave (nu = 0; Graff 2.1, 2.2)"; }
+  std::string truth() const override { return "a bar released at one end: a triangle wave (nu = 0; Graff, chapter 2)"; }
   std::vector<std::string> measures() const override { return {"lip_motion", "lip_speed", "arrival", "energy_kept"}; }
   bool takes_budgets() const override { return false; }
   bool takes_ties() const override { return true; }
