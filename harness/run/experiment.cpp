@@ -60,7 +60,9 @@ Experiment::Accuracy read_accuracy(const TomlReader& reader, const std::vector<i
   Experiment::Accuracy accuracy;
   const bool all = !reader.table["problems"].is_array() && reader.value<std::string>("problems", "all") == "all";
   if (all)
-    for (const auto& problem : all_problems()) accuracy.problems.push_back(problem->name());
+    for (const auto& problem : all_problems()) {
+      if (!problem->in_motion()) accuracy.problems.push_back(problem->name());
+    }
   else
     accuracy.problems = reader.list<std::string>("problems");
   for (const auto& name : accuracy.problems) find_problem(name);

@@ -70,6 +70,7 @@ class Problem {
   virtual bool takes_budgets() const { return true; }  ///< false: several linear solves, solved directly only
   /// False: it bends, which it does at the sheet's own vertices alone.
   virtual bool takes_ties() const { return takes_budgets(); }
+  virtual bool in_motion() const { return false; }      ///< not at rest: "all" of an experiment leaves it out
   virtual bool takes_polygons() const { return true; }  ///< false: it changes the cut sheet once more
 
   /// Member `index` on a sheet of `family` (sheet_families()) with 2 n^2 triangles; depends on the arguments alone.
