@@ -10,7 +10,7 @@ void SplitAndTie::embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) {
 }
 
 Ties SplitAndTie::ties(const Sheet& before, const Sheet& cut) const {
-  return tie_slivers(before, cut, options_.thinness);
+  return tie_slivers(before, cut, options_.thinness, true);
 }
 
 }  // namespace cutbench

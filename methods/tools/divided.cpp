@@ -7,13 +7,10 @@
 
 namespace cutbench {
 
-namespace {
-
-/// The triangles round the vertices that `before` has not.
-std::vector<TriangleIndex> new_triangles(const Sheet& before, const Sheet& cut) {
+std::vector<TriangleIndex> new_triangles(const Sheet& before, const Sheet& cut, bool only_divided) {
   std::vector<TriangleIndex> found;
-  const bool slots_were_free = before.vertex_count() != before.vertex_slots();
-  for (std::size_t v = slots_were_free ? 0 : before.vertex_slots(); v < cut.vertex_slots(); ++v) {
+  const bool reused_slots = !only_divided || before.vertex_count() != before.vertex_slots();
+  for (std::size_t v = reused_slots ? 0 : before.vertex_slots(); v < cut.vertex_slots(); ++v) {
     if (!cut.triangle_of_vertex(VertexIndex(v)).valid() || !cut.is_newer(VertexIndex(v), before)) continue;
     const HalfEdge first = cut.first_outgoing(VertexIndex(v));
     HalfEdge h = first;
@@ -24,8 +21,6 @@ std::vector<TriangleIndex> new_triangles(const Sheet& before, const Sheet& cut) 
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
-
-}  // namespace
 
 TriangleIndex triangle_at(const Sheet& sheet, TriangleIndex start, Point2 p) {
   const auto step = [&](TriangleIndex t) {  // itself where it holds p, invalid beyond the border
@@ -51,7 +46,7 @@ TriangleIndex triangle_at(const Sheet& sheet, TriangleIndex start, Point2 p) {
 
 std::vector<DividedTriangle> divided_triangles(const Sheet& before, const Sheet& cut) {
   std::vector<DividedTriangle> divided;
-  for (const TriangleIndex t : new_triangles(before, cut)) {
+  for (const TriangleIndex t : new_triangles(before, cut, true)) {
     // A part keeps its parent's slot, and slots follow the path: the walk is short.
     TriangleIndex start = t() < before.triangle_slots() ? t : divided.back().parent;
     const auto c = cut.corners(t);

@@ -17,9 +17,13 @@ struct DividedTriangle {
 /// Where that takes it past the border, the last triangle before it.
 TriangleIndex triangle_at(const Sheet& sheet, TriangleIndex start, Point2 p);
 
-/// The triangles of `cut` that are new, in the order of their slots: those with a vertex that `before` has not. Free for
-/// a sheet of which no cut has freed a vertex, else it looks at all vertices.
-/// \param before  the sheet before its first cut, of which `cut` is a copy that was divided, but not changed otherwise
+/// The triangles of `cut` that are new, in the order of their slots: those with a vertex that `before` has not.
+/// \param before  the sheet before its first cut
+/// \param only_divided  `cut` is a copy of it that was divided, but not changed otherwise. Then it looks at new slots alone,
+///                      if `before` has no free ones, else at all vertices.
+std::vector<TriangleIndex> new_triangles(const Sheet& before, const Sheet& cut, bool only_divided);
+
+/// The same, with the triangles that they are parts of. `cut` was only divided.
 std::vector<DividedTriangle> divided_triangles(const Sheet& before, const Sheet& cut);
 
 }  // namespace cutbench

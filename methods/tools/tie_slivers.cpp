@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <tuple>
 #include <vector>
+
+#include "methods/tools/divided.h"
 
 namespace cutbench {
 
@@ -14,9 +17,13 @@ namespace {
 /// The ties of one cut sheet.
 class Tying {
  public:
-  Tying(const Sheet& before, const Sheet& cut, double thinness) : sheet_(cut), thinness_(thinness), before_(before) {
-    measure();
-    collect();
+  Tying(const Sheet& before, const Sheet& cut, double thinness, bool only_divided)
+      : sheet_(cut),
+        thinness_(thinness),
+        before_(before),
+        longest_(cut.vertex_slots()),
+        number_(cut.deformed_slots(), -1) {
+    collect(new_triangles(before, cut, only_divided));
   }
 
   Ties run() {
@@ -40,8 +47,10 @@ class Tying {
     DeformedIndex vertex;
     std::size_t begin, end;
     bool tip;
-    double scale;     ///< L, of the triangles round it
-    double altitude;  ///< the smallest, over L of its triangle
+    double scale;                            ///< L, of the triangles round it
+    double altitude;                         ///< the smallest, over L of its triangle
+    DeformedIndex stands_for = {};           ///< itself where it is free, the nearest free one where it is tied
+    std::array<DeformedIndex, 2> flat = {};  ///< the edge that it is too near to, where it is tied for that
   };
 
   bool is_new(VertexIndex v) const { return sheet_.is_newer(v, before_); }
@@ -53,32 +62,42 @@ class Tying {
   static double altitude(const std::array<Point2, 3>& c, std::size_t k) { return twice_area(c) / edge(c, (k + 1) % 3); }
 
   /// L of a triangle.
-  double scale(TriangleIndex t) const {
+  double scale(TriangleIndex t) {
     const auto& v = triangle(t).vertex;
-    return std::max({longest_[v[0]()], longest_[v[1]()], longest_[v[2]()]});
+    return std::max({longest(v[0]), longest(v[1]), longest(v[2])});
   }
 
-  void measure() {
-    longest_.assign(sheet_.vertex_slots(), 0);
-    for (std::size_t i = 0; i < sheet_.triangle_slots(); ++i) {
-      if (!triangle(TriangleIndex(i)).alive()) continue;
-      const auto corners = sheet_.corners(TriangleIndex(i));
-      const double longest = std::max({edge(corners, 0), edge(corners, 1), edge(corners, 2)});
-      for (const VertexIndex v : triangle(TriangleIndex(i)).vertex) longest_[v()] = std::max(longest_[v()], longest);
-    }
+  /// Edge of the triangles round a vertex.
+  double longest(VertexIndex v) {
+    double& longest = longest_[v()];
+    if (longest > 0) return longest;
+    for_each_round(v, [&](HalfEdge h) {
+      const auto corners = sheet_.corners(triangle_of(h));
+      longest = std::max({longest, edge(corners, 0), edge(corners, 1), edge(corners, 2)});
+    });
+    return longest;
   }
 
-  void collect() {
-    std::vector<std::uint8_t> copies(sheet_.vertex_slots());
-    for (std::size_t d = 0; d < sheet_.deformed_slots(); ++d)
-      if (const VertexIndex v = sheet_.rest_vertex(DeformedIndex(d)); v.valid())
-        copies[v()] = static_cast<std::uint8_t>(std::min(copies[v()] + 1, 2));
-    for (std::size_t i = 0; i < sheet_.triangle_slots(); ++i) {
-      const TriangleIndex t(i);
-      if (!triangle(t).alive()) continue;
+  template <class Visit>
+  void for_each_round(VertexIndex v, Visit visit) const {
+    const HalfEdge first = sheet_.first_outgoing(v);
+    HalfEdge h = first;
+    do visit(h);
+    while ((h = sheet_.next_outgoing(h)).valid() && h != first);
+  }
+
+  bool has_one_copy(DeformedIndex d) const {
+    bool one = true;
+    for_each_round(sheet_.rest_vertex(d), [&](HalfEdge h) {
+      one &= triangle(triangle_of(h)).deformed[static_cast<std::size_t>(corner_of(h))] == d;
+    });
+    return one;
+  }
+
+  void collect(const std::vector<TriangleIndex>& triangles) {
+    for (const TriangleIndex t : triangles)
       for (std::size_t k = 0; k < 3; ++k)
         if (is_new(triangle(t).vertex[k])) corners_.push_back({triangle(t).deformed[k], t, k});
-    }
     std::sort(corners_.begin(), corners_.end(), [](const Corner& a, const Corner& b) {
       return std::tuple(a.vertex, a.triangle) < std::tuple(b.vertex, b.triangle);
     });
@@ -90,38 +109,41 @@ class Tying {
         smallest = std::min(smallest, altitude(sheet_.corners(t), corners_[end].corner) / scale(t));
         largest_scale = std::max(largest_scale, scale(t));
       }
-      new_.push_back({d, begin, end, copies[sheet_.rest_vertex(d)()] == 1, largest_scale, smallest});
+      new_.push_back({d, begin, end, has_one_copy(d), largest_scale, smallest});
     }
   }
 
   void choose_free() {
-    stands_for_.resize(sheet_.deformed_slots()), number_.assign(sheet_.deformed_slots(), -1);
-    flat_.resize(sheet_.deformed_slots());
-    for (std::size_t d = 0; d < stands_for_.size(); ++d)
-      if (const VertexIndex v = sheet_.rest_vertex(DeformedIndex(d)); v.valid() && !is_new(v))
-        stands_for_[d] = DeformedIndex(d);
     std::sort(new_.begin(), new_.end(), [](const New& a, const New& b) {
       return std::tuple(!a.tip, -a.altitude, a.vertex) < std::tuple(!b.tip, -b.altitude, b.vertex);
     });
-    for (std::size_t i = 0; i < new_.size(); ++i) number_[new_[i].vertex()] = static_cast<int>(i);
-    for (const New& v : new_) {
+    for (std::size_t i = 0; i < new_.size(); ++i) number_[new_[i].vertex()] = static_cast<std::int32_t>(i);
+    for (New& v : new_) {
       const DeformedIndex nearest = nearest_free(v);
-      stands_for_[v.vertex()] = nearest.valid() ? nearest : v.vertex;
+      v.stands_for = nearest.valid() ? nearest : v.vertex;
     }
     for (auto v = new_.rbegin(); v != new_.rend(); ++v)
       if (is_free(v->vertex)) flatten(*v);
-    for (const New& v : new_) {
-      DeformedIndex& stand_in = stands_for_[v.vertex()];
+    for (New& v : new_) {
       if (is_free(v.vertex)) continue;
-      if (const DeformedIndex nearest = nearest_free(v); nearest.valid()) stand_in = nearest;
-      stand_in = free_for(stand_in);
+      if (const DeformedIndex nearest = nearest_free(v); nearest.valid()) v.stands_for = nearest;
+      v.stands_for = free_for(v.stands_for);
     }
   }
 
-  bool is_free(DeformedIndex d) const { return stands_for_[d()] == d; }
+  /// Nothing for old vertices.
+  const New* find_new(DeformedIndex d) const {
+    const std::int32_t number = number_[d()];
+    return number >= 0 ? &new_[static_cast<std::size_t>(number)] : nullptr;
+  }
+  DeformedIndex stand_in(DeformedIndex d) const {
+    const New* const v = find_new(d);
+    return v ? v->stands_for : d;
+  }
+  bool is_free(DeformedIndex d) const { return stand_in(d) == d; }
   /// What stands for d, by way of what has been tied itself since.
   DeformedIndex free_for(DeformedIndex d) const {
-    while (!is_free(d)) d = stands_for_[d()];
+    while (!is_free(d)) d = stand_in(d);
     return d;
   }
   Point2 place(DeformedIndex d) const { return sheet_.rest(sheet_.rest_vertex(d)); }
@@ -133,25 +155,25 @@ class Tying {
     double distance = thinness_ * v.scale;
     near_.assign(1, v.vertex);
     for (std::size_t i = 0; i < near_.size(); ++i) {
-      const New& other = new_[static_cast<std::size_t>(number_[near_[i]()])];
+      const New& other = *find_new(near_[i]);
       for (std::size_t j = other.begin; j < other.end; ++j)
         for (const DeformedIndex d : triangle(corners_[j].triangle).deformed) {
           const double away = length(place(d) - p);
           if (d == v.vertex || away >= thinness_ * v.scale) continue;
           if (is_free(d) && away < distance) nearest = d, distance = away;
-          if (number_[d()] >= 0 && std::find(near_.begin(), near_.end(), d) == near_.end()) near_.push_back(d);
+          if (find_new(d) && std::find(near_.begin(), near_.end(), d) == near_.end()) near_.push_back(d);
         }
     }
     return nearest;
   }
 
-  bool is_stiff(const std::array<Point2, 3>& corners, std::size_t k, TriangleIndex t) const {
+  bool is_stiff(const std::array<Point2, 3>& corners, std::size_t k, TriangleIndex t) {
     return altitude(corners, k) < thinness_ * scale(t);
   }
 
   /// Ties a free vertex that is too near to an edge, as it is when corners tied to a near one are drawn to it, unless
   /// a corner there has been tied for that vertex's sake.
-  void flatten(const New& v) {
+  void flatten(New& v) {
     double thinnest = thinness_;
     DeformedIndex nearer;
     for (std::size_t i = v.begin; i < v.end; ++i) {
@@ -162,22 +184,27 @@ class Tying {
       std::array<Point2, 3> c;
       draw(t, drawn, c);
       for (std::size_t k = 0; k < 3; ++k)
-        if (const DeformedIndex own = triangle(t).deformed[k]; flat_[own()][0].valid()) c[k] = place(own);
+        if (const DeformedIndex own = triangle(t).deformed[k]; flat(own)[0].valid()) c[k] = place(own);
       const std::size_t next = (corner + 1) % 3, last = (corner + 2) % 3;
       if (drawn[next] == drawn[last] || drawn[next] == d || drawn[last] == d) continue;
       const double height = std::abs(altitude(c, corner)) / scale(t);
       if (height >= thinnest) continue;
       const auto yields = [&](std::size_t k) {
-        const auto& edge = flat_[triangle(t).deformed[k]()];
+        const auto edge = flat(triangle(t).deformed[k]);
         return edge[0] == d || edge[1] == d;
       };
       if (yields(next) || yields(last)) continue;
       thinnest = height;
-      flat_[d()] = {drawn[next], drawn[last]};
+      v.flat = {drawn[next], drawn[last]};
       const bool next_is_nearer = squared_length(c[next] - c[corner]) < squared_length(c[last] - c[corner]);
       nearer = next_is_nearer ? drawn[next] : drawn[last];
     }
-    if (nearer.valid()) stands_for_[v.vertex()] = nearer;
+    if (nearer.valid()) v.stands_for = nearer;
+  }
+
+  std::array<DeformedIndex, 2> flat(DeformedIndex d) const {
+    const New* const v = find_new(d);
+    return v ? v->flat : std::array<DeformedIndex, 2>{};
   }
 
   void draw(TriangleIndex t, std::array<DeformedIndex, 3>& drawn, std::array<Point2, 3>& corners) const {
@@ -190,10 +217,10 @@ class Tying {
   /// What the vertex may not move against: what stands for it, and for the other stiff corners of its thinnest
   /// triangle.
   void find_companions(const New& v) {
-    companions_.assign(1, stands_for_[v.vertex()]);
-    if (flat_[v.vertex()][0].valid()) {
-      for (const DeformedIndex d : flat_[v.vertex()])
-        if (stands_for_[d()] != companions_[0]) companions_.push_back(stands_for_[d()]);
+    companions_.assign(1, v.stands_for);
+    if (v.flat[0].valid()) {
+      for (const DeformedIndex d : v.flat)
+        if (stand_in(d) != companions_[0]) companions_.push_back(stand_in(d));
       return;
     }
     double thinnest = std::numeric_limits<double>::infinity();
@@ -204,14 +231,14 @@ class Tying {
       thinnest = altitude(corners, corner) / scale(t);
       companions_.resize(1);
       for (std::size_t k = 0; k < 3; ++k)
-        if (const DeformedIndex other = stands_for_[triangle(t).deformed[k]()];
+        if (const DeformedIndex other = stand_in(triangle(t).deformed[k]);
             k != corner && other != companions_[0] && is_stiff(corners, k, t))
           companions_.push_back(other);
     }
   }
 
   /// The triangle when tied vertices are drawn to those that stand for them; false where it is no good one then.
-  bool lead(TriangleIndex t, std::array<DeformedIndex, 3>& masters, std::array<Point2, 3>& corners) const {
+  bool lead(TriangleIndex t, std::array<DeformedIndex, 3>& masters, std::array<Point2, 3>& corners) {
     draw(t, masters, corners);
     const double longest = std::max({edge(corners, 0), edge(corners, 1), edge(corners, 2)});
     return longest > 0 && twice_area(corners) >= thinness_ * scale(t) * longest;
@@ -255,18 +282,19 @@ class Tying {
   const Sheet& sheet_;
   double thinness_;
   const Sheet& before_;
-  std::vector<double> longest_;                     // per vertex: edge of the triangles round it
-  std::vector<Corner> corners_;                     // by vertex
-  std::vector<New> new_;                            // in the order in which they are made free
-  std::vector<DeformedIndex> stands_for_;           // itself where it is free, the nearest free one where it is tied
-  std::vector<std::array<DeformedIndex, 2>> flat_;  // the edge that a vertex is too near to, where it is tied for that
-  std::vector<int> number_;                         // in new_; -1 for old vertices
-  std::vector<TriangleIndex> seen_;                 // working storage, as the next two
+  // Filling these two is all that takes the longer, the larger the sheet is.
+  std::vector<double> longest_;       // per vertex; 0: not asked for yet
+  std::vector<std::int32_t> number_;  // in new_, per vertex of the opened sheet; -1 for old ones
+  std::vector<Corner> corners_;       // by vertex
+  std::vector<New> new_;              // in the order in which they are made free
+  std::vector<TriangleIndex> seen_;   // working storage, as the next two
   std::vector<DeformedIndex> near_, companions_;
 };
 
 }  // namespace
 
-Ties tie_slivers(const Sheet& before, const Sheet& cut, double thinness) { return Tying(before, cut, thinness).run(); }
+Ties tie_slivers(const Sheet& before, const Sheet& cut, double thinness, bool only_divided) {
+  return Tying(before, cut, thinness, only_divided).run();
+}
 
 }  // namespace cutbench

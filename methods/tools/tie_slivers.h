@@ -31,8 +31,10 @@
 
 namespace cutbench {
 
-/// Cost: the whole sheet. \param before  the sheet before its first cut: its vertices are never constrained.
+/// \param before  the sheet before its first cut: its vertices are never constrained.
 /// \param thinness  of a sliver: altitude over L, >= 0; 0 constrains nothing
-Ties tie_slivers(const Sheet& before, const Sheet& cut, double thinness);
+/// \param only_divided  `cut` was divided, but not changed otherwise. Then the cost is that of the neighbourhood of the cuts,
+///                      else it looks at all vertices, too (new_triangles()).
+Ties tie_slivers(const Sheet& before, const Sheet& cut, double thinness, bool only_divided);
 
 }  // namespace cutbench

@@ -24,7 +24,7 @@ void WarpAndRefine::improve(Sheet& sheet, MethodNotes& notes) {
 }
 
 Ties WarpAndRefine::ties(const Sheet& before, const Sheet& cut) const {
-  return options_.after == After::tie ? tie_slivers(before, cut, options_.thinness) : Ties{};
+  return options_.after == After::tie ? tie_slivers(before, cut, options_.thinness, false) : Ties{};
 }
 
 }  // namespace cutbench
