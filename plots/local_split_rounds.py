@@ -19,4 +19,5 @@ def main():
                      ["rounds", "triangles > 3", "vertices added", "AR q1", "median", "q3", "cuts with AR < 3"], rows)
 
 
-main()
+if __name__ == "__main__":
+    main()
