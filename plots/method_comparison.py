@@ -134,8 +134,8 @@ def summary(table, jumps, order, ranks):
         row = {"method": variant[0], "knob": variant[1], "cuts": len(cuts), "failed": int(cuts["failed"].sum()),
                "rank": ranks.loc[[variant], "sum"].iloc[0] / len(SHAPES)}
         for m in SHAPES + PRICE:
-            quantiles, row[f"{m.column}_worst"] = spread(cuts[m.column], m.worst)
-            row[f"{m.column}_median"] = quantiles[2]
+            quantiles, worst = spread(cuts[m.column], m.worst)
+            row |= {f"{m.column}_median": quantiles[2], f"{m.column}_worst": worst}
         for kind in ("strict", "outside_wedges"):
             for which in ("max", "p99"):
                 row[f"ar_{which}_cut_{kind}_median"] = spread(cuts[f"ar_{which}_cut_{kind}"])[0][2]

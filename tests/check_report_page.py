@@ -142,7 +142,7 @@ class Oracle:
         """{method: {column: number}}"""
         def here(rows, by="sheet family triangles"):
             return [r for r in rows if (sheet in ("all", r["sheet"]) or "sheet" not in by)
-                    and ("family" not in by or family in ("all", r["scene"]))
+                    and ("family" not in by or family in ("all", r["cut_family"]))
                     and ("triangles" not in by or triangles in ("all", r["resolution"]))]
         found = defaultdict(dict)
         for method, numbers in cut_numbers(here(self.cuts)).items():

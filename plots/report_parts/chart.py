@@ -3,6 +3,7 @@
 import numpy as np
 
 import whole_step
+from common import families
 from report_parts.comparison import files_of, origin
 from whole_step_parts import points
 
@@ -46,8 +47,8 @@ def as_json(results):
     return {
         "points": found, "absent": absent, "real_time_ms": whole_step.REAL_TIME_MS,
         "origins": [origin(files), origin((points.PUBLISHED, points.PUBLISHED.with_name("method_comparison_accuracy.context.json")))],
-        "groups": [{"name": name, "colour": colour, "shape": SHAPES[marker], "methods": names}
-                   for name, (colour, marker, names) in [*whole_step.GROUPS.items(), ("other", (*whole_step.OTHER, []))]],
+        "groups": [{"name": f.name, "colour": f.colour, "shape": SHAPES[f.marker], "methods": f.methods}
+                   for f in [*families.FAMILIES, families.OTHER]],
         "choices": [
             {"name": "cuts", "label": "cuts in the sheet", "options": values("place", lambda x: f"{x:g}")},
             {"name": "step", "label": "step", "options": values("step_s", lambda x: f"1/{1 / x:.0f} s")},

@@ -12,7 +12,7 @@ import method_gallery
 import whole_step
 from atlas_parts import points as atlas_points
 from common import load, style
-from method_comparison import spread
+from method_parts.dots import spread
 from whole_step_parts import points
 
 ALL = "all"
@@ -94,7 +94,7 @@ def of_cuts(table):
     """{column: {(method, knob): value}} of rows of method_comparison.measured()."""
     worst = {m.column: m.worst for m in method_comparison.SHAPES + method_comparison.PRICE}
     groups = dict(list(table.groupby(load.VARIANT)))
-    found = {key: {v: spread(cuts[key], worst.get(key, np.inf))[1] for v, cuts in groups.items()}
+    found = {key: {v: spread(cuts[key], worst.get(key, np.inf))[0][2] for v, cuts in groups.items()}
              for key in ("us_per_crossed", "eigenvalue_ratio", "ar_max_cut", "incision_error_h", "vertices_per_crossed")}
     return found | {"failed_percent": {v: 100 * cuts["failed"].mean() for v, cuts in groups.items()}}
 

@@ -64,5 +64,7 @@ def as_webp(picture, **options):
 def figure_of(file, note):
     with Image.open(file) as image:
         width, height = image.size
+    whole = file.with_suffix(".caption.txt")
+    caption = f": {whole.read_text(encoding='utf-8').strip()}" if whole.is_file() else ""
     return (f'<figure><img src="{inlined(file)}" width="{width}" height="{height}" alt="{escape(file.stem)}">'
-            f"<figcaption>{escape(file.stem)}{escape(note)}</figcaption></figure>")
+            f"<figcaption>{escape(file.stem + note + caption)}</figcaption></figure>")
