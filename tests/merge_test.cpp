@@ -92,6 +92,15 @@ TEST_F(Merge, Accuracy) {
   expect_equal("a");
 }
 
+/// Its points are tried in other processes, in turns by shard.
+TEST_F(Merge, Atlas) {
+  write(folder_ / "a.toml",
+        "claim = \"c\"\nsheets = [\"grid\", \"delaunay\"]\nresolutions = [200]\nmethods = [\"conventional_split\", "
+        "\"cut_polygons\"]\n[[sweeps]]\nname = \"a\"\nscene = \"" CUTBENCH_EXPERIMENTS
+        "/scenes/atlas_sheet.toml\"\ncases = 2\nsteps = 2\ncut = [\"straight\", \"curved\"]\n");
+  expect_equal("a");
+}
+
 TEST_F(Merge, Campaign) {
   write(folder_ / "c.toml",
         "claim = \"c\"\nsheets = [\"grid\", \"delaunay\"]\nresolutions = [72]\ncases = 20\nmethods = "

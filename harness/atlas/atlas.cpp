@@ -79,11 +79,10 @@ class AtlasRun {
  private:
   static std::string identity(const Experiment& e, const Context& context, const RunOptions& options) {
     std::string text = context.identity() + e.stem + e.atlas->text + std::to_string(e.seed) + "," +
-                       std::to_string(e.cases) + "," + std::to_string(e.chord_tolerance) + "," +
-                       std::to_string(options.shard) + "/" + std::to_string(options.shards);
+                       std::to_string(e.cases) + "," + std::to_string(e.chord_tolerance);
     for (const int resolution : e.resolutions) text += "," + std::to_string(resolution);
     for (const auto& entry : e.methods) text += "," + entry.method;
-    return text;
+    return text + shard_line(options);
   }
 
   /// Those of the shard that are not in the file yet. The points of a sweep stay together, methods in turn.

@@ -87,6 +87,7 @@ class Table {
   explicit Table(const std::string& head) : names_(fields_of(head)) {}
 
   std::vector<Fields> merged(const std::vector<Shard>& shards) const {
+    if (has("sweep")) return dealt(shards);
     return has("tried") ? summed(shards) : interleaved(shards);
   }
 
@@ -115,6 +116,15 @@ class Table {
     std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::vector<Fields> result;
     for (const auto& [order, row] : rows) result.push_back(*row);
+    return result;
+  }
+
+  /// Of points of sweeps: they were dealt to the shards in turns, a row for each.
+  static std::vector<Fields> dealt(const std::vector<Shard>& shards) {
+    std::vector<Fields> result;
+    for (std::size_t i = 0; i < shards.front().rows.size(); ++i)
+      for (const Shard& shard : shards)
+        if (i < shard.rows.size()) result.push_back(shard.rows[i]);
     return result;
   }
 

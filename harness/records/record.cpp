@@ -1,6 +1,7 @@
 #include "harness/records/record.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
@@ -84,7 +85,8 @@ struct Identity {
   explicit Identity(const std::string& identity) : all(identity.substr(0, identity.rfind('\n'))) {
     const std::size_t line = identity.rfind('\n');
     if (line == std::string::npos) return;
-    std::sscanf(identity.c_str() + line, "%d/%d", &shard, &shards);
+    [[maybe_unused]] const int found = std::sscanf(identity.c_str() + line, "%d/%d", &shard, &shards);
+    assert(found == 2);
   }
   std::string number() const { return std::to_string(std::hash<std::string>{}(all)); }
 };
