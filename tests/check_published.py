@@ -115,9 +115,10 @@ def check_assembled(folder):
     (folder / "results/a/context.json").write_text('{"dirty": false}', encoding="utf-8")
     for file in ("a.txt", "a.png", "a.caption.txt"):
         (folder / "results/a" / file).write_text("text", encoding="utf-8")
+    (folder / "results/a/a.md").write_text("[a](a/a.png) [b](b.md)", encoding="utf-8")
     for old in ("old.png", "tracking.md"):
         (reference / old).write_text(old, encoding="utf-8")
-    stages = {"s": {"records": ["a"], "direct": ["a"], "files": ["renamed.txt=a/a.txt", "a/a.png"]}}
+    stages = {"s": {"records": ["a"], "direct": ["a"], "files": ["renamed.txt=a/a.txt", "a/a.png", "a/a.md"]}}
     state = {"seconds": {"s": 90.0}}
     new = folder / "results/publish/reference"
     publish.assemble(stages, state, "c0ffee", new)
@@ -130,6 +131,7 @@ def check_assembled(folder):
     direct = gzip.decompress((reference / "a.direct.records.csv.gz").read_bytes()).decode().splitlines()
     expect("other rows than those of the direct solve", [line[2] for line in direct[1:]] == ["a", "b"] and len(direct) == 3)
     expect("not under its name", (reference / "renamed.txt").read_text(encoding="utf-8") == "text")
+    expect("a link to a figure leads away", (reference / "a.md").read_text(encoding="utf-8") == "[a](a.png) [b](b.md)")
     expect("a figure without its caption", (reference / "a.caption.txt").is_file())
     about = json.loads((reference / "publish.json").read_text(encoding="utf-8"))
     expect(f"publish.json: {about}", about["commit"] == "c0ffee" and about["minutes"] == {"s": 1.5})
