@@ -185,10 +185,10 @@ class SeveredStrip : public Problem {
       for (double t = 0; steps < bar.stretch.size() && t <= 4 * bar.length; t = step * static_cast<double>(++steps))
         sum += std::pow(bar.stretch[steps] - released_end(strain, bar.length, t), 2);
       squares += sum / static_cast<double>(steps) / std::pow(strain * bar.length, 2) / 2;
-      const double L = bar.length;
-      speed += (at(bar.stretch, step, L / 2) - at(bar.stretch, step, 3 * L / 2)) / L / 2;
+      const double length = bar.length;
+      speed += (at(bar.stretch, step, length / 2) - at(bar.stretch, step, 3 * length / 2)) / length / 2;
       time += arrival(bar, step) / 2;
-      late += std::abs(arrival(bar, step) - L) / L / 2;
+      late += std::abs(arrival(bar, step) - length) / length / 2;
     }
     const double rms = std::sqrt(squares);
     return {{"lip_motion", rms, 0, rms}, compared("lip_speed", speed, strain), {"arrival", time, 0.5, late}};
