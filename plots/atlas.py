@@ -88,7 +88,7 @@ def draw_map(ax, rows, which, ylabels):
 
 
 def page(rows, caption):
-    above, below = 0.42, 1.5  # inches
+    above, below = 0.42, 0.9  # inches
     total = sum(height + gap for height, gap, _ in ON_THE_PAGE) + above + below
     figure = plt.figure(figsize=(style.PAGE, total))
     top = total - above
@@ -105,11 +105,11 @@ def page(rows, caption):
             draw(ax, rows, name, ylabels=gap >= 0.5)
             x += width
         top -= height + space
-    for y, (words, handles) in zip((1.38, 1.21, 1.04), panels.legends(set(rows["verdict"]))):
+    for y, (words, handles) in zip((0.78, 0.61, 0.44), panels.legends(set(rows["verdict"]))):
         figure.text(0.05 / style.PAGE, y / total, words, fontsize=6, va="center")
         figure.legend(handles=handles, loc="center left", ncol=len(handles), bbox_to_anchor=(0.16, y / total), fontsize=6,
-                      handlelength=1.1, handleheight=0.9, columnspacing=1.2, handletextpad=0.4, borderpad=0)
-    figure.text(0.05 / style.PAGE, 0.05 / total, "\n".join(style.wrapped(figure, caption, style.PAGE - 0.1)),
+                      handlelength=1.1, handleheight=0.9, columnspacing=0.9, handletextpad=0.4, borderpad=0)
+    figure.text(0.05 / style.PAGE, 0.05 / total, "\n".join(style.two_lines(figure, caption, style.PAGE - 0.1)),
                 fontsize=style.CAPTION_SIZE, va="bottom", linespacing=1.2, parse_math=False)
     return figure
 
