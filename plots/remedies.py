@@ -7,7 +7,7 @@ from matplotlib.lines import Line2D
 
 from accuracy_parts.ranking import at_equal_unknowns, made_by_all, mean_excess
 from accuracy_parts.records import Records
-from common import load, style
+from common import load, names, style
 from common.load import of
 from method_parts import kinds
 
@@ -20,7 +20,7 @@ KINDS = {  # colour, marker, and the methods whose remedy is of this kind
     "nothing": ("#444444", "D", ["conventional_split"]),
 }
 ADDED_MASS = {  # columns of the records, and the methods that are shown with such a mass
-    "stabilised": ["conventional_split", "delaunay_refine", "warp_and_refine", "cut_polygons"],
+    "stabilised": ["conventional_split", "delaunay_refine", "warp_and_refine"],
     "scaled": ["conventional_split"],
 }
 NAMES = {"ablation:warp+thin:tie": "warp + thin + tie", "phantom_node:lumped_mass": "phantom node, lumped mass"}
@@ -62,22 +62,8 @@ def rows_of(run, excess):
     return sorted(rows, key=lambda r: r[2])
 
 
-def place_names(ax, rows):
-    """Each name beside its marker, moved up or down until it covers no other."""
-    ax.figure.draw_without_rendering()
-    taken = []
-    for row in sorted(rows, key=lambda r: r[9]):
-        text = ax.annotate(label(row[0], row[1], row[-1]), (row[2], row[9]), xytext=(4, 3), textcoords="offset points", fontsize=5.4)
-        for step in (0, 6, -8, 12, -14, 18, -20):
-            text.set_position((4, 3 + step))
-            box = text.get_window_extent()
-            if not any(box.overlaps(other) for other in taken):
-                break
-        taken.append(box)
-
-
 def figure_of(run, rows):
-    figure, axes = style.panels(1, 1, 8, width=style.PAGE * 0.75)
+    figure, axes = style.panels(1, 1, 9.5, width=style.PAGE)
     ax = axes[0, 0]
     ax.set_xscale("log")
     for row in rows:
@@ -87,7 +73,9 @@ def figure_of(run, rows):
     ax.axhline(0, color="#888888", linewidth=0.6, linestyle="--")
     ax.set_xlabel("largest eigenvalue / that of the uncut sheet: median, line to 95 %")
     ax.set_ylabel("error over that of a fitted mesh of as many unknowns, - 1 (%)")
-    place_names(ax, rows)
+    ax.margins(x=0.12, y=0.08)
+    marked = [(x, row[9]) for row in rows for x in np.geomspace(row[2], row[3], 12)]
+    names.place(ax, [(row[2], row[9], label(row[0], row[1], row[-1]), KINDS[kind_of(row)][0]) for row in rows], marked, 6.5)
     kinds = [Line2D([], [], color=colour, marker=marker, linestyle="none", markersize=4, label=f"changes {kind}")
              for kind, (colour, marker, _) in KINDS.items()]
     style.finish(figure, [], " ".join([
@@ -102,10 +90,10 @@ def main():
     run = load.read(folder, [*ratios, "scaled_mass_added", "scaled_bending_mass_added", "geometry_us", "crossed_triangles"])
     rows = rows_of(run.first_repetition(), errors(folder.with_name("remedies_accuracy")))
     style.save(figure_of(run.first_repetition(), [r for r in rows if r[-1] != "scaled"]), folder, STEM)  # no remedy: heavier
-    names = ["method", "eigenvalue, median", "95 %", "worst", "95 %, without several", "worst", "with bending", "95 %",
-             "error %, equal unknowns", "error %, 100 CG", "us"]
+    columns = ["method", "eigenvalue, median", "95 %", "worst", "95 %, without several", "worst", "with bending", "95 %",
+               "error %, equal unknowns", "error %, 100 CG", "us"]
     load.print_table("Remedies: eigenvalues over the uncut sheet's, errors over a fitted mesh's, warm geometry per crossed "
-                     "triangle", names, [[label(r[0], r[1], r[-1]), *r[2:-1]] for r in rows])
+                     "triangle", columns, [[label(r[0], r[1], r[-1]), *r[2:-1]] for r in rows])
     added = run.first_repetition().rows
     added = added[added["scaled_mass_added"].notna() & (added["method"] == "conventional_split")]
     load.print_table("Mass that scaling adds to the sheet's after conventional_split, %", ["", "median", "95 %", "worst"],
