@@ -11,6 +11,7 @@
 #include "tests/dense_solves.h"
 #include "tests/fem_helpers.h"
 #include "tests/helpers.h"
+#include "tests/sound_polygons.h"
 #include "tests/tied_cut.h"
 #include "tests/truth_helpers.h"
 
@@ -22,6 +23,11 @@ const std::vector<std::string> cuts_to_make{"straight",      "curved",          
                                             "self_crossing", "through_vertices", "along_edges"};
 
 constexpr Material leather{.density = 2, .stiffness = 1000, .poisson = 0.3, .bending = 0.02};
+
+void merge_as_after_a_cut(Body<3>& body, const Sheet& before, const CuttingMethod& method) {
+  body.model.tie(body.sheet,
+                 method.next_ties(before, body.sheet, [&](TriangleIndex t) { return body.model.polygon_of(t); }));
+}
 
 // --- the model -------------------------------------------------------------------------------------------------------
 
@@ -39,11 +45,10 @@ TEST(PolygonModel, FollowsCutsAsOneMadeAnew) {
         for (const Curve& curve : make_case(cuts, 877, number, before)) {
           if (body.cut(curve, "cut_polygons", 0.7) != Status::ok) continue;
           kept += body.model.polygons().size();
-          const Ties ties = method->ties(before, body.sheet);
-          body.model.tie(body.sheet, ties);
-          ASSERT_EQ(body.model.polygons().size(), ties.polygons.size());
+          merge_as_after_a_cut(body, before, *method);
+          expect_sound(body.sheet, body.model.polygons());
           Model<3> fresh = body.fresh_model();
-          fresh.tie(body.sheet, ties);
+          fresh.tie(body.sheet, {.polygons = body.model.polygons()});
           const Field x = bent(fresh, body.sheet);
           for (Model<3>* const model : {&body.model, &fresh}) model->rotate(x), model->assemble(1.2, 0.1);
           EXPECT_EQ(body.model.held(), fresh.held());
@@ -98,6 +103,29 @@ TEST(PolygonBending, EigenvalueWithBendingIsFarBelowThatOfTheSplit) {
   EXPECT_LE(worst, 0.1 * worst_split);
 }
 
+/// By what the cut touched: a polygon that lies away from it is not looked at again, so the tenth cut costs what the
+/// first does.
+TEST(CutPolygons, FollowTheLastCut) {
+  Body<3> body(make_sheet("delaunay", 40), leather, {}, {});
+  const Sheet before = body.sheet;
+  const auto method = find_method("cut_polygons").make(0.7);
+  std::vector<std::size_t> asked;  // per cut
+  for (int i = 0; i < 10; ++i) {
+    const double y = 0.05 + 0.09 * i;
+    ASSERT_EQ(body.cut(line({-0.1, y}, {1.1, y + 0.01}), "cut_polygons", 0.7), Status::ok);
+    asked.push_back(0);
+    const Ties ties = method->next_ties(before, body.sheet, [&](TriangleIndex t) {
+      ++asked.back();
+      return body.model.polygon_of(t);
+    });
+    const std::size_t old = body.model.polygons().size();
+    body.model.tie(body.sheet, ties);
+    EXPECT_EQ(body.model.polygons().size(), old + ties.polygons.size());
+  }
+  EXPECT_GT(asked.front(), 40u);
+  EXPECT_LT(*std::max_element(asked.begin(), asked.end()), 2 * asked.front());
+}
+
 /// Of the split the worst is thousands.
 TEST(CutPolygons, EigenvalueStaysNearThatOfTheUncutSheet) {
   double worst = 0, worst_split = 0;
@@ -124,7 +152,7 @@ TEST(CutPolygons, FallFreely) {
                  {.bending = BendingKind::patches, .gravity = {0, 0, -10}});
     for (const Curve& cut : {line({-0.1, 0.41}, {0.6, 0.52}), line({0.3, -0.1}, {0.44, 0.8})}) {
       ASSERT_EQ(body.cut(cut, "cut_polygons", 0.7), Status::ok);
-      body.model.tie(body.sheet, find_method("cut_polygons").make(0.7)->ties(before, body.sheet));
+      merge_as_after_a_cut(body, before, *find_method("cut_polygons").make(0.7));
     }
     Stepper<3> stepper({.integrator = integrator, .step = 1e-3, .solver = {.name = "cholmod"}});
     for (int i = 0; i < 20; ++i) ASSERT_EQ(stepper.step(body.model, body.state).verdict, "ok");
@@ -147,7 +175,7 @@ TEST(CutPolygons, EverySolverFindsTheSameStep) {
     Stepper<3> stepper({.step = 1.0 / 240, .solver = {.name = solver, .tolerance = 1e-9, .max_iterations = 5000}});
     for (const Curve& cut : {line({0.2, 0.41}, {1.1, 0.52}), line({0.4, 0.2}, {0.44, 0.8})}) {
       ASSERT_EQ(body.cut(cut, "cut_polygons", 0.7), Status::ok);
-      body.model.tie(body.sheet, find_method("cut_polygons").make(0.7)->ties(before, body.sheet));
+      merge_as_after_a_cut(body, before, *find_method("cut_polygons").make(0.7));
       for (int i = 0; i < 2; ++i) ASSERT_EQ(stepper.step(body.model, body.state).verdict, "ok") << solver;
     }
     found[solver] = body.state.x;

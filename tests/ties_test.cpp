@@ -266,6 +266,49 @@ TEST(Ties, CracksOpenAsTheyDoByTheSplitAlone) {
   }
 }
 
+/// Cut by cut: the system that has followed them against one made anew, with bending, held vertices and phantom nodes.
+TEST(Ties, SystemFollowsCutsAsOneMadeAnew) {
+  for (const TyingMethod& method : tying_methods) {
+    SCOPED_TRACE(method.name + " " + std::to_string(method.knob));
+    Body<3> body(make_sheet("delaunay", 16), {.stiffness = 1000, .poisson = 0.3, .bending = 0.1},
+                 {.bending = BendingKind::patches, .mass = Mass::consistent},
+                 {{.where = {{0, 0}, {0.3, 0.3}}}, {.where = {{0.5, 0.5}, {1, 1}}, .axes = {false, true, false}}});
+    const Sheet before = body.sheet;
+    std::uint64_t last = 0;
+    for (const Curve& cut : {line({-0.1, 0.41}, {0.6, 0.52}), line({0.3, -0.1}, {0.44, 0.8}),
+                             line({0.7, 0.5}, {0.9, 0.1}), line({-0.1, 0.9}, {1.1, 0.85})}) {
+      ASSERT_EQ(body.cut(cut, method.name, method.knob), Status::ok);
+      const Ties ties = method.make()->ties(before, body.sheet);
+      body.model.tie(body.sheet, ties);
+      ASSERT_TRUE(body.model.tied());
+      Model<3> fresh = body.fresh_model();
+      fresh.tie(body.sheet, ties);
+      const Field x = bent(fresh, body.sheet);
+      for (Model<3>* const model : {&body.model, &fresh}) {
+        model->rotate(x), model->assemble(1.2, 0.1);
+        model->tied()->assemble(model->system(), 7);
+      }
+      const SystemMatrix<3> a = body.model.tied()->system(), b = fresh.tied()->system();
+      EXPECT_EQ(*a.held, *b.held);
+      ASSERT_EQ(a.vertices(), b.vertices());
+      EXPECT_LE(max_difference(*a.blocks, *b.blocks), 1e-12 * max_entry(*b.blocks));
+      ASSERT_EQ(a.scalar.size(), b.scalar.size());
+      for (std::size_t k = 0; k < a.scalar.size(); ++k)
+        EXPECT_LE(max_difference(*a.scalar[k].matrix, *b.scalar[k].matrix), 1e-11 * max_entry(*b.scalar[k].matrix));
+      for (std::size_t v = 0; v < a.places->size(); ++v)
+        if (!(*a.blocks).columns(v).empty()) {
+          EXPECT_EQ((*a.places)[v].x, (*b.places)[v].x);
+        }
+      if (last > 0) {  // rows far from the cut stay
+        ASSERT_TRUE(a.history->holds(last));
+        const auto rows = a.history->changed_since(last);
+        EXPECT_LT(std::set<std::int32_t>(rows.begin(), rows.end()).size(), a.vertices());
+      }
+      last = a.pattern;
+    }
+  }
+}
+
 /// How far a field of the vertices is from all that x = C q can be, in the mean square.
 double off_range(const Eigen::MatrixXd& c, const Field& x) { return (nearest_in_range(c, x) - x).norm(); }
 

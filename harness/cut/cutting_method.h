@@ -69,6 +69,12 @@ class CuttingMethod {
   /// makes of triangles; none: every vertex has its own unknowns. Depends on the two sheets alone.
   /// \param before  the sheet before the first cut; no slot of it has moved since (Sheet::compact() would move them)
   virtual Ties ties(const Sheet& /*before*/, const Sheet& /*cut*/) const { return {}; }
+  /// The same after one more cut, that of the log of `cut`. Of the polygons, only those that are new: others stay, unless
+  /// they share a triangle with a new one. So polygons can follow the cut; the default returns those of all cuts.
+  /// \param polygon_of  of the polygons of before the cut, without those that had a triangle which the log names
+  virtual Ties next_ties(const Sheet& before, const Sheet& cut, const PolygonOf& /*polygon_of*/) const {
+    return ties(before, cut);
+  }
 
  protected:
   PatchWork patch_work_;  ///< working storage of embed_patches(), kept from one cut to the next

@@ -8,8 +8,11 @@
 
 namespace cutbench {
 
-Combination::Combination(const Ties& ties, std::size_t vertices) : rows_(vertices), phantoms_(ties.phantoms) {
-  for (std::size_t i = 0; i < vertices; ++i) rows_[i] = {{static_cast<std::int32_t>(i)}, {1}, 1};
+void Combination::set(const Ties& ties, std::size_t vertices) {
+  const auto free = [&](std::size_t i) { rows_[i] = {{static_cast<std::int32_t>(i)}, {1}, 1}; };
+  for (const std::int32_t v : tied_) free(static_cast<std::size_t>(v));
+  for (std::size_t i = rows_.size(); i < vertices; ++i) rows_.emplace_back(), free(i);
+  tied_.clear(), phantoms_ = ties.phantoms;
   for (const Tie& tie : ties.ties) {
     Row& row = rows_[tie.vertex()];
     row.size = 0;
@@ -36,24 +39,50 @@ void Combination::reduce(int dimension, const Field& f, Field& r) const {
           rows_[i].weight[k] * f.segment(static_cast<Eigen::Index>(i) * dimension, dimension);
 }
 
+template <int D>
+void TiedSystem<D>::change(const Ties& ties, std::size_t vertices) {
+  combination_.set(ties, vertices), ghosts_ = ties.ghosts;
+  is_changed_ = true;
+}
+
 /// Rows that ties change: of what is tied, of its masters and neighbours, of phantom nodes and ghost penalties.
 template <int D>
 void TiedSystem<D>::find_near(const SystemMatrix<D>& a) {
-  near_.assign(combination_.unknowns(), 0);
-  std::fill(near_.begin() + static_cast<std::ptrdiff_t>(combination_.vertices()), near_.end(), 1);
+  for (const std::size_t u : near_rows_) near_[u] = 0;
+  near_rows_.clear();
+  near_.resize(combination_.unknowns());
+  const auto mark = [&](std::size_t u) {
+    if (!std::exchange(near_[u], 1)) near_rows_.push_back(u);
+  };
+  const auto mark_all = [&](std::span<const std::int32_t> rows) {
+    for (const std::int32_t u : rows) mark(static_cast<std::size_t>(u));
+  };
+  for (std::size_t u = combination_.vertices(); u < combination_.unknowns(); ++u) mark(u);
   for (const std::int32_t v : combination_.tied()) {
-    const auto row = static_cast<std::size_t>(v);
-    near_[row] = 1;
-    for (std::size_t k = 0; k < combination_.row(row).size; ++k)
-      near_[static_cast<std::size_t>(combination_.row(row).unknown[k])] = 1;
-    const auto mark = [&](const auto& part) {
-      for (const std::int32_t j : part.columns(row)) near_[static_cast<std::size_t>(j)] = 1;
-    };
-    mark(*a.blocks);
-    for (const auto& term : a.scalar) mark(*term.matrix);
+    const Combination::Row& row = combination_.row(static_cast<std::size_t>(v));
+    mark(static_cast<std::size_t>(v)), mark_all({row.unknown.data(), row.size});
+    mark_all(a.blocks->columns(static_cast<std::size_t>(v)));
+    for (const auto& term : a.scalar) mark_all(term.matrix->columns(static_cast<std::size_t>(v)));
   }
   for (const GhostEdge& ghost : ghosts_)
-    for (const DeformedIndex u : ghost.unknown) near_[u()] = 1;
+    for (const DeformedIndex u : ghost.unknown) mark(u());
+  std::sort(near_rows_.begin(), near_rows_.end());
+}
+
+/// All rows, where it is not known which have changed.
+template <int D>
+void TiedSystem<D>::find_changed(const SystemMatrix<D>& a) {
+  changed_rows_.clear();
+  if (pattern_ > 0 && a.history && a.history->holds(pattern_)) {
+    changed_rows_ = near_rows_;
+    for (const std::int32_t u : a.history->changed_since(pattern_))
+      changed_rows_.push_back(static_cast<std::size_t>(u));
+    std::sort(changed_rows_.begin(), changed_rows_.end());
+    changed_rows_.erase(std::unique(changed_rows_.begin(), changed_rows_.end()), changed_rows_.end());
+  } else {
+    blocks_ = {}, scalars_.assign(a.scalar.size(), {});
+    for (std::size_t u = 0; u < combination_.unknowns(); ++u) changed_rows_.push_back(u);
+  }
 }
 
 /// Calls act(part, i, j, slot, u, v, weight) for what each entry (i, j) of A in the rows above adds to entry (u, v).
@@ -61,8 +90,8 @@ template <int D>
 template <class Act>
 void TiedSystem<D>::for_each_share(const SystemMatrix<D>& a, const Act& act) const {
   const auto visit = [&](std::size_t number, const auto& part) {
-    for (std::size_t i = 0; i < a.vertices(); ++i) {
-      if (!near_[i]) continue;
+    for (const std::size_t i : near_rows_) {
+      if (i >= a.vertices()) break;
       std::int32_t slot = part.first_slot(i);
       const Combination::Row& row = combination_.row(i);
       for (const std::int32_t j : part.columns(i)) {
@@ -86,14 +115,11 @@ bool TiedSystem<D>::is_split(std::size_t vertex) const {
   return combination_.is_tied(vertex) && std::find(held, held + D, 1) != held + D;
 }
 
+/// Those that have changed and are those of A.
 template <int D>
-void TiedSystem<D>::set_pattern(const SystemMatrix<D>& a) {
-  find_near(a);
-  const std::size_t unknowns = combination_.unknowns(), parts = 1 + a.scalar.size();
-  blocks_.resize(unknowns), scalars_.assign(a.scalar.size(), {}), shares_.clear(), split_shares_.clear();
-  for (auto& scalar : scalars_) scalar.resize(unknowns);
-  for (std::size_t u = 0; u < combination_.vertices(); ++u) {
-    if (near_[u]) continue;
+void TiedSystem<D>::copy_rows(const SystemMatrix<D>& a) {
+  for (const std::size_t u : changed_rows_) {
+    if (u >= combination_.vertices() || near_[u]) continue;
     blocks_.set_row(u, a.blocks->columns(u));
     for (std::size_t k = 0; k < scalars_.size(); ++k) {
       scalars_[k].set_row(u, a.scalar[k].matrix->columns(u));
@@ -102,31 +128,40 @@ void TiedSystem<D>::set_pattern(const SystemMatrix<D>& a) {
         scalars_[k].block(to++) = a.scalar[k].matrix->block(from++);
     }
   }
-  std::vector<std::size_t> place(unknowns);
-  std::vector<std::size_t> rows;
-  for (std::size_t u = 0; u < unknowns; ++u)
-    if (near_[u]) place[u] = rows.size(), rows.push_back(u);
-  std::vector<std::vector<std::int32_t>> columns(parts * rows.size());
+}
+
+template <int D>
+void TiedSystem<D>::set_near_rows(const SystemMatrix<D>& a) {
+  const std::size_t parts = 1 + a.scalar.size(), rows = near_rows_.size();
+  const auto place = [&](std::size_t u) {
+    return static_cast<std::size_t>(std::lower_bound(near_rows_.begin(), near_rows_.end(), u) - near_rows_.begin());
+  };
+  std::vector<std::vector<std::int32_t>> columns(parts * rows);
   const auto part_of = [&](std::size_t part, std::size_t i, std::size_t j) {
     return is_split(i) || is_split(j) ? 0 : part;  // a scalar acts on all axes alike
   };
   for_each_share(a, [&](std::size_t part, std::size_t i, std::size_t j, std::int32_t, std::size_t u, std::int32_t v,
-                        double) { columns[part_of(part, i, j) * rows.size() + place[u]].push_back(v); });
+                        double) { columns[part_of(part, i, j) * rows + place(u)].push_back(v); });
   for (const GhostEdge& ghost : ghosts_)
     for (const DeformedIndex u : ghost.unknown)
-      for (const DeformedIndex v : ghost.unknown) columns[place[u()]].push_back(v.value);
+      for (const DeformedIndex v : ghost.unknown) columns[place(u())].push_back(v.value);
   for (std::size_t part = 0; part < parts; ++part)
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      auto& all = columns[part * rows.size() + r];
+    for (std::size_t r = 0; r < rows; ++r) {
+      auto& all = columns[part * rows + r];
       std::sort(all.begin(), all.end());
       all.erase(std::unique(all.begin(), all.end()), all.end());
-      const auto own = std::find(all.begin(), all.end(), static_cast<std::int32_t>(rows[r]));
+      const auto own = std::find(all.begin(), all.end(), static_cast<std::int32_t>(near_rows_[r]));
       if (own != all.end()) std::rotate(all.begin(), own, own + 1);
       if (part == 0)
-        blocks_.set_row(rows[r], all);
+        blocks_.set_row(near_rows_[r], all);
       else
-        scalars_[part - 1].set_row(rows[r], all);
+        scalars_[part - 1].set_row(near_rows_[r], all);
     }
+}
+
+template <int D>
+void TiedSystem<D>::set_shares(const SystemMatrix<D>& a) {
+  shares_.clear(), split_shares_.clear();
   for_each_share(a, [&](std::size_t part, std::size_t i, std::size_t j, std::int32_t slot, std::size_t u,
                         std::int32_t v, double weight) {
     if (is_split(i) || is_split(j))
@@ -136,29 +171,44 @@ void TiedSystem<D>::set_pattern(const SystemMatrix<D>& a) {
     else
       scalars_[part - 1].block(scalars_[part - 1].find(u, v)) += weight * a.scalar[part - 1].matrix->block(slot);
   });
-  find_places(a);
+}
+
+template <int D>
+void TiedSystem<D>::follow(const SystemMatrix<D>& a) {
+  find_changed(a);
+  find_near(a);
+  blocks_.resize(combination_.unknowns());
+  for (auto& scalar : scalars_) scalar.resize(combination_.unknowns());
+  copy_rows(a), set_near_rows(a), set_shares(a), find_places(a);
+  history_.begin_change();
+  for (const std::size_t u : changed_rows_)
+    if (u < combination_.unknowns()) history_.mark(u);
+  for (const std::size_t u : near_rows_) history_.mark(u);
+  pattern_ = a.pattern, is_changed_ = false;
 }
 
 template <int D>
 void TiedSystem<D>::find_places(const SystemMatrix<D>& a) {
-  places_.clear();
+  places_.resize(a.places ? combination_.unknowns() : 0);
   if (!a.places) return;
-  places_ = *a.places;
-  places_.resize(combination_.unknowns());
-  std::vector<double> dependents(places_.size(), 0);
+  const std::size_t first = combination_.vertices();
+  for (const std::size_t u : changed_rows_)
+    if (u < first) places_[u] = (*a.places)[u];
+  std::fill(places_.begin() + static_cast<std::ptrdiff_t>(first), places_.end(), Point2{});
+  std::vector<double> dependents(combination_.unknowns() - first);
   for (const std::int32_t v : combination_.tied()) {
     const auto& row = combination_.row(static_cast<std::size_t>(v));
     for (std::size_t k = 0; k < row.size; ++k)
       if (const auto u = static_cast<std::size_t>(row.unknown[k]); combination_.is_phantom(row.unknown[k]))
-        places_[u] = places_[u] + (*a.places)[static_cast<std::size_t>(v)], ++dependents[u];
+        places_[u] = places_[u] + (*a.places)[static_cast<std::size_t>(v)], ++dependents[u - first];
   }
-  for (std::size_t u = combination_.vertices(); u < places_.size(); ++u) places_[u] = 1 / dependents[u] * places_[u];
+  for (std::size_t u = first; u < places_.size(); ++u) places_[u] = 1 / dependents[u - first] * places_[u];
 }
 
 template <int D>
 void TiedSystem<D>::assemble(const SystemMatrix<D>& a, double stiffness) {
-  pattern_ = a.pattern, held_vertices_ = *a.held;
-  if (blocks_.rows() == 0) set_pattern(a);
+  held_vertices_ = *a.held;
+  if (is_changed_) follow(a);
   factors_.clear();
   for (const auto& term : a.scalar) factors_.push_back(term.factor);
   for (std::size_t u = 0; u < combination_.unknowns(); ++u) {
@@ -208,7 +258,7 @@ void TiedSystem<D>::assemble(const SystemMatrix<D>& a, double stiffness) {
 template <int D>
 SystemMatrix<D> TiedSystem<D>::system() const {
   SystemMatrix<D> a;
-  a.blocks = &blocks_, a.held = &held_, a.pattern = pattern_;
+  a.blocks = &blocks_, a.held = &held_, a.pattern = history_.now(), a.history = &history_;
   for (std::size_t k = 0; k < scalars_.size(); ++k) a.scalar.push_back({factors_[k], &scalars_[k]});
   if (!places_.empty()) a.places = &places_;
   return a;

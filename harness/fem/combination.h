@@ -21,7 +21,10 @@ class Combination {
     std::size_t size;  ///< 1 to 3
   };
 
-  Combination(const Ties& ties, std::size_t vertices);
+  Combination() = default;
+  Combination(const Ties& ties, std::size_t vertices) { set(ties, vertices); }
+  /// Instead of those of before. \pre `vertices` is no less than then.
+  void set(const Ties& ties, std::size_t vertices);
   std::size_t vertices() const { return rows_.size(); }
   std::size_t unknowns() const { return rows_.size() + phantoms_; }
   const Row& row(std::size_t vertex) const { return rows_[vertex]; }
@@ -39,20 +42,22 @@ class Combination {
  private:
   std::vector<Row> rows_;
   std::vector<std::int32_t> tied_;
-  std::size_t phantoms_;
+  std::size_t phantoms_ = 0;
 };
 
 /// The system C^T A C with ghost penalties, for a system A of all vertices. Held unknowns of A are data: their rows of
 /// C are zero, or left to the solver's projection. An unknown of q is held where its vertex is held, and where nothing
 /// depends on it. Assemble it whenever A changes. Only rows near constrained vertices are computed; all others are those
-/// of A, copied, and scalar matrices, which are constant between cuts, are computed once. After a cut, make a new one.
+/// of A, copied, and scalar matrices, which are constant between cuts, are computed once. After a cut, change it.
 template <int D>
 class TiedSystem {
  public:
-  TiedSystem(const Ties& ties, std::size_t vertices) : combination_(ties, vertices), ghosts_(ties.ghosts) {}
+  TiedSystem(const Ties& ties, std::size_t vertices) { change(ties, vertices); }
+  /// The ties after one more cut. Of all other rows only those follow that the history of A names, where it has one.
+  void change(const Ties& ties, std::size_t vertices);
 
   const Combination& combination() const { return combination_; }
-  /// \pre the pattern of `a` and the values of its scalar matrices are those of the first call.
+  /// \pre the pattern of `a` and the values of its scalar matrices are those of the first call after a change.
   /// \param stiffness  N/m, of the sheet: for ghost penalties
   void assemble(const SystemMatrix<D>& a, double stiffness = 0);
   /// Of the last assemble(); refers to this. No element table: preconditioners find no slivers, whose vertices are
@@ -89,21 +94,29 @@ class TiedSystem {
   template <class Act>
   void for_each_share(const SystemMatrix<D>& a, const Act& act) const;
   bool is_split(std::size_t vertex) const;
-  void set_pattern(const SystemMatrix<D>& a);
+  void follow(const SystemMatrix<D>& a);
+  void find_changed(const SystemMatrix<D>& a);
+  void copy_rows(const SystemMatrix<D>& a);
+  void set_near_rows(const SystemMatrix<D>& a);
+  void set_shares(const SystemMatrix<D>& a);
   void find_places(const SystemMatrix<D>& a);
   bool acts(const GhostEdge& ghost, std::size_t axis) const;
 
   Combination combination_;
   std::vector<GhostEdge> ghosts_;
   double ghost_stiffness_ = 0;
+  bool is_changed_ = false;         // the ties, since the last assemble()
   std::vector<std::uint8_t> near_;  // per unknown: its row is not that of A
+  std::vector<std::size_t> near_rows_;
+  std::vector<std::size_t> changed_rows_;  // those of before that are near no more, and those of A that have changed
   std::vector<Share> shares_;
   std::vector<SplitShare> split_shares_;
   BlockMatrix<D> blocks_;
   std::vector<BlockMatrix<1>> scalars_;  // C^T (scalar matrix of A) C
   std::vector<double> factors_;
   std::vector<std::uint8_t> held_, held_vertices_;  // per unknown of q, and of A
-  std::uint64_t pattern_ = 0;
+  std::uint64_t pattern_ = 0;                       // of A
+  PatternHistory history_;                          // of this system
   std::vector<Point2> places_;  // of the unknowns: phantom nodes lie amid the vertices that depend on them
 };
 

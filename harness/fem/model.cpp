@@ -48,7 +48,7 @@ void Model<D>::reserve_spare() {
 template <int D>
 void Model<D>::update(const Sheet& sheet) {
   const EditLog& log = sheet.log();
-  tied_.reset();
+  is_tied_ = false;
   begin_marking();
   for (const auto& touched : log.touched) {
     if (!touched.before.alive()) continue;
@@ -87,35 +87,29 @@ void Model<D>::update_bending(const Sheet& sheet) {
 
 template <int D>
 void Model<D>::tie(const Sheet& sheet, const Ties& ties) {
-  tied_.reset();
   begin_marking();
   merge(sheet, ties.polygons);
   refresh_vertices(sheet);
   if (!bending_) refresh_added_mass();
   if (!regrouped_.empty()) update_bending(sheet);
-  if (!ties.ties.empty()) tied_.emplace(ties, vertices());
+  is_tied_ = !ties.ties.empty();
+  if (is_tied_ && tied_)
+    tied_->change(ties, vertices());
+  else if (is_tied_)
+    tied_.emplace(ties, vertices());
 }
 
-/// Those that are there already stay.
 template <int D>
 void Model<D>::merge(const Sheet& sheet, std::span<const Polygon> polygons) {
-  std::vector<std::uint8_t> stays(elements_.polygon_slots());
-  std::vector<const Polygon*> fresh;
   for (const Polygon& polygon : polygons) {
-    const auto slot = elements_[polygon.triangles.front()()].polygon;
-    if (slot >= 0 && elements_.polygon(static_cast<std::size_t>(slot)).polygon == polygon)
-      stays[static_cast<std::size_t>(slot)] = 1;
-    else
-      fresh.push_back(&polygon);
-  }
-  for (std::size_t p = 0; p < stays.size(); ++p)
-    if (!stays[p] && elements_.polygon(p).alive()) dissolve(p);
-  for (const Polygon* const polygon : fresh) {
-    const std::size_t slot = elements_.add_polygon(sheet, *polygon);
+    if (std::ranges::equal(polygon_of(polygon.triangles.front()), polygon.triangles)) continue;  // it is there already
+    for (const TriangleIndex t : polygon.triangles)
+      if (const auto old = elements_[t()].polygon; old >= 0) dissolve(static_cast<std::size_t>(old));
+    const std::size_t slot = elements_.add_polygon(sheet, polygon);
     membrane_.polygons().reset(slot, elements_.polygon(slot));
-    for (const TriangleIndex t : polygon->triangles) membrane_.clear_slots(t()), regrouped_.push_back(t);
-    for (const DeformedIndex d : polygon->corners) polygons_of_.append(d(), static_cast<std::int32_t>(slot));
-    mark(polygon->corners), mark(polygon->inside);
+    for (const TriangleIndex t : polygon.triangles) membrane_.clear_slots(t()), regrouped_.push_back(t);
+    for (const DeformedIndex d : polygon.corners) polygons_of_.append(d(), static_cast<std::int32_t>(slot));
+    mark(polygon.corners), mark(polygon.inside);
   }
 }
 
@@ -134,6 +128,11 @@ std::vector<Polygon> Model<D>::polygons() const {
   for (std::size_t p = 0; p < elements_.polygon_slots(); ++p)
     if (elements_.polygon(p).alive()) all.push_back(elements_.polygon(p).polygon);
   return all;
+}
+
+template <int D>
+std::span<const TriangleIndex> Model<D>::polygon_of(TriangleIndex t) const {
+  return elements_[t()].polygon < 0 ? std::span<const TriangleIndex>{} : elements_.members(t);
 }
 
 template <int D>

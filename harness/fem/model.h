@@ -36,7 +36,8 @@ class Model {
   void update(const Sheet& sheet);
   void update_bending(const Sheet& sheet);  ///< nothing without bending
   /// Constrains vertices and makes polygons of triangles; call it after update() and update_bending(). Constraints of
-  /// before are removed, and so are polygons that `ties` no longer has; the others stay as they are. Forces, energies
+  /// before are removed. Polygons of before stay, unless the cut touched their triangles or they share one with a new
+  /// polygon. Forces, energies
   /// and the matrix remain those of all vertices; a solver solves for the unknowns of tied(). Vertices inside polygons
   /// are no unknowns: they have no mass and are held, and follow() moves them.
   /// \pre `sheet` is that of the last update().
@@ -60,7 +61,7 @@ class Model {
   void assemble(double mass_factor, double stiffness_factor);
   /// Of the last assemble(). Refers to this model.
   SystemMatrix<D> system() const;
-  TiedSystem<D>* tied() { return tied_ ? &*tied_ : nullptr; }  ///< null where no vertex is constrained
+  TiedSystem<D>* tied() { return is_tied_ ? &*tied_ : nullptr; }  ///< null where no vertex is constrained
   /// y += factor M x.
   void add_mass_product(double factor, const Field& x, Field& y) const;
   Energy energy(const Field& x, const Field& v) const;  ///< \pre rotate(x)
@@ -72,7 +73,8 @@ class Model {
   const Bending* bending() const { return bending_ ? &*bending_ : nullptr; }
   Deformation<D> deformation(std::size_t element) const { return membrane_.deformation(elements_, element); }
   std::vector<Polygon> polygons() const;
-  FieldView lumped_mass() const { return view_of(mass_); }  ///< kg, per vertex, without what is added
+  std::span<const TriangleIndex> polygon_of(TriangleIndex t) const;  ///< PolygonOf
+  FieldView lumped_mass() const { return view_of(mass_); }           ///< kg, per vertex, without what is added
   const AddedMass* added_mass() const { return added_mass_ ? &*added_mass_ : nullptr; }
   FieldView external_force() const { return view_of(external_); }  ///< N
   const std::vector<std::uint8_t>& held() const { return held_; }  ///< per unknown; those of freed slots are, too
@@ -117,6 +119,7 @@ class Model {
   std::optional<BlockMatrix<1>> consistent_mass_;
   std::optional<AddedMass> added_mass_;
   std::optional<TiedSystem<D>> tied_;
+  bool is_tied_ = false;                           // since the last update()
   double mass_factor_ = 0, stiffness_factor_ = 0;  // of the last assemble()
   std::vector<double> mass_, external_;            // with room to grow, which a Field has not
   std::vector<std::uint8_t> held_;

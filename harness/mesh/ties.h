@@ -5,6 +5,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "harness/mesh/types.h"
@@ -37,6 +39,9 @@ struct Polygon {
   std::vector<DeformedIndex> inside;     ///< the other vertices of the triangles: no unknowns, they go along
   bool operator==(const Polygon&) const = default;
 };
+
+/// The triangles of the polygon that a triangle is in; none where it is in none.
+using PolygonOf = std::function<std::span<const TriangleIndex>(TriangleIndex)>;
 
 struct Ties {
   std::vector<Tie> ties = {};  ///< each vertex once

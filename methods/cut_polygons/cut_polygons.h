@@ -9,8 +9,9 @@
 //  - A tip inside a triangle: the triangles round it are merged as any others, so that a polygon may reach round the
 //    tip, with the incision as a slit. Its gradient is then the mean over both sides, and how the slit gapes inside it
 //    is left to the stabilisation.
-//  - A second cut divides the triangles, and the polygons are made anew from all that cuts made; those far from it come
-//    out as before, and what is kept of them stays.
+//  - A second cut dissolves the polygons whose triangles it changes; what it made and what is left of them is merged
+//    anew. All others stay, unless one of these joins them. So the polygons depend on the order of the cuts, as the
+//    triangles do.
 //
 // Source: CutVEM (Rangarajan and Sukumar, arXiv 2508.10570, 2025), for fields on fixed meshes; Beirao da Veiga, Brezzi,
 // Cangiani, Manzini, Marini and Russo, M3AS 23 (2013), for the element.
@@ -35,6 +36,7 @@ class CutPolygons : public CuttingMethod {
   void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
   Tying tying() const override { return options_.thinness > 0 ? Tying::polygons : Tying::nothing; }
   Ties ties(const Sheet& before, const Sheet& cut) const override;
+  Ties next_ties(const Sheet& before, const Sheet& cut, const PolygonOf& polygon_of) const override;
 
  private:
   Options options_;

@@ -11,7 +11,7 @@
 // Promises: the exact path, area, conforming, no vertex moved; an affine displacement is reproduced exactly.
 // Where it fails: on pieces that consist of slivers only, and with an explicit integrator, since the mass is no longer
 // lumped. The triangles stay ill-shaped for every other use. Vertices near a cut jump to the field of their master
-// triangle at the instant of the cut. The pattern of the system is made again after each cut, not updated.
+// triangle at the instant of the cut. Which vertices are tied is found again after each cut, from all cuts.
 #pragma once
 
 #include "harness/cut/cutting_method.h"

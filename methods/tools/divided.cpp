@@ -22,6 +22,20 @@ std::vector<TriangleIndex> new_triangles(const Sheet& before, const Sheet& cut, 
   return found;
 }
 
+std::vector<TriangleIndex> last_new_triangles(const Sheet& before, const Sheet& cut) {
+  std::vector<TriangleIndex> found;
+  const auto look_at = [&](TriangleIndex t) {
+    const Triangle& triangle = cut.triangle(t);
+    const auto& v = triangle.vertex;
+    if (triangle.alive() && std::any_of(v.begin(), v.end(), [&](VertexIndex w) { return cut.is_newer(w, before); }))
+      found.push_back(t);
+  };
+  for (const auto& touched : cut.log().touched) look_at(touched.slot);
+  for (std::size_t t = cut.log().triangles_before; t < cut.triangle_slots(); ++t) look_at(TriangleIndex(t));
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 TriangleIndex triangle_at(const Sheet& sheet, TriangleIndex start, Point2 p) {
   const auto step = [&](TriangleIndex t) {  // itself where it holds p, invalid beyond the border
     const auto c = sheet.corners(t);

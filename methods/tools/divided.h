@@ -23,7 +23,10 @@ TriangleIndex triangle_at(const Sheet& sheet, TriangleIndex start, Point2 p);
 ///                      if `before` has no free ones, else at all vertices.
 std::vector<TriangleIndex> new_triangles(const Sheet& before, const Sheet& cut, bool only_divided);
 
-/// The same, with the triangles that they are parts of. `cut` was only divided.
+/// Those that the last cut made or changed: the log of `cut` names them.
+std::vector<TriangleIndex> last_new_triangles(const Sheet& before, const Sheet& cut);
+
+/// The same as new_triangles(), with the triangles that they are parts of. `cut` was only divided.
 std::vector<DividedTriangle> divided_triangles(const Sheet& before, const Sheet& cut);
 
 }  // namespace cutbench

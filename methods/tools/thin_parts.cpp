@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <queue>
 #include <tuple>
@@ -23,21 +24,19 @@ struct Cell {
   std::vector<DeformedIndex> inside;
   double area = 0, perimeter = 0;
   double reference = 0;  ///< thickness of what it is a part of
+  bool is_new = true;    ///< no polygon that was there before
   double thickness() const { return 4 * area / perimeter; }
 };
 
 class Merging {
  public:
-  Merging(const Sheet& before, const Sheet& cut, double thinness) : sheet_(cut), thinness_(thinness) {
-    for (const auto& [part, parent] : divided_triangles(before, cut)) {
-      const std::size_t cell = add(part);
-      cells_[cell].reference = triangle_cell(before, parent).thickness();
-    }
-    const std::size_t parts = cells_.size();
-    for (std::size_t i = 0; i < parts; ++i) put_on_list(i);
+  Merging(const Sheet& before, const Sheet& cut, double thinness, const PolygonOf& polygon_of)
+      : before_(before), sheet_(cut), thinness_(thinness), polygon_of_(polygon_of) {
+    while (!before.triangle(parent_).alive()) ++parent_.value;
   }
 
-  std::vector<Polygon> run() {
+  std::vector<Polygon> run(const std::vector<TriangleIndex>& parts) {
+    take(parts);
     while (!thin_.empty()) {
       const auto [ratio, cell] = thin_.top();
       thin_.pop();
@@ -46,7 +45,7 @@ class Merging {
     }
     std::vector<Polygon> polygons;
     for (const Cell& cell : cells_)
-      if (cell.triangles.size() > 1) polygons.push_back(polygon_of(cell));
+      if (cell.triangles.size() > 1 && cell.is_new) polygons.push_back(polygon_of(cell));
     std::sort(polygons.begin(), polygons.end(),
               [](const Polygon& a, const Polygon& b) { return a.triangles.front() < b.triangles.front(); });
     return polygons;
@@ -59,6 +58,13 @@ class Merging {
     bool operator<(const Thin& other) const { return std::tie(other.ratio, other.cell) < std::tie(ratio, cell); }
   };
 
+  void take(const std::vector<TriangleIndex>& parts) {
+    for (const TriangleIndex t : parts)
+      if (!cell_of_.contains(t())) add(t);
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+      if (put_on_list(i) || i < parts.size()) find_neighbours(i);
+  }
+
   static Cell triangle_cell(const Sheet& sheet, TriangleIndex t) {
     Cell cell;
     cell.triangles = {t};
@@ -70,9 +76,54 @@ class Merging {
     return cell;
   }
 
+  bool is_part(TriangleIndex t) const {
+    const auto& v = sheet_.triangle(t).vertex;
+    return std::any_of(v.begin(), v.end(), [&](VertexIndex w) { return sheet_.is_newer(w, before_); });
+  }
+
+  /// A triangle, or the polygon that was there before.
   std::size_t add(TriangleIndex t) {
-    cells_.push_back(triangle_cell(sheet_, t));
-    return cell_of_[t()] = cells_.size() - 1;
+    const auto members = polygon_of_ ? polygon_of_(t) : std::span<const TriangleIndex>{};
+    cells_.push_back(members.empty() ? part_cell(t) : polygon_cell(members));
+    for (const TriangleIndex member : cells_.back().triangles) cell_of_[member()] = cells_.size() - 1;
+    return cells_.size() - 1;
+  }
+
+  Cell part_cell(TriangleIndex t) {
+    Cell cell = triangle_cell(sheet_, t);
+    if (!is_part(t)) return cell;
+    const auto c = sheet_.corners(t);
+    // A part keeps its parent's slot, and slots follow the path: the walk is short.
+    parent_ = triangle_at(before_, t() < before_.triangle_slots() ? t : parent_, 1.0 / 3 * (c[0] + c[1] + c[2]));
+    cell.reference = triangle_cell(before_, parent_).thickness();
+    return cell;
+  }
+
+  Cell polygon_cell(std::span<const TriangleIndex> members) {
+    Cell cell;
+    cell.triangles.assign(members.begin(), members.end());
+    cell.reference = std::numeric_limits<double>::infinity(), cell.is_new = false;
+    std::vector<HalfEdge> border;
+    std::vector<DeformedIndex> corners;
+    for (const TriangleIndex t : members) {
+      const Cell part = part_cell(t);
+      cell.area += part.area, cell.reference = std::min(cell.reference, part.reference);
+      for (const HalfEdge h : part.outline) {
+        corners.push_back(origin(h));
+        if (sheet_.separates(h) || !std::binary_search(members.begin(), members.end(), triangle_of(sheet_.opposite(h))))
+          border.push_back(h), cell.perimeter += length(h);
+      }
+    }
+    const auto from = [&](DeformedIndex d) {
+      return std::find_if(border.begin(), border.end(), [&](HalfEdge h) { return origin(h) == d; });
+    };
+    for (HalfEdge h = border.front(); cell.outline.size() < border.size(); h = *from(target(h)))
+      cell.outline.push_back(h);
+    std::sort(corners.begin(), corners.end());
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    for (const DeformedIndex d : corners)
+      if (from(d) == border.end()) cell.inside.push_back(d);
+    return cell;
   }
 
   std::size_t cell_at(TriangleIndex t) {
@@ -82,8 +133,18 @@ class Merging {
 
   static double ratio_of(const Cell& cell) { return cell.thickness() / cell.reference; }
 
-  void put_on_list(std::size_t cell) {
-    if (const double ratio = ratio_of(cells_[cell]); ratio < thinness_) thin_.push({ratio, cell});
+  bool put_on_list(std::size_t cell) {
+    const double ratio = ratio_of(cells_[cell]);
+    if (ratio < thinness_) thin_.push({ratio, cell});
+    return ratio < thinness_;
+  }
+
+  /// What other cuts made beside it: it may be thin, too.
+  void find_neighbours(std::size_t cell) {
+    const std::vector<HalfEdge> outline = cells_[cell].outline;
+    for (const HalfEdge h : outline)
+      if (!sheet_.separates(h))
+        if (const TriangleIndex t = triangle_of(sheet_.opposite(h)); is_part(t)) cell_at(t);
   }
 
   /// They may have been left thin for want of one that is worth joining.
@@ -100,6 +161,10 @@ class Merging {
   }
   DeformedIndex origin(HalfEdge h) const {
     return sheet_.triangle(triangle_of(h)).deformed[static_cast<std::size_t>(corner_of(h))];
+  }
+
+  DeformedIndex target(HalfEdge h) const {
+    return sheet_.triangle(triangle_of(h)).deformed[static_cast<std::size_t>(next_corner(corner_of(h)))];
   }
 
   void merge_with_a_neighbour(std::size_t thin) {
@@ -174,8 +239,10 @@ class Merging {
     return polygon;
   }
 
-  const Sheet& sheet_;
+  const Sheet &before_, &sheet_;
   double thinness_;
+  const PolygonOf& polygon_of_;
+  TriangleIndex parent_{0};                               // of the last part
   std::vector<Cell> cells_;                               // those that were merged into others have no triangles
   std::unordered_map<std::size_t, std::size_t> cell_of_;  // per triangle near a cut
   std::priority_queue<Thin> thin_;                        // the thinnest on top
@@ -184,7 +251,12 @@ class Merging {
 }  // namespace
 
 std::vector<Polygon> merge_thin_parts(const Sheet& before, const Sheet& cut, double thinness) {
-  return Merging(before, cut, thinness).run();
+  return Merging(before, cut, thinness, {}).run(new_triangles(before, cut, true));
+}
+
+std::vector<Polygon> merge_new_thin_parts(const Sheet& before, const Sheet& cut, double thinness,
+                                          const PolygonOf& polygon_of) {
+  return Merging(before, cut, thinness, polygon_of).run(last_new_triangles(before, cut));
 }
 
 }  // namespace cutbench
