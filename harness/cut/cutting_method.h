@@ -71,8 +71,7 @@ class CuttingMethod {
   virtual Ties ties(const Sheet& /*before*/, const Sheet& /*cut*/) const { return {}; }
   /// The same after one more cut, that of the log of `cut`. Of the polygons, only those that are new: others stay, unless
   /// they share a triangle with a new one. So polygons can follow the cut; the default returns those of all cuts.
-  /// \param polygon_of  of the polygons of before the cut, without those that had a triangle which the log names
-  virtual Ties next_ties(const Sheet& before, const Sheet& cut, const PolygonOf& /*polygon_of*/) const {
+  virtual Ties next_ties(const Sheet& before, const Sheet& cut, const PolygonsLeft& /*left*/) const {
     return ties(before, cut);
   }
 

@@ -49,11 +49,15 @@ template <int D>
 void Model<D>::update(const Sheet& sheet) {
   const EditLog& log = sheet.log();
   is_tied_ = false;
+  freed_.clear();
   begin_marking();
   for (const auto& touched : log.touched) {
     if (!touched.before.alive()) continue;
-    if (const auto polygon = elements_[touched.slot()].polygon; polygon >= 0)
-      dissolve(static_cast<std::size_t>(polygon));
+    if (elements_[touched.slot()].polygon >= 0) {
+      const auto members = elements_.members(touched.slot);
+      freed_.insert(freed_.end(), members.begin(), members.end());
+      dissolve(static_cast<std::size_t>(elements_[touched.slot()].polygon));
+    }
     incidence_.remove(touched.before.deformed, touched.slot());
     mark(touched.before.deformed);
   }
@@ -102,7 +106,8 @@ void Model<D>::tie(const Sheet& sheet, const Ties& ties) {
 template <int D>
 void Model<D>::merge(const Sheet& sheet, std::span<const Polygon> polygons) {
   for (const Polygon& polygon : polygons) {
-    if (std::ranges::equal(polygon_of(polygon.triangles.front()), polygon.triangles)) continue;  // it is there already
+    const TriangleIndex first = polygon.triangles.front();
+    if (std::ranges::equal(elements_.members(first), polygon.triangles)) continue;  // it is there already
     for (const TriangleIndex t : polygon.triangles)
       if (const auto old = elements_[t()].polygon; old >= 0) dissolve(static_cast<std::size_t>(old));
     const std::size_t slot = elements_.add_polygon(sheet, polygon);
@@ -131,8 +136,11 @@ std::vector<Polygon> Model<D>::polygons() const {
 }
 
 template <int D>
-std::span<const TriangleIndex> Model<D>::polygon_of(TriangleIndex t) const {
-  return elements_[t()].polygon < 0 ? std::span<const TriangleIndex>{} : elements_.members(t);
+PolygonsLeft Model<D>::polygons_left() const {
+  const auto of = [this](TriangleIndex t) {
+    return elements_[t()].polygon < 0 ? std::span<const TriangleIndex>{} : elements_.members(t);
+  };
+  return {of, freed_};
 }
 
 template <int D>

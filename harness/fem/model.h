@@ -73,8 +73,8 @@ class Model {
   const Bending* bending() const { return bending_ ? &*bending_ : nullptr; }
   Deformation<D> deformation(std::size_t element) const { return membrane_.deformation(elements_, element); }
   std::vector<Polygon> polygons() const;
-  std::span<const TriangleIndex> polygon_of(TriangleIndex t) const;  ///< PolygonOf
-  FieldView lumped_mass() const { return view_of(mass_); }           ///< kg, per vertex, without what is added
+  PolygonsLeft polygons_left() const;                       ///< by the last update(); refers to this
+  FieldView lumped_mass() const { return view_of(mass_); }  ///< kg, per vertex, without what is added
   const AddedMass* added_mass() const { return added_mass_ ? &*added_mass_ : nullptr; }
   FieldView external_force() const { return view_of(external_); }  ///< N
   const std::vector<std::uint8_t>& held() const { return held_; }  ///< per unknown; those of freed slots are, too
@@ -131,7 +131,8 @@ class Model {
   std::uint32_t round_ = 0;
   std::vector<std::size_t> marked_;  // vertices whose rows change
   std::vector<std::int32_t> columns_, polygon_slots_;
-  std::vector<TriangleIndex> regrouped_;  // joined or left a polygon, and bending does not know it yet
+  std::vector<TriangleIndex> freed_;      // left a polygon in the last update()
+  std::vector<TriangleIndex> regrouped_;  // joined or left one, and bending does not know it yet
   std::vector<Lanes> velocity_, bent_;    // of add_impulse(), per vertex
 };
 

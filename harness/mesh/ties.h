@@ -40,8 +40,11 @@ struct Polygon {
   bool operator==(const Polygon&) const = default;
 };
 
-/// The triangles of the polygon that a triangle is in; none where it is in none.
-using PolygonOf = std::function<std::span<const TriangleIndex>(TriangleIndex)>;
+/// What a cut left of the polygons that there were before. It dissolved those that had a triangle which its log names.
+struct PolygonsLeft {
+  std::function<std::span<const TriangleIndex>(TriangleIndex)> of;  ///< that the triangle is in; none: in none
+  std::span<const TriangleIndex> freed;  ///< slots of triangles of the dissolved ones, used or free now
+};
 
 struct Ties {
   std::vector<Tie> ties = {};  ///< each vertex once

@@ -319,8 +319,7 @@ class SceneInMotion : public Simulation {
       now.model.update_bending(now.sheet);
       result.bending_us += watch.lap();
       if (method.tying() == CuttingMethod::Tying::nothing) continue;
-      const Ties ties =
-          method.next_ties(before_cuts_, now.sheet, [&](TriangleIndex t) { return now.model.polygon_of(t); });
+      const Ties ties = method.next_ties(before_cuts_, now.sheet, now.model.polygons_left());
       result.cut.time_us.tie += watch.lap();
       now.model.tie(now.sheet, ties);
       for (Field* const field : {&now.state.x, &now.state.v}) {  // the state of before the cut need not

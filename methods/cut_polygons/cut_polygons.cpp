@@ -13,8 +13,8 @@ Ties CutPolygons::ties(const Sheet& before, const Sheet& cut) const {
   return {.polygons = merge_thin_parts(before, cut, options_.thinness)};
 }
 
-Ties CutPolygons::next_ties(const Sheet& before, const Sheet& cut, const PolygonOf& polygon_of) const {
-  return {.polygons = merge_new_thin_parts(before, cut, options_.thinness, polygon_of)};
+Ties CutPolygons::next_ties(const Sheet& before, const Sheet& cut, const PolygonsLeft& left) const {
+  return {.polygons = merge_new_thin_parts(before, cut, options_.thinness, left)};
 }
 
 }  // namespace cutbench

@@ -36,7 +36,7 @@ class CutPolygons : public CuttingMethod {
   void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
   Tying tying() const override { return options_.thinness > 0 ? Tying::polygons : Tying::nothing; }
   Ties ties(const Sheet& before, const Sheet& cut) const override;
-  Ties next_ties(const Sheet& before, const Sheet& cut, const PolygonOf& polygon_of) const override;
+  Ties next_ties(const Sheet& before, const Sheet& cut, const PolygonsLeft& left) const override;
 
  private:
   Options options_;

@@ -30,8 +30,8 @@ struct Cell {
 
 class Merging {
  public:
-  Merging(const Sheet& before, const Sheet& cut, double thinness, const PolygonOf& polygon_of)
-      : before_(before), sheet_(cut), thinness_(thinness), polygon_of_(polygon_of) {
+  Merging(const Sheet& before, const Sheet& cut, double thinness, const PolygonsLeft& left)
+      : before_(before), sheet_(cut), thinness_(thinness), left_(left) {
     while (!before.triangle(parent_).alive()) ++parent_.value;
   }
 
@@ -83,7 +83,7 @@ class Merging {
 
   /// A triangle, or the polygon that was there before.
   std::size_t add(TriangleIndex t) {
-    const auto members = polygon_of_ ? polygon_of_(t) : std::span<const TriangleIndex>{};
+    const auto members = left_.of ? left_.of(t) : std::span<const TriangleIndex>{};
     cells_.push_back(members.empty() ? part_cell(t) : polygon_cell(members));
     for (const TriangleIndex member : cells_.back().triangles) cell_of_[member()] = cells_.size() - 1;
     return cells_.size() - 1;
@@ -241,7 +241,7 @@ class Merging {
 
   const Sheet &before_, &sheet_;
   double thinness_;
-  const PolygonOf& polygon_of_;
+  const PolygonsLeft& left_;
   TriangleIndex parent_{0};                               // of the last part
   std::vector<Cell> cells_;                               // those that were merged into others have no triangles
   std::unordered_map<std::size_t, std::size_t> cell_of_;  // per triangle near a cut
@@ -255,8 +255,11 @@ std::vector<Polygon> merge_thin_parts(const Sheet& before, const Sheet& cut, dou
 }
 
 std::vector<Polygon> merge_new_thin_parts(const Sheet& before, const Sheet& cut, double thinness,
-                                          const PolygonOf& polygon_of) {
-  return Merging(before, cut, thinness, polygon_of).run(last_new_triangles(before, cut));
+                                          const PolygonsLeft& left) {
+  std::vector<TriangleIndex> parts = last_new_triangles(before, cut);
+  for (const TriangleIndex t : left.freed)
+    if (cut.triangle(t).alive()) parts.push_back(t);
+  return Merging(before, cut, thinness, left).run(parts);
 }
 
 }  // namespace cutbench

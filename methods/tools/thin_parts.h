@@ -26,11 +26,10 @@ namespace cutbench {
 /// \param thinness  >= 0; 0 merges nothing
 std::vector<Polygon> merge_thin_parts(const Sheet& before, const Sheet& cut, double thinness);
 
-/// The same for the parts that the cut of the log of `cut` made, and for those beside them that are thin. What they join
-/// may be a polygon that was there before. Its cost is that of this cut.
-/// \param polygon_of  of those that were there before (CuttingMethod::next_ties())
+/// The same for the parts that the cut of the log of `cut` made, what it freed, and what is thin beside them. What they
+/// join may be a polygon that was there before. Its cost is that of this cut.
 /// \return the polygons that are new
 std::vector<Polygon> merge_new_thin_parts(const Sheet& before, const Sheet& cut, double thinness,
-                                          const PolygonOf& polygon_of);
+                                          const PolygonsLeft& left);
 
 }  // namespace cutbench
