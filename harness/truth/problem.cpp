@@ -4,6 +4,7 @@
 
 #include "harness/base/errors.h"
 #include "harness/truth/edge_crack.h"
+#include "harness/truth/hanging_sheet.h"
 #include "harness/truth/out_of_plane.h"
 #include "harness/truth/severed_strip.h"
 #include "harness/truth/window_problem.h"
@@ -18,6 +19,8 @@ const std::vector<std::unique_ptr<const Problem>>& all_problems() {
     append_out_of_plane(all);
     all.push_back(severed_strip(Integrator::midpoint));
     all.push_back(severed_strip(Integrator::backward_euler));
+    all.push_back(hanging_sheet(Integrator::midpoint));
+    all.push_back(hanging_sheet(Integrator::backward_euler));
     return all;
   }();
   return problems;

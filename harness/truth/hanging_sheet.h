@@ -1,0 +1,29 @@
+// A sheet hangs at rest and is cut from the side: the part below the cut drops and swings. SI units.
+//
+// The unit square has E = 1 N/m, density 1 kg/m2 and nu = 0, so that waves of stretch run at 1 m/s, and strains are linear.
+// Its upper side is held. It hangs in equilibrium, u_y = -g (1 - y^2) / 2 (a bar under its own weight), with g = 0.1 m/s2. At
+// t = 0 a straight cut runs from the right side into the sheet, without loss and in no time.
+//
+// There is no closed form for what follows. It is compared with the same motion on a mesh that is fitted to the cut and far
+// finer (body_fitted()), by the same integrator with the same step: the error is that of the cut sheet alone.
+//
+// Measures, over all steps: of the displacement of the lower right corner, of the gape at eight places of the cut, and of the
+// strain energy, the root of the mean square of the difference over that of the fine mesh's; and the energy lost until the
+// end, over the largest kinetic energy of the fine mesh.
+#pragma once
+
+#include "harness/fem/physics.h"
+#include "harness/truth/problem.h"
+
+namespace cutbench {
+
+/// Displacement of the uncut sheet at rest, m, at the height `y` above the lower side.
+double hanging_displacement(double y);
+
+/// `hanging_sheet_<integrator>`. A step is the time in which a wave of stretch passes one square of the specimen's sheet.
+/// \param duration  s
+/// \param fine      squares along a side of the fine mesh's sheet
+/// \pre `integrator` is implicit and makes steps.
+std::unique_ptr<const Problem> hanging_sheet(Integrator integrator, double duration = 4, int fine = 96);
+
+}  // namespace cutbench
