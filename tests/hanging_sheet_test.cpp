@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "harness/base/own_seed.h"
 #include "tests/truth_helpers.h"
 
 namespace cutbench {
@@ -64,6 +65,14 @@ TEST(HangingSheet, TheMidpointRuleKeepsTheEnergy) {
         EXPECT_GT(lost.value, 0.05);
     }
   }
+}
+
+/// Not even the flattest triangle begins with a stress of its own.
+TEST(HangingSheet, SliversBeginWithoutStress) {
+  const auto problem = hanging_sheet(Integrator::backward_euler, 1, 32);
+  const Specimen specimen = problem->specimen("alternating", 10, own_seed(1, problem->name()), 0);  // AR 5e6
+  const Answer answer = solved(*problem, specimen, cut_by(specimen, "bowyer_watson", 1));
+  EXPECT_LT(measure_of(answer, "strain_energy_motion").error, 0.2);
 }
 
 /// A sheet that stays whole does not swing.
