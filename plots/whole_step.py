@@ -63,7 +63,7 @@ def draw(ax, table, scale=1.0):
     ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if span < 15 else (1, 3) if span < 300 else (1,)))
     ax.xaxis.set_minor_formatter(NullFormatter())
     ax.xaxis.set_major_formatter(lambda x, _: f"{x:g}")
-    ax.yaxis.set_major_locator(plt.FixedLocator([0.02, 0.05, 0.1, 0.2, 0.5, 1]))
+    ax.yaxis.set_major_locator(plt.FixedLocator([0.0002, 0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1]))
     ax.yaxis.set_minor_locator(plt.NullLocator())
     ax.yaxis.set_major_formatter(lambda y, _: f"{100 * y:g} %")
     return made
@@ -106,13 +106,13 @@ def pages(table, column, context, by_solver):
         drawn.append((ax, draw(ax, here)))
         ax.set_title(setting_name(setting), fontsize=6, loc="left")
         ax.set_xlabel("ms for a cut and the 0.25 s after it" if i + columns >= len(settings) else "")
-        ax.set_ylabel("" if i % columns else f"error, {points.MEASURES[column]}", fontsize=6)
+        ax.set_ylabel("" if i % columns else f"error, {points.MEASURES[column].title}", fontsize=6)
     solver = f"all by {SAME}"
     if by_solver:
         solver = "each by its fastest solver of CG with sliver blocks, multigrid (MG) and CHOLMOD (direct)"
     style.finish(figure, [], (
         f"Lower left is better; {solver}. Time: median over sheets and cuts, bars quartiles. Error: |relative error|, geometric mean "
-        "over kinds of problems in plane at rest; bars: bootstrap over the kinds, of the ratio to a fitted mesh. Hollow, and not on the "
+        f"over {points.MEASURES[column].of}; bars: bootstrap over these, of the ratio to a fitted mesh. Hollow, and not on the "
         f"front: energy came from nowhere in over half of the motions. {words(table, context)}."), entries(pd.concat([made for _, made in drawn])))
     for ax, made in drawn:
         write_names(ax, made[made["layer"] == 1], made, 4.3, by_solver)
@@ -134,7 +134,7 @@ def summary(best, same, methods, context):
     for ax, made in drawn:
         ax.set_xlim(limits[:, 0].min() / 1.5, limits[:, 1].max() * 2)
         write_names(ax, made[(made["layer"] == 1) | (made["resolution"] == made["resolution"].max())], made, 7, False)
-    axes[0].set_ylabel(f"error of the cut sheet's solution, {points.MEASURES[points.LEADS]}", fontsize=9)
+    axes[0].set_ylabel(f"error of the cut sheet's solution, {points.MEASURES[points.LEADS].title}", fontsize=9)
     handles = entries(pd.concat([made for _, made in drawn]), 1.6)
     figure.legend(handles=handles, loc="upper left", ncol=-(-len(handles) // 2), fontsize=8.5, borderaxespad=0.2, handletextpad=0.3,
                   columnspacing=1.2)
@@ -193,14 +193,14 @@ def tables(cost, fronts):
         counts = fronts[points.LEADS, "best"]
         settings = len(counts[SETTING].drop_duplicates())
         share = counts[counts["layer"] == 1].groupby("method")[SETTING].apply(lambda t: len(t.drop_duplicates()))
-        load.print_table(f"On the front in how many of the {settings} settings, each by its fastest solver",
+        load.print_table(f"On the front in how many of the {settings} settings, each by its fastest solver ({points.MEASURES[points.LEADS].title})",
                          ["method", "settings"], [[m, str(n)] for m, n in share.sort_values(ascending=False, kind="stable").items()])
         for (column, kind), table in fronts.items():
             solver = "each by its fastest solver" if kind == "best" else f"all by {SAME}"
-            print_fronts(table, f"Fronts: time against error ({points.MEASURES[column]}, {table['kinds'].max()} kinds of problems "
-                                f"in plane), {solver}")
+            print_fronts(table, f"Fronts: time against error ({points.MEASURES[column].title}; {table['kinds'].max()} "
+                                f"{points.MEASURES[column].of}), {solver}")
         print_costs(cost)
-        print("\nOut of plane, and of 12,800 triangles, the errors of all methods are not known.")
+        print("\nOf 12,800 triangles, the errors of all methods are not known.")
     return text.getvalue()
 
 
@@ -232,7 +232,7 @@ def main():
               for column in points.MEASURES for way, some in ways(cost).items()}
     for (column, way), table in fronts.items():
         style.save(pages(table, column, context, way == "best"), folder,
-                   STEM + "_same_solver" * (way == "same") + "_released_energy" * (column != points.LEADS))
+                   STEM + "_same_solver" * (way == "same") + f"_{column}" * (column != points.LEADS))
     figure = readme_chart(folder)
     figure.savefig(folder / "readme_chart.png", dpi=150)
     plt.close(figure)

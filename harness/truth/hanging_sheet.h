@@ -25,6 +25,6 @@ double hanging_displacement(double y);
 /// \param duration  s
 /// \param fine      squares along a side of the fine mesh's sheet
 /// \pre `integrator` is implicit and makes steps.
-std::unique_ptr<const Problem> hanging_sheet(Integrator integrator, double duration = 4, int fine = 96);
+std::unique_ptr<const Problem> hanging_sheet(Integrator integrator, double duration = 4, int fine = 128);
 
 }  // namespace cutbench

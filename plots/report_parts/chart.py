@@ -46,7 +46,7 @@ def as_json(results):
 
     return {
         "points": found, "absent": absent, "real_time_ms": whole_step.REAL_TIME_MS,
-        "origins": [origin(files), origin((points.PUBLISHED, points.PUBLISHED.with_name("method_comparison_accuracy.context.json")))],
+        "origins": [origin(files), *(origin(files) for files in dict.fromkeys(m.files() for m in points.MEASURES.values()))],
         "groups": [{"name": f.name, "colour": f.colour, "shape": SHAPES[f.marker], "methods": f.methods}
                    for f in [*families.FAMILIES, families.OTHER]],
         "choices": [
@@ -54,5 +54,5 @@ def as_json(results):
             {"name": "step", "label": "step", "options": values("step_s", lambda x: f"1/{1 / x:.0f} s")},
             {"name": "stiffness", "label": "stiffness E t", "options": values("stiffness_n_m", lambda x: f"{x:g} N/m")},
             {"name": "solver", "label": "solver", "options": [{"value": k, "label": v} for k, v in WAYS.items()]},
-            {"name": "measure", "label": "error in", "options": [{"value": k, "label": v} for k, v in points.MEASURES.items()]}],
+            {"name": "measure", "label": "error in", "options": [{"value": k, "label": m.title} for k, m in points.MEASURES.items()]}],
         "chosen": dict(zip(["cuts", "step", "stiffness"], (f"{x:.6g}" for x in whole_step.summarised(rows))))}

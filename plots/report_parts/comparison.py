@@ -158,8 +158,7 @@ class Comparison:
         self.sizes = self.sizes or sorted(set(rows["resolution"]))
         rows = rows[rows["knob"] == rows["method"].map(self.variants)]
         published = points.published(points.LEADS)
-        self.origins["method_comparison_accuracy"] = origin((points.PUBLISHED, points.PUBLISHED.with_name(
-            "method_comparison_accuracy.context.json")))
+        self.origins["method_comparison_accuracy"] = origin(points.MEASURES[points.LEADS].files())
         for sheet, size in itertools.product([ALL, *self.sheets], [ALL, *self.sizes]):
             here = points.errors_of(chosen(published, sheet=sheet, resolution=size), pooled=True)
             error = dict(zip(here["method"], 100 * here["error"])) if len(here) else {}
