@@ -3,7 +3,7 @@
 import copy
 
 import numpy as np
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from matplotlib.ticker import FuncFormatter, NullFormatter
 
 from common import front, load, style
 from common.load import of
@@ -97,11 +97,7 @@ def percent_axis(ax, values):
 def log_x_axis(ax):
     """Logarithmic, plain numbers. Call it when all is drawn."""
     ax.set_xscale("log")
-    low, high = ax.get_xlim()
-    subs = (1, 2, 5) if high < 40 * low else (1, 3) if high < 400 * low else (1,)
-    ax.xaxis.set_major_locator(LogLocator(subs=subs, numticks=12))
-    ax.xaxis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
-    ax.xaxis.set_minor_formatter(NullFormatter())
+    style.plain_numbers(ax, "x", 4)
 
 
 def cells_of(table, x, y, by, panel=()):

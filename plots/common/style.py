@@ -12,7 +12,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import to_rgb
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 from common.load import VARIANT, count, cut_columns, family_column, stop
 
@@ -185,12 +185,22 @@ def resolution_axis(ax, resolutions, scale="sqrt", labelled=True):
         ax.set_xlabel("triangles, uncut sheet")
 
 
-def plain_numbers(ax):
-    """On a logarithmic y axis whose limits are set: no exponents; 1, 2, 5 of each decade where the range is short."""
-    low, high = ax.get_ylim()
-    ax.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 150 * low else (1,), numticks=12))
-    ax.yaxis.set_major_formatter(FuncFormatter(lambda y, _: f"{y:g}"))
-    ax.yaxis.set_minor_formatter(NullFormatter())
+def decade_ticks(low, high, most=5):
+    """At most `most` round numbers on a logarithmic axis, evenly over its decades; at least two where there are any."""
+    first, last = int(np.floor(np.log10(low))), int(np.ceil(np.log10(high)))
+    for parts in ((1, 1.5, 2, 3, 5, 7), (1, 2, 3, 5), (1, 2, 5), (1, 3), (1,)):
+        ticks = [p * 10.0**d for d in range(first, last + 1) for p in parts if low <= p * 10.0**d <= high]
+        if len(ticks) <= most:
+            return ticks
+    return ticks[::-(-len(ticks) // most)]
+
+
+def plain_numbers(ax, axis="y", most=5):
+    """On a logarithmic axis whose limits are set: round numbers without exponents."""
+    ruled = ax.yaxis if axis == "y" else ax.xaxis
+    ruled.set_major_locator(FixedLocator(decade_ticks(*(ax.get_ylim() if axis == "y" else ax.get_xlim()), most)))
+    ruled.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    ruled.set_minor_formatter(NullFormatter())
 
 
 def legend_entry(look):
