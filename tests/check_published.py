@@ -32,7 +32,7 @@ def expect(what, condition):
 def names_of(stages):
     names = set(publish.KEPT) | set(publish.FROM_REFERENCE)
     for stage in stages.values():
-        names |= set().union(*publish.published(stage))
+        names |= set().union(*publish.published(stage), stage.get("made_last", []))
     return names
 
 
@@ -138,6 +138,13 @@ def check_assembled(folder):
     packed = (reference / "a.records.csv.gz").read_bytes()
     publish.assemble(stages, state, "c0ffee", new)
     expect("the same records are packed differently", (new / "a.records.csv.gz").read_bytes() == packed)
+    for file in ("kept.png", "kept.caption.txt", "other.png"):
+        (folder / "results/a" / file).write_text("text", encoding="utf-8")
+    copies = [f"cp results/a/{file} {{folder}}" for file in ("kept.png", "kept.caption.txt", "other.png")]
+    publish.make_last({"s": {"last": copies, "made_last": ["kept.png"]}}, reference)
+    expect("what is made last is missing", (reference / "kept.png").is_file() and (reference / "kept.caption.txt").is_file())
+    expect("what else the last commands make stays", not (reference / "other.png").exists())
+    expect("the last commands remove what was there", (reference / "renamed.txt").is_file())
     (folder / "results/a/context.json").write_text('{"dirty": true}', encoding="utf-8")
     expect("records of a changed tree are published", "changed" in refusal(publish.assemble, stages, state, "c0ffee", new))
 
