@@ -46,7 +46,7 @@ MEASURES = {
     "released_energy": Measure("released energy (hole: rim stress)", "kinds of problems in plane at rest",
                                "method_comparison_accuracy.direct", "error", _in_plane),
     "out_of_plane": Measure("out of plane", "problems out of plane at rest", "out_of_plane", "error", lambda table: table["problem"]),
-    "motion": Measure("a flap's motion", "sheets, of a hanging sheet's flap in motion", "motion", "error_flap_motion", _in_motion)}
+    "motion": Measure("lips' motion", "sheets, of the gape of a hanging sheet", "motion", "error_gape_motion", _in_motion)}
 
 
 def steps_between(step_s):
