@@ -47,7 +47,8 @@ def measured():
     """A row per method: what the cells of the tables claim to be."""
     rows = pd.read_csv(ROOT / "results/reference/method_comparison.records.csv.gz", usecols=COLUMNS, low_memory=False)
     rows = rows[rows["status"] != "refused"]
-    rows = rows.assign(us=rows["geometry_us"] / rows["crossed_triangles"], added=rows["vertices_added"] / rows["crossed_triangles"])
+    rows = rows.assign(us=rows["geometry_us"] / rows["crossed_triangles"],
+                       added=rows["vertices_added"] / rows["crossed_triangles"])
     found = {}
     for method, all_sheets in rows.groupby("method"):
         even = all_sheets[all_sheets["sheet"] != "graded"]
