@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+"""Do 'Which method?' of README.md and docs/results.md and the table of docs/results.md say what the published rows say?
+Recomputed here from results/reference with nothing of plots/. Prints every disagreement; exit code 1 if there is any."""
+
+import re
+import sys
+from pathlib import Path
+
+import pandas as pd
+
+ROOT = Path(__file__).resolve().parent.parent
+COLUMNS = ["sheet", "cut_family", "method", "status", "crossed_triangles", "vertices_added", "geometry_us", "eigenvalue_ratio",
+           "bending_eigenvalue_ratio", "ar_max_cut", "ar_max_cut_strict", "ar_max_cut_outside_wedges"]
+problems = []
+
+
+def expect(where, said, measured):
+    """\\param said  a cell; it has to be `measured` rounded to the digits it shows"""
+    said = said.strip()
+    if said == "-" or measured != measured:
+        if said != "-" or measured == measured:
+            problems.append(f"{where}: says {said}, the rows give {measured:.4g}")
+        return
+    digits = said.replace(",", "").lstrip("+-")
+    mantissa, _, exponent = digits.partition("e")
+    decimals = len(mantissa.partition(".")[2])
+    unit = 10.0 ** (int(exponent or 0) - decimals)
+    if not exponent and not decimals:  # trailing zeros of a whole number are no digits: 7,200
+        unit = 10.0 ** (len(digits) - len(digits.rstrip("0"))) if float(digits) >= 100 else 1.0
+    if abs(float(digits) - measured) > 0.501 * unit:
+        problems.append(f"{where}: says {said}, the rows give {measured:.4g}")
+
+
+def rows_of(text, heading):
+    """The cells of the first table after a heading, without its two head lines."""
+    lines = text[text.index(heading):].splitlines()
+    first = next(i for i, line in enumerate(lines) if line.startswith("|"))
+    table = []
+    for line in lines[first + 2:]:
+        if not line.startswith("|"):
+            break
+        table.append([cell.strip() for cell in line.strip("|").split("|")])
+    return table
+
+
+def measured():
+    """A row per method: what the cells of the tables claim to be."""
+    rows = pd.read_csv(ROOT / "results/reference/method_comparison.records.csv.gz", usecols=COLUMNS, low_memory=False)
+    rows = rows[rows["status"] != "refused"]
+    rows = rows.assign(us=rows["geometry_us"] / rows["crossed_triangles"],
+                       added=rows["vertices_added"] / rows["crossed_triangles"])
+    found = {}
+    for method, all_sheets in rows.groupby("method"):
+        even = all_sheets[all_sheets["sheet"] != "graded"]
+        changed = all_sheets["ar_max_cut"].notna().sum()
+        below = {c: 100 * (all_sheets[c] < 3).sum() / changed if changed else float("nan")
+                 for c in ("ar_max_cut_strict", "ar_max_cut_outside_wedges")}
+        found[method] = [
+            even["eigenvalue_ratio"].median(), even["eigenvalue_ratio"].quantile(0.95),
+            even.loc[even["cut_family"] == "several", "eigenvalue_ratio"].median(),
+            all_sheets.loc[all_sheets["sheet"] == "graded", "eigenvalue_ratio"].median(),
+            even["bending_eigenvalue_ratio"].quantile(0.95), *below.values(), all_sheets["added"].median(),
+            all_sheets["us"].median(), all_sheets["geometry_us"].sum() / all_sheets["crossed_triangles"].sum()]
+    return found
+
+
+NAMES = ["eigenvalue", "eigenvalue, 95 %", "four cuts", "graded sheet", "with bending", "AR < 3", "outside forced wedges",
+         "vertices added", "us, median", "us, total"]
+PLACES = [4, 5, 6, 7, 8, 9, 10, 13, 14, 15]  # of these in the table of docs/results.md
+US = NAMES.index("us, median")
+
+truth = measured()
+results = (ROOT / "docs/results.md").read_text(encoding="utf-8")
+readme = (ROOT / "README.md").read_text(encoding="utf-8")
+seen = set()
+for cells in rows_of(results, "## The table"):
+    method = cells[1].strip("`")
+    seen.add(method)
+    for name, place, value in zip(NAMES, PLACES, truth[method]):
+        expect(f"docs/results.md, The table, {method}, {name}", cells[place], value)
+if seen != set(truth):
+    problems.append(f"docs/results.md, The table: other methods than in the rows: {', '.join(sorted(seen ^ set(truth)))}")
+for cells in rows_of(readme, "## Which method?"):
+    expect(f"README.md, Which method?, {cells[0]}", cells[2], truth[re.search(r"`(\w+)`", cells[1])[1]][US])
+costs = rows_of(results, "## Which method?")
+for cells in costs:
+    said = re.match(r"([\d.]+) us", cells[2])
+    if said:
+        expect(f"docs/results.md, Which method?, {cells[0]}", said[1], truth[re.search(r"`(\w+)`", cells[1])[1]][US])
+if not any(" us" in cells[2] for cells in costs) or len(rows_of(readme, "## Which method?")) < 3:
+    problems.append("Which method?: no times were found in it; has its form changed?")
+print("\n".join(problems))
+sys.exit(bool(problems))
