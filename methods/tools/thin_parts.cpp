@@ -94,7 +94,8 @@ class Merging {
     if (!is_part(t)) return cell;
     const auto c = sheet_.corners(t);
     // A part keeps its parent's slot, and slots follow the path: the walk is short.
-    parent_ = triangle_at(before_, t() < before_.triangle_slots() ? t : parent_, 1.0 / 3 * (c[0] + c[1] + c[2]));
+    const bool had_slot = t() < before_.triangle_slots() && before_.triangle(t).alive();
+    parent_ = triangle_at(before_, had_slot ? t : parent_, 1.0 / 3 * (c[0] + c[1] + c[2]));
     cell.reference = triangle_cell(before_, parent_).thickness();
     return cell;
   }
