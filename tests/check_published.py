@@ -52,8 +52,10 @@ def check_reference(program):
         expect(f"results/reference/{file.name}: suite version {', '.join(sorted(found))}, today's is {version}; publish it again",
                found == {version})
     for file in sorted(REFERENCE.glob("*.context.json")):
-        expect(f"results/reference/{file.name}: of a tree with changes that no commit holds",
-               json.loads(file.read_text(encoding="utf-8"))["dirty"] is False)
+        context = json.loads(file.read_text(encoding="utf-8"))
+        expect(f"results/reference/{file.name}: of a tree with changes that no commit holds", context["dirty"] is False)
+        expect(f"results/reference/{file.name}: its command has a path of one machine: {context['command']}",
+               " /" not in context["command"])
 
 
 # --- a small project ----------------------------------------------------------------------------------------------------

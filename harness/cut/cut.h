@@ -32,7 +32,7 @@ struct CutOptions {
 /// the locator up to date. Where a program of its own made the cut there is `program` instead of the phases before it.
 struct PhaseTimes {
   double locate = 0, trace = 0, embed = 0, improve = 0, open = 0;
-  double tie = 0;      ///< CuttingMethod::ties(), which a solver calls after the cut: Cutter leaves it 0
+  double tie = 0;      ///< CuttingMethod::ties() or next_ties(), which a solver calls after the cut: Cutter leaves it 0
   double program = 0;  ///< as it reports, else from its start to its end
   double total() const { return locate + trace + embed + improve + open + tie + program; }
   PhaseTimes& operator+=(const PhaseTimes& o) {

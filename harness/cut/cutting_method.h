@@ -69,8 +69,8 @@ class CuttingMethod {
   /// makes of triangles; none: every vertex has its own unknowns. Depends on the two sheets alone.
   /// \param before  the sheet before the first cut; no slot of it has moved since (Sheet::compact() would move them)
   virtual Ties ties(const Sheet& /*before*/, const Sheet& /*cut*/) const { return {}; }
-  /// The same after one more cut, that of the log of `cut`. Of the polygons, only those that are new: others stay, unless
-  /// they share a triangle with a new one. So polygons can follow the cut; the default returns those of all cuts.
+  /// The same after one more cut, that of the log of `cut`. Returns all ties, but only the new polygons: an old polygon
+  /// stays unless it shares a triangle with a new one. The default returns the polygons of all cuts.
   virtual Ties next_ties(const Sheet& before, const Sheet& cut, const PolygonsLeft& /*left*/) const {
     return ties(before, cut);
   }

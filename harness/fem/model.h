@@ -37,9 +37,8 @@ class Model {
   void update_bending(const Sheet& sheet);  ///< nothing without bending
   /// Constrains vertices and makes polygons of triangles; call it after update() and update_bending(). Constraints of
   /// before are removed. Polygons of before stay, unless the cut touched their triangles or they share one with a new
-  /// polygon. Forces, energies
-  /// and the matrix remain those of all vertices; a solver solves for the unknowns of tied(). Vertices inside polygons
-  /// are no unknowns: they have no mass and are held, and follow() moves them.
+  /// polygon. Forces, energies and the matrix remain those of all vertices; a solver solves for the unknowns of tied().
+  /// Vertices inside polygons are no unknowns: they have no mass and are held, and follow() moves them.
   /// \pre `sheet` is that of the last update().
   void tie(const Sheet& sheet, const Ties& ties);
   /// Gives the vertices inside polygons their values, positions or velocities.

@@ -125,12 +125,16 @@ class HangingSheet : public Problem {
   /// Computed once for each cut and number of steps; whoever asks first computes it.
   const Motion& fine_motion(const Specimen& specimen, int squares) const {
     const Point2 from = specimen.cuts[0].points[0], to = specimen.cuts[0].points[1];
-    const std::lock_guard lock(mutex_);
-    const auto [found, is_new] = fine_motions_.try_emplace({squares, from.y, to.x, to.y});
-    if (is_new)
-      found->second =
+    Truth* truth = nullptr;
+    {
+      const std::lock_guard lock(mutex_);
+      truth = &truths_[{squares, from.y, to.x, to.y}];
+    }
+    std::call_once(truth->computed, [&] {
+      truth->motion =
           extrapolated(fitted_motion(specimen, fine_ / 2, squares), fitted_motion(specimen, fine_, squares));
-    return found->second;
+    });
+    return truth->motion;
   }
 
   Motion fitted_motion(const Specimen& specimen, int fine, int squares) const {
@@ -154,6 +158,10 @@ class HangingSheet : public Problem {
       const Point2 p = sheet.rest(sheet.rest_vertex(d));
       state.x.segment<2>(2 * d.value) << p.x, p.y + start(p);
       if (p.x == 1 && p.y == 0) corner = d;
+    }
+    if (!corner.valid()) {
+      answer.verdict = "no_corner", answer.reason = "the cut sheet has no vertex at its lower right corner";
+      return {};
     }
     for (const std::uint8_t held : model.held()) answer.unknowns += held == 0;
 
@@ -215,8 +223,12 @@ class HangingSheet : public Problem {
   Integrator integrator_;
   double duration_;
   int fine_;
-  mutable std::mutex mutex_;
-  mutable std::map<std::tuple<int, double, double, double>, Motion> fine_motions_;  // by steps and cut
+  struct Truth {
+    std::once_flag computed;
+    Motion motion;
+  };
+  mutable std::mutex mutex_;                                                 // of the map, not of what is in it
+  mutable std::map<std::tuple<int, double, double, double>, Truth> truths_;  // by steps and cut
 };
 
 }  // namespace

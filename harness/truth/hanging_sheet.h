@@ -5,7 +5,7 @@
 // t = 0 a straight cut runs from the right side into the sheet, without loss and in no time. Cut sheets begin with the
 // displacement that the uncut one's elements have there.
 //
-// There is no closed form for what follows. It is compared with the same motion on two meshes that are fitted to the cut and far
+// There is no closed form for what follows. It is compared with the same motion on two meshes that are fitted to the cut and
 // finer (body_fitted()), by the same integrator with the same step: the error is that of the cut sheet alone. The tip makes it
 // go like the size h of the triangles (Strang and Fix, An analysis of the finite element method, 1973, chapter 8), so the two are
 // extrapolated to h = 0: 2 q(h / 2) - q(h).

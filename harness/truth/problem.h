@@ -64,7 +64,7 @@ class Problem {
   virtual ~Problem() = default;
   virtual std::string name() const = 0;
   virtual std::string effect() const = 0;  ///< one line: the one effect it shows
-  virtual std::string truth() const = 0;   ///< one line: the exact answer and its source
+  virtual std::string truth() const = 0;   ///< one line: the answer and its source
   /// What answer() measures, the primary one first: that which ranks.
   virtual std::vector<std::string> measures() const = 0;
   virtual bool takes_budgets() const { return true; }  ///< false: several linear solves, solved directly only

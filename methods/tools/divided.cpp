@@ -22,13 +22,15 @@ std::vector<TriangleIndex> new_triangles(const Sheet& before, const Sheet& cut, 
   return found;
 }
 
+bool is_part(const Sheet& before, const Sheet& cut, TriangleIndex t) {
+  const auto& v = cut.triangle(t).vertex;
+  return std::any_of(v.begin(), v.end(), [&](VertexIndex w) { return cut.is_newer(w, before); });
+}
+
 std::vector<TriangleIndex> last_new_triangles(const Sheet& before, const Sheet& cut) {
   std::vector<TriangleIndex> found;
   const auto look_at = [&](TriangleIndex t) {
-    const Triangle& triangle = cut.triangle(t);
-    const auto& v = triangle.vertex;
-    if (triangle.alive() && std::any_of(v.begin(), v.end(), [&](VertexIndex w) { return cut.is_newer(w, before); }))
-      found.push_back(t);
+    if (cut.triangle(t).alive() && is_part(before, cut, t)) found.push_back(t);
   };
   for (const auto& touched : cut.log().touched) look_at(touched.slot);
   for (std::size_t t = cut.log().triangles_before; t < cut.triangle_slots(); ++t) look_at(TriangleIndex(t));
@@ -58,13 +60,16 @@ TriangleIndex triangle_at(const Sheet& sheet, TriangleIndex start, Point2 p) {
   return last;
 }
 
+TriangleIndex parent_of(const Sheet& before, const Sheet& cut, TriangleIndex part, TriangleIndex start) {
+  if (part() < before.triangle_slots() && before.triangle(part).alive()) start = part;
+  const auto c = cut.corners(part);
+  return triangle_at(before, start, 1.0 / 3 * (c[0] + c[1] + c[2]));
+}
+
 std::vector<DividedTriangle> divided_triangles(const Sheet& before, const Sheet& cut) {
   std::vector<DividedTriangle> divided;
   for (const TriangleIndex t : new_triangles(before, cut, true)) {
-    // A part keeps its parent's slot, and slots follow the path: the walk is short.
-    TriangleIndex start = t() < before.triangle_slots() ? t : divided.back().parent;
-    const auto c = cut.corners(t);
-    divided.push_back({t, triangle_at(before, start, 1.0 / 3 * (c[0] + c[1] + c[2]))});
+    divided.push_back({t, parent_of(before, cut, t, divided.empty() ? TriangleIndex{0} : divided.back().parent)});
   }
   return divided;
 }

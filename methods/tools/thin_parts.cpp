@@ -61,8 +61,9 @@ class Merging {
   void take(const std::vector<TriangleIndex>& parts) {
     for (const TriangleIndex t : parts)
       if (!cell_of_.contains(t())) add(t);
+    const std::size_t first = cells_.size();
     for (std::size_t i = 0; i < cells_.size(); ++i)
-      if (put_on_list(i) || i < parts.size()) find_neighbours(i);
+      if (put_on_list(i) || i < first) find_neighbours(i);
   }
 
   static Cell triangle_cell(const Sheet& sheet, TriangleIndex t) {
@@ -76,11 +77,6 @@ class Merging {
     return cell;
   }
 
-  bool is_part(TriangleIndex t) const {
-    const auto& v = sheet_.triangle(t).vertex;
-    return std::any_of(v.begin(), v.end(), [&](VertexIndex w) { return sheet_.is_newer(w, before_); });
-  }
-
   /// A triangle, or the polygon that was there before.
   std::size_t add(TriangleIndex t) {
     const auto members = left_.of ? left_.of(t) : std::span<const TriangleIndex>{};
@@ -91,11 +87,8 @@ class Merging {
 
   Cell part_cell(TriangleIndex t) {
     Cell cell = triangle_cell(sheet_, t);
-    if (!is_part(t)) return cell;
-    const auto c = sheet_.corners(t);
-    // A part keeps its parent's slot, and slots follow the path: the walk is short.
-    const bool had_slot = t() < before_.triangle_slots() && before_.triangle(t).alive();
-    parent_ = triangle_at(before_, had_slot ? t : parent_, 1.0 / 3 * (c[0] + c[1] + c[2]));
+    if (!is_part(before_, sheet_, t)) return cell;
+    parent_ = parent_of(before_, sheet_, t, parent_);
     cell.reference = triangle_cell(before_, parent_).thickness();
     return cell;
   }
@@ -145,7 +138,7 @@ class Merging {
     const std::vector<HalfEdge> outline = cells_[cell].outline;
     for (const HalfEdge h : outline)
       if (!sheet_.separates(h))
-        if (const TriangleIndex t = triangle_of(sheet_.opposite(h)); is_part(t)) cell_at(t);
+        if (const TriangleIndex t = triangle_of(sheet_.opposite(h)); is_part(before_, sheet_, t)) cell_at(t);
   }
 
   /// They may have been left thin for want of one that is worth joining.

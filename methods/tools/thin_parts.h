@@ -27,7 +27,7 @@ namespace cutbench {
 std::vector<Polygon> merge_thin_parts(const Sheet& before, const Sheet& cut, double thinness);
 
 /// The same for the parts that the cut of the log of `cut` made, what it freed, and what is thin beside them. What they
-/// join may be a polygon that was there before. Its cost is that of this cut.
+/// join may be a polygon that was there before. Its cost grows with this cut, not with earlier ones.
 /// \return the polygons that are new
 std::vector<Polygon> merge_new_thin_parts(const Sheet& before, const Sheet& cut, double thinness,
                                           const PolygonsLeft& left);

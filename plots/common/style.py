@@ -186,7 +186,7 @@ def resolution_axis(ax, resolutions, scale="sqrt", labelled=True):
 
 
 def decade_ticks(low, high, most=5):
-    """At most `most` round numbers on a logarithmic axis, evenly over its decades; at least two where there are any."""
+    """At most `most` round numbers on a logarithmic axis, evenly over its decades; none on a very short one."""
     first, last = int(np.floor(np.log10(low))), int(np.ceil(np.log10(high)))
     for parts in ((1, 1.5, 2, 3, 5, 7), (1, 2, 3, 5), (1, 2, 5), (1, 3), (1,)):
         ticks = [p * 10.0**d for d in range(first, last + 1) for p in parts if low <= p * 10.0**d <= high]
