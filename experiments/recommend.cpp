@@ -1,0 +1,226 @@
+#include "experiments/recommend.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "experiments/scene_run.h"
+#include "harness/base/errors.h"
+#include "harness/base/toml_reader.h"
+#include "harness/mesh/families.h"
+#include "methods/registry.h"
+
+namespace cutbench {
+
+namespace {
+
+constexpr double octave = 4, steps_octave = 8;  // candidates: down to n / 4 squares a side, and an eighth of the steps
+constexpr double widest = 4;  // triangles x steps over those of the first good candidate: more can't be the cheapest
+constexpr double near_best = 1.5;  // in cost: timed again
+constexpr int more_timings = 3;
+constexpr double tight = 1e-6;  // tolerance of the runs that give the converged value
+
+Scene scene_of(Scene scene, const Choice& choice) {
+  scene.resolution = choice.resolution, scene.solver.name = choice.solver;
+  if (scene.integrator != Integrator::equilibrium) set_steps(scene, choice.steps);
+  return scene;
+}
+
+int triangles(double side) { return 2 * static_cast<int>(side) * static_cast<int>(side); }
+
+/// value, value / sqrt(2), ... value / span, rounded; each once, the smallest first.
+std::set<int> ladder(double value, double span) {
+  std::set<int> rungs;
+  for (double i = 0; std::exp2(i / 2) <= 1.001 * span; ++i)
+    rungs.insert(std::max(1, static_cast<int>(std::lround(value / std::exp2(i / 2)))));
+  return rungs;
+}
+
+class Search {
+ public:
+  Search(const Scene& scene, const RecommendOptions& options) : scene_(scene), options_(options) {}
+
+  Trial run(const Choice& choice, double tolerance) {
+    Scene scene = scene_of(scene_, choice);
+    scene.solver.tolerance = tolerance;
+    const auto method = make(choice);
+    const SceneRun made = run_to_end(scene, *method, options_.cut, options_.time_limit);
+    return {.choice = choice,
+            .verdict = made.verdict,
+            .reason = made.reason,
+            .value = options_.quantity == Quantity::gape ? made.gape : made.deflection};
+  }
+
+  void time(Trial& trial) {
+    const auto method = make(trial.choice);
+    trial.ms_per_second =
+        std::fmin(trial.ms_per_second, processor_ms_per_second(scene_of(scene_, trial.choice), *method, options_.cut));
+  }
+
+ private:
+  static std::unique_ptr<CuttingMethod> make(const Choice& choice) {
+    const MethodRow& row = find_method(choice.method);
+    return row.make(row.knob.value);
+  }
+
+  const Scene& scene_;
+  const RecommendOptions& options_;
+};
+
+/// The error lies between those for the ends of the interval of the converged value, or down to 0 where it has `value`.
+void judge(Trial& trial, double converged, double margin) {
+  const auto error = [&](double truth) { return std::abs(trial.value - truth) / truth; };
+  const double a = error(converged - margin), b = error(converged + margin);
+  trial.error = error(converged);
+  trial.low = std::abs(trial.value - converged) <= margin ? 0 : std::min(a, b);
+  trial.high = std::max(a, b);
+}
+
+/// Empty where the calibration has seen such scenes.
+std::string beyond(const Scene& scene, const Converged& converged, const Calibration& seen) {
+  char text[200];
+  const auto outside = [&](const char* what, double value, double least, double most) {
+    if (value >= least && value <= most) return false;
+    std::snprintf(text, sizeof text, "%s %.3g, and the calibration has seen %.3g to %.3g", what, value, least, most);
+    return true;
+  };
+  const std::string integrator = name_of(integrator_names, scene.integrator);
+  if (std::find(seen.integrators.begin(), seen.integrators.end(), integrator) == seen.integrators.end())
+    return "the integrator is " + integrator + ", and the calibration has seen " + listed(seen.integrators);
+  if (outside("the sheet's triangles are", scene.resolution, seen.least_resolution, seen.most_resolution) ||
+      outside("the scene's steps are", steps_of(scene), seen.least_steps, seen.most_steps))
+    return text;
+  if (!converged.missing.empty()) return converged.missing;
+  if (outside("the spread of the finer runs over the value is", converged.spread / converged.value, 0,
+              seen.most_spread))
+    return text;
+  if (seen.quantile * converged.spread >= converged.value) return "the converged value may be 0, given its margin";
+  return "";
+}
+
+/// Why no trial is chosen.
+std::string shortfall(const std::vector<Trial>& trials, const RecommendOptions& options) {
+  const Trial* best = nullptr;
+  const Trial* cheapest = nullptr;
+  for (const Trial& trial : trials) {
+    if (trial.verdict != "ok" || !(trial.high < std::numeric_limits<double>::infinity())) continue;
+    if (!best || trial.high < best->high) best = &trial;
+    if (trial.high <= options.max_error && (!cheapest || trial.ms_per_second < cheapest->ms_per_second))
+      cheapest = &trial;
+  }
+  char text[200] = "no candidate ended as ok";
+  if (cheapest)
+    std::snprintf(text, sizeof text, "the cheapest candidate whose error is small enough takes %.3g ms for a second",
+                  cheapest->ms_per_second);
+  else if (best && best->low <= options.max_error)
+    std::snprintf(text, sizeof text, "the error of the best candidate is %.3g to %.3g %%; give a finer scene",
+                  100 * best->low, 100 * best->high);
+  else if (best)
+    std::snprintf(text, sizeof text, "the best candidate errs by %.3g %% or more; give a finer scene", 100 * best->low);
+  return text;
+}
+
+}  // namespace
+
+Calibration read_calibration(const std::filesystem::path& file) {
+  const toml::table table = parse_toml(file);
+  check_keys(table, {"source", "level", "quantile", "scenes", "integrators", "resolutions", "steps", "most_spread"},
+             file.string());
+  const TomlReader reader{table, file.string()};
+  const auto range = [&](const char* key) {
+    const auto values = reader.list<double>(key);
+    if (values.size() != 2 || !(values[0] <= values[1]))
+      reader.refuse(std::string("\"") + key + "\" must be [least, most]");
+    return values;
+  };
+  const auto resolutions = range("resolutions"), steps = range("steps");
+  return {.file = file.string(),
+          .level = reader.positive("level", 0),
+          .quantile = reader.positive("quantile", 0),
+          .integrators = reader.list<std::string>("integrators"),
+          .least_resolution = resolutions[0],
+          .most_resolution = resolutions[1],
+          .least_steps = steps[0],
+          .most_steps = steps[1],
+          .most_spread = reader.positive("most_spread", 0)};
+}
+
+Converged converge(const Scene& scene, const RecommendOptions& options) {
+  if (scene.family.empty())
+    throw InputError("this scene's sheet is read from a file, and has no other resolutions; give one with `family`");
+  const int n = squares_per_side(scene.resolution);
+  const int steps = static_cast<int>(steps_of(scene));
+  const bool at_rest = scene.integrator == Integrator::equilibrium;
+  Search search(scene, options);
+  Converged result;
+  const auto run = [&](int side, int count) {
+    if (result.missing.empty()) {
+      result.runs.push_back(search.run({options.methods.front(), "multigrid", triangles(side), count}, tight));
+      const Trial& made = result.runs.back();
+      if (made.verdict != "ok")
+        result.missing = "its run with " + std::to_string(made.choice.resolution) + " triangles and " +
+                         std::to_string(count) + " steps ended as " + made.verdict + ": " + made.reason;
+    }
+    return result.runs.back().value;
+  };
+  const double coarser = run(n, 2 * steps), slower = at_rest ? 0 : run(2 * n, steps), finest = run(2 * n, 2 * steps);
+  if (!result.missing.empty()) return result;
+  // First order in the length of edges, and in the step but for the midpoint rule.
+  const double by_step = scene.integrator == Integrator::midpoint ? 1.0 / 3 : at_rest ? 0 : 1;
+  const double from_mesh = finest - coarser, from_step = by_step * (finest - slower);
+  result.value = finest + from_mesh + from_step;
+  result.spread = std::abs(from_mesh) + std::abs(from_step);
+  if (!(result.value > 0)) result.missing = "nothing moves, or opens, in the end";
+  return result;
+}
+
+Recommendation recommend(const Scene& scene, const RecommendOptions& options, const Calibration& calibration) {
+  Recommendation result{.converged = converge(scene, options)};
+  result.unknown = beyond(scene, result.converged, calibration);
+  if (!result.unknown.empty()) return result;
+  result.margin = calibration.quantile * result.converged.spread;
+
+  std::vector<std::pair<int, int>> grids;  // triangles, steps
+  for (const int side : ladder(squares_per_side(scene.resolution), octave))
+    for (const int steps : ladder(steps_of(scene), steps_octave)) grids.emplace_back(triangles(side), steps);
+  const auto work = [](const std::pair<int, int>& grid) { return 1.0 * grid.first * grid.second; };
+  std::stable_sort(grids.begin(), grids.end(), [&](auto a, auto b) { return work(a) < work(b); });
+
+  Search search(scene, options);
+  const auto good = [&](const Trial& trial) { return trial.verdict == "ok" && trial.high <= options.max_error; };
+  double most_work = std::numeric_limits<double>::infinity();
+  for (const auto& grid : grids) {
+    if (work(grid) > most_work && !options.everything) break;
+    for (const std::string& method : options.methods)
+      for (const std::string& solver : options.solvers) {
+        Trial trial = search.run({method, solver, grid.first, grid.second}, scene.solver.tolerance);
+        judge(trial, result.converged.value, result.margin);
+        if (good(trial)) most_work = std::min(most_work, widest * work(grid));
+        if (good(trial) || (options.everything && trial.verdict == "ok")) search.time(trial);
+        result.trials.push_back(trial);
+        if (!good(trial) && !options.everything) break;
+      }
+  }
+
+  const auto cheapest = [&] {
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < result.trials.size(); ++i)
+      if (good(result.trials[i]) && (!best || result.trials[i].ms_per_second < result.trials[*best].ms_per_second))
+        best = i;
+    return best;
+  };
+  if (const auto first = cheapest()) {
+    const double limit = near_best * result.trials[*first].ms_per_second;
+    for (int i = 0; i < more_timings; ++i)
+      for (Trial& trial : result.trials)
+        if (trial.ms_per_second <= limit) search.time(trial);
+  }
+  result.chosen = cheapest();
+  if (!result.chosen || result.trials[*result.chosen].ms_per_second > options.max_ms) {
+    result.unknown = shortfall(result.trials, options);
+    result.chosen.reset();
+  }
+  return result;
+}
+
+}  // namespace cutbench
