@@ -14,7 +14,9 @@ namespace cutbench {
 
 namespace {
 
-constexpr double octave = 4, steps_octave = 8;  // candidates: down to n / 4 squares a side, and an eighth of the steps
+constexpr double finest = 2, side_span = 8, steps_span = 16;  // of the candidates: times the scene's; over the coarsest
+constexpr double spread_share = 0.2;  // of the error asked for: the spread of the converged value that is small enough
+constexpr double most_refined = 64;   // triangles x steps over the scene's, of the finest run for the converged value
 constexpr double widest = 4;  // triangles x steps over those of the first good candidate: more can't be the cheapest
 constexpr double near_best = 1.5;  // in cost: timed again
 constexpr int more_timings = 3;
@@ -124,8 +126,7 @@ std::string shortfall(const std::vector<Trial>& trials, const RecommendOptions& 
 
 Calibration read_calibration(const std::filesystem::path& file) {
   const toml::table table = parse_toml(file);
-  check_keys(table, {"source", "level", "quantile", "scenes", "integrators", "resolutions", "steps", "most_spread"},
-             file.string());
+  check_keys(table, {"source", "level", "scores", "integrators", "resolutions", "steps", "most_spread"}, file.string());
   const TomlReader reader{table, file.string()};
   const auto range = [&](const char* key) {
     const auto values = reader.list<double>(key);
@@ -134,9 +135,16 @@ Calibration read_calibration(const std::filesystem::path& file) {
     return values;
   };
   const auto resolutions = range("resolutions"), steps = range("steps");
+  const double level = reader.positive("level", 0);
+  auto scores = reader.list<double>("scores");
+  std::sort(scores.begin(), scores.end());
+  const double rank = std::ceil(level * static_cast<double>(scores.size() + 1) - 1e-9);  // Lei et al. 2018, section 2.2
+  if (rank > static_cast<double>(scores.size()))
+    reader.refuse("a level of " + std::to_string(level) + " takes more than " + std::to_string(scores.size()) +
+                  " scores");
   return {.file = file.string(),
-          .level = reader.positive("level", 0),
-          .quantile = reader.positive("quantile", 0),
+          .level = level,
+          .quantile = scores[static_cast<std::size_t>(rank) - 1],
           .integrators = reader.list<std::string>("integrators"),
           .least_resolution = resolutions[0],
           .most_resolution = resolutions[1],
@@ -148,28 +156,37 @@ Calibration read_calibration(const std::filesystem::path& file) {
 Converged converge(const Scene& scene, const RecommendOptions& options) {
   if (scene.family.empty())
     throw InputError("this scene's sheet is read from a file, and has no other resolutions; give one with `family`");
-  const int n = squares_per_side(scene.resolution);
-  const int steps = static_cast<int>(steps_of(scene));
   const bool at_rest = scene.integrator == Integrator::equilibrium;
   Search search(scene, options);
   Converged result;
-  const auto run = [&](int side, int count) {
-    if (result.missing.empty()) {
-      result.runs.push_back(search.run({options.methods.front(), "multigrid", triangles(side), count}, tight));
-      const Trial& made = result.runs.back();
-      if (made.verdict != "ok")
-        result.missing = "its run with " + std::to_string(made.choice.resolution) + " triangles and " +
-                         std::to_string(count) + " steps ended as " + made.verdict + ": " + made.reason;
-    }
-    return result.runs.back().value;
+  const auto value = [&](int side, int steps) {
+    for (const Trial& made : result.runs)
+      if (made.choice.resolution == triangles(side) && made.choice.steps == steps) return made.value;
+    if (!result.missing.empty()) return std::numeric_limits<double>::quiet_NaN();
+    result.runs.push_back(search.run({options.methods.front(), "multigrid", triangles(side), steps}, tight));
+    const Trial& made = result.runs.back();
+    if (made.verdict != "ok")
+      result.missing = "its run with " + std::to_string(made.choice.resolution) + " triangles and " +
+                       std::to_string(steps) + " steps ended as " + made.verdict + ": " + made.reason;
+    return made.value;
   };
-  const double coarser = run(n, 2 * steps), slower = at_rest ? 0 : run(2 * n, steps), finest = run(2 * n, 2 * steps);
-  if (!result.missing.empty()) return result;
-  // First order in the length of edges, and in the step but for the midpoint rule.
-  const double by_step = scene.integrator == Integrator::midpoint ? 1.0 / 3 : at_rest ? 0 : 1;
-  const double from_mesh = finest - coarser, from_step = by_step * (finest - slower);
-  result.value = finest + from_mesh + from_step;
-  result.spread = std::abs(from_mesh) + std::abs(from_step);
+  const int n = squares_per_side(scene.resolution), scene_steps = static_cast<int>(steps_of(scene));
+  int side = 2 * n, steps = at_rest ? 1 : 2 * scene_steps;
+  // First order in the length of edges: strains grow like one over the root of the distance from a tip. First order in
+  // the step, too, but for the midpoint rule.
+  const double by_step = scene.integrator == Integrator::midpoint ? 1.0 / 3 : 1;
+  while (true) {
+    const double coarser = value(side / 2, steps), slower = at_rest ? 0 : value(side, steps / 2);
+    const double here = value(side, steps);
+    if (!result.missing.empty()) return result;
+    const double from_mesh = here - coarser, from_step = at_rest ? 0 : by_step * (here - slower);
+    result.value = here + from_mesh + from_step;
+    result.spread = std::abs(from_mesh) + std::abs(from_step);
+    const bool finer_mesh = std::abs(from_mesh) >= std::abs(from_step);
+    const double work = (finer_mesh ? 4.0 : 2.0) * side * side * steps / (1.0 * n * n * scene_steps);
+    if (result.spread <= spread_share * options.max_error * result.value || work > most_refined) break;
+    (finer_mesh ? side : steps) *= 2;
+  }
   if (!(result.value > 0)) result.missing = "nothing moves, or opens, in the end";
   return result;
 }
@@ -180,9 +197,11 @@ Recommendation recommend(const Scene& scene, const RecommendOptions& options, co
   if (!result.unknown.empty()) return result;
   result.margin = calibration.quantile * result.converged.spread;
 
+  const bool at_rest = scene.integrator == Integrator::equilibrium;
+  const std::set<int> all_steps = at_rest ? std::set<int>{1} : ladder(finest * steps_of(scene), steps_span);
   std::vector<std::pair<int, int>> grids;  // triangles, steps
-  for (const int side : ladder(squares_per_side(scene.resolution), octave))
-    for (const int steps : ladder(steps_of(scene), steps_octave)) grids.emplace_back(triangles(side), steps);
+  for (const int side : ladder(finest * squares_per_side(scene.resolution), side_span))
+    for (const int steps : all_steps) grids.emplace_back(triangles(side), steps);
   const auto work = [](const std::pair<int, int>& grid) { return 1.0 * grid.first * grid.second; };
   std::stable_sort(grids.begin(), grids.end(), [&](auto a, auto b) { return work(a) < work(b); });
 

@@ -1,7 +1,7 @@
 // `cutbench recommend`: the cheapest way to simulate a scene whose error is small enough.
 //
 // The error is that of one number, the largest gape or deflection at the end, against its converged value: that of ever
-// smaller triangles and steps. That value is extrapolated from three runs finer than the scene (Richardson 1911), and is
+// smaller triangles and steps. That value is extrapolated from runs finer than the scene (Richardson 1911), and is
 // known up to a margin: the spread of these runs times a quantile that was measured on scenes whose converged value is
 // known better (split conformal prediction with a normalised score: Papadopoulos, Gammerman, Vovk 2008; Lei et al. 2018,
 // J. Am. Stat. Assoc. 113). Each candidate is then run whole, and timed. Its error lies in an interval that
@@ -39,7 +39,9 @@ struct Trial {
   double ms_per_second = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Of 2n x 2n squares and twice the steps; of a quarter of these triangles; of half of these steps: n, steps of the scene.
+/// Extrapolated from a run, one of edges twice as long, and one of steps twice as long: of half the scene's edges and
+/// steps, and then of shorter ones, those that matter more, until the spread is a fifth of the error asked for, or the
+/// triangles x steps are 64 times the scene's.
 struct Converged {
   std::vector<Trial> runs;
   double value = std::numeric_limits<double>::quiet_NaN();   ///< m
@@ -47,11 +49,12 @@ struct Converged {
   std::string missing;                                       ///< why there is no value
 };
 
-/// What the quantile comes from; a scene beyond it is unknown.
+/// Scenes whose converged value is known better: what they have in common, and their scores, |better value - converged
+/// value| / spread. A scene beyond them is unknown.
 struct Calibration {
   std::string file;
   double level = 0;     ///< share of scenes in which the margin holds
-  double quantile = 0;  ///< margin / spread
+  double quantile = 0;  ///< margin / spread: the least score that this share of n + 1 scenes does not exceed
   std::vector<std::string> integrators;
   double least_resolution = 0, most_resolution = 0, least_steps = 0, most_steps = 0;
   double most_spread = 0;  ///< over the value
@@ -73,7 +76,8 @@ struct RecommendOptions {
 struct Recommendation {
   Converged converged;
   double margin = std::numeric_limits<double>::quiet_NaN();  ///< m
-  std::vector<Trial> trials = {};  ///< in the order of triangles x steps; by the next solvers only where the first is good
+  std::vector<Trial> trials =
+      {};  ///< in the order of triangles x steps; by the next solvers only where the first is good
   std::optional<std::size_t> chosen = {};
   std::string unknown = {};  ///< why none is chosen
 };

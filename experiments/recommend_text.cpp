@@ -43,12 +43,13 @@ void print_row(const Trial& trial) {
 }  // namespace
 
 void print_converged(const Converged& converged, Quantity quantity) {
-  if (!converged.missing.empty())
+  if (!converged.missing.empty()) {
     std::printf("converged %s: none: %s\n", name_of(quantity), converged.missing.c_str());
-  else
-    std::printf("converged %s: %.6g m, extrapolated by %.2g m from %d triangles and %d steps\n", name_of(quantity),
-                converged.value, converged.spread, converged.runs.back().choice.resolution,
-                converged.runs.back().choice.steps);
+    return;
+  }
+  const Choice& finest = converged.runs.back().choice;
+  std::printf("converged %s: %.6g m, extrapolated by %.2g m from %d triangles and %d steps\n", name_of(quantity),
+              converged.value, converged.spread, finest.resolution, finest.steps);
 }
 
 void print_recommendation(const Recommendation& result, const RecommendOptions& options,

@@ -18,7 +18,7 @@ struct RecommendArguments {
   bool reference = false;
   ChordTolerance chord_tolerance;
   RecommendOptions options{
-      .methods = {"conventional_split", "snap_or_split", "warp_and_refine", "delaunay_refine", "adaptive_remesh"},
+      .methods = {"adaptive_remesh", "conventional_split", "snap_or_split", "warp_and_refine", "delaunay_refine"},
       .solvers = {"cg_sliver_blocks", "cg", "multigrid"}};
 };
 
