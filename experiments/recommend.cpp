@@ -17,10 +17,11 @@ namespace {
 constexpr double finest = 2, side_span = 8, steps_span = 16;  // of the candidates: times the scene's; over the coarsest
 constexpr double spread_share = 0.2;  // of the error asked for: the spread of the converged value that is small enough
 constexpr double most_refined = 64;   // triangles x steps over the scene's, of the finest run for the converged value
-constexpr double widest = 4;  // triangles x steps over those of the first good candidate: more can't be the cheapest
+constexpr double widest = 4;    // triangles x steps over those of the first good candidate: more can't be the cheapest
+constexpr double patience = 4;  // of a candidate's run, watching it included: times the cheapest good one so far
 constexpr double near_best = 1.5;  // in cost: timed again
 constexpr int more_timings = 3;
-constexpr double tight = 1e-6;  // tolerance of the runs that give the converged value
+constexpr double tight = 1e-5;  // tolerance of the runs that give the converged value
 
 Scene scene_of(Scene scene, const Choice& choice) {
   scene.resolution = choice.resolution, scene.solver.name = choice.solver;
@@ -42,11 +43,11 @@ class Search {
  public:
   Search(const Scene& scene, const RecommendOptions& options) : scene_(scene), options_(options) {}
 
-  Trial run(const Choice& choice, double tolerance) {
+  Trial run(const Choice& choice, double tolerance, double time_limit) {
     Scene scene = scene_of(scene_, choice);
     scene.solver.tolerance = tolerance;
     const auto method = make(choice);
-    const SceneRun made = run_to_end(scene, *method, options_.cut, options_.time_limit);
+    const SceneRun made = run_to_end(scene, *method, options_.cut, time_limit);
     return {.choice = choice,
             .verdict = made.verdict,
             .reason = made.reason,
@@ -163,7 +164,8 @@ Converged converge(const Scene& scene, const RecommendOptions& options) {
     for (const Trial& made : result.runs)
       if (made.choice.resolution == triangles(side) && made.choice.steps == steps) return made.value;
     if (!result.missing.empty()) return std::numeric_limits<double>::quiet_NaN();
-    result.runs.push_back(search.run({options.methods.front(), "multigrid", triangles(side), steps}, tight));
+    result.runs.push_back(
+        search.run({options.methods.front(), "multigrid", triangles(side), steps}, tight, options.time_limit));
     const Trial& made = result.runs.back();
     if (made.verdict != "ok")
       result.missing = "its run with " + std::to_string(made.choice.resolution) + " triangles and " +
@@ -207,15 +209,19 @@ Recommendation recommend(const Scene& scene, const RecommendOptions& options, co
 
   Search search(scene, options);
   const auto good = [&](const Trial& trial) { return trial.verdict == "ok" && trial.high <= options.max_error; };
-  double most_work = std::numeric_limits<double>::infinity();
+  double most_work = std::numeric_limits<double>::infinity(), time_limit = options.time_limit;
+  const double seconds = at_rest ? 1 : end_of(scene);
   for (const auto& grid : grids) {
     if (work(grid) > most_work && !options.everything) break;
     for (const std::string& method : options.methods)
       for (const std::string& solver : options.solvers) {
-        Trial trial = search.run({method, solver, grid.first, grid.second}, scene.solver.tolerance);
+        Trial trial = search.run({method, solver, grid.first, grid.second}, scene.solver.tolerance, time_limit);
         judge(trial, result.converged.value, result.margin);
-        if (good(trial)) most_work = std::min(most_work, widest * work(grid));
         if (good(trial) || (options.everything && trial.verdict == "ok")) search.time(trial);
+        if (good(trial)) {
+          most_work = std::min(most_work, widest * work(grid));
+          time_limit = std::min(time_limit, patience * trial.ms_per_second / 1000 * seconds);
+        }
         result.trials.push_back(trial);
         if (!good(trial) && !options.everything) break;
       }
