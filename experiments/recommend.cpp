@@ -5,7 +5,6 @@
 #include <set>
 
 #include "experiments/scene_run.h"
-#include "harness/base/errors.h"
 #include "harness/base/toml_reader.h"
 #include "harness/mesh/families.h"
 #include "methods/registry.h"
@@ -78,46 +77,42 @@ void judge(Trial& trial, double converged, double margin) {
   trial.high = std::max(a, b);
 }
 
-/// Empty where the calibration has seen such scenes.
-std::string beyond(const Scene& scene, const Converged& converged, const Calibration& seen) {
+std::string outside(const char* what, double value, double least, double most) {
+  if (value >= least && value <= most) return "";
   char text[200];
-  const auto outside = [&](const char* what, double value, double least, double most) {
-    if (value >= least && value <= most) return false;
-    std::snprintf(text, sizeof text, "%s %.3g, and the calibration has seen %.3g to %.3g", what, value, least, most);
-    return true;
-  };
+  std::snprintf(text, sizeof text, "%s %.3g, and the calibration has seen %.3g to %.3g", what, value, least, most);
+  return text;
+}
+
+/// Empty where the calibration has seen such scenes.
+std::string beyond(const Scene& scene, const Calibration& seen) {
   const std::string integrator = name_of(integrator_names, scene.integrator);
   if (std::find(seen.integrators.begin(), seen.integrators.end(), integrator) == seen.integrators.end())
     return "the integrator is " + integrator + ", and the calibration has seen " + listed(seen.integrators);
-  if (outside("the sheet's triangles are", scene.resolution, seen.least_resolution, seen.most_resolution) ||
-      outside("the scene's steps are", steps_of(scene), seen.least_steps, seen.most_steps))
-    return text;
-  if (!converged.missing.empty()) return converged.missing;
-  if (outside("the spread of the finer runs over the value is", converged.spread / converged.value, 0,
-              seen.most_spread))
-    return text;
-  if (seen.quantile * converged.spread >= converged.value) return "the converged value may be 0, given its margin";
-  return "";
+  const std::string sheet =
+      outside("the sheet's triangles are", scene.resolution, seen.least_resolution, seen.most_resolution);
+  return sheet.empty() ? outside("the scene's steps are", steps_of(scene), seen.least_steps, seen.most_steps) : sheet;
 }
 
-/// Why no trial is chosen.
-std::string shortfall(const std::vector<Trial>& trials, const RecommendOptions& options) {
+/// Empty where there is a value, and the calibration has seen such.
+std::string beyond(const Converged& converged, const Calibration& seen) {
+  if (!converged.missing.empty()) return converged.missing;
+  if (seen.quantile * converged.spread >= converged.value) return "the converged value may be 0, given its margin";
+  return outside("the spread of the finer runs over the value is", converged.spread / converged.value, 0,
+                 seen.most_spread);
+}
+
+/// Why no trial is good enough.
+std::string shortfall(const std::vector<Trial>& trials, double max_error) {
   const Trial* best = nullptr;
-  const Trial* cheapest = nullptr;
-  for (const Trial& trial : trials) {
-    if (trial.verdict != "ok" || !(trial.high < std::numeric_limits<double>::infinity())) continue;
-    if (!best || trial.high < best->high) best = &trial;
-    if (trial.high <= options.max_error && (!cheapest || trial.ms_per_second < cheapest->ms_per_second))
-      cheapest = &trial;
-  }
-  char text[200] = "no candidate ended as ok";
-  if (cheapest)
-    std::snprintf(text, sizeof text, "the cheapest candidate whose error is small enough takes %.3g ms for a second",
-                  cheapest->ms_per_second);
-  else if (best && best->low <= options.max_error)
+  for (const Trial& trial : trials)
+    if (trial.verdict == "ok" && (!best || trial.high < best->high)) best = &trial;
+  if (!best) return "no candidate ended as ok";
+  char text[200];
+  if (best->low <= max_error)
     std::snprintf(text, sizeof text, "the error of the best candidate is %.3g to %.3g %%; give a finer scene",
                   100 * best->low, 100 * best->high);
-  else if (best)
+  else
     std::snprintf(text, sizeof text, "the best candidate errs by %.3g %% or more; give a finer scene", 100 * best->low);
   return text;
 }
@@ -154,8 +149,6 @@ Calibration read_calibration(const std::filesystem::path& file) {
 }
 
 Converged converge(const Scene& scene, const RecommendOptions& options) {
-  if (scene.family.empty())
-    throw InputError("this scene's sheet is read from a file, and has no other resolutions; give one with `family`");
   const bool at_rest = scene.integrator == Integrator::equilibrium;
   Search search(scene, options);
   Converged result;
@@ -193,8 +186,10 @@ Converged converge(const Scene& scene, const RecommendOptions& options) {
 }
 
 Recommendation recommend(const Scene& scene, const RecommendOptions& options, const Calibration& calibration) {
-  Recommendation result{.converged = converge(scene, options)};
-  result.unknown = beyond(scene, result.converged, calibration);
+  Recommendation result{.converged = {}, .unknown = beyond(scene, calibration)};
+  if (!result.unknown.empty()) return result;
+  result.converged = converge(scene, options);
+  result.unknown = beyond(result.converged, calibration);
   if (!result.unknown.empty()) return result;
   result.margin = calibration.quantile * result.converged.spread;
 
@@ -240,8 +235,12 @@ Recommendation recommend(const Scene& scene, const RecommendOptions& options, co
         if (trial.ms_per_second <= limit) search.time(trial);
   }
   result.chosen = cheapest();
-  if (!result.chosen || result.trials[*result.chosen].ms_per_second > options.max_ms) {
-    result.unknown = shortfall(result.trials, options);
+  if (!result.chosen) {
+    result.unknown = shortfall(result.trials, options.max_error);
+  } else if (const double ms = result.trials[*result.chosen].ms_per_second; ms > options.max_ms) {
+    char text[100];
+    std::snprintf(text, sizeof text, "the cheapest candidate that is good enough takes %.3g ms for a second", ms);
+    result.unknown = text;
     result.chosen.reset();
   }
   return result;

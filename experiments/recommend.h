@@ -83,7 +83,7 @@ struct Recommendation {
   std::string unknown = {};  ///< why none is chosen
 };
 
-/// Throws InputError: a sheet that is read from a file has no other resolutions.
+/// \pre The sheet is not read from a file: that has no other resolutions.
 Converged converge(const Scene& scene, const RecommendOptions& options);
 Recommendation recommend(const Scene& scene, const RecommendOptions& options, const Calibration& calibration);
 

@@ -28,6 +28,9 @@ Exit run_recommendation(RecommendArguments& arguments) {
   if (!arguments.reference && options.max_error == 0)
     throw InputError("give --max-error E, such as 0.05 for 5 %, or --reference for the converged value alone");
   const Scene scene = read_scene(arguments.scene);
+  if (scene.family.empty())
+    throw InputError(
+        "this scene's sheet is read from a file, and has no other resolutions; give a sheet with \"family\"");
   for (const std::string& method : options.methods) find_method(method);
   check_names(options.solvers, solver_names(), "--solvers");
   options.cut = arguments.chord_tolerance.cut_options();
