@@ -15,6 +15,7 @@ namespace {
 
 constexpr double finest = 2, side_span = 8, steps_span = 16;  // of the candidates: times the scene's; over the coarsest
 constexpr double spread_share = 0.2;  // of the error asked for: the spread of the converged value that is small enough
+constexpr double most_refined = 64;   // triangles x steps of the finest run for the converged value, over the scene's
 constexpr double widest = 4;    // triangles x steps over those of the first good candidate: more can't be the cheapest
 constexpr double patience = 4;  // of a candidate's run, watching it included: times the cheapest good one so far
 constexpr double near_best = 1.5;  // in cost: timed again
@@ -178,7 +179,7 @@ Converged converge(const Scene& scene, const RecommendOptions& options) {
     result.spread = std::abs(from_mesh) + std::abs(from_step);
     const bool finer_mesh = std::abs(from_mesh) >= std::abs(from_step);
     const double work = (finer_mesh ? 4.0 : 2.0) * side * side * steps / (1.0 * n * n * scene_steps);
-    if (result.spread <= spread_share * options.max_error * result.value || work > options.most_refined) break;
+    if (result.spread <= spread_share * options.max_error * result.value || work > most_refined) break;
     (finer_mesh ? side : steps) *= 2;
   }
   if (!(result.value > 0)) result.missing = "nothing moves, or opens, in the end";

@@ -41,7 +41,7 @@ struct Trial {
 
 /// Extrapolated from a run, one of edges twice as long, and one of steps twice as long: of half the scene's edges and
 /// steps, and then of shorter ones, those that matter more, until the spread is a fifth of the error asked for, or the
-/// triangles x steps would be too many.
+/// triangles x steps are 64 times the scene's.
 struct Converged {
   std::vector<Trial> runs;
   double value = std::numeric_limits<double>::quiet_NaN();   ///< m
@@ -69,9 +69,8 @@ struct RecommendOptions {
   double max_ms = std::numeric_limits<double>::infinity();  ///< for a simulated second
   std::vector<std::string> methods, solvers;                ///< the first method makes the converged value
   CutOptions cut = {};
-  double most_refined = 64;  ///< triangles x steps over the scene's, of the finest run for the converged value
-  double time_limit = 600;   ///< of a run, s of processor time
-  bool everything = false;   ///< runs and times also what can no longer be the cheapest
+  double time_limit = 600;  ///< of a run, s of processor time
+  bool everything = false;  ///< runs and times also what can no longer be the cheapest
 };
 
 struct Recommendation {

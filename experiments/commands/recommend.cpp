@@ -86,11 +86,6 @@ Command add_recommend(CLI::App& app) {
   command->add_option("--calibration", arguments->calibration, "how well extrapolated values are known (TOML)")
       ->capture_default_str();
   command->add_flag("--reference", arguments->reference, "the converged value alone");
-  command
-      ->add_option("--most-refined", arguments->options.most_refined,
-                   "triangles x steps of the finest run for the converged value, over the scene's")
-      ->capture_default_str()
-      ->check(CLI::Range(8.0, 1e6));
   command->add_flag("--exhaustive", arguments->options.everything,
                     "runs and times all, also what can't be the cheapest");
   command->add_option("--time-limit", arguments->options.time_limit, "seconds of processor time for each run")
