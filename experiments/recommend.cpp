@@ -173,7 +173,10 @@ Converged converge(const Scene& scene, const RecommendOptions& options) {
   while (true) {
     const double coarser = value(side / 2, steps), slower = at_rest ? 0 : value(side, steps / 2);
     const double here = value(side, steps);
-    if (!result.missing.empty()) return result;
+    if (!result.missing.empty()) {
+      if (result.value > 0) result.missing.clear();  // that of the coarser runs is one
+      return result;
+    }
     const double from_mesh = here - coarser, from_step = at_rest ? 0 : by_step * (here - slower);
     result.value = here + from_mesh + from_step;
     result.spread = std::abs(from_mesh) + std::abs(from_step);
