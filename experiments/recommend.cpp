@@ -180,6 +180,7 @@ Converged converge(const Scene& scene, const RecommendOptions& options) {
     const double from_mesh = here - coarser, from_step = at_rest ? 0 : by_step * (here - slower);
     result.value = here + from_mesh + from_step;
     result.spread = std::abs(from_mesh) + std::abs(from_step);
+    result.finest = result.runs.back().choice;
     const bool finer_mesh = std::abs(from_mesh) >= std::abs(from_step);
     const double work = (finer_mesh ? 4.0 : 2.0) * side * side * steps / (1.0 * n * n * scene_steps);
     if (result.spread <= spread_share * options.max_error * result.value || work > most_refined) break;

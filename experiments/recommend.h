@@ -44,6 +44,7 @@ struct Trial {
 /// triangles x steps are 64 times the scene's.
 struct Converged {
   std::vector<Trial> runs;
+  Choice finest = {};                                        ///< of the runs that the value comes from
   double value = std::numeric_limits<double>::quiet_NaN();   ///< m
   double spread = std::numeric_limits<double>::quiet_NaN();  ///< m: what the extrapolation adds, in absolute values
   std::string missing;                                       ///< why there is no value

@@ -47,9 +47,8 @@ void print_converged(const Converged& converged, Quantity quantity) {
     std::printf("converged %s: none: %s\n", name_of(quantity), converged.missing.c_str());
     return;
   }
-  const Choice& finest = converged.runs.back().choice;
   std::printf("converged %s: %.6g m, extrapolated by %.2g m from %d triangles and %d steps\n", name_of(quantity),
-              converged.value, converged.spread, finest.resolution, finest.steps);
+              converged.value, converged.spread, converged.finest.resolution, converged.finest.steps);
 }
 
 void print_recommendation(const Recommendation& result, const RecommendOptions& options,
@@ -81,6 +80,8 @@ void print_recommendation(const Recommendation& result, const RecommendOptions& 
 nlohmann::ordered_json json_of(const Converged& converged) {
   return {{"value_m", finite_or_null(converged.value)},
           {"spread_m", finite_or_null(converged.spread)},
+          {"resolution", converged.finest.resolution},
+          {"steps", converged.finest.steps},
           {"missing", converged.missing},
           {"runs", json_of(converged.runs)}};
 }
