@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <limits>
 #include <optional>
 
-#include "harness/base/errors.h"
+#include "experiments/scene_run.h"
 #include "harness/mesh/families.h"
-#include "harness/scene/simulation.h"
 
 namespace cutbench {
 
@@ -22,29 +20,6 @@ constexpr double safety = 0.9;                       // of an explicit step: the
 double distance(Point3 a, Point3 b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
 bool in_use(const Sheet& sheet, std::size_t d) { return sheet.rest_vertex(DeformedIndex(d)).valid(); }
-
-double largest_deflection(const Sheet& end) {
-  double largest = 0;
-  for (std::size_t d = 0; d < end.deformed_slots(); ++d)
-    if (in_use(end, d)) {
-      const Point2 rest = end.rest(end.rest_vertex(DeformedIndex(d)));
-      largest = std::max(largest, distance(end.position(DeformedIndex(d)), {rest.x, rest.y, 0}));
-    }
-  return largest;
-}
-
-double largest_gape(const Sheet& end) {
-  std::vector<std::vector<Point3>> copies(end.vertex_slots());
-  double largest = 0;
-  for (std::size_t d = 0; d < end.deformed_slots(); ++d)
-    if (in_use(end, d)) {
-      auto& others = copies[end.rest_vertex(DeformedIndex(d))()];
-      const Point3 here = end.position(DeformedIndex(d));
-      for (const Point3 other : others) largest = std::max(largest, distance(here, other));
-      others.push_back(here);
-    }
-  return largest;
-}
 
 /// NaN where they are not the same sheet, cut alike.
 double largest_deviation(const Sheet& a, const Sheet& b) {
@@ -60,53 +35,14 @@ double largest_deviation(const Sheet& a, const Sheet& b) {
   return largest;
 }
 
-double steps_of(const Scene& scene) { return std::ceil(scene.duration / scene.step - 1e-9); }
-double end_of(const Scene& scene) {
-  return scene.integrator == Integrator::equilibrium ? scene.step : steps_of(scene) * scene.step;
-}
-
-/// Ends at the same time, in so many steps or one more.
-void set_steps(Scene& scene, double steps) {
-  scene.duration = end_of(scene), scene.step = scene.duration / std::ceil(steps);
-}
-
-struct Run {
-  Ablation row;
-  std::optional<Sheet> end;
-  double explicit_limit = none;  // s
-  double processor_s = 0;
-};
-
-Run run(const AblatedScene& ablated, CuttingMethod& method, const CutOptions& options, double time_limit) {
-  const Scene& scene = ablated.scene;
-  Run result;
-  result.row.without = ablated.without;
-  try {
-    const auto motion = Simulation::start(scene);
-    const std::clock_t start = std::clock();
-    motion->watch();
-    motion->limit_time(time_limit);
-    const bool at_rest = scene.integrator == Integrator::equilibrium;
-    motion->advance(end_of(scene), method, options);
-    result.processor_s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-    result.end = motion->posed_sheet();
-    result.row.verdict = motion->verdict().name, result.row.reason = motion->verdict().reason;
-    for (const MotionCut& cut : motion->made_cuts())
-      if (cut.cut.status != Status::ok && cut.cut.status != Status::noop && result.row.verdict == "ok")
-        result.row.verdict = name_of(cut.cut.status), result.row.reason = cut.reason;
-    double us = 0;
-    for (const LoggedStep& step : motion->steps()) us += step.total_us();
-    result.row.steps = static_cast<int>(motion->steps().size());
-    result.row.ms_per_second = us / 1000 / (at_rest ? 1 : motion->time());
-    const std::string& verdict = motion->verdict().name;
-    if (verdict != "ok" && verdict != "inverted" && verdict != "energy_growth") result.end.reset();  // it ended early
-    if (result.end)
-      result.row.deflection = largest_deflection(*result.end), result.row.gape = largest_gape(*result.end);
-    if (ablated.without.empty() && !at_rest) result.explicit_limit = motion->step_limits().with_bending;
-  } catch (const InputError& error) {
-    result.row.verdict = "refused", result.row.reason = error.what();
-  }
-  return result;
+Ablation row_of(const std::string& without, const SceneRun& run) {
+  return {.without = without,
+          .verdict = run.verdict,
+          .reason = run.reason,
+          .deflection = run.deflection,
+          .gape = run.gape,
+          .ms_per_second = run.ms_per_second,
+          .steps = run.steps};
 }
 
 AblatedScene explicit_scene(Scene scene, double limit) {
@@ -148,13 +84,14 @@ std::vector<Ablation> ablate(const Scene& scene, CuttingMethod& method, const Cu
   std::optional<Sheet> whole;
   double limit = none, time = time_limit;
   const auto add = [&](const AblatedScene& ablated) {
-    Run made = run(ablated, method, options, time);
+    const SceneRun made = run_to_end(ablated.scene, method, options, time);
     if (rows.empty()) {
-      whole = made.end, limit = made.explicit_limit;
+      if (made.motion && scene.integrator != Integrator::equilibrium) limit = made.motion->step_limits().with_bending;
+      if (made.ended()) whole = made.motion->posed_sheet();
       time = std::min(time_limit, std::max(least_patience, patience * made.processor_s));
     }
-    made.row.deviation = whole && made.end ? largest_deviation(*whole, *made.end) : none;
-    rows.push_back(std::move(made.row));
+    rows.push_back(row_of(ablated.without, made));
+    if (whole && made.ended()) rows.back().deviation = largest_deviation(*whole, made.motion->posed_sheet());
   };
   for (const AblatedScene& ablated : ablations_of(scene)) add(ablated);
   if (limit > 0 && scene.integrator != Integrator::symplectic_euler) add(explicit_scene(scene, limit));

@@ -121,6 +121,7 @@ int command_line(int argc, char** argv, const std::vector<MethodRow>& more_metho
                                       add_score(app),
                                       add_simulate(app),
                                       add_ablate(app),
+                                      add_recommend(app),
                                       add_run(app),
                                       add_reduce(app),
                                       add_merge(app),

@@ -58,8 +58,8 @@ std::string knob(const std::string& method, const std::string& value) {
 
 TEST_F(BadInput, Options) {
   expect_all({{"", 2,
-               "no subcommand given; known are methods, cut, score, simulate, ablate, run, reduce, merge, missing, "
-               "columns, compare; see cutbench --help"},
+               "no subcommand given; known are methods, cut, score, simulate, ablate, recommend, run, reduce, merge, "
+               "missing, columns, compare; see cutbench --help"},
               {"nonsense", 2, "unknown subcommand \"nonsense\"; known are "},
               {"scroe", 2, "unknown subcommand \"scroe\"; known are score, "},
               {"cut", 2, "is required; see cutbench cut --help"},

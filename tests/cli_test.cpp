@@ -34,8 +34,8 @@ TEST_F(Cli, MethodsListsEveryRow) {
 
 /// --help of each subcommand says what it prints, with an example that runs, and --version what was built.
 TEST_F(Cli, HelpAndVersion) {
-  for (const char* subcommand : {"", "methods ", "cut ", "score ", "simulate ", "ablate ", "run ", "reduce ", "merge ",
-                                 "missing ", "columns ", "compare "}) {
+  for (const char* subcommand : {"", "methods ", "cut ", "score ", "simulate ", "ablate ", "recommend ", "run ",
+                                 "reduce ", "merge ", "missing ", "columns ", "compare "}) {
     const auto help = run(std::string(subcommand) + "--help");
     EXPECT_EQ(help.code, 0) << subcommand;
     EXPECT_TRUE(help.error.empty()) << help.error;

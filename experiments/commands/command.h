@@ -21,6 +21,7 @@ Command add_cut(CLI::App& app);
 Command add_score(CLI::App& app);
 Command add_simulate(CLI::App& app);
 Command add_ablate(CLI::App& app);
+Command add_recommend(CLI::App& app);
 Command add_run(CLI::App& app);
 Command add_reduce(CLI::App& app);
 Command add_merge(CLI::App& app);

@@ -1,0 +1,96 @@
+// `cutbench recommend`: the cheapest way to simulate a scene whose error is small enough.
+//
+// The error is that of one number, the largest gape or deflection at the end, against its converged value: that of ever
+// smaller triangles and steps. That value is extrapolated from runs finer than the scene (Richardson 1911), and is
+// known up to a margin: the spread of these runs times a quantile that was measured on scenes whose converged value is
+// known better (split conformal prediction with a normalised score: Papadopoulos, Gammerman, Vovk 2008; Lei et al. 2018,
+// J. Am. Stat. Assoc. 113). Each candidate is then run whole, and timed. Its error lies in an interval that
+// follows from the margin alone, so where the margin holds, all intervals hold: to choose the best of many does no harm.
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/cut/cut.h"
+#include "harness/scene/scene.h"
+
+namespace cutbench {
+
+enum class Quantity { gape, deflection };  ///< the largest at the end, m: experiments/scene_run.h
+
+/// How a scene may be simulated.
+struct Choice {
+  std::string method, solver;
+  int resolution = 0, steps = 0;
+};
+
+struct Trial {
+  Choice choice;
+  std::string verdict = "ok", reason;
+  double value = std::numeric_limits<double>::quiet_NaN();  ///< of the quantity, m
+  // Relative: |value - converged value| / converged value, and between what, given the margin.
+  double error = std::numeric_limits<double>::quiet_NaN();
+  double low = 0, high = std::numeric_limits<double>::infinity();
+  /// Milliseconds of processor time for a simulated second, the least of some runs; NaN: not timed.
+  double ms_per_second = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Extrapolated from a run, one of edges twice as long, and one of steps twice as long: of half the scene's edges and
+/// steps, and then of shorter ones, those that matter more, until the spread is a fifth of the error asked for, or the
+/// triangles x steps are 64 times the scene's.
+struct Converged {
+  std::vector<Trial> runs;
+  Choice finest = {};                                        ///< of the runs that the value comes from
+  double value = std::numeric_limits<double>::quiet_NaN();   ///< m
+  double spread = std::numeric_limits<double>::quiet_NaN();  ///< m: what the extrapolation adds, in absolute values
+  std::string missing;                                       ///< why there is no value
+};
+
+/// Scenes whose converged value is known better: what they have in common, and their scores, |better value - converged
+/// value| / spread. A scene beyond them is unknown.
+struct Calibration {
+  std::string file;
+  double level = 0;     ///< share of scenes in which the margin holds
+  double quantile = 0;  ///< margin / spread: the least score that this share of n + 1 scenes does not exceed
+  std::vector<std::string> integrators;
+  double least_resolution = 0, most_resolution = 0, least_steps = 0, most_steps = 0;
+  double most_spread = 0;  ///< over the value
+};
+
+/// Throws InputError.
+Calibration read_calibration(const std::filesystem::path& file);
+
+struct RecommendOptions {
+  Quantity quantity = Quantity::gape;
+  double max_error = 0;                                     ///< relative
+  double max_ms = std::numeric_limits<double>::infinity();  ///< for a simulated second
+  std::vector<std::string> methods, solvers;                ///< the first method makes the converged value
+  CutOptions cut = {};
+  double time_limit = 600;  ///< of a run, s of processor time
+  bool everything = false;  ///< runs and times also what can no longer be the cheapest
+};
+
+struct Recommendation {
+  Converged converged;
+  double margin = std::numeric_limits<double>::quiet_NaN();  ///< m
+  std::vector<Trial> trials =
+      {};  ///< in the order of triangles x steps; by the next solvers only where the first is good
+  std::optional<std::size_t> chosen = {};
+  std::string unknown = {};  ///< why none is chosen
+};
+
+/// \pre The sheet is not read from a file: that has no other resolutions.
+Converged converge(const Scene& scene, const RecommendOptions& options);
+Recommendation recommend(const Scene& scene, const RecommendOptions& options, const Calibration& calibration);
+
+void print_converged(const Converged& converged, Quantity quantity);
+void print_recommendation(const Recommendation& result, const RecommendOptions& options,
+                          const Calibration& calibration);
+nlohmann::ordered_json json_of(const Converged& converged);
+nlohmann::ordered_json json_of(const Recommendation& result);
+
+}  // namespace cutbench

@@ -1,0 +1,39 @@
+// A scene run from its start to its end, and what is read off the sheet there. For `cutbench ablate` and `recommend`.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "harness/cut/cut.h"
+#include "harness/scene/simulation.h"
+
+namespace cutbench {
+
+/// Steps until the duration is over, the last one whole; and when they end, s. In equilibrium: 1, and its step.
+double steps_of(const Scene& scene);
+double end_of(const Scene& scene);
+/// Ends at the same time, in so many steps or one more. \pre not in equilibrium
+void set_steps(Scene& scene, double steps);
+
+struct SceneRun {
+  std::string verdict = "ok", reason;  ///< of the steps, or the status of the first cut that is not ok
+  // Largest distances at the end, m; NaN where a verdict ended the run early.
+  double deflection = std::numeric_limits<double>::quiet_NaN();  ///< of a vertex from its rest position
+  double gape = std::numeric_limits<double>::quiet_NaN();        ///< of vertices that were one before the cuts
+  double ms_per_second = 0;  ///< of steps and cuts by the clock, for a simulated second; in equilibrium: of the solve
+  int steps = 0;
+  double processor_s = 0;              ///< of the process, with watching it
+  std::unique_ptr<Simulation> motion;  ///< as it ended; none where it could not be started
+  bool ended() const { return deflection >= 0; }
+};
+
+/// Runs it watched. What can't be started, or misses the sheet with a pick, has the verdict `refused`.
+/// \param time_limit  s of processor time
+SceneRun run_to_end(const Scene& scene, CuttingMethod& method, const CutOptions& options, double time_limit);
+
+/// Milliseconds of processor time of the steps and cuts alone, for a simulated second; in equilibrium: of the solve.
+/// \pre run_to_end() ended
+double processor_ms_per_second(const Scene& scene, CuttingMethod& method, const CutOptions& options);
+
+}  // namespace cutbench

@@ -1,0 +1,165 @@
+// `cutbench recommend` against what is known without it: the fall of a free sheet, exactly and by the integrator's
+// recursion.
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/program.h"
+
+namespace cutbench {
+namespace {
+
+constexpr double gravity = 9.81, damping = 0.5, seconds = 0.25;
+
+/// v+ = (v - g h) / (1 + alpha h): backward Euler.
+double stepped_fall(int steps) {
+  const double h = seconds / steps;
+  double v = 0, fallen = 0;
+  for (int i = 0; i < steps; ++i) v = (v + gravity * h) / (1 + damping * h), fallen += h * v;
+  return fallen;
+}
+
+/// v' = -g - alpha v, v(0) = 0.
+double exact_fall() { return gravity / damping * (seconds - (1 - std::exp(-damping * seconds)) / damping); }
+
+class Recommend : public Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    write(folder_ / "scene.toml", scene("family = \"grid\"\nresolution = 72"));
+    write(folder_ / "calibration.toml", calibration());
+  }
+  /// Nothing holds the sheet. It is cut in two at once, and both pieces fall without a strain.
+  static std::string scene(const std::string& sheet, const std::string& integrator = "backward_euler",
+                           const std::string& cut = "[[cuts]]\ntime = 0\npolyline = [[-0.1, 0.52], [1.1, 0.47]]\n") {
+    return "effect = \"two pieces fall\"\ntruth = \"exact\"\nduration = 0.25\n[sheet]\n" + sheet +
+           "\n[material]\ndensity = 2.2\nstiffness = 1000.0\npoisson = 0.45\nmass_damping = 0.5\n[physics]\n"
+           "gravity = [0.0, 0.0, -9.81]\n[integrator]\nname = \"" +
+           integrator + "\"\nstep = 0.0125\n[solver]\nname = \"cholmod\"\n" + cut;
+  }
+  static std::string calibration(const std::string& level = "0.5", const std::string& rest = "") {
+    return "level = " + level + "\nscores = [2.0, 0.5, 1.25]\nintegrators = [\"backward_euler\"]\n" +
+           (rest.empty() ? "resolutions = [8, 200]\nsteps = [10, 30]\nmost_spread = 0.1\n" : rest);
+  }
+  static std::string command(const std::string& more) {
+    return "recommend scene.toml --calibration calibration.toml --quantity deflection --methods "
+           "conventional_split,snap_or_split --solvers cholmod,cg --report r.json " +
+           more;
+  }
+  nlohmann::json report() const { return nlohmann::json::parse(read(folder_ / "r.json")); }
+  void expect_unknown(const std::string& arguments, const std::string& why) {
+    SCOPED_TRACE(arguments);
+    const auto result = run(arguments);
+    EXPECT_EQ(result.code, 1) << result.error;
+    EXPECT_NE(result.out.find("\nunknown: "), std::string::npos) << result.out;
+    EXPECT_NE(report()["unknown"].get<std::string>().find(why), std::string::npos) << report()["unknown"];
+    EXPECT_TRUE(report()["chosen"].is_null());
+  }
+  void expect_refused(const std::string& arguments, const std::string& what) {
+    SCOPED_TRACE(arguments);
+    const auto result = run(arguments);
+    EXPECT_EQ(result.code, 2) << result.out;
+    EXPECT_NE(result.error.find(what), std::string::npos) << result.error;
+  }
+};
+
+TEST_F(Recommend, TheConvergedValueIsThatOfTheExactMotion) {
+  const auto result = run("recommend scene.toml --reference --max-error 0.05 --quantity deflection --report r.json");
+  ASSERT_EQ(result.code, 0) << result.error;
+  const auto converged = report();
+  for (const auto& made : converged["runs"])
+    EXPECT_NEAR(made["value_m"], stepped_fall(made["steps"]), 1e-6) << made["steps"];
+  const int steps = converged["steps"];
+  EXPECT_NEAR(converged["spread_m"], stepped_fall(steps / 2) - stepped_fall(steps), 2e-6);
+  EXPECT_LE(converged["spread_m"], 0.2 * 0.05 * converged["value_m"].get<double>());
+  EXPECT_NEAR(converged["value_m"], exact_fall(), 0.05 * converged["spread_m"].get<double>());
+}
+
+TEST_F(Recommend, TheChoiceIsTheCheapestWhoseErrorIsSmallEnough) {
+  const auto result = run(command("--max-error 0.05"));
+  ASSERT_EQ(result.code, 0) << result.out << result.error;
+  const auto r = report();
+  const auto& chosen = r["trials"][r["chosen"].get<std::size_t>()];
+  bool one_is_too_coarse = false;
+  for (const auto& trial : r["trials"]) {
+    SCOPED_TRACE(trial.dump());
+    if (trial["verdict"] == "timed_out") continue;
+    ASSERT_EQ(trial["verdict"], "ok");
+    const double value = stepped_fall(trial["steps"]);
+    EXPECT_NEAR(trial["value_m"], value, trial["solver"] == "cholmod" ? 1e-6 : 0.01 * value) << "cg: up to a tolerance";
+    const double error = std::abs(trial["value_m"].get<double>() - exact_fall()) / exact_fall();
+    EXPECT_LE(trial["error_low"], error);
+    EXPECT_GE(trial["error_high"], error);
+    const bool good = trial["error_high"] <= 0.05;
+    EXPECT_EQ(good, !trial["ms_per_s"].is_null()) << "what is good enough is timed";
+    if (good) {
+      EXPECT_GE(trial["ms_per_s"], chosen["ms_per_s"]);
+    }
+    one_is_too_coarse |= error > 0.05;
+  }
+  EXPECT_TRUE(one_is_too_coarse);
+  EXPECT_LE(chosen["error_high"], 0.05);
+  EXPECT_NE(result.out.find("\ntake "), std::string::npos) << result.out;
+}
+
+/// Of three scores and half of the scenes, the second; and an error's interval holds it for every value within the margin.
+TEST_F(Recommend, IntervalsFollowFromTheMargin) {
+  ASSERT_EQ(run(command("--max-error 0.2 --exhaustive")).code, 0);
+  const auto r = report();
+  const double value = r["converged"]["value_m"], margin = r["margin_m"];
+  EXPECT_DOUBLE_EQ(margin, 1.25 * r["converged"]["spread_m"].get<double>());
+  for (const auto& trial : r["trials"]) {
+    SCOPED_TRACE(trial.dump());
+    if (trial["value_m"].is_null()) continue;
+    double least = 1e300, most = 0;
+    for (int i = -500; i <= 500; ++i) {
+      const double truth = value + margin * i / 500, error = std::abs(trial["value_m"].get<double>() / truth - 1);
+      least = std::min(least, error), most = std::max(most, error);
+    }
+    const double resolved = 1.01 * margin / 500 / (value - margin);
+    EXPECT_NEAR(trial["error_low"], least, resolved);
+    EXPECT_NEAR(trial["error_high"], most, 1e-9);
+    EXPECT_EQ(trial["ms_per_s"].is_null(), trial["verdict"] != "ok");
+  }
+}
+
+TEST_F(Recommend, UnknownSaysWhy) {
+  expect_unknown(command("--max-error 1e-3"), "give a finer scene");
+  expect_unknown(command("--max-error 0.1 --max-ms 1e-9"), "ms for a second");
+  expect_unknown(command("--max-error 0.1 --time-limit 1e-9"), "timed_out");
+  const std::string sheet = "family = \"grid\"\nresolution = ";
+  write(folder_ / "scene.toml", scene(sheet + "72", "midpoint"));
+  expect_unknown(command("--max-error 0.1"), "the integrator is midpoint");
+  write(folder_ / "scene.toml", scene(sheet + "242"));
+  expect_unknown(command("--max-error 0.1"), "triangles are 242, and the calibration has seen 8 to 200");
+  write(folder_ / "scene.toml", scene(sheet + "72"));
+  write(folder_ / "calibration.toml", calibration("0.5", "resolutions = [8, 200]\nsteps = [1, 5]\nmost_spread = 1\n"));
+  expect_unknown(command("--max-error 0.1"), "steps are 20");
+  write(folder_ / "calibration.toml",
+        calibration("0.5", "resolutions = [8, 200]\nsteps = [10, 30]\nmost_spread = 1e-5\n"));
+  expect_unknown(command("--max-error 0.1"), "spread");
+}
+
+TEST_F(Recommend, BadInput) {
+  expect_refused("recommend missing.toml --max-error 0.1", "missing.toml");
+  expect_refused("recommend scene.toml", "--max-error");
+  expect_refused("recommend scene.toml --max-error 0.1 --calibration none.toml", "none.toml");
+  expect_refused(command("--max-error 0.1 --methods no_such"), "no_such");
+  expect_refused(command("--max-error 0.1 --solvers no_such"), "no_such");
+  expect_refused(command("--max-error -1"), "--max-error");
+  expect_refused("recommend scene.toml --max-error 0.1 --report none/r.json", "none");
+  write(folder_ / "calibration.toml", calibration("0.95"));
+  expect_refused(command("--max-error 0.1"), "more than 3 scores");
+  write(folder_ / "calibration.toml", calibration("0.5", "resolutions = [8]\nsteps = [10, 30]\nmost_spread = 1\n"));
+  expect_refused(command("--max-error 0.1"), "[least, most]");
+  write(folder_ / "calibration.toml", calibration() + "quantil = 1\n");
+  expect_refused(command("--max-error 0.1"), "quantil");
+  write(folder_ / "calibration.toml", calibration());
+  write(folder_ / "scene.toml", scene("family = \"grid\"\nresolution = 72", "backward_euler", ""));
+  expect_refused("recommend scene.toml --max-error 0.1 --quantity gape", "no cuts");
+  write(folder_ / "scene.toml", scene("file = \"sheet.off\""));
+  expect_refused(command("--max-error 0.1"), "read from a file");
+}
+
+}  // namespace
+}  // namespace cutbench
