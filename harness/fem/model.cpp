@@ -20,8 +20,7 @@ Model<D>::Model(const Sheet& sheet, const Material& material, const Physics& phy
       pins_(std::move(pins)),
       tractions_(std::move(tractions)),
       elements_(sheet),
-      membrane_(physics.strain, physics.stress_stiffness_made(), lame_of(material, physics.plane),
-                physics.bending != BendingKind::none) {
+      membrane_(law_of(material, physics), physics.bending != BendingKind::none) {
   if (physics.mass == Mass::consistent) consistent_mass_.emplace();
   resize(sheet);
   ++round_;
