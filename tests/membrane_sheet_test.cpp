@@ -16,10 +16,26 @@ const Material skin{.density = 2.2, .stiffness = 1000, .poisson = 0.45};
 
 /// The second derivative of the energy per area along two changes of F, mode by mode (membrane.h): in the frame B, linear
 /// elasticity; of corotational the twist and, out of the plane, tension over stretch along the principal directions; of
-/// green, tension along the principal directions.
+/// green, tension along the principal directions. Of springs: along each edge, and tension over length in all directions.
 template <int D>
-double second_derivative(const Deformation<D>& d, Strain strain, StressStiffness of_stress, const Lame& lame,
-                         const Eigen::Matrix<double, D, 2>& one, const Eigen::Matrix<double, D, 2>& other) {
+double second_derivative(const Element& element, const Deformation<D>& d, Strain strain, StressStiffness of_stress,
+                         const Lame& lame, const Eigen::Matrix<double, D, 2>& one,
+                         const Eigen::Matrix<double, D, 2>& other) {
+  if (strain == Strain::springs) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector2d along = Eigen::Vector2d(-element.gradient[k].y, element.gradient[k].x).normalized();
+      const Eigen::Matrix<double, D, 1> edge = d.frame * along, pointing = edge.normalized();
+      if (edge.norm() <= 1e-14 * d.frame.norm()) continue;  // it points nowhere
+      const double tension = 1 - 1 / edge.norm();
+      const double taken = of_stress == StressStiffness::full       ? tension
+                           : of_stress == StressStiffness::positive ? std::max(tension, 0.0)
+                                                                    : 0;
+      const Eigen::Matrix<double, D, 1> u = one * along, v = other * along;
+      sum += skin.stiffness * ((1 - taken) * pointing.dot(u) * pointing.dot(v) + taken * u.dot(v));
+    }
+    return sum;
+  }
   const Eigen::Matrix2d a = d.frame.transpose() * one, b = d.frame.transpose() * other;
   const Eigen::Matrix2d e = (a + a.transpose()) / 2, f = (b + b.transpose()) / 2;
   double sum = 2 * lame.mu * e.cwiseProduct(f).sum() + lame.lambda * e.trace() * f.trace();
@@ -72,7 +88,7 @@ struct Reference {
         force[unknown(i)] += membrane_force<D>(e, d, i / D)[i % D];
         for (int j = 0; j < 3 * D; ++j)
           stiffness(unknown(i), unknown(j)) +=
-              e.area * second_derivative<D>(d, physics.strain, physics.stress_stiffness, lame, change(i), change(j));
+              e.area * second_derivative<D>(e, d, physics.strain, physics.stress_stiffness, lame, change(i), change(j));
       }
     }
   }
@@ -119,7 +135,7 @@ void compare_all() {
   compare<D>(Strain::linear);
   for (const auto& [of_stress, name] : stress_stiffness_names) {
     SCOPED_TRACE(name);
-    for (const Strain strain : {Strain::corotational, Strain::green}) compare<D>(strain, of_stress);
+    for (const Strain strain : {Strain::corotational, Strain::green, Strain::springs}) compare<D>(strain, of_stress);
   }
 }
 

@@ -85,7 +85,7 @@ void expect_derivative_of_the_force(const Element& e, const Field& x, Strain str
 }
 
 const Material skin{.stiffness = 1000, .poisson = 0.45};
-const std::array large_turns{Strain::corotational, Strain::green};  // rigid motions are free
+const std::array large_turns{Strain::corotational, Strain::green, Strain::springs};  // rigid motions are free
 
 template <class Dimension>
 class Membrane : public testing::Test {
@@ -208,10 +208,65 @@ TYPED_TEST(Membrane, AllMeasuresAgreeWhereLittleIsStrained) {
     for (auto& value : x) value += 1e-5 * random.between(-1, 1);
     const Field linear = forces<D>(e, x, Strain::linear, lame);
     const double strained = deformation_of<D>(e, x, Strain::linear, lame).strain.norm();
-    for (const Strain strain : large_turns)
+    for (const Strain strain : {Strain::corotational, Strain::green})
       EXPECT_LT((forces<D>(e, x, strain, lame) - linear).norm(),
                 1e-3 * linear.norm() + 1e-3 * strained * skin.stiffness)
           << name_of(strain_names, strain);
+  }
+}
+
+/// Of one triangle at x, by the lengths of its edges.
+template <int D>
+double energy_of_springs(const std::array<Point2, 3>& c, const Field& x, double young) {
+  const double area = cross(c[1] - c[0], c[2] - c[0]) / 2;
+  double energy = 0;
+  for (int k = 0; k < 3; ++k) {
+    const int next = (k + 1) % 3;
+    const double rest = std::sqrt(squared_length(c[static_cast<std::size_t>(next)] - c[static_cast<std::size_t>(k)]));
+    const double length = (x.segment<D>(D * next) - x.segment<D>(D * k)).norm(),
+                 constant = young * area / (rest * rest);
+    energy += constant / 2 * (length - rest) * (length - rest);
+  }
+  return energy;
+}
+
+TYPED_TEST(Membrane, SpringsHaveTheEnergyOfTheirEdges) {
+  constexpr int D = TestFixture::dimension;
+  Random random(9);
+  const Lame lame = lame_of(skin, Plane::stress);
+  for (int i = 0; i < 100; ++i) {
+    const auto c = random_triangle(random);
+    const Element e = element_with(c);
+    Field x(3 * D);
+    for (auto& value : x) value = random.between(-1, 1);
+    const double expected = energy_of_springs<D>(c, x, skin.stiffness);
+    EXPECT_NEAR(e.area * deformation_of<D>(e, x, Strain::springs, lame).energy, expected, 1e-12 * expected);
+  }
+}
+
+/// On equilateral triangles springs are linear elasticity with Poisson's ratio 1/3, whichever way they lie; on no other
+/// triangle, and with no other ratio.
+TYPED_TEST(Membrane, SpringsAreElasticityOnEquilateralTrianglesWithOneThirdOnly) {
+  constexpr int D = TestFixture::dimension;
+  Random random(10);
+  const auto disagreement = [&](double poisson, bool equilateral) {
+    const Lame lame = lame_of({.stiffness = 1000, .poisson = poisson}, Plane::stress);
+    const double angle = random.between(0, 6);
+    std::array<Point2, 3> c;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double at = angle + (equilateral ? 2.0943951023931953 : 1.8) * static_cast<double>(k);
+      c[k] = {0.4 * std::cos(at), 0.4 * std::sin(at)};
+    }
+    const Element e = element_with(c);
+    const Field x = place<D>(c);
+    const Eigen::MatrixXd exact = stiffness<D>(e, x, Strain::linear, lame, StressStiffness::none);
+    return (stiffness<D>(e, x, Strain::springs, lame) - exact).norm() / exact.norm();
+  };
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_LT(disagreement(1.0 / 3, true), 1e-12);
+    EXPECT_GT(disagreement(1.0 / 3, false), 0.01);
+    EXPECT_GT(disagreement(0.25, true), 0.01);
+    EXPECT_GT(disagreement(0.45, true), 0.01);
   }
 }
 

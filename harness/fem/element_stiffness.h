@@ -5,6 +5,7 @@
 
 #include "harness/fem/lanes.h"
 #include "harness/fem/membrane.h"
+#include "harness/fem/springs.h"
 
 namespace cutbench {
 
@@ -23,6 +24,10 @@ class ElementStiffness {
   ElementStiffness(const std::array<Vector2<Number>, 3>& gradient, Number area,
                    const StrainInFrame<D, Number>& strained, const MembraneLaw& law)
       : gradient_(gradient) {
+    if (law.strain == Strain::springs) {
+      set_springs(area * young_of(law.lame), strained, law.of_stress);
+      return;
+    }
     const Number lambda = area * law.lame.lambda, mu = area * law.lame.mu;
     const Moduli m = law.of_stress == StressStiffness::none ? Moduli{} : moduli_of(area, strained, law);
     const auto& [x, y] = strained.frame;
@@ -77,10 +82,17 @@ class ElementStiffness {
     }
   };
 
+  static Number taken(Number x, StressStiffness of_stress) {
+    const double infinity = std::numeric_limits<double>::infinity();
+    const double least = of_stress == StressStiffness::full       ? -infinity
+                         : of_stress == StressStiffness::positive ? 0
+                                                                  : infinity;
+    return x > least ? x : Number{};
+  }
+
   static Moduli moduli_of(Number area, const StrainInFrame<D, Number>& e, const MembraneLaw& law) {
     const auto& [mu, lambda] = law.lame;
-    const double least = law.of_stress == StressStiffness::full ? -std::numeric_limits<double>::infinity() : 0;
-    const auto taken = [least](Number x) { return x > least ? x : Number{}; };
+    const auto taken = [&](Number x) { return ElementStiffness::taken(x, law.of_stress); };
     const Number strain = e.xx + e.yy, pressure = lambda * strain;
     Moduli m;
     if (law.strain == Strain::green) {
@@ -95,6 +107,22 @@ class ElementStiffness {
         return 1 + principal > 0 ? ratio : Number{};
       });
     return m;
+  }
+
+  void set_springs(Number young, const StrainInFrame<D, Number>& strained, StressStiffness of_stress) {
+    xx_ = {}, xy_ = {}, yy_ = {};
+    const Springs<D, Number> springs(gradient_, strained.frame);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto& [x, y] = springs.along[i];
+      const Number across = taken(springs.tension_over_stretch(i), of_stress), inverse = springs.inverse(i);
+      const Number along = young * (1 - across) * inverse * inverse;
+      for (std::size_t c = 0; c < D; ++c)
+        for (std::size_t r = 0; r < D; ++r) {
+          Number both = along * (springs.edge[i][r] * springs.edge[i][c]);
+          if (r == c) both += young * across;
+          xx_[D * c + r] += x * x * both, xy_[D * c + r] += x * y * both, yy_[D * c + r] += y * y * both;
+        }
+    }
   }
 
   void add_in_every_direction(const Moduli& m) {

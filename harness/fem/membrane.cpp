@@ -14,6 +14,8 @@ Lame lame_of(const Material& material, Plane plane) {
   return {e / (2 * (1 + nu)), plane == Plane::stress ? e * nu / (1 - nu * nu) : e * nu / ((1 + nu) * (1 - 2 * nu))};
 }
 
+double young_of(const Lame& lame) { return 4 * lame.mu * (lame.mu + lame.lambda) / (2 * lame.mu + lame.lambda); }
+
 MembraneLaw law_of(const Material& material, const Physics& physics) {
   return {physics.strain, physics.stress_stiffness_made(), lame_of(material, physics.plane)};
 }
@@ -53,6 +55,18 @@ Eigen::Matrix<double, 3, 2> tangent_frame(const Eigen::Matrix<double, 3, 2>& f) 
 }
 Matrix2d tangent_frame(const Matrix2d&) { return Matrix2d::Identity(); }
 
+/// Of springs along the edges (springs.h).
+template <int D>
+void add_spring_stress(const Element& element, double young, Deformation<D>& d) {
+  d.stress.setZero(), d.energy = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector2d across = gradient(element, k).normalized(), along(-across.y(), across.x());
+    const double stretch = (d.frame * along).norm();
+    d.energy += young / 2 * (stretch - 1) * (stretch - 1);
+    if (stretch > 1e-14 * d.frame.norm()) d.stress += young * (1 - 1 / stretch) * along * along.transpose();
+  }
+}
+
 template <int D>
 void add_stress(const Lame& lame, Deformation<D>& d) {
   const double trace = d.strain.trace();
@@ -70,7 +84,9 @@ Deformation<D> deformation_of(const Element& element, const Field& x, Strain str
   };
   const Eigen::Matrix<double, D, 2> f =
       (at(1) - at(0)) * gradient(element, 1).transpose() + (at(2) - at(0)) * gradient(element, 2).transpose();
-  return deformation_of<D>(f, strain, lame);
+  Deformation<D> d = deformation_of<D>(f, strain, lame);
+  if (strain == Strain::springs) add_spring_stress(element, young_of(lame), d);
+  return d;
 }
 
 template <int D>
@@ -91,6 +107,7 @@ Deformation<D> deformation_of(const Eigen::Matrix<double, D, 2>& f, Strain strai
       break;
     }
     case Strain::green:
+    case Strain::springs:
       d.frame = f;
       stretch = (f.transpose() * f + Matrix2d::Identity()) / 2;
       break;
@@ -101,12 +118,16 @@ Deformation<D> deformation_of(const Eigen::Matrix<double, D, 2>& f, Strain strai
 }
 
 template <int D>
-Deformation<D> deformation_of(const StrainInFrame<D, double>& strained, const Lame& lame) {
+Deformation<D> deformation_of(const Element& element, const StrainInFrame<D, double>& strained, Strain strain,
+                              const Lame& lame) {
   Deformation<D> d;
   for (std::size_t k = 0; k < 2; ++k)
     d.frame.col(static_cast<Eigen::Index>(k)) = Eigen::Map<const Eigen::Matrix<double, D, 1>>(strained.frame[k].data());
   d.strain << strained.xx, strained.xy, strained.xy, strained.yy;
-  add_stress(lame, d);
+  if (strain == Strain::springs)
+    add_spring_stress(element, young_of(lame), d);
+  else
+    add_stress(lame, d);
   return d;
 }
 
@@ -126,8 +147,8 @@ template Deformation<2> deformation_of<2>(const Eigen::Matrix<double, 2, 2>&, St
 template Deformation<3> deformation_of<3>(const Eigen::Matrix<double, 3, 2>&, Strain, const Lame&);
 template Deformation<2> deformation_of<2>(const Element&, const Field&, Strain, const Lame&);
 template Deformation<3> deformation_of<3>(const Element&, const Field&, Strain, const Lame&);
-template Deformation<2> deformation_of<2>(const StrainInFrame<2, double>&, const Lame&);
-template Deformation<3> deformation_of<3>(const StrainInFrame<3, double>&, const Lame&);
+template Deformation<2> deformation_of<2>(const Element&, const StrainInFrame<2, double>&, Strain, const Lame&);
+template Deformation<3> deformation_of<3>(const Element&, const StrainInFrame<3, double>&, Strain, const Lame&);
 template StrainInFrame<2, double> strain_of<2>(const Deformation<2>&);
 template StrainInFrame<3, double> strain_of<3>(const Deformation<3>&);
 

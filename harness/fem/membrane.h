@@ -4,6 +4,7 @@
 //   linear         e = sym F - I          B = I
 //   corotational   e = S - I              B = R, with the polar decomposition F = R S
 //   green          e = (F^T F - I) / 2    B = F
+//   springs        as green: springs.h makes another stress and energy of it
 // The energy per rest area is mu e:e + lambda/2 (tr e)^2, the stress s = 2 mu e + lambda (tr e) I, and the first Piola
 // stress P = B s, exactly: the change of R does no work.
 //
@@ -39,6 +40,8 @@ struct Lame {
 };
 /// Plane stress: lambda = E nu / (1 - nu^2); plane strain: E nu / ((1 + nu)(1 - 2 nu)).
 Lame lame_of(const Material& material, Plane plane);
+/// Young's modulus of such a sheet, N/m: of plane strain, E / (1 - nu^2).
+double young_of(const Lame& lame);
 
 /// How a membrane answers to being deformed.
 struct MembraneLaw {
@@ -64,7 +67,7 @@ struct StrainInFrame {
   Number xx, xy, yy;  ///< of e
 };
 
-/// With gradient F, of any shape, also a collapsed one.
+/// With gradient F, of any shape, also a collapsed one. \pre not springs: they need the triangle's edges.
 template <int D>
 Deformation<D> deformation_of(const Eigen::Matrix<double, D, 2>& f, Strain strain, const Lame& lame);
 /// For every shape, collapsed triangles included. \pre x has the vertices of `element`.
@@ -75,7 +78,8 @@ template <int D>
 StrainInFrame<D, double> strain_of(const Deformation<D>& deformation);
 /// Stress and energy as the strain makes them.
 template <int D>
-Deformation<D> deformation_of(const StrainInFrame<D, double>& strained, const Lame& lame);
+Deformation<D> deformation_of(const Element& element, const StrainInFrame<D, double>& strained, Strain strain,
+                              const Lame& lame);
 
 /// Force on corner k, N: -A P g_k, with P = B s.
 template <int D>

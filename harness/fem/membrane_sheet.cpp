@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "harness/fem/springs.h"
+
 namespace cutbench {
 
 namespace {
@@ -95,6 +97,7 @@ StrainInFrame<D, Lanes> strain_of(const std::array<std::array<Lanes, D>, 2>& f, 
       e.frame = nearest_rotation(f, determined);
       break;
     case Strain::green:
+    case Strain::springs:
       e.frame = f;
       e.xx = (dot(f[0], f[0]) - 1) / 2, e.yy = (dot(f[1], f[1]) - 1) / 2, e.xy = dot(f[0], f[1]) / 2;
       return e;
@@ -175,7 +178,11 @@ template <int D>
 void MembraneSheet<D>::add_forces(const Four& four, const StrainInFrame<D, Lanes>& e) {
   const auto [mu, lambda] = law_.lame;
   const Lanes pressure = lambda * (e.xx + e.yy);
-  const Lanes sxx = 2 * mu * e.xx + pressure, syy = 2 * mu * e.yy + pressure, sxy = 2 * mu * e.xy;
+  Lanes sxx = 2 * mu * e.xx + pressure, syy = 2 * mu * e.yy + pressure, sxy = 2 * mu * e.xy;
+  if (law_.strain == Strain::springs) {
+    const auto s = Springs<D, Lanes>(four.gradient, e.frame).stress(young_of(law_.lame));
+    sxx = s.xx, syy = s.yy, sxy = s.xy;
+  }
   for (std::size_t k = 0; k < 3; ++k) {
     const auto& [gx, gy] = four.gradient[k];
     const Lanes along = four.area * (sxx * gx + sxy * gy), across = four.area * (sxy * gx + syy * gy);
@@ -193,9 +200,13 @@ template <int D>
 double MembraneSheet<D>::energy(const ElementTable& elements) const {
   Lanes sum{};
   for (std::size_t i = 0; i < strained_.size(); ++i) {
-    const Lanes area = Four(elements, lane_count * i).area;
+    const Four four(elements, lane_count * i);
+    if (law_.strain == Strain::springs) {
+      sum += four.area * Springs<D, Lanes>(four.gradient, strained_[i].frame).energy(young_of(law_.lame));
+      continue;
+    }
     const Lanes xx = strained_[i].xx, yy = strained_[i].yy, xy = strained_[i].xy, trace = xx + yy;
-    sum += area * (law_.lame.mu * (xx * xx + yy * yy + 2 * (xy * xy)) + law_.lame.lambda / 2 * (trace * trace));
+    sum += four.area * (law_.lame.mu * (xx * xx + yy * yy + 2 * (xy * xy)) + law_.lame.lambda / 2 * (trace * trace));
   }
   return sum[0] + sum[1] + sum[2] + sum[3] + polygons_.energy(elements);
 }
@@ -204,7 +215,8 @@ template <int D>
 Deformation<D> MembraneSheet<D>::deformation(const ElementTable& elements, std::size_t element) const {
   if (const auto polygon = elements[element].polygon; polygon >= 0)
     return polygons_.deformation(static_cast<std::size_t>(polygon));
-  return deformation_of<D>(lane<D>(strained_[element / lane_count], element % lane_count), law_.lame);
+  return deformation_of<D>(elements[element], lane<D>(strained_[element / lane_count], element % lane_count),
+                           law_.strain, law_.lame);
 }
 
 template <int D>

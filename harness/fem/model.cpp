@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "harness/base/errors.h"
+
 namespace cutbench {
 
 namespace {
@@ -98,6 +100,8 @@ void Model<D>::tie(const Sheet& sheet, const Ties& ties) {
 /// Those that are there already stay.
 template <int D>
 void Model<D>::merge(const Sheet& sheet, std::span<const Polygon> polygons) {
+  if (physics_.strain == Strain::springs && !polygons.empty())
+    throw InputError("a polygon has no springs: take another method than cut_polygons, or another \"strain\"");
   std::vector<std::uint8_t> stays(elements_.polygon_slots());
   std::vector<const Polygon*> fresh;
   for (const Polygon& polygon : polygons) {

@@ -26,10 +26,12 @@ struct Material {
 enum class Plane : std::uint8_t { stress, strain };
 constexpr EnumNames<Plane, 2> plane_names{{{Plane::stress, "stress"}, {Plane::strain, "strain"}}};
 
-/// membrane.h says what each is.
-enum class Strain : std::uint8_t { linear, corotational, green };
-constexpr EnumNames<Strain, 3> strain_names{
-    {{Strain::linear, "linear"}, {Strain::corotational, "corotational"}, {Strain::green, "green"}}};
+/// membrane.h and springs.h say what each is.
+enum class Strain : std::uint8_t { linear, corotational, green, springs };
+constexpr EnumNames<Strain, 4> strain_names{{{Strain::linear, "linear"},
+                                             {Strain::corotational, "corotational"},
+                                             {Strain::green, "green"},
+                                             {Strain::springs, "springs"}}};
 
 /// The stiffness that stress gives to a membrane (membrane.h): `positive` leaves out what is negative, so
 /// that the matrix is positive semi-definite; `full` is the exact second derivative, which has no bound where a triangle

@@ -27,7 +27,7 @@ Eigen::Vector2d gradient(const PolygonElement& polygon, Eigen::Index corner) {
 
 Stabilisation stabilisation_of(const Lame& lame, bool bends) {
   constexpr double tau = 0.5;
-  const double young = 4 * lame.mu * (lame.mu + lame.lambda) / (2 * lame.mu + lame.lambda);  // in two dimensions
+  const double young = young_of(lame);
   return {tau * young, bends ? 0 : tau * young};
 }
 

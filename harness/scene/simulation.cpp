@@ -104,7 +104,7 @@ class SceneInMotion : public Simulation {
     if (const AddedMass* const added = now_.model.added_mass())
       elasticity.mass_limit = added->limit() * material.density / material.stiffness;
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    if (now_.model.tied()) return {unknown, unknown};
+    if (now_.model.tied() || scene_.physics.strain == Strain::springs) return {unknown, unknown};
     const Ties ties{.polygons = now_.model.polygons()};
     StepLimits limits;
     limits.membrane = explicit_step_limit(largest_eigenvalue(now_.sheet, ties, elasticity), material);
