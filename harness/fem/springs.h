@@ -58,9 +58,9 @@ struct Springs {
     return young / 2 * sum;
   }
 
-  std::array<Vector2<Number>, 3> along;       // t
-  std::array<std::array<Number, D>, 3> edge;  // F t
-  std::array<Number, 3> stretch;              // l
+  std::array<Vector2<Number>, 3> along;       ///< t
+  std::array<std::array<Number, D>, 3> edge;  ///< F t
+  std::array<Number, 3> stretch;              ///< l
 };
 
 }  // namespace cutbench
