@@ -68,8 +68,12 @@ std::vector<AblatedScene> ablations_of(const Scene& scene) {
     add("stiffness from stress", [](Scene& s) { s.physics.stress_stiffness = StressStiffness::none; });
   if (scene.newton > 1 && scene.integrator != Integrator::equilibrium)
     add("further Newton iterations", [](Scene& s) { s.newton = 1; });
-  if (scene.physics.strain == Strain::corotational)
+  if (scene.physics.strain == Strain::green)
+    add("nonlinear strain", [](Scene& s) { s.physics.strain = Strain::corotational; });
+  if (scene.physics.strain == Strain::green || scene.physics.strain == Strain::corotational)
     add("rotation of elements", [](Scene& s) { s.physics.strain = Strain::linear; });
+  if (scene.physics.strain != Strain::springs && !adds_mass(scene.physics.mass))
+    add("triangles (springs)", [](Scene& s) { s.physics.strain = Strain::springs; });
   if (scene.physics.dimension == 3)
     add("the third dimension", [](Scene& s) { s.physics.dimension = 2, s.physics.bending = BendingKind::none; });
   if (scene.integrator != Integrator::equilibrium)

@@ -87,7 +87,7 @@ std::vector<Phase> phases_of(int n, const MethodRow& row, double& working_set) {
   double scalars = 0;
   for (std::size_t i = 0; i < a.vertices(); ++i) scalars += static_cast<double>(a.scalar[0].matrix->columns(i).size());
   const auto elements = static_cast<double>(model.elements().size());
-  const double per_element = sizeof(Element) + sizeof(Polar<3, double>), vector = 3 * sizeof(double) * vertices;
+  const double per_element = sizeof(Element) + sizeof(StrainInFrame<3, double>), vector = 3 * sizeof(double) * vertices;
   const double matrix = blocks * (9 * sizeof(double) + 4) + scalars * (sizeof(double) + 4);
   model.rotate(state.x);
   model.assemble(1, step * step);

@@ -186,25 +186,33 @@ void forces_are_the_slope_of_the_energy(Strain strain, BendingKind bending) {
 }
 
 TEST(PolygonSheet, ForcesAreTheSlopeOfTheEnergy) {
-  for (const Strain strain : {Strain::linear, Strain::corotational}) {
+  for (const Strain strain : {Strain::linear, Strain::corotational, Strain::green}) {
     forces_are_the_slope_of_the_energy<2>(strain, BendingKind::none);
     forces_are_the_slope_of_the_energy<3>(strain, BendingKind::none);
     forces_are_the_slope_of_the_energy<3>(strain, BendingKind::patches);
   }
 }
 
+TEST(PolygonSheet, ASpringSheetRefusesThem) {
+  const TiedCut cut("alternating", 6, cut_polygons, "curved", 877, 1);
+  Model<3> model(cut.sheet(), skin, {.strain = Strain::springs}, {}, {});
+  EXPECT_THROW(model.tie(cut.sheet(), cut.ties), InputError);
+}
+
 TEST(PolygonSheet, TurningCostsNothing) {
   for_each_tied_cut({cut_polygons}, 6, 1, 877, [&](const TiedCut& cut) {
-    Model<3> model(cut.sheet(), skin, {.bending = BendingKind::patches}, {}, {});
-    model.tie(cut.sheet(), cut.ties);
-    const Eigen::AngleAxisd turn(2.1, Eigen::Vector3d(1, 2, -1).normalized());
-    Field x = model.positions(cut.sheet()), force = Field::Zero(x.size());
-    for (Eigen::Index v = 0; v < x.size(); v += 3) x.segment<3>(v) = (turn * Eigen::Vector3d(x.segment<3>(v))).eval();
-    model.rotate(x);
-    model.add_internal_force(x, force);
-    const Energy energy = model.energy(x, Field::Zero(x.size()));
-    EXPECT_LE(force.cwiseAbs().maxCoeff(), 1e-8 * skin.stiffness);
-    EXPECT_LE(energy.membrane + energy.bending, 1e-20 * skin.stiffness);
+    for (const Strain strain : {Strain::corotational, Strain::green}) {
+      Model<3> model(cut.sheet(), skin, {.strain = strain, .bending = BendingKind::patches}, {}, {});
+      model.tie(cut.sheet(), cut.ties);
+      const Eigen::AngleAxisd turn(2.1, Eigen::Vector3d(1, 2, -1).normalized());
+      Field x = model.positions(cut.sheet()), force = Field::Zero(x.size());
+      for (Eigen::Index v = 0; v < x.size(); v += 3) x.segment<3>(v) = (turn * Eigen::Vector3d(x.segment<3>(v))).eval();
+      model.rotate(x);
+      model.add_internal_force(x, force);
+      const Energy energy = model.energy(x, Field::Zero(x.size()));
+      EXPECT_LE(force.cwiseAbs().maxCoeff(), 1e-8 * skin.stiffness);
+      EXPECT_LE(energy.membrane + energy.bending, 1e-20 * skin.stiffness);
+    }
   });
 }
 

@@ -311,6 +311,7 @@ TEST_F(SceneFile, SaysWhatIsWrongWithAValue) {
       {"[physics]\nplane = \"stretch\"\n", "plane \"stretch\" is not known; known are stress, strain"},
       {"[physics]\nstress_stiffness = \"half\"\n", "stress_stiffness \"half\" is not known; known are full, "},
       {"[physics]\nstrain = \"linear\"\nstress_stiffness = \"full\"\n", "linear strain has no stiffness from stress"},
+      {"[physics]\nstrain = \"springs\"\nmass = \"scaled\"\n", "made for triangles, not for springs"},
       {"[physics]\nmass = 1\n", "\"mass\" has a value of the wrong kind"},
       {"[physics]\ngravity = -9.81\n", "\"gravity\" must be a list"},
       {"[physics]\ngravity = [0, -9.81]\n", "\"gravity\" is [x, y, z]"},

@@ -61,6 +61,57 @@ TEST(Stepper, FreeFallIsExact) {
   }
 }
 
+/// A sheet slit along the load, and pulled at one side by a force T per width that keeps its direction: every part of it
+/// is stretched alike, to the length L of E L (L^2 - 1) / 2 = T (green; Saint Venant-Kirchhoff), 1 + T / E otherwise.
+TEST(Stepper, AStretchedSheetIsAsLongAsTheClosedFormSays) {
+  const double pull = 600, young = skin.stiffness;
+  double longer = 1;
+  for (int i = 0; i < 50; ++i)
+    longer -= (young * longer * (longer * longer - 1) / 2 - pull) / (young * (3 * longer * longer - 1) / 2);
+  for (const Strain strain : {Strain::linear, Strain::corotational, Strain::green}) {
+    SCOPED_TRACE(name_of(strain_names, strain));
+    std::vector<Pin> pins = held_in({0, 0}, {0, 1});
+    pins[0].axes = {true, false, true};
+    pins.push_back({.where = {{0, 0}, {0, 0}}});  // this corner's y, too
+    std::swap(pins[0], pins[1]);
+    Body<2> body(make_sheet("delaunay", 6), skin, {.dimension = 2, .strain = strain}, pins,
+                 {{.where = {{1, 0}, {1, 1}}, .force = {pull, 0, 0}}});
+    ASSERT_EQ(body.cut(line({0.2, 0.45}, {0.8, 0.45})), Status::ok);
+    Stepper<2> stepper(with(Integrator::equilibrium, 1, "cholmod", 50));
+    const StepReport report = stepper.step(body.model, body.state);
+    ASSERT_EQ(report.verdict, "ok") << report.reason;
+    const double expected = strain == Strain::green ? longer : 1 + pull / young;
+    for (std::size_t v = 0; v < body.model.vertices(); ++v) {
+      const Point2 rest = body.sheet.rest(body.sheet.rest_vertex(DeformedIndex(v)));
+      EXPECT_NEAR(body.state.x[static_cast<Eigen::Index>(2 * v)], expected * rest.x, 1e-8);
+    }
+  }
+}
+
+/// Multigrid and a direct solver take every measure's matrix, cut and strained, and agree.
+TEST(Stepper, SolversAgreeWhateverTheStrain) {
+  for (const auto& [strain, name] : strain_names) {
+    SCOPED_TRACE(name);
+    std::vector<Field> ends;
+    for (const char* solver : {"cholmod", "multigrid"}) {
+      Body<3> body(make_sheet("delaunay", 10), skin,
+                   {.strain = strain, .bending = BendingKind::patches, .gravity = {0, 0, -9.81}},
+                   held_in({0, 0}, {0, 1}));
+      Stepper<3> stepper(with(Integrator::backward_euler, 1.0 / 60, solver));
+      for (int n = 0; n < 10; ++n) {
+        if (n == 5) {
+          ASSERT_EQ(body.cut(line({0.3, 0.2}, {0.7, 0.8}), "warp_and_refine"), Status::ok);
+        }
+        const StepReport report = stepper.step(body.model, body.state);
+        ASSERT_EQ(report.verdict, "ok") << solver << ": " << report.reason;
+      }
+      ends.push_back(body.state.x);
+    }
+    EXPECT_LE((ends[0] - ends[1]).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_LT(ends[0].minCoeff(), -0.05) << "it hangs";
+  }
+}
+
 /// One mode of a linear sheet: backward Euler multiplies its amplitude by 1 / sqrt(1 + w^2 h^2) and turns it by atan(w
 /// h); the midpoint rule keeps its energy.
 TEST(Stepper, OneModeIsDampedAsTheoryHasIt) {

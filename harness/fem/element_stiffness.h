@@ -5,13 +5,14 @@
 
 #include "harness/fem/lanes.h"
 #include "harness/fem/membrane.h"
+#include "harness/fem/springs.h"
 
 namespace cutbench {
 
 /// The stiffness times a factor, N/m: 3 x 3 blocks of D x D, symmetric; positive semi-definite but for
 /// StressStiffness::full under compression.
 ///
-/// In the element's own frame (the columns of R, and the normal n) the block of two corners with gradients g and h is
+/// In the element's own frame (the columns of B, and the normal n) the block of two corners with gradients g and h is
 /// linear in the four products of their components. So it is here, with frame and moduli put into three matrices once:
 ///   block = gx hx M_xx + gx hy M_xy + gy hx M_xy^T + gy hy M_yy
 template <int D, class Number = double>
@@ -20,12 +21,16 @@ class ElementStiffness {
   using Block = std::array<Number, D * D>;  ///< column by column
 
   /// `area` is the factor times the area of material.
-  ElementStiffness(const std::array<Vector2<Number>, 3>& gradient, Number area, const Polar<D, Number>& polar,
-                   StressStiffness of_stress, const Lame& lame)
+  ElementStiffness(const std::array<Vector2<Number>, 3>& gradient, Number area,
+                   const StrainInFrame<D, Number>& strained, const MembraneLaw& law)
       : gradient_(gradient) {
-    const Number lambda = area * lame.lambda, mu = area * lame.mu;
-    const Moduli m = of_stress == StressStiffness::none ? Moduli{} : moduli_of(area, polar, lame, of_stress);
-    const auto& [x, y] = polar.rotation;
+    if (law.strain == Strain::springs) {
+      set_springs(area * young_of(law.lame), strained, law.of_stress);
+      return;
+    }
+    const Number lambda = area * law.lame.lambda, mu = area * law.lame.mu;
+    const Moduli m = law.of_stress == StressStiffness::none ? Moduli{} : moduli_of(area, strained, law);
+    const auto& [x, y] = strained.frame;
     for (std::size_t c = 0; c < D; ++c)
       for (std::size_t r = 0; r < D; ++r) {
         const Number xx = x[r] * x[c], yy = y[r] * y[c];
@@ -33,15 +38,18 @@ class ElementStiffness {
         yy_[D * c + r] = (mu + m.twist) * xx + (lambda + 2 * mu) * yy;
         xy_[D * c + r] = lambda * (x[r] * y[c]) + (mu - m.twist) * (y[r] * x[c]);
       }
-    if constexpr (D == 3) add_tilt(m, cross(x, y));
+    if (law.strain == Strain::green)
+      add_in_every_direction(m);
+    else if constexpr (D == 3)
+      add_tilt(m, cross(x, y));
   }
 
   /// Of one element.
-  ElementStiffness(const Element& e, const Deformation<D>& deformation, StressStiffness of_stress, const Lame& lame)
+  ElementStiffness(const Element& e, const Deformation<D>& deformation, const MembraneLaw& law)
       : ElementStiffness({{{e.gradient[0].x, e.gradient[0].y},
                            {e.gradient[1].x, e.gradient[1].y},
                            {e.gradient[2].x, e.gradient[2].y}}},
-                         e.material_area(), polar_of(deformation), of_stress, lame) {}
+                         e.material_area(), strain_of(deformation), law) {}
 
   /// Block (i, j).
   Block block(std::size_t i, std::size_t j) const { return block(gradient_[i], gradient_[j]); }
@@ -58,36 +66,74 @@ class ElementStiffness {
  private:
   /// Of the modes whose stiffness depends on the stress.
   struct Moduli {
-    Number twist{};                          ///< in the plane
-    Number tilt_xx{}, tilt_xy{}, tilt_yy{};  ///< out of the plane: tension over stretch, on the same principal axes
+    Number twist{};  ///< in the plane
+    /// Of a corner's motion out of the plane, tension over stretch; of green in every direction, tension. On the principal
+    /// axes of the strain.
+    Number xx{}, xy{}, yy{};
+
+    /// `modulus` of each principal strain.
+    template <class Modulus>
+    void set(const StrainInFrame<D, Number>& e, Number area, const Modulus& modulus) {
+      const Number half = (e.xx - e.yy) / 2, radius = square_root(half * half + e.xy * e.xy);
+      const Number middle = (e.xx + e.yy) / 2;
+      const Number more = area / 2 * modulus(middle + radius), less = area / 2 * modulus(middle - radius);
+      const Number slope = radius > 0 ? (more - less) / radius : Number{};
+      xx = more + less + slope * half, yy = more + less - slope * half, xy = slope * e.xy;
+    }
   };
 
-  static Moduli moduli_of(Number area, const Polar<D, Number>& polar, const Lame& lame, StressStiffness of_stress) {
-    const double least = of_stress == StressStiffness::full ? -std::numeric_limits<double>::infinity() : 0;
-    const auto taken = [least](Number x) { return x > least ? x : Number{}; };
-    const Number strain = polar.xx - 1 + (polar.yy - 1), pressure = lame.lambda * strain;
+  static Number taken(Number x, StressStiffness of_stress) {
+    const double infinity = std::numeric_limits<double>::infinity();
+    const double least = of_stress == StressStiffness::full       ? -infinity
+                         : of_stress == StressStiffness::positive ? 0
+                                                                  : infinity;
+    return x > least ? x : Number{};
+  }
+
+  static Moduli moduli_of(Number area, const StrainInFrame<D, Number>& e, const MembraneLaw& law) {
+    const auto& [mu, lambda] = law.lame;
+    const auto taken = [&](Number x) { return ElementStiffness::taken(x, law.of_stress); };
+    const Number strain = e.xx + e.yy, pressure = lambda * strain;
     Moduli m;
-    const Number twist = taken((lame.mu + lame.lambda) * strain / (strain + 2));
-    m.twist = strain + 2 > 0 ? area * twist : Number{};
-    if constexpr (D == 3) {
-      const Number half = (polar.xx - polar.yy) / 2, radius = square_root(half * half + polar.xy * polar.xy);
-      const auto tension_over_stretch = [&](Number principal) {
-        const Number ratio = taken(2 * lame.mu * principal + pressure) / (1 + principal);
-        return 1 + principal > 0 ? ratio : Number{};
-      };
-      const Number more = area / 2 * tension_over_stretch(strain / 2 + radius);
-      const Number less = area / 2 * tension_over_stretch(strain / 2 - radius);
-      const Number slope = radius > 0 ? (more - less) / radius : Number{};
-      m.tilt_xx = more + less + slope * half, m.tilt_yy = more + less - slope * half, m.tilt_xy = slope * polar.xy;
+    if (law.strain == Strain::green) {
+      m.set(e, area, [&](Number principal) { return taken(2 * mu * principal + pressure); });
+      return m;
     }
+    const Number twist = taken((mu + lambda) * strain / (strain + 2));
+    m.twist = strain + 2 > 0 ? area * twist : Number{};
+    if constexpr (D == 3)
+      m.set(e, area, [&](Number principal) {
+        const Number ratio = taken(2 * mu * principal + pressure) / (1 + principal);
+        return 1 + principal > 0 ? ratio : Number{};
+      });
     return m;
+  }
+
+  void set_springs(Number young, const StrainInFrame<D, Number>& strained, StressStiffness of_stress) {
+    xx_ = {}, xy_ = {}, yy_ = {};
+    const Springs<D, Number> springs(gradient_, strained.frame);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto& [x, y] = springs.along[i];
+      const Number across = taken(springs.tension_over_stretch(i), of_stress), inverse = springs.inverse(i);
+      const Number along = young * (1 - across) * inverse * inverse;
+      for (std::size_t c = 0; c < D; ++c)
+        for (std::size_t r = 0; r < D; ++r) {
+          Number both = along * (springs.edge[i][r] * springs.edge[i][c]);
+          if (r == c) both += young * across;
+          xx_[D * c + r] += x * x * both, xy_[D * c + r] += x * y * both, yy_[D * c + r] += y * y * both;
+        }
+    }
+  }
+
+  void add_in_every_direction(const Moduli& m) {
+    for (std::size_t c = 0; c < D; ++c) xx_[D * c + c] += m.xx, xy_[D * c + c] += m.xy, yy_[D * c + c] += m.yy;
   }
 
   void add_tilt(const Moduli& m, const std::array<Number, D>& normal) {
     for (std::size_t c = 0; c < D; ++c)
       for (std::size_t r = 0; r < D; ++r) {
         const Number both = normal[r] * normal[c];
-        xx_[D * c + r] += m.tilt_xx * both, xy_[D * c + r] += m.tilt_xy * both, yy_[D * c + r] += m.tilt_yy * both;
+        xx_[D * c + r] += m.xx * both, xy_[D * c + r] += m.xy * both, yy_[D * c + r] += m.yy * both;
       }
   }
 

@@ -14,6 +14,12 @@ Lame lame_of(const Material& material, Plane plane) {
   return {e / (2 * (1 + nu)), plane == Plane::stress ? e * nu / (1 - nu * nu) : e * nu / ((1 + nu) * (1 - 2 * nu))};
 }
 
+double young_of(const Lame& lame) { return 4 * lame.mu * (lame.mu + lame.lambda) / (2 * lame.mu + lame.lambda); }
+
+MembraneLaw law_of(const Material& material, const Physics& physics) {
+  return {physics.strain, physics.stress_stiffness_made(), lame_of(material, physics.plane)};
+}
+
 namespace {
 
 Vector2d gradient(const Element& element, std::size_t k) { return {element.gradient[k].x, element.gradient[k].y}; }
@@ -47,13 +53,25 @@ Eigen::Matrix<double, 3, 2> tangent_frame(const Eigen::Matrix<double, 3, 2>& f) 
   }
   return frame;
 }
+Matrix2d tangent_frame(const Matrix2d&) { return Matrix2d::Identity(); }
+
+/// Of springs along the edges (springs.h).
+template <int D>
+void add_spring_stress(const Element& element, double young, Deformation<D>& d) {
+  d.stress.setZero(), d.energy = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector2d across = gradient(element, k).normalized(), along(-across.y(), across.x());
+    const double stretch = (d.frame * along).norm();
+    d.energy += young / 2 * (stretch - 1) * (stretch - 1);
+    if (stretch > 1e-14 * d.frame.norm()) d.stress += young * (1 - 1 / stretch) * along * along.transpose();
+  }
+}
 
 template <int D>
 void add_stress(const Lame& lame, Deformation<D>& d) {
-  const Matrix2d e = d.stretch - Matrix2d::Identity();
-  const double trace = e.trace();
-  d.stress = 2 * lame.mu * e + lame.lambda * trace * Matrix2d::Identity();
-  d.energy = lame.mu * e.squaredNorm() + lame.lambda / 2 * trace * trace;
+  const double trace = d.strain.trace();
+  d.stress = 2 * lame.mu * d.strain + lame.lambda * trace * Matrix2d::Identity();
+  d.energy = lame.mu * d.strain.squaredNorm() + lame.lambda / 2 * trace * trace;
 }
 
 }  // namespace
@@ -66,49 +84,61 @@ Deformation<D> deformation_of(const Element& element, const Field& x, Strain str
   };
   const Eigen::Matrix<double, D, 2> f =
       (at(1) - at(0)) * gradient(element, 1).transpose() + (at(2) - at(0)) * gradient(element, 2).transpose();
-  return deformation_of<D>(f, strain, lame);
+  Deformation<D> d = deformation_of<D>(f, strain, lame);
+  if (strain == Strain::springs) add_spring_stress(element, young_of(lame), d);
+  return d;
 }
 
 template <int D>
 Deformation<D> deformation_of(const Eigen::Matrix<double, D, 2>& f, Strain strain, const Lame& lame) {
   Deformation<D> d;
-  if (strain == Strain::linear) {
-    d.rotation = Eigen::Matrix<double, D, 2>::Identity();
-    const Matrix2d in_plane = f.template topRows<2>();
-    d.stretch = (in_plane + in_plane.transpose()) / 2;
-  } else if constexpr (D == 2) {
-    d.rotation = nearest_rotation(f);
-    d.stretch = d.rotation.transpose() * f;
-  } else {
-    const Eigen::Matrix<double, 3, 2> frame = tangent_frame(f);
-    const Matrix2d in_plane = frame.transpose() * f, turn = nearest_rotation(in_plane);
-    d.rotation = frame * turn;
-    d.stretch = turn.transpose() * in_plane;
+  Matrix2d stretch = Matrix2d::Identity();
+  switch (strain) {
+    case Strain::linear: {
+      d.frame = Eigen::Matrix<double, D, 2>::Identity();
+      stretch = f.template topRows<2>();
+      break;
+    }
+    case Strain::corotational: {
+      const Eigen::Matrix<double, D, 2> frame = tangent_frame(f);
+      const Matrix2d in_plane = frame.transpose() * f, turn = nearest_rotation(in_plane);
+      d.frame = frame * turn;
+      stretch = turn.transpose() * in_plane;
+      break;
+    }
+    case Strain::green:
+    case Strain::springs:
+      d.frame = f;
+      stretch = (f.transpose() * f + Matrix2d::Identity()) / 2;
+      break;
   }
-  d.stretch(0, 1) = d.stretch(1, 0) = (d.stretch(0, 1) + d.stretch(1, 0)) / 2;
+  d.strain = (stretch + stretch.transpose()) / 2 - Matrix2d::Identity();
   add_stress(lame, d);
   return d;
 }
 
 template <int D>
-Deformation<D> deformation_of(const Polar<D, double>& polar, const Lame& lame) {
+Deformation<D> deformation_of(const Element& element, const StrainInFrame<D, double>& strained, Strain strain,
+                              const Lame& lame) {
   Deformation<D> d;
   for (std::size_t k = 0; k < 2; ++k)
-    d.rotation.col(static_cast<Eigen::Index>(k)) =
-        Eigen::Map<const Eigen::Matrix<double, D, 1>>(polar.rotation[k].data());
-  d.stretch << polar.xx, polar.xy, polar.xy, polar.yy;
-  add_stress(lame, d);
+    d.frame.col(static_cast<Eigen::Index>(k)) = Eigen::Map<const Eigen::Matrix<double, D, 1>>(strained.frame[k].data());
+  d.strain << strained.xx, strained.xy, strained.xy, strained.yy;
+  if (strain == Strain::springs)
+    add_spring_stress(element, young_of(lame), d);
+  else
+    add_stress(lame, d);
   return d;
 }
 
 template <int D>
-Polar<D, double> polar_of(const Deformation<D>& d) {
-  Polar<D, double> polar;
+StrainInFrame<D, double> strain_of(const Deformation<D>& d) {
+  StrainInFrame<D, double> strained;
   for (std::size_t k = 0; k < 2; ++k)
     for (std::size_t r = 0; r < D; ++r)
-      polar.rotation[k][r] = d.rotation(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(k));
-  polar.xx = d.stretch(0, 0), polar.xy = d.stretch(0, 1), polar.yy = d.stretch(1, 1);
-  return polar;
+      strained.frame[k][r] = d.frame(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(k));
+  strained.xx = d.strain(0, 0), strained.xy = d.strain(0, 1), strained.yy = d.strain(1, 1);
+  return strained;
 }
 
 template struct Deformation<2>;
@@ -117,9 +147,9 @@ template Deformation<2> deformation_of<2>(const Eigen::Matrix<double, 2, 2>&, St
 template Deformation<3> deformation_of<3>(const Eigen::Matrix<double, 3, 2>&, Strain, const Lame&);
 template Deformation<2> deformation_of<2>(const Element&, const Field&, Strain, const Lame&);
 template Deformation<3> deformation_of<3>(const Element&, const Field&, Strain, const Lame&);
-template Deformation<2> deformation_of<2>(const Polar<2, double>&, const Lame&);
-template Deformation<3> deformation_of<3>(const Polar<3, double>&, const Lame&);
-template Polar<2, double> polar_of<2>(const Deformation<2>&);
-template Polar<3, double> polar_of<3>(const Deformation<3>&);
+template Deformation<2> deformation_of<2>(const Element&, const StrainInFrame<2, double>&, Strain, const Lame&);
+template Deformation<3> deformation_of<3>(const Element&, const StrainInFrame<3, double>&, Strain, const Lame&);
+template StrainInFrame<2, double> strain_of<2>(const Deformation<2>&);
+template StrainInFrame<3, double> strain_of<3>(const Deformation<3>&);
 
 }  // namespace cutbench

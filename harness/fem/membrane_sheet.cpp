@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "harness/fem/springs.h"
+
 namespace cutbench {
 
 namespace {
@@ -84,32 +86,40 @@ std::array<std::array<Lanes, 3>, 2> nearest_rotation(const std::array<std::array
 }
 
 template <int D>
-Polar<D, Lanes> polar_of(const std::array<std::array<Lanes, D>, 2>& f, Strain strain, Lanes& determined) {
-  Polar<D, Lanes> p;
-  if (strain == Strain::linear) {
-    p.rotation = {};
-    p.rotation[0][0] += 1, p.rotation[1][1] += 1, determined = p.rotation[0][0];
-  } else {
-    p.rotation = nearest_rotation(f, determined);
+StrainInFrame<D, Lanes> strain_of(const std::array<std::array<Lanes, D>, 2>& f, Strain strain, Lanes& determined) {
+  StrainInFrame<D, Lanes> e;
+  switch (strain) {
+    case Strain::linear:
+      e.frame = {};
+      e.frame[0][0] += 1, e.frame[1][1] += 1;
+      break;
+    case Strain::corotational:
+      e.frame = nearest_rotation(f, determined);
+      break;
+    case Strain::green:
+    case Strain::springs:
+      e.frame = f;
+      e.xx = (dot(f[0], f[0]) - 1) / 2, e.yy = (dot(f[1], f[1]) - 1) / 2, e.xy = dot(f[0], f[1]) / 2;
+      return e;
   }
-  p.xx = dot(p.rotation[0], f[0]), p.yy = dot(p.rotation[1], f[1]);
-  p.xy = (dot(p.rotation[0], f[1]) + dot(p.rotation[1], f[0])) / 2;
-  return p;
+  e.xx = dot(e.frame[0], f[0]) - 1, e.yy = dot(e.frame[1], f[1]) - 1;
+  e.xy = (dot(e.frame[0], f[1]) + dot(e.frame[1], f[0])) / 2;
+  return e;
 }
 
 template <int D>
-Polar<D, double> lane(const Polar<D, Lanes>& four, std::size_t l) {
-  Polar<D, double> one;
+StrainInFrame<D, double> lane(const StrainInFrame<D, Lanes>& four, std::size_t l) {
+  StrainInFrame<D, double> one;
   for (std::size_t k = 0; k < 2; ++k)
-    for (std::size_t r = 0; r < D; ++r) one.rotation[k][r] = four.rotation[k][r][l];
+    for (std::size_t r = 0; r < D; ++r) one.frame[k][r] = four.frame[k][r][l];
   one.xx = four.xx[l], one.xy = four.xy[l], one.yy = four.yy[l];
   return one;
 }
 
 template <int D>
-void set_lane(const Polar<D, double>& one, std::size_t l, Polar<D, Lanes>& four) {
+void set_lane(const StrainInFrame<D, double>& one, std::size_t l, StrainInFrame<D, Lanes>& four) {
   for (std::size_t k = 0; k < 2; ++k)
-    for (std::size_t r = 0; r < D; ++r) four.rotation[k][r][l] = one.rotation[k][r];
+    for (std::size_t r = 0; r < D; ++r) four.frame[k][r][l] = one.frame[k][r];
   four.xx[l] = one.xx, four.xy[l] = one.xy, four.yy[l] = one.yy;
 }
 
@@ -120,14 +130,14 @@ bool all_positive(Lanes x) { return x[0] > 0 && x[1] > 0 && x[2] > 0 && x[3] > 0
 template <int D>
 void MembraneSheet<D>::resize(std::size_t elements) {
   const std::size_t fours = (elements + lane_count - 1) / lane_count;
-  polar_.resize(fours);
+  strained_.resize(fours);
   constexpr FourSlots none{-1, -1, -1, -1};
   slots_.resize(fours, {{{none, none, none}, {none, none, none}, {none, none, none}}});
 }
 
 template <int D>
 void MembraneSheet<D>::reserve_spare() {
-  slots_.reserve(slots_.size() + slots_.size() / 2), polar_.reserve(slots_.capacity());
+  slots_.reserve(slots_.size() + slots_.size() / 2), strained_.reserve(slots_.capacity());
 }
 
 template <int D>
@@ -139,12 +149,12 @@ void MembraneSheet<D>::clear_slots(std::size_t element) {
 template <int D>
 void MembraneSheet<D>::rotate(const ElementTable& elements, const Field& x) {
   force_.setZero(x.size());
-  for (std::size_t i = 0; i < polar_.size(); ++i) {
+  for (std::size_t i = 0; i < strained_.size(); ++i) {
     const Four four(elements, lane_count * i);
-    Lanes determined;
-    polar_[i] = polar_of<D>(four.deformation_gradient(x), strain_, determined);
+    Lanes determined = Lanes{} + 1;
+    strained_[i] = strain_of<D>(four.deformation_gradient(x), law_.strain, determined);
     if (!all_positive(determined)) recompute_collapsed(elements, i, determined, x);
-    add_forces(four, polar_[i]);
+    add_forces(four, strained_[i]);
   }
   polygons_.rotate(elements, x, force_);
 }
@@ -156,23 +166,28 @@ void MembraneSheet<D>::recompute_collapsed(const ElementTable& elements, std::si
   for (std::size_t l = 0; l < lane_count; ++l) {
     if (determined[l] > 0) continue;
     const Element& element = element_at(elements, lane_count * i + l);
-    Polar<D, double> one{};
-    one.rotation[0][0] = one.rotation[1][1] = one.xx = one.yy = 1;
-    if (element.alive()) one = cutbench::polar_of<D>(deformation_of<D>(element, x, strain_, lame_));
-    set_lane(one, l, polar_[i]);
+    StrainInFrame<D, double> one{};
+    one.frame[0][0] = one.frame[1][1] = 1;
+    if (element.alive()) one = cutbench::strain_of<D>(deformation_of<D>(element, x, law_.strain, law_.lame));
+    set_lane(one, l, strained_[i]);
   }
 }
 
-/// -A R s g at each corner (membrane_force()).
+/// -A B s g at each corner (membrane_force()).
 template <int D>
-void MembraneSheet<D>::add_forces(const Four& four, const Polar<D, Lanes>& p) {
-  const Lanes xx = p.xx - 1, yy = p.yy - 1, pressure = lame_.lambda * (xx + yy);
-  const Lanes sxx = 2 * lame_.mu * xx + pressure, syy = 2 * lame_.mu * yy + pressure, sxy = 2 * lame_.mu * p.xy;
+void MembraneSheet<D>::add_forces(const Four& four, const StrainInFrame<D, Lanes>& e) {
+  const auto [mu, lambda] = law_.lame;
+  const Lanes pressure = lambda * (e.xx + e.yy);
+  Lanes sxx = 2 * mu * e.xx + pressure, syy = 2 * mu * e.yy + pressure, sxy = 2 * mu * e.xy;
+  if (law_.strain == Strain::springs) {
+    const auto s = Springs<D, Lanes>(four.gradient, e.frame).stress(young_of(law_.lame));
+    sxx = s.xx, syy = s.yy, sxy = s.xy;
+  }
   for (std::size_t k = 0; k < 3; ++k) {
     const auto& [gx, gy] = four.gradient[k];
     const Lanes along = four.area * (sxx * gx + sxy * gy), across = four.area * (sxy * gx + syy * gy);
     std::array<Lanes, D> pull;
-    for (std::size_t r = 0; r < D; ++r) pull[r] = p.rotation[0][r] * along + p.rotation[1][r] * across;
+    for (std::size_t r = 0; r < D; ++r) pull[r] = e.frame[0][r] * along + e.frame[1][r] * across;
     for (std::size_t l = 0; l < lane_count; ++l) {
       if (!four.alive(l)) continue;
       double* const to = force_.data() + D * four.vertex[k][l];
@@ -184,10 +199,14 @@ void MembraneSheet<D>::add_forces(const Four& four, const Polar<D, Lanes>& p) {
 template <int D>
 double MembraneSheet<D>::energy(const ElementTable& elements) const {
   Lanes sum{};
-  for (std::size_t i = 0; i < polar_.size(); ++i) {
-    const Lanes area = Four(elements, lane_count * i).area;
-    const Lanes xx = polar_[i].xx - 1, yy = polar_[i].yy - 1, xy = polar_[i].xy, trace = xx + yy;
-    sum += area * (lame_.mu * (xx * xx + yy * yy + 2 * (xy * xy)) + lame_.lambda / 2 * (trace * trace));
+  for (std::size_t i = 0; i < strained_.size(); ++i) {
+    const Four four(elements, lane_count * i);
+    if (law_.strain == Strain::springs) {
+      sum += four.area * Springs<D, Lanes>(four.gradient, strained_[i].frame).energy(young_of(law_.lame));
+      continue;
+    }
+    const Lanes xx = strained_[i].xx, yy = strained_[i].yy, xy = strained_[i].xy, trace = xx + yy;
+    sum += four.area * (law_.lame.mu * (xx * xx + yy * yy + 2 * (xy * xy)) + law_.lame.lambda / 2 * (trace * trace));
   }
   return sum[0] + sum[1] + sum[2] + sum[3] + polygons_.energy(elements);
 }
@@ -196,14 +215,15 @@ template <int D>
 Deformation<D> MembraneSheet<D>::deformation(const ElementTable& elements, std::size_t element) const {
   if (const auto polygon = elements[element].polygon; polygon >= 0)
     return polygons_.deformation(static_cast<std::size_t>(polygon));
-  return deformation_of<D>(lane<D>(polar_[element / lane_count], element % lane_count), lame_);
+  return deformation_of<D>(elements[element], lane<D>(strained_[element / lane_count], element % lane_count),
+                           law_.strain, law_.lame);
 }
 
 template <int D>
 void MembraneSheet<D>::add_stiffness(const ElementTable& elements, double factor, BlockMatrix<D>& blocks) const {
-  for (std::size_t i = 0; i < polar_.size(); ++i) {
+  for (std::size_t i = 0; i < strained_.size(); ++i) {
     const Four four(elements, lane_count * i);
-    const ElementStiffness<D, Lanes> k(four.gradient, factor * four.area, polar_[i], of_stress_, lame_);
+    const ElementStiffness<D, Lanes> k(four.gradient, factor * four.area, strained_[i], law_);
     for (std::size_t a = 0; a < 3; ++a) {
       blocks.add(slots_[i][a][a], k.block(a, a));
       for (std::size_t b = a + 1; b < 3; ++b) {

@@ -1,4 +1,4 @@
-// All membrane elements of a sheet, four at a time (lanes.h): rotations and forces in one pass, stiffness in another.
+// All membrane elements of a sheet, four at a time (lanes.h): strains and forces in one pass, stiffness in another.
 // A collapsed element is computed by itself (deformation_of()), and so is each polygon (polygon_sheet.h).
 #pragma once
 
@@ -14,8 +14,7 @@ template <int D>
 class MembraneSheet {
  public:
   /// \param bends  bending keeps polygons flat (polygon_sheet.h)
-  MembraneSheet(Strain strain, StressStiffness of_stress, const Lame& lame, bool bends = false)
-      : strain_(strain), of_stress_(of_stress), lame_(lame), polygons_(strain, of_stress, lame, bends) {}
+  explicit MembraneSheet(const MembraneLaw& law, bool bends = false) : law_(law), polygons_(law, bends) {}
   void resize(std::size_t elements);
   void reserve_spare();
 
@@ -38,12 +37,10 @@ class MembraneSheet {
   using FourSlots = std::array<std::int32_t, lane_count>;
   struct Four;
   void recompute_collapsed(const ElementTable& elements, std::size_t i, Lanes determined, const Field& x);
-  void add_forces(const Four& four, const Polar<D, Lanes>& polar);
+  void add_forces(const Four& four, const StrainInFrame<D, Lanes>& strained);
 
-  Strain strain_;
-  StressStiffness of_stress_;
-  Lame lame_;
-  std::vector<Polar<D, Lanes>> polar_;                          // per four elements
+  MembraneLaw law_;
+  std::vector<StrainInFrame<D, Lanes>> strained_;               // per four elements
   std::vector<std::array<std::array<FourSlots, 3>, 3>> slots_;  // per four elements: of their nine blocks
   Field force_;
   PolygonSheet<D> polygons_;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "harness/base/errors.h"
+
 namespace cutbench {
 
 namespace {
@@ -20,8 +22,7 @@ Model<D>::Model(const Sheet& sheet, const Material& material, const Physics& phy
       pins_(std::move(pins)),
       tractions_(std::move(tractions)),
       elements_(sheet),
-      membrane_(physics.strain, physics.stress_stiffness_made(), lame_of(material, physics.plane),
-                physics.bending != BendingKind::none) {
+      membrane_(law_of(material, physics), physics.bending != BendingKind::none) {
   if (physics.mass == Mass::consistent) consistent_mass_.emplace();
   resize(sheet);
   ++round_;
@@ -105,6 +106,8 @@ void Model<D>::tie(const Sheet& sheet, const Ties& ties) {
 
 template <int D>
 void Model<D>::merge(const Sheet& sheet, std::span<const Polygon> polygons) {
+  if (physics_.strain == Strain::springs && !polygons.empty())
+    throw InputError("a polygon has no springs: take another method than cut_polygons, or another \"strain\"");
   for (const Polygon& polygon : polygons) {
     const TriangleIndex first = polygon.triangles.front();
     if (std::ranges::equal(elements_.members(first), polygon.triangles)) continue;  // it is there already

@@ -26,10 +26,14 @@ struct Material {
 enum class Plane : std::uint8_t { stress, strain };
 constexpr EnumNames<Plane, 2> plane_names{{{Plane::stress, "stress"}, {Plane::strain, "strain"}}};
 
-enum class Strain : std::uint8_t { linear, corotational };
-constexpr EnumNames<Strain, 2> strain_names{{{Strain::linear, "linear"}, {Strain::corotational, "corotational"}}};
+/// membrane.h and springs.h say what each is.
+enum class Strain : std::uint8_t { linear, corotational, green, springs };
+constexpr EnumNames<Strain, 4> strain_names{{{Strain::linear, "linear"},
+                                             {Strain::corotational, "corotational"},
+                                             {Strain::green, "green"},
+                                             {Strain::springs, "springs"}}};
 
-/// The stiffness that stress gives to a co-rotational membrane (membrane.h): `positive` leaves out what is negative, so
+/// The stiffness that stress gives to a membrane (membrane.h): `positive` leaves out what is negative, so
 /// that the matrix is positive semi-definite; `full` is the exact second derivative, which has no bound where a triangle
 /// collapses; `none` leaves all of it out.
 enum class StressStiffness : std::uint8_t { none, positive, full };
@@ -60,7 +64,7 @@ struct Physics {
   int dimension = 3;  ///< unknowns per vertex: 2 (in the plane) or 3
   Plane plane = Plane::stress;
   Strain strain = Strain::corotational;
-  StressStiffness stress_stiffness = StressStiffness::positive;  ///< of co-rotational strain; linear strain has none
+  StressStiffness stress_stiffness = StressStiffness::positive;  ///< linear strain has none
   BendingKind bending = BendingKind::none;                       ///< none in 2D
   Mass mass = Mass::lumped;
   /// Of a mass that is stabilised or scaled: the largest eigenvalue of an element, over that of the sheet before any cut.

@@ -11,7 +11,7 @@ namespace {
 template <int D>
 Eigen::Matrix<double, D, 1> normal_of(const Deformation<D>& deformation) {
   if constexpr (D == 3)
-    return deformation.rotation.col(0).cross(deformation.rotation.col(1));
+    return deformation.frame.col(0).cross(deformation.frame.col(1)).normalized();
   else
     return Eigen::Matrix<double, D, 1>::Zero();  // nothing lies across a plane
 }
@@ -27,7 +27,7 @@ Eigen::Vector2d gradient(const PolygonElement& polygon, Eigen::Index corner) {
 
 Stabilisation stabilisation_of(const Lame& lame, bool bends) {
   constexpr double tau = 0.5;
-  const double young = 4 * lame.mu * (lame.mu + lame.lambda) / (2 * lame.mu + lame.lambda);  // in two dimensions
+  const double young = young_of(lame);
   return {tau * young, bends ? 0 : tau * young};
 }
 
@@ -53,7 +53,7 @@ void PolygonSheet<D>::rotate(const ElementTable& elements, const Field& x, Field
 template <int D>
 void PolygonSheet<D>::rotate(const PolygonElement& polygon, const Field& x, State& state, Field& force) const {
   const LinearMap<D> map = polygon.map<D>(x);
-  state.deformation = deformation_of<D>(map.gradient, strain_, lame_);
+  state.deformation = deformation_of<D>(map.gradient, law_.strain, law_.lame);
   const auto k = static_cast<Eigen::Index>(polygon.size());
   state.departure.resize(D, k);
   for (Eigen::Index i = 0; i < k; ++i) {
@@ -61,7 +61,7 @@ void PolygonSheet<D>::rotate(const PolygonElement& polygon, const Field& x, Stat
     state.departure.col(i) = x.segment<D>(D * polygon.polygon.corners[corner].value) - map.at(polygon.offset[corner]);
   }
   const auto& d = state.departure;
-  Eigen::Matrix<double, D, 2> pull = polygon.area * state.deformation.rotation * state.deformation.stress;
+  Eigen::Matrix<double, D, 2> pull = polygon.area * state.deformation.frame * state.deformation.stress;
   Eigen::Matrix<double, D, Eigen::Dynamic> resisted = stabilisation_.in_plane * d;
   state.across.setZero(k), state.tilt.setZero(D, k);
   if (const double less = stabilisation_.in_plane - stabilisation_.across; D == 3 && less != 0) {
@@ -69,7 +69,7 @@ void PolygonSheet<D>::rotate(const PolygonElement& polygon, const Field& x, Stat
     state.across = d.transpose() * n;
     resisted -= less * n * state.across.transpose();
     const Eigen::Matrix2d metric = map.gradient.transpose() * map.gradient;
-    if (strain_ == Strain::corotational && metric.determinant() > 1e-14 * metric.squaredNorm()) {
+    if (law_.strain != Strain::linear && metric.determinant() > 1e-14 * metric.squaredNorm()) {
       const Eigen::Matrix<double, D, 2> dual = map.gradient * metric.inverse();
       for (Eigen::Index i = 0; i < k; ++i) state.tilt.col(i) = dual * gradient(polygon, i);
       pull += less * n * (d * state.across).transpose() * dual;
@@ -103,7 +103,7 @@ void PolygonSheet<D>::add_stiffness(const ElementTable& elements, double factor,
     const PolygonElement& polygon = elements.polygon(p);
     if (!polygon.alive()) continue;
     const State& state = states_[p];
-    const ElementStiffness<D> stiffness({}, factor * polygon.area, polar_of<D>(state.deformation), of_stress_, lame_);
+    const ElementStiffness<D> stiffness({}, factor * polygon.area, strain_of<D>(state.deformation), law_);
     const Eigen::Matrix<double, D, 1> n = normal_of<D>(state.deformation);
     const Block flat = stabilisation_.in_plane * Block::Identity() - less * n * n.transpose();
     const Eigen::VectorXd pulled = polygon.departure.transpose() * state.across;
@@ -126,9 +126,9 @@ void PolygonSheet<D>::add_stiffness(const ElementTable& elements, double factor,
 
 Eigen::MatrixXd rest_stiffness(const PolygonElement& polygon, const Lame& lame) {
   const auto k = static_cast<Eigen::Index>(polygon.size());
-  Polar<2, double> at_rest{};
-  at_rest.rotation[0][0] = at_rest.rotation[1][1] = at_rest.xx = at_rest.yy = 1;
-  const ElementStiffness<2> stiffness({}, polygon.area, at_rest, StressStiffness::none, lame);
+  StrainInFrame<2, double> at_rest{};
+  at_rest.frame[0][0] = at_rest.frame[1][1] = 1;
+  const ElementStiffness<2> stiffness({}, polygon.area, at_rest, {Strain::linear, StressStiffness::none, lame});
   const Eigen::MatrixXd stabilisation =
       stabilisation_of(lame, false).in_plane * polygon.departure.transpose() * polygon.departure;
   Eigen::MatrixXd matrix(2 * k, 2 * k);

@@ -1,4 +1,4 @@
-// The polygons of a sheet as membrane elements (polygon_element.h), linear or co-rotational, in the plane or in space.
+// The polygons of a sheet as membrane elements (polygon_element.h), in the plane or in space.
 //
 // Energy of one with k corners: A W(F) + tau E / 2 sum |d_i|^2, with the mean gradient F, the energy W of a membrane
 // triangle (membrane.h), the departure d = (I - Pi) x of its corners, Young's modulus E (N/m) and tau = 1/2. The second
@@ -29,8 +29,7 @@ Stabilisation stabilisation_of(const Lame& lame, bool bends);
 template <int D>
 class PolygonSheet {
  public:
-  PolygonSheet(Strain strain, StressStiffness of_stress, const Lame& lame, bool bends)
-      : strain_(strain), of_stress_(of_stress), lame_(lame), stabilisation_(stabilisation_of(lame, bends)) {}
+  PolygonSheet(const MembraneLaw& law, bool bends) : law_(law), stabilisation_(stabilisation_of(law.lame, bends)) {}
 
   /// For polygon `slot`, new or of another shape.
   void reset(std::size_t slot, const PolygonElement& polygon);
@@ -55,9 +54,7 @@ class PolygonSheet {
   using Block = Eigen::Matrix<double, D, D>;
   void rotate(const PolygonElement& polygon, const Field& x, State& state, Field& force) const;
 
-  Strain strain_;
-  StressStiffness of_stress_;
-  Lame lame_;
+  MembraneLaw law_;
   Stabilisation stabilisation_;
   std::vector<State> states_;  // per polygon slot
 };

@@ -82,6 +82,8 @@ Physics read_physics(const TomlReader& file) {
   if (reader.has("mass_limit") && !adds_mass(p.mass))
     reader.refuse("\"mass_limit\" is for mass = \"stabilised\" or \"scaled\"; leave it out");
   if (p.mass_limit < 1) reader.refuse("\"mass_limit\" must be 1 or more: the uncut sheet stays as it is");
+  if (p.strain == Strain::springs && adds_mass(p.mass))
+    reader.refuse("the mass of thin triangles is made for triangles, not for springs; set mass = \"lumped\"");
   p.gravity = read_vector(reader, "gravity", p);
   if (p.bending != BendingKind::none && p.dimension == 2)
     reader.refuse("a 2D scene does not bend; set bending = \"none\", or dimension = 3");

@@ -4,7 +4,7 @@
 //   effect = "..."     truth = "..."     duration = 1.0
 //   [sheet]       family, size, resolution | file
 //   [material]    density, stiffness, poisson, bending, mass_damping, stiffness_damping
-//   [physics]     dimension = 2|3, plane = "stress"|"strain", strain = "corotational"|"linear",
+//   [physics]     dimension = 2|3, plane = "stress"|"strain", strain = "corotational"|"linear"|"green"|"springs",
 //                 stress_stiffness = "none"|"positive"|"full" (default: positive), bending = of bending_names,
 //                 mass = "lumped"|"consistent"|"stabilised"|"scaled", mass_limit = 1 (of the last two: harness/fem/
 //                 physics.h), gravity = [x, y, z]

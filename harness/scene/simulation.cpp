@@ -24,11 +24,11 @@ double time_triplets(const Model<D>& model) {
   StopWatch watch;
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(static_cast<std::size_t>(9 * D * D) * model.elements().size());
-  const Lame lame = lame_of(model.material(), model.physics().plane);
+  const MembraneLaw law = law_of(model.material(), model.physics());
   for (std::size_t e = 0; e < model.elements().size(); ++e) {
     const Element& element = model.elements()[e];
     if (!element.alive()) continue;
-    const ElementStiffness<D> k(element, model.deformation(e), model.physics().stress_stiffness_made(), lame);
+    const ElementStiffness<D> k(element, model.deformation(e), law);
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) {
         const auto block = k.block(i, j);
@@ -104,7 +104,7 @@ class SceneInMotion : public Simulation {
     if (const AddedMass* const added = now_.model.added_mass())
       elasticity.mass_limit = added->limit() * material.density / material.stiffness;
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    if (now_.model.tied()) return {unknown, unknown};
+    if (now_.model.tied() || scene_.physics.strain == Strain::springs) return {unknown, unknown};
     const Ties ties{.polygons = now_.model.polygons()};
     StepLimits limits;
     limits.membrane = explicit_step_limit(largest_eigenvalue(now_.sheet, ties, elasticity), material);

@@ -43,7 +43,7 @@ struct SimulationVerdict {
   double time = 0;  ///< s, simulated: when it was found
 };
 
-/// Largest stable steps of symplectic Euler, s (explicit_step_limit()).
+/// Largest stable steps of symplectic Euler, s (explicit_step_limit()); NaN with constrained vertices and of springs.
 struct StepLimits {
   double membrane = 0, with_bending = 0;
 };
