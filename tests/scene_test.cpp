@@ -100,6 +100,7 @@ TEST(Experiments, OfTheRepositoryAreRead) {
   EXPECT_GE(files.size(), 3u);
   for (const auto& file : files) {
     if (fs::exists(fs::path(file).replace_extension())) continue;  // it belongs to the script of that name
+    if (file.stem() == "recommend_calibration") continue;          // of `cutbench recommend`
     EXPECT_FALSE(read_experiment(file).sheets.empty() && read_experiment(file).accuracy == std::nullopt);
   }
 }
