@@ -17,10 +17,6 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double patience = 10, least_patience = 5;  // of a run: times the whole model's processor time, and s
 constexpr double safety = 0.9;                       // of an explicit step: the limit is that of the sheet at rest
 
-double distance(Point3 a, Point3 b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
-
-bool in_use(const Sheet& sheet, std::size_t d) { return sheet.rest_vertex(DeformedIndex(d)).valid(); }
-
 /// NaN where they are not the same sheet, cut alike.
 double largest_deviation(const Sheet& a, const Sheet& b) {
   if (a.deformed_slots() != b.deformed_slots()) return none;

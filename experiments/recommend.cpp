@@ -16,8 +16,9 @@ namespace {
 constexpr double finest = 2, side_span = 8, steps_span = 16;  // of the candidates: times the scene's; over the coarsest
 constexpr double spread_share = 0.2;  // of the error asked for: the spread of the converged value that is small enough
 constexpr double most_refined = 64;   // triangles x steps of the finest run for the converged value, over the scene's
-constexpr double widest = 4;    // triangles x steps over those of the first good candidate: more can't be the cheapest
-constexpr double patience = 4;  // of a candidate's run, watching it included: times the cheapest good one so far
+constexpr double widest = 4;  // triangles x steps over those of the first good candidate: more can't be the cheapest
+constexpr double candidate_patience =
+    4;                             // of a candidate's run, watching it included: times the cheapest good one so far
 constexpr double near_best = 1.5;  // in cost: timed again
 constexpr int more_timings = 3;
 constexpr double tight = 1e-5;  // tolerance of the runs that give the converged value
@@ -219,7 +220,7 @@ Recommendation recommend(const Scene& scene, const RecommendOptions& options, co
         if (good(trial) || (options.everything && trial.verdict == "ok")) search.time(trial);
         if (good(trial)) {
           most_work = std::min(most_work, widest * work(grid));
-          time_limit = std::min(time_limit, patience * trial.ms_per_second / 1000 * seconds);
+          time_limit = std::min(time_limit, candidate_patience * trial.ms_per_second / 1000 * seconds);
         }
         result.trials.push_back(trial);
         if (!good(trial) && !options.everything) break;

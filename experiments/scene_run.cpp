@@ -9,11 +9,11 @@
 
 namespace cutbench {
 
-namespace {
-
 double distance(Point3 a, Point3 b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
 bool in_use(const Sheet& sheet, std::size_t d) { return sheet.rest_vertex(DeformedIndex(d)).valid(); }
+
+namespace {
 
 double largest_deflection(const Sheet& end) {
   double largest = 0;

@@ -91,7 +91,7 @@ class ElementStiffness {
   }
 
   static Moduli moduli_of(Number area, const StrainInFrame<D, Number>& e, const MembraneLaw& law) {
-    const auto& [mu, lambda] = law.lame;
+    const double mu = law.lame.mu, lambda = law.lame.lambda;
     const auto taken = [&](Number x) { return ElementStiffness::taken(x, law.of_stress); };
     const Number strain = e.xx + e.yy, pressure = lambda * strain;
     Moduli m;
