@@ -107,13 +107,14 @@ def pages(table, column, context, by_solver):
         ax.set_title(setting_name(setting), fontsize=6, loc="left")
         ax.set_xlabel("ms for a cut and the 0.25 s after it" if i + columns >= len(settings) else "")
         ax.set_ylabel("" if i % columns else f"error, {points.MEASURES[column].title}", fontsize=6)
+    errors_commit = str(load.read_context(points.MEASURES[column].files()[1]).get("commit"))
     solver = f"all by {SAME}"
     if by_solver:
         solver = "each by its fastest solver of CG with sliver blocks, multigrid (MG) and CHOLMOD (direct)"
     style.finish(figure, [], (
         f"Lower left is better; {solver}. Time: median over sheets and cuts, bars quartiles. Error: |relative error|, geometric mean "
         f"over {points.MEASURES[column].of}; bars: bootstrap over these, of the ratio to a fitted mesh. Hollow, and not on the "
-        f"front: energy came from nowhere in over half of the motions. {words(table, context)}."), entries(pd.concat([made for _, made in drawn])))
+        f"front: energy came from nowhere in over half of the motions. {words(table, context)}; errors: commit {errors_commit[:10]}."), entries(pd.concat([made for _, made in drawn])))
     for ax, made in drawn:
         write_names(ax, made[made["layer"] == 1], made, 4.3, by_solver)
     return figure
@@ -200,8 +201,19 @@ def tables(cost, fronts):
             print_fronts(table, f"Fronts: time against error ({points.MEASURES[column].title}; {table['kinds'].max()} "
                                 f"{points.MEASURES[column].of}), {solver}")
         print_costs(cost)
+        print_ranks()
         print("\nOf 12,800 triangles, the errors of all methods are not known.")
     return text.getvalue()
+
+
+def print_ranks():
+    """Whether one error ranks the methods as another does: Spearman's rank correlation, on the largest sheets that all have."""
+    errors = {m.title: points.errors(key).set_index(["resolution", "method"])["error"] for key, m in points.MEASURES.items()}
+    table = pd.DataFrame(errors).dropna()
+    size = table.index.get_level_values("resolution").max()
+    ranks = table.loc[size].corr(method="spearman")
+    load.print_table(f"Rank correlation of the errors of {len(table.loc[size])} methods, the fitted mesh among them, at {size} triangles",
+                     ["error", *ranks.columns], [[name, *row] for name, row in zip(ranks.index, ranks.to_numpy())])
 
 
 def read(folder):
