@@ -111,6 +111,18 @@ def check_resumed(folder):
     expect("records of older code are kept", publish.read_state(False)["done"] == [])
 
 
+def check_side_by_side(folder):
+    wait = "timeout 20 sh -c 'test -f a && until test -f c; do sleep 0.05; done'"
+    stages = {"a": {"commands": ["touch a"]}, "b": {"one_core": True, "commands": [wait]},
+              "c": {"one_core": True, "commands": ["touch c"]}, "d": {"commands": ["test -f c"]}}
+    state = {"quick": False, "done": [], "seconds": {}}
+    count, publish.os.cpu_count = publish.os.cpu_count, lambda: 2
+    told = refusal(publish.run_stages, stages, state, "c0ffee")
+    publish.os.cpu_count = count
+    expect(f"stages of one core run one after the other: {told}", not told and sorted(state["done"]) == list("abcd"))
+    expect("the seconds of a stage are missing", sorted(state["seconds"]) == list("abcd"))
+
+
 def check_assembled(folder):
     reference = folder / "results/reference"
     (folder / "results/a/records.csv").write_text(ROWS, encoding="utf-8")
@@ -156,6 +168,7 @@ with tempfile.TemporaryDirectory() as temporary:
     make_project(Path(temporary))
     check_clean_tree(Path(temporary))
     check_resumed(Path(temporary))
+    check_side_by_side(Path(temporary))
     check_assembled(Path(temporary))
 print("\n".join(problems))
 sys.exit(bool(problems))
