@@ -37,7 +37,7 @@ def near(table):
 
 
 def draw(ax, table, scale=1.0):
-    """The methods of a setting, a small marker for the smaller sheet, a large one for the larger; pale behind the front.
+    """The methods of a setting, the larger the sheet the larger the marker; pale behind the front.
     Returns the rows that are drawn."""
     sizes = sorted(set(table["resolution"]))
     table = made = near(table)
@@ -88,8 +88,8 @@ def entries(table, scale=1.0):
 
 
 def words(table, context):
-    sizes = " and ".join(f"{n}" for n in sorted(set(table["resolution"])))
-    return (f"{sizes} triangles (small and large marker, joined); commit {str(context.get('commit'))[:10]}, seed "
+    *smaller, largest = (f"{n:,}" for n in sorted(set(table["resolution"])))
+    return (f"{', '.join(smaller)} and {largest} triangles (the more, the larger the marker); commit {str(context.get('commit'))[:10]}, seed "
             f"{context.get('seed')}")
 
 
@@ -202,7 +202,6 @@ def tables(cost, fronts):
                                 f"{points.MEASURES[column].of}), {solver}")
         print_costs(cost)
         print_ranks()
-        print("\nOf 12,800 triangles, the errors of all methods are not known.")
     return text.getvalue()
 
 
