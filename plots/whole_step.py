@@ -87,10 +87,13 @@ def entries(table, scale=1.0):
                       Line2D([], [], color="#999999", linewidth=0.7, linestyle="--", label="real time")]
 
 
-def words(table, context):
+def sizes_of(table):
     *smaller, largest = (f"{n:,}" for n in sorted(set(table["resolution"])))
-    return (f"{', '.join(smaller)} and {largest} triangles (the more, the larger the marker); commit {str(context.get('commit'))[:10]}, seed "
-            f"{context.get('seed')}")
+    return f"{', '.join(smaller)} and {largest} triangles (the more, the larger the marker)"
+
+
+def source(context):
+    return f"commit {str(context.get('commit'))[:10]}, seed {context.get('seed')}"
 
 
 def pages(table, column, context, by_solver):
@@ -114,9 +117,10 @@ def pages(table, column, context, by_solver):
     style.finish(figure, [], (
         f"Lower left is better; {solver}. Time: median over sheets and cuts, bars quartiles. Error: |relative error|, geometric mean "
         f"over {points.MEASURES[column].of}; bars: bootstrap over these, of the ratio to a fitted mesh. Hollow, and not on the "
-        f"front: energy came from nowhere in over half of the motions. {words(table, context)}; errors: commit {errors_commit[:10]}."), entries(pd.concat([made for _, made in drawn])))
+        f"front: energy came from nowhere in over half of the motions. {sizes_of(table)}; {source(context)}; errors: commit {errors_commit[:10]}."), entries(pd.concat([made for _, made in drawn])))
     for ax, made in drawn:
-        write_names(ax, made[made["layer"] == 1], made, 4.3, by_solver)
+        best = made[made["layer"] == 1].sort_values("error").drop_duplicates("method")  # each method once: its least error
+        write_names(ax, best, made, 4.3, by_solver)
     return figure
 
 
@@ -139,9 +143,9 @@ def summary(best, same, methods, context):
     handles = entries(pd.concat([made for _, made in drawn]), 1.6)
     figure.legend(handles=handles, loc="upper left", ncol=-(-len(handles) // 2), fontsize=8.5, borderaxespad=0.2, handletextpad=0.3,
                   columnspacing=1.2)
-    figure.text(0.02, 0.015, f"Lower left is better. {setting_name(setting)}. {words(best, context)}.\n"
+    figure.text(0.02, 0.015, f"Lower left is better. {setting_name(setting)}. {sizes_of(best)}. {source(context).capitalize()}.\n"
                 "Bars: quartiles of the time; how the error changes with the kind of problem. Hollow, no part of the front: energy grew in over half of "
-                f"the motions.\n{absent(pd.concat([made for _, made in drawn]), methods)}", fontsize=8, color="#555555")
+                f"the motions.\n{absent(pd.concat([made for _, made in drawn]), methods)}", fontsize=7.2, color="#555555")
     return figure
 
 
