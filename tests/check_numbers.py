@@ -2,10 +2,12 @@
 """Do 'Which method?' of README.md and docs/results.md and the table of docs/results.md say what the published rows say?
 Recomputed here from results/reference with nothing of plots/. Prints every disagreement; exit code 1 if there is any."""
 
+import itertools
 import re
 import sys
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -27,7 +29,7 @@ def expect(where, said, measured):
     unit = 10.0 ** (int(exponent or 0) - decimals)
     if not exponent and not decimals:  # trailing zeros of a whole number are no digits: 7,200
         unit = 10.0 ** (len(digits) - len(digits.rstrip("0"))) if float(digits) >= 100 else 1.0
-    if abs(float(digits) - measured) > 0.501 * unit:
+    if abs(float(said.replace(",", "")) - measured) > 0.501 * unit:
         problems.append(f"{where}: says {said}, the rows give {measured:.4g}")
 
 
@@ -64,12 +66,42 @@ def measured():
     return found
 
 
+def errors():
+    """A row per method, as in docs/measuring.md, Accuracy, and below the table: the mean over kinds, at a hole, the interval. In
+    percent over a fitted mesh with as many unknowns: the case's own, refined at the rate of all of its problem and sheet."""
+    case = ["problem", "sheet", "resolution", "case"]
+    rows = pd.read_csv(ROOT / "results/reference/method_comparison_accuracy.direct.records.csv.gz", low_memory=False,
+                       usecols=[*case, "method", "status", "verdict", "unknowns", "error"])
+    rows["kind"] = rows["problem"].str.extract("^(centre_crack|inclined_crack|arc_crack|edge_crack|kirsch_hole|williams)")[0].replace(
+        {"centre_crack": "crack", "inclined_crack": "crack"})
+    rows = rows[rows["kind"].notna()]
+    right = (rows["verdict"] == "ok") & rows["status"].isin(["ok", "deviated"])
+    refuses = ~right.groupby([rows["method"], rows["sheet"]]).transform("any")  # this kind of sheet, altogether
+    right |= refuses
+    rows = rows[right.groupby([rows[c] for c in case]).transform("all") & ~refuses]
+    fitted = rows[rows["method"] == "body_fitted (reference)"]
+    rate = {}
+    for key, of_all in fitted.groupby(["problem", "sheet"]):
+        logs = np.log(of_all[["unknowns", "error"]]).cov().to_numpy()
+        rate[key] = min(0.0, logs[0, 1] / logs[0, 0])
+    rows = rows.merge(fitted[[*case, "unknowns", "error"]], on=case, suffixes=("", "_fitted"))
+    power = np.array([rate[key] for key in zip(rows["problem"], rows["sheet"])])
+    rows["log"] = np.log(rows["error"] / rows["error_fitted"]) - power * np.log(rows["unknowns"] / rows["unknowns_fitted"])
+    found = {}
+    for method, logs in rows.groupby(["method", "kind"])["log"].mean().groupby("method"):
+        draws = [np.mean(draw) for draw in itertools.product(logs, repeat=len(logs))]  # of the bootstrap, all there are
+        ends = np.quantile(draws, [0.025, 0.975])
+        found[method] = 100 * np.expm1([logs.mean(), logs[method, "kirsch_hole"], *ends])
+    return found
+
+
 NAMES = ["eigenvalue", "eigenvalue, 95 %", "four cuts", "graded sheet", "with bending", "AR < 3", "outside forced wedges",
          "vertices added", "us, median", "us, total"]
 PLACES = [4, 5, 6, 7, 8, 9, 10, 13, 14, 15]  # of these in the table of docs/results.md
 US = NAMES.index("us, median")
 
 truth = measured()
+error = errors()
 results = (ROOT / "docs/results.md").read_text(encoding="utf-8")
 readme = (ROOT / "README.md").read_text(encoding="utf-8")
 seen = set()
@@ -78,6 +110,16 @@ for cells in rows_of(results, "## The table"):
     seen.add(method)
     for name, place, value in zip(NAMES, PLACES, truth[method]):
         expect(f"docs/results.md, The table, {method}, {name}", cells[place], value)
+    mean, hole, *ends = error[method]
+    said = re.fullmatch(r"(\S+) \[(\S+), (\S+)\]", cells[11])
+    if not said:
+        problems.append(f"docs/results.md, The table, {method}, error: {cells[11]} is no number with an interval")
+        continue
+    expect(f"docs/results.md, The table, {method}, error", said[1], mean)
+    expect(f"docs/results.md, The table, {method}, at a hole", cells[12], hole)
+    for end, value in zip(said.groups()[1:], ends):  # that of the document is of 2,000 draws
+        if abs(float(end.replace(",", "")) - value) > 0.04 * (100 + value):
+            problems.append(f"docs/results.md, The table, {method}, interval: says {end}, all draws give {value:.1f}")
 if seen != set(truth):
     problems.append(f"docs/results.md, The table: other methods than in the rows: {', '.join(sorted(seen ^ set(truth)))}")
 for cells in rows_of(readme, "## Which method?"):
