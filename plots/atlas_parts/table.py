@@ -62,7 +62,7 @@ def cures(rows):
     """A line per method: explicit steps of single and of four cuts, price, and the sweeps that it passes whole."""
     lines = []
     single, several = (rows[(rows["sweep"] == s)] for s in ("single_cuts", "several_cuts"))
-    base = single[single["method"] == "conventional_split"]["geometry_us"].median()
+    base = single[single["name"] == "conventional split"]["geometry_us"].median()  # not with an added mass
     for name in dict.fromkeys(single["name"]):
         mine = single[single["name"] == name]
         made = mine[mine["rank"] == 0]
