@@ -88,7 +88,7 @@ void Xpbd<D>::sweep_membrane(const Model<D>& model, double h, const Field& x0, F
     const Element& element = model.elements()[e];
     if (!element.alive()) continue;
     Constraint<D> c = law.strain == Strain::springs ? spring_constraint<D>(element, x)
-                                                          : strain_constraint<D>(element, x, law.strain, law.lame);
+                                                    : strain_constraint<D>(element, x, law.strain, law.lame);
     std::array<Eigen::Matrix<double, D, 3>, 3> moves;  // W G^T
     Eigen::Matrix3d mobility = Eigen::Matrix3d::Zero();
     for (std::size_t k = 0; k < 3; ++k) {
