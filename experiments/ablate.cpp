@@ -15,6 +15,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double patience = 10, least_patience = 5;  // of a run: times the whole model's processor time, and s
+constexpr double small_steps = 10;                   // of xpbd, one sweep each, for one step
 constexpr double safety = 0.9;                       // of an explicit step: the limit is that of the sheet at rest
 
 /// NaN where they are not the same sheet, cut alike.
@@ -47,6 +48,12 @@ AblatedScene explicit_scene(Scene scene, double limit) {
   return {"implicit steps", std::move(scene)};
 }
 
+AblatedScene position_based_scene(Scene scene) {
+  set_steps(scene, small_steps * steps_of(scene));
+  scene.integrator = Integrator::xpbd;
+  return {"linear solves (xpbd)", std::move(scene)};
+}
+
 double percent(double value, double whole) { return 100 * (value - whole) / whole; }
 
 }  // namespace
@@ -72,6 +79,7 @@ std::vector<AblatedScene> ablations_of(const Scene& scene) {
     add("triangles (springs)", [](Scene& s) { s.physics.strain = Strain::springs; });
   if (scene.physics.dimension == 3)
     add("the third dimension", [](Scene& s) { s.physics.dimension = 2, s.physics.bending = BendingKind::none; });
+  if (keeps_budget(scene.integrator) && scene.physics.mass == Mass::lumped) all.push_back(position_based_scene(scene));
   if (scene.integrator != Integrator::equilibrium)
     add("every second step", [](Scene& s) { set_steps(s, steps_of(s) / 2); });
   if (const int side = scene.family.empty() ? 0 : squares_per_side(scene.resolution) / 2; side > 0)

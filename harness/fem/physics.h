@@ -53,11 +53,17 @@ constexpr EnumNames<Mass, 4> mass_names{{{Mass::lumped, "lumped"},
                                          {Mass::scaled, "scaled"}}};
 constexpr bool adds_mass(Mass mass) { return mass == Mass::stabilised || mass == Mass::scaled; }
 
-enum class Integrator : std::uint8_t { backward_euler, midpoint, symplectic_euler, equilibrium };
-constexpr EnumNames<Integrator, 4> integrator_names{{{Integrator::backward_euler, "backward_euler"},
+enum class Integrator : std::uint8_t { backward_euler, midpoint, symplectic_euler, xpbd, equilibrium };
+constexpr EnumNames<Integrator, 5> integrator_names{{{Integrator::backward_euler, "backward_euler"},
                                                      {Integrator::midpoint, "midpoint"},
                                                      {Integrator::symplectic_euler, "symplectic_euler"},
+                                                     {Integrator::xpbd, "xpbd"},
                                                      {Integrator::equilibrium, "equilibrium"}}};
+
+/// A step solves linear systems.
+constexpr bool solves(Integrator integrator) {
+  return integrator != Integrator::symplectic_euler && integrator != Integrator::xpbd;
+}
 
 /// A scene builds only what it names.
 struct Physics {

@@ -40,7 +40,7 @@ void project(const Model<D>& model, Field& f) {
 
 template <int D>
 Stepper<D>::Stepper(const StepOptions& options) : options_(options) {
-  if (options.integrator != Integrator::symplectic_euler) solver_ = make_solver<D>(options.solver);
+  if (solves(options.integrator)) solver_ = make_solver<D>(options.solver);
 }
 
 template <int D>
@@ -61,6 +61,9 @@ StepReport Stepper<D>::step(Model<D>& model, State& state) {
       break;
     case Integrator::symplectic_euler:
       explicit_step(model, state, report);
+      break;
+    case Integrator::xpbd:
+      position_step(model, state, report);
       break;
     case Integrator::equilibrium:
       equilibrium(model, state, report);
@@ -217,6 +220,23 @@ void Stepper<D>::explicit_step(Model<D>& model, State& state, StepReport& report
   if (model.added_mass()) solve_added_mass(model, state, report);
   state.v = v_;
   state.x += h * v_;
+}
+
+template <int D>
+void Stepper<D>::position_step(Model<D>& model, State& state, StepReport& report) {
+  Clock clock(report.time_us.solve);
+  const double h = options_.step, alpha = model.material().mass_damping;
+  v_ = state.v;
+  for (Eigen::Index i = 0; i < v_.size(); ++i) {
+    const double mass = model.lumped_mass()[i / D];
+    if (mass > 0) v_[i] = (v_[i] + h * model.external_force()[i] / mass) / (1 + h * alpha);
+  }
+  hold(model, state, h);
+  x_ = state.x + h * v_;
+  xpbd_.solve(model, h, options_.sweeps, state.x, x_);
+  state.v = (x_ - state.x) / h;
+  state.x = x_;
+  report.iterations = options_.sweeps;
 }
 
 /// Corrects the velocities in v_ where vertices have added mass: M dv = h (f - alpha M v0), with dv given where held.

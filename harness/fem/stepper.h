@@ -12,6 +12,7 @@
 //                     large rotations are stiff (slivers, few Newton iterations).
 //   symplectic_euler  v = v0 + h M^-1 f(x0, v0); x = x0 + h v. Explicit: stable below 2 / omega_max. Mass that was
 //                     added to thin elements is factored after each cut (mass_solver.h), all other is lumped.
+//   xpbd              as backward_euler, but by sweeps over the elements instead of a linear solve (xpbd.h)
 //   equilibrium       f(x) + f_ext = 0 by Newton with a line search on the energy.
 //
 // Where vertices are constrained, x = x0 + C q, the implicit integrators solve C^T A C dq = C^T rhs.
@@ -23,6 +24,7 @@
 #include "harness/fem/linear_solver.h"
 #include "harness/fem/mass_solver.h"
 #include "harness/fem/state.h"
+#include "harness/fem/xpbd.h"
 
 namespace cutbench {
 
@@ -30,6 +32,7 @@ struct StepOptions {
   Integrator integrator = Integrator::backward_euler;
   double step = 1.0 / 240;  ///< s
   int newton = 1;           ///< linear solves per step; equilibrium: at most
+  int sweeps = 1;           ///< of xpbd, per step
   SolverOptions solver;
 };
 
@@ -45,7 +48,7 @@ struct StepTimes {
 struct StepReport {
   std::string verdict = "ok", reason;  ///< "solver_stalled", "newton_failed", "not_finite"
   int newton = 0;                      ///< linear solves
-  int iterations = 0;                  ///< of the linear solver, summed
+  int iterations = 0;                  ///< of the linear solver, summed; of xpbd the sweeps
   double residual = 0;                 ///< the largest that a linear solve left
   int fallbacks = 0;                   ///< solves that another preconditioner ended (SolveReport::fell_back)
   /// Equilibrium: |f| over the scale of the forces. A step of three solves or more: the size of the last Newton step over
@@ -58,8 +61,8 @@ struct StepReport {
 template <int D>
 class Stepper {
  public:
-  /// Throws InputError for an unknown solver. Symplectic Euler takes no consistent mass (scenes refuse it), and no
-  /// constrained vertices.
+  /// Throws InputError for an unknown solver. Symplectic Euler and XPBD take no consistent mass (scenes refuse it), and no
+  /// constrained vertices; XPBD no polygons and no added mass either.
   explicit Stepper(const StepOptions& options);
   StepReport step(Model<D>& model, State& state);
 
@@ -67,6 +70,7 @@ class Stepper {
   void implicit_step(Model<D>& model, State& state, double h, StepReport& report);
   void right_hand_side(Model<D>& model, const State& state, double h, bool first, StepReport& report);
   void explicit_step(Model<D>& model, State& state, StepReport& report);
+  void position_step(Model<D>& model, State& state, StepReport& report);
   void solve_added_mass(const Model<D>& model, const State& state, StepReport& report);
   void equilibrium(Model<D>& model, State& state, StepReport& report);
   void solve(Model<D>& model, const Field& start, StepReport& report);
@@ -77,6 +81,7 @@ class Stepper {
   StepOptions options_;
   std::unique_ptr<LinearSolver<D>> solver_;
   MassSolver<D> mass_solver_;
+  Xpbd<D> xpbd_;
   std::uint64_t mass_of_ = 0;                           // the change of the model that it was set up after
   Field v_, x_, force_, rhs_, dv_, product_, reduced_;  // kept between steps
 };

@@ -38,6 +38,12 @@ struct BudgetRow {
   double remainder = 0;       ///< gained, and not explained by the above
 };
 
+/// Of these the energy of each step can be accounted for. At rest there is no step; the forces that sweeps of xpbd leave
+/// over are not known.
+constexpr bool keeps_budget(Integrator integrator) {
+  return integrator != Integrator::equilibrium && integrator != Integrator::xpbd;
+}
+
 class EnergyBudget {
  public:
   /// The largest rises over any span of time, relative to the largest kinetic + elastic energy so far: of the remainder,

@@ -200,14 +200,22 @@ Scene::Cut read_cut(const TomlReader& reader) {
 }
 
 void read_integrator(const TomlReader& file, Scene& scene) {
-  const TomlReader reader = file.section("integrator", {"name", "step", "newton"});
+  const TomlReader reader = file.section("integrator", {"name", "step", "newton", "sweeps"});
   scene.integrator = reader.choice<Integrator>("name", scene.integrator, integrator_names);
   scene.step = reader.positive("step", scene.step);
   scene.newton = reader.count("newton", scene.newton);
+  scene.sweeps = reader.count("sweeps", scene.sweeps);
   if (scene.integrator == Integrator::symplectic_euler && scene.physics.mass == Mass::consistent)
     reader.refuse(
         "symplectic_euler solves nothing, so it needs mass = \"lumped\", \"stabilised\" or \"scaled\" in [physics]");
   if (scene.integrator == Integrator::symplectic_euler) exclude(reader, "symplectic_euler", {"newton"});
+  if (scene.integrator == Integrator::xpbd) {
+    exclude(reader, "xpbd", {"newton"});
+    if (scene.physics.mass != Mass::lumped)
+      reader.refuse("xpbd solves no systems, so it needs mass = \"lumped\" in [physics]");
+  } else {
+    exclude(reader, "an integrator other than xpbd", {"sweeps"});
+  }
   if (scene.integrator != Integrator::equilibrium) return;
   exclude(reader, "equilibrium, which takes no time", {"step"});
   exclude(file, "equilibrium, which takes no time", {"duration"});

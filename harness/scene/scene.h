@@ -10,7 +10,8 @@
 //                 physics.h), gravity = [x, y, z]
 //   [[pins]]      near = [x, y] | box = [[x0, y0], [x1, y1]]; axes = "xyz", displacement, velocity = [x, y, z]
 //   [[tractions]] box, force = [x, y, z]
-//   [integrator]  name = "backward_euler"|"midpoint"|"symplectic_euler"|"equilibrium", step, newton
+//   [integrator]  name = "backward_euler"|"midpoint"|"symplectic_euler"|"xpbd"|"equilibrium", step, newton,
+//                 sweeps = 1 (of xpbd, per step)
 //   [solver]      name, tolerance, max_iterations
 //   [[cuts]]      time; bezier | polyline = [[x, y], ...], closed = true, speed | family, seed, case
 //                 space = "world": the points are picked on the sheet as it is at that time (harness/path/pick.h), each
@@ -68,6 +69,7 @@ struct Scene {
   Integrator integrator = Integrator::backward_euler;
   double step = 1.0 / 240;  ///< s
   int newton = 1;           ///< linear solves per step; equilibrium: at most
+  int sweeps = 1;           ///< of xpbd, per step
   SolverOptions solver;
   double duration = 1;  ///< s
   std::vector<Cut> cuts;

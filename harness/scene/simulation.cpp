@@ -91,7 +91,7 @@ class SceneInMotion : public Simulation {
   void watch() override {
     watched_ = true;
     const double noise = 1e-20 * scene_.material.stiffness / scene_.material.density * now_.model.lumped_mass().sum();
-    if (scene_.integrator != Integrator::equilibrium) budget_.emplace(balance(), scene_.integrator, noise);
+    if (keeps_budget(scene_.integrator)) budget_.emplace(balance(), scene_.integrator, noise);
   }
   const EnergyBudget* budget() const override { return budget_ ? &*budget_ : nullptr; }
   const SimulationVerdict& verdict() const override { return verdict_; }
@@ -191,7 +191,7 @@ class SceneInMotion : public Simulation {
   };
 
   static StepOptions options_of(const Scene& scene) {
-    return {scene.integrator, scene.step, scene.newton, scene.solver};
+    return {scene.integrator, scene.step, scene.newton, scene.sweeps, scene.solver};
   }
 
   StepReport step() {
@@ -335,6 +335,8 @@ class SceneInMotion : public Simulation {
   /// A method can't be used in this scene for what it ties; empty: it can.
   std::string why_not(CuttingMethod::Tying tying) const {
     if (tying == CuttingMethod::Tying::nothing) return {};
+    if (scene_.integrator == Integrator::xpbd)
+      return "the method ties vertices or makes polygons, which xpbd does not take; choose another integrator";
     if (tying == CuttingMethod::Tying::polygons)
       return scene_.physics.bending == BendingKind::hinges
                  ? "the method's polygons have no hinges; set bending to patches, or to none"
