@@ -115,7 +115,9 @@ TEST(Xpbd, PinsDrawASheetApart) {
   for (std::size_t v = 0; v < body.model.vertices(); ++v) {
     const Point2 rest = body.sheet.rest(body.sheet.rest_vertex(DeformedIndex(v)));
     const double x = body.state.x[static_cast<Eigen::Index>(2 * v)];
-    if (rest.x == 1) { EXPECT_NEAR(x, 1.1, 1e-12); }
+    if (rest.x == 1) {
+      EXPECT_NEAR(x, 1.1, 1e-12);
+    }
     if (rest.x == 0.5) mean += x, ++count;
   }
   ASSERT_GT(count, 0);
