@@ -67,7 +67,7 @@ std::vector<AblatedScene> ablations_of(const Scene& scene) {
   };
   if (scene.physics.bending != BendingKind::none)
     add("bending", [](Scene& s) { s.physics.bending = BendingKind::none; });
-  if (scene.physics.stress_stiffness_made() != StressStiffness::none)
+  if (solves(scene.integrator) && scene.physics.stress_stiffness_made() != StressStiffness::none)
     add("stiffness from stress", [](Scene& s) { s.physics.stress_stiffness = StressStiffness::none; });
   if (scene.newton > 1 && scene.integrator != Integrator::equilibrium)
     add("further Newton iterations", [](Scene& s) { s.newton = 1; });
@@ -102,7 +102,7 @@ std::vector<Ablation> ablate(const Scene& scene, CuttingMethod& method, const Cu
     if (whole && made.ended()) rows.back().deviation = largest_deviation(*whole, made.motion->posed_sheet());
   };
   for (const AblatedScene& ablated : ablations_of(scene)) add(ablated);
-  if (limit > 0 && scene.integrator != Integrator::symplectic_euler) add(explicit_scene(scene, limit));
+  if (limit > 0 && solves(scene.integrator)) add(explicit_scene(scene, limit));
   return rows;
 }
 

@@ -89,7 +89,7 @@ def entries(table, scale=1.0):
 
 def sizes_of(table):
     *smaller, largest = (f"{n:,}" for n in sorted(set(table["resolution"])))
-    return f"{', '.join(smaller)} and {largest} triangles (the more, the larger the marker)"
+    return f"{', '.join(smaller)}{' and ' * bool(smaller)}{largest} triangles (the more, the larger the marker)"
 
 
 def source(context):
@@ -210,13 +210,13 @@ def tables(cost, fronts):
 
 
 def print_ranks():
-    """Whether one error ranks the methods as another does: Spearman's rank correlation, on the largest sheets that all have."""
+    """Whether one error ranks the methods as another does: Spearman's rank correlation, by the sizes that all have."""
     errors = {m.title: points.errors(key).set_index(["resolution", "method"])["error"] for key, m in points.MEASURES.items()}
     table = pd.DataFrame(errors).dropna()
-    size = table.index.get_level_values("resolution").max()
-    ranks = table.loc[size].corr(method="spearman")
-    load.print_table(f"Rank correlation of the errors of {len(table.loc[size])} methods, the fitted mesh among them, at {size} triangles",
-                     ["error", *ranks.columns], [[name, *row] for name, row in zip(ranks.index, ranks.to_numpy())])
+    for size in sorted(set(table.index.get_level_values("resolution"))):
+        ranks = table.loc[size].corr(method="spearman")
+        load.print_table(f"Rank correlation of the errors of {len(table.loc[size])} methods, the fitted mesh among them, at {size} triangles",
+                         ["error", *ranks.columns], [[name, *row] for name, row in zip(ranks.index, ranks.to_numpy())])
 
 
 def read(folder):

@@ -262,6 +262,7 @@ TEST_F(Atlas, RefusesWrongSweeps) {
   for (const auto& [bad, message] : std::vector<std::pair<std::string, const char*>>{
            {start + sweep("a", "stepp_s = 1.0"), "unknown key \"stepp_s\"; did you mean \"step_s\""},
            {start + sweep("a", "solver = [\"cg\", \"gauss\"]"), "solver \"gauss\" is not known"},
+           {start + sweep("a", "integrator = \"xpbd\""), "xpbd does not account for"},
            {start + sweep("a", "poisson = 0.5"), "\"poisson\" must be from 0 to below 0.5"},
            {start + sweep("a", "place = []"), "\"place\" must be a list with at least one entry"},
            {start + sweep("a", "cut = \"past_vertx\""), "cut \"past_vertx\" is not known; known are past_vertex"},

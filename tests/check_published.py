@@ -116,10 +116,15 @@ def check_side_by_side(folder):
     stages = {"a": {"commands": ["touch a"]}, "b": {"one_core": True, "commands": [wait]},
               "c": {"one_core": True, "commands": ["touch c"]}, "d": {"commands": ["test -f c"]}}
     state = {"quick": False, "done": [], "seconds": {}}
-    count, publish.os.cpu_count = publish.os.cpu_count, lambda: 2
-    told = refusal(publish.run_stages, stages, state, "c0ffee")
-    publish.os.cpu_count = count
+    count, pinned = publish.os.cpu_count, publish.on_core
+    publish.os.cpu_count, publish.on_core = lambda: 2, lambda core: []
+    try:
+        told = refusal(publish.run_stages, stages, state, "c0ffee")
+    finally:
+        publish.os.cpu_count, publish.on_core = count, pinned
     expect(f"stages of one core run one after the other: {told}", not told and sorted(state["done"]) == list("abcd"))
+    told = refusal(publish.run_stages, {"e": {"one_core": True, "experiments": ["e"]}}, state, "c0ffee")
+    expect(f"shards on all cores beside another stage: {told}", "one_core" in told)
     expect("the seconds of a stage are missing", sorted(state["seconds"]) == list("abcd"))
 
 

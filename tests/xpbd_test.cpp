@@ -1,4 +1,4 @@
-// Extended position-based dynamics, against backward Euler, which shares no code with it but the elements.
+// Extended position-based dynamics, against the linear solves of backward Euler.
 
 #include "harness/fem/xpbd.h"
 

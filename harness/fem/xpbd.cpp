@@ -1,5 +1,7 @@
 #include "harness/fem/xpbd.h"
 
+#include <span>
+
 #include "harness/fem/springs.h"
 
 namespace cutbench {

@@ -15,6 +15,7 @@
 // The gradient of the co-rotational strain is taken as sym(R^T dF), which gives the forces of membrane.h.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "harness/fem/model.h"

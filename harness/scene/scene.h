@@ -11,7 +11,7 @@
 //   [[pins]]      near = [x, y] | box = [[x0, y0], [x1, y1]]; axes = "xyz", displacement, velocity = [x, y, z]
 //   [[tractions]] box, force = [x, y, z]
 //   [integrator]  name = "backward_euler"|"midpoint"|"symplectic_euler"|"xpbd"|"equilibrium", step, newton,
-//                 sweeps = 1 (of xpbd, per step)
+//                 sweeps = 1 (of xpbd, per step; it uses no [solver] and no stress_stiffness)
 //   [solver]      name, tolerance, max_iterations
 //   [[cuts]]      time; bezier | polyline = [[x, y], ...], closed = true, speed | family, seed, case
 //                 space = "world": the points are picked on the sheet as it is at that time (harness/path/pick.h), each
