@@ -84,7 +84,10 @@ def cut_numbers(rows):
 
 
 def motion_ms(rows):
-    """{method: (ms, solver)} by the fastest solver."""
+    """{method: (ms, solver)} by the fastest solver of those that ran every size."""
+    sizes = {r["resolution"] for r in rows}
+    ran = {s: {r["resolution"] for r in here} for (s,), here in grouped(rows, "solver").items()}
+    rows = [r for r in rows if ran[r["solver"]] == sizes]
     rows = without_refused(rows, lambda r: r["verdict"] == "refused")
     best = {}
     for (method, solver), motions in grouped(rows, "method", "solver").items():
@@ -166,7 +169,7 @@ class Oracle:
     def chart(self, *setting):
         """{(method, triangles): (ms, error)}"""
         found = {}
-        for size in ("800", "3200"):
+        for size in {r["resolution"] for r in self.errors}:
             error = errors([r for r in self.errors if r["resolution"] == size])
             for method, (ms, _) in motion_ms([r for r in self.at(*setting) if r["resolution"] == size]).items():
                 if method in error:

@@ -100,9 +100,11 @@ def of_cuts(table):
 
 
 def of_motions(rows):
-    """{method: ms} by its fastest solver; medians over all the sizes in the rows."""
+    """{method: ms} by its fastest solver of those that ran all the sizes in the rows; medians over these sizes."""
     if rows.empty:
         return {}
+    sizes = rows.groupby("solver")["resolution"].nunique()
+    rows = rows[rows["solver"].map(sizes) == sizes.max()]
     cost = points.best_of(points.costs(rows.assign(resolution=0)))
     return dict(zip(cost["method"], cost["ms"]))
 
