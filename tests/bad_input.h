@@ -1,6 +1,6 @@
 // What tests of bad input through every door share: one line that says what, where and what to do, the right exit code,
 // nothing left behind. What a single reader refuses, line by line, is in mesh_io_test, check_and_repair_test, path_test
-// and scene_test.
+// and refused_scenes_test.
 #pragma once
 
 #include <gtest/gtest.h>
