@@ -34,6 +34,7 @@ struct TiedCut {
   Ties ties;
 };
 
+inline const std::vector<TyingMethod> tying_methods{{"split_and_tie", 0.1}, {"phantom_node", 0}, {"phantom_node", 0.1}};
 inline const TyingMethod cut_polygons{"cut_polygons", 0.7};
 
 /// `cases` cuts of each kind by each method; the families of sheets take turns.
