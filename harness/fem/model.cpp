@@ -1,18 +1,9 @@
 #include "harness/fem/model.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
-#include "harness/base/errors.h"
-
 namespace cutbench {
-
-namespace {
-
-std::array<double, 3> coordinates(Point3 p) { return {p.x, p.y, p.z}; }
-
-}  // namespace
 
 template <int D>
 Model<D>::Model(const Sheet& sheet, const Material& material, const Physics& physics, std::vector<Pin> pins,
@@ -47,131 +38,6 @@ void Model<D>::reserve_spare() {
 }
 
 template <int D>
-void Model<D>::update(const Sheet& sheet) {
-  const EditLog& log = sheet.log();
-  is_tied_ = false;
-  freed_.clear();
-  begin_marking();
-  for (const auto& touched : log.touched) {
-    if (!touched.before.alive()) continue;
-    if (elements_[touched.slot()].polygon >= 0) {
-      const auto members = elements_.members(touched.slot);
-      freed_.insert(freed_.end(), members.begin(), members.end());
-      dissolve(static_cast<std::size_t>(elements_[touched.slot()].polygon));
-    }
-    incidence_.remove(touched.before.deformed, touched.slot());
-    mark(touched.before.deformed);
-  }
-  elements_.update(sheet);
-  resize(sheet);
-  const auto enter = [&](std::size_t e) {
-    if (!elements_[e].alive()) return membrane_.clear_slots(e);
-    incidence_.add(elements_[e], e);
-    mark(elements_[e].vertex);
-  };
-  for (const auto& touched : log.touched) enter(touched.slot());
-  for (std::size_t e = log.triangles_before; e < elements_.size(); ++e) enter(e);
-  refresh_vertices(sheet);
-  if (!bending_) refresh_added_mass();
-}
-
-template <int D>
-void Model<D>::update_bending(const Sheet& sheet) {
-  if (!bending_) return regrouped_.clear();
-  bending_->update(sheet, &elements_, regrouped_);
-  regrouped_.clear();
-  history_.begin_change();
-  for (const std::int32_t v : bending_->written_rows()) history_.mark(static_cast<std::size_t>(v));
-  if (!added_mass_) return;
-  for (const std::int32_t v : bending_->written_rows()) {
-    const DeformedIndex d(static_cast<std::size_t>(v));
-    mark({&d, 1});
-  }
-  refresh_added_mass();
-}
-
-template <int D>
-void Model<D>::tie(const Sheet& sheet, const Ties& ties) {
-  begin_marking();
-  merge(sheet, ties.polygons);
-  refresh_vertices(sheet);
-  if (!bending_) refresh_added_mass();
-  if (!regrouped_.empty()) update_bending(sheet);
-  is_tied_ = !ties.ties.empty();
-  if (is_tied_ && tied_)
-    tied_->change(ties, vertices());
-  else if (is_tied_)
-    tied_.emplace(ties, vertices());
-}
-
-template <int D>
-void Model<D>::merge(const Sheet& sheet, std::span<const Polygon> polygons) {
-  if (physics_.strain == Strain::springs && !polygons.empty())
-    throw InputError("a polygon has no springs: take another method than cut_polygons, or another \"strain\"");
-  for (const Polygon& polygon : polygons) {
-    const TriangleIndex first = polygon.triangles.front();
-    if (std::ranges::equal(elements_.members(first), polygon.triangles)) continue;  // it is there already
-    for (const TriangleIndex t : polygon.triangles)
-      if (const auto old = elements_[t()].polygon; old >= 0) dissolve(static_cast<std::size_t>(old));
-    const std::size_t slot = elements_.add_polygon(sheet, polygon);
-    membrane_.polygons().reset(slot, elements_.polygon(slot));
-    for (const TriangleIndex t : polygon.triangles) membrane_.clear_slots(t()), regrouped_.push_back(t);
-    for (const DeformedIndex d : polygon.corners) polygons_of_.append(d(), static_cast<std::int32_t>(slot));
-    mark(polygon.corners), mark(polygon.inside);
-  }
-}
-
-template <int D>
-void Model<D>::dissolve(std::size_t polygon) {
-  const Polygon& gone = elements_.polygon(polygon).polygon;
-  for (const DeformedIndex d : gone.corners) polygons_of_.erase(d(), static_cast<std::int32_t>(polygon));
-  mark(gone.corners), mark(gone.inside);
-  regrouped_.insert(regrouped_.end(), gone.triangles.begin(), gone.triangles.end());
-  elements_.dissolve(polygon);
-}
-
-template <int D>
-std::vector<Polygon> Model<D>::polygons() const {
-  std::vector<Polygon> all;
-  for (std::size_t p = 0; p < elements_.polygon_slots(); ++p)
-    if (elements_.polygon(p).alive()) all.push_back(elements_.polygon(p).polygon);
-  return all;
-}
-
-template <int D>
-PolygonsLeft Model<D>::polygons_left() const {
-  const auto of = [this](TriangleIndex t) {
-    return elements_[t()].polygon < 0 ? std::span<const TriangleIndex>{} : elements_.members(t);
-  };
-  return {of, freed_};
-}
-
-template <int D>
-void Model<D>::follow(Field& x) const {
-  for (std::size_t p = 0; p < elements_.polygon_slots(); ++p) {
-    const PolygonElement& polygon = elements_.polygon(p);
-    if (polygon.inside.empty()) continue;
-    const LinearMap<D> map = polygon.template map<D>(x);
-    for (std::size_t i = 0; i < polygon.inside.size(); ++i)
-      x.template segment<D>(D * polygon.polygon.inside[i].value) = map.at(polygon.inside[i]);
-  }
-}
-
-template <int D>
-void Model<D>::begin_marking() {
-  ++round_;
-  marked_.clear();
-}
-
-template <int D>
-void Model<D>::mark(std::span<const DeformedIndex> vertices) {
-  for (const auto d : vertices) {
-    if (d() >= marked_in_.size()) marked_in_.resize(d() + 1);
-    if (std::exchange(marked_in_[d()], round_) != round_) marked_.push_back(d());
-  }
-}
-
-template <int D>
 void Model<D>::resize(const Sheet& sheet) {
   const std::size_t n = sheet.deformed_slots();
   incidence_.resize(n), polygons_of_.resize(n), blocks_.resize(n), marked_in_.resize(std::max(n, marked_in_.size()));
@@ -182,115 +48,15 @@ void Model<D>::resize(const Sheet& sheet) {
 }
 
 template <int D>
-void Model<D>::refresh_vertices(const Sheet& sheet) {
-  for (const std::size_t v : marked_) refresh_row(v), refresh_mass(v), refresh_loads(sheet, v);
-  history_.begin_change();
-  for (const std::size_t v : marked_) history_.mark(v);
-}
-
-/// The pattern of row v, and where the elements round v find their blocks in it.
-template <int D>
-void Model<D>::refresh_row(std::size_t v) {
-  const auto corners = incidence_.at(v);
-  columns_.clear();
-  const auto add = [&](std::span<const DeformedIndex> with) {
-    if (columns_.empty()) columns_.push_back(static_cast<std::int32_t>(v));
-    for (const auto d : with)
-      if (std::find(columns_.begin(), columns_.end(), d.value) == columns_.end()) columns_.push_back(d.value);
-  };
-  for (const auto c : corners)
-    if (const Element& e = elements_[triangle_of(c)()]; e.is_triangle()) add(e.vertex);
-  for (const std::int32_t p : polygons_of_[v]) add(elements_.polygon(static_cast<std::size_t>(p)).polygon.corners);
-  blocks_.set_row(v, columns_);
-  set_polygon_slots(v);
-  for (const auto c : corners) {
-    const std::size_t e = triangle_of(c)();
-    if (!elements_[e].is_triangle()) continue;
-    for (std::size_t j = 0; j < 3; ++j)
-      membrane_.set_slot(e, static_cast<std::size_t>(corner_of(c)), j, blocks_.find(v, elements_[e].vertex[j].value));
-  }
-}
-
-template <int D>
-void Model<D>::set_polygon_slots(std::size_t v) {
-  for (const std::int32_t p : polygons_of_[v]) {
-    const auto slot = static_cast<std::size_t>(p);
-    const auto& corners = elements_.polygon(slot).polygon.corners;
-    polygon_slots_.clear();
-    for (const auto d : corners) polygon_slots_.push_back(blocks_.find(v, d.value));
-    const auto own = std::find(corners.begin(), corners.end(), DeformedIndex(v));
-    membrane_.polygons().set_slots(slot, static_cast<std::size_t>(own - corners.begin()), polygon_slots_);
-  }
-}
-
-template <int D>
-void Model<D>::refresh_mass(std::size_t v) {
-  double third = 0, of_polygons = 0;
-  for (const auto c : incidence_.at(v))
-    if (const Element& e = elements_[triangle_of(c)()]; e.is_triangle()) third += e.material_area();
-  for (const std::int32_t p : polygons_of_[v])
-    of_polygons += elements_.polygon(static_cast<std::size_t>(p)).corner_area();
-  mass_[v] = material_.density * (third / 3 + of_polygons);
-  if (!consistent_mass_) return;
-  consistent_mass_->set_row(v, columns_);
-  if (of_polygons > 0) consistent_mass_->block(consistent_mass_->first_slot(v))(0) += material_.density * of_polygons;
-  for (const auto c : incidence_.at(v)) {
-    const Element& e = elements_[triangle_of(c)()];
-    if (!e.is_triangle()) continue;
-    for (const auto d : e.vertex)
-      consistent_mass_->block(consistent_mass_->find(v, d.value))(0) +=
-          material_.density * e.material_area() / (d() == v ? 6 : 12);
-  }
-}
-
-template <int D>
 ElementModes Model<D>::element_modes() const {
   const Lame lame = lame_of(material_, physics_.plane);
   return {&elements_, view_of(mass_), bending(), 2 * (lame.mu + lame.lambda) / material_.density};
-}
-
-/// \pre the marked vertices are those whose mass, triangles or stencils changed.
-template <int D>
-void Model<D>::refresh_added_mass() {
-  if (!added_mass_) return;
-  added_mass_->update(element_modes(), incidence_, marked_);
-  history_.begin_change();
-  for (const std::size_t v : added_mass_->written_rows()) history_.mark(v);
 }
 
 /// The part of the mass that is not in the blocks; null: none.
 template <int D>
 const BlockMatrix<1>* Model<D>::mass_matrix() const {
   return consistent_mass_ ? &*consistent_mass_ : added_mass_ ? &added_mass_->matrix() : nullptr;
-}
-
-template <int D>
-void Model<D>::refresh_loads(const Sheet& sheet, std::size_t v) {
-  const VertexIndex rest_vertex = sheet.rest_vertex(DeformedIndex(v));
-  const auto gravity = coordinates(physics_.gravity);
-  for (std::size_t k = 0; k < D; ++k) {
-    external_[D * v + k] = mass_[v] * gravity[k];
-    held_[D * v + k] = 1, pin_of_[D * v + k] = -1;
-  }
-  if (!rest_vertex.valid()) return;
-  const Point2 rest = places_[v] = sheet.rest(rest_vertex);
-  if (blocks_.columns(v).empty()) return;  // inside a polygon
-  for (std::size_t k = 0; k < D; ++k) {
-    for (std::size_t p = 0; p < pins_.size() && pin_of_[D * v + k] < 0; ++p)
-      if (pins_[p].axes[k] && pins_[p].where.contains(rest)) pin_of_[D * v + k] = static_cast<std::int16_t>(p);
-    held_[D * v + k] = pin_of_[D * v + k] >= 0;
-  }
-  if (tractions_.empty()) return;
-  for (const auto c : incidence_.at(v))
-    for (const HalfEdge h : {c, Sheet::previous(c)}) {
-      if (!sheet.on_border(h)) continue;
-      const Point2 a = sheet.rest(sheet.origin(h)), b = sheet.rest(sheet.target(h));
-      for (const Traction& traction : tractions_) {
-        if (!traction.where.contains(a) || !traction.where.contains(b)) continue;
-        const auto force = coordinates(traction.force);
-        for (std::size_t k = 0; k < D; ++k) external_[D * v + k] += force[k] * std::sqrt(squared_length(b - a)) / 2;
-      }
-    }
 }
 
 template <int D>

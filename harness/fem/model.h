@@ -2,6 +2,7 @@
 // updated: only what the cut touched is computed again, and the result equals that of a new model.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -87,6 +88,7 @@ class Model {
   const Physics& physics() const { return physics_; }
 
  private:
+  static std::array<double, 3> coordinates(Point3 p) { return {p.x, p.y, p.z}; }
   static FieldView view_of(const std::vector<double>& values) {
     return {values.data(), static_cast<Eigen::Index>(values.size())};
   }
