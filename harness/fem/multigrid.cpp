@@ -14,24 +14,8 @@ namespace cutbench {
 
 namespace {
 
-constexpr double strong = 0.5;       // share of a vertex's stiffness; 1/4 in a square grid, 1/6 in a regular one
-constexpr double first_spacing = 2;  // of the lattice, in median edges
-constexpr std::size_t fewest_coarsened = 40;  // unknowns that are not coarsened any further
-constexpr std::size_t most_factored = 200;    // unknowns of a dense factorisation
-constexpr double widest_for_floats = 1e5;     // largest diagonal block over the median one
-
-double median_edge(const SweepRows& links, const std::vector<Point2>& places) {
-  std::vector<double> lengths;
-  for (std::size_t i = 0; i < links.size(); ++i)
-    for (const std::int32_t j : links[i])
-      if (static_cast<std::size_t>(j) > i)
-        if (const double l = length(places[static_cast<std::size_t>(j)] - places[i]); l > 0 && std::isfinite(l))
-          lengths.push_back(l);
-  if (lengths.empty()) return 0;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
-}
+constexpr std::size_t most_factored = 200;  // unknowns of a dense factorisation
+constexpr double widest_for_floats = 1e5;   // largest diagonal block over the median one
 
 /// All places that are not finite are alike.
 bool is_same(Point2 a, Point2 b) { return (a.x == b.x && a.y == b.y) || (std::isnan(a.x) && std::isnan(b.x)); }
@@ -105,102 +89,6 @@ void Multigrid<D>::find_held(const SystemMatrix<D>& a) {
   has_held_.assign(a.vertices(), 0), held_.clear();
   for (std::size_t u = 0; u < a.held->size(); ++u)
     if ((*a.held)[u] && !a.blocks->columns(u / D).empty()) has_held_[u / D] = 1, held_.push_back(u);
-}
-
-// --- levels ----------------------------------------------------------------------------------------------------------
-
-/// Vertices that slivers tie together: one has more than `strong` of its stiffness from the other. Neither the hats nor
-/// the sweeps move them together against their neighbours. Looks at what has changed, and at all groups there.
-template <int D>
-Coarsening::Regrouping Multigrid<D>::regroup(const SystemMatrix<D>& a) {
-  const auto stiffness = [&](std::size_t i) { return a.blocks->block(a.blocks->first_slot(i)).trace(); };
-  const auto for_each_strong = [&](std::size_t i, const auto& visit) {
-    std::size_t slot = rows_.blocks.first_slot(i);
-    for (const std::int32_t j : rows_.blocks[i])
-      if (-a.blocks->block(slots_[slot++]).trace() >
-          strong * std::min(stiffness(i), stiffness(static_cast<std::size_t>(j))))
-        visit(j);
-  };
-  Coarsening::Regrouping found;
-  front_.clear();
-  const auto reach = [&](std::int32_t v) {
-    auto& place = place_in_front_[static_cast<std::size_t>(v)];
-    if (place < 0) place = static_cast<std::int32_t>(front_.size()), front_.push_back(v);
-  };
-  for (const std::int32_t v : changed_) reach(v);
-  for (std::size_t k = 0; k < front_.size(); ++k) {
-    const auto v = static_cast<std::size_t>(front_[k]);
-    const std::int32_t group = coarse_.empty() ? -1 : coarse_.front().from.group_of(v);
-    if (group >= 0)
-      for (const auto& member : coarse_.front().from.members(static_cast<std::size_t>(group))) reach(member.other);
-    for_each_strong(v, reach);
-  }
-  UnionFind joined(front_.size());
-  for (std::size_t k = 0; k < front_.size(); ++k)
-    for_each_strong(static_cast<std::size_t>(front_[k]), [&](std::int32_t j) {
-      joined.join(k, static_cast<std::size_t>(place_in_front_[static_cast<std::size_t>(j)]));
-    });
-  std::vector<std::int32_t> group_of(front_.size(), -1);
-  for (std::size_t k = 0; k < front_.size(); ++k) {
-    place_in_front_[static_cast<std::size_t>(front_[k])] = -1;
-    if (joined.size(k) == 1) continue;
-    auto& group = group_of[joined.find(k)];
-    if (group < 0) group = static_cast<std::int32_t>(found.groups.size()), found.groups.emplace_back();
-    found.groups[static_cast<std::size_t>(group)].push_back(front_[k]);
-  }
-  found.members = front_;
-  return found;
-}
-
-template <int D>
-void Multigrid<D>::update(CoarseLevel& level, const LevelRows& fine, const std::vector<Point2>& places,
-                          const RowChanges& changes, const Coarsening::Regrouping& regrouping) {
-  level.from.update(fine, places, changes, regrouping);
-  level.from.multiply(fine, level.rows);
-  level.matrix.follow(level.rows, level.from.changes().rows);
-  level.resize();
-}
-
-template <int D>
-void Multigrid<D>::make_levels(const SystemMatrix<D>& a) {
-  coarse_.clear(), float_is_new_ = double_is_new_ = true;
-  rows_.reserve_spare(), slots_.reserve(slots_.size() + slots_.size() / 2);
-  slots_made_ = rows_.blocks.slots();
-  double spacing = first_spacing * median_edge(rows_.blocks, places_);
-  if (!(spacing > 0)) return;
-  Coarsening::Regrouping regrouping = regroup(a);
-  const LevelRows* fine = &rows_;
-  const std::vector<Point2>* places = &places_;
-  RowChanges all = changes_;
-  for (; fine->size() > fewest_coarsened; spacing *= 2) {
-    CoarseLevel& level = coarse_.emplace_back(spacing);
-    update(level, *fine, *places, all, regrouping);
-    if (const std::size_t n = level.rows.size(); n == 0 || 10 * n > 8 * fine->size()) return coarse_.pop_back();
-    level.from.reserve_spare(), level.rows.reserve_spare(), level.matrix.follow(level.rows);
-    fine = &level.rows, places = &level.from.coarse_places(), all = level.from.changes();
-    regrouping = {};
-  }
-}
-
-template <int D>
-void Multigrid<D>::update_levels(const SystemMatrix<D>& a) {
-  Coarsening::Regrouping regrouping = regroup(a);
-  const LevelRows* fine = &rows_;
-  const std::vector<Point2>* places = &places_;
-  const RowChanges* changes = &changes_;
-  if (!float_is_new_) finest_.matrix.follow(rows_, changes_.rows), finest_.resize();
-  if (!double_is_new_) finest_in_doubles_.matrix.follow(rows_, changes_.rows), finest_in_doubles_.resize();
-  for (CoarseLevel& level : coarse_) {
-    update(level, *fine, *places, *changes, regrouping);
-    fine = &level.rows, places = &level.from.coarse_places(), changes = &level.from.changes();
-    regrouping = {};
-  }
-}
-
-template <int D>
-template <class S>
-void Multigrid<D>::Level<S>::resize() {
-  for (auto* field : {&r, &z, &t}) field->resize(D * matrix.rows().size() + LevelMatrix<D, S>::padding);
 }
 
 // --- values ----------------------------------------------------------------------------------------------------------
@@ -336,69 +224,6 @@ void Multigrid<D>::fill_coarse_levels() {
     else
       fill_coarse(finest_.matrix, coarse_[l]);
   factor_coarsest();
-}
-
-// --- cycle -----------------------------------------------------------------------------------------------------------
-
-/// z from r on a level; `next` is the number of the next coarser one.
-template <int D>
-template <class S>
-void Multigrid<D>::cycle(Level<S>& level, std::size_t next) {
-  if (next == coarse_.size() && next > 0 && solves_coarsest_) {
-    const auto n = static_cast<Eigen::Index>(D * level.matrix.size());
-    using Values = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-    Eigen::VectorXd x = Eigen::Map<const Values>(level.r.data(), n).template cast<double>();
-    coarsest_.solveInPlace(x);
-    Eigen::Map<Values>(level.z.data(), n) = x.template cast<S>();
-    return;
-  }
-  level.matrix.sweep_forwards(level.r, level.z, level.t);
-  if (next == 0) {
-    for (const std::size_t u : held_) level.t[u] = 0;
-    clusters_.correct_forwards(level.matrix, level.z, level.t);
-  }
-  if (next < coarse_.size()) correct(level, next);
-  if (next == 0) clusters_.correct_backwards(level.matrix, level.r, level.z);
-  level.matrix.sweep_backwards(level.r, level.z);
-}
-
-/// Adds to z what the coarser levels make of the residual t.
-template <int D>
-template <class S>
-void Multigrid<D>::correct(Level<S>& level, std::size_t next) {
-  CoarseLevel& coarse = coarse_[next];
-  if (next == 0)
-    for (const std::size_t u : held_) level.t[u] = 0;
-  for (std::size_t k = 0; k < coarse.matrix.size(); ++k) {
-    std::array<S, D> sum{};
-    for (const auto& [i, weight] : coarse.from.members(k))
-      for (std::size_t c = 0; c < D; ++c) sum[c] += S(weight) * level.t[D * static_cast<std::size_t>(i) + c];
-    for (std::size_t c = 0; c < D; ++c) coarse.r[D * k + c] = static_cast<float>(sum[c]);
-  }
-  cycle(static_cast<Level<float>&>(coarse), next + 1);
-  for (std::size_t i = 0; i < level.matrix.size(); ++i)
-    for (const auto& [k, weight] : coarse.from.parents(i))
-      for (std::size_t c = 0; c < D; ++c)
-        level.z[D * i + c] += S(weight) * S(coarse.z[D * static_cast<std::size_t>(k) + c]);
-  if (next == 0)
-    for (const std::size_t u : held_) level.z[u] = 0;
-}
-
-template <int D>
-void Multigrid<D>::apply(const Field& r, Field& z) {
-  const auto run = [&](auto& level) {
-    using S = std::decay_t<decltype(level.r[0])>;
-    const double scale = r.cwiseAbs().maxCoeff();  // so that floats hold it
-    const double inverse = scale > 0 ? 1 / scale : 0;
-    for (Eigen::Index u = 0; u < r.size(); ++u) level.r[static_cast<std::size_t>(u)] = static_cast<S>(inverse * r[u]);
-    cycle(level, 0);
-    for (Eigen::Index u = 0; u < r.size(); ++u)
-      z[u] = scale * static_cast<double>(level.z[static_cast<std::size_t>(u)]);
-  };
-  if (in_doubles_)
-    run(finest_in_doubles_);
-  else
-    run(finest_);
 }
 
 template <int D>

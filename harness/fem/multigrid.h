@@ -44,7 +44,9 @@ class Multigrid final : public Preconditioner<D> {
   struct Level {
     LevelMatrix<D, S> matrix;
     typename LevelMatrix<D, S>::Vector r, z, t;
-    void resize();
+    void resize() {
+      for (auto* field : {&r, &z, &t}) field->resize(D * matrix.rows().size() + LevelMatrix<D, S>::padding);
+    }
   };
   struct CoarseLevel : Level<float> {
     explicit CoarseLevel(double spacing) : from(spacing) {}
