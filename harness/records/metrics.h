@@ -69,6 +69,10 @@ struct Metric {
 
 /// The columns of all records, in their order.
 const std::vector<Metric>& all_metrics();
+/// The part of the table of accuracy runs; filled by harness/run/accuracy.cpp.
+void add_accuracy_run(std::vector<Metric>& table);
+/// That of campaigns, which count instead of measuring; filled by harness/campaign/campaign.cpp.
+void add_campaign(std::vector<Metric>& table);
 /// The atlas's part of the table.
 void add_atlas(std::vector<Metric>& table);
 /// Names of the columns of these groups, in the table's order.
