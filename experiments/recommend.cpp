@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "experiments/scene_run.h"
 #include "harness/base/toml_reader.h"
 #include "harness/mesh/families.h"
-#include "methods/registry.h"
 
 namespace cutbench {
 
@@ -15,21 +15,14 @@ namespace {
 
 constexpr double finest = 2, side_span = 8, steps_span = 16;  // of the candidates: times the scene's; over the coarsest
 constexpr double spread_share = 0.2;  // of the error asked for: the spread of the converged value that is small enough
-constexpr double most_refined = 64;   // triangles x steps of the finest run for the converged value, over the scene's
+// Triangles x steps of the finest run for the converged value, over the scene's; and where a cheaper candidate waits.
+constexpr double most_refined = 64, most_refined_to_decide = 1024;
+constexpr double much_cheaper = 1.25;  // the best over an undecided candidate, in cost: worth to refine
 constexpr double widest = 4;  // triangles x steps over those of the first good candidate: more can't be the cheapest
 constexpr double candidate_patience =
     4;                             // of a candidate's run, watching it included: times the cheapest good one so far
 constexpr double near_best = 1.5;  // in cost: timed again
 constexpr int more_timings = 3;
-constexpr double tight = 1e-5;  // tolerance of the runs that give the converged value
-
-Scene scene_of(Scene scene, const Choice& choice) {
-  scene.resolution = choice.resolution, scene.solver.name = choice.solver;
-  if (scene.integrator != Integrator::equilibrium) set_steps(scene, choice.steps);
-  return scene;
-}
-
-int triangles(double side) { return 2 * static_cast<int>(side) * static_cast<int>(side); }
 
 /// value, value / sqrt(2), ... value / span, rounded; each once, the smallest first.
 std::set<int> ladder(double value, double span) {
@@ -39,39 +32,19 @@ std::set<int> ladder(double value, double span) {
   return rungs;
 }
 
-class Search {
- public:
-  Search(const Scene& scene, const RecommendOptions& options) : scene_(scene), options_(options) {}
-
-  Trial run(const Choice& choice, double tolerance, double time_limit) {
-    Scene scene = scene_of(scene_, choice);
-    scene.solver.tolerance = tolerance;
-    const auto method = make(choice);
-    const SceneRun made = run_to_end(scene, *method, options_.cut, time_limit);
-    return {.choice = choice,
-            .verdict = made.verdict,
-            .reason = made.reason,
-            .value = options_.quantity == Quantity::gape ? made.gape : made.deflection};
-  }
-
-  void time(Trial& trial) {
-    const auto method = make(trial.choice);
-    trial.ms_per_second =
-        std::fmin(trial.ms_per_second, processor_ms_per_second(scene_of(scene_, trial.choice), *method, options_.cut));
-  }
-
- private:
-  static std::unique_ptr<CuttingMethod> make(const Choice& choice) {
-    const MethodRow& row = find_method(choice.method);
-    return row.make(row.knob.value);
-  }
-
-  const Scene& scene_;
-  const RecommendOptions& options_;
-};
+/// Triangles and steps of the candidates, the least product first.
+std::vector<std::pair<int, int>> grids_of(const Scene& scene) {
+  const std::set<int> all_steps = at_rest(scene) ? std::set<int>{1} : ladder(finest * steps_of(scene), steps_span);
+  std::vector<std::pair<int, int>> grids;
+  for (const int side : ladder(finest * squares_per_side(scene.resolution), side_span))
+    for (const int steps : all_steps) grids.emplace_back(2 * side * side, steps);
+  const auto work = [](const std::pair<int, int>& grid) { return 1.0 * grid.first * grid.second; };
+  std::stable_sort(grids.begin(), grids.end(), [&](auto a, auto b) { return work(a) < work(b); });
+  return grids;
+}
 
 /// The error lies between those for the ends of the interval of the converged value, or down to 0 where it has `value`.
-void judge(Trial& trial, double converged, double margin) {
+void judge(SceneTrial& trial, double converged, double margin) {
   const auto error = [&](double truth) { return std::abs(trial.value - truth) / truth; };
   const double a = error(converged - margin), b = error(converged + margin);
   trial.error = error(converged);
@@ -105,9 +78,9 @@ std::string beyond(const Converged& converged, const Calibration& seen) {
 }
 
 /// Why no trial is good enough.
-std::string shortfall(const std::vector<Trial>& trials, double max_error) {
-  const Trial* best = nullptr;
-  for (const Trial& trial : trials)
+std::string shortfall(const std::vector<SceneTrial>& trials, double max_error) {
+  const SceneTrial* best = nullptr;
+  for (const SceneTrial& trial : trials)
     if (trial.verdict == "ok" && (!best || trial.high < best->high)) best = &trial;
   if (!best) return "no candidate ended as ok";
   char text[200];
@@ -117,6 +90,94 @@ std::string shortfall(const std::vector<Trial>& trials, double max_error) {
   else
     std::snprintf(text, sizeof text, "the best candidate errs by %.3g %% or more; give a finer scene", 100 * best->low);
   return text;
+}
+
+/// Those of all methods, solvers, triangles and steps that were tried, and what is known of their errors.
+class Candidates {
+ public:
+  Candidates(const Scene& scene, const RecommendOptions& options)
+      : scene_(scene), options_(options), runs_(scene, options.quantity, options.cut), grids_(grids_of(scene)) {}
+
+  const std::vector<SceneTrial>& trials() const { return trials_; }
+
+  void judge(double converged, double margin) {
+    converged_ = converged, margin_ = margin;
+    for (SceneTrial& trial : trials_) cutbench::judge(trial, converged, margin);
+  }
+
+  /// The least triangles x steps first, until what is left can't be the cheapest; by the next solvers only where the
+  /// error by the first may be small enough. Times what may be chosen.
+  void try_those_left() {
+    const double seconds = at_rest(scene_) ? 1 : end_of(scene_);
+    double most_work = std::numeric_limits<double>::infinity(), time_limit = options_.time_limit;
+    for (const auto& [triangles, steps] : grids_) {
+      const double work = 1.0 * triangles * steps;
+      if (work > most_work && !options_.everything) break;
+      for (const std::string& method : options_.methods)
+        for (const std::string& solver : options_.solvers) {
+          const SceneTrial& trial = tried({method, solver, triangles, steps}, time_limit);
+          if (good(trial)) {
+            most_work = std::min(most_work, widest * work);
+            time_limit = std::min(time_limit, candidate_patience * trial.ms_per_second / 1000 * seconds);
+          }
+          if (!may_be_good(trial) && !options_.everything) break;
+        }
+    }
+    if (const auto first = cheapest()) {
+      const double limit = near_best * trials_[*first].ms_per_second;
+      for (int i = 0; i < more_timings; ++i)
+        for (SceneTrial& trial : trials_)
+          if (trial.ms_per_second <= limit) runs_.time(trial);
+    }
+  }
+
+  std::optional<std::size_t> cheapest() const {
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < trials_.size(); ++i)
+      if (good(trials_[i]) && (!best || trials_[i].ms_per_second < trials_[*best].ms_per_second)) best = i;
+    return best;
+  }
+
+  /// Or some candidate where none is good.
+  bool much_cheaper_is_undecided() const {
+    const auto best = cheapest();
+    const double limit = best ? trials_[*best].ms_per_second / much_cheaper : std::numeric_limits<double>::infinity();
+    return std::any_of(trials_.begin(), trials_.end(), [&](const SceneTrial& trial) {
+      return may_be_good(trial) && !good(trial) && trial.ms_per_second < limit;
+    });
+  }
+
+ private:
+  bool good(const SceneTrial& trial) const { return trial.verdict == "ok" && trial.high <= options_.max_error; }
+  bool may_be_good(const SceneTrial& trial) const { return trial.verdict == "ok" && trial.low <= options_.max_error; }
+
+  /// Now, or before.
+  const SceneTrial& tried(const Choice& choice, double time_limit) {
+    auto trial = std::find_if(trials_.begin(), trials_.end(), [&](const SceneTrial& t) { return t.choice == choice; });
+    if (trial == trials_.end()) {
+      trials_.push_back(runs_.run(choice, scene_.solver.tolerance, time_limit));
+      trial = trials_.end() - 1;
+      cutbench::judge(*trial, converged_, margin_);
+    }
+    const bool worth_timing = may_be_good(*trial) || (options_.everything && trial->verdict == "ok");
+    if (worth_timing && std::isnan(trial->ms_per_second)) runs_.time(*trial);
+    return *trial;
+  }
+
+  const Scene& scene_;
+  const RecommendOptions& options_;
+  SceneTrials runs_;
+  std::vector<std::pair<int, int>> grids_;
+  double converged_ = std::numeric_limits<double>::quiet_NaN(), margin_ = converged_;
+  std::vector<SceneTrial> trials_;
+};
+
+ConvergedValue converged_value(const Scene& scene, const RecommendOptions& options) {
+  ConvergedValue converged(scene, options.methods.front(), {scene, options.quantity, options.cut}, options.time_limit);
+  const Converged& result = converged.get();
+  while (result.missing.empty() && result.spread > spread_share * options.max_error * result.value)
+    if (!converged.refine(most_refined)) break;
+  return converged;
 }
 
 }  // namespace
@@ -151,96 +212,27 @@ Calibration read_calibration(const std::filesystem::path& file) {
 }
 
 Converged converge(const Scene& scene, const RecommendOptions& options) {
-  const bool at_rest = scene.integrator == Integrator::equilibrium;
-  Search search(scene, options);
-  Converged result;
-  const auto value = [&](int side, int steps) {
-    for (const Trial& made : result.runs)
-      if (made.choice.resolution == triangles(side) && made.choice.steps == steps) return made.value;
-    if (!result.missing.empty()) return std::numeric_limits<double>::quiet_NaN();
-    result.runs.push_back(
-        search.run({options.methods.front(), "multigrid", triangles(side), steps}, tight, options.time_limit));
-    const Trial& made = result.runs.back();
-    if (made.verdict != "ok")
-      result.missing = "its run with " + std::to_string(made.choice.resolution) + " triangles and " +
-                       std::to_string(steps) + " steps ended as " + made.verdict + ": " + made.reason;
-    return made.value;
-  };
-  const int n = squares_per_side(scene.resolution), scene_steps = static_cast<int>(steps_of(scene));
-  int side = 2 * n, steps = at_rest ? 1 : 2 * scene_steps;
-  // First order in the length of edges: strains grow like one over the root of the distance from a tip. First order in
-  // the step, too, but for the midpoint rule.
-  const double by_step = scene.integrator == Integrator::midpoint ? 1.0 / 3 : 1;
-  while (true) {
-    const double coarser = value(side / 2, steps), slower = at_rest ? 0 : value(side, steps / 2);
-    const double here = value(side, steps);
-    if (!result.missing.empty()) {
-      if (result.value > 0) result.missing.clear();  // that of the coarser runs is one
-      return result;
-    }
-    const double from_mesh = here - coarser, from_step = at_rest ? 0 : by_step * (here - slower);
-    result.value = here + from_mesh + from_step;
-    result.spread = std::abs(from_mesh) + std::abs(from_step);
-    result.finest = result.runs.back().choice;
-    const bool finer_mesh = std::abs(from_mesh) >= std::abs(from_step);
-    const double work = (finer_mesh ? 4.0 : 2.0) * side * side * steps / (1.0 * n * n * scene_steps);
-    if (result.spread <= spread_share * options.max_error * result.value || work > most_refined) break;
-    (finer_mesh ? side : steps) *= 2;
-  }
-  if (!(result.value > 0)) result.missing = "nothing moves, or opens, in the end";
-  return result;
+  return converged_value(scene, options).get();
 }
 
 Recommendation recommend(const Scene& scene, const RecommendOptions& options, const Calibration& calibration) {
   Recommendation result{.converged = {}, .unknown = beyond(scene, calibration)};
   if (!result.unknown.empty()) return result;
-  result.converged = converge(scene, options);
+  ConvergedValue converged = converged_value(scene, options);
+  result.converged = converged.get();
   result.unknown = beyond(result.converged, calibration);
   if (!result.unknown.empty()) return result;
-  result.margin = calibration.quantile * result.converged.spread;
 
-  const bool at_rest = scene.integrator == Integrator::equilibrium;
-  const std::set<int> all_steps = at_rest ? std::set<int>{1} : ladder(finest * steps_of(scene), steps_span);
-  std::vector<std::pair<int, int>> grids;  // triangles, steps
-  for (const int side : ladder(finest * squares_per_side(scene.resolution), side_span))
-    for (const int steps : all_steps) grids.emplace_back(triangles(side), steps);
-  const auto work = [](const std::pair<int, int>& grid) { return 1.0 * grid.first * grid.second; };
-  std::stable_sort(grids.begin(), grids.end(), [&](auto a, auto b) { return work(a) < work(b); });
+  Candidates candidates(scene, options);
+  do {
+    result.converged = converged.get();
+    result.margin = calibration.quantile * result.converged.spread;
+    candidates.judge(result.converged.value, result.margin);
+    candidates.try_those_left();
+  } while (!options.everything && candidates.much_cheaper_is_undecided() && converged.refine(most_refined_to_decide));
 
-  Search search(scene, options);
-  const auto good = [&](const Trial& trial) { return trial.verdict == "ok" && trial.high <= options.max_error; };
-  double most_work = std::numeric_limits<double>::infinity(), time_limit = options.time_limit;
-  const double seconds = at_rest ? 1 : end_of(scene);
-  for (const auto& grid : grids) {
-    if (work(grid) > most_work && !options.everything) break;
-    for (const std::string& method : options.methods)
-      for (const std::string& solver : options.solvers) {
-        Trial trial = search.run({method, solver, grid.first, grid.second}, scene.solver.tolerance, time_limit);
-        judge(trial, result.converged.value, result.margin);
-        if (good(trial) || (options.everything && trial.verdict == "ok")) search.time(trial);
-        if (good(trial)) {
-          most_work = std::min(most_work, widest * work(grid));
-          time_limit = std::min(time_limit, candidate_patience * trial.ms_per_second / 1000 * seconds);
-        }
-        result.trials.push_back(trial);
-        if (!good(trial) && !options.everything) break;
-      }
-  }
-
-  const auto cheapest = [&] {
-    std::optional<std::size_t> best;
-    for (std::size_t i = 0; i < result.trials.size(); ++i)
-      if (good(result.trials[i]) && (!best || result.trials[i].ms_per_second < result.trials[*best].ms_per_second))
-        best = i;
-    return best;
-  };
-  if (const auto first = cheapest()) {
-    const double limit = near_best * result.trials[*first].ms_per_second;
-    for (int i = 0; i < more_timings; ++i)
-      for (Trial& trial : result.trials)
-        if (trial.ms_per_second <= limit) search.time(trial);
-  }
-  result.chosen = cheapest();
+  result.trials = candidates.trials();
+  result.chosen = candidates.cheapest();
   if (!result.chosen) {
     result.unknown = shortfall(result.trials, options.max_error);
   } else if (const double ms = result.trials[*result.chosen].ms_per_second; ms > options.max_ms) {

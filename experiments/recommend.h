@@ -1,11 +1,13 @@
 // `cutbench recommend`: the cheapest way to simulate a scene whose error is small enough.
 //
-// The error is that of one number, the largest gape or deflection at the end, against its converged value: that of ever
-// smaller triangles and steps. That value is extrapolated from runs finer than the scene (Richardson 1911), and is
-// known up to a margin: the spread of these runs times a quantile that was measured on scenes whose converged value is
-// known better (split conformal prediction with a normalised score: Papadopoulos, Gammerman, Vovk 2008; Lei et al. 2018,
-// J. Am. Stat. Assoc. 113). Each candidate is then run whole, and timed. Its error lies in an interval that
+// The error is that of one number, the largest gape or deflection at the end, against its converged value
+// (converged_value.h). That value is known up to a margin: its spread times a quantile that was measured on scenes whose
+// converged value is known better (split conformal prediction with a normalised score: Papadopoulos, Gammerman, Vovk
+// 2008; Lei et al. 2018, J. Am. Stat. Assoc. 113). Each candidate is then run whole. Its error lies in an interval that
 // follows from the margin alone, so where the margin holds, all intervals hold: to choose the best of many does no harm.
+// Candidates whose interval holds the error asked for are undecided. While one of them is much cheaper than the best, the
+// converged value is refined. The quantile is that of values that were not refined so; that it holds for those that
+// were is what experiments/recommend_validation tests.
 #pragma once
 
 #include <filesystem>
@@ -15,40 +17,10 @@
 #include <string>
 #include <vector>
 
-#include "harness/cut/cut.h"
-#include "harness/scene/scene.h"
+#include "experiments/converged_value.h"
+#include "experiments/scene_trial.h"
 
 namespace cutbench {
-
-enum class Quantity { gape, deflection };  ///< the largest at the end, m: experiments/scene_run.h
-
-/// How a scene may be simulated.
-struct Choice {
-  std::string method, solver;
-  int resolution = 0, steps = 0;
-};
-
-struct Trial {
-  Choice choice;
-  std::string verdict = "ok", reason;
-  double value = std::numeric_limits<double>::quiet_NaN();  ///< of the quantity, m
-  // Relative: |value - converged value| / converged value, and between what, given the margin.
-  double error = std::numeric_limits<double>::quiet_NaN();
-  double low = 0, high = std::numeric_limits<double>::infinity();
-  /// Milliseconds of processor time for a simulated second, the least of some runs; NaN: not timed.
-  double ms_per_second = std::numeric_limits<double>::quiet_NaN();
-};
-
-/// Extrapolated from a run, one of edges twice as long, and one of steps twice as long: of half the scene's edges and
-/// steps, and then of shorter ones, those that matter more, until the spread is a fifth of the error asked for, or the
-/// triangles x steps are 64 times the scene's.
-struct Converged {
-  std::vector<Trial> runs;
-  Choice finest = {};                                        ///< of the runs that the value comes from
-  double value = std::numeric_limits<double>::quiet_NaN();   ///< m
-  double spread = std::numeric_limits<double>::quiet_NaN();  ///< m: what the extrapolation adds, in absolute values
-  std::string missing;                                       ///< why there is no value
-};
 
 /// Scenes whose converged value is known better: what they have in common, and their scores, |better value - converged
 /// value| / spread. A scene beyond them is unknown.
@@ -77,12 +49,13 @@ struct RecommendOptions {
 struct Recommendation {
   Converged converged;
   double margin = std::numeric_limits<double>::quiet_NaN();  ///< m
-  std::vector<Trial> trials =
+  std::vector<SceneTrial> trials =
       {};  ///< in the order of triangles x steps; by the next solvers only where the first is good
   std::optional<std::size_t> chosen = {};
   std::string unknown = {};  ///< why none is chosen
 };
 
+/// Refined until the spread is a fifth of the error asked for, or the triangles x steps are 64 times the scene's.
 /// \pre The sheet is not read from a file: that has no other resolutions.
 Converged converge(const Scene& scene, const RecommendOptions& options);
 Recommendation recommend(const Scene& scene, const RecommendOptions& options, const Calibration& calibration);

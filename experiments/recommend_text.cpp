@@ -17,9 +17,9 @@ nlohmann::ordered_json finite_or_null(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nullptr;
 }
 
-nlohmann::ordered_json json_of(const std::vector<Trial>& trials) {
+nlohmann::ordered_json json_of(const std::vector<SceneTrial>& trials) {
   auto array = nlohmann::ordered_json::array();
-  for (const Trial& trial : trials)
+  for (const SceneTrial& trial : trials)
     array.push_back({{"method", trial.choice.method},
                      {"solver", trial.choice.solver},
                      {"resolution", trial.choice.resolution},
@@ -34,7 +34,7 @@ nlohmann::ordered_json json_of(const std::vector<Trial>& trials) {
   return array;
 }
 
-void print_row(const Trial& trial) {
+void print_row(const SceneTrial& trial) {
   std::printf("%-20s %-18s %9d %7d %9.3g %8.3g %8.3g %9.3g\n", trial.choice.method.c_str(), trial.choice.solver.c_str(),
               trial.choice.resolution, trial.choice.steps, 100 * trial.error, 100 * trial.low, 100 * trial.high,
               trial.ms_per_second);
@@ -57,10 +57,11 @@ void print_recommendation(const Recommendation& result, const RecommendOptions& 
   if (std::isfinite(result.margin))
     std::printf("known to %.2g m in %g %% of scenes like those of %s\n", result.margin, 100 * calibration.level,
                 calibration.file.c_str());
-  std::vector<Trial> good;
-  for (const Trial& trial : result.trials)
+  std::vector<SceneTrial> good;
+  for (const SceneTrial& trial : result.trials)
     if (trial.verdict == "ok" && trial.high <= options.max_error) good.push_back(trial);
-  std::sort(good.begin(), good.end(), [](const Trial& a, const Trial& b) { return a.ms_per_second < b.ms_per_second; });
+  std::sort(good.begin(), good.end(),
+            [](const SceneTrial& a, const SceneTrial& b) { return a.ms_per_second < b.ms_per_second; });
   if (!result.trials.empty())
     std::printf("%zu of %zu runs err by %g %% or less for certain\n\n%-20s %-18s %9s %7s %9s %8s %8s %9s\n",
                 good.size(), result.trials.size(), 100 * options.max_error, "method", "solver", "triangles", "steps",
@@ -71,7 +72,7 @@ void print_recommendation(const Recommendation& result, const RecommendOptions& 
     std::printf("\nunknown: %s\n", result.unknown.c_str());
     return;
   }
-  const Trial& best = result.trials[*result.chosen];
+  const SceneTrial& best = result.trials[*result.chosen];
   std::printf("\ntake %s, solver %s, %d triangles, %d steps: error %.2g %% (%.2g to %.2g), %.3g ms for a second\n",
               best.choice.method.c_str(), best.choice.solver.c_str(), best.choice.resolution, best.choice.steps,
               100 * best.error, 100 * best.low, 100 * best.high, best.ms_per_second);

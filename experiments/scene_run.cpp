@@ -40,10 +40,9 @@ double largest_gape(const Sheet& end) {
 
 double seconds_of(std::clock_t ticks) { return static_cast<double>(ticks) / CLOCKS_PER_SEC; }
 
-bool at_rest(const Scene& scene) { return scene.integrator == Integrator::equilibrium; }
-
 }  // namespace
 
+bool at_rest(const Scene& scene) { return scene.integrator == Integrator::equilibrium; }
 double steps_of(const Scene& scene) { return at_rest(scene) ? 1 : std::ceil(scene.duration / scene.step - 1e-9); }
 double end_of(const Scene& scene) { return steps_of(scene) * scene.step; }
 

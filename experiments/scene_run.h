@@ -13,6 +13,7 @@ namespace cutbench {
 double distance(Point3 a, Point3 b);             ///< m
 bool in_use(const Sheet& sheet, std::size_t d);  ///< slot d of the opened sheet is a vertex
 
+bool at_rest(const Scene& scene);  ///< in equilibrium
 /// Steps until the duration is over, the last one whole; and when they end, s. In equilibrium: 1, and its step.
 double steps_of(const Scene& scene);
 double end_of(const Scene& scene);

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The rooms of the house: what may include what. A room may include itself and those listed for it; no arrow goes up.
-usage: tests/check_includes.py      exit code 1 and a line per include that breaks the order"""
+And no two files define a type of one name: the linker keeps one of their functions for both, and says nothing.
+usage: tests/check_includes.py      exit code 1 and a line per include that breaks the order, and per second type"""
 
 import pathlib
 import re
@@ -43,4 +44,27 @@ for file in sorted([*root.glob("harness/**/*.[hc]*"), *root.glob("methods/**/*.[
         if not allowed:
             print(f"{name}:{number}: {room} must not include {other}; move what is shared to a room below both")
             faults += 1
+
+
+def types_of(file):
+    """The names of types in a named namespace itself: not in another type."""
+    namespace, anonymous = "", False
+    for line in file.read_text().splitlines():
+        if found := re.match(r"namespace (\S+) \{", line):
+            namespace = found[1]
+        anonymous = line == "namespace {" or (anonymous and line != "}  // namespace")
+        found = re.match(r"(?:template <[^>]*>\s*)?(?:struct|class|enum class) (\w+)\b(?!<|::)[^;(]*\{", line)
+        if found and not anonymous:
+            yield f"{namespace}::{found[1]}"
+
+
+first = {}
+for folder in ("harness", "methods", "experiments", "tests"):
+    for file in sorted(root.glob(f"{folder}/**/*.[hc]*")):
+        if file.suffix not in (".h", ".cpp"):
+            continue
+        for name in types_of(file):
+            if first.setdefault(name, file) != file:
+                print(f"{file.relative_to(root)}: {name} is a type of {first[name].relative_to(root)}, too; give it another name")
+                faults += 1
 sys.exit(faults > 0)
