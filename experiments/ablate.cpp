@@ -4,7 +4,10 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <map>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "experiments/scene_run.h"
 #include "harness/mesh/families.h"
@@ -16,6 +19,7 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double patience = 10, least_patience = 5;  // of a run: times the whole model's processor time, and s
 constexpr double small_steps = 10;                   // of xpbd, one sweep each, for one step
+constexpr double active_share = 0.2;                 // active radius over the longer side of the sheet
 constexpr double safety = 0.9;                       // of an explicit step: the limit is that of the sheet at rest
 
 /// NaN where they are not the same sheet, cut alike.
@@ -30,6 +34,42 @@ double largest_deviation(const Sheet& a, const Sheet& b) {
     largest = std::max(largest, distance(a.position(i), b.position(i)));
   }
   return largest;
+}
+
+/// Of what is left of a sheet in the end, against the whole one cut alike: at a lip, from the nearest copy.
+double largest_deviation_of_part(const Sheet& whole, const Sheet& part) {
+  std::map<std::pair<double, double>, std::vector<Point3>> places;
+  for (std::size_t d = 0; d < whole.deformed_slots(); ++d) {
+    if (!in_use(whole, d)) continue;
+    const Point2 rest = whole.rest(whole.rest_vertex(DeformedIndex(d)));
+    places[{rest.x, rest.y}].push_back(whole.position(DeformedIndex(d)));
+  }
+  double largest = 0;
+  for (std::size_t d = 0; d < part.deformed_slots(); ++d) {
+    if (!in_use(part, d)) continue;
+    const Point2 rest = part.rest(part.rest_vertex(DeformedIndex(d)));
+    const auto at = places.find({rest.x, rest.y});
+    if (at == places.end()) return none;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Point3 p : at->second) nearest = std::min(nearest, distance(p, part.position(DeformedIndex(d))));
+    largest = std::max(largest, nearest);
+  }
+  return largest;
+}
+
+/// In rest space, m.
+double longer_side(const Scene& scene) {
+  const MeshData mesh = mesh_of(scene);
+  Point2 low = mesh.rest.front(), high = low;
+  for (const Point2 p : mesh.rest)
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)}, high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  return std::max(high.x - low.x, high.y - low.y);
+}
+
+/// The cuts are known from the start, in rest space.
+bool knows_cuts(const Scene& scene) {
+  return !scene.cuts.empty() &&
+         std::ranges::all_of(scene.cuts, [](const Scene::Cut& cut) { return cut.picked.picks.empty(); });
 }
 
 Ablation row_of(const std::string& without, const SceneRun& run) {
@@ -69,8 +109,7 @@ std::vector<AblatedScene> ablations_of(const Scene& scene) {
     add("bending", [](Scene& s) { s.physics.bending = BendingKind::none; });
   if (solves(scene.integrator) && scene.physics.stress_stiffness_made() != StressStiffness::none)
     add("stiffness from stress", [](Scene& s) { s.physics.stress_stiffness = StressStiffness::none; });
-  if (scene.newton > 1 && scene.integrator != Integrator::equilibrium)
-    add("further Newton iterations", [](Scene& s) { s.newton = 1; });
+  if (scene.newton > 1 && !at_rest(scene)) add("further Newton iterations", [](Scene& s) { s.newton = 1; });
   if (scene.physics.strain == Strain::green)
     add("nonlinear strain", [](Scene& s) { s.physics.strain = Strain::corotational; });
   if (scene.physics.strain == Strain::green || scene.physics.strain == Strain::corotational)
@@ -79,9 +118,12 @@ std::vector<AblatedScene> ablations_of(const Scene& scene) {
     add("triangles (springs)", [](Scene& s) { s.physics.strain = Strain::springs; });
   if (scene.physics.dimension == 3)
     add("the third dimension", [](Scene& s) { s.physics.dimension = 2, s.physics.bending = BendingKind::none; });
-  if (keeps_budget(scene.integrator) && scene.physics.mass == Mass::lumped) all.push_back(position_based_scene(scene));
-  if (scene.integrator != Integrator::equilibrium)
-    add("every second step", [](Scene& s) { set_steps(s, steps_of(s) / 2); });
+  const bool in_motion = !at_rest(scene);
+  if (in_motion && knows_cuts(scene) && std::isinf(scene.physics.active_radius))
+    add("motion far from the cuts", [](Scene& s) { s.physics.active_radius = active_share * longer_side(s); });
+  if (in_motion && scene.integrator != Integrator::xpbd && scene.physics.mass == Mass::lumped)
+    all.push_back(position_based_scene(scene));
+  if (in_motion) add("every second step", [](Scene& s) { set_steps(s, steps_of(s) / 2); });
   if (const int side = scene.family.empty() ? 0 : squares_per_side(scene.resolution) / 2; side > 0)
     add("three of four triangles", [&](Scene& s) { s.resolution = 2 * side * side; });
   return all;
@@ -94,12 +136,15 @@ std::vector<Ablation> ablate(const Scene& scene, CuttingMethod& method, const Cu
   const auto add = [&](const AblatedScene& ablated) {
     const SceneRun made = run_to_end(ablated.scene, method, options, time);
     if (rows.empty()) {
-      if (made.motion && scene.integrator != Integrator::equilibrium) limit = made.motion->step_limits().with_bending;
+      if (made.motion && !at_rest(scene)) limit = made.motion->step_limits().with_bending;
       if (made.ended()) whole = made.motion->posed_sheet();
       time = std::min(time_limit, std::max(least_patience, patience * made.processor_s));
     }
     rows.push_back(row_of(ablated.without, made));
-    if (whole && made.ended()) rows.back().deviation = largest_deviation(*whole, made.motion->posed_sheet());
+    if (!whole || !made.ended()) return;
+    const bool is_part = ablated.scene.physics.active_radius < scene.physics.active_radius;
+    rows.back().deviation =
+        (is_part ? largest_deviation_of_part : largest_deviation)(*whole, made.motion->posed_sheet());
   };
   for (const AblatedScene& ablated : ablations_of(scene)) add(ablated);
   if (limit > 0 && solves(scene.integrator)) add(explicit_scene(scene, limit));

@@ -38,7 +38,7 @@ TEST_F(Ablate, AFallingPieceFallsAlikeWithoutWhatDoesNotAct) {
   const auto result = run("ablate '" + scenes + "falling_piece.toml' --resolution 200 --report r.json");
   ASSERT_EQ(result.code, 0) << result.error;
   auto rows = rows_of(read(folder_ / "r.json"));
-  ASSERT_EQ(rows.size(), 10u) << result.out;
+  ASSERT_EQ(rows.size(), 11u) << result.out;
   const double whole = fall(60, 0.25), coarse = fall(30, 0.25);
   EXPECT_NEAR(rows[""]["deflection_m"], whole, 1e-6);
   EXPECT_EQ(rows[""]["deviation_m"], 0);
@@ -48,6 +48,8 @@ TEST_F(Ablate, AFallingPieceFallsAlikeWithoutWhatDoesNotAct) {
   EXPECT_NEAR(rows["triangles (springs)"]["deflection_m"], whole, 1e-6);
   EXPECT_NEAR(rows["linear solves (xpbd)"]["deflection_m"], fall(600, 0.25), 1e-6);
   EXPECT_EQ(rows["linear solves (xpbd)"]["steps"], 600);
+  EXPECT_NEAR(rows["motion far from the cuts"]["deflection_m"], whole, 1e-6) << "what is cut out moves";
+  EXPECT_GT(rows["motion far from the cuts"]["deviation_m"], 1e-3) << "what is round it does not";
   EXPECT_NEAR(rows["every second step"]["deflection_m"], coarse, 1e-6);
   EXPECT_EQ(rows["every second step"]["steps"], 30);
   EXPECT_GE(rows["every second step"]["deviation_m"], coarse - whole - 1e-6);

@@ -84,6 +84,8 @@ TEST_F(BadInput, Experiments) {
   ASSERT_EQ(experiment(accuracy + "direct = [\"cholmod\"]\nmembers = [1]\n"), "no InputError");
   write(folder_ / "of_a_file.toml", scene_of("[sheet]\nfile = \"sheet.off\"\n"));
   write(folder_ / "of_a_family.toml", scene_of("[sheet]\nresolution = 200\n"));
+  write(folder_ / "of_a_part.toml",
+        scene_of("[sheet]\nresolution = 200\n[physics]\nactive_radius = 0.1\n[[cuts]]\npolyline = [[0, 0], [1, 1]]\n"));
   std::string deep = "claim = ";
   for (int i = 0; i < 1000000; ++i) deep += '[';
   for (const auto& [bad, message] : std::vector<std::pair<std::string, const char*>>{
@@ -112,6 +114,8 @@ TEST_F(BadInput, Experiments) {
             "an entry of \"methods\" is a name, {name = ..., knob = [...]} or {name = ..., command = ...}"},
            {text + "scene = \"none.toml\"\ncut_time = 0\n", "none.toml: can't be read"},
            {text + "scene = \"of_a_file.toml\"\ncut_time = 0\n", "\"scene\" has a sheet from a file"},
+           {text + "scene = \"of_a_part.toml\"\ncut_time = 0\n",
+            "\"active_radius\" is that round the scene's own cuts"},
            {text + "scene = \"of_a_family.toml\"\ncut_time = 0.1\n", "\"cut_time\" must lie within the scene's"},
            {campaign + "mesh_files = [\"none.off\"]\n", "there is no file"},
            {accuracy + "direct = [\"gauss\"]\nmembers = [1]\n", "solver \"gauss\" is not known"},

@@ -8,6 +8,7 @@
 #include "harness/fem/cholmod_factor.h"
 #include "harness/fem/stepper.h"
 #include "tests/fem_helpers.h"
+#include "tests/random_field.h"
 
 namespace cutbench {
 namespace {
@@ -15,13 +16,6 @@ namespace {
 const Material skin{.density = 2.2, .stiffness = 1000, .poisson = 0.45, .bending = 4.2e-4};
 
 std::vector<Pin> held_left() { return {{.where = {{-1, -1}, {1e-9, 2}}}}; }
-
-Field random_field(std::uint64_t seed, Eigen::Index size) {
-  Random random(seed);
-  Field x(size);
-  for (auto& value : x) value = random.between(-1, 1);
-  return x;
-}
 
 Field solution(LinearSolver<3>& solver, const SystemMatrix<3>& a, const Field& b) {
   solver.setup(a);

@@ -52,6 +52,17 @@ void Model<D>::update_bending(const Sheet& sheet) {
 }
 
 template <int D>
+void Model<D>::hold(const Sheet& sheet, std::span<const Pin> pins) {
+  pins_.insert(pins_.end(), pins.begin(), pins.end());
+  begin_marking();
+  for (std::size_t v = 0; v < vertices(); ++v) {
+    const DeformedIndex d(v);
+    mark({&d, 1});
+  }
+  refresh_vertices(sheet);
+}
+
+template <int D>
 void Model<D>::begin_marking() {
   ++round_;
   marked_.clear();
@@ -149,7 +160,7 @@ void Model<D>::refresh_loads(const Sheet& sheet, std::size_t v) {
   if (blocks_.columns(v).empty()) return;  // inside a polygon
   for (std::size_t k = 0; k < D; ++k) {
     for (std::size_t p = 0; p < pins_.size() && pin_of_[D * v + k] < 0; ++p)
-      if (pins_[p].axes[k] && pins_[p].where.contains(rest)) pin_of_[D * v + k] = static_cast<std::int16_t>(p);
+      if (pins_[p].axes[k] && pins_[p].where.contains(rest)) pin_of_[D * v + k] = static_cast<std::int32_t>(p);
     held_[D * v + k] = pin_of_[D * v + k] >= 0;
   }
   if (tractions_.empty()) return;
@@ -168,12 +179,14 @@ void Model<D>::refresh_loads(const Sheet& sheet, std::size_t v) {
 // What the other files call; model.cpp instantiates the rest of the class.
 template void Model<2>::update(const Sheet&);
 template void Model<2>::update_bending(const Sheet&);
+template void Model<2>::hold(const Sheet&, std::span<const Pin>);
 template void Model<2>::begin_marking();
 template void Model<2>::mark(std::span<const DeformedIndex>);
 template void Model<2>::refresh_vertices(const Sheet&);
 template void Model<2>::refresh_added_mass();
 template void Model<3>::update(const Sheet&);
 template void Model<3>::update_bending(const Sheet&);
+template void Model<3>::hold(const Sheet&, std::span<const Pin>);
 template void Model<3>::begin_marking();
 template void Model<3>::mark(std::span<const DeformedIndex>);
 template void Model<3>::refresh_vertices(const Sheet&);

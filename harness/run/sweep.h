@@ -49,6 +49,9 @@ struct Sweep {
   std::vector<SweepPoint> points;            ///< every combination of the settings' values, the last varies fastest
 };
 
+/// As read_scene(). Refuses an `active_radius`: it is that round the scene's own cuts.
+Scene read_scene_without_radius(const std::filesystem::path& file);
+
 /// Reads [[sweeps]]: name, scene (relative to the experiment's folder), sheets, methods, resolutions, cases, steps,
 /// eigenvalue, drift, and settings, each a value or a list of values. Throws InputError.
 std::vector<Sweep> read_sweeps(const TomlReader& experiment, const std::filesystem::path& folder);

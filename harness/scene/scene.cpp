@@ -66,8 +66,8 @@ void read_sheet(const TomlReader& file, const std::filesystem::path& folder, Sce
 }
 
 Physics read_physics(const TomlReader& file) {
-  const TomlReader reader = file.section(
-      "physics", {"dimension", "plane", "strain", "stress_stiffness", "bending", "mass", "mass_limit", "gravity"});
+  const TomlReader reader = file.section("physics", {"dimension", "plane", "strain", "stress_stiffness", "bending",
+                                                     "mass", "mass_limit", "gravity", "active_radius"});
   Physics p;
   p.dimension = reader.count("dimension", p.dimension);
   if (p.dimension != 2 && p.dimension != 3) reader.refuse("\"dimension\" is 2 (in the plane) or 3");
@@ -85,6 +85,7 @@ Physics read_physics(const TomlReader& file) {
   if (p.strain == Strain::springs && adds_mass(p.mass))
     reader.refuse("the mass of thin triangles is made for triangles, not for springs; set mass = \"lumped\"");
   p.gravity = read_vector(reader, "gravity", p);
+  if (reader.has("active_radius")) p.active_radius = reader.positive("active_radius", 0);
   if (p.bending != BendingKind::none && p.dimension == 2)
     reader.refuse("a 2D scene does not bend; set bending = \"none\", or dimension = 3");
   return p;
@@ -280,6 +281,18 @@ void check_times(const Scene& scene, const std::string& name) {
     throw InputError(name + ": nothing holds the sheet against gravity in equilibrium; add [[pins]]");
 }
 
+void check_active_radius(const Scene& scene, const std::string& name) {
+  if (!std::isfinite(scene.physics.active_radius)) return;
+  if (scene.integrator == Integrator::equilibrium)
+    throw InputError(name + ": in equilibrium nothing has moved before the cut; leave \"active_radius\" out");
+  const auto picked = [](const Scene::Cut& cut) { return !cut.picked.picks.empty(); };
+  if (scene.cuts.empty())
+    throw InputError(name + ": \"active_radius\" is that round cuts; add [[cuts]], or leave it out");
+  if (std::any_of(scene.cuts.begin(), scene.cuts.end(), picked))
+    throw InputError(name +
+                     ": \"active_radius\" needs to know all cuts from the start; give them with space = \"rest\"");
+}
+
 Point2 nearest_vertex(const Sheet& sheet, Point2 to) {
   Point2 best;
   double distance2 = std::numeric_limits<double>::infinity();
@@ -320,6 +333,7 @@ Scene read_scene(const std::filesystem::path& file) {
            "cuts", "cut", {"time", "speed", "space", "bezier", "polyline", "closed", "family", "seed", "case"}))
     scene.cuts.push_back(read_cut(cut));
   check_times(scene, reader.where);
+  check_active_radius(scene, reader.where);
   return scene;
 }
 

@@ -7,7 +7,9 @@
 //   [physics]     dimension = 2|3, plane = "stress"|"strain", strain = "corotational"|"linear"|"green"|"springs",
 //                 stress_stiffness = "none"|"positive"|"full" (default: positive), bending = of bending_names,
 //                 mass = "lumped"|"consistent"|"stabilised"|"scaled", mass_limit = 1 (of the last two: harness/fem/
-//                 physics.h), gravity = [x, y, z]
+//                 physics.h), gravity = [x, y, z],
+//                 active_radius (m: from the first cut on, what is farther from all cuts in rest space stays where it is,
+//                 and is left out)
 //   [[pins]]      near = [x, y] | box = [[x0, y0], [x1, y1]]; axes = "xyz", displacement, velocity = [x, y, z]
 //   [[tractions]] box, force = [x, y, z]
 //   [integrator]  name = "backward_euler"|"midpoint"|"symplectic_euler"|"xpbd"|"equilibrium", step, newton,

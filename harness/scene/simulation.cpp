@@ -12,6 +12,7 @@
 #include "harness/fem/largest_eigenvalue.h"
 #include "harness/mesh/one_ring.h"
 #include "harness/path/blade.h"
+#include "harness/scene/active_region.h"
 #include "harness/scene/turned_over.h"
 
 namespace cutbench {
@@ -90,8 +91,7 @@ class SceneInMotion : public Simulation {
   double time() const override { return now_.state.time; }
   void watch() override {
     watched_ = true;
-    const double noise = 1e-20 * scene_.material.stiffness / scene_.material.density * now_.model.lumped_mass().sum();
-    if (keeps_budget(scene_.integrator)) budget_.emplace(balance(), scene_.integrator, noise);
+    begin_budget();
   }
   const EnergyBudget* budget() const override { return budget_ ? &*budget_ : nullptr; }
   const SimulationVerdict& verdict() const override { return verdict_; }
@@ -123,6 +123,7 @@ class SceneInMotion : public Simulation {
     while (now_.state.time < almost && report.verdict == "ok") {
       const double soon = now_.state.time + (1 - 1e-9) * scene_.step;
       for (std::size_t i = 0; i < cuts_.size() && cuts_[i].time < soon && report.verdict == "ok"; ++i) {
+        if (made_.empty()) leave_out_far_parts();
         if (i == made_.size()) begin(i, method, options);
         if (cuts_[i].blade) advance_blade(i, method, options);
         if (made_[i].verdict != "ok") report.verdict = made_[i].verdict, report.reason = made_[i].reason;
@@ -221,6 +222,37 @@ class SceneInMotion : public Simulation {
     if (inverted) verdict_ = {"inverted", text, now_.state.time};
     if (const std::string fault = budget_ ? budget_->fault() : ""; verdict_.name == "ok" && !fault.empty())
       verdict_ = {"energy_growth", fault, now_.state.time};
+  }
+
+  void begin_budget() {
+    const double noise = 1e-20 * scene_.material.stiffness / scene_.material.density * now_.model.lumped_mass().sum();
+    if (watched_ && keeps_budget(scene_.integrator)) budget_.emplace(balance(), scene_.integrator, noise);
+  }
+
+  /// Before the first cut; the budget begins again with what is left.
+  void leave_out_far_parts() {
+    if (!std::isfinite(scene_.physics.active_radius)) return;
+    StopWatch watch;
+    std::vector<Curve> curves;
+    for (const DueCut& cut : cuts_) curves.insert(curves.end(), cut.curves.begin(), cut.curves.end());
+    const ActiveRegion region = active_region(now_.sheet, curves, scene_.physics.active_radius);
+    if (region.outside.empty()) return;
+    now_.sheet.begin_cut();
+    now_.sheet.remove(region.outside);
+    now_.locator.update(now_.sheet);
+    transfer(now_.sheet.log(), now_.sheet.deformed_slots(), D, now_.state);
+    now_.model.update(now_.sheet), now_.model.update_bending(now_.sheet), now_.model.hold(now_.sheet, region.pins);
+    hold_tied_vertices(region.pins, {}, now_.sheet);
+    for (std::size_t i = 0; i < now_.model.held().size(); ++i) {
+      if (!now_.model.pinned(i)) continue;
+      const auto k = static_cast<Eigen::Index>(i);
+      now_.state.anchor[k] = now_.state.x[k] - now_.model.held_displacement(i, now_.state.time);
+      now_.state.v[k] = now_.model.held_velocity(i);
+    }
+    now_.state.dv.resize(0);
+    before_cuts_ = now_.sheet;
+    next_.update_us += watch.lap();
+    begin_budget();
   }
 
   /// Makes a cut that is due, or lets its blade enter.

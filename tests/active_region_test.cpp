@@ -1,0 +1,179 @@
+// Local dynamics: what is far from the cuts stays where it is, and what is near moves as in the whole sheet.
+
+#include "harness/scene/active_region.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "harness/mesh/families.h"
+#include "harness/scene/simulation.h"
+#include "methods/registry.h"
+#include "tests/helpers.h"
+
+namespace cutbench {
+namespace {
+
+Scene::Cut cut_at(double time, std::vector<Point2> points) {
+  Scene::Cut cut;
+  cut.time = time, cut.curve.points = std::move(points);
+  return cut;
+}
+
+/// Hangs by two corners and swings, and is slit when it has fallen.
+Scene hanging(double radius) {
+  Scene scene;
+  scene.family = "delaunay", scene.resolution = 800;
+  scene.material = {.density = 2.2,
+                    .stiffness = 1000,
+                    .poisson = 0.45,
+                    .bending = 4.2e-4,
+                    .mass_damping = 0.5,
+                    .stiffness_damping = 1e-3};
+  scene.physics.bending = BendingKind::patches, scene.physics.gravity = {0, 0, -9.81};
+  scene.physics.active_radius = radius;
+  for (const Point2 corner : {Point2{0, 1}, Point2{1, 1}}) scene.pins.push_back({.near = corner, .pin = {}});
+  scene.step = 1.0 / 240, scene.duration = 0.3;
+  scene.cuts.push_back(cut_at(0.1, {{0.35, 0.42}, {0.65, 0.47}}));
+  return scene;
+}
+
+/// In the plane, drawn apart by what holds it below and above.
+Scene drawn(double radius) {
+  Scene scene;
+  scene.family = "delaunay", scene.resolution = 800;
+  scene.material = {.density = 1, .stiffness = 1000, .poisson = 0.3, .mass_damping = 20};
+  scene.physics.dimension = 2, scene.physics.active_radius = radius;
+  scene.pins.push_back({.near = {}, .pin = {.where = {{-infinite, -infinite}, {infinite, 0}}}});
+  scene.pins.push_back({.near = {}, .pin = {.where = {{-infinite, 1}, {infinite, infinite}}, .velocity = {0, 0.1, 0}}});
+  scene.step = 1.0 / 120, scene.duration = 1;
+  scene.solver = {.name = "cholmod"};
+  scene.cuts.push_back(cut_at(0.9, {{0.4, 0.5}, {0.6, 0.52}}));
+  return scene;
+}
+
+struct Made {
+  std::unique_ptr<Simulation> motion;
+  Sheet at_cut;  ///< right before it
+};
+
+Made run(const Scene& scene) {
+  const auto method = find_method("conventional_split").make(0);
+  auto motion = Simulation::start(scene);
+  motion->watch();
+  EXPECT_EQ(motion->advance(scene.cuts[0].time, *method, {}).verdict, "ok");
+  Sheet at_cut = motion->posed_sheet();
+  EXPECT_EQ(motion->advance(scene.duration, *method, {}).verdict, "ok");
+  EXPECT_EQ(motion->verdict().name, "ok") << motion->verdict().reason;
+  EXPECT_EQ(motion->made_cuts().size(), 1u);
+  return {std::move(motion), std::move(at_cut)};
+}
+
+std::map<std::pair<double, double>, Point3> places_of(const Sheet& sheet) {
+  std::map<std::pair<double, double>, Point3> places;
+  for (std::size_t d = 0; d < sheet.deformed_slots(); ++d)
+    if (const VertexIndex v = sheet.rest_vertex(DeformedIndex(d)); v.valid())
+      places[{sheet.rest(v).x, sheet.rest(v).y}] = sheet.position(DeformedIndex(d));
+  return places;
+}
+
+double apart(Point3 a, Point3 b) {
+  const Point3 d = a + -1 * b;
+  return std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+}
+
+double largest_gape(const Sheet& sheet) {
+  double largest = 0;
+  for (std::size_t d = 0; d < sheet.deformed_slots(); ++d)
+    for (std::size_t e = 0; e < d; ++e)
+      if (sheet.rest_vertex(DeformedIndex(d)).valid() &&
+          sheet.rest_vertex(DeformedIndex(d)) == sheet.rest_vertex(DeformedIndex(e)))
+        largest = std::max(largest, apart(sheet.position(DeformedIndex(d)), sheet.position(DeformedIndex(e))));
+  return largest;
+}
+
+double distance_to_cut(Point2 p, const Scene& scene) {
+  const Point2 a = scene.cuts[0].curve.points[0], ab = scene.cuts[0].curve.points[1] - a;
+  const double t = std::min(1.0, std::max(0.0, dot(p - a, ab) / squared_length(ab)));
+  return std::sqrt(squared_length(p - (a + t * ab)));
+}
+
+TEST(ActiveRegion, NothingIsOutsideOfALargeRadius) {
+  const Sheet sheet(make_sheet("graded", 10));
+  const std::vector<Curve> curve{{Curve::Kind::polyline, false, {{0.2, 0.5}, {0.8, 0.5}}}};
+  EXPECT_TRUE(active_region(sheet, curve, 10).outside.empty());
+  EXPECT_TRUE(active_region(sheet, curve, 10).pins.empty());
+  const std::vector<Curve> beside{{Curve::Kind::polyline, false, {{3, 3}, {4, 4}}}};
+  EXPECT_TRUE(active_region(sheet, beside, 0.5).outside.empty()) << "a cut that misses the sheet";
+}
+
+/// Squares of a tenth: near are the middle 3 x 3 vertices, held the two rings round them.
+TEST(ActiveRegion, TwoRingsAreHeld) {
+  const Sheet sheet(make_sheet("alternating", 10));
+  const std::vector<Curve> point{{Curve::Kind::polyline, false, {{0.49, 0.5}, {0.51, 0.5}}}};
+  const ActiveRegion region = active_region(sheet, point, 0.15);
+  EXPECT_FALSE(region.outside.empty());
+  for (const Pin& pin : region.pins) {
+    const double far = std::max(std::abs(pin.where.low.x - 0.5), std::abs(pin.where.low.y - 0.5));
+    EXPECT_GT(far, 0.15);
+    EXPECT_LT(far, 0.35);
+  }
+  EXPECT_GE(region.pins.size(), 16u);
+  EXPECT_LE(region.pins.size(), 40u);
+}
+
+TEST(ActiveRegion, WhatAClosedCurveHoldsMoves) {
+  const Sheet sheet(make_sheet("grid", 20));
+  const std::vector<Curve> square{{Curve::Kind::polyline, true, {{0.2, 0.2}, {0.8, 0.2}, {0.8, 0.8}, {0.2, 0.8}}}};
+  const ActiveRegion region = active_region(sheet, square, 0.06);
+  EXPECT_FALSE(region.outside.empty());
+  for (const TriangleIndex t : region.outside)
+    for (const VertexIndex v : sheet.triangle(t).vertex) {
+      const Point2 p = sheet.rest(v);
+      EXPECT_FALSE(p.x > 0.2 && p.x < 0.8 && p.y > 0.2 && p.y < 0.8);
+    }
+}
+
+TEST(LocalDynamics, ALargeRadiusChangesNothing) {
+  const Scene whole = hanging(infinite), wide = hanging(10);
+  const auto a = places_of(run(whole).motion->posed_sheet()), b = places_of(run(wide).motion->posed_sheet());
+  EXPECT_EQ(a, b);
+}
+
+TEST(LocalDynamics, OnlyWhatIsNearMoves) {
+  const Scene scene = hanging(0.2);
+  const Made made = run(scene);
+  const Sheet end = made.motion->posed_sheet();
+  const auto before = places_of(made.at_cut), after = places_of(end);
+  EXPECT_LT(after.size(), before.size());
+  double moved = 0;
+  for (const auto& [rest, place] : after) {
+    const auto was = before.find(rest);
+    if (was == before.end()) continue;  // made by the cut
+    const double by = apart(place, was->second);
+    if (distance_to_cut({rest.first, rest.second}, scene) <= 0.2) moved = std::max(moved, by);
+    EXPECT_TRUE(by < 1e-12 || distance_to_cut({rest.first, rest.second}, scene) <= 0.2) << by;
+  }
+  EXPECT_GT(moved, 1e-3);
+}
+
+/// What is held goes on as it is told, and the lips gape the more like those of the whole sheet the larger the radius.
+TEST(LocalDynamics, ALargerRadiusIsCloserToTheWholeSheet) {
+  const double whole = largest_gape(run(drawn(infinite)).motion->posed_sheet());
+  const double small = largest_gape(run(drawn(0.12)).motion->posed_sheet());
+  const double large = largest_gape(run(drawn(0.3)).motion->posed_sheet());
+  EXPECT_GT(whole, 0.01);
+  EXPECT_LT(std::abs(large - whole), 0.5 * std::abs(small - whole));
+  EXPECT_LT(std::abs(large - whole), 0.2 * whole);
+  const Sheet end = run(drawn(0.47)).motion->posed_sheet();
+  double highest = 0;
+  for (const auto& [rest, place] : places_of(end)) {
+    if (rest.second < 1) continue;
+    highest = std::max(highest, place.y);
+    EXPECT_NEAR(place.y, 1.1, 1e-9) << "the border goes on";
+  }
+  EXPECT_GT(highest, 1);
+}
+
+}  // namespace
+}  // namespace cutbench
