@@ -36,23 +36,39 @@ double largest_deviation(const Sheet& a, const Sheet& b) {
   return largest;
 }
 
-/// Of what is left of a sheet in the end, against the whole one cut alike: at a lip, from the nearest copy.
-double largest_deviation_of_part(const Sheet& whole, const Sheet& part) {
-  std::map<std::pair<double, double>, std::vector<Point3>> places;
-  for (std::size_t d = 0; d < whole.deformed_slots(); ++d) {
-    if (!in_use(whole, d)) continue;
-    const Point2 rest = whole.rest(whole.rest_vertex(DeformedIndex(d)));
-    places[{rest.x, rest.y}].push_back(whole.position(DeformedIndex(d)));
+using Places = std::map<std::pair<double, double>, std::vector<Point3>>;
+
+/// By rest position: where its vertices are, those of both lips.
+Places places_of(const Sheet& sheet) {
+  Places places;
+  for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) {
+    if (!in_use(sheet, d)) continue;
+    const Point2 rest = sheet.rest(sheet.rest_vertex(DeformedIndex(d)));
+    places[{rest.x, rest.y}].push_back(sheet.position(DeformedIndex(d)));
   }
+  return places;
+}
+
+double largest_distance_to_nearest(const std::vector<Point3>& from, const std::vector<Point3>& to) {
   double largest = 0;
-  for (std::size_t d = 0; d < part.deformed_slots(); ++d) {
-    if (!in_use(part, d)) continue;
-    const Point2 rest = part.rest(part.rest_vertex(DeformedIndex(d)));
-    const auto at = places.find({rest.x, rest.y});
-    if (at == places.end()) return none;
+  for (const Point3 p : from) {
     double nearest = std::numeric_limits<double>::infinity();
-    for (const Point3 p : at->second) nearest = std::min(nearest, distance(p, part.position(DeformedIndex(d))));
+    for (const Point3 q : to) nearest = std::min(nearest, distance(p, q));
     largest = std::max(largest, nearest);
+  }
+  return largest;
+}
+
+/// Of what is left of a sheet in the end, against the whole one cut alike: the Hausdorff distance of the vertices that
+/// have a rest position in common. NaN where the part has one that the whole has not.
+double largest_deviation_of_part(const Sheet& whole, const Sheet& part) {
+  const Places all = places_of(whole);
+  double largest = 0;
+  for (const auto& [rest, here] : places_of(part)) {
+    const auto there = all.find(rest);
+    if (there == all.end()) return none;
+    largest = std::max(
+        {largest, largest_distance_to_nearest(here, there->second), largest_distance_to_nearest(there->second, here)});
   }
   return largest;
 }

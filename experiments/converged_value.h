@@ -29,8 +29,8 @@ class ConvergedValue {
 
   const Converged& get() const { return result_; }
 
-  /// Halves the edges or the steps, those that matter more. False, and all stays as it was, where that takes over
-  /// `most_work` times the scene's triangles x steps, or a run does not end as `ok`.
+  /// Halves the edges or the steps, those that matter more. False, and the value stays as it was, where that takes over
+  /// `most_work` times the scene's triangles x steps, or where a run does not end as `ok`, now or before.
   bool refine(double most_work);
 
  private:

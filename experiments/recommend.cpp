@@ -17,7 +17,7 @@ constexpr double finest = 2, side_span = 8, steps_span = 16;  // of the candidat
 constexpr double spread_share = 0.2;  // of the error asked for: the spread of the converged value that is small enough
 // Triangles x steps of the finest run for the converged value, over the scene's; and where a cheaper candidate waits.
 constexpr double most_refined = 64, most_refined_to_decide = 1024;
-constexpr double much_cheaper = 1.25;  // the best over an undecided candidate, in cost: worth to refine
+constexpr double much_cheaper = 1.25;  // the best over an undecided candidate, in cost: worth refining
 constexpr double widest = 4;  // triangles x steps over those of the first good candidate: more can't be the cheapest
 constexpr double candidate_patience =
     4;                             // of a candidate's run, watching it included: times the cheapest good one so far
@@ -127,7 +127,7 @@ class Candidates {
       const double limit = near_best * trials_[*first].ms_per_second;
       for (int i = 0; i < more_timings; ++i)
         for (SceneTrial& trial : trials_)
-          if (trial.ms_per_second <= limit) runs_.time(trial);
+          if (may_be_good(trial) && trial.ms_per_second <= limit && trial.timings <= more_timings) runs_.time(trial);
     }
   }
 
@@ -154,9 +154,10 @@ class Candidates {
   /// Now, or before.
   const SceneTrial& tried(const Choice& choice, double time_limit) {
     auto trial = std::find_if(trials_.begin(), trials_.end(), [&](const SceneTrial& t) { return t.choice == choice; });
-    if (trial == trials_.end()) {
-      trials_.push_back(runs_.run(choice, scene_.solver.tolerance, time_limit));
-      trial = trials_.end() - 1;
+    const bool is_new = trial == trials_.end();
+    if (is_new) trial = trials_.insert(trial, SceneTrial{});
+    if (is_new || (trial->verdict == "timed_out" && trial->time_limit < time_limit)) {
+      *trial = runs_.run(choice, scene_.solver.tolerance, time_limit);
       cutbench::judge(*trial, converged_, margin_);
     }
     const bool worth_timing = may_be_good(*trial) || (options_.everything && trial->verdict == "ok");
@@ -219,19 +220,18 @@ Recommendation recommend(const Scene& scene, const RecommendOptions& options, co
   Recommendation result{.converged = {}, .unknown = beyond(scene, calibration)};
   if (!result.unknown.empty()) return result;
   ConvergedValue converged = converged_value(scene, options);
-  result.converged = converged.get();
-  result.unknown = beyond(result.converged, calibration);
-  if (!result.unknown.empty()) return result;
-
   Candidates candidates(scene, options);
   do {
     result.converged = converged.get();
+    result.unknown = beyond(result.converged, calibration);
+    if (!result.unknown.empty()) break;
     result.margin = calibration.quantile * result.converged.spread;
     candidates.judge(result.converged.value, result.margin);
     candidates.try_those_left();
   } while (!options.everything && candidates.much_cheaper_is_undecided() && converged.refine(most_refined_to_decide));
 
   result.trials = candidates.trials();
+  if (!result.unknown.empty()) return result;
   result.chosen = candidates.cheapest();
   if (!result.chosen) {
     result.unknown = shortfall(result.trials, options.max_error);

@@ -43,14 +43,14 @@ struct RecommendOptions {
   std::vector<std::string> methods, solvers;                ///< the first method makes the converged value
   CutOptions cut = {};
   double time_limit = 600;  ///< of a run, s of processor time
-  bool everything = false;  ///< runs and times also what can no longer be the cheapest
+  bool everything = false;  ///< runs and times also what can no longer be the cheapest; the value is not refined
 };
 
 struct Recommendation {
   Converged converged;
   double margin = std::numeric_limits<double>::quiet_NaN();  ///< m
-  std::vector<SceneTrial> trials =
-      {};  ///< in the order of triangles x steps; by the next solvers only where the first is good
+  /// In the order in which they were run; by the next solvers only where the first may be good enough.
+  std::vector<SceneTrial> trials = {};
   std::optional<std::size_t> chosen = {};
   std::string unknown = {};  ///< why none is chosen
 };

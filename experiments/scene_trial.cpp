@@ -30,11 +30,13 @@ SceneTrial SceneTrials::run(const Choice& choice, double tolerance, double time_
   return {.choice = choice,
           .verdict = made.verdict,
           .reason = made.reason,
-          .value = quantity_ == Quantity::gape ? made.gape : made.deflection};
+          .value = quantity_ == Quantity::gape ? made.gape : made.deflection,
+          .time_limit = time_limit};
 }
 
 void SceneTrials::time(SceneTrial& trial) const {
   const auto method = method_of(trial.choice);
+  ++trial.timings;
   trial.ms_per_second =
       std::fmin(trial.ms_per_second, processor_ms_per_second(scene_of(scene_, trial.choice), *method, cut_));
 }

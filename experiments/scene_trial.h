@@ -26,8 +26,10 @@ struct SceneTrial {
   // Relative: |value - converged value| / converged value, and between what, given the margin.
   double error = std::numeric_limits<double>::quiet_NaN();
   double low = 0, high = std::numeric_limits<double>::infinity();
-  /// Milliseconds of processor time for a simulated second, the least of some runs; NaN: not timed.
+  /// Milliseconds of processor time for a simulated second, the least of `timings` runs; NaN: not timed.
   double ms_per_second = std::numeric_limits<double>::quiet_NaN();
+  int timings = 0;
+  double time_limit = 0;  ///< of the run for its value, s of processor time
 };
 
 /// Runs a scene as chosen. The scene must outlive it.

@@ -4,12 +4,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
+#include <ostream>
 
+#include "harness/cut/cut.h"
 #include "harness/mesh/families.h"
 #include "harness/scene/simulation.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
+#include "tests/mesh_checks.h"
 
 namespace cutbench {
 namespace {
@@ -134,11 +138,139 @@ TEST(ActiveRegion, WhatAClosedCurveHoldsMoves) {
     }
 }
 
-TEST(LocalDynamics, ALargeRadiusChangesNothing) {
-  const Scene whole = hanging(infinite), wide = hanging(10);
-  const auto a = places_of(run(whole).motion->posed_sheet()), b = places_of(run(wide).motion->posed_sheet());
-  EXPECT_EQ(a, b);
+/// A U: what hangs at its open end is cut out but for that, and moves.
+TEST(ActiveRegion, WhatAFlapIsMadeOfMoves) {
+  const Sheet sheet(make_sheet("grid", 20));
+  const std::vector<Curve> flap{{Curve::Kind::polyline, false, {{0.2, 0.2}, {0.8, 0.2}, {0.8, 0.8}, {0.2, 0.8}}}};
+  const ActiveRegion region = active_region(sheet, flap, 0.06);
+  EXPECT_FALSE(region.outside.empty());
+  for (const Pin& pin : region.pins) {
+    const Point2 p = pin.where.low;
+    EXPECT_FALSE(p.x > 0.2 && p.x < 0.8 && p.y > 0.2 && p.y < 0.8) << p.x << " " << p.y;
+  }
 }
+
+TEST(ActiveRegion, ASmallerRadiusThanAnEdgeIsRefused) {
+  expect_refused([] { Simulation::start(hanging(0.01)); }, "\"active_radius\" 0.01 m is less than the longest edge");
+}
+
+/// The slots of vertices that were held come into use again.
+TEST(ActiveRegion, WhatACutMakesInPlaceOfAHeldVertexIsFree) {
+  Sheet sheet(make_sheet("grid", 10));
+  for (std::size_t v = 0; v < sheet.vertex_slots(); ++v) sheet.hold(VertexIndex(v));
+  std::vector<TriangleIndex> lower;
+  for (std::size_t t = 0; t < sheet.triangle_slots(); ++t)
+    if (std::ranges::all_of(sheet.corners(TriangleIndex(t)), [](Point2 p) { return p.y < 0.45; }))
+      lower.push_back(TriangleIndex(t));
+  sheet.begin_cut();
+  sheet.remove(lower);
+  const std::size_t slots = sheet.vertex_slots();
+  Locator locator(sheet);
+  const auto method = find_method("conventional_split").make(0);
+  ASSERT_EQ(
+      Cutter().cut(sheet, locator, {Curve::Kind::polyline, false, {{0.23, 0.71}, {0.77, 0.74}}}, *method, {}).status,
+      Status::ok);
+  std::size_t recycled = 0;
+  for (const VertexIndex v : sheet.log().new_vertices) {
+    recycled += v() < slots;
+    EXPECT_FALSE(sheet.is_held(v));
+  }
+  EXPECT_GT(recycled, 5u);
+}
+
+struct Kind {
+  const char *sheet, *method;
+  int dimension;
+  BendingKind bending;
+  Integrator integrator;
+  Mass mass;
+  const char* solver;
+  double speed;  ///< of the second cut, a blade; 0: all at once
+};
+void PrintTo(const Kind& kind, std::ostream* out) {
+  *out << kind.method << ", " << name_of(integrator_names, kind.integrator);
+}
+
+class LocalDynamicsOf : public testing::TestWithParam<Kind> {};
+
+/// What is left out and what is held are alike: the same motion as of the whole sheet with a pin at each vertex that is far.
+/// Hinges, not patches: these look farther than two rings.
+TEST_P(LocalDynamicsOf, IsTheWholeSheetHeldFarAway) {
+  constexpr double radius = 0.22;
+  const Kind kind = GetParam();
+  Scene local;
+  local.family = kind.sheet, local.resolution = 800;
+  local.material = {.density = 2.2,
+                    .stiffness = 100,
+                    .poisson = 0.3,
+                    .bending = 1e-3,
+                    .mass_damping = 0.5,
+                    .stiffness_damping = 1e-3};
+  local.physics.dimension = kind.dimension, local.physics.bending = kind.bending, local.physics.mass = kind.mass;
+  local.physics.gravity = {1, 3, kind.dimension == 3 ? -9.81 : 0};
+  local.physics.active_radius = radius;
+  local.integrator = kind.integrator, local.solver = {.name = kind.solver, .tolerance = 1e-11};
+  local.step = kind.integrator == Integrator::symplectic_euler ? 2e-4 : 1.0 / 240, local.duration = 0.05;
+  local.pins.push_back({.near = {}, .pin = {.where = {{-infinite, -infinite}, {0, infinite}}}});
+  local.cuts.push_back(cut_at(0, {{0.42, 0.47}, {0.58, 0.52}}));
+  local.cuts.push_back(cut_at(0.01, {{0.45, 0.58}, {0.56, 0.61}}));
+  local.cuts[1].speed = kind.speed;
+
+  Scene held = local;
+  held.physics.active_radius = infinite;
+  const Sheet sheet(mesh_of(held));
+  for (std::size_t v = 0; v < sheet.vertex_slots(); ++v) {
+    const Point2 p = sheet.rest(VertexIndex(v));
+    double nearest = infinite;
+    for (const auto& cut : local.cuts)
+      for (int i = 0; i <= 1000; ++i)
+        nearest =
+            std::min(nearest, std::sqrt(squared_length(p - cut.curve.points[0] -
+                                                       i / 1000.0 * (cut.curve.points[1] - cut.curve.points[0]))));
+    if (nearest > radius) held.pins.push_back({.near = p, .pin = {}});
+  }
+
+  const auto end_of = [&](const Scene& scene) {
+    const auto method = find_method(kind.method).make(find_method(kind.method).knob.value);
+    const auto motion = Simulation::start(scene);
+    EXPECT_EQ(motion->advance(scene.duration, *method, {}).verdict, "ok");
+    EXPECT_EQ(motion->made_cuts().size(), 2u);
+    for (const MotionCut& cut : motion->made_cuts()) EXPECT_EQ(cut.cut.status, Status::ok) << cut.reason;
+    return motion->posed_sheet();
+  };
+  const Sheet here = end_of(local), there = end_of(held);
+  EXPECT_LT(here.triangle_slots(), 0.7 * static_cast<double>(there.triangle_slots()));
+  std::map<std::pair<double, double>, std::vector<Point3>> expected;
+  for (std::size_t d = 0; d < there.deformed_slots(); ++d)
+    if (const VertexIndex v = there.rest_vertex(DeformedIndex(d)); v.valid())
+      expected[{there.rest(v).x, there.rest(v).y}].push_back(there.position(DeformedIndex(d)));
+  double moved = 0;
+  for (std::size_t d = 0; d < here.deformed_slots(); ++d) {
+    const VertexIndex v = here.rest_vertex(DeformedIndex(d));
+    if (!v.valid()) continue;
+    const Point2 rest = here.rest(v);
+    const auto at = expected.find({rest.x, rest.y});
+    ASSERT_NE(at, expected.end()) << rest.x << " " << rest.y;
+    double nearest = infinite;
+    for (const Point3 p : at->second) nearest = std::min(nearest, apart(p, here.position(DeformedIndex(d))));
+    EXPECT_LT(nearest, 1e-9) << rest.x << " " << rest.y;
+    moved = std::max(moved, apart(here.position(DeformedIndex(d)), {rest.x, rest.y, 0}));
+  }
+  EXPECT_GT(moved, 1e-3);
+}
+
+constexpr auto implicit = Integrator::backward_euler;
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, LocalDynamicsOf,
+    testing::Values(
+        Kind{"delaunay", "conventional_split", 3, BendingKind::hinges, implicit, Mass::lumped, "cholmod", 0},
+        Kind{"graded", "conventional_split", 3, BendingKind::hinges, implicit, Mass::lumped, "multigrid", 2},
+        Kind{"delaunay", "warp_and_refine", 3, BendingKind::hinges, implicit, Mass::consistent, "cholmod", 0},
+        Kind{"delaunay", "cut_polygons", 2, BendingKind::none, implicit, Mass::lumped, "cholmod", 0},
+        Kind{"delaunay", "split_and_tie", 2, BendingKind::none, implicit, Mass::lumped, "cholmod", 0},
+        Kind{"grid", "conventional_split", 3, BendingKind::hinges, Integrator::symplectic_euler, Mass::stabilised,
+             "cholmod", 0},
+        Kind{"grid", "snap_or_split", 2, BendingKind::none, Integrator::midpoint, Mass::lumped, "cg", 0}));
 
 TEST(LocalDynamics, OnlyWhatIsNearMoves) {
   const Scene scene = hanging(0.2);

@@ -53,7 +53,7 @@ def types_of(file):
         if found := re.match(r"namespace (\S+) \{", line):
             namespace = found[1]
         anonymous = line == "namespace {" or (anonymous and line != "}  // namespace")
-        found = re.match(r"(?:template <[^>]*>\s*)?(?:struct|class|enum class) (\w+)\b(?!<|::)[^;(]*\{", line)
+        found = re.match(r"(?:template <[^>]*>\s*)?(?:struct|class|enum class) (\w+)\b(?!<|::)[^;(]*(?:\{|$)", line)
         if found and not anonymous:
             yield f"{namespace}::{found[1]}"
 

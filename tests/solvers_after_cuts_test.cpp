@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string>
 
-#include "harness/base/random.h"
 #include "harness/fem/cholmod_factor.h"
 #include "harness/fem/stepper.h"
 #include "tests/fem_helpers.h"

@@ -36,9 +36,6 @@ class Model {
   /// replace indices and add elements (Xin et al. 2018, 4.2) where the sheet's log says so.
   void update(const Sheet& sheet);
   void update_bending(const Sheet& sheet);  ///< nothing without bending
-  /// Holds more vertices from now on. What a pin's displacement counts from is the state's anchor there. Looks at
-  /// everything.
-  void hold(const Sheet& sheet, std::span<const Pin> pins);
   /// Constrains vertices and makes polygons of triangles; call it after update() and update_bending(). Constraints of
   /// before are removed. Polygons of before stay, unless the cut touched their triangles or they share one with a new
   /// polygon. Forces, energies and the matrix remain those of all vertices; a solver solves for the unknowns of tied().

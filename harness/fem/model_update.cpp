@@ -52,17 +52,6 @@ void Model<D>::update_bending(const Sheet& sheet) {
 }
 
 template <int D>
-void Model<D>::hold(const Sheet& sheet, std::span<const Pin> pins) {
-  pins_.insert(pins_.end(), pins.begin(), pins.end());
-  begin_marking();
-  for (std::size_t v = 0; v < vertices(); ++v) {
-    const DeformedIndex d(v);
-    mark({&d, 1});
-  }
-  refresh_vertices(sheet);
-}
-
-template <int D>
 void Model<D>::begin_marking() {
   ++round_;
   marked_.clear();
@@ -179,14 +168,12 @@ void Model<D>::refresh_loads(const Sheet& sheet, std::size_t v) {
 // What the other files call; model.cpp instantiates the rest of the class.
 template void Model<2>::update(const Sheet&);
 template void Model<2>::update_bending(const Sheet&);
-template void Model<2>::hold(const Sheet&, std::span<const Pin>);
 template void Model<2>::begin_marking();
 template void Model<2>::mark(std::span<const DeformedIndex>);
 template void Model<2>::refresh_vertices(const Sheet&);
 template void Model<2>::refresh_added_mass();
 template void Model<3>::update(const Sheet&);
 template void Model<3>::update_bending(const Sheet&);
-template void Model<3>::hold(const Sheet&, std::span<const Pin>);
 template void Model<3>::begin_marking();
 template void Model<3>::mark(std::span<const DeformedIndex>);
 template void Model<3>::refresh_vertices(const Sheet&);

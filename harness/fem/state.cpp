@@ -1,5 +1,8 @@
 #include "harness/fem/state.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace cutbench {
 
 template <int D>
@@ -32,6 +35,30 @@ void transfer(const EditLog& log, std::size_t deformed_slots, int dimension, Sta
   }
 }
 
+void renumber(const std::vector<DeformedIndex>& deformed, int dimension, State& state) {
+  const auto kept = std::count_if(deformed.begin(), deformed.end(), [](DeformedIndex d) { return d.valid(); });
+  for (Field* field : {&state.x, &state.v, &state.anchor, &state.dv}) {
+    if (field->size() == 0) continue;
+    Field renumbered(dimension * kept);
+    for (std::size_t i = 0; i < deformed.size(); ++i)
+      if (deformed[i].valid())
+        renumbered.segment(dimension * deformed[i].value, dimension) =
+            field->segment(dimension * static_cast<Eigen::Index>(i), dimension);
+    *field = std::move(renumbered);
+  }
+}
+
+template <int D>
+void hold_where_it_is(const Model<D>& model, State& state) {
+  for (std::size_t i = 0; i < model.held().size(); ++i) {
+    if (!model.pinned(i)) continue;
+    const auto k = static_cast<Eigen::Index>(i);
+    state.anchor[k] = state.x[k] - model.held_displacement(i, state.time);
+    state.v[k] = model.held_velocity(i);
+  }
+  state.dv.resize(0);
+}
+
 template <int D>
 Balance balance_of(Model<D>& model, const State& state) {
   model.rotate(state.x);
@@ -62,6 +89,8 @@ Balance balance_of(Model<D>& model, const State& state) {
 
 template State initial_state(const Model<2>&, const Sheet&);
 template State initial_state(const Model<3>&, const Sheet&);
+template void hold_where_it_is(const Model<2>&, State&);
+template void hold_where_it_is(const Model<3>&, State&);
 template Balance balance_of(Model<2>&, const State&);
 template Balance balance_of(Model<3>&, const State&);
 

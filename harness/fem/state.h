@@ -22,6 +22,13 @@ State initial_state(const Model<D>& model, const Sheet& sheet);
 /// from, in the order of the log, so that parents come before children.
 void transfer(const EditLog& log, std::size_t deformed_slots, int dimension, State& state);
 
+/// After Sheet::compact(). \param deformed  its map
+void renumber(const std::vector<DeformedIndex>& deformed, int dimension, State& state);
+
+/// Anchors and velocities of pinned vertices where the model has pins that the state does not know yet.
+template <int D>
+void hold_where_it_is(const Model<D>& model, State& state);
+
 /// Energies, momenta and residual force, recorded before and after a cut.
 struct Balance {
   Energy energy;

@@ -118,6 +118,7 @@ VertexIndex Sheet::new_rest_vertex(Point2 p) {
     v = free_vertices_.back();
     free_vertices_.pop_back();
     rest_[v()] = p;
+    if (v() < held_.size()) held_[v()] = 0;  // of the vertex that was here
   }
   born_in_[v()] = cuts_begun_;
   log_.new_vertices.push_back(v);

@@ -199,7 +199,7 @@ Experiment read_experiment(const std::filesystem::path& file) {
   if (!(e.chord_tolerance > 0)) throw InputError(name + ": \"chord_tolerance\" must be positive, or inf");
   if (table.contains("scene")) {
     const auto scene_file = file.parent_path() / reader.value<std::string>("scene");
-    e.scene = read_scene_without_radius(scene_file);
+    e.scene = read_scene_for_experiment(scene_file);
     if (!e.scene->mesh_file.empty())
       throw InputError(name + ": \"scene\" has a sheet from a file, but the sheets are the experiment's; use a family");
     e.scene_text = text_of_file(scene_file);

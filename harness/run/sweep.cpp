@@ -140,7 +140,7 @@ void choose_for_eigenvalue(std::vector<SweepPoint>& points) {
 std::span<const SweepSetting> sweep_settings() { return settings; }
 std::span<const char* const> poses() { return pose_names; }
 
-Scene read_scene_without_radius(const std::filesystem::path& file) {
+Scene read_scene_for_experiment(const std::filesystem::path& file) {
   Scene scene = read_scene(file);
   if (std::isfinite(scene.physics.active_radius))
     throw InputError(
@@ -164,7 +164,7 @@ std::vector<Sweep> read_sweeps(const TomlReader& experiment, const std::filesyst
     s.cases = r.count("cases", s.cases), s.steps = r.count("steps", s.steps, 0);
     s.drift = r.value<bool>("drift", s.drift);
     s.scene_file = folder / r.value<std::string>("scene");
-    s.points = read_points(r, read_scene_without_radius(s.scene_file));
+    s.points = read_points(r, read_scene_for_experiment(s.scene_file));
     if (r.value<bool>("eigenvalue", false)) choose_for_eigenvalue(s.points);
   }
   return sweeps;

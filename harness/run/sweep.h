@@ -50,7 +50,7 @@ struct Sweep {
 };
 
 /// As read_scene(). Refuses an `active_radius`: it is that round the scene's own cuts.
-Scene read_scene_without_radius(const std::filesystem::path& file);
+Scene read_scene_for_experiment(const std::filesystem::path& file);
 
 /// Reads [[sweeps]]: name, scene (relative to the experiment's folder), sheets, methods, resolutions, cases, steps,
 /// eigenvalue, drift, and settings, each a value or a list of values. Throws InputError.

@@ -1,7 +1,10 @@
 #include "harness/scene/active_region.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
+#include "harness/base/errors.h"
 #include "harness/mesh/one_ring.h"
 #include "harness/mesh/predicates.h"
 
@@ -9,7 +12,7 @@ namespace cutbench {
 
 namespace {
 
-/// By the even-odd rule. \pre the line is closed
+/// By the even-odd rule; an open line ends where it began, by its chord.
 bool is_inside(Point2 p, const Polyline& line) {
   bool inside = false;
   for (std::size_t i = 0; i < line.points.size(); ++i) {
@@ -22,7 +25,7 @@ bool is_inside(Point2 p, const Polyline& line) {
 bool is_near(Point2 p, const Polyline& line, double radius) {
   for (std::size_t i = 0; i + (line.closed ? 0 : 1) < line.points.size(); ++i)
     if (squared_distance(p, line.points[i], line.points[(i + 1) % line.points.size()]) <= radius * radius) return true;
-  return line.closed && is_inside(p, line);
+  return is_inside(p, line);
 }
 
 /// Per rest vertex.
@@ -38,7 +41,28 @@ std::vector<std::uint8_t> vertices_near(const Sheet& sheet, std::span<const Curv
   return near;
 }
 
+double longest_edge(const Sheet& sheet) {
+  double longest2 = 0;
+  for (std::size_t t = 0; t < sheet.triangle_slots(); ++t) {
+    if (!sheet.triangle(TriangleIndex(t)).alive()) continue;
+    const auto p = sheet.corners(TriangleIndex(t));
+    for (std::size_t k = 0; k < 3; ++k) longest2 = std::max(longest2, squared_length(p[(k + 1) % 3] - p[k]));
+  }
+  return std::sqrt(longest2);
+}
+
 }  // namespace
+
+void check_active_radius(const Sheet& sheet, double radius, const std::string& name) {
+  const double longest = longest_edge(sheet);
+  if (radius >= longest) return;
+  char text[160];
+  std::snprintf(
+      text, sizeof text,
+      ": \"active_radius\" %.3g m is less than the longest edge, %.3g m; make it larger, or the triangles smaller",
+      radius, longest);
+  throw InputError(name + text);
+}
 
 ActiveRegion active_region(const Sheet& sheet, std::span<const Curve> curves, double radius) {
   const std::vector<std::uint8_t> near = vertices_near(sheet, curves, radius);
@@ -60,7 +84,6 @@ ActiveRegion active_region(const Sheet& sheet, std::span<const Curve> curves, do
     if (triangle.alive() && !std::ranges::all_of(triangle.vertex, [&](VertexIndex v) { return kept[v()] != 0; }))
       region.outside.push_back(TriangleIndex(t));
   }
-  if (region.outside.empty()) return region;
   for (std::size_t v = 0; v < near.size(); ++v) {
     const Point2 p = sheet.rest(VertexIndex(v));
     if (kept[v] && !near[v]) region.pins.push_back({.where = {p, p}});

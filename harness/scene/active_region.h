@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "harness/fem/physics.h"
@@ -10,13 +11,19 @@
 
 namespace cutbench {
 
+/// Throws InputError, which begins with `name`, where the radius is less than the longest edge: triangles that a cut
+/// crosses might be left out.
+void check_active_radius(const Sheet& sheet, double radius, const std::string& name);
+
 struct ActiveRegion {
-  std::vector<TriangleIndex> outside;  ///< left out; empty: nothing, as no vertex is so far, or none is near
-  std::vector<Pin> pins;               ///< round it, each a vertex: what stays where it is
+  std::vector<TriangleIndex> outside;  ///< left out
+  std::vector<Pin> pins;               ///< each a vertex that is kept, and stays where it is
 };
 
-/// Vertices no farther than `radius` (rest units) from a curve, or inside a closed one, move. Round them two rings of vertices stay and are held,
-/// so that slopes are held, too. Looks at everything.
+/// Vertices move that are no farther than `radius` (rest units) from a curve, or between it and its chord: what a cut
+/// parts from the sheet moves. Round them two rings of vertices are kept and held, so that slopes are held, too. Nothing
+/// is left out, and nothing held, where no vertex is near. Looks at everything.
+/// \pre check_active_radius()
 ActiveRegion active_region(const Sheet& sheet, std::span<const Curve> curves, double radius);
 
 }  // namespace cutbench

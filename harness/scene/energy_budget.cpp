@@ -42,9 +42,9 @@ Field stiffness_times(const Model<D>& model, const Field& w, const Field& mass_w
 
 }  // namespace
 
-EnergyBudget::EnergyBudget(const Balance& first, Integrator integrator, double noise)
+EnergyBudget::EnergyBudget(const Balance& first, Integrator integrator, double noise, double time)
     : integrator_(integrator), scale_(noise) {
-  rows_.push_back({.energy = first.energy});
+  rows_.push_back({.time = time, .energy = first.energy});
   judge_last();
 }
 

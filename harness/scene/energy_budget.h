@@ -58,8 +58,10 @@ class EnergyBudget {
                           most_unexplained_explicit = 0.5;
 
   /// \param noise  J: energies below it are rounding
+  /// \param time   s, of the first moment
   /// \pre balance_of() the first moment; the integrator is not equilibrium.
-  explicit EnergyBudget(const Balance& first, Integrator integrator = Integrator::backward_euler, double noise = 0);
+  explicit EnergyBudget(const Balance& first, Integrator integrator = Integrator::backward_euler, double noise = 0,
+                        double time = 0);
 
   /// After a step from `before` to `after`: \pre the model's matrix is still that step's.
   template <int D>

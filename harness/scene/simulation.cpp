@@ -73,6 +73,7 @@ class SceneInMotion : public Simulation {
   explicit SceneInMotion(const Scene& scene)
       : scene_(scene), now_(scene), trial_(now_), before_cuts_(now_.sheet), stepper_(options_of(scene)) {
     now_.model.reserve_spare(), trial_.model.reserve_spare();
+    check_active_radius(now_.sheet, scene.physics.active_radius, scene.stem);
     for (const auto& cut : scene.cuts)
       cuts_.push_back({cut.time, cut.speed, curves_of(cut, now_.sheet), cut.picked, {}, 0});
   }
@@ -226,30 +227,28 @@ class SceneInMotion : public Simulation {
 
   void begin_budget() {
     const double noise = 1e-20 * scene_.material.stiffness / scene_.material.density * now_.model.lumped_mass().sum();
-    if (watched_ && keeps_budget(scene_.integrator)) budget_.emplace(balance(), scene_.integrator, noise);
+    if (watched_ && keeps_budget(scene_.integrator))
+      budget_.emplace(balance(), scene_.integrator, noise, now_.state.time);
   }
 
-  /// Before the first cut; the budget begins again with what is left.
+  /// Before the first cut. The budget begins again with what is left.
   void leave_out_far_parts() {
     if (!std::isfinite(scene_.physics.active_radius)) return;
     StopWatch watch;
     std::vector<Curve> curves;
     for (const DueCut& cut : cuts_) curves.insert(curves.end(), cut.curves.begin(), cut.curves.end());
     const ActiveRegion region = active_region(now_.sheet, curves, scene_.physics.active_radius);
-    if (region.outside.empty()) return;
+    if (region.pins.empty()) return;
     now_.sheet.begin_cut();
     now_.sheet.remove(region.outside);
-    now_.locator.update(now_.sheet);
     transfer(now_.sheet.log(), now_.sheet.deformed_slots(), D, now_.state);
-    now_.model.update(now_.sheet), now_.model.update_bending(now_.sheet), now_.model.hold(now_.sheet, region.pins);
+    renumber(now_.sheet.compact().deformed, D, now_.state);
+    now_.locator = Locator(now_.sheet);
+    now_.pins.insert(now_.pins.end(), region.pins.begin(), region.pins.end());
     hold_tied_vertices(region.pins, {}, now_.sheet);
-    for (std::size_t i = 0; i < now_.model.held().size(); ++i) {
-      if (!now_.model.pinned(i)) continue;
-      const auto k = static_cast<Eigen::Index>(i);
-      now_.state.anchor[k] = now_.state.x[k] - now_.model.held_displacement(i, now_.state.time);
-      now_.state.v[k] = now_.model.held_velocity(i);
-    }
-    now_.state.dv.resize(0);
+    now_.model = Model<D>(now_.sheet, scene_.material, scene_.physics, now_.pins, scene_.tractions);
+    now_.model.reserve_spare();
+    hold_where_it_is(now_.model, now_.state);
     before_cuts_ = now_.sheet;
     next_.update_us += watch.lap();
     begin_budget();
