@@ -18,7 +18,7 @@ constexpr double spread_share = 0.2;  // of the error asked for: the spread of t
 // Triangles x steps of the finest run for the converged value, over the scene's; and where a cheaper candidate waits.
 constexpr double most_refined = 64, most_refined_to_decide = 1024;
 constexpr double much_cheaper = 1.25;  // the best over an undecided candidate, in cost: worth refining
-constexpr double widest = 4;  // triangles x steps over those of the first good candidate: more can't be the cheapest
+constexpr double widest = 8;  // triangles x steps over those of the first good candidate: more is not the cheapest
 constexpr double candidate_patience =
     4;                             // of a candidate's run, watching it included: times the cheapest good one so far
 constexpr double near_best = 1.5;  // in cost: timed again
