@@ -136,7 +136,7 @@ def print_numbers(rows, worth):
 def main():
     def label(description, frame):
         offset, turn = Reference(options.results).difference(description, frame)
-        return f"max AR {frame.cell['aspect_ratio'].max():.0f}; differs by {offset:.1f} mm, {turn:.1f}°"
+        return f"max AR {frame.cell['aspect_ratio'].max():.0f}, {offset:.1f} mm, {turn:.1f}°"
     options = scene_panels.arguments(STEM, __doc__)
     scene_panels.main(STEM, __doc__, [Shot(f"{STEM}_patches", "direct solver", TIMES[0], FROM_ABOVE, box=BOX),
                                       Shot(f"{STEM}_unconverged", "CG stopped at 0.3", TIMES[0], FROM_ABOVE, box=BOX)],
