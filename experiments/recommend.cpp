@@ -16,7 +16,7 @@ namespace {
 constexpr double finest = 2, side_span = 8, steps_span = 16;  // of the candidates: times the scene's; over the coarsest
 constexpr double spread_share = 0.2;  // of the error asked for: the spread of the converged value that is small enough
 // Triangles x steps of the finest run for the converged value, over the scene's; and where a cheaper candidate waits.
-constexpr double most_refined = 64, most_refined_to_decide = 1024;
+constexpr double most_refined = 64, most_refined_to_decide = 256;
 constexpr double much_cheaper = 1.25;  // the best over an undecided candidate, in cost: worth refining
 constexpr double widest = 8;  // triangles x steps over those of the first good candidate: more is not the cheapest
 constexpr double candidate_patience =

@@ -75,7 +75,7 @@ def tongue(draw, T):
 SETS = {
     "calibration": dict(seed=1918, kinds=[pulled, sagging, flap], sheets=["grid", "alternating"], stiffness=(500, 2000),
                         poisson=(0.25, 0.35), density=(0.5, 2.0)),
-    "validation": dict(seed=2027, kinds=[sheared, loaded, tongue], sheets=["delaunay", "graded"], stiffness=(2500, 6000),
+    "validation": dict(seed=2028, kinds=[sheared, loaded, tongue], sheets=["delaunay", "graded"], stiffness=(2500, 6000),
                        poisson=(0.38, 0.47), density=(2.0, 3.0)),
 }
 
