@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "harness/base/prefetch.h"
 #include "harness/fem/growing_rows.h"
 #include "harness/fem/lanes.h"
 
@@ -57,13 +58,23 @@ class BlockMatrix {
   std::size_t block_count() const;                             ///< in use
   std::size_t slot_count() const { return columns_.slots(); }  ///< with those that rows have moved out of
 
+  /// Before row_product() of a row that is some rows ahead.
+  void prefetch_row(std::size_t i) const {
+    prefetch(columns_[i].data(), columns_[i].size());
+    prefetch(blocks_.data() + columns_.begin(i), columns_[i].size());
+  }
   /// Row i times x, whose vertices have a Lanes each: the D values, then zeros. D = 1: the entries times whole Lanes.
   Lanes row_product(std::size_t i, std::span<const Lanes> x) const {
     const Block* block = blocks_.data() + columns_.begin(i);
     if constexpr (D == 1) {
-      Lanes sum{};
-      for (const std::int32_t j : columns_[i]) sum += (*block++)(0) * x[static_cast<std::size_t>(j)];
-      return sum;
+      // Two sums, so that additions don't wait for each other.
+      const auto columns = columns_[i];
+      const auto term = [&](std::size_t k) { return block[k](0) * x[static_cast<std::size_t>(columns[k])]; };
+      Lanes sum{}, other{};
+      std::size_t k = 0;
+      for (; k + 2 <= columns.size(); k += 2) sum += term(k), other += term(k + 1);
+      if (k < columns.size()) sum += term(k);
+      return sum + other;
     } else {
       // Entries four by four, which belong to different rows: sorted out at the end.
       Lanes first{}, second{}, last{};

@@ -1,32 +1,48 @@
 #include "harness/fem/system_matrix.h"
 
+#include <algorithm>
+
 namespace cutbench {
+
+namespace {
+
+constexpr std::size_t rows_ahead = 4;  // of the row at hand, to be read from memory
+
+}  // namespace
+
+/// Calls take(i, row i of A x). All parts row by row, so that each value of the product is written once.
+template <int D>
+template <class Take>
+void SystemMatrix<D>::for_each_product(const Field& x, const Take& take) const {
+  const std::size_t n = vertices();
+  x_.resize(n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < D; ++k) x_[i][k] = x[static_cast<Eigen::Index>(D * i + k)];
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t ahead = std::min(i + rows_ahead, n - 1);
+    blocks->prefetch_row(ahead);
+    Lanes sum = blocks->row_product(i, x_);
+    for (const auto& term : scalar) {
+      term.matrix->prefetch_row(ahead);
+      sum += term.factor * term.matrix->row_product(i, x_);
+    }
+    take(i, sum);
+  }
+}
 
 template <int D>
 void SystemMatrix<D>::add_product(const Field& x, Field& y) const {
-  blocks->add_product(1, x, y);
-  for (const auto& term : scalar) add_product_per_coordinate(*term.matrix, D, term.factor, x, y);
+  for_each_product(x, [&](std::size_t i, Lanes sum) {
+    for (std::size_t k = 0; k < D; ++k) y[static_cast<Eigen::Index>(D * i + k)] += sum[k];
+  });
 }
 
 template <int D>
 void SystemMatrix<D>::multiply(const Field& x, Field& y) const {
-  // All parts row by row, so that y is written once: the product is bound by memory.
-  using Vector = Eigen::Matrix<double, D, 1>;
-  const auto at = [&](std::int32_t j) { return Eigen::Map<const Vector>(x.data() + D * j); };
   y.resize(x.size());
-  for (std::size_t i = 0; i < vertices(); ++i) {
-    Vector sum = Vector::Zero();
-    std::int32_t slot = blocks->first_slot(i);
-    for (const auto j : blocks->columns(i)) sum.noalias() += blocks->block(slot++) * at(j);
-    for (const auto& term : scalar) {
-      Vector part = Vector::Zero();
-      slot = term.matrix->first_slot(i);
-      for (const auto j : term.matrix->columns(i)) part += term.matrix->block(slot++)(0) * at(j);
-      sum += term.factor * part;
-    }
-    for (std::size_t k = 0; k < D; ++k)
-      y[static_cast<Eigen::Index>(D * i + k)] = (*held)[D * i + k] ? 0 : sum[static_cast<Eigen::Index>(k)];
-  }
+  for_each_product(x, [&](std::size_t i, Lanes sum) {
+    for (std::size_t k = 0; k < D; ++k) y[static_cast<Eigen::Index>(D * i + k)] = (*held)[D * i + k] ? 0 : sum[k];
+  });
 }
 
 template <int D>

@@ -33,6 +33,11 @@ struct SystemMatrix {
   void multiply(const Field& x, Field& y) const;
   /// The block on the diagonal of row i; a held unknown has 1 there and zeros beside it.
   typename BlockMatrix<D>::Block diagonal(std::size_t i) const;
+
+ private:
+  template <class Take>
+  void for_each_product(const Field& x, const Take& take) const;
+  mutable std::vector<Lanes> x_;  // working storage of the products
 };
 
 }  // namespace cutbench
