@@ -74,6 +74,52 @@ TYPED_TEST(Sweeps, AreTriangularSolves) {
   EXPECT_LT((values(z) - second).norm(), close * second.norm());
 }
 
+/// Small scalars are left out of both rows or of none, also where one of them has changed since. The dense matrix has
+/// them all.
+TEST(LevelMatrix, LeavesSmallScalarsOut) {
+  constexpr std::int32_t n = 30;
+  Random random(8);
+  LevelRows rows;
+  rows.resize(n);
+  Eigen::MatrixXd scalars = Eigen::MatrixXd::Zero(n, n);
+  for (std::int32_t i = 0; i < n; ++i) {
+    scalars(i, i) = random.between(1, 2);
+    for (std::int32_t j = 0; j < i; ++j)
+      scalars(i, j) = scalars(j, i) = (i + j) % 2 ? random.between(-0.005, 0.005) : random.between(0.1, 0.2);
+  }
+  const auto set = [&](std::int32_t i) {
+    std::vector<std::int32_t> columns(n);
+    std::vector<double> values(n);
+    for (std::int32_t j = 0; j < n; ++j)
+      columns[static_cast<std::size_t>(j)] = j, values[static_cast<std::size_t>(j)] = scalars(i, j);
+    rows.blocks.set(static_cast<std::size_t>(i), columns);
+    rows.set_scalars(static_cast<std::size_t>(i), columns, values);
+  };
+  for (std::int32_t i = 0; i < n; ++i) set(i);
+  LevelMatrix<2, double> a;
+  a.follow(rows);
+  const auto taken = [&] {
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n, n);
+    for (std::int32_t i = 0; i < n; ++i)
+      a.for_each_scalar(static_cast<std::size_t>(i), [&](std::int32_t j, double value) { all(i, j) = value; });
+    return all;
+  };
+  for (std::int32_t i = 0; i < n; ++i)
+    for (std::int32_t j = 0; j < n; ++j) EXPECT_EQ(taken()(i, j), (i + j) % 2 ? 0 : scalars(i, j));
+  EXPECT_EQ(a.scalar_count(), static_cast<std::size_t>(n * n / 2));
+
+  // A cut makes slivers of one row, and takes most of another.
+  scalars(3, 3) *= 1e4, scalars(8, 8) *= 1e-4;
+  std::vector<std::int32_t> changed{3, 8};
+  for (const std::int32_t i : changed) set(i);
+  a.follow(rows, changed);
+  EXPECT_EQ(taken(), taken().transpose());
+  EXPECT_EQ(taken()(3, 3), scalars(3, 3));
+  EXPECT_EQ(taken()(3, 7), scalars(3, 7));
+  for (std::int32_t i = 0; i < n; ++i)
+    for (std::int32_t j = 0; j < n; ++j) EXPECT_EQ(a.dense()(2 * i, 2 * j), scalars(i, j));
+}
+
 // --- stiff clusters --------------------------------------------------------------------------------------------------
 
 /// The corrections are those of dense solves, one cluster after the other, and the residual that is kept is the true one.

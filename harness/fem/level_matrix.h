@@ -1,6 +1,10 @@
 // The matrix of one level of a multigrid hierarchy, with the sweeps of its smoother: Gauss-Seidel by the blocks of the
 // unknowns, forwards before the coarse correction and backwards after it, so that the whole cycle is symmetric
 // (Trottenberg, Oosterlee and Schueller, Multigrid, 2001, 2.5 and 2.7.2).
+//
+// The sweeps leave small scalars out. Bending couples each vertex to some 35 others, most of them hardly at all. Coarser
+// levels are made from all scalars, so the cycle stays positive definite whatever its sweeps leave out: with sweeps S of
+// the matrix without the small scalars, A, and coarse corrections C, it is (S + S' - S' A S) + (I - S' A) C (I - A S).
 #pragma once
 
 #include <Eigen/Core>
@@ -17,11 +21,13 @@ class LevelMatrix {
   static constexpr std::size_t padding = 4;
   using Vector = std::vector<S>;
 
-  /// Takes the scalars of these rows, and has room for the blocks of all. `rows` must outlive it, and stay where it is.
+  /// Takes the scalars of these rows that are not small, and has room for the blocks of all. `rows` must outlive it, and stay where it is.
   void follow(const LevelRows& rows, std::span<const std::int32_t> changed);
   void follow(const LevelRows& rows);  ///< all rows, with room to grow by half
   std::size_t size() const { return rows_->size(); }
   const LevelRows& rows() const { return *rows_; }
+  /// Scalars that the sweeps take.
+  std::size_t scalar_count() const;
   /// D x D values of a slot of the block rows, column by column.
   S* block(std::size_t slot) { return blocks_.data() + D * D * slot; }
   const S* block(std::size_t slot) const { return blocks_.data() + D * D * slot; }
@@ -35,16 +41,17 @@ class LevelMatrix {
       values += D * D;
     }
   }
+  /// Without the small ones.
   template <class Visit>
   void for_each_scalar(std::size_t i, const Visit& visit) const {
-    std::size_t slot = rows_->scalars.first_slot(i);
-    for (const std::int32_t j : rows_->scalars[i]) visit(j, scalars_[slot++]);
+    std::size_t slot = near_.first_slot(i);
+    for (const std::int32_t j : near_[i]) visit(j, scalars_[slot++]);
   }
 
   using Block = Eigen::Matrix<double, D, D>;
   /// The block on the diagonal of row i, with its scalar. \pre the row is not empty
   Block diagonal(std::size_t i) const;
-  Eigen::MatrixXd dense() const;
+  Eigen::MatrixXd dense() const;  ///< with all scalars
   /// The inverse of the block on the diagonal of row i, zero in rows and columns of held coordinates.
   void set_inverse(std::size_t i, const Block& inverse) {
     Eigen::Map<Eigen::Matrix<S, D, D>>(inverse_.data() + D * D * i) = inverse.template cast<S>();
@@ -58,15 +65,23 @@ class LevelMatrix {
  private:
   using Columns = std::span<const std::int32_t>;
   using Sum = Eigen::Array<S, 4, 1>;
+  void find_scales(std::span<const std::int32_t> changed);
+  void take_scalars(std::size_t i);
+  void prefetch_row(std::size_t i) const;
   void subtract_blocks(std::size_t slot, Columns columns, const Vector& z, Sum& sum) const;
   void subtract_scalars(std::size_t slot, Columns columns, const Vector& z, Sum& sum) const;
   void subtract_below(std::size_t i, const Vector& z, Sum& sum) const;
   void subtract_above(std::size_t i, const Vector& z, Sum& sum) const;
-  void relax(std::size_t i, const Sum& residual, Vector& z) const;
+  Sum times_inverse(std::size_t i, const Sum& residual) const;
 
   const LevelRows* rows_ = nullptr;
-  Vector blocks_, scalars_;  // per slot
+  SweepRows near_;             // columns of the scalars that are not small
+  Vector blocks_, scalars_;    // per slot, of rows_->blocks and of near_
+  std::vector<double> scale_;  // per row: what its scalars are compared with; 0 where it is empty
+  double median_scale_ = 0;
   Vector inverse_;
+  std::vector<std::int32_t> columns_;  // working storage of take_scalars(), with the next
+  std::vector<S> values_;
 };
 
 }  // namespace cutbench

@@ -229,14 +229,13 @@ void Multigrid<D>::fill_coarse_levels() {
 template <int D>
 auto Multigrid<D>::entries() const -> Entries {
   Entries all;
-  const auto add = [&](const LevelRows& rows) {
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      all.blocks += static_cast<double>(rows.blocks[i].size());
-      all.scalars += static_cast<double>(rows.scalars[i].size());
-    }
+  const auto add = [&](const auto& level) {
+    for (std::size_t i = 0; i < level.matrix.size(); ++i)
+      all.blocks += static_cast<double>(level.matrix.rows().blocks[i].size());
+    all.scalars += static_cast<double>(level.matrix.scalar_count());
   };
-  add(rows_);
-  for (const CoarseLevel& level : coarse_) add(level.rows);
+  in_doubles_ ? add(finest_in_doubles_) : add(finest_);
+  for (const CoarseLevel& level : coarse_) add(level);
   return all;
 }
 
