@@ -281,7 +281,7 @@ void check_times(const Scene& scene, const std::string& name) {
     throw InputError(name + ": nothing holds the sheet against gravity in equilibrium; add [[pins]]");
 }
 
-void check_active_radius(const Scene& scene, const std::string& name) {
+void check_scene_suits_active_radius(const Scene& scene, const std::string& name) {
   if (!std::isfinite(scene.physics.active_radius)) return;
   if (scene.integrator == Integrator::equilibrium)
     throw InputError(name + ": in equilibrium nothing has moved before the cut; leave \"active_radius\" out");
@@ -333,7 +333,7 @@ Scene read_scene(const std::filesystem::path& file) {
            "cuts", "cut", {"time", "speed", "space", "bezier", "polyline", "closed", "family", "seed", "case"}))
     scene.cuts.push_back(read_cut(cut));
   check_times(scene, reader.where);
-  check_active_radius(scene, reader.where);
+  check_scene_suits_active_radius(scene, reader.where);
   return scene;
 }
 

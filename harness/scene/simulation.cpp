@@ -73,7 +73,7 @@ class SceneInMotion : public Simulation {
   explicit SceneInMotion(const Scene& scene)
       : scene_(scene), now_(scene), trial_(now_), before_cuts_(now_.sheet), stepper_(options_of(scene)) {
     now_.model.reserve_spare(), trial_.model.reserve_spare();
-    check_active_radius(now_.sheet, scene.physics.active_radius, scene.stem);
+    check_radius_spans_edges(now_.sheet, scene.physics.active_radius, scene.stem);
     for (const auto& cut : scene.cuts)
       cuts_.push_back({cut.time, cut.speed, curves_of(cut, now_.sheet), cut.picked, {}, 0});
   }
