@@ -135,8 +135,8 @@ std::vector<AblatedScene> ablations_of(const Scene& scene) {
   if (scene.physics.dimension == 3)
     add("the third dimension", [](Scene& s) { s.physics.dimension = 2, s.physics.bending = BendingKind::none; });
   const bool in_motion = !at_rest(scene);
-  if (in_motion && knows_cuts(scene) && std::isinf(scene.physics.active_radius))
-    add("motion far from the cuts", [](Scene& s) { s.physics.active_radius = active_share * longer_side(s); });
+  if (in_motion && knows_cuts(scene) && std::isinf(scene.active_radius))
+    add("motion far from the cuts", [](Scene& s) { s.active_radius = active_share * longer_side(s); });
   if (in_motion && scene.integrator != Integrator::xpbd && scene.physics.mass == Mass::lumped)
     all.push_back(position_based_scene(scene));
   if (in_motion) add("every second step", [](Scene& s) { set_steps(s, steps_of(s) / 2); });
@@ -158,7 +158,7 @@ std::vector<Ablation> ablate(const Scene& scene, CuttingMethod& method, const Cu
     }
     rows.push_back(row_of(ablated.without, made));
     if (!whole || !made.ended()) return;
-    const bool is_part = ablated.scene.physics.active_radius < scene.physics.active_radius;
+    const bool is_part = ablated.scene.active_radius < scene.active_radius;
     rows.back().deviation =
         (is_part ? largest_deviation_of_part : largest_deviation)(*whole, made.motion->posed_sheet());
   };

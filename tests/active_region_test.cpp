@@ -35,7 +35,7 @@ Scene hanging(double radius) {
                     .mass_damping = 0.5,
                     .stiffness_damping = 1e-3};
   scene.physics.bending = BendingKind::patches, scene.physics.gravity = {0, 0, -9.81};
-  scene.physics.active_radius = radius;
+  scene.active_radius = radius;
   for (const Point2 corner : {Point2{0, 1}, Point2{1, 1}}) scene.pins.push_back({.near = corner, .pin = {}});
   scene.step = 1.0 / 240, scene.duration = 0.3;
   scene.cuts.push_back(cut_at(0.1, {{0.35, 0.42}, {0.65, 0.47}}));
@@ -47,7 +47,7 @@ Scene drawn(double radius) {
   Scene scene;
   scene.family = "delaunay", scene.resolution = 800;
   scene.material = {.density = 1, .stiffness = 1000, .poisson = 0.3, .mass_damping = 20};
-  scene.physics.dimension = 2, scene.physics.active_radius = radius;
+  scene.physics.dimension = 2, scene.active_radius = radius;
   scene.pins.push_back({.near = {}, .pin = {.where = {{-infinite, -infinite}, {infinite, 0}}}});
   scene.pins.push_back({.near = {}, .pin = {.where = {{-infinite, 1}, {infinite, infinite}}, .velocity = {0, 0.1, 0}}});
   scene.step = 1.0 / 120, scene.duration = 1;
@@ -208,7 +208,7 @@ TEST_P(LocalDynamicsOf, IsTheWholeSheetHeldFarAway) {
                     .stiffness_damping = 1e-3};
   local.physics.dimension = kind.dimension, local.physics.bending = kind.bending, local.physics.mass = kind.mass;
   local.physics.gravity = {1, 3, kind.dimension == 3 ? -9.81 : 0};
-  local.physics.active_radius = radius;
+  local.active_radius = radius;
   local.integrator = kind.integrator, local.solver = {.name = kind.solver, .tolerance = 1e-11};
   local.step = kind.integrator == Integrator::symplectic_euler ? 2e-4 : 1.0 / 240, local.duration = 0.05;
   local.pins.push_back({.near = {}, .pin = {.where = {{-infinite, -infinite}, {0, infinite}}}});
@@ -217,7 +217,7 @@ TEST_P(LocalDynamicsOf, IsTheWholeSheetHeldFarAway) {
   local.cuts[1].speed = kind.speed;
 
   Scene held = local;
-  held.physics.active_radius = infinite;
+  held.active_radius = infinite;
   const Sheet sheet(mesh_of(held));
   for (std::size_t v = 0; v < sheet.vertex_slots(); ++v) {
     const Point2 p = sheet.rest(VertexIndex(v));

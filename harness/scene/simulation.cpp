@@ -73,7 +73,7 @@ class SceneInMotion : public Simulation {
   explicit SceneInMotion(const Scene& scene)
       : scene_(scene), now_(scene), trial_(now_), before_cuts_(now_.sheet), stepper_(options_of(scene)) {
     now_.model.reserve_spare(), trial_.model.reserve_spare();
-    check_radius_spans_edges(now_.sheet, scene.physics.active_radius, scene.stem);
+    check_radius_spans_edges(now_.sheet, scene.active_radius, scene.stem);
     for (const auto& cut : scene.cuts)
       cuts_.push_back({cut.time, cut.speed, curves_of(cut, now_.sheet), cut.picked, {}, 0});
   }
@@ -233,11 +233,11 @@ class SceneInMotion : public Simulation {
 
   /// Before the first cut. The budget begins again with what is left.
   void leave_out_far_parts() {
-    if (!std::isfinite(scene_.physics.active_radius)) return;
+    if (!std::isfinite(scene_.active_radius)) return;
     StopWatch watch;
     std::vector<Curve> curves;
     for (const DueCut& cut : cuts_) curves.insert(curves.end(), cut.curves.begin(), cut.curves.end());
-    const ActiveRegion region = active_region(now_.sheet, curves, scene_.physics.active_radius);
+    const ActiveRegion region = active_region(now_.sheet, curves, scene_.active_radius);
     if (region.pins.empty()) return;
     now_.sheet.begin_cut();
     now_.sheet.remove(region.outside);
