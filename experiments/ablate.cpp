@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "experiments/scene_run.h"
+#include "harness/cases/cut_families.h"
 #include "harness/mesh/families.h"
 
 namespace cutbench {
@@ -34,19 +34,6 @@ double largest_deviation(const Sheet& a, const Sheet& b) {
     largest = std::max(largest, distance(a.position(i), b.position(i)));
   }
   return largest;
-}
-
-using Places = std::map<std::pair<double, double>, std::vector<Point3>>;
-
-/// By rest position: where its vertices are, those of both lips.
-Places places_of(const Sheet& sheet) {
-  Places places;
-  for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) {
-    if (!in_use(sheet, d)) continue;
-    const Point2 rest = sheet.rest(sheet.rest_vertex(DeformedIndex(d)));
-    places[{rest.x, rest.y}].push_back(sheet.position(DeformedIndex(d)));
-  }
-  return places;
 }
 
 double largest_distance_to_nearest(const std::vector<Point3>& from, const std::vector<Point3>& to) {
@@ -75,11 +62,8 @@ double largest_deviation_of_part(const Sheet& whole, const Sheet& part) {
 
 /// In rest space, m.
 double longer_side(const Scene& scene) {
-  const MeshData mesh = mesh_of(scene);
-  Point2 low = mesh.rest.front(), high = low;
-  for (const Point2 p : mesh.rest)
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)}, high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  return std::max(high.x - low.x, high.y - low.y);
+  const SheetExtent extent = extent_of(Sheet(mesh_of(scene)));
+  return std::max(extent.high.x - extent.low.x, extent.high.y - extent.low.y);
 }
 
 /// The cuts are known from the start, in rest space.
@@ -135,8 +119,8 @@ std::vector<AblatedScene> ablations_of(const Scene& scene) {
   if (scene.physics.dimension == 3)
     add("the third dimension", [](Scene& s) { s.physics.dimension = 2, s.physics.bending = BendingKind::none; });
   const bool in_motion = !at_rest(scene);
-  if (in_motion && knows_cuts(scene) && std::isinf(scene.physics.active_radius))
-    add("motion far from the cuts", [](Scene& s) { s.physics.active_radius = active_share * longer_side(s); });
+  if (in_motion && knows_cuts(scene) && std::isinf(scene.active_radius))
+    add("motion far from the cuts", [](Scene& s) { s.active_radius = active_share * longer_side(s); });
   if (in_motion && scene.integrator != Integrator::xpbd && scene.physics.mass == Mass::lumped)
     all.push_back(position_based_scene(scene));
   if (in_motion) add("every second step", [](Scene& s) { set_steps(s, steps_of(s) / 2); });
@@ -158,7 +142,7 @@ std::vector<Ablation> ablate(const Scene& scene, CuttingMethod& method, const Cu
     }
     rows.push_back(row_of(ablated.without, made));
     if (!whole || !made.ended()) return;
-    const bool is_part = ablated.scene.physics.active_radius < scene.physics.active_radius;
+    const bool is_part = ablated.scene.active_radius < scene.active_radius;
     rows.back().deviation =
         (is_part ? largest_deviation_of_part : largest_deviation)(*whole, made.motion->posed_sheet());
   };

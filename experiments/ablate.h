@@ -16,10 +16,19 @@ struct AblatedScene {
   Scene scene;
 };
 
-/// The scene, and the scene without each part that it has, one at a time: bending, the stiffness from stress, Newton's
-/// iterations but the first, the nonlinear strain (co-rotational), the rotation of elements (linear strain), the triangles
-/// (springs along their edges), the third dimension (and bending with it), in motion what is far from the
-/// cuts (if all are known from the start), linear solves, every second step, and three of four triangles.
+/// The scene, and then the scene without one part at a time, of the parts that it has:
+/// - bending
+/// - the stiffness from stress
+/// - Newton's iterations but the first
+/// - the nonlinear strain: co-rotational instead
+/// - the rotation of elements: linear strain instead
+/// - the triangles: springs along their edges instead
+/// - the third dimension, and bending with it
+/// - the motion far from the cuts, where all cuts are known from the start (Scene::active_radius)
+/// - linear solves: xpbd instead
+/// - every second step
+/// - three of four triangles, unless the sheet is read from a file
+/// Of a scene in equilibrium Newton's iterations, the motion far from the cuts, linear solves and steps stay.
 std::vector<AblatedScene> ablations_of(const Scene& scene);
 
 /// Where a simulation ends, and what it took.

@@ -220,6 +220,7 @@ Recommendation recommend(const Scene& scene, const RecommendOptions& options, co
   Recommendation result{.converged = {}, .unknown = beyond(scene, calibration)};
   if (!result.unknown.empty()) return result;
   ConvergedValue converged = converged_value(scene, options);
+  const Choice unrefined = converged.get().finest;
   Candidates candidates(scene, options);
   do {
     result.converged = converged.get();
@@ -230,6 +231,7 @@ Recommendation recommend(const Scene& scene, const RecommendOptions& options, co
     candidates.try_those_left();
   } while (!options.everything && candidates.much_cheaper_is_undecided() && converged.refine(most_refined_to_decide));
 
+  result.refined_to_decide = !(result.converged.finest == unrefined);
   result.trials = candidates.trials();
   if (!result.unknown.empty()) return result;
   result.chosen = candidates.cheapest();

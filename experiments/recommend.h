@@ -49,6 +49,8 @@ struct RecommendOptions {
 struct Recommendation {
   Converged converged;
   double margin = std::numeric_limits<double>::quiet_NaN();  ///< m
+  /// The converged value was refined beyond those of the calibration, because candidates were undecided.
+  bool refined_to_decide = false;
   /// In the order in which they were run; by the next solvers only where the first may be good enough.
   std::vector<SceneTrial> trials = {};
   std::optional<std::size_t> chosen = {};

@@ -55,8 +55,8 @@ void print_recommendation(const Recommendation& result, const RecommendOptions& 
                           const Calibration& calibration) {
   if (!result.converged.runs.empty()) print_converged(result.converged, options.quantity);
   if (std::isfinite(result.margin))
-    std::printf("known to %.2g m in %g %% of scenes like those of %s\n", result.margin, 100 * calibration.level,
-                calibration.file.c_str());
+    std::printf("known to %.2g m in %g %% of scenes like those of %s%s\n", result.margin, 100 * calibration.level,
+                calibration.file.c_str(), result.refined_to_decide ? "; refined beyond theirs" : "");
   std::vector<SceneTrial> good;
   for (const SceneTrial& trial : result.trials)
     if (trial.verdict == "ok" && trial.high <= options.max_error) good.push_back(trial);
@@ -90,6 +90,7 @@ nlohmann::ordered_json json_of(const Converged& converged) {
 nlohmann::ordered_json json_of(const Recommendation& result) {
   return {{"converged", json_of(result.converged)},
           {"margin_m", finite_or_null(result.margin)},
+          {"refined_to_decide", result.refined_to_decide},
           {"chosen", result.chosen ? nlohmann::ordered_json(*result.chosen) : nullptr},
           {"unknown", result.unknown},
           {"trials", json_of(result.trials)}};

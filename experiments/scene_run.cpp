@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <vector>
 
 #include "harness/base/errors.h"
 
@@ -12,6 +11,16 @@ namespace cutbench {
 double distance(Point3 a, Point3 b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
 bool in_use(const Sheet& sheet, std::size_t d) { return sheet.rest_vertex(DeformedIndex(d)).valid(); }
+
+Places places_of(const Sheet& sheet) {
+  Places places;
+  for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) {
+    if (!in_use(sheet, d)) continue;
+    const Point2 rest = sheet.rest(sheet.rest_vertex(DeformedIndex(d)));
+    places[{rest.x, rest.y}].push_back(sheet.position(DeformedIndex(d)));
+  }
+  return places;
+}
 
 namespace {
 
@@ -26,15 +35,10 @@ double largest_deflection(const Sheet& end) {
 }
 
 double largest_gape(const Sheet& end) {
-  std::vector<std::vector<Point3>> copies(end.vertex_slots());
   double largest = 0;
-  for (std::size_t d = 0; d < end.deformed_slots(); ++d)
-    if (in_use(end, d)) {
-      auto& others = copies[end.rest_vertex(DeformedIndex(d))()];
-      const Point3 here = end.position(DeformedIndex(d));
-      for (const Point3 other : others) largest = std::max(largest, distance(here, other));
-      others.push_back(here);
-    }
+  for (const auto& [rest, copies] : places_of(end))
+    for (const Point3 a : copies)
+      for (const Point3 b : copies) largest = std::max(largest, distance(a, b));
   return largest;
 }
 

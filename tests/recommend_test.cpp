@@ -109,12 +109,17 @@ TEST_F(Recommend, TheConvergedValueIsRefinedWhileCheaperCandidatesAreUndecided) 
         "steps = [10, 30]\nmost_spread = 0.1\n");
   ASSERT_EQ(run("recommend scene.toml --reference --max-error 0.1 --quantity deflection --report r.json").code, 0);
   const double unrefined = report()["spread_m"];
-  ASSERT_EQ(run(command("--max-error 0.1 --exhaustive")).code, 1) << "to run all candidates refines nothing";
+  const auto exhaustive = run(command("--max-error 0.1 --exhaustive"));
+  ASSERT_EQ(exhaustive.code, 1) << "to run all candidates refines nothing";
+  EXPECT_EQ(exhaustive.out.find("refined"), std::string::npos) << exhaustive.out;
   EXPECT_NEAR(report()["converged"]["spread_m"], unrefined, 1e-6 * unrefined) << "by another method";
+  EXPECT_FALSE(report()["refined_to_decide"]);
   const auto result = run(command("--max-error 0.1"));
   ASSERT_EQ(result.code, 0) << result.out << result.error;
   const auto r = report();
   EXPECT_LT(r["converged"]["spread_m"], 0.6 * unrefined);
+  EXPECT_TRUE(r["refined_to_decide"]);
+  EXPECT_NE(result.out.find("; refined beyond theirs\n"), std::string::npos) << result.out;
   const double margin = r["margin_m"];
   EXPECT_DOUBLE_EQ(margin, 9 * r["converged"]["spread_m"].get<double>());
   EXPECT_NEAR(r["converged"]["value_m"], exact_fall(), margin);

@@ -88,7 +88,7 @@ TEST_F(SceneFile, DefaultsAreThoseOfTheStruct) {
   EXPECT_EQ(s.material.density, d.material.density);
   EXPECT_EQ(s.physics.strain, d.physics.strain);
   EXPECT_EQ(s.physics.gravity, Point3{});
-  EXPECT_EQ(s.physics.active_radius, infinite);
+  EXPECT_EQ(s.active_radius, infinite);
   EXPECT_EQ(s.step, d.step);
   EXPECT_EQ(s.duration, d.duration);
   EXPECT_EQ(s.solver.tolerance, d.solver.tolerance);
@@ -167,7 +167,7 @@ case = 12
   EXPECT_EQ(s.physics.bending, BendingKind::hinges);
   EXPECT_EQ(s.physics.mass, Mass::consistent);
   EXPECT_EQ(s.physics.gravity, (Point3{1, 2.5, -3}));
-  EXPECT_EQ(s.physics.active_radius, 0.4);
+  EXPECT_EQ(s.active_radius, 0.4);
   ASSERT_EQ(s.pins.size(), 2u);
   EXPECT_EQ(s.pins[0].near, (Point2{0.1, 0.2}));
   EXPECT_EQ(s.pins[0].pin.axes, (std::array{true, false, true}));

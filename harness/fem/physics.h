@@ -76,8 +76,6 @@ struct Physics {
   /// Of a mass that is stabilised or scaled: the largest eigenvalue of an element, over that of the sheet before any cut.
   double mass_limit = 1;
   Point3 gravity{};  ///< m/s2
-  /// m, rest space: from the first cut on, what is farther from all cuts stays where it is (harness/scene/active_region.h).
-  double active_radius = std::numeric_limits<double>::infinity();
 
   StressStiffness stress_stiffness_made() const {
     return strain == Strain::linear ? StressStiffness::none : stress_stiffness;

@@ -3,40 +3,38 @@
 namespace cutbench {
 
 void add_accuracy_run(std::vector<Metric>& t) {
-  t.push_back({"problem", "", "problem", Direction::none, Group::accuracy_run,
-               "Problem with a known answer, harness/truth/problem.h; takes the place of cut_family. `case` is the "
-               "member of its ensemble."});
-  t.push_back(
-      {"solver", "", "solver", Direction::none, Group::accuracy_run, "Linear solver: harness/fem/linear_solver.h."});
-  t.push_back({"budget", "", "iterations allowed", Direction::none, Group::accuracy_run,
-               "Iterations from zero, whatever is reached by then; 0: until solved."});
-  t.push_back(
-      {"tip_functions", "", "tip functions", Direction::none, Group::accuracy_run,
-       "1: solved with functions for the tips (harness/fem/tip_functions.h) beside the linear ones. Such rows have "
-       "two measures more: `tip_k1` and `tip_k2`, K from the functions' coefficients."});
-  t.push_back({"exact_incision", "", "exact incision", Direction::none, Group::accuracy_run,
-               "1: the method promises to open the requested path itself."});
-  t.push_back({"cut_us", "us", "cut", Direction::lower, Group::accuracy_run,
-               "Geometry of the cut, warm. Of the reference: the meshing, with the search for its size."});
-  t.push_back(
-      {"total_us", "us", "total time", Direction::lower, Group::accuracy_run, "Cut, assembly, set-up and solve."});
-  t.push_back({"unknowns", "", "unknowns", Direction::none, Group::accuracy_run, "Free unknowns of the system."});
-  t.push_back({"triangles", "", "triangles", Direction::none, Group::accuracy_run, "Triangles of the cut sheet."});
-  t.push_back({"iterations", "", "iterations", Direction::lower, Group::accuracy_run, "Iterations that were made."});
-  t.push_back({"residual", "", "residual", Direction::lower, Group::accuracy_run,
-               "True residual, relative to the right-hand side."});
-  t.push_back(
-      {"primary", "", "primary measure", Direction::none, Group::accuracy_run, "Name of the measure that ranks."});
-  t.push_back({"error", "", "error", Direction::lower, Group::accuracy_run, "Error of the primary measure."});
-  t.push_back({"excess_error", "", "excess error", Direction::lower, Group::accuracy_run,
-               "error / that of the reference solved directly, minus one; empty where the reference's is below 1e-9, "
-               "exact but for rounding."});
-  t.push_back({"value_*", "", "value of a measure", Direction::none, Group::accuracy_run,
-               "Value of each measure; the measures of problems are in harness/truth."});
-  t.push_back({"exact_*", "", "exact of a measure", Direction::none, Group::accuracy_run,
-               "Its exact value; 0 for a norm of an error."});
-  t.push_back({"error_*", "", "error of a measure", Direction::lower, Group::accuracy_run, "Its error."});
-  t.push_back({"excess_*", "", "excess of a measure", Direction::lower, Group::accuracy_run, "Its excess error."});
+  using enum Direction;
+  constexpr Group group = Group::accuracy_run;
+  t.insert(
+      t.end(),
+      {{"problem", "", "problem", none, group,
+        "Problem with a known answer, harness/truth/problem.h; takes the place of cut_family. `case` is the "
+        "member of its ensemble."},
+       {"solver", "", "solver", none, group, "Linear solver: harness/fem/linear_solver.h."},
+       {"budget", "", "iterations allowed", none, group,
+        "Iterations from zero, whatever is reached by then; 0: until solved."},
+       {"tip_functions", "", "tip functions", none, group,
+        "1: solved with functions for the tips (harness/fem/tip_functions.h) beside the linear ones. Such rows have "
+        "two measures more: `tip_k1` and `tip_k2`, K from the functions' coefficients."},
+       {"exact_incision", "", "exact incision", none, group,
+        "1: the method promises to open the requested path itself."},
+       {"cut_us", "us", "cut", lower, group,
+        "Geometry of the cut, warm. Of the reference: the meshing, with the search for its size."},
+       {"total_us", "us", "total time", lower, group, "Cut, assembly, set-up and solve."},
+       {"unknowns", "", "unknowns", none, group, "Free unknowns of the system."},
+       {"triangles", "", "triangles", none, group, "Triangles of the cut sheet."},
+       {"iterations", "", "iterations", lower, group, "Iterations that were made."},
+       {"residual", "", "residual", lower, group, "True residual, relative to the right-hand side."},
+       {"primary", "", "primary measure", none, group, "Name of the measure that ranks."},
+       {"error", "", "error", lower, group, "Error of the primary measure."},
+       {"excess_error", "", "excess error", lower, group,
+        "error / that of the reference solved directly, minus one; empty where the reference's is below 1e-9, "
+        "exact but for rounding."},
+       {"value_*", "", "value of a measure", none, group,
+        "Value of each measure; the measures of problems are in harness/truth."},
+       {"exact_*", "", "exact of a measure", none, group, "Its exact value; 0 for a norm of an error."},
+       {"error_*", "", "error of a measure", lower, group, "Its error."},
+       {"excess_*", "", "excess of a measure", lower, group, "Its excess error."}});
 }
 
 }  // namespace cutbench

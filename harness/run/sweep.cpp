@@ -142,7 +142,7 @@ std::span<const char* const> poses() { return pose_names; }
 
 Scene read_scene_for_experiment(const std::filesystem::path& file) {
   Scene scene = read_scene(file);
-  if (std::isfinite(scene.physics.active_radius))
+  if (std::isfinite(scene.active_radius))
     throw InputError(
         file.string() +
         ": \"active_radius\" is that round the scene's own cuts, but an experiment makes others; leave it out");

@@ -53,7 +53,8 @@ double longest_edge(const Sheet& sheet) {
 
 }  // namespace
 
-void check_active_radius(const Sheet& sheet, double radius, const std::string& name) {
+void check_radius_spans_edges(const Sheet& sheet, double radius, const std::string& name) {
+  if (std::isinf(radius)) return;
   const double longest = longest_edge(sheet);
   if (radius >= longest) return;
   char text[160];

@@ -13,7 +13,7 @@ namespace cutbench {
 
 /// Throws InputError, which begins with `name`, where the radius is less than the longest edge: triangles that a cut
 /// crosses might be left out.
-void check_active_radius(const Sheet& sheet, double radius, const std::string& name);
+void check_radius_spans_edges(const Sheet& sheet, double radius, const std::string& name);
 
 struct ActiveRegion {
   std::vector<TriangleIndex> outside;  ///< left out
@@ -23,7 +23,7 @@ struct ActiveRegion {
 /// Vertices move that are no farther than `radius` (rest units) from a curve, or between it and its chord: what a cut
 /// parts from the sheet moves. Round them two rings of vertices are kept and held, so that slopes are held, too. Nothing
 /// is left out, and nothing held, where no vertex is near. Looks at everything.
-/// \pre check_active_radius()
+/// \pre check_radius_spans_edges()
 ActiveRegion active_region(const Sheet& sheet, std::span<const Curve> curves, double radius);
 
 }  // namespace cutbench

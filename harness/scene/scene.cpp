@@ -65,10 +65,10 @@ void read_sheet(const TomlReader& file, const std::filesystem::path& folder, Sce
   }
 }
 
-Physics read_physics(const TomlReader& file) {
+void read_physics(const TomlReader& file, Scene& scene) {
   const TomlReader reader = file.section("physics", {"dimension", "plane", "strain", "stress_stiffness", "bending",
                                                      "mass", "mass_limit", "gravity", "active_radius"});
-  Physics p;
+  Physics& p = scene.physics;
   p.dimension = reader.count("dimension", p.dimension);
   if (p.dimension != 2 && p.dimension != 3) reader.refuse("\"dimension\" is 2 (in the plane) or 3");
   p.plane = reader.choice<Plane>("plane", p.plane, plane_names);
@@ -85,10 +85,9 @@ Physics read_physics(const TomlReader& file) {
   if (p.strain == Strain::springs && adds_mass(p.mass))
     reader.refuse("the mass of thin triangles is made for triangles, not for springs; set mass = \"lumped\"");
   p.gravity = read_vector(reader, "gravity", p);
-  if (reader.has("active_radius")) p.active_radius = reader.positive("active_radius", 0);
+  if (reader.has("active_radius")) scene.active_radius = reader.positive("active_radius", 0);
   if (p.bending != BendingKind::none && p.dimension == 2)
     reader.refuse("a 2D scene does not bend; set bending = \"none\", or dimension = 3");
-  return p;
 }
 
 Material read_material(const TomlReader& file, const Physics& physics) {
@@ -281,8 +280,8 @@ void check_times(const Scene& scene, const std::string& name) {
     throw InputError(name + ": nothing holds the sheet against gravity in equilibrium; add [[pins]]");
 }
 
-void check_active_radius(const Scene& scene, const std::string& name) {
-  if (!std::isfinite(scene.physics.active_radius)) return;
+void check_scene_suits_active_radius(const Scene& scene, const std::string& name) {
+  if (!std::isfinite(scene.active_radius)) return;
   if (scene.integrator == Integrator::equilibrium)
     throw InputError(name + ": in equilibrium nothing has moved before the cut; leave \"active_radius\" out");
   const auto picked = [](const Scene::Cut& cut) { return !cut.picked.picks.empty(); };
@@ -321,7 +320,7 @@ Scene read_scene(const std::filesystem::path& file) {
   if (scene.truth.empty()) reader.refuse("\"truth\" is empty; say what the scene is measured against");
   scene.duration = reader.positive("duration", scene.duration);
   read_sheet(reader, file.parent_path(), scene);
-  scene.physics = read_physics(reader);
+  read_physics(reader, scene);
   scene.material = read_material(reader, scene.physics);
   for (const auto& pin : reader.sections("pins", "pin", {"near", "box", "axes", "displacement", "velocity"}))
     scene.pins.push_back(read_pin(pin, scene.physics));
@@ -333,7 +332,7 @@ Scene read_scene(const std::filesystem::path& file) {
            "cuts", "cut", {"time", "speed", "space", "bezier", "polyline", "closed", "family", "seed", "case"}))
     scene.cuts.push_back(read_cut(cut));
   check_times(scene, reader.where);
-  check_active_radius(scene, reader.where);
+  check_scene_suits_active_radius(scene, reader.where);
   return scene;
 }
 

@@ -25,6 +25,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -66,6 +67,8 @@ struct Scene {
 
   Material material;
   Physics physics;
+  /// m, rest space: from the first cut on, what is farther from all cuts stays where it is (harness/scene/active_region.h).
+  double active_radius = std::numeric_limits<double>::infinity();
   std::vector<ScenePin> pins;
   std::vector<Traction> tractions;
 

@@ -7,28 +7,11 @@
 #include "harness/cut/cut_all.h"
 #include "harness/fem/stepper.h"
 #include "harness/scene/energy_budget.h"
+#include "harness/scene/motion_cut.h"
 #include "harness/scene/scene.h"
 #include "harness/scene/step_log.h"
 
 namespace cutbench {
-
-/// A cut in a moving sheet. Times in microseconds, steady clock; nothing is warmed up.
-struct MotionCut {
-  CutRun cut;
-  std::string verdict = "ok", reason;  ///< of the cut and of the steps before and after it
-  std::size_t parts = 0;               ///< a blade cuts one part in each step; the times below are sums over the parts
-  double pick_us = 0;      ///< building the tree of the deformed sheet, and carrying the picks to rest space
-  double transfer_us = 0;  ///< state of new vertices
-  double pattern_us = 0;   ///< element data, mass, loads and the pattern of the system
-  double bending_us = 0;   ///< stencils and rows of the bending matrix
-  StepReport first_step;
-  double rebuild_us = 0;          ///< instead of `pattern`: a new model
-  double bending_rebuild_us = 0;  ///< instead of `bending`: a new bending matrix
-  double triplets_us = 0;  ///< instead of `assemble`: Eigen's setFromTriplets with scalar entries, triplets included
-  /// Right before and after the cut. Of a blade's cut, `after` contains the sum of all jumps, without the motion
-  /// between.
-  Balance before, after;
-};
 
 /// How the steps of a simulation went: `ok`, or what went wrong with them, first. A verdict that ends the simulation
 /// takes the place of one that doesn't.
