@@ -141,8 +141,9 @@ TEST(LinearSolver, SliverBlocksWithoutSliversArePlain) {
   const auto plain = solved<2>({.name = "cg", .tolerance = 1e-6}, sheet, b);
   const auto blocks = solved<2>({.name = "cg_sliver_blocks", .tolerance = 1e-6}, sheet, b);
   EXPECT_TRUE(plain.report.converged);
-  EXPECT_EQ(plain.report.iterations, blocks.report.iterations);
-  EXPECT_LT((plain.x - blocks.x).norm(), 1e-6 * plain.x.norm());  // r.z is summed in another order
+  // r.z is summed in another order.
+  EXPECT_NEAR(plain.report.iterations, blocks.report.iterations, 1);
+  EXPECT_LT((plain.x - blocks.x).norm(), 1e-6 * plain.x.norm());
   sheet = plane_stress(strip(12, 1e-2));
   sheet.elements = {};  // shapes unknown
   const Field x = solved<2>({.name = "cg", .tolerance = 1e-6}, sheet, b).x;

@@ -76,6 +76,7 @@ template <int D, class S>
 void LevelMatrix<D, S>::follow(const LevelRows& rows) {
   std::vector<std::int32_t> all(rows.size());
   std::iota(all.begin(), all.end(), 0);
+  scale_.clear();
   follow(rows, all);
   for (Vector* values : {&blocks_, &scalars_, &inverse_}) values->reserve(values->size() + values->size() / 2);
 }
