@@ -224,16 +224,16 @@ Recommendation recommend(const Scene& scene, const RecommendOptions& options, co
   Candidates candidates(scene, options);
   do {
     result.converged = converged.get();
+    result.refined_to_decide = !(result.converged.finest == unrefined);
+    result.margin = std::numeric_limits<double>::quiet_NaN();
     result.unknown = beyond(result.converged, calibration);
-    if (!result.unknown.empty()) break;
+    if (!result.unknown.empty()) return result;  // what was tried until now was judged by another value
     result.margin = calibration.quantile * result.converged.spread;
     candidates.judge(result.converged.value, result.margin);
     candidates.try_those_left();
   } while (!options.everything && candidates.much_cheaper_is_undecided() && converged.refine(most_refined_to_decide));
 
-  result.refined_to_decide = !(result.converged.finest == unrefined);
   result.trials = candidates.trials();
-  if (!result.unknown.empty()) return result;
   result.chosen = candidates.cheapest();
   if (!result.chosen) {
     result.unknown = shortfall(result.trials, options.max_error);
