@@ -20,7 +20,7 @@ void LevelMatrix<D, S>::follow(const LevelRows& rows, std::span<const std::int32
   rows_ = &rows;
   blocks_.resize(D * D * rows.blocks.slots() + padding);
   inverse_.resize(D * D * rows.size() + padding);
-  near_.resize(rows.size());
+  near_.resize(rows.size()), left_out_.resize(rows.size());
   find_scales(changed);
   for (const std::int32_t row : changed) take_scalars(static_cast<std::size_t>(row));
 }
@@ -53,13 +53,20 @@ void LevelMatrix<D, S>::find_scales(std::span<const std::int32_t> changed) {
 template <int D, class S>
 void LevelMatrix<D, S>::take_scalars(std::size_t i) {
   columns_.clear(), values_.clear();
-  std::size_t slot = rows_->scalars.first_slot(i);
+  double left_out = 0;
+  std::size_t slot = rows_->scalars.first_slot(i), own = 0;
   for (const std::int32_t column : rows_->scalars[i]) {
     const double value = rows_->scalar[slot++];
     const auto j = static_cast<std::size_t>(column);
-    if (j != i && std::abs(value) < small * std::min(scale_[i], scale_[j])) continue;
+    if (j != i && std::abs(value) < small * std::min(scale_[i], scale_[j])) {
+      left_out += value;
+      continue;
+    }
+    if (j == i) own = values_.size();
     columns_.push_back(column), values_.push_back(static_cast<S>(value));
   }
+  if (!columns_.empty()) values_[own] += static_cast<S>(left_out);
+  left_out_[i] = left_out;
   near_.set(i, columns_);
   scalars_.resize(near_.slots());
   std::copy(values_.begin(), values_.end(), scalars_.begin() + static_cast<std::ptrdiff_t>(near_.first_slot(i)));

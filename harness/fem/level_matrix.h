@@ -2,9 +2,10 @@
 // unknowns, forwards before the coarse correction and backwards after it, so that the whole cycle is symmetric
 // (Trottenberg, Oosterlee and Schueller, Multigrid, 2001, 2.5 and 2.7.2).
 //
-// The sweeps leave small scalars out. Bending couples each vertex to some 35 others, most of them hardly at all. Coarser
-// levels are made from all scalars, so the cycle stays positive definite whatever its sweeps leave out: with sweeps S of
-// the matrix without the small scalars, A, and coarse corrections C, it is (S + S' - S' A S) + (I - S' A) C (I - A S).
+// The sweeps add small scalars to the diagonal instead, so that a row times a translation stays what it is: bending
+// couples each vertex to some 35 others, most of them hardly at all. Coarser levels are made from all scalars. So the
+// cycle stays positive definite whatever the sweeps leave out: with their matrix A, the sweeps S and the coarse
+// correction C it is (S + S' - S' A S) + (I - S' A) C (I - A S).
 #pragma once
 
 #include <Eigen/Core>
@@ -49,7 +50,9 @@ class LevelMatrix {
   }
 
   using Block = Eigen::Matrix<double, D, D>;
-  /// The block on the diagonal of row i, with its scalar. \pre the row is not empty
+  /// What the sweeps add to the diagonal of row i: the sum of its small scalars.
+  double left_out(std::size_t i) const { return left_out_[i]; }
+  /// The block on the diagonal of row i, with its scalar and what is left out. \pre the row is not empty
   Block diagonal(std::size_t i) const;
   Eigen::MatrixXd dense() const;  ///< with all scalars
   /// The inverse of the block on the diagonal of row i, zero in rows and columns of held coordinates.
@@ -79,6 +82,7 @@ class LevelMatrix {
   Vector blocks_, scalars_;    // per slot, of rows_->blocks and of near_
   std::vector<double> scale_;  // per row: what its scalars are compared with; 0 where it is empty
   double median_scale_ = 0;
+  std::vector<double> left_out_;  // per row: the sum of its small scalars
   Vector inverse_;
   std::vector<std::int32_t> columns_;  // working storage of take_scalars(), with the next
   std::vector<S> values_;

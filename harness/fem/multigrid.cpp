@@ -131,7 +131,7 @@ void Multigrid<D>::fill(const SystemMatrix<D>& a, Level<S>& level, bool& is_new)
       }
     }
     if (rows_.blocks[i].empty()) continue;
-    Block inverse = inverse_of(Block(a.diagonal(i)));
+    Block inverse = inverse_of(Block(a.diagonal(i) + level.matrix.left_out(i) * Block::Identity()));
     for (int c = 0; c < D && has_held_[i]; ++c)
       if (held(i, c)) inverse(c, c) = 0;
     level.matrix.set_inverse(i, inverse);

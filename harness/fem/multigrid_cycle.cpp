@@ -24,7 +24,10 @@ void Multigrid<D>::cycle(Level<S>& level, std::size_t next) {
     clusters_.correct_forwards(level.matrix, level.z, level.t);
   }
   if (next < coarse_.size()) correct(level, next);
-  if (next == 0) clusters_.correct_backwards(level.matrix, level.r, level.z);
+  if (next == 0) {
+    clusters_.correct_backwards(level.matrix, level.r, level.z);
+    for (const std::size_t u : held_) level.z[u] = 0;
+  }
   level.matrix.sweep_backwards(level.r, level.z);
 }
 
