@@ -93,14 +93,15 @@ std::vector<Phase> phases_of(int n, const MethodRow& row, double& working_set) {
   model.assemble(1, step * step);
   multigrid.setup(a);
   const auto levels = multigrid.entries();
-  const double level_bytes = levels.blocks * (9 * sizeof(float) + 4) + levels.scalars * (sizeof(float) + 4);
+  const double level_blocks = levels.blocks * (9 * sizeof(float) + 4),
+               level_bytes = level_blocks + levels.scalars * (sizeof(float) + 4);
   working_set = elements * (per_element + 36) + matrix + level_bytes + 6 * vector;
   std::vector<Phase> phases{
       {"rotate", elements * per_element + 3 * vector, elements * rotate_operations},
       {"assemble", elements * (per_element + 36) + 3 * 72 * blocks, elements * assemble_operations},
       {"right side", matrix + 4 * vector, 18 * blocks + 6 * scalars},
       {"set-up, coarse kept", matrix + blocks * 36, 9 * blocks},
-      {"set-up, coarse anew", matrix + blocks * 36 + 2 * level_bytes, 3 * 2 * 9 * 9 * blocks},
+      {"set-up, coarse anew", matrix + blocks * 36 + 2 * level_blocks, 3 * 2 * 9 * 9 * blocks},
       {"product", matrix + 2 * vector, 18 * blocks + 6 * scalars},
       {"cycle", 2 * level_bytes + 4 * vector, 2 * (18 * levels.blocks + 6 * levels.scalars)}};
   Field b(state.x.size()), y(state.x.size());

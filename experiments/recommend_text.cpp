@@ -56,7 +56,7 @@ void print_recommendation(const Recommendation& result, const RecommendOptions& 
   if (!result.converged.runs.empty()) print_converged(result.converged, options.quantity);
   if (std::isfinite(result.margin))
     std::printf("known to %.2g m in %g %% of scenes like those of %s%s\n", result.margin, 100 * calibration.level,
-                calibration.file.c_str(), result.refined_to_decide ? "; refined beyond theirs" : "");
+                calibration.file.c_str(), result.refined_to_decide ? "; refined further than those" : "");
   std::vector<SceneTrial> good;
   for (const SceneTrial& trial : result.trials)
     if (trial.verdict == "ok" && trial.high <= options.max_error) good.push_back(trial);

@@ -35,10 +35,15 @@ double largest_deflection(const Sheet& end) {
 }
 
 double largest_gape(const Sheet& end) {
+  std::vector<std::vector<Point3>> copies(end.vertex_slots());
   double largest = 0;
-  for (const auto& [rest, copies] : places_of(end))
-    for (const Point3 a : copies)
-      for (const Point3 b : copies) largest = std::max(largest, distance(a, b));
+  for (std::size_t d = 0; d < end.deformed_slots(); ++d)
+    if (in_use(end, d)) {
+      auto& others = copies[end.rest_vertex(DeformedIndex(d))()];
+      const Point3 here = end.position(DeformedIndex(d));
+      for (const Point3 other : others) largest = std::max(largest, distance(here, other));
+      others.push_back(here);
+    }
   return largest;
 }
 

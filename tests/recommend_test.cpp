@@ -119,7 +119,7 @@ TEST_F(Recommend, TheConvergedValueIsRefinedWhileCheaperCandidatesAreUndecided) 
   const auto r = report();
   EXPECT_LT(r["converged"]["spread_m"], 0.6 * unrefined);
   EXPECT_TRUE(r["refined_to_decide"]);
-  EXPECT_NE(result.out.find("; refined beyond theirs\n"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("; refined further than those\n"), std::string::npos) << result.out;
   const double margin = r["margin_m"];
   EXPECT_DOUBLE_EQ(margin, 9 * r["converged"]["spread_m"].get<double>());
   EXPECT_NEAR(r["converged"]["value_m"], exact_fall(), margin);

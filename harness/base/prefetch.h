@@ -1,17 +1,21 @@
-// Memory that is asked for before it is needed. Short rows end the loops over them at hard to foresee places, and a wrong
-// guess stops the processor from reading on by itself.
+// Memory that is asked for before it is needed. A processor reads ahead by itself, but not past a branch that it foresees
+// wrongly, and loops over short rows of different lengths are full of these.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace cutbench {
+
+constexpr std::size_t rows_ahead = 4;  ///< of the row at hand: those to be asked for
 
 /// Brings `n` items into the cache while other work goes on.
 template <class T>
 void prefetch(const T* begin, std::size_t n) {
   constexpr std::size_t line = 64;  // bytes of the cache
-  const char* const first = reinterpret_cast<const char*>(begin);
-  for (std::size_t byte = 0; byte < n * sizeof(T); byte += line) __builtin_prefetch(first + byte);
+  const auto first = reinterpret_cast<std::uintptr_t>(begin), end = first + n * sizeof(T);
+  for (std::uintptr_t at = first / line * line; at < end; at += line)
+    __builtin_prefetch(reinterpret_cast<const void*>(at));
 }
 
 }  // namespace cutbench

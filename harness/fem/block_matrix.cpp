@@ -48,14 +48,22 @@ void BlockMatrix<D>::add_product(double factor, const Field& x, Field& y) const 
 }
 
 void add_product_per_coordinate(const BlockMatrix<1>& a, int dimension, double factor, const Field& x, Field& y) {
-  const auto d = static_cast<std::size_t>(dimension);
-  std::vector<Lanes> at(a.rows());
-  for (std::size_t i = 0; i < a.rows(); ++i)
-    for (std::size_t k = 0; k < d; ++k) at[i][k] = x[static_cast<Eigen::Index>(d * i + k)];
-  for (std::size_t i = 0; i < a.rows(); ++i) {
-    const Lanes sum = factor * a.row_product(i, at);
-    for (std::size_t k = 0; k < d; ++k) y[static_cast<Eigen::Index>(d * i + k)] += sum[k];
-  }
+  const auto add = [&]<int D>(std::integral_constant<int, D>) {
+    using Vector = Eigen::Matrix<double, D, 1>;
+    for (std::size_t i = 0; i < a.rows(); ++i) {
+      const auto columns = a.columns(i);
+      std::int32_t slot = a.first_slot(i);
+      Vector sum = Vector::Zero();
+      for (const std::int32_t j : columns) sum += a.block(slot++)(0) * Eigen::Map<const Vector>(x.data() + D * j);
+      Eigen::Map<Vector>(y.data() + D * i) += factor * sum;
+    }
+  };
+  if (dimension == 3)
+    add(std::integral_constant<int, 3>());
+  else if (dimension == 2)
+    add(std::integral_constant<int, 2>());
+  else
+    a.add_product(factor, x, y);
 }
 
 template <int D>

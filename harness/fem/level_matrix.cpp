@@ -10,8 +10,7 @@ namespace cutbench {
 
 namespace {
 
-constexpr double small = 0.01;         // of the smaller of two rows' scales
-constexpr std::size_t rows_ahead = 4;  // of the row at hand, to be read from memory
+constexpr double small = 0.01;  // of the smaller of two rows' scales
 
 }  // namespace
 
@@ -26,7 +25,8 @@ void LevelMatrix<D, S>::follow(const LevelRows& rows, std::span<const std::int32
 }
 
 /// A row keeps its scale as long as it is there, so that both rows of an entry leave it out or none does. That of a
-/// sliver is no larger than the median: what ties two vertices must not hide what holds them both.
+/// sliver is no larger than the median: two vertices that a sliver ties move together, and what is small beside that tie
+/// is not small beside what holds them both.
 template <int D, class S>
 void LevelMatrix<D, S>::find_scales(std::span<const std::int32_t> changed) {
   const bool is_first = scale_.empty();
@@ -38,11 +38,13 @@ void LevelMatrix<D, S>::find_scales(std::span<const std::int32_t> changed) {
     else if (scale_[i] == 0)
       scale_[i] = std::abs(rows_->scalar[rows_->scalars.diagonal_slot(i)]);
   }
-  if (is_first && !scale_.empty()) {
-    std::vector<double> sorted = scale_;
+  if (is_first) {
+    std::vector<double> sorted;
+    for (const double scale : scale_)
+      if (scale > 0 && std::isfinite(scale)) sorted.push_back(scale);
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::nth_element(sorted.begin(), middle, sorted.end());
-    median_scale_ = *middle;
+    median_scale_ = sorted.empty() ? 0 : *middle;
   }
   for (const std::int32_t row : changed) {
     auto& scale = scale_[static_cast<std::size_t>(row)];
@@ -83,15 +85,15 @@ template <int D, class S>
 void LevelMatrix<D, S>::follow(const LevelRows& rows) {
   std::vector<std::int32_t> all(rows.size());
   std::iota(all.begin(), all.end(), 0);
-  scale_.clear();
+  near_ = {}, scale_.clear();
   follow(rows, all);
-  for (Vector* values : {&blocks_, &scalars_, &inverse_}) values->reserve(values->size() + values->size() / 2);
+  near_.reserve_spare(), cutbench::reserve_spare(blocks_, scalars_, inverse_, scale_, left_out_);
 }
 
 template <int D, class S>
 auto LevelMatrix<D, S>::diagonal(std::size_t i) const -> Block {
   Block all = Eigen::Map<const Eigen::Matrix<S, D, D>>(block(rows_->blocks.diagonal_slot(i))).template cast<double>();
-  if (!rows_->scalars[i].empty()) all.diagonal().array() += rows_->scalar[rows_->scalars.diagonal_slot(i)];
+  if (!near_[i].empty()) all.diagonal().array() += static_cast<double>(scalars_[near_.diagonal_slot(i)]);
   return all;
 }
 

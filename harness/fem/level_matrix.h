@@ -2,10 +2,11 @@
 // unknowns, forwards before the coarse correction and backwards after it, so that the whole cycle is symmetric
 // (Trottenberg, Oosterlee and Schueller, Multigrid, 2001, 2.5 and 2.7.2).
 //
-// The sweeps add small scalars to the diagonal instead, so that a row times a translation stays what it is: bending
-// couples each vertex to some 35 others, most of them hardly at all. Coarser levels are made from all scalars. So the
-// cycle stays positive definite whatever the sweeps leave out: with their matrix A, the sweeps S and the coarse
-// correction C it is (S + S' - S' A S) + (I - S' A) C (I - A S).
+// Bending couples each vertex to some 35 others, most of them hardly at all. So the sweeps are those of a matrix A
+// without the small scalars. These are added to its diagonal, and a row times a translation stays what it was. Coarser
+// levels are made from all scalars. With a sweep forwards W and a coarse correction C, the cycle is
+// (W + W' - W' A W) + (I - W' A) C (I - A W), and W + W' - W' A W = W' (diagonal of A) W. So it is symmetric, and
+// positive definite where C and the blocks on the diagonal of A are.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +23,8 @@ class LevelMatrix {
   static constexpr std::size_t padding = 4;
   using Vector = std::vector<S>;
 
-  /// Takes the scalars of these rows that are not small, and has room for the blocks of all. `rows` must outlive it, and stay where it is.
+  /// Takes the scalars of these rows that are not small, and has room for the blocks of all. `rows` must outlive it, and
+  /// stay where it is.
   void follow(const LevelRows& rows, std::span<const std::int32_t> changed);
   void follow(const LevelRows& rows);  ///< all rows, with room to grow by half
   std::size_t size() const { return rows_->size(); }
@@ -50,9 +52,9 @@ class LevelMatrix {
   }
 
   using Block = Eigen::Matrix<double, D, D>;
-  /// What the sweeps add to the diagonal of row i: the sum of its small scalars.
+  /// What A has more on the diagonal of row i: the sum of its small scalars.
   double left_out(std::size_t i) const { return left_out_[i]; }
-  /// The block on the diagonal of row i, with its scalar and what is left out. \pre the row is not empty
+  /// The block on the diagonal of row i of A. \pre the row is not empty
   Block diagonal(std::size_t i) const;
   Eigen::MatrixXd dense() const;  ///< with all scalars
   /// The inverse of the block on the diagonal of row i, zero in rows and columns of held coordinates.

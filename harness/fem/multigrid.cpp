@@ -86,21 +86,27 @@ bool Multigrid<D>::read_place(const SystemMatrix<D>& a, std::size_t i) {
 
 template <int D>
 void Multigrid<D>::find_held(const SystemMatrix<D>& a) {
-  has_held_.assign(a.vertices(), 0), held_.clear();
+  has_held_.assign(a.vertices(), 0);
   for (std::size_t u = 0; u < a.held->size(); ++u)
-    if ((*a.held)[u] && !a.blocks->columns(u / D).empty()) has_held_[u / D] = 1, held_.push_back(u);
+    if ((*a.held)[u] && !a.blocks->columns(u / D).empty()) has_held_[u / D] = 1;
 }
 
 // --- values ----------------------------------------------------------------------------------------------------------
 
-/// The sizes of the diagonal blocks, and whether floats do for the finest level.
+/// The sizes of the diagonal blocks, by what is not held, and whether floats do for the finest level.
 template <int D>
 void Multigrid<D>::look_at_sizes(const SystemMatrix<D>& a) {
   sizes_.assign(a.vertices(), 0), sorted_.clear();
   in_doubles_ = false, trace_ = median_size_ = 0;
   for (std::size_t i = 0; i < a.vertices(); ++i) {
     if (a.blocks->columns(i).empty()) continue;
-    sizes_[i] = a.diagonal(i).trace();
+    const Block diagonal = a.diagonal(i);
+    double sum = 0;
+    int free = 0;
+    for (int c = 0; c < D; ++c)
+      if (!(*a.held)[D * i + static_cast<std::size_t>(c)]) sum += diagonal(c, c), ++free;
+    if (free == 0) continue;
+    sizes_[i] = D * sum / free;
     trace_ += sizes_[i];
     if (std::isfinite(sizes_[i])) sorted_.push_back(sizes_[i]);  // NaN has no place in an order
   }
@@ -112,12 +118,26 @@ void Multigrid<D>::look_at_sizes(const SystemMatrix<D>& a) {
   in_doubles_ = !(largest < widest_for_floats * median_size_ && largest < 1e30 && median_size_ > 1e-30);
 }
 
+/// Zero in rows and columns of held coordinates, and where the block is not positive definite.
+template <int D>
+template <class S>
+void Multigrid<D>::set_inverse(Level<S>& level, std::size_t i, Block diagonal, const std::array<bool, D>& is_held) {
+  for (int c = 0; c < D; ++c)
+    if (is_held[static_cast<std::size_t>(c)]) diagonal.row(c).setZero(), diagonal.col(c).setZero(), diagonal(c, c) = 1;
+  Block inverse = inverse_of(diagonal);
+  for (std::size_t c = 0; c < D; ++c)
+    if (const auto k = static_cast<int>(c); is_held[c] || inverse(k, k) == 0)
+      inverse(k, k) = 0, level.idle.push_back(D * i + c);
+  level.matrix.set_inverse(i, inverse);
+}
+
 /// The finest level: zero in rows and columns of held unknowns.
 template <int D>
 template <class S>
 void Multigrid<D>::fill(const SystemMatrix<D>& a, Level<S>& level, bool& is_new) {
   if (is_new) level.matrix.follow(rows_), level.resize(), is_new = false;
   const auto held = [&](std::size_t i, int c) { return (*a.held)[D * i + static_cast<std::size_t>(c)] != 0; };
+  level.idle.clear();
   for (std::size_t i = 0; i < a.vertices(); ++i) {
     std::size_t k = rows_.blocks.first_slot(i);
     for (const std::int32_t column : rows_.blocks[i]) {
@@ -131,10 +151,9 @@ void Multigrid<D>::fill(const SystemMatrix<D>& a, Level<S>& level, bool& is_new)
       }
     }
     if (rows_.blocks[i].empty()) continue;
-    Block inverse = inverse_of(Block(a.diagonal(i) + level.matrix.left_out(i) * Block::Identity()));
-    for (int c = 0; c < D && has_held_[i]; ++c)
-      if (held(i, c)) inverse(c, c) = 0;
-    level.matrix.set_inverse(i, inverse);
+    std::array<bool, D> is_held{};
+    for (int c = 0; c < D; ++c) is_held[static_cast<std::size_t>(c)] = held(i, c);
+    set_inverse(level, i, a.diagonal(i) + level.matrix.left_out(i) * Block::Identity(), is_held);
   }
 }
 
@@ -144,6 +163,7 @@ template <class S>
 void Multigrid<D>::fill_coarse(const LevelMatrix<D, S>& fine, CoarseLevel& level) {
   using Column = Eigen::Array<S, 4, 1>;  // of a block, with one value too many
   std::vector<std::array<Column, D>> sums;
+  level.idle.clear();
   place_.resize(std::max(place_.size(), level.from.coarse_size()));
   for (std::size_t i = 0; i < level.from.coarse_size(); ++i) {
     const auto columns = level.rows.blocks[i];
@@ -169,7 +189,11 @@ void Multigrid<D>::fill_coarse(const LevelMatrix<D, S>& fine, CoarseLevel& level
     for (const auto& sum : sums)
       for (std::size_t c = 0; c < D; ++c, to += D)
         for (int k = 0; k < D; ++k) to[k] = static_cast<float>(sum[c][k]);
-    if (!columns.empty()) level.matrix.set_inverse(i, inverse_of(level.matrix.diagonal(i)));
+    if (columns.empty()) continue;
+    const Block diagonal = level.matrix.diagonal(i);
+    std::array<bool, D> is_held{};
+    for (int c = 0; c < D; ++c) is_held[static_cast<std::size_t>(c)] = diagonal(c, c) == 0;  // all its members are
+    set_inverse(level, i, diagonal, is_held);
   }
 }
 

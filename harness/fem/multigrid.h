@@ -10,6 +10,7 @@
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <array>
 #include <deque>
 #include <vector>
 
@@ -31,7 +32,7 @@ class Multigrid final : public Preconditioner<D> {
   std::size_t levels() const { return coarse_.size() + 1; }
   /// Microseconds that the last setup() took for the rows of all levels, without their values.
   double rows_us() const { return rows_us_; }
-  /// Entries of the matrices of all levels, each of which a cycle reads twice.
+  /// Entries that a cycle reads, each twice, of all levels. \pre setup() was called
   struct Entries {
     double blocks = 0, scalars = 0;
   };
@@ -44,6 +45,10 @@ class Multigrid final : public Preconditioner<D> {
   struct Level {
     LevelMatrix<D, S> matrix;
     typename LevelMatrix<D, S>::Vector r, z, t;
+    std::vector<std::size_t> idle;  // unknowns that are held, or whose block is not positive definite
+    void set_idle_zero(typename LevelMatrix<D, S>::Vector& field) const {
+      for (const std::size_t u : idle) field[u] = 0;
+    }
     void resize() {
       for (auto* field : {&r, &z, &t}) field->resize(D * matrix.rows().size() + LevelMatrix<D, S>::padding);
     }
@@ -59,6 +64,8 @@ class Multigrid final : public Preconditioner<D> {
   bool read_place(const SystemMatrix<D>& a, std::size_t i);  // true: it is another
   Coarsening::Regrouping regroup(const SystemMatrix<D>& a);
   void find_held(const SystemMatrix<D>& a);
+  template <class S>
+  void set_inverse(Level<S>& level, std::size_t i, Block diagonal, const std::array<bool, D>& is_held);
   void make_levels(const SystemMatrix<D>& a);
   void update_levels(const SystemMatrix<D>& a);
   void update(CoarseLevel& level, const LevelRows& fine, const std::vector<Point2>& places, const RowChanges& changes,
@@ -78,7 +85,6 @@ class Multigrid final : public Preconditioner<D> {
   std::uint64_t pattern_ = 0;
   std::vector<double> factors_;         // of the scalar parts of A
   std::vector<std::uint8_t> has_held_;  // per vertex: one of its unknowns is held
-  std::vector<std::size_t> held_;       // held unknowns of vertices with a row
   LevelRows rows_;                      // of A
   std::vector<std::int32_t> slots_;     // per slot of rows_.blocks: where A keeps the block
   std::vector<Point2> places_;          // per vertex; NaN where no hat is wanted

@@ -19,15 +19,10 @@ void Multigrid<D>::cycle(Level<S>& level, std::size_t next) {
     return;
   }
   level.matrix.sweep_forwards(level.r, level.z, level.t);
-  if (next == 0) {
-    for (const std::size_t u : held_) level.t[u] = 0;
-    clusters_.correct_forwards(level.matrix, level.z, level.t);
-  }
+  level.set_idle_zero(level.t);
+  if (next == 0) clusters_.correct_forwards(level.matrix, level.z, level.t);
   if (next < coarse_.size()) correct(level, next);
-  if (next == 0) {
-    clusters_.correct_backwards(level.matrix, level.r, level.z);
-    for (const std::size_t u : held_) level.z[u] = 0;
-  }
+  if (next == 0) clusters_.correct_backwards(level.matrix, level.r, level.z);
   level.matrix.sweep_backwards(level.r, level.z);
 }
 
@@ -36,8 +31,7 @@ template <int D>
 template <class S>
 void Multigrid<D>::correct(Level<S>& level, std::size_t next) {
   CoarseLevel& coarse = coarse_[next];
-  if (next == 0)
-    for (const std::size_t u : held_) level.t[u] = 0;
+  level.set_idle_zero(level.t);
   for (std::size_t k = 0; k < coarse.matrix.size(); ++k) {
     std::array<S, D> sum{};
     for (const auto& [i, weight] : coarse.from.members(k))
@@ -49,8 +43,7 @@ void Multigrid<D>::correct(Level<S>& level, std::size_t next) {
     for (const auto& [k, weight] : coarse.from.parents(i))
       for (std::size_t c = 0; c < D; ++c)
         level.z[D * i + c] += S(weight) * S(coarse.z[D * static_cast<std::size_t>(k) + c]);
-  if (next == 0)
-    for (const std::size_t u : held_) level.z[u] = 0;
+  level.set_idle_zero(level.z);
 }
 
 template <int D>

@@ -40,6 +40,7 @@ template <class S>
 void StiffClusters<D>::factor(const LevelMatrix<D, S>& a, const std::vector<std::uint8_t>& held) {
   for (Cluster& cluster : clusters_) {
     const auto n = static_cast<Eigen::Index>(D * cluster.vertices.size());
+    cluster.held.clear();
     Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
     for (std::size_t k = 0; k < cluster.vertices.size(); ++k)
       place_[static_cast<std::size_t>(cluster.vertices[k])] = static_cast<std::int32_t>(k);
@@ -62,12 +63,19 @@ void StiffClusters<D>::factor(const LevelMatrix<D, S>& a, const std::vector<std:
         const auto u = static_cast<Eigen::Index>(D * k + c);
         dense.row(u).setZero(), dense.col(u).setZero();
         dense(u, u) = 1;
+        cluster.held.push_back(u);
       }
       place_[v] = -1;
     }
     cluster.factor.compute(dense);
     cluster.is_positive = cluster.factor.info() == Eigen::Success;
   }
+}
+
+template <int D>
+void StiffClusters<D>::solve(const Cluster& cluster) {
+  for (const Eigen::Index u : cluster.held) correction_[u] = 0;
+  cluster.factor.solveInPlace(correction_);
 }
 
 template <int D>
@@ -80,7 +88,7 @@ void StiffClusters<D>::correct_forwards(const LevelMatrix<D, S>& a, Vector<S>& z
     for (std::size_t k = 0; k < cluster.vertices.size(); ++k)
       correction_.segment<D>(static_cast<Eigen::Index>(D * k)) =
           Eigen::Map<const Values>(t.data() + D * cluster.vertices[k]).template cast<double>();
-    cluster.factor.solveInPlace(correction_);
+    solve(cluster);
     for (std::size_t k = 0; k < cluster.vertices.size(); ++k) {
       const Values by = correction_.segment<D>(static_cast<Eigen::Index>(D * k)).template cast<S>();
       const auto v = static_cast<std::size_t>(cluster.vertices[k]);
@@ -109,7 +117,7 @@ void StiffClusters<D>::correct_backwards(const LevelMatrix<D, S>& a, const Vecto
                         [&](std::int32_t j, S value) { left -= value * Eigen::Map<const Values>(z.data() + D * j); });
       correction_.segment<D>(static_cast<Eigen::Index>(D * k)) = left.template cast<double>();
     }
-    cluster->factor.solveInPlace(correction_);
+    solve(*cluster);
     for (std::size_t k = 0; k < cluster->vertices.size(); ++k)
       Eigen::Map<Values>(z.data() + D * cluster->vertices[k]) +=
           correction_.segment<D>(static_cast<Eigen::Index>(D * k)).template cast<S>();

@@ -36,9 +36,12 @@ class StiffClusters {
  private:
   struct Cluster {
     std::vector<std::int32_t> vertices;
+    std::vector<Eigen::Index> held;  ///< unknowns of it that are not corrected
     Eigen::LLT<Eigen::MatrixXd> factor;
     bool is_positive = false;
   };
+  void solve(const Cluster& cluster);  // in correction_
+
   std::vector<Cluster> clusters_;
   // Working storage.
   std::vector<std::int32_t> place_;  // per vertex: in the cluster at hand, or -1

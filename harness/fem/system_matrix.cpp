@@ -4,12 +4,6 @@
 
 namespace cutbench {
 
-namespace {
-
-constexpr std::size_t rows_ahead = 4;  // of the row at hand, to be read from memory
-
-}  // namespace
-
 /// Calls take(i, row i of A x). All parts row by row, so that each value of the product is written once.
 template <int D>
 template <class Take>

@@ -37,7 +37,7 @@ struct SystemMatrix {
  private:
   template <class Take>
   void for_each_product(const Field& x, const Take& take) const;
-  mutable std::vector<Lanes> x_;  // working storage of the products
+  mutable std::vector<Lanes> x_;  // working storage of the products, so they are not for two threads at a time
 };
 
 }  // namespace cutbench

@@ -19,11 +19,13 @@ class SceneCuts {
  public:
   /// Keeps references to both. Throws InputError. \pre `now` is not cut yet
   SceneCuts(const Scene& scene, MovingSheet<D>& now);
+  SceneCuts(const SceneCuts&) = delete;
+  SceneCuts& operator=(const SceneCuts&) = delete;
 
   const std::vector<MotionCut>& made() const { return made_; }
 
-  /// Where the first cut is due before the step that is next, and the scene has an active radius. True: it left
-  /// something out.
+  /// To be called before each step. Does nothing but where the first cut is due and the scene has an active radius. True:
+  /// it left something out, so an energy budget has to begin anew.
   bool leave_out_far_parts();
   /// Makes the cuts, and parts of cuts, that are due before the step that is next. Returns the first one whose verdict is
   /// not ok, or null. Throws InputError where a pick misses the sheet. \param budget  the cuts' jumps go there; may be null
