@@ -81,6 +81,8 @@ std::vector<Phase> phases_of(int n, const MethodRow& row, double& working_set) {
   model.update(sheet);
   model.update_bending(sheet);
 
+  model.rotate(state.x);
+  model.assemble(1, step * step);
   SystemMatrix<3> a = model.system();
   Multigrid<3> multigrid;
   const auto blocks = static_cast<double>(a.blocks->block_count()), vertices = static_cast<double>(a.vertices());
@@ -89,8 +91,6 @@ std::vector<Phase> phases_of(int n, const MethodRow& row, double& working_set) {
   const auto elements = static_cast<double>(model.elements().size());
   const double per_element = sizeof(Element) + sizeof(StrainInFrame<3, double>), vector = 3 * sizeof(double) * vertices;
   const double matrix = blocks * (9 * sizeof(double) + 4) + scalars * (sizeof(double) + 4);
-  model.rotate(state.x);
-  model.assemble(1, step * step);
   multigrid.setup(a);
   const auto levels = multigrid.entries();
   const double level_blocks = levels.blocks * (9 * sizeof(float) + 4),
