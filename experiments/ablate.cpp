@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -34,6 +35,19 @@ double largest_deviation(const Sheet& a, const Sheet& b) {
     largest = std::max(largest, distance(a.position(i), b.position(i)));
   }
   return largest;
+}
+
+using Places = std::map<std::pair<double, double>, std::vector<Point3>>;
+
+/// By rest position: where its vertices are, those of both lips.
+Places places_of(const Sheet& sheet) {
+  Places places;
+  for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) {
+    if (!in_use(sheet, d)) continue;
+    const Point2 rest = sheet.rest(sheet.rest_vertex(DeformedIndex(d)));
+    places[{rest.x, rest.y}].push_back(sheet.position(DeformedIndex(d)));
+  }
+  return places;
 }
 
 double largest_distance_to_nearest(const std::vector<Point3>& from, const std::vector<Point3>& to) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <vector>
 
 #include "harness/base/errors.h"
 
@@ -11,16 +12,6 @@ namespace cutbench {
 double distance(Point3 a, Point3 b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
 bool in_use(const Sheet& sheet, std::size_t d) { return sheet.rest_vertex(DeformedIndex(d)).valid(); }
-
-Places places_of(const Sheet& sheet) {
-  Places places;
-  for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) {
-    if (!in_use(sheet, d)) continue;
-    const Point2 rest = sheet.rest(sheet.rest_vertex(DeformedIndex(d)));
-    places[{rest.x, rest.y}].push_back(sheet.position(DeformedIndex(d)));
-  }
-  return places;
-}
 
 namespace {
 

@@ -2,11 +2,8 @@
 #pragma once
 
 #include <limits>
-#include <map>
 #include <memory>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "harness/cut/cut.h"
 #include "harness/scene/simulation.h"
@@ -15,10 +12,6 @@ namespace cutbench {
 
 double distance(Point3 a, Point3 b);             ///< m
 bool in_use(const Sheet& sheet, std::size_t d);  ///< slot d of the opened sheet is a vertex
-
-/// By rest position: where the vertices of the opened sheet are that have it, those of both lips.
-using Places = std::map<std::pair<double, double>, std::vector<Point3>>;
-Places places_of(const Sheet& sheet);
 
 bool at_rest(const Scene& scene);  ///< in equilibrium
 /// Steps until the duration is over, the last one whole; and when they end, s. In equilibrium: 1, and its step.
