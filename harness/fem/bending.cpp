@@ -159,14 +159,14 @@ void Bending::replace_stencil(std::size_t t) {
 /// Sums a row of the matrix from the stencils that hold its vertex, in the order of their triangles, so that the sums
 /// don't depend on the cuts that led here.
 void Bending::write_row(std::size_t vertex) {
-  RowSum& row = work_.row;
+  RowSum<double>& row = work_.row;
   row.clear();
   const auto stencils = stencils_of_[vertex];
-  if (!stencils.empty()) row.add(static_cast<std::int32_t>(vertex), 0);
+  if (!stencils.empty()) row[static_cast<std::int32_t>(vertex)] = 0;
   for (const auto& [t, mine] : stencils) {
     const auto terms = stencils_[static_cast<std::size_t>(t)];
     const auto f = terms[static_cast<std::size_t>(mine)].factor;
-    for (const auto& [column, g] : terms) row.add(column, f[0] * g[0] + f[1] * g[1] + f[2] * g[2]);
+    for (const auto& [column, g] : terms) row[column] += f[0] * g[0] + f[1] * g[1] + f[2] * g[2];
   }
   matrix_.set_row(vertex, row.columns());
   std::int32_t slot = matrix_.first_slot(vertex);

@@ -105,7 +105,7 @@ class Bending {
     std::vector<std::int32_t> rows;   ///< to be written
     std::vector<std::int32_t> place;  ///< per deformed vertex: in `terms`; -1: none
     std::vector<StencilTerm> terms;
-    RowSum row;
+    RowSum<double> row{0};
   } work_;
 };
 

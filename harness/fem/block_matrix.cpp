@@ -47,6 +47,16 @@ void BlockMatrix<D>::add_product(double factor, const Field& x, Field& y) const 
   }
 }
 
+template <int D>
+void spread(const Field& x, std::vector<Lanes>& vertices) {
+  vertices.resize(static_cast<std::size_t>(x.size()) / D);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    Lanes at{};
+    for (std::size_t k = 0; k < D; ++k) at[k] = x[static_cast<Eigen::Index>(D * i + k)];
+    vertices[i] = at;
+  }
+}
+
 void add_product_per_coordinate(const BlockMatrix<1>& a, int dimension, double factor, const Field& x, Field& y) {
   const auto add = [&]<int D>(std::integral_constant<int, D>) {
     using Vector = Eigen::Matrix<double, D, 1>;
@@ -91,6 +101,8 @@ double max_difference(const BlockMatrix<D>& a, const BlockMatrix<D>& b) {
   return largest;
 }
 
+template void spread<2>(const Field&, std::vector<Lanes>&);
+template void spread<3>(const Field&, std::vector<Lanes>&);
 template class BlockMatrix<1>;
 template class BlockMatrix<2>;
 template class BlockMatrix<3>;

@@ -63,7 +63,8 @@ class BlockMatrix {
     prefetch(columns_[i].data(), columns_[i].size());
     prefetch(blocks_.data() + columns_.begin(i), columns_[i].size());
   }
-  /// Row i times x, whose vertices have a Lanes each: the D values, then zeros. D = 1: the entries times whole Lanes.
+  void prefetch_diagonal(std::size_t i) const { prefetch(blocks_.data() + columns_.begin(i), 1); }
+  /// Row i times x, whose vertices have a Lanes each (spread()). D = 1: the entries times whole Lanes.
   Lanes row_product(std::size_t i, std::span<const Lanes> x) const {
     const Block* block = blocks_.data() + columns_.begin(i);
     if constexpr (D == 1) {
@@ -100,6 +101,10 @@ class BlockMatrix {
   GrowingRows<std::int32_t> columns_;
   std::vector<Block> blocks_;  // one for each slot of columns_
 };
+
+/// The D values of each vertex, then zeros.
+template <int D>
+void spread(const Field& x, std::vector<Lanes>& vertices);
 
 /// y += factor (A (x) I) x, for `dimension` values per vertex.
 void add_product_per_coordinate(const BlockMatrix<1>& a, int dimension, double factor, const Field& x, Field& y);

@@ -35,12 +35,12 @@ std::int32_t Coarsening::new_coarse(Node node) {
   if (free_.empty()) {
     places_.emplace_back(), node_.emplace_back(), next_part_.emplace_back();
     members_.resize(places_.size());
-    for (Marks* marks : {&is_named_, &is_renumbered_, &is_touched_}) marks->grow(places_.size());
+    for (Marks* marks : {&is_named_, &is_renumbered_, &is_touched_, &has_touched_blocks_}) marks->grow(places_.size());
   } else {
     coarse = free_.back();
     free_.pop_back();
   }
-  is_renumbered_.insert(coarse), touch(coarse);
+  is_renumbered_.insert(coarse), touch_blocks(coarse);
   const auto c = static_cast<std::size_t>(coarse);
   places_[c] = node_place(node, spacing_), node_[c] = node, next_part_[c] = -1;
   if (node == group_node) return coarse;
@@ -54,7 +54,7 @@ void Coarsening::free_coarse(std::int32_t coarse) {
   members_.set(static_cast<std::size_t>(coarse), {});
   places_[static_cast<std::size_t>(coarse)] = node_place(group_node, spacing_);
   free_.push_back(coarse);
-  is_renumbered_.insert(coarse), touch(coarse);
+  is_renumbered_.insert(coarse), touch_blocks(coarse);
 }
 
 std::int32_t Coarsening::part_of(std::int32_t fine, Node node) const {
@@ -91,8 +91,8 @@ void Coarsening::update(const LevelRows& fine, const std::vector<Point2>& places
 
 void Coarsening::begin(std::size_t fine_size) {
   parents_.resize(fine_size), place_in_node_.resize(fine_size, -1);
-  for (Marks* marks : {&is_placed_, &has_new_parents_, &is_listed_}) marks->clear(fine_size);
-  for (Marks* marks : {&is_named_, &is_renumbered_, &is_touched_}) marks->clear(coarse_size());
+  for (Marks* marks : {&is_placed_, &has_new_parents_, &is_listed_, &is_listed_for_blocks_}) marks->clear(fine_size);
+  for (Marks* marks : {&is_named_, &is_renumbered_, &is_touched_, &has_touched_blocks_}) marks->clear(coarse_size());
   nodes_.clear(), with_new_parents_.clear(), entries_.clear(), touched_.clear();
 }
 
@@ -188,7 +188,7 @@ void Coarsening::divide(const LevelRows& fine, std::span<const Entry> members) {
     for (std::size_t l = k; l < members.size(); ++l)
       if (part_[l] == part_[k]) part_members_.push_back({members[l].fine, members[l].weight});
     if (std::ranges::equal(this->members(static_cast<std::size_t>(part_[k])), part_members_, is_same)) continue;
-    members_.set(static_cast<std::size_t>(part_[k]), part_members_), touch(part_[k]);
+    members_.set(static_cast<std::size_t>(part_[k]), part_members_), touch_blocks(part_[k]);
   }
 }
 
@@ -235,13 +235,16 @@ void Coarsening::free_parts(Node node) {
   first_part_.erase(first);
 }
 
-/// A row of P^T A P depends on its members, on their rows of A, and on the parents of the columns of these.
+/// A row of P^T A P depends on its members, on their rows of A, and on the parents of the columns of these. Scalars reach
+/// farther than blocks, so most rows that a cut touches have the blocks that they had.
 void Coarsening::find_touched(const LevelRows& fine, const RowChanges& changes) {
+  for (const std::int32_t v : changes.links) touch_blocks_of_parents(v);
   for (const std::int32_t v : changes.rows) touch_parents(v);
   for (const std::int32_t v : with_new_parents_) {
-    touch_parents(v);  // its row may be empty
-    for (const SweepRows* rows : {&fine.blocks, &fine.scalars})
-      for (const std::int32_t other : (*rows)[static_cast<std::size_t>(v)]) touch_parents(other);
+    const auto i = static_cast<std::size_t>(v);
+    touch_blocks_of_parents(v);  // its row may be empty
+    for (const std::int32_t other : fine.blocks[i]) touch_blocks_of_parents(other);
+    for (const std::int32_t other : fine.scalars[i]) touch_parents(other);
   }
   std::sort(touched_.begin(), touched_.end());
 }
@@ -250,25 +253,32 @@ void Coarsening::touch(std::int32_t coarse) {
   if (is_touched_.insert(coarse)) touched_.push_back(coarse);
 }
 
+void Coarsening::touch_blocks(std::int32_t coarse) { has_touched_blocks_.insert(coarse), touch(coarse); }
+
 void Coarsening::touch_parents(std::int32_t fine) {
   if (!is_listed_.insert(fine)) return;
   for (const Weight& parent : parents(static_cast<std::size_t>(fine))) touch(parent.other);
 }
 
+void Coarsening::touch_blocks_of_parents(std::int32_t fine) {
+  if (!is_listed_for_blocks_.insert(fine)) return;
+  for (const Weight& parent : parents(static_cast<std::size_t>(fine))) touch_blocks(parent.other);
+}
+
 void Coarsening::reserve_spare() {
   parents_.reserve_spare(), members_.reserve_spare();
-  cutbench::reserve_spare(places_, node_, next_part_, place_in_node_, half_begin_);
+  cutbench::reserve_spare(places_, node_, next_part_, place_in_node_);
 }
 
 // --- product ---------------------------------------------------------------------------------------------------------
 
 void Coarsening::multiply(const LevelRows& fine, LevelRows& coarse) {
   coarse.resize(coarse_size());
-  row_.resize(coarse_size());
-  half_begin_.resize(fine_size()), has_half_.clear(fine_size()), half_.clear();
+  part_row_.resize(fine_size()), row_.resize(coarse_size());
   changes_.rows.clear(), changes_.links.clear();
   for (const std::int32_t i : touched_) {
-    const bool links = multiply_blocks(fine.blocks, static_cast<std::size_t>(i), coarse.blocks),
+    const bool links = has_touched_blocks_.holds(i) &&
+                       multiply_blocks(fine.blocks, static_cast<std::size_t>(i), coarse.blocks),
                scalars = multiply_scalars(fine, static_cast<std::size_t>(i), coarse);
     if (links || scalars) changes_.rows.push_back(i);
     if (links || is_renumbered_.holds(i)) changes_.links.push_back(i);
@@ -276,37 +286,32 @@ void Coarsening::multiply(const LevelRows& fine, LevelRows& coarse) {
 }
 
 bool Coarsening::multiply_blocks(const SweepRows& fine, std::size_t coarse, SweepRows& rows) {
-  row_.clear();
+  part_row_.clear();
   for (const Weight& member : members(coarse))
-    for (const std::int32_t j : fine[static_cast<std::size_t>(member.other)])
-      for (const Weight& parent : parents(static_cast<std::size_t>(j))) row_.add(parent.other, 0);
+    for (const std::int32_t j : fine[static_cast<std::size_t>(member.other)]) part_row_[j] = 0;
+  multiply_part_row();
   return rows.set(coarse, row_.columns()).is_new;
 }
 
-/// Rows of A P first, which several coarse rows need: see half_.
 bool Coarsening::multiply_scalars(const LevelRows& fine, std::size_t coarse, LevelRows& rows) {
-  for (const Weight& member : members(coarse))
-    if (has_half_.insert(member.other)) multiply_half(fine, static_cast<std::size_t>(member.other));
-  row_.clear();
+  part_row_.clear();
   for (const Weight& member : members(coarse)) {
-    const auto [first, last] = half_begin_[static_cast<std::size_t>(member.other)];
-    for (std::size_t k = first; k < last; ++k) row_.add(half_[k].other, double(member.weight) * half_[k].value);
+    const auto v = static_cast<std::size_t>(member.other);
+    const double* value = fine.scalar.data() + fine.scalars.first_slot(v);
+    for (const std::int32_t j : fine.scalars[v]) part_row_[j] += double(member.weight) * *value++;
   }
+  multiply_part_row();
   return rows.set_scalars(coarse, row_.columns(), row_.sums());
 }
 
-void Coarsening::multiply_half(const LevelRows& fine, std::size_t v) {
+/// From a row of P^T A to that of P^T A P. Members are neighbours, so their rows have most columns in common.
+void Coarsening::multiply_part_row() {
   row_.clear();
-  const double* value = fine.scalar.data() + fine.scalars.first_slot(v);
-  for (const std::int32_t j : fine.scalars[v]) {
-    for (const Weight& parent : parents(static_cast<std::size_t>(j)))
-      row_.add(parent.other, double(parent.weight) * *value);
-    ++value;
-  }
-  const auto columns = row_.columns();
-  const auto sums = row_.sums();
-  half_begin_[v] = {half_.size(), half_.size() + columns.size()};
-  for (std::size_t k = 0; k < columns.size(); ++k) half_.push_back({columns[k], sums[k]});
+  const auto columns = part_row_.columns();
+  const auto sums = part_row_.sums();
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    for (const Weight& parent : parents(static_cast<std::size_t>(columns[k])))
+      row_[parent.other] += double(parent.weight) * sums[k];
 }
 
 }  // namespace cutbench

@@ -103,11 +103,13 @@ class Coarsening {
   std::int32_t new_coarse(Node node);
   void free_coarse(std::int32_t coarse);
   void find_touched(const LevelRows& fine, const RowChanges& changes);
-  void touch(std::int32_t coarse);
+  void touch(std::int32_t coarse);         // its scalars
+  void touch_blocks(std::int32_t coarse);  // and its blocks
   void touch_parents(std::int32_t fine);
+  void touch_blocks_of_parents(std::int32_t fine);
   bool multiply_blocks(const SweepRows& fine, std::size_t coarse, SweepRows& rows);  // true: it has changed
   bool multiply_scalars(const LevelRows& fine, std::size_t coarse, LevelRows& rows);
-  void multiply_half(const LevelRows& fine, std::size_t v);
+  void multiply_part_row();
 
   double spacing_;
   GrowingRows<Weight> parents_, members_;
@@ -119,9 +121,9 @@ class Coarsening {
   RowChanges changes_;
 
   // Working storage of update().
-  Marks is_placed_, has_new_parents_, is_listed_;  // of fine unknowns
-  Marks is_named_, is_renumbered_, is_touched_;    // of coarse ones
-  std::vector<Node> nodes_;                        // to be divided again
+  Marks is_placed_, has_new_parents_, is_listed_, is_listed_for_blocks_;  // of fine unknowns
+  Marks is_named_, is_renumbered_, is_touched_, has_touched_blocks_;      // of coarse ones
+  std::vector<Node> nodes_;                                               // to be divided again
   std::vector<Entry> hats_;
   std::vector<std::int32_t> with_new_parents_;
   std::vector<std::int32_t> touched_;        // coarse unknowns whose rows may have changed
@@ -132,14 +134,7 @@ class Coarsening {
   std::vector<Weight> part_members_;
   UnionFind joined_;
   // Working storage of multiply().
-  RowSum row_;
-  struct Product {
-    std::int32_t other;
-    double value;
-  };
-  std::vector<Product> half_;                                    // rows of A P, one after the other
-  Marks has_half_;                                               // of fine unknowns
-  std::vector<std::pair<std::size_t, std::size_t>> half_begin_;  // per fine unknown: where its row begins and ends
+  RowSum<double> part_row_{0}, row_{0};  // of P^T A and of P^T A P
 };
 
 }  // namespace cutbench

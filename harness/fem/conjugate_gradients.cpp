@@ -17,13 +17,13 @@ constexpr int max_restarts = 5;
 template <int D>
 void ConjugateGradients<D>::setup(const SystemMatrix<D>& a) {
   matrix_ = &a;
-  inverse_.resize(a.vertices());
+  a.diagonals(inverse_);
   positive_blocks_ = true;
-  for (std::size_t i = 0; i < inverse_.size(); ++i) {
-    const Block block = a.diagonal(i);
-    inverse_[i] = block.inverse();
+  for (Block& inverse : inverse_) {
+    const Block block = inverse;
+    inverse = block.inverse();
     // Sylvester: the leading minors are positive; that of D - 1 rows is the determinant times the inverse's last entry.
-    positive_blocks_ = positive_blocks_ && block(0, 0) > 0 && block.determinant() > 0 && inverse_[i](D - 1, D - 1) > 0;
+    positive_blocks_ = positive_blocks_ && block(0, 0) > 0 && block.determinant() > 0 && inverse(D - 1, D - 1) > 0;
   }
   for (Trial& trial : trials_) trial.is_set_up = false;
   if (until_first_again_ > 0 && --until_first_again_ == 0) first_ = 0;

@@ -118,15 +118,13 @@ void Model<D>::add_internal_force(const Field& x, Field& f) const {
 template <int D>
 void Model<D>::add_impulse(double h, const Field& x, double factor, const Field& v, Field& y) {
   y += h * membrane_.force();
-  velocity_.resize(vertices()), bent_.resize(vertices());
+  spread<D>(v, velocity_), spread<D>(x, bent_);
+  for (std::size_t i = 0; i < vertices(); ++i)  // K_b (h x) and factor stiffness_factor K_b v at once
+    bent_[i] = h * bent_[i] + factor * stiffness_factor_ * velocity_[i];
   for (std::size_t i = 0; i < vertices(); ++i) {
-    Lanes at{};
-    for (std::size_t k = 0; k < D; ++k)
-      velocity_[i][k] = v[static_cast<Eigen::Index>(D * i + k)], at[k] = x[static_cast<Eigen::Index>(D * i + k)];
-    bent_[i] =
-        h * at + factor * stiffness_factor_ * velocity_[i];  // K_b (h x) and factor stiffness_factor K_b v at once
-  }
-  for (std::size_t i = 0; i < vertices(); ++i) {
+    const std::size_t ahead = std::min(i + rows_ahead, vertices() - 1);
+    blocks_.prefetch_row(ahead);
+    if (bending_) bending_->matrix().prefetch_row(ahead);
     Lanes sum = factor * blocks_.row_product(i, velocity_);
     if (bending_) sum += bending_->matrix().row_product(i, bent_);
     for (std::size_t k = 0; k < D; ++k) y[static_cast<Eigen::Index>(D * i + k)] -= sum[k];

@@ -67,7 +67,7 @@ void Multigrid<D>::read_row(const SystemMatrix<D>& a, std::size_t i) {
   scalars_.clear();
   for (const auto& term : a.scalar) {
     std::int32_t slot = term.matrix->first_slot(i);
-    for (const std::int32_t j : term.matrix->columns(i)) scalars_.add(j, term.factor * term.matrix->block(slot++)(0));
+    for (const std::int32_t j : term.matrix->columns(i)) scalars_[j] += term.factor * term.matrix->block(slot++)(0);
   }
   const bool has_new_scalars = rows_.set_scalars(i, scalars_.columns(), scalars_.sums()),
              is_elsewhere = read_place(a, i);
@@ -96,11 +96,12 @@ void Multigrid<D>::find_held(const SystemMatrix<D>& a) {
 /// The sizes of the diagonal blocks, by what is not held, and whether floats do for the finest level.
 template <int D>
 void Multigrid<D>::look_at_sizes(const SystemMatrix<D>& a) {
+  a.diagonals(diagonals_);
   sizes_.assign(a.vertices(), 0), sorted_.clear();
   in_doubles_ = false, trace_ = median_size_ = 0;
   for (std::size_t i = 0; i < a.vertices(); ++i) {
     if (a.blocks->columns(i).empty()) continue;
-    const Block diagonal = a.diagonal(i);
+    const Block& diagonal = diagonals_[i];
     double sum = 0;
     int free = 0;
     for (int c = 0; c < D; ++c)
@@ -153,43 +154,51 @@ void Multigrid<D>::fill(const SystemMatrix<D>& a, Level<S>& level, bool& is_new)
     if (rows_.blocks[i].empty()) continue;
     std::array<bool, D> is_held{};
     for (int c = 0; c < D; ++c) is_held[static_cast<std::size_t>(c)] = held(i, c);
-    set_inverse(level, i, a.diagonal(i) + level.matrix.left_out(i) * Block::Identity(), is_held);
+    set_inverse(level, i, diagonals_[i] + level.matrix.left_out(i) * Block::Identity(), is_held);
   }
 }
 
-/// P^T A P, row by row.
+/// A row of P^T A: the members' rows, each times its weight.
 template <int D>
 template <class S>
-void Multigrid<D>::fill_coarse(const LevelMatrix<D, S>& fine, CoarseLevel& level) {
-  using Column = Eigen::Array<S, 4, 1>;  // of a block, with one value too many
-  std::vector<std::array<Column, D>> sums;
+void Multigrid<D>::sum_members(Level<S>& fine, std::span<const Coarsening::Weight> members) {
+  const LevelMatrix<D, S>& a = fine.matrix;
+  fine.part_row.clear();
+  for (const auto& member : members) {
+    const auto v = static_cast<std::size_t>(member.other);
+    const S* block = a.block(a.rows().blocks.first_slot(v));
+    for (const std::int32_t j : a.rows().blocks[v]) {
+      Columns<S>& sum = fine.part_row[j];
+      for (int c = 0; c < D; ++c, block += D)
+        sum.col(c) += S(member.weight) * Eigen::Map<const Eigen::Array<S, 4, 1>>(block);
+    }
+  }
+}
+
+/// P^T A P, row by row: columns of P^T A with the same parent become one.
+template <int D>
+template <class S>
+void Multigrid<D>::fill_coarse(Level<S>& fine, CoarseLevel& level) {
+  std::vector<Columns<S>> sums;
   level.idle.clear();
   place_.resize(std::max(place_.size(), level.from.coarse_size()));
+  fine.part_row.resize(level.from.fine_size());
   for (std::size_t i = 0; i < level.from.coarse_size(); ++i) {
     const auto columns = level.rows.blocks[i];
+    if (columns.empty()) continue;
     for (std::size_t k = 0; k < columns.size(); ++k)
       place_[static_cast<std::size_t>(columns[k])] = static_cast<std::int32_t>(k);
-    sums.resize(columns.size());
-    for (auto& sum : sums) sum.fill(Column::Zero());
-    for (const auto& member : level.from.members(i)) {
-      const auto v = static_cast<std::size_t>(member.other);
-      const S* block = fine.block(fine.rows().blocks.first_slot(v));
-      for (const std::int32_t j : fine.rows().blocks[v]) {
-        std::array<Column, D> part;
-        for (int c = 0; c < D; ++c)
-          part[static_cast<std::size_t>(c)] = S(member.weight) * Eigen::Map<const Column>(block + D * c);
-        block += D * D;
-        for (const auto& parent : level.from.parents(static_cast<std::size_t>(j))) {
-          auto& sum = sums[static_cast<std::size_t>(place_[static_cast<std::size_t>(parent.other)])];
-          for (std::size_t c = 0; c < D; ++c) sum[c] += S(parent.weight) * part[c];
-        }
-      }
-    }
+    sums.assign(columns.size(), Columns<S>::Zero());
+    sum_members(fine, level.from.members(i));
+    const auto fine_columns = fine.part_row.columns();
+    const auto part = fine.part_row.sums();
+    for (std::size_t k = 0; k < part.size(); ++k)
+      for (const auto& parent : level.from.parents(static_cast<std::size_t>(fine_columns[k])))
+        sums[static_cast<std::size_t>(place_[static_cast<std::size_t>(parent.other)])] += S(parent.weight) * part[k];
     float* to = level.matrix.block(level.rows.blocks.first_slot(i));
-    for (const auto& sum : sums)
-      for (std::size_t c = 0; c < D; ++c, to += D)
-        for (int k = 0; k < D; ++k) to[k] = static_cast<float>(sum[c][k]);
-    if (columns.empty()) continue;
+    for (const Columns<S>& sum : sums)
+      for (int c = 0; c < D; ++c)
+        for (int k = 0; k < D; ++k) *to++ = static_cast<float>(sum(k, c));
     const Block diagonal = level.matrix.diagonal(i);
     std::array<bool, D> is_held{};
     for (int c = 0; c < D; ++c) is_held[static_cast<std::size_t>(c)] = diagonal(c, c) == 0;  // all its members are
@@ -242,11 +251,11 @@ void Multigrid<D>::fill_coarse_levels() {
   coarse_trace_ = trace_;
   for (std::size_t l = 0; l < coarse_.size(); ++l)
     if (l > 0)
-      fill_coarse(coarse_[l - 1].matrix, coarse_[l]);
+      fill_coarse(static_cast<Level<float>&>(coarse_[l - 1]), coarse_[l]);
     else if (in_doubles_)
-      fill_coarse(finest_in_doubles_.matrix, coarse_[l]);
+      fill_coarse(finest_in_doubles_, coarse_[l]);
     else
-      fill_coarse(finest_.matrix, coarse_[l]);
+      fill_coarse(finest_, coarse_[l]);
   factor_coarsest();
 }
 

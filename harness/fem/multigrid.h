@@ -40,12 +40,16 @@ class Multigrid final : public Preconditioner<D> {
 
  private:
   using Block = typename BlockMatrix<D>::Block;
+  /// The columns of a block, each with values behind it that nobody looks at: so they are read four by four.
+  template <class S>
+  using Columns = Eigen::Array<S, 4, D>;
   /// A matrix with a right side, a solution and a residual.
   template <class S>
   struct Level {
     LevelMatrix<D, S> matrix;
     typename LevelMatrix<D, S>::Vector r, z, t;
-    std::vector<std::size_t> idle;  // unknowns that are held, or whose block is not positive definite
+    std::vector<std::size_t> idle;                    // unknowns that are held, or whose block is not positive definite
+    RowSum<Columns<S>> part_row{Columns<S>::Zero()};  // of P^T A, with A this matrix
     void set_idle_zero(typename LevelMatrix<D, S>::Vector& field) const {
       for (const std::size_t u : idle) field[u] = 0;
     }
@@ -75,7 +79,9 @@ class Multigrid final : public Preconditioner<D> {
   template <class S>
   void fill(const SystemMatrix<D>& a, Level<S>& level, bool& is_new);
   template <class S>
-  void fill_coarse(const LevelMatrix<D, S>& fine, CoarseLevel& level);
+  void fill_coarse(Level<S>& fine, CoarseLevel& level);
+  template <class S>
+  void sum_members(Level<S>& fine, std::span<const Coarsening::Weight> members);
   void factor_coarsest();
   template <class S>
   void cycle(Level<S>& level, std::size_t next);
@@ -99,13 +105,14 @@ class Multigrid final : public Preconditioner<D> {
   std::deque<CoarseLevel> coarse_;  // each refers to rows of its own
   Eigen::LLT<Eigen::MatrixXd> coarsest_;
   bool solves_coarsest_ = false;
-  std::vector<double> sizes_;  // per vertex: the trace of its diagonal block
+  std::vector<Block> diagonals_;  // of A
+  std::vector<double> sizes_;     // per vertex: the trace of its diagonal block
   double median_size_ = 0;
   double trace_ = 0, coarse_trace_ = 0;  // of A, at the last setup() and when the coarse matrices were computed
   bool coarse_are_old_ = true;
   // Working storage.
   std::vector<std::int32_t> place_;  // per coarse unknown: its place in the row at hand
-  RowSum scalars_;                   // of the row at hand
+  RowSum<double> scalars_{0};        // of the row at hand
   std::vector<double> sorted_;
   std::vector<std::int32_t> front_, place_in_front_;  // the second: per vertex, or -1
 };

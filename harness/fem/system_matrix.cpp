@@ -9,9 +9,7 @@ template <int D>
 template <class Take>
 void SystemMatrix<D>::for_each_product(const Field& x, const Take& take) const {
   const std::size_t n = vertices();
-  x_.resize(n);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t k = 0; k < D; ++k) x_[i][k] = x[static_cast<Eigen::Index>(D * i + k)];
+  spread<D>(x, x_);
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t ahead = std::min(i + rows_ahead, n - 1);
     blocks->prefetch_row(ahead);
@@ -49,6 +47,19 @@ typename BlockMatrix<D>::Block SystemMatrix<D>::diagonal(std::size_t i) const {
   for (int k = 0; k < D; ++k)
     if ((*held)[D * i + static_cast<std::size_t>(k)]) a.row(k).setZero(), a.col(k).setZero(), a(k, k) = 1;
   return a;
+}
+
+/// Each row's block is in another line of the cache.
+template <int D>
+void SystemMatrix<D>::diagonals(std::vector<typename BlockMatrix<D>::Block>& all) const {
+  constexpr std::size_t ahead = 4 * rows_ahead;
+  all.resize(vertices());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::size_t next = std::min(i + ahead, all.size() - 1);
+    blocks->prefetch_diagonal(next);
+    for (const auto& term : scalar) term.matrix->prefetch_diagonal(next);
+    all[i] = diagonal(i);
+  }
 }
 
 template struct SystemMatrix<2>;

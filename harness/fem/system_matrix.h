@@ -33,6 +33,7 @@ struct SystemMatrix {
   void multiply(const Field& x, Field& y) const;
   /// The block on the diagonal of row i; a held unknown has 1 there and zeros beside it.
   typename BlockMatrix<D>::Block diagonal(std::size_t i) const;
+  void diagonals(std::vector<typename BlockMatrix<D>::Block>& all) const;  ///< of all rows
 
  private:
   template <class Take>
