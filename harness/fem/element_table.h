@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "harness/fem/growing_rows.h"
 #include "harness/fem/polygon_element.h"
 #include "harness/mesh/sheet.h"
 
@@ -30,7 +31,7 @@ class ElementTable {
   /// Rewrites the rows of the slots that the sheet's log names. The same as a new table. \pre these are members of no
   /// polygon.
   void update(const Sheet& sheet);
-  void reserve_spare() { rows_.reserve(rows_.size() + rows_.size() / 2); }
+  void reserve_spare() { cutbench::reserve_spare(rows_); }
 
   std::size_t size() const { return rows_.size(); }
   const Element& operator[](std::size_t i) const { return rows_[i]; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "harness/fem/growing_rows.h"
 #include "harness/fem/springs.h"
 
 namespace cutbench {
@@ -137,7 +138,7 @@ void MembraneSheet<D>::resize(std::size_t elements) {
 
 template <int D>
 void MembraneSheet<D>::reserve_spare() {
-  slots_.reserve(slots_.size() + slots_.size() / 2), strained_.reserve(slots_.capacity());
+  cutbench::reserve_spare(slots_, strained_);
 }
 
 template <int D>

@@ -82,7 +82,7 @@ void Multigrid<D>::update(CoarseLevel& level, const LevelRows& fine, const std::
 template <int D>
 void Multigrid<D>::make_levels(const SystemMatrix<D>& a) {
   coarse_.clear(), float_is_new_ = double_is_new_ = true;
-  rows_.reserve_spare(), slots_.reserve(slots_.size() + slots_.size() / 2);
+  rows_.reserve_spare(), cutbench::reserve_spare(slots_);
   slots_made_ = rows_.blocks.slots();
   double spacing = first_spacing * median_edge(rows_.blocks, places_);
   if (!(spacing > 0)) return;
