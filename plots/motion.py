@@ -11,7 +11,6 @@ STEM = "motion"
 INTEGRATORS = {"midpoint": "midpoint rule", "backward_euler": "backward Euler"}
 REFERENCE = "body_fitted (reference)"
 PLAIN = "conventional_split"
-DRAWS = 4000
 # Of each problem its panel's title, and its measures, the first drawn.
 PROBLEMS = {
     "severed_strip": ("strip cut across", {"lip_motion": "lips' motion", "lip_speed": "lip speed", "arrival": "arrival",
@@ -88,12 +87,11 @@ def print_ratios(table, size):
     """How the flap's motion compares with that after a plain split: of each cut, both integrators."""
     here = table[table["problem"].str.startswith("hanging_sheet") & (table["resolution"] == size)]
     errors = here.pivot_table(index=["problem", "sheet", "case"], columns="method", values="error_flap_motion")
-    draw, rows = np.random.default_rng(1), []
+    rows = []
     for method in errors:
         logs = np.log(errors[method] / errors[PLAIN]).dropna().to_numpy()
-        means = draw.choice(logs, (DRAWS, len(logs))).mean(axis=1)
         each = [np.log(here[method] / here[PLAIN]).mean() for _, here in errors.groupby(level="problem", sort=False)]
-        rows.append([method, *np.exp([logs.mean(), *np.quantile(means, [0.025, 0.975]), *each])])
+        rows.append([method, *np.exp([logs.mean(), *np.quantile(load.drawn_means(logs), [0.025, 0.975]), *each])])
     load.print_table(f"Hanging sheet, {size} triangles: error of the flap's motion over that after {PLAIN}; geometric mean over cuts, "
                      "8 by each integrator, 95 % by drawing these anew, and of each integrator", ["method", "ratio", "from", "to", *(rule for rule in sorted(INTEGRATORS))],
                      sorted(rows, key=lambda row: row[1]))

@@ -16,7 +16,6 @@ PROBLEMS = {  # the label and the limits of the axis: a cut that failed lies bey
     "flap": ("flap: profile, %", (0.003, 30)),
     "trouser_tear": ("tear: release rate, %", (0.03, 200))}
 REFERENCE = ("body_fitted (reference)", "")
-DRAWS = 2000
 
 
 def wide(table):
@@ -34,8 +33,7 @@ def excess(table):
     ratio = np.log1p(table.loc[~table["failed"], "excess_error"].replace(-1, np.nan).dropna())
     if not len(ratio):
         return np.nan, np.nan, np.nan
-    means = np.random.default_rng(1).choice(ratio, (DRAWS, len(ratio))).mean(axis=1)
-    return tuple(100 * np.expm1([ratio.mean(), *np.quantile(means, [0.025, 0.975])]))
+    return tuple(100 * np.expm1([ratio.mean(), *np.quantile(load.drawn_means(ratio), [0.025, 0.975])]))
 
 
 def rows_of(table, order):
