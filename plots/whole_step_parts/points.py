@@ -34,6 +34,10 @@ def _in_plane(table):
     return table["problem"].map(kind_of)
 
 
+def _out_of_plane(table):
+    return table["problem"].where(table["problem"] != "trouser_tear")  # it ranks nothing: docs/results.md
+
+
 def _in_motion(table):
     return table["sheet"].where(table["problem"] == "hanging_sheet_backward_euler")
 
@@ -42,9 +46,9 @@ LEADS = "energy_norm"  # has no sign: nothing cancels in it
 MEASURES = {
     LEADS: Measure("energy norm", "kinds of problems in plane at rest", "method_comparison_accuracy.direct", "error_energy_norm",
                    _in_plane),
-    "released_energy": Measure("released energy (hole: rim stress)", "kinds of problems in plane at rest",
+    "released_energy": Measure("primary measure of each problem", "kinds of problems in plane at rest",
                                "method_comparison_accuracy.direct", "error", _in_plane),
-    "out_of_plane": Measure("out of plane", "problems out of plane at rest", "out_of_plane", "error", lambda table: table["problem"]),
+    "out_of_plane": Measure("out of plane", "problems out of plane at rest", "out_of_plane", "error", _out_of_plane),
     "motion": Measure("gape in motion", "sheets, hanging sheet, backward Euler", "motion", "error_gape_motion", _in_motion)}
 
 
