@@ -48,9 +48,15 @@ SHAPES = [Measure("eigenvalue_ratio", "largest eigenvalue / uncut"),
 PRICE = [Measure("us_per_crossed", "µs per crossed triangle"),
          Measure("incision_error_h", "incision error, h", limits=(0.004, 2)),
          Measure("vertices_per_crossed", "vertices added per crossed tri.", linear=True)]
-JUMP = [Measure("membrane_jump", "membrane energy"), Measure("bending_jump", "bending energy"),
-        Measure("residual_jump", "residual force")]
 ROUNDING = 1e-12  # relative jumps below it are rounding errors
+
+
+def written_jump(value):
+    return "none" if value <= ROUNDING else dots.two_digits(value)
+
+
+JUMP = [Measure("membrane_jump", "membrane energy", written=written_jump), Measure("bending_jump", "bending energy"),
+        Measure("residual_jump", "residual force")]
 OURS = "warp_and_refine"  # the project's own method
 BY_SHEET, AGAINST, ALTITUDE = f"{STEM}_by_sheet", f"{STEM}_pairs", f"{STEM}_altitude"
 TITLES = {  # of the tables that are not medians over all cuts
@@ -111,7 +117,7 @@ def caption(what, run, rows):
     families = ", ".join(sorted(set(rows["cut_family"])))
     sizes = sorted(set(rows["resolution"]))
     size = f"{sizes[0]}" if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]}"
-    return (f"{what} Over the cuts (families: {families}; {size} triangles) of the even sheets, and apart of the graded one. "
+    return (f"Dots, bars and numbers: cuts in the even sheets; diamonds: in the graded one. {what} Families: {families}; {size} triangles. "
             "Within a family of methods, and among the families, the best shapes are on top, by the sum of the ranks of "
             "median eigenvalue, altitude and angle. All knobs have their defaults. A method has no marker for a kind of sheet "
             "that it refuses. " + style.provenance(run, rows, with_crosses=False, per=["sheet"]))

@@ -19,9 +19,10 @@ REFERENCE = ("body_fitted (reference)", "")
 
 
 def wide(table):
-    """A row per cut with a column of the error in percent for each problem; a cut that failed is infinitely bad."""
+    """A row per cut with a column of the error in percent for each problem; a cut that failed is infinitely bad. All sheets are one, as in
+    the table."""
     errors = (100 * table["error"]).where(~table["failed"], np.inf)
-    rows = table[[*load.VARIANT, "sheet", "failed"]].copy()
+    rows = table[[*load.VARIANT, "failed"]].assign(sheet="all")
     for problem in PROBLEMS:
         rows[problem] = errors.where(table["problem"] == problem)
     return rows
@@ -67,10 +68,10 @@ def main():
     rows = wide(finest)
     figure = dots.figure_of(rows[rows["method"] != REFERENCE[0]], cut, measures, [1, 1, 1], ())
     for ax, problem in zip(figure.axes, PROBLEMS):
-        ax.axvline(of(rows, REFERENCE)[problem].median(), color="#111111", linewidth=0.8, linestyle="--", zorder=1)
+        ax.axvline(load.median(of(rows, REFERENCE)[problem]), color="#111111", linewidth=0.8, linestyle="--", zorder=1)
     style.finish(figure, [], " ".join([
-        f"Errors against exact answers at {finest['resolution'].max()} triangles, all four kinds of sheets. Dashed: median of the "
-        "mesh fitted to the cut. Methods that refuse a problem, as those that constrain vertices do, are not in it.",
+        f"Errors against exact answers at {finest['resolution'].max():,} triangles, over all four kinds of sheets. Dashed: median of "
+        "the mesh fitted to the cut. Methods that refuse a problem, as those that constrain vertices do, are not in it.",
         style.provenance(run, finest, with_crosses=False, per=("problem",))]), dots.legend(rows))
     style.save(figure, folder, STEM)
     load.print_table("Median errors in percent by size, and on the finest sheets the mean excess over the fitted mesh with its 95 %",
