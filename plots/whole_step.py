@@ -208,6 +208,16 @@ def best_groups(cost):
     return [((key[:3], key[3]), here) for key, here in best.groupby([*SETTING, "method"])]
 
 
+def print_counts(fronts):
+    """In how many settings a method is on the front, by each error."""
+    counts = pd.DataFrame({points.MEASURES[column].title: table[table["layer"] == 1].drop_duplicates([*SETTING, "method"])["method"].value_counts()
+                           for (column, way), table in fronts.items() if way == "best"}).fillna(0).astype(int)
+    counts = counts.sort_values(list(counts.columns), ascending=False)
+    settings = len(next(iter(fronts.values()))[SETTING].drop_duplicates())
+    load.print_table(f"On the front in how many of the {settings} settings, each by its fastest solver, by the error",
+                     ["method", *counts.columns], [[method, *map(str, row)] for method, row in zip(counts.index, counts.to_numpy())])
+
+
 def print_iterations(rows):
     """How hard the meshes are for SAME."""
     rows = rows[rows["solver"] == SAME]
@@ -221,11 +231,7 @@ def print_iterations(rows):
 def tables(rows, cost, fronts):
     text = io.StringIO()
     with contextlib.redirect_stdout(text):
-        counts = fronts[points.LEADS, "best"]
-        settings = len(counts[SETTING].drop_duplicates())
-        share = counts[counts["layer"] == 1].groupby("method")[SETTING].apply(lambda t: len(t.drop_duplicates()))
-        load.print_table(f"On the front in how many of the {settings} settings, each by its fastest solver ({points.MEASURES[points.LEADS].title})",
-                         ["method", "settings"], [[m, str(n)] for m, n in share.sort_values(ascending=False, kind="stable").items()])
+        print_counts(fronts)
         print_iterations(rows)
         for (column, kind), table in fronts.items():
             solver = "each by its fastest solver" if kind == "best" else f"all by {SAME}"
