@@ -61,7 +61,7 @@ def draw(ax, table, scale=1.0):
     ax.set_ylim(made["error"].min() / 1.25, made["error"].max() * 1.25)
     ax.axvline(REAL_TIME_MS, color="#999999", linewidth=0.7, linestyle="--", zorder=0)
     span = made["ms"].max() / made["ms"].min()
-    ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if span < 15 else (1, 3) if span < 100 else (1,)))
+    ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if span < 15 else (1, 3) if span < 100 * scale**2 else (1,)))
     ax.xaxis.set_minor_formatter(NullFormatter())
     ax.xaxis.set_major_formatter(lambda x, _: f"{x:g}")
     ax.yaxis.set_major_locator(plt.FixedLocator([0.0002, 0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1]))

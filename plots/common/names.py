@@ -15,7 +15,7 @@ def place(ax, named, points, size):
     figure = ax.figure
     figure.draw_without_rendering()
     taken = ax.transData.transform(np.asarray(points, float).reshape(-1, 2))
-    boxes, frame, reach = [], ax.get_window_extent(), figure.dpi / 72
+    boxes, frame, reach = [], ax.get_window_extent().padded(-3), figure.dpi / 72
     for x, y, written, colour in named:
         text = ax.annotate(written, (x, y), xytext=(0, 0), textcoords="offset points", fontsize=size, color=colour,
                            va="center", zorder=4, path_effects=[withStroke(linewidth=1.5, foreground="white")])
