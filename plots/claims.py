@@ -239,10 +239,6 @@ def shapes_cost_accuracy(records):
                    f"sheet and resolution: {'; '.join(parts)} (held: the whole interval is above 1.02).", "accuracy_shape")
 
 
-def median(times):
-    return np.quantile(times, 0.5, method="inverted_cdf") if len(times) else np.inf
-
-
 def share_of_draws(slower, faster, draws=1000):
     """The share of the bootstrap draws of problems in which the median of `faster` is below that of `slower`; ties count half."""
     problems = sorted(set(slower.index))
@@ -250,7 +246,7 @@ def share_of_draws(slower, faster, draws=1000):
     picks = np.random.default_rng(1).integers(0, len(problems), (draws, len(problems)))
     score = 0.0
     for pick in picks:
-        a, b = (median(np.concatenate([of_problem[p][k] for p in pick])) for k in (0, 1))
+        a, b = (load.median(np.concatenate([of_problem[p][k] for p in pick])) for k in (0, 1))
         score += 0.5 * (b < a) + 0.5 * (b <= a)
     return score / draws
 
@@ -261,7 +257,7 @@ def refined_is_slower(records):
     for tolerance in accuracy_profile.TOLERANCES:
         times = {v: accuracy_profile.solved_times(records, v, tolerance) for v in (CONVENTIONAL, PAPERS)}
         solved = {v: np.isfinite(t) for v, t in times.items()}
-        medians = {v: median(t) for v, t in times.items()}
+        medians = {v: load.median(t) for v, t in times.items()}
         if not np.isfinite(list(medians.values())).any():
             continue  # neither solves half of the cases
         faster = share_of_draws(*times.values())

@@ -1,14 +1,11 @@
 #!/usr/bin/env python3
 """All methods on the same cuts: the shapes of their triangles, their cost, the jumps of energy and residual at the cut,
 and tables of all of these, ranked by largest eigenvalue, smallest altitude and largest angle. Reads
-results/method_comparison and, where they exist, its neighbours method_comparison_fine (a smaller chord tolerance),
-method_comparison_accuracy (against exact solutions), method_comparison_jumps (cuts in a running scene),
-method_comparison_knobs and method_comparison_ablation (parts of
-warp_and_refine)."""
+results/method_comparison and, where they exist, its neighbours method_comparison_accuracy (against exact solutions) and
+method_comparison_jumps (cuts in a running scene). Other settings of the methods: method_comparison_knobs.py."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -22,7 +19,6 @@ from method_parts import accuracy as method_accuracy
 from method_parts import details as method_details
 from method_parts import dots
 from method_parts import kinds as method_kinds
-from method_parts import sweeps as method_sweeps
 from method_parts.dots import spread
 
 STEM = "method_comparison"
@@ -52,9 +48,15 @@ SHAPES = [Measure("eigenvalue_ratio", "largest eigenvalue / uncut"),
 PRICE = [Measure("us_per_crossed", "µs per crossed triangle"),
          Measure("incision_error_h", "incision error, h", limits=(0.004, 2)),
          Measure("vertices_per_crossed", "vertices added per crossed tri.", linear=True)]
-JUMP = [Measure("membrane_jump", "membrane energy"), Measure("bending_jump", "bending energy"),
-        Measure("residual_jump", "residual force")]
 ROUNDING = 1e-12  # relative jumps below it are rounding errors
+
+
+def written_jump(value):
+    return "none" if value <= ROUNDING else dots.two_digits(value)
+
+
+JUMP = [Measure("membrane_jump", "membrane energy", written=written_jump), Measure("bending_jump", "bending energy"),
+        Measure("residual_jump", "residual force")]
 OURS = "warp_and_refine"  # the project's own method
 BY_SHEET, AGAINST, ALTITUDE = f"{STEM}_by_sheet", f"{STEM}_pairs", f"{STEM}_altitude"
 TITLES = {  # of the tables that are not medians over all cuts
@@ -96,9 +98,10 @@ def jumped(run):
     return rows
 
 
-def ranking(table, variants, sheets):
+def ranking(table, sheets):
     """The variants, best first: by the sum of their ranks in the three measures of shape, each the mean over the sheets
     of the rank of the median there. Also the ranks."""
+    variants = sorted(set(zip(table["method"], table["knob"])))
     ranks = pd.DataFrame(index=variants, columns=[m.column for m in SHAPES], dtype=float)
     for m in SHAPES:
         per_sheet = pd.DataFrame({s: {v: np.sign(m.worst) * spread(of(table, v, s)[m.column], m.worst)[0][2] for v in variants}
@@ -114,7 +117,7 @@ def caption(what, run, rows):
     families = ", ".join(sorted(set(rows["cut_family"])))
     sizes = sorted(set(rows["resolution"]))
     size = f"{sizes[0]}" if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]}"
-    return (f"{what} Over the cuts (families: {families}; {size} triangles) of the even sheets, and apart of the graded one. "
+    return (f"Dots, bars and numbers: cuts in the even sheets; diamonds: in the graded one. {what} Families: {families}; {size} triangles. "
             "Within a family of methods, and among the families, the best shapes are on top, by the sum of the ranks of "
             "median eigenvalue, altitude and angle. All knobs have their defaults. A method has no marker for a kind of sheet "
             "that it refuses. " + style.provenance(run, rows, with_crosses=False, per=["sheet"]))
@@ -169,14 +172,14 @@ def as_text(name, table):
                                                for block in blocks(shown[shown.columns.difference(of_all, sort=False)])])
 
 
-def write_tables(folder, tables):
-    """A CSV of each table of {name: table}, and one text of all."""
+def write_tables(folder, stem, tables):
+    """A CSV of each table of {name: table}, and one text of all, STEM.txt."""
     for name, table in tables.items():
         table.to_csv(folder / f"{name}.csv", index=False, float_format="%.6g")
         print(folder / f"{name}.csv")
     text = "\n".join(as_text(name, table) for name, table in tables.items())
-    (folder / f"{STEM}.txt").write_text(text, encoding="utf-8")
-    print(folder / f"{STEM}.txt", text, sep="\n\n")
+    (folder / f"{stem}.txt").write_text(text, encoding="utf-8")
+    print(folder / f"{stem}.txt", text, sep="\n\n")
 
 
 def read_cuts(folder):
@@ -196,12 +199,11 @@ def cuts_of(run):
 def main():
     folder = load.results_folder(STEM, __doc__)
     run, table = read_cuts(folder)
-    fine_folder, jumps_folder = (folder.with_name(f"{folder.name}_{kind}") for kind in ("fine", "jumps"))
-    fine = read_cuts(fine_folder)[1] if (fine_folder / "records.csv").is_file() else None
+    jumps_folder = folder.with_name(f"{folder.name}_jumps")
     jumps_run = load.read(jumps_folder, JUMPS) if (jumps_folder / "records.csv").is_file() else None
     jumps = jumped(jumps_run) if jumps_run else None
     sheets = style.sheet_order(table["sheet"])
-    ranks = ranking(table, sorted(set(zip(table["method"], table["knob"]))), sheets)
+    ranks = ranking(table, sheets)
     order = list(ranks.index)
     programs = load.programs(run.everything(), run.context)
 
@@ -221,30 +223,11 @@ def main():
               ALTITUDE: method_details.altitude_law(table, order), AGAINST: method_details.against(table, ours, order)}
     if jumps is not None:
         tables[f"{STEM}_jumps"] = method_details.jumps(jumps, order)
-    if fine is not None:
-        tables[f"{STEM}_fine"] = summary(fine, None, order, ranks)
-        tables[f"{AGAINST}_fine"] = method_details.against(fine, ours, order)
-    knobs = {m["name"]: m["knob"] for m in method_gallery.all_methods()}
-    defaults = set(order) | {(name, f"{knob['name']}={knob['default']:g}") for name, knob in knobs.items() if knob}
-    for kind, draw, what in (
-            ("knobs", partial(method_sweeps.draw_knobs, defaults=defaults), "What each method's knob changes, medians: lower is better. "
-             "The aspect ratio is that of the triangles outside forced wedges. A marker without a line: bound 0, which sets "
-             "no bound, or a variant without a knob."),
-            ("ablation", method_sweeps.draw_ablation, "The parts of warp_and_refine: the steps before the split "
-             "(rows) and after it (columns). Medians. AR: of the triangles outside forced wedges.")):
-        beside = folder.with_name(f"{folder.name}_{kind}")
-        if not (beside / "records.csv").is_file():
-            continue
-        swept_run, swept = read_cuts(beside)
-        swept_ranks = ranking(swept, sorted(set(zip(swept["method"], swept["knob"]))), style.sheet_order(swept["sheet"]))
-        draw(folder, swept, what + " " + style.provenance(
-            swept_run, swept_run.rows, with_crosses=False, per=[]))
-        tables[f"{STEM}_{kind}"] = summary(swept, None, list(swept_ranks.index), swept_ranks)
     if (folder.with_name(method_accuracy.STEM) / "records.csv").is_file():
         beside = folder.with_name(method_accuracy.STEM)
         tables[method_accuracy.STEM] = method_accuracy.draw(folder, beside)
         tables[method_kinds.STEM] = method_kinds.table_of(at_equal_unknowns(Records(beside)).ranked())
-    write_tables(folder, tables)
+    write_tables(folder, STEM, tables)
     method_gallery.draw(folder, set(run.everything()["method"]))
 
 

@@ -22,7 +22,8 @@ STEM = "whole_step"
 SAME = "multigrid"
 REAL_TIME_MS = 1000 * points.BETWEEN_S
 SOLVERS = {"cg_sliver_blocks": "CG", "multigrid": "MG", "cholmod": "direct"}
-FAR = 4  # times the median error: such a method is not drawn
+FAR = 4  # times the median error: such a method is not drawn, unless it is on the front
+PALE = 0.4
 SUMMARY = (4, 1 / 240, 1000)  # the setting of readme_chart.png
 
 
@@ -32,8 +33,9 @@ def setting_name(setting):
 
 
 def near(table):
-    """The rows of a setting that are drawn: the motions ended, and the error is not FAR off."""
-    return table[np.isfinite(table["ms"]) & (table["error"] < FAR * table["error"].median())]
+    """The rows of a setting that are drawn: the motions ended, and the error is not FAR off, or on the front."""
+    shown = (table["error"] < FAR * table["error"].median()) | (table["layer"] == 1)
+    return table[np.isfinite(table["ms"]) & shown]
 
 
 def draw(ax, table, scale=1.0):
@@ -44,14 +46,13 @@ def draw(ax, table, scale=1.0):
     for method, here in table.groupby("method", sort=False):
         here = here.sort_values("resolution")
         colour, marker = family(method).colour, family(method).marker
-        ax.plot(here["ms"], here["error"], color=colour, linewidth=0.4 * scale, alpha=0.2, zorder=1)
         for _, p in here.iterrows():
             first = p["layer"] == 1
             bars = dict(color=colour, linewidth=0.6 * scale, alpha=0.55 if first else 0.15, zorder=1.5)
             ax.hlines(p["error"], p["ms_low"], p["ms_high"] if np.isfinite(p["ms_high"]) else p["ms"], **bars)
             ax.vlines(p["ms"], p["error_low"], p["error_high"], **bars)
             ax.plot(p["ms"], p["error"], marker, color=colour if p["grew"] <= 0.5 else "white", markeredgecolor=colour,
-                    markersize=scale * (2.6 + 1.6 * sizes.index(p["resolution"])), alpha=1 if first else 0.45,
+                    markersize=scale * (2.6 + 1.6 * sizes.index(p["resolution"])), alpha=1 if first else PALE,
                     markeredgewidth=0.7 * scale, zorder=3 if first else 2)
     best = table[table["layer"] == 1].sort_values("ms")
     ax.plot(best["ms"], best["error"], **front.FRONT_LINE)
@@ -60,7 +61,7 @@ def draw(ax, table, scale=1.0):
     ax.set_ylim(made["error"].min() / 1.25, made["error"].max() * 1.25)
     ax.axvline(REAL_TIME_MS, color="#999999", linewidth=0.7, linestyle="--", zorder=0)
     span = made["ms"].max() / made["ms"].min()
-    ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if span < 15 else (1, 3) if span < 300 else (1,)))
+    ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if span < 15 else (1, 3) if span < 100 * scale**2 else (1,)))
     ax.xaxis.set_minor_formatter(NullFormatter())
     ax.xaxis.set_major_formatter(lambda x, _: f"{x:g}")
     ax.yaxis.set_major_locator(plt.FixedLocator([0.0002, 0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1]))
@@ -70,26 +71,38 @@ def draw(ax, table, scale=1.0):
 
 
 def name_of(p, with_solver):
-    return p["method"].replace("_", " ") + (f" ({SOLVERS.get(p['solver'], p['solver'])})" if with_solver else "")
+    """`with_solver`: also the solver, unless it is SAME."""
+    return p["method"].replace("_", " ") + (f" ({SOLVERS.get(p['solver'], p['solver'])})" if with_solver and p["solver"] != SAME else "")
+
+
+def along(best):
+    """Points along the line of a front."""
+    ends = np.log(best.sort_values("ms")[["ms", "error"]].to_numpy())
+    return np.exp(np.concatenate([np.linspace(a, b, 12) for a, b in zip(ends, ends[1:])])) if len(ends) > 1 else np.exp(ends)
 
 
 def write_names(ax, named, everything, size, with_solver):
-    """Each name near its marker; the best first."""
+    """Each name near its marker, and on neither markers nor the front; the best first."""
+    covered = np.concatenate([everything[["ms", "error"]].to_numpy(), along(everything[everything["layer"] == 1])])
     names.place(ax, [(p["ms"], p["error"], name_of(p, with_solver), family(p["method"]).colour)
-                     for _, p in named.sort_values("error").iterrows()], everything[["ms", "error"]].to_numpy(), size)
+                     for _, p in named.sort_values("error").iterrows()], covered, size)
 
 
 def entries(table, scale=1.0):
     there = set(table["method"])
     handles = [Line2D([], [], linestyle="", marker=f.marker, color=f.colour, markersize=4 * scale, label=f.name)
                for f in FAMILIES if there & set(f.methods)]
+    grey = dict(linestyle="", marker="o", markeredgecolor="#444444", markersize=4 * scale)
+    handles += [Line2D([], [], color="#444444", alpha=PALE, label="behind the front", **grey)]
+    if (table["grew"] > 0.5).any():
+        handles += [Line2D([], [], color="white", label="energy grew in over half of the motions", **grey)]
     return handles + [Line2D([], [], label="front", **front.FRONT_LINE),
                       Line2D([], [], color="#999999", linewidth=0.7, linestyle="--", label="real time")]
 
 
 def sizes_of(table):
     *smaller, largest = (f"{n:,}" for n in sorted(set(table["resolution"])))
-    return f"{', '.join(smaller)}{' and ' * bool(smaller)}{largest} triangles (the more, the larger the marker)"
+    return f"{', '.join(smaller)}{' and ' * bool(smaller)}{largest} triangles"
 
 
 def source(context):
@@ -100,27 +113,30 @@ def pages(table, column, context, by_solver):
     settings = sorted(set(table[SETTING].itertuples(index=False, name=None)), key=lambda s: (s[2], -s[1], s[0]))
     columns = min(3, len(settings))
     rows = -(-len(settings) // columns)
-    figure, axes = style.panels(rows, columns, 5.6, width=style.PAGE)
+    figure, axes = style.panels(rows, columns, 6.6, width=style.PAGE)
     for ax in axes.flat[len(settings):]:
         ax.set_visible(False)
     drawn = []
     for i, (ax, setting) in enumerate(zip(axes.flat, settings)):
         here = at(table, setting)
         drawn.append((ax, draw(ax, here)))
-        ax.set_title(setting_name(setting), fontsize=6, loc="left")
+        ax.set_title(setting_name(setting), fontsize=6.5, loc="left")
         ax.set_xlabel("ms for a cut and the 0.25 s after it" if i + columns >= len(settings) else "")
-        ax.set_ylabel("" if i % columns else f"error, {points.MEASURES[column].title}", fontsize=6)
+        ax.set_ylabel("" if i % columns else f"error, {points.MEASURES[column].title}")
     errors_commit = str(load.read_context(points.MEASURES[column].files()[1]).get("commit"))
-    solver = f"all by {SAME}"
+    solver = f"All by {SAME}."
     if by_solver:
-        solver = "each by its fastest solver of CG with sliver blocks, multigrid (MG) and CHOLMOD (direct)"
+        solver = (f"Each by its fastest solver: {SAME}, unless CG (conjugate gradients with sliver blocks) or direct (CHOLMOD) stands "
+                  "beside the name.")
     style.finish(figure, [], (
-        f"Lower left is better; {solver}. Time: median over sheets and cuts, bars quartiles. Error: |relative error|, geometric mean "
-        f"over {points.MEASURES[column].of}; bars: bootstrap over these, of the ratio to a fitted mesh. Hollow, and not on the "
-        f"front: energy came from nowhere in over half of the motions. {sizes_of(table)}; {source(context)}; errors: commit {errors_commit[:10]}."), entries(pd.concat([made for _, made in drawn])))
+        f"Lower left is better; the larger the marker, the larger the sheet. {solver} {sizes_of(table)}. Hollow markers are on no front. "
+        "Time: median over sheets and cuts, bars quartiles. Error: |relative error|, geometric mean "
+        f"over {points.MEASURES[column].of}; bars: 95 %, how the ratio to a fitted mesh changes as these are drawn anew. Not drawn: errors "
+        f"of over {FAR} times the median behind the front. {source(context).capitalize()}; errors: commit {errors_commit[:10]}."),
+        entries(pd.concat([made for _, made in drawn])))
     for ax, made in drawn:
         best = made[made["layer"] == 1].sort_values("error").drop_duplicates("method")  # each method once: its least error
-        write_names(ax, best, made, 4.3, by_solver)
+        write_names(ax, best, made, 5.8, by_solver)
     return figure
 
 
@@ -143,9 +159,9 @@ def summary(best, same, methods, context):
     handles = entries(pd.concat([made for _, made in drawn]), 1.6)
     figure.legend(handles=handles, loc="upper left", ncol=-(-len(handles) // 2), fontsize=8.5, borderaxespad=0.2, handletextpad=0.3,
                   columnspacing=1.2)
-    figure.text(0.02, 0.015, f"Lower left is better. {setting_name(setting)}. {sizes_of(best)}. {source(context).capitalize()}.\n"
-                "Bars: quartiles of the time; how the error changes with the kind of problem. Hollow, no part of the front: energy grew in over half of "
-                f"the motions.\n{absent(pd.concat([made for _, made in drawn]), methods)}", fontsize=7.2, color="#555555")
+    figure.text(0.02, 0.015, f"Lower left is better. {setting_name(setting)}. {sizes_of(best)}: the more, the larger the marker. "
+                f"{source(context).capitalize()}.\nBars: quartiles of the time; how the error changes with the kind of problem. Named: the fronts and "
+                f"the largest sheets.\n{absent(pd.concat([made for _, made in drawn]), methods)}", fontsize=7.2, color="#555555")
     return figure
 
 
@@ -192,14 +208,31 @@ def best_groups(cost):
     return [((key[:3], key[3]), here) for key, here in best.groupby([*SETTING, "method"])]
 
 
-def tables(cost, fronts):
+def print_counts(fronts):
+    """In how many settings a method is on the front, by each error."""
+    counts = pd.DataFrame({points.MEASURES[column].title: table[table["layer"] == 1].drop_duplicates([*SETTING, "method"])["method"].value_counts()
+                           for (column, way), table in fronts.items() if way == "best"}).fillna(0).astype(int)
+    counts = counts.sort_values(list(counts.columns), ascending=False)
+    settings = len(next(iter(fronts.values()))[SETTING].drop_duplicates())
+    load.print_table(f"On the front in how many of the {settings} settings, each by its fastest solver, by the error",
+                     ["method", *counts.columns], [[method, *map(str, row)] for method, row in zip(counts.index, counts.to_numpy())])
+
+
+def print_iterations(rows):
+    """How hard the meshes are for SAME."""
+    rows = rows[rows["solver"] == SAME]
+    cuts, sizes = sorted(set(rows["place"])), sorted(set(rows["resolution"]))
+    median = rows.groupby(["method", "place", "resolution"])["iterations"].agg(load.median)
+    load.print_table(f"Iterations of a step by {SAME}, medians over sheets, cases, steps and stiffnesses, by cuts / triangles",
+                     ["method", *(f"{c:g} / {n}" for c in cuts for n in sizes)],
+                     [[m, *(median.get((m, c, n), np.nan) for c in cuts for n in sizes)] for m in sorted(set(rows["method"]))])
+
+
+def tables(rows, cost, fronts):
     text = io.StringIO()
     with contextlib.redirect_stdout(text):
-        counts = fronts[points.LEADS, "best"]
-        settings = len(counts[SETTING].drop_duplicates())
-        share = counts[counts["layer"] == 1].groupby("method")[SETTING].apply(lambda t: len(t.drop_duplicates()))
-        load.print_table(f"On the front in how many of the {settings} settings, each by its fastest solver ({points.MEASURES[points.LEADS].title})",
-                         ["method", "settings"], [[m, str(n)] for m, n in share.sort_values(ascending=False, kind="stable").items()])
+        print_counts(fronts)
+        print_iterations(rows)
         for (column, kind), table in fronts.items():
             solver = "each by its fastest solver" if kind == "best" else f"all by {SAME}"
             print_fronts(table, f"Fronts: time against error ({points.MEASURES[column].title}; {table['kinds'].max()} "
@@ -251,7 +284,7 @@ def main():
     figure = readme_chart(folder)
     figure.savefig(folder / "readme_chart.png", dpi=150)
     plt.close(figure)
-    load.write_beside(folder / f"{STEM}.txt", tables(cost, fronts))
+    load.write_beside(folder / f"{STEM}.txt", tables(rows, cost, fronts))
 
 
 if __name__ == "__main__":

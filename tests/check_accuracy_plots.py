@@ -185,6 +185,15 @@ def check_commands():
         expect(f"quoted again: {shown}", load.pasteable(shown) == shown)
 
 
+def check_quantiles():
+    from common import load
+    inf = float("inf")
+    for values, median in (([4, 1, 3, 2], 2.5), ([2, inf, 1], 2), ([1, inf], inf), ([float("nan"), 3], 3)):
+        expect(f"the median of {values} is {load.median(values)}", load.median(values) == median)
+    expect("quartiles", list(load.quantiles([1, 2, 3, 4, inf], [0.25, 0.75, 1])) == [2, 4, inf])
+    expect("not all draws of two values", sorted(load.drawn_means([0, 1])) == [0, 0.5, 0.5, 1])
+
+
 def check_program(results):
     """One resolution, and one of the methods a program: figures and tables without nan, and the program named as one."""
     folder = results / "one_size"
@@ -258,6 +267,7 @@ def main():
         print("\n".join(problems))
         return 1
     check_commands()
+    check_quantiles()
     check_equal_unknowns(results / "accuracy")
     check_errors(results / "accuracy")
     check_factor(results / "accuracy")

@@ -39,8 +39,9 @@ def rows_of(stem):
 
 
 def median(values):
-    """The smallest value that at least half of them do not exceed."""
-    return sorted(values)[math.ceil(len(values) / 2) - 1] if values else None
+    """The mean of the two middle values where their number is even."""
+    values = sorted(values)
+    return (values[(len(values) - 1) // 2] + values[len(values) // 2]) / 2 if values else None
 
 
 def geometric(values):

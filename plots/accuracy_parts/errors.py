@@ -9,8 +9,6 @@ from accuracy_parts.records import REFERENCE, label_edges, log_x_axis
 from common import front, load, style
 from common.load import of
 
-DRAWS = 2000
-
 
 def throughout(records):
     """The direct solves of the problems, and of their members, that are on all sizes, so that sizes can be compared."""
@@ -32,8 +30,7 @@ def interval(mine, reference):
     logs = np.log(mine / reference).dropna().to_numpy()
     if not len(logs):
         return np.nan, np.nan
-    means = np.random.default_rng(1).choice(logs, (DRAWS, len(logs))).mean(axis=1)
-    return np.exp(np.log(reference).mean() + np.quantile(means, [0.025, 0.975]))
+    return np.exp(np.log(reference).mean() + np.quantile(load.drawn_means(logs), [0.025, 0.975]))
 
 
 def points(records, x):
@@ -48,7 +45,7 @@ def points(records, x):
             errors = by_problem(made)
             y = 100 * np.exp(np.log(errors).mean())
             low, high = (y, y) if variant == REFERENCE else (100 * end for end in interval(errors, reference))
-            q1, middle, q3 = load.with_failures(made[x])
+            q1, middle, q3 = load.quantiles(made[x], [0.25, 0.5, 0.75])
             rows.append({"sheet": sheet, "resolution": resolution, "method": variant[0], "knob": variant[1], "x": middle,
                          "x_q1": q1, "x_q3": q3, "x_made": tried.loc[~tried["failed"], x].median(), "y": y, "y_q1": low,
                          "y_q3": high, "n": len(tried), "failed": int(tried["failed"].sum())})

@@ -38,7 +38,7 @@ def cells(table, x, y, by, panel=()):
         row = dict(zip(by, key)) | {"n": len(group), "failed": int(group["failed"].sum())}
         for name, axis in (("x", x), ("y", y)):
             costs = axis.cost(group[axis.column]).where(~group["failed"], np.inf)
-            quartiles = [axis.cost(q) for q in load.with_failures(costs)]
+            quartiles = [axis.cost(q) for q in load.quantiles(costs, [0.25, 0.5, 0.75])]
             row |= dict(zip((f"{name}_q1", name, f"{name}_q3"), quartiles))
             row[f"{name}_made"] = group.loc[~group["failed"], axis.column].median()
         found.append(row)

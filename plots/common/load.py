@@ -4,6 +4,7 @@ statistics that several figures use. A file that can't be read ends the program 
 import argparse
 import functools
 import gzip
+import itertools
 import json
 import re
 import shlex
@@ -235,12 +236,34 @@ def of(table, variant, sheet=None):
     return here if sheet is None else here[here["sheet"] == sheet]
 
 
-def with_failures(values):
-    """q1, median and q3 of values that may be infinite, for cases that failed, so without interpolation: each is the smallest
-    value that is not exceeded by its share of the values."""
+def quantiles(values, shares):
+    """Of values that may be infinite, for what failed: linear between two neighbours, infinite where the one that counts is; NaN
+    is left out."""
+    values = np.asarray(values, float)
+    values = np.sort(values[~np.isnan(values)])
     if not len(values):
-        return np.nan, np.nan, np.nan
-    return tuple(np.quantile(np.asarray(values, float), [0.25, 0.5, 0.75], method="inverted_cdf"))
+        return np.full(len(shares), np.nan)
+    places = (len(values) - 1) * np.asarray(shares)
+    low, part = np.floor(places).astype(int), places - np.floor(places)
+    high = np.minimum(low + 1, len(values) - 1)
+    ends = values[[low, high]]
+    with np.errstate(invalid="ignore"):  # the difference of two infinite ones
+        between = ends[0] + part * (ends[1] - ends[0])
+    return np.where((part == 0) | (ends[0] == ends[1]), ends[0], between)
+
+
+def median(values):
+    """The mean of the two middle ones where their number is even; values as quantiles() takes them."""
+    return float(quantiles(values, [0.5])[0])
+
+
+def drawn_means(values, draws=10000):
+    """The means of all draws with replacement of as many (bootstrap): of at most six values of all draws there are, else of so many
+    random ones."""
+    values = np.asarray(values, float)
+    if len(values) <= 6:
+        return np.array(list(itertools.product(values, repeat=len(values)))).mean(axis=1)
+    return np.random.default_rng(1).choice(values, (draws, len(values))).mean(axis=1)
 
 
 def front_layers(x, y):
@@ -272,8 +295,7 @@ def ratio(numerator, denominator, draws=10000):
     logs = logs[np.isfinite(logs)]
     if not len(logs):
         return np.nan, np.nan, np.nan, 0
-    samples = np.random.default_rng(1).choice(logs, (draws, len(logs))).mean(axis=1)
-    low, high = np.exp(np.percentile(samples, [2.5, 97.5]))
+    low, high = np.exp(np.quantile(drawn_means(logs, draws), [0.025, 0.975]))
     return np.exp(logs.mean()), low, high, len(logs)
 
 

@@ -72,6 +72,7 @@ def draw(folder, beside):
     order = list(by_kind[load.VARIANT].itertuples(index=False, name=None))
     figure, axes, variants = dots.table_of_dots(order, [2.2, 1, 1][:2 + some_stopped], records.programs)
     left, right, numbers = axes[0], axes[-1], [{} for _ in axes]
+    left.set_ylim(left.get_ylim()[0] + 0.35, left.get_ylim()[1])  # room for what is written at the edge
     for y, variant in variants:
         row, colour = of(by_kind, variant).iloc[0], families.family(variant[0]).colour
         errors = {kind: row[f"error, {kind}"] for kind in kinds.KINDS
@@ -80,7 +81,7 @@ def draw(folder, beside):
         for kind, value in errors.items():
             left.plot(1 + value / 100, y + BESIDE, color="#555555", zorder=5, **KINDS[kind])
             if 1 + value / 100 > SHOWN:
-                left.annotate(f"{kind} {value:+,.0f} % →", (1, y + BESIDE + 0.1), xycoords=left.get_yaxis_transform(),
+                left.annotate(f"{kind} {value:+,.0f} % →", (1, y + 2 * BESIDE), xycoords=left.get_yaxis_transform(),
                               ha="right", va="center", fontsize=7, color="#555555")
         left.plot(1 + row["error, kinds"] / 100, y, color=colour, **dots.MEDIAN | dict(markersize=5))
         numbers[0][y] = row["error, kinds"]
@@ -107,7 +108,8 @@ def draw(folder, beside):
     entries += [Line2D([], [], label=kind, **grey, **KINDS[kind]) for kind in kinds.KINDS if f"error, {kind}" in by_kind]
     style.finish(figure, [], records.caption(
         f"Errors over those of a mesh that fits the cut, {measure.short.removeprefix('over a fitted mesh ')}: left of 0 is better. "
-        "Mean over kinds of problems in plane; the interval draws the kinds anew. "
+        "Mean over kinds of problems in plane; the interval draws the kinds anew. Times: of these cuts, which are others than those of "
+        "the table of all methods. "
         f"Error: of each problem's primary measure, over that of {measure.fitted}, minus one; geometric means over sheets, sizes "
         f"and members.{' ' * bool(measure.note)}{measure.note}{style.PROGRAM_TIME * bool(records.programs)}"
         + f" After {BUDGET} iterations of conjugate gradients (Jacobi preconditioner): all {len(records.problems)} "

@@ -20,7 +20,7 @@ def spread(values, worst=np.inf):
     if not len(values):
         return np.full(5, np.nan), np.nan
     sign = 1 if worst > 0 else -1
-    quantiles = sign * np.quantile(sign * values, [0.05, 0.25, 0.5, 0.75, 0.95], method="inverted_cdf")
+    quantiles = sign * load.quantiles(sign * values, [0.05, 0.25, 0.5, 0.75, 0.95])
     return quantiles, sign * max(sign * values[np.isfinite(values)], default=-np.inf)
 
 

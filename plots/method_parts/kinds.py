@@ -5,14 +5,13 @@ import pandas as pd
 
 from accuracy_parts.ranking import made_by_all, mean_excess, ranked_by
 from accuracy_parts.records import CASE, REFERENCE
-from common.load import of
+from common.load import drawn_means, of
 
 STEM = "method_comparison_accuracy_kinds"
 KINDS = {"crack": ("centre_crack", "inclined_crack"), "arc": ("arc_crack",), "edge crack": ("edge_crack",),
          "hole": ("kirsch_hole",), "tip field": ("williams",)}  # by the beginnings of their names
 TWICE = "two_cuts_one_geometry"  # has the exact answer of centre_crack
 MEASURES = ["energy_norm", "displacement_l2", "opening", "k1"]
-DRAWS = 2000
 WHAT = ("error over that of a body-fitted mesh with as many unknowns, minus one, %: mean over kinds of problems (geometric), its 95 % "
         "interval by drawing the kinds anew, and by kind; then errors by measure, over those of a mesh with as many triangles as "
         "the uncut sheet")
@@ -28,9 +27,8 @@ def mean_over(kinds):
 
 
 def interval(kinds):
-    """The ends of that of mean_over(), 95 %, of kinds drawn with replacement (bootstrap)."""
-    draw, values = np.random.default_rng(1), np.log1p(np.array(list(kinds.values())) / 100)
-    means = draw.choice(values, (DRAWS, len(values))).mean(axis=1)
+    """The ends of that of mean_over(), 95 %, of all draws of kinds with replacement (bootstrap)."""
+    means = drawn_means(np.log1p(np.array(list(kinds.values())) / 100))
     return 100 * (np.exp(np.quantile(means, [0.025, 0.975])) - 1)
 
 

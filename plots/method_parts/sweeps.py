@@ -6,7 +6,7 @@ from matplotlib.colors import LogNorm, Normalize
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from common import families, style
+from common import families, load, style
 from common.load import of
 
 BEFORE = ["nothing", "snap", "warp", "thin", "warp+thin"]
@@ -19,11 +19,9 @@ CURVES = [  # column, label, and how it is drawn
 OFF_AT_ZERO = {"cgal_refine", "delaunay_refine"}  # bound=0 sets no bound
 
 
-def median(rows, column):
-    """The median, in which a failed cut is infinitely bad; NaN if nothing was measured."""
-    values = np.where(rows["failed"], np.inf, rows[column].to_numpy(float))
-    values = values[~np.isnan(values)]
-    return float(np.quantile(values, 0.5, method="inverted_cdf")) if len(values) else np.nan
+def median_of(rows, column):
+    """That of the rows; a failed cut is infinitely bad."""
+    return load.median(rows[column].where(~rows["failed"], np.inf))
 
 
 def below_three(rows):
@@ -54,7 +52,7 @@ def draw_knobs(folder, table, caption, defaults):
         knob = next((k.partition("=")[0] for (_, k), _ in settings if k), "")
         joined = slice(method in OFF_AT_ZERO, len(settings) - sum(":" in m for (m, _), _ in settings))
         for column, _, looks in CURVES:
-            values = [median(of(table, variant), column) for variant, _ in settings]
+            values = [median_of(of(table, variant), column) for variant, _ in settings]
             x = np.arange(len(values))
             ax.plot(x[joined], values[joined], **looks | dict(marker=""))
             ax.plot(x, values, **looks | dict(linestyle=""))
@@ -73,11 +71,11 @@ def draw_knobs(folder, table, caption, defaults):
 
 def draw_ablation(folder, table, caption):
     """What comes before the split, by row, and after it, by column; a panel per measure, its numbers in the cells."""
-    measures = [("largest eigenvalue / uncut", lambda rows: median(rows, "eigenvalue_ratio"), "{:.3g}", LogNorm(1, 1e4)),
+    measures = [("largest eigenvalue / uncut", lambda rows: median_of(rows, "eigenvalue_ratio"), "{:.3g}", LogNorm(1, 1e4)),
                 ("cuts with AR < 3", below_three, "{:.0%}", Normalize(0, 1)),
-                ("vertices per crossed tri.", lambda rows: median(rows, "vertices_per_crossed"), "{:.2f}",
+                ("vertices per crossed tri.", lambda rows: median_of(rows, "vertices_per_crossed"), "{:.2f}",
                  Normalize(0, 3)),
-                ("µs per crossed triangle", lambda rows: median(rows, "us_per_crossed"), "{:.2g}", LogNorm(0.3, 10))]
+                ("µs per crossed triangle", lambda rows: median_of(rows, "us_per_crossed"), "{:.2g}", LogNorm(0.3, 10))]
     figure, axes = style.panels(2, 2, 4.4)
     for ax, (label, measure, text, norm) in zip(axes.flat, measures):
         cells = np.array([[measure(table[table["method"] == f"ablation:{before}:{after}"]) for after in AFTER]
