@@ -8,6 +8,7 @@ import io
 
 from accuracy_parts.budgets import budgets_figure
 from accuracy_parts.errors import error_figure
+from accuracy_parts.intervals import print_intervals
 from accuracy_parts.profile import profile_figure
 from accuracy_parts.ranking import at_equal_unknowns, print_ranking
 from accuracy_parts.records import Records, cells_of, label_edges, log_x_axis
@@ -51,6 +52,7 @@ def write_text(folder, records):
     text = io.StringIO()
     with contextlib.redirect_stdout(text):
         print_ranking(records.in_plane(), "in plane")
+        print_intervals(records.in_plane())
         print_ranking(records.out_of_plane(), "out of plane")
         print_shapes(records)
         print_statements(records)

@@ -69,8 +69,8 @@ def error_figure(levels, described):
     ax.set_xlabel("unknowns after the cut")
     ax.set_ylabel("incision error, mm")
     n = sorted({d["triangles_before"] for d in described})
-    style.finish(figure, looks.values(), "Figure 10 of the paper, measured: Hausdorff distance at rest between the requested curve and "
-                 "the incision, over the unknowns of the cut sheet, which is 1 m wide. All methods but warp and refine cut "
+    style.finish(figure, looks.values(), "Figure 10 of the paper, measured. Distance between the requested curve and the incision. It is the "
+                 "Hausdorff distance at rest, over the unknowns of the cut sheet, which is 1 m wide. All methods but warp and refine cut "
                  "through the same points, so that resolution and chord tolerance alone determine the error. The methods differ in the "
                  f"unknowns that they need. n = {', '.join(map(str, n))} triangles before the cut, one cut. No seed: "
                  f"the cut is in the scene file; {scene_panels.commits(described)}. Command: experiments/reproduce {STEM}",

@@ -87,14 +87,14 @@ def lips_figure(rows, worth, described):
             ax.set_title(f"{time:g} s", loc="left")
             ax.tick_params(labelbottom=True)
             ax.set_xlabel(unit)
-            ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+            ax.xaxis.set_major_locator(LogLocator(subs=(1, 3)))
             ax.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
             ax.xaxis.set_minor_formatter(NullFormatter())
     n = scene_panels.same((d["triangles_before"] for d in described), "the number of triangles")
     style.finish(figure, looks.values(), " ".join([
-        "Figure 8 of the paper, measured: do the mesh, the bending element or the solver cause a swirling cut edge?", answer(rows),
-        f"Root mean square differences along both lips from those on a sheet of {FINE} triangles (same scene, bending "
-        f"element, integrator and step; direct solver). n = {n} triangles before the cut at 0.5 s; one cut. No seed: the "
+        f"Figure 8 of the paper, measured. Lips against those on a sheet of {FINE} triangles.", answer(rows),
+        "Root mean square differences along both lips (same scene, bending element, integrator and step; direct solver). "
+        f"n = {n} triangles before the cut at 0.5 s; one cut. No seed: the "
         f"cut is in the scene files; {scene_panels.commits(described)}. Command: experiments/reproduce {STEM}"]),
         [Line2D([], [], color="black", linewidth=0.7, linestyle=":", label=f"difference of a sheet of {COARSER} triangles")])
     return figure

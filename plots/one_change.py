@@ -4,6 +4,7 @@ on the same cuts (results/one_change), the functions on the same cracks (results
 one row per change."""
 
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
@@ -52,9 +53,24 @@ CHANGES = [
 
 
 def ratio(here, base, column):
-    """Median over the cuts of the time over that of the baseline on the same cut."""
+    """Median over the cuts of the time over that of the baseline on the same cut, and its 95 % interval: cuts drawn anew."""
     pairs = here.merge(base[CUT + [column]], on=CUT, suffixes=("", "_base"))
-    return (pairs[column] / pairs[f"{column}_base"]).median()
+    ratios = (pairs[column] / pairs[f"{column}_base"]).to_numpy()
+    if not len(ratios):
+        return np.nan, np.nan, np.nan
+    draws = np.median(np.random.default_rng(1).choice(ratios, (10000, len(ratios))), axis=1)
+    return np.median(ratios), *np.quantile(draws, [0.025, 0.975])
+
+
+def error(cracks):
+    """Mean of the errors in percent, and its 95 % interval: all ways to draw the problems anew, which have as many cracks each."""
+    means = 100 * cracks[ERROR].abs().groupby(cracks["problem"]).mean()
+    draws = [np.mean(draw) for draw in product(means, repeat=len(means))]
+    return means.mean(), *np.quantile(draws, [0.025, 0.975])
+
+
+def in_words(value, low, high):
+    return "-" if np.isnan(value) else f"{load.number(value)} [{load.number(low, 2)}, {load.number(high, 2)}]"
 
 
 def rows_of(cuts, errors):
@@ -72,7 +88,7 @@ def rows_of(cuts, errors):
             base = here
         row = dict(zip(["eigenvalue", "95 %", "worst"], np.quantile(eigenvalue, [0.5, 0.95, 1])))
         for n in sizes:
-            row[f"error %, {n}"] = 100 * cracks.loc[cracks["resolution"] == n, ERROR].abs().mean()
+            row[f"error %, {n}"] = error(cracks[cracks["resolution"] == n])
         for n in sizes:
             row[f"iterations, {n}"] = here.loc[here["resolution"] == n, "iterations"].median()
         for n in sizes:
@@ -91,13 +107,14 @@ def figure_of(rows, size, caption):
     y = -np.arange(len(rows))
     for ax, (title, column) in zip(axes[0], panels):
         ax.set_xscale("log"), ax.set_xlabel(title, fontsize=6.5)
-        ax.axvline(rows[0][1][column], color="#999999", linewidth=0.6, linestyle="--", zorder=0)
+        ax.axvline(np.ravel(rows[0][1][column])[0], color="#999999", linewidth=0.6, linestyle="--", zorder=0)
         for at, (change, row) in zip(y, rows):
             colour = KINDS[change.kind]
-            if column == "eigenvalue":
-                ax.plot([row["eigenvalue"], row["worst"]], [at, at], color=colour, linewidth=0.8, alpha=0.6)
+            value, *ends = (row[column], row[column], row["worst"]) if column == "eigenvalue" else np.ravel(row[column])
+            if ends:
+                ax.plot(ends, [at, at], color=colour, linewidth=0.8, alpha=0.6)
             hollow = column.startswith("iterations") and change.solver != "cg"
-            ax.plot(row[column], at, "o", color="white" if hollow else colour, markeredgecolor=colour, markersize=4)
+            ax.plot(value, at, "o", color="white" if hollow else colour, markeredgecolor=colour, markersize=4)
         ax.axhline(0.5 - sum(change.kind != "together" for change, _ in rows), color="#999999", linewidth=0.5)
         if column != "eigenvalue":
             ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
@@ -119,14 +136,15 @@ def main():
     made = cuts[CUT].drop_duplicates()
     drawn = made[made["resolution"] == sizes[-1]]
     style.save(figure_of(rows, sizes[-1], (
-        f"Left is good. Above the line one change of conventional split, lumped mass and CG; below it several together (tips: tip functions, mass: stabilised). {sizes[-1]} triangles, "
+        f"Left is good. Above the line one change of conventional split, lumped mass and CG; below it several together. Lines at errors and times: 95 % intervals ({errors['problem'].nunique()} problems, or the cuts, drawn anew). Tips: tip functions; mass: stabilised. {sizes[-1]} triangles, "
         f"{len(drawn)} cuts (eigenvalues: {len(made)}, also of {sizes[0]} triangles). Errors: {errors['problem'].nunique()} cracks at rest, where mass "
         "and solver change nothing; steps are without tip functions. "
         f"Commit {str(context.get('commit'))[:10]}, seed {context.get('seed')}.")), folder, STEM)
     load.print_table("Each change alone, and together: largest eigenvalue over the uncut sheet's (median, 95 %, worst), mean error of the released "
-                     "energy at cracks, iterations of a step (median); medians of times over those of the first row on the same cuts; share of "
-                     "motions in which energy grew", ["change", "by", *rows[0][1]],
-                     [[change.kind, change.label(), *row.values()] for change, row in rows])
+                     "energy at cracks with its 95 % interval (problems drawn anew), iterations of a step (median); medians of times over those of the first "
+                     "row on the same cuts with 95 % intervals (cuts drawn anew); share of motions in which energy grew", ["change", "by", *rows[0][1]],
+                     [[change.kind, change.label(), *(in_words(*v) if isinstance(v, tuple) else v for v in row.values())]
+                      for change, row in rows])
 
 
 if __name__ == "__main__":

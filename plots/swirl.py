@@ -46,14 +46,14 @@ def measured(results):
 
 
 def ratios(rows):
-    """[method, ratio, low, high, n]: the angle by the conventional split over that by each other method, of the same cut and
-    material; geometric mean with its 95 % interval by drawing the cuts anew: the materials of one cut are no trials of their own."""
+    """[method, ratio, lowest, highest, n]: the angle by the conventional split over that by each other method, of the same cut and
+    material: geometric mean, and its range by cut: the materials of one cut are no trials of their own."""
     angle = rows.pivot_table(index=["cut", "material"], columns="method", values="degrees")
     found = []
     for method in angle.columns:
         if method not in (CONVENTIONAL, str(COARSER)):
             each = np.exp(np.log(angle[CONVENTIONAL] / angle[method]).groupby("cut").mean())
-            found.append([families.name(method), *load.ratio(each, np.ones(len(each)))])
+            found.append([families.name(method), np.exp(np.log(each).mean()), each.min(), each.max(), len(each)])
     return found
 
 
@@ -99,7 +99,7 @@ def main():
     style.save(draw(rows, described), results, STEM)
     text = io.StringIO()
     with contextlib.redirect_stdout(text):
-        load.print_table("Angle of the lips by the conventional split over that by", ["method", "ratio", "from", "to (95 %)", "cuts"],
+        load.print_table("Angle of the lips by the conventional split over that by: geometric mean over materials and cuts, and its range by cut", ["method", "ratio", "lowest cut", "highest cut", "cuts"],
                          [[*row[:-1], str(row[-1])] for row in ratios(rows)])
         load.print_table(f"Lips against those of a sheet of {FINE} triangles; {scene_panels.commits(described)}", list(rows.columns),
                          [[str(r.cut), r.material, r.method, r.mm, r.degrees, r.verdict] for r in rows.itertuples()])

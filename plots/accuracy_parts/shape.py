@@ -48,8 +48,8 @@ def shape_figure(records):
             for look in records.methods.values()]
     line = Line2D([], [], color="#c00000", linewidth=1.1, label="median per decade of AR")
     style.finish(figure, [], records.caption(
-        "Does the error depend on the shape of the triangles? Error over that of the body-fitted mesh, direct solver, "
-        "against the largest aspect ratio of the triangles that the cut made or changed; plane problems, a dot for each case. "
+        "Error over the fitted mesh's (direct solver), against the largest aspect ratio that the cut left. Plane problems, a dot for "
+        "each case; the aspect ratio is of the triangles that the cut made or changed. "
         f"{but_programs(records)}"
         f"{' '.join(shape_statements(records))} {style.AR_DEFINITION}"), [*dots, line])
     return figure

@@ -2,7 +2,7 @@
 
 import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
-from matplotlib.patches import Patch
+from matplotlib.patches import Patch, Rectangle
 
 from atlas_parts import points
 
@@ -15,8 +15,9 @@ VERDICTS = {  # colour and words of what is not ok
 }
 EXPLICIT_BANDS = [(0.3, "#1a9850", "≥ 0.3"), (0.1, "#91cf60", "≥ 0.1"), (0.01, "#e6f598", "≥ 0.01"),
                   (1e-4, "#fee08b", "≥ 1e-4"), (-np.inf, "#fdae61", "< 1e-4")]
-COST_BANDS = [(3, "#006d2c", "≤ 3 ms"), (10, "#41ab5d", "≤ 10"), (30, "#a1d99b", "≤ 30"), (np.inf, "#e5f5e0", "> 30")]
+COST_BANDS = [(3, "#006d2c", "≤ 3 ms"), (10, "#41ab5d", "≤ 10"), (30, "#a1d99b", "≤ 30"), (np.inf, "#d5e8a8", "> 30")]
 OK, UNKNOWN = "#74c476", "#f7f7f7"
+HATCHED = dict(facecolor=UNKNOWN, edgecolor="#888888", linewidth=0, hatch="/" * 7)
 PLAIN = {"rolled", "turned_over", "step_poisson", "vertex_static", "piece_static"}  # panels without bands
 
 
@@ -48,6 +49,8 @@ def cells(ax, rows, group, x, inner=(), measure="", ylabels=True, ticks=None, la
         image[y, xs.index(getattr(row, x))] = colours.index(colour)
     ax.imshow(image, cmap=ListedColormap(colours), norm=BoundaryNorm(np.arange(len(colours) + 1) - 0.5, len(colours)),
               aspect="auto", interpolation="none")
+    for down, right in np.argwhere(image == (colours.index(UNKNOWN) if UNKNOWN in colours else -1)):
+        ax.add_patch(Rectangle((right - 0.5, down - 0.5), 1, 1, **HATCHED))
     for i in range(1, len(xs)):
         ax.axvline(i - 0.5, color="white", linewidth=0.4)
     for i in range(1, len(image)):
@@ -77,7 +80,7 @@ def ratio_lines(ax, rows, names, ylabels=True, prices=False):
         values = rows[rows["name"] == name][points.EXPLICIT].dropna()
         if not len(values):
             continue
-        low, middle = values.quantile(0.05, interpolation="lower"), values.median()
+        low, middle = values.quantile(0.05), values.median()
         if prices:
             mine = rows[rows["name"] == name]
             error = "gap" if (mine["method"] == "element_deletion").all() else f"{mine['incision_error_h'].median():.2g} h"
@@ -112,7 +115,7 @@ def legends(verdicts, panel=None):
     """(what it is about, handles) for each row of the legend. For a `panel` alone: those of its colours."""
     def patches(bands):
         return [Patch(color=colour, label=words) for _, colour, words in bands]
-    unknown = Patch(facecolor=UNKNOWN, edgecolor="#aaaaaa", linewidth=0.5, label="not known")
+    unknown = Patch(**HATCHED, label="not known")
     explicit = ("ok, explicit step:", [*patches(EXPLICIT_BANDS), unknown])
     cost = ("ok, cost of a step:", patches(COST_BANDS) + [Patch(color=OK, label="not timed")])
     others = ("not ok:", patches((v, *VERDICTS[v]) for v in VERDICTS if v in verdicts))

@@ -45,7 +45,8 @@ def worst(rows, by):
     """A row for each value of `by`, in the order of the records: the worst verdict of its cases, and the worst measures."""
     groups = rows.groupby(by, sort=False)
     table = groups.agg(rank=("rank", "max"), cases=("rank", "size"), ok=("rank", lambda r: (r == 0).mean()),
-                       explicit=(EXPLICIT, lambda step: step.min(skipna=False)), step_us=("step_us", "max"), iterations=("iterations", "max"),
+                       explicit=(EXPLICIT, lambda step: step.min(skipna=False)), least_known=(EXPLICIT, "min"),
+                       unknown=(EXPLICIT, lambda step: step.isna().sum()), step_us=("step_us", "max"), iterations=("iterations", "max"),
                        geometry_us=("geometry_us", "median"), energy_gain=("energy_gain", "max"), drift=("drift_h", "max"))
     table["verdict"] = [WORST_LAST[r] for r in table["rank"]]
     return table.reset_index()

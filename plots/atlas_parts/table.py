@@ -44,10 +44,17 @@ def breaking_points(rows, sweep):
         line = [words[0], ", ".join(words[1:]) or "-", text(last), text(first), verdict.replace("_", " ")]
         if sweep in WITH_EXPLICIT:
             good = [points.breaking_point(table[x], (table["rank"] == 0) & (table["explicit"] >= least))[0] for least in (0.3, 0.1)]
-            line += [text(v) for v in good] + [rounded(table["explicit"].min())]
+            line += [text(v) for v in good] + [least_of(table)]
         lines.append(line)
     methods = list(dict.fromkeys(line[0] for line in lines))
     return sorted(lines, key=lambda line: methods.index(line[0]))
+
+
+def least_of(table):
+    """Of the cases that are known, where any is, and how many are not."""
+    unknown = table.loc[table["explicit"].isna() & (table["rank"] == 0), "unknown"].sum()
+    least = rounded(table["least_known"].min())
+    return f"{least} ({unknown:.0f} not known)" if unknown and least != "-" else least
 
 
 def rounded(value):
@@ -67,17 +74,17 @@ def cures(rows):
         mine = single[single["name"] == name]
         made = mine[mine["rank"] == 0]
         ratio, four = mine[points.EXPLICIT].fillna(0), several[several["name"] == name][points.EXPLICIT].fillna(0)
-        low = ratio.quantile(0.05, interpolation="lower")
+        low = ratio.quantile(0.05)
         every = rows[(rows["name"] == name) & rows["sweep"].isin(WITH_EXPLICIT)]
         broken = [s for s in WITH_EXPLICIT if (every[every["sweep"] == s]["rank"] > 0).any()]
         lines.append([name, f"{ratio.median():.2g}", f"{low:.2g}", "yes" if ratio.median() >= 0.3 and low >= 0.1 else "no",
                       "no" if mine["method"].isin(TIED).all() else "yes",
-                      f"{four.median():.2g}", f"{four.quantile(0.05, interpolation='lower'):.1g}",
+                      f"{four.median():.2g}", f"{four.quantile(0.05):.2g}",
                       f"{made['geometry_us'].median() / base:.1f}", f"{made['vertices_added'].median():.0f}",
                       f"{made['incision_error_h'].median():.2g}", f"{len(made)}/{len(mine)}",
                       ", ".join(sorted(broken)).replace("_", " ") or "none"])
     return markdown(["method", "explicit step, median", "95 % have at least", "0.3 and 0.1?", "step made?", "four cuts, median", "95 %",
-                     "time of a cut / conventional", "vertices added", "incision error, h", "cuts ok",
+                     "time of a cut without finding polygons or ties / conventional", "vertices added", "incision error, h", "cuts ok",
                      "sweeps with a verdict that is not ok"], lines)
 
 
