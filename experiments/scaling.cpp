@@ -40,6 +40,7 @@ class Body {
         locator_(sheet_),
         model_(sheet_, skin, {.bending = BendingKind::patches}, {{.where = {{-1, -1}, {1e-9, 2}}}}, {}),
         state_(initial_state(model_, sheet_)) {
+    sheet_.reserve(2 * sheet_.triangle_slots(), 2 * sheet_.vertex_slots(), 2 * sheet_.deformed_slots());
     model_.reserve_spare();
     set_up();
   }
