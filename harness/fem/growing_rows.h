@@ -15,6 +15,7 @@ template <class... Vectors>
 void reserve_spare(Vectors&... vectors) {
   const auto reserve = [](auto& vector) {
     const std::size_t n = vector.size();
+    if (n == 0) return;
     vector.resize(n + n / 2);
     std::memset(static_cast<void*>(vector.data() + n), 0, (vector.size() - n) * sizeof vector[0]);
     vector.resize(n);
