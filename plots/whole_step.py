@@ -82,10 +82,10 @@ def along(best):
 
 
 def write_names(ax, named, everything, size, with_solver):
-    """Each name near its marker, and on neither markers nor the front; the best first."""
+    """Each name near its marker, and on neither markers nor the front; the best first. Without solvers all methods are named: a crowd."""
     covered = np.concatenate([everything[["ms", "error"]].to_numpy(), along(everything[everything["layer"] == 1])])
     names.place(ax, [(p["ms"], p["error"], name_of(p, with_solver), family(p["method"]).colour)
-                     for _, p in named.sort_values("error").iterrows()], covered, size)
+                     for _, p in named.sort_values("error").iterrows()], covered, size, clear_lines=with_solver)
 
 
 def entries(table, scale=1.0):

@@ -7,14 +7,13 @@ from matplotlib.patheffects import withStroke
 LEADER = 8  # points: a name further off has one
 DISTANCES = np.arange(5, 110, 3)  # points, from a marker to its name
 ANGLES = np.radians([0, 180, -35, -145, 35, 145, -90, 90, -60, 60, -120, 120])
-# How bad: once, for each, for each that the thin line passes, for each, for each point of the distance.
-OUTSIDE, ON_A_NAME, PAST_A_POINT, ON_A_POINT, FAR = 1000, 100, 30, 8, 0.2
+OUTSIDE, ON_A_NAME, ON_A_POINT, FAR = 1000, 100, 8, 0.2  # how bad: once, for each, for each, for each point of the distance
 
 
-def place(ax, named, points, size):
+def place(ax, named, points, size, clear_lines=True):
     """Each of `named`, (x, y, text, colour), near its marker, where it covers none of `points`, (x, y) each, and no name
-    before it; a thin line, which crosses no name and no point, joins the two where the name is further off. The limits of the axes
-    must be set."""
+    before it; a thin line joins the two where the name is further off. The limits of the axes must be set. `clear_lines`: no line crosses
+    a name; in a crowd that takes names too far away."""
     figure = ax.figure
     figure.draw_without_rendering()
     taken = ax.transData.transform(np.asarray(points, float).reshape(-1, 2))
@@ -36,8 +35,8 @@ def place(ax, named, points, size):
                 inside = frame.x0 <= here.x0 and here.x1 <= frame.x1 and frame.y0 <= here.y0 and here.y1 <= frame.y1
                 covered = ((here.x0 - 2 < taken[:, 0]) & (taken[:, 0] < here.x1 + 2) & (here.y0 - 2 < taken[:, 1])
                            & (taken[:, 1] < here.y1 + 2)).sum()
-                bad = (OUTSIDE * (not inside) + ON_A_NAME * sum(hides(other, here, line) for other in boxes) + ON_A_POINT * covered
-                       + PAST_A_POINT * passed(line, taken) + FAR * distance)
+                bad = (OUTSIDE * (not inside) + ON_A_NAME * sum(hides(other, here, line if clear_lines else []) for other in boxes) + ON_A_POINT * covered
+                       + FAR * distance)
                 if best is None or bad < best[0]:
                     best = (bad, dx, dy, here, line)
         _, dx, dy, here, line = best
@@ -59,11 +58,3 @@ def leader(marker, box):
 def hides(name, box, line):
     """Whether a new box or its line covers a name."""
     return box.overlaps(name) or any(name.padded(-0.15 * box.height).contains(*q) for q in line)
-
-
-def passed(line, points, near=6):
-    """How many points, in pixels, a line to a marker comes near, but for those at the marker."""
-    if not len(line):
-        return 0
-    distances = np.hypot(*(np.asarray(line)[:, None] - points[None]).transpose(2, 0, 1))
-    return int(((distances.min(axis=0) < near) & (distances[-1] > near)).sum())
