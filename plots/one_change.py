@@ -4,7 +4,6 @@ on the same cuts (results/one_change), the functions on the same cracks (results
 one row per change."""
 
 from dataclasses import dataclass
-from itertools import product
 
 import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
@@ -65,8 +64,7 @@ def ratio(here, base, column):
 def error(cracks):
     """Mean of the errors in percent, and its 95 % interval: all ways to draw the problems anew, which have as many cracks each."""
     means = 100 * cracks[ERROR].abs().groupby(cracks["problem"]).mean()
-    draws = [np.mean(draw) for draw in product(means, repeat=len(means))]
-    return means.mean(), *np.quantile(draws, [0.025, 0.975])
+    return means.mean(), *np.quantile(load.drawn_means(means), [0.025, 0.975])
 
 
 def in_words(value, low, high):

@@ -12,7 +12,6 @@ from common.load import of
 from method_parts import kinds
 
 STEM = "remedies"
-DRAWS = 100000
 KINDS = {  # colour, marker, and the methods whose remedy is of this kind
     "the mesh": ("#0072b2", "s", ["active_node", "warp_and_refine", "delaunay_refine", "adaptive_remesh"]),
     "the path": ("#7b3294", "v", ["snap_or_split", "edge_release"]),
@@ -53,11 +52,9 @@ def errors(folder):
 
 def interval(direct):
     """The ends of that of the mean excess at equal unknowns, 95 %, in words: problems drawn anew (bootstrap)."""
-    by_problem = np.log(direct["ratio_equal"]).groupby(direct["problem"]).agg(["sum", "size"]).to_numpy()
-    if not len(by_problem):  # one size of sheets alone
+    if direct.empty:  # one size of sheets alone
         return "-"
-    draws = by_problem[np.random.default_rng(1).integers(0, len(by_problem), (DRAWS, len(by_problem)))].sum(axis=1)
-    ends = np.exp(np.quantile(draws[:, 0] / draws[:, 1], [0.025, 0.975]))
+    ends = np.exp(np.quantile(load.drawn_group_means(np.log(direct["ratio_equal"]), direct["problem"]), [0.025, 0.975]))
     return kinds.in_words(np.round(100 * (ends - 1)) + 0.0)  # no -0
 
 

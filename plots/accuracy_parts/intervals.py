@@ -1,7 +1,5 @@
 """95 % intervals of the ranking: what other kinds of problems could give."""
 
-from itertools import product
-
 import numpy as np
 
 from accuracy_parts.ranking import made_by_all
@@ -14,9 +12,7 @@ def interval(table, column):
     """The mean of a ratio over all cases, minus one, in percent, and the ends of its 95 % interval, in words: all ways to draw as many
     kinds of problems as there are, each with all of its cases."""
     logs = np.log(table.loc[table[column] > 0, column])
-    kinds = logs.groupby(table["kind"]).agg(["sum", "size"]).to_numpy()
-    draws = kinds[np.array(list(product(range(len(kinds)), repeat=len(kinds))))].sum(axis=1)
-    ends = np.quantile(draws[:, 0] / draws[:, 1], [0.025, 0.975])
+    ends = np.quantile(load.drawn_group_means(logs, table["kind"]), [0.025, 0.975])
     return 100 * np.expm1(logs.mean()), in_words(np.round(100 * np.expm1(ends)) + 0.0)  # no -0
 
 

@@ -35,8 +35,9 @@ def place(ax, named, points, size, clear_lines=True):
                 inside = frame.x0 <= here.x0 and here.x1 <= frame.x1 and frame.y0 <= here.y0 and here.y1 <= frame.y1
                 covered = ((here.x0 - 2 < taken[:, 0]) & (taken[:, 0] < here.x1 + 2) & (here.y0 - 2 < taken[:, 1])
                            & (taken[:, 1] < here.y1 + 2)).sum()
-                bad = (OUTSIDE * (not inside) + ON_A_NAME * sum(hides(other, here, line if clear_lines else []) for other in boxes) + ON_A_POINT * covered
-                       + FAR * distance)
+                judged = line if clear_lines else []
+                hidden = sum(hides(other, here, judged) for other in boxes)
+                bad = OUTSIDE * (not inside) + ON_A_NAME * hidden + ON_A_POINT * covered + FAR * distance
                 if best is None or bad < best[0]:
                     best = (bad, dx, dy, here, line)
         _, dx, dy, here, line = best
