@@ -15,12 +15,13 @@ double cpu_time_us() {
 }  // namespace
 
 CutRun cut_all(Sheet& sheet, Locator& locator, Cutter& cutter, std::span<const Curve> cuts, CuttingMethod& method,
-               const CutOptions& options) {
+               const CutOptions& options, const std::function<void()>& after_cut) {
   CutRun run;
   run.status = Status::noop;
-  const double start = cpu_time_us();
   for (const Curve& curve : cuts) {
+    const double start = cpu_time_us();
     const CutOutcome outcome = cutter.cut(sheet, locator, curve, method, options);
+    run.cpu_us += cpu_time_us() - start;
     run.time_us += outcome.time_us;
     run.crossed_triangles += outcome.crossed_triangles;
     run.recovered_segments += outcome.recovered_segments;
@@ -29,8 +30,8 @@ CutRun cut_all(Sheet& sheet, Locator& locator, Cutter& cutter, std::span<const C
     if (outcome.status != Status::noop || run.status == Status::noop) run.reason = outcome.reason;
     if (outcome.status != Status::noop) run.status = outcome.status;
     if (run.status == Status::failed || run.status == Status::refused) break;
+    if (after_cut && outcome.status != Status::noop) after_cut();
   }
-  run.cpu_us = cpu_time_us() - start;
   return run;
 }
 

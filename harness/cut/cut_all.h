@@ -1,6 +1,7 @@
 // Several cuts made in a sheet, one after the other.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 
@@ -18,7 +19,8 @@ struct CutRun {
   PhaseTimes time_us;
   double cpu_us = 0;  ///< process CPU time of all cuts
 };
+/// \param after_cut  called after each cut that changed the sheet; may be empty
 CutRun cut_all(Sheet& sheet, Locator& locator, Cutter& cutter, std::span<const Curve> cuts, CuttingMethod& method,
-               const CutOptions& options);
+               const CutOptions& options, const std::function<void()>& after_cut = {});
 
 }  // namespace cutbench

@@ -218,10 +218,9 @@ class Runner {
   }
 
   void fill_eigenvalues(Record& row, const Worker& worker) const {
-    const Ties ties = worker.method->ties(base_.sheet, worker.sheet);
-    Measured measured{.membrane = ratios(worker.sheet, ties, {}, base_eigenvalue_)};
-    if (ties.phantoms == 0)  // phantom nodes do not bend
-      measured.bent = ratios(worker.sheet, ties, bent_skin, base_bending_);
+    Measured measured{.membrane = ratios(worker.sheet, worker.ties, {}, base_eigenvalue_)};
+    if (worker.ties.phantoms == 0)  // phantom nodes do not bend
+      measured.bent = ratios(worker.sheet, worker.ties, bent_skin, base_bending_);
     fill(row, measured, {Group::stability});
   }
 

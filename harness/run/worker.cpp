@@ -19,7 +19,7 @@ void Worker::restore(const BaseSheet& base, const std::vector<Curve>& cuts) {
 
 CutRun Worker::cut(const BaseSheet& base, const std::vector<Curve>& cuts, const CutOptions& options) {
   restore(base, cuts);
-  return cut_all(sheet, locator_, cutter, cuts, *method, options);
+  return cut_restored(base, cuts, options);
 }
 
 CutRun Worker::measure(const BaseSheet& base, const std::vector<Curve>& cuts, const CutOptions& options, bool cold) {
@@ -27,14 +27,25 @@ CutRun Worker::measure(const BaseSheet& base, const std::vector<Curve>& cuts, co
   for (int i = 0; i < (is_program ? 0 : cold ? 1 : 2); ++i) cut(base, cuts, options);
   restore(base, cuts);
   if (cold) chill_caches();
-  CutRun run = cut_all(sheet, locator_, cutter, cuts, *method, options);
-  const bool made = run.status == Status::ok || run.status == Status::deviated;
-  ties = {};
-  if (made && method->tying() != CuttingMethod::Tying::nothing) {
+  return cut_restored(base, cuts, options);
+}
+
+CutRun Worker::cut_restored(const BaseSheet& base, const std::vector<Curve>& cuts, const CutOptions& options) {
+  using Tying = CuttingMethod::Tying;
+  double tie_us = 0;
+  const auto find_ties = [&] {
     StopWatch watch;
     ties = method->ties(base.sheet, sheet);
-    run.time_us.tie = watch.lap();
-  }
+    tie_us += watch.lap();
+  };
+  ties = {};
+  const Tying tying = method->tying();
+  const bool anew_after_each = tying != Tying::nothing && tying != Tying::polygons;
+  CutRun run = cut_all(sheet, locator_, cutter, cuts, *method, options,
+                       anew_after_each ? std::function<void()>(find_ties) : nullptr);
+  // A scene's polygons follow each cut (CuttingMethod::next_ties), which takes about as long as all of them at once.
+  if (tying == Tying::polygons && (run.status == Status::ok || run.status == Status::deviated)) find_ties();
+  run.time_us.tie = tie_us;
   return run;
 }
 

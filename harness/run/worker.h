@@ -22,21 +22,22 @@ class Worker {
 
   /// Another base sheet comes next; the worker's is not one cut away from it.
   void forget_base() { undoable_ = false; }
-  /// Cuts the base sheet.
+  /// Cuts the base sheet. What the method ties is part of the price: it is found anew after each cut (polygons: once).
   CutRun cut(const BaseSheet& base, const std::vector<Curve>& cuts, const CutOptions& options);
   /// Cold: right after other work has driven everything out of the caches. Warm: the same cut, made and undone twice
-  /// just before; a program runs once either way. What the method ties is part of the price.
+  /// just before; a program runs once either way.
   CutRun measure(const BaseSheet& base, const std::vector<Curve>& cuts, const CutOptions& options, bool cold);
 
   Variant variant;
   std::unique_ptr<CuttingMethod> method;
   Cutter cutter;
   Sheet sheet;  ///< what the last cut made of the base sheet
-  Ties ties;    ///< of it; after measure()
+  Ties ties;    ///< of it
 
  private:
   /// Makes the sheet the base sheet again: by undoing a single cut, so that the caches stay as they are.
   void restore(const BaseSheet& base, const std::vector<Curve>& cuts);
+  CutRun cut_restored(const BaseSheet& base, const std::vector<Curve>& cuts, const CutOptions& options);
 
   Locator locator_;
   bool undoable_ = false;  // at most one cut away from the base sheet

@@ -1,0 +1,107 @@
+// The price of the ties in a case of several cuts: they are found after each of its cuts, as in a simulation.
+#include "harness/run/worker.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "harness/mesh/families.h"
+#include "methods/registry.h"
+#include "tests/fem_helpers.h"
+
+namespace cutbench {
+namespace {
+
+constexpr std::chrono::milliseconds slowness{2};
+
+/// Counts what it is asked for, and takes its time.
+class TiesSlowly final : public CuttingMethod {
+ public:
+  TiesSlowly(Tying kind, std::size_t* asked) : kind_(kind), asked_(asked) {}
+  void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override {
+    CuttingMethod::embed(sheet, trace, notes);
+    if (++embedded_ == fails_at) throw CutFailed("inverted", "on purpose");
+  }
+  Tying tying() const override { return kind_; }
+  Ties ties(const Sheet&, const Sheet&) const override {
+    ++*asked_;
+    std::this_thread::sleep_for(slowness);
+    return {};
+  }
+
+  std::size_t fails_at = 0;
+
+ private:
+  Tying kind_;
+  std::size_t *asked_, embedded_ = 0;
+};
+
+class WorkerTest : public testing::Test {
+ protected:
+  /// Cuts once, by the method that ties() counts for.
+  CutRun cut(const std::vector<Curve>& cuts, CuttingMethod::Tying kind, std::size_t fails_at = 0) {
+    auto row = std::make_shared<MethodRow>(find_method("conventional_split"));
+    row->make = [&](double) {
+      auto method = std::make_unique<TiesSlowly>(kind, &asked_);
+      method->fails_at = fails_at;
+      return method;
+    };
+    asked_ = 0;
+    return Worker({row, 0}).cut(base_, cuts, {});
+  }
+  static double us(std::size_t times) { return 1e3 * static_cast<double>(times) * slowness.count(); }
+
+  const BaseSheet base_{Sheet(make_sheet("grid", 10))};
+  const std::vector<Curve> three_cuts_{line({-0.1, 0.22}, {1.1, 0.27}), line({0.31, 0.51}, {0.62, 0.58}),
+                                       line({-0.1, 0.73}, {1.1, 0.78})};
+  std::size_t asked_ = 0;
+};
+
+TEST_F(WorkerTest, TiesAreFoundAfterEachCutThatIsMade) {
+  const CutRun three = cut(three_cuts_, CuttingMethod::Tying::vertices);
+  EXPECT_EQ(three.status, Status::ok);
+  EXPECT_EQ(asked_, 3u);
+  EXPECT_GE(three.time_us.tie, us(3));
+
+  std::vector<Curve> beside = three_cuts_;
+  beside.insert(beside.begin() + 1, line({2, 2}, {3, 3}));
+  EXPECT_EQ(cut(beside, CuttingMethod::Tying::phantoms).status, Status::ok);
+  EXPECT_EQ(asked_, 3u) << "a cut that had nothing to do";
+
+  const CutRun failed = cut(three_cuts_, CuttingMethod::Tying::vertices, 2);
+  EXPECT_EQ(failed.status, Status::failed);
+  EXPECT_EQ(asked_, 1u);
+  EXPECT_GE(failed.time_us.tie, us(1));
+}
+
+TEST_F(WorkerTest, PolygonsAreFoundOnceSinceAScenesFollowTheLastCut) {
+  const CutRun three = cut(three_cuts_, CuttingMethod::Tying::polygons);
+  EXPECT_EQ(three.status, Status::ok);
+  EXPECT_EQ(asked_, 1u);
+  EXPECT_GE(three.time_us.tie, us(1));
+}
+
+TEST_F(WorkerTest, AMethodThatTiesNothingIsNotAsked) {
+  EXPECT_EQ(cut(three_cuts_, CuttingMethod::Tying::nothing).time_us.tie, 0);
+  EXPECT_EQ(asked_, 0u);
+}
+
+TEST_F(WorkerTest, ItsTiesAreThoseOfAllCuts) {
+  for (const std::string name : {"split_and_tie", "phantom_node", "cut_polygons"}) {
+    SCOPED_TRACE(name);
+    const auto row = std::make_shared<MethodRow>(find_method(name));
+    Worker worker({row, row->knob.value});
+    for (const bool cold : {false, true}) {
+      const CutRun run = worker.measure(base_, three_cuts_, {}, cold);
+      EXPECT_GT(run.time_us.tie, 0);
+      const Ties all = worker.method->ties(base_.sheet, worker.sheet);
+      EXPECT_FALSE(all.empty());
+      EXPECT_EQ(worker.ties.ties.size(), all.ties.size());
+      EXPECT_EQ(worker.ties.polygons, all.polygons);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace cutbench
