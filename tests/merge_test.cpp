@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/base/shard_of.h"
 #include "tests/helpers.h"
 #include "tests/program.h"
 
@@ -39,10 +40,10 @@ class Merge : public Program {
     for (int i = of; i >= 1; --i) all += " " + shard(i, of) + "/" + stem;  // in any order
     return all;
   }
-  void expect_equal(const std::string& stem) {
+  void expect_equal(const std::string& stem, const std::vector<int>& numbers_of_shards = {1, 3, 5}) {
     EXPECT_EQ(run("run " + stem + ".toml --out whole").code, 0);
     const auto whole = lines_without_times(read(folder_ / "whole" / stem / "records.csv"));
-    for (const int of : {1, 3, 5}) {
+    for (const int of : numbers_of_shards) {
       run_shards(stem, of);
       const std::string out = "merged" + std::to_string(of);
       const Result made = run("merge --out " + out + folders(stem, of));
@@ -90,6 +91,52 @@ TEST_F(Merge, Accuracy) {
       "claim = \"c\"\nsheets = [\"grid\", \"delaunay\"]\nresolutions = [200]\nmethods = [\"conventional_split\"]\n"
       "[accuracy]\nproblems = [\"centre_crack\", \"two_cuts_one_geometry\"]\nmembers = [4]\ndirect = [\"cholmod\"]\n");
   expect_equal("a");
+}
+
+/// Sheets, sizes, families and problems are divided, too.
+TEST_F(Merge, OneCaseOfEachKind) {
+  const auto one_case = [](std::string text) { return text.replace(text.find("cases = 3"), 9, "cases = 1"); };
+  std::string untimed = one_case(small_experiment());
+  untimed.replace(untimed.find("repetitions = 2"), 15, "times = false");
+  write(folder_ / "timed.toml", one_case(small_experiment()));
+  write(folder_ / "untimed.toml", untimed);
+  write(folder_ / "accuracy.toml",
+        "claim = \"c\"\nsheets = [\"grid\", \"delaunay\"]\nresolutions = [72, 200]\nmethods = "
+        "[\"conventional_split\"]\n[accuracy]\nproblems = [\"centre_crack\", \"two_cuts_one_geometry\"]\nmembers = "
+        "[2, 1]\nreference = false\ndirect = [\"cholmod\"]\n");
+  for (const std::string stem : {"timed", "untimed", "accuracy"}) {
+    expect_equal(stem, {2, 3});
+    for (const int of : {2, 3})
+      for (int i = 1; i <= of; ++i)
+        EXPECT_GT(lines_of(read(folder_ / shard(i, of) / stem / "records.csv")).size(), 1u) << stem << i << of;
+  }
+}
+
+TEST_F(Merge, OneCaseOfACampaign) {
+  write(folder_ / "c.toml",
+        "claim = \"c\"\nsheets = [\"grid\", \"delaunay\"]\nresolutions = [32, 72]\ncases = 1\nmethods = "
+        "[\"conventional_split\"]\n[campaign]\ntime_limit_s = 60\n");
+  expect_equal("c", {2, 3, 5});
+  for (const std::string folder : {"s1of2", "s2of2"}) {
+    const auto lines = lines_of(read(folder_ / folder / "c" / "records.csv"));
+    const std::vector<std::string> names = fields_of(lines[0]);
+    long long cases = 0;
+    for (std::size_t i = 1; i < lines.size(); ++i) cases += std::stoll(Record(names, lines[i]).get("cases"));
+    EXPECT_EQ(cases, 2) << folder;
+  }
+}
+
+TEST(ShardOf, SpreadsWhatRecurs) {
+  for (const std::size_t shards : {1, 2, 3, 8}) {
+    for (std::size_t turn = 0; turn < 20; ++turn) {
+      std::set<std::size_t> dealt_to;
+      for (std::size_t p = 0; p < shards; ++p) dealt_to.insert(shard_of(turn * shards + p, shards));
+      EXPECT_EQ(dealt_to.size(), shards) << "an item for each";
+    }
+    std::set<std::size_t> of_every_other;
+    for (std::size_t item = 0; item < 2 * shards * shards; item += 2) of_every_other.insert(shard_of(item, shards));
+    EXPECT_EQ(of_every_other.size(), shards);
+  }
 }
 
 /// Its points are tried in other processes, in turns by shard.

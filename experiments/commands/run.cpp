@@ -181,7 +181,7 @@ Command add_run(CLI::App& app) {
                    "processes of a campaign, or of an experiment with `times = false`; all cores where it is not "
                    "given. Other experiments stay on one core")
       ->check(CLI::PositiveNumber);
-  command->add_option("--shard", arguments->shard, "i/N: only every N-th case, from the i-th")->capture_default_str();
+  command->add_option("--shard", arguments->shard, "i/N: only one N-th of the cases, the i-th")->capture_default_str();
   command->footer(
       "example, which takes less than a minute:\n"
       "  cutbench run experiments/method_comparison.toml --resolutions 800 --cases 2 --out results/small\n"

@@ -97,9 +97,7 @@ class AtlasRun {
             for (int i = 0; i < std::min(sweep.cases, experiment_.cases); ++i)
               for (const Variant& variant : variants_) {
                 if (!wants(sweep.methods, variant.row->name)) continue;
-                if (number++ % static_cast<std::size_t>(options_.shards) !=
-                    static_cast<std::size_t>(options_.shard) - 1)
-                  continue;
+                if (!options_.is_ours(number++)) continue;
                 Trial trial{.sweep = &sweep,
                             .point = &point,
                             .variant = &variant,

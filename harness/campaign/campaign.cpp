@@ -49,9 +49,6 @@ class Campaign {
     for (const Variant& v : variants_of(experiment, methods)) contenders_.push_back(contender_of(v));
     if (plan_.peer) contenders_.push_back(cgal_peer());
     cut_options_.chord_tolerance = experiment.chord_tolerance;
-    for (std::size_t i = static_cast<std::size_t>(options.shard) - 1; i < static_cast<std::size_t>(experiment.cases);
-         i += static_cast<std::size_t>(options.shards))
-      numbers_.push_back(i);
     families_.emplace_back("unknown");  // of a case whose drawing crashed or hung
     for (const char* family : mixture_families()) families_.emplace_back(family);
   }
@@ -60,7 +57,8 @@ class Campaign {
     if (!file_.note().empty() && !options_.quiet)
       std::fprintf(stderr, "%s: %s\n", experiment_.stem.c_str(), file_.note().c_str());
     const std::size_t sheets = experiment_.sheets.size() * experiment_.resolutions.size() + plan_.mesh_files.size();
-    Progress progress(experiment_.stem, sheets * contenders_.size() * numbers_.size(), options_.quiet);
+    const std::size_t ours = options_.ours(0, sheets * static_cast<std::size_t>(experiment_.cases)).size();
+    Progress progress(experiment_.stem, ours * contenders_.size(), options_.quiet);
     for (const auto& sheet : experiment_.sheets)
       for (int resolution : experiment_.resolutions)
         run_sheet(sheet, make_sheet(sheet, squares_per_side(resolution)), progress);
@@ -110,6 +108,8 @@ class Campaign {
   void run_sheet(const std::string& name, const MeshData& mesh, Progress& progress) {
     sheet_name_ = name, mesh_ = mesh, sheet_ = Sheet(mesh);
     drawn_.clear();
+    numbers_ = options_.ours(items_, static_cast<std::size_t>(experiment_.cases));
+    items_ += static_cast<std::size_t>(experiment_.cases);
     for (const Contender& contender : contenders_) {
       if (is_done(contender)) {
         progress.skip(numbers_.size());
@@ -223,11 +223,12 @@ class Campaign {
   Isolation isolation_;
   CutOptions cut_options_;
   std::vector<Contender> contenders_;
-  std::vector<std::size_t> numbers_;  // of the shard's cases
   std::vector<std::string> families_;
   std::map<std::string, std::string> last_reason_;  // by method: of what was refused or is wrong
+  std::size_t items_ = 0;                           // cases of the sheets so far, of all shards
   // Of the sheet under way.
   std::string sheet_name_;
+  std::vector<std::size_t> numbers_;  // of the shard's cases
   MeshData mesh_;
   Sheet sheet_;
   std::vector<Drawn> drawn_;

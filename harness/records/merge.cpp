@@ -4,10 +4,12 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <string>
 
 #include "harness/base/errors.h"
+#include "harness/base/shard_of.h"
 #include "harness/base/whole_file.h"
 #include "harness/records/record.h"
 
@@ -87,8 +89,7 @@ class Table {
   explicit Table(const std::string& head) : names_(fields_of(head)) {}
 
   std::vector<Fields> merged(const std::vector<Shard>& shards) const {
-    if (has("sweep")) return dealt(shards);
-    return has("tried") ? summed(shards) : interleaved(shards);
+    return has("tried") ? summed(shards) : dealt(shards);
   }
 
  private:
@@ -102,29 +103,32 @@ class Table {
     return text;
   }
 
-  /// Of measured cases: every case is in one shard, and the first shard has a case of every group.
-  std::vector<Fields> interleaved(const std::vector<Shard>& shards) const {
-    const char* subject = has("problem") ? "problem" : "cut_family";
-    std::map<std::string, std::size_t> group_number;
-    std::vector<std::pair<std::pair<std::size_t, long long>, const Fields*>> rows;
-    for (const Shard& shard : shards)
-      for (const Fields& row : shard.rows) {
-        const std::size_t next = group_number.size();
-        const std::size_t group = group_number.emplace(key(row, {subject, "sheet", "resolution"}), next).first->second;
-        rows.push_back({{group, std::stoll(row.at(column("case")))}, &row});
-      }
-    std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::vector<Fields> result;
-    for (const auto& [order, row] : rows) result.push_back(*row);
+  /// The rows of a shard by work item: a measured case, or a point of a sweep, which has one row.
+  std::vector<std::span<const Fields>> items(const std::vector<Fields>& rows) const {
+    const bool one_row_each = has("sweep");
+    const auto item_of = [&, subject = has("problem") ? "problem" : "cut_family"](const Fields& row) {
+      return key(row, {subject, "sheet", "resolution", "case"});
+    };
+    std::vector<std::span<const Fields>> result;
+    for (std::size_t begin = 0, end = 0; begin < rows.size(); begin = end) {
+      for (end = begin + 1; !one_row_each && end < rows.size() && item_of(rows[end]) == item_of(rows[begin]);) ++end;
+      result.emplace_back(&rows[begin], end - begin);
+    }
     return result;
   }
 
-  /// Of points of sweeps: they were dealt to the shards in turns, a row for each.
-  static std::vector<Fields> dealt(const std::vector<Shard>& shards) {
+  /// Of work items, each of which is in one shard (harness/base/shard_of.h).
+  std::vector<Fields> dealt(const std::vector<Shard>& shards) const {
+    std::vector<std::vector<std::span<const Fields>>> hands;
+    for (const Shard& shard : shards) hands.push_back(items(shard.rows));
+    std::size_t number = 0;
+    for (const auto& hand : hands) number = std::max(number, hands.size() * hand.size());
     std::vector<Fields> result;
-    for (std::size_t i = 0; i < shards.front().rows.size(); ++i)
-      for (const Shard& shard : shards)
-        if (i < shard.rows.size()) result.push_back(shard.rows[i]);
+    for (std::size_t item = 0; item < number; ++item) {
+      const auto& hand = hands[shard_of(item, hands.size())];
+      if (const std::size_t turn = item / hands.size(); turn < hand.size())
+        result.insert(result.end(), hand[turn].begin(), hand[turn].end());
+    }
     return result;
   }
 

@@ -67,13 +67,13 @@ class AccuracyRun {
     for (const auto& name : plan_.problems)
       for (int resolution : experiment_.resolutions) total += members(find_problem(name), resolution);
     Progress progress(experiment_.stem, total * experiment_.sheets.size(), options_.quiet);
+    std::size_t number = 0;
     for (const auto& name : plan_.problems) {
       const Problem& problem = find_problem(name);
       for (const auto& sheet : experiment_.sheets)
         for (int resolution : experiment_.resolutions)
           for (std::size_t i = 0; i < members(problem, resolution); ++i, progress.step())
-            if (static_cast<int>(i % static_cast<std::size_t>(options_.shards)) == options_.shard - 1)
-              run_member(problem, sheet, resolution, i);
+            if (options_.is_ours(number++)) run_member(problem, sheet, resolution, i);
     }
   }
 

@@ -61,21 +61,20 @@ class Runner {
     Progress progress(experiment_.stem, groups * cases, options_.quiet);
     if (!file_.note().empty() && !options_.quiet)
       std::fprintf(stderr, "%s: %s\n", experiment_.stem.c_str(), file_.note().c_str());
+    std::size_t item = 0;
     for (const auto& sheet : experiment_.sheets)
       for (int resolution : experiment_.resolutions) {
-        start_scene(sheet, resolution);
-        base_ = BaseSheet(motion_ ? motion_->sheet() : Sheet(make_sheet(sheet, squares_per_side(resolution))));
-        for (Worker& worker : workers_) worker.forget_base();
-        if (experiment_.eigenvalue_cases > 0)
-          base_eigenvalue_ = largest_eigenvalue(base_.sheet),
-          base_bending_ = largest_eigenvalue(base_.sheet, {}, bent_skin);
-        for (const auto& family : experiment_.cut_families)
+        bool is_made = false;
+        for (const auto& family : experiment_.cut_families) {
+          const std::vector<std::size_t> numbers = options_.ours(item, cases);
+          item += cases;
+          if (!numbers.empty() && !is_made) make_base(sheet, resolution), is_made = true;
           if (experiment_.times)
-            for (std::size_t i = 0; i < cases; ++i, progress.step()) {
-              if (is_ours(i)) run_case(drawn(sheet, resolution, family, i));
-            }
+            for (const std::size_t i : numbers) run_case(drawn(sheet, resolution, family, i)), progress.step();
           else
-            judge_on_all_cores(sheet, resolution, family), progress.step(cases);
+            judge_on_all_cores(sheet, resolution, family, numbers), progress.step(numbers.size());
+          progress.step(cases - numbers.size());
+        }
       }
   }
 
@@ -108,8 +107,13 @@ class Runner {
            shard_line(options);
   }
 
-  bool is_ours(std::size_t i) const {
-    return static_cast<int>(i % static_cast<std::size_t>(options_.shards)) == options_.shard - 1;
+  void make_base(const std::string& sheet, int resolution) {
+    start_scene(sheet, resolution);
+    base_ = BaseSheet(motion_ ? motion_->sheet() : Sheet(make_sheet(sheet, squares_per_side(resolution))));
+    for (Worker& worker : workers_) worker.forget_base();
+    if (experiment_.eigenvalue_cases > 0)
+      base_eigenvalue_ = largest_eigenvalue(base_.sheet),
+      base_bending_ = largest_eigenvalue(base_.sheet, {}, bent_skin);
   }
 
   Case drawn(const std::string& sheet, int resolution, const std::string& family, std::size_t i) const {
@@ -148,10 +152,10 @@ class Runner {
     Summary::Cut summary;
   };
 
-  void judge_on_all_cores(const std::string& sheet, int resolution, const std::string& family) {
+  void judge_on_all_cores(const std::string& sheet, int resolution, const std::string& family,
+                          const std::vector<std::size_t>& numbers) {
     std::vector<Case> cases;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(experiment_.cases); ++i)
-      if (is_ours(i)) cases.push_back(drawn(sheet, resolution, family, i));
+    for (const std::size_t i : numbers) cases.push_back(drawn(sheet, resolution, family, i));
     std::vector<std::pair<Case*, Worker*>> missing;
     for (Case& c : cases)
       for (Worker& worker : workers_)

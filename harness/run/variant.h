@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/base/shard_of.h"
 #include "harness/cut/cutting_method.h"
 #include "harness/run/experiment.h"
 
@@ -13,9 +14,21 @@ namespace cutbench {
 struct RunOptions {
   std::string out = "results";
   std::string command;        ///< recorded
-  int shard = 1, shards = 1;  ///< case i is this shard's where i mod shards = shard - 1
+  int shard = 1, shards = 1;  ///< of the run, this one is the `shard`th of so many
   bool quiet = false;         ///< no progress, no table
   int workers = 0;            ///< processes, where no times are recorded; 0: one per core
+
+  /// \param item  numbered from 0 through the whole run, whatever the shard
+  bool is_ours(std::size_t item) const {
+    return shard_of(item, static_cast<std::size_t>(shards)) + 1 == static_cast<std::size_t>(shard);
+  }
+  /// The i < n for which item `first` + i is.
+  std::vector<std::size_t> ours(std::size_t first, std::size_t n) const {
+    std::vector<std::size_t> numbers;
+    for (std::size_t i = 0; i < n; ++i)
+      if (is_ours(first + i)) numbers.push_back(i);
+    return numbers;
+  }
 };
 
 /// The last line of a run's identity (RecordFile).
