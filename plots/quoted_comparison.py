@@ -13,6 +13,7 @@ from accuracy_parts.records import CASE, REFERENCE, Records
 from common import load
 from method_comparison import JUMPS, MEASURES, OURS, cuts_of, jumped
 from method_parts import kinds
+from method_parts.accuracy import BUDGET, of_methods_there
 from method_parts.details import KEY
 
 SPLIT = "conventional_split"
@@ -128,7 +129,7 @@ def total(rows, one, other):
 
 
 class Accuracy:
-    """Errors in plane of the cases that all methods made, solved directly: `rows` have a kind, `by_kind` is the table of kinds.py."""
+    """Errors in plane, solved directly: `by_kind` is the table of kinds.py, `rows` are those of the cases that all methods made."""
 
     def __init__(self, results):
         records, context = files(results, "method_comparison_accuracy", ".direct")
@@ -136,8 +137,7 @@ class Accuracy:
         self.by_kind = self.kinds_at()
         table = self.records.table[self.records.table["direct"] & (self.records.table["problem"] != kinds.TWICE)]
         table = table.assign(kind=table["problem"].map(kinds.kind_of))
-        structured = table.groupby([table[c] for c in ("method", "knob", "sheet")])["failed"].transform("all")
-        self.rows = made_by_all(table[table["kind"].notna() & ~structured])
+        self.rows = made_by_all(of_methods_there(table[table["kind"].notna()]))
 
     def kinds_at(self, **values):
         return kinds.table_of(self.records.with_rows(self.records.rows(**values))).set_index("method")
@@ -211,10 +211,10 @@ def the_table(cuts, accuracy):
     say(f"{OURS}: share of its time by the cases of four cuts, us in total", us / ours["geometry_us"].sum(),
         us / several(ours)["crossed_triangles"].sum())
     for method in TIED:
-        rows = by(cuts, method)
-        say(f"{method}: us per crossed triangle, one cut and four; share of what finds ties or polygons",
-            rows[rows["cut_family"] != "several"]["us_per_crossed"].median(), several(rows)["us_per_crossed"].median(),
-            rows["tie_us"].sum() / rows["geometry_us"].sum())
+        for which, rows in (("after one cut or a re-cut", cuts[cuts["cut_family"] != "several"]), ("after four", several(cuts))):
+            say(f"{method} {which}: us, times {SPLIT}, times {OURS}, share of time to find ties or polygons",
+                by(rows, method)["us_per_crossed"].median(), quantile(times(rows, method, SPLIT)), quantile(times(rows, method, OURS)),
+                by(rows, method)["tie_us"].sum() / by(rows, method)["geometry_us"].sum())
 
 
 def findings(cuts, accuracy):
@@ -247,7 +247,8 @@ def shapes_and_price(cuts):
         of_four = smaller[both["cut_family"] == "several"]
         say(f"smaller eigenvalue by {OURS} than by {other}, %, after four cuts", percent(smaller), percent(of_four),
             f"{of_four.sum()} of {len(of_four)}")
-    say(f"time of split_and_tie over {OURS}, even sheets", quantile(times(even(cuts), "split_and_tie", OURS)))
+    say(f"time of split_and_tie over {OURS}, even sheets, after four cuts", *(
+        quantile(times(rows, "split_and_tie", OURS)) for rows in (even(cuts), several(even(cuts)))))
 
 
 def accuracy_in_plane(accuracy):
@@ -266,10 +267,10 @@ def accuracy_in_plane(accuracy):
     cracks = cracks[cracks["kind"] == "crack"]
     say("released energy at cracks, element_deletion", ratio_in_percent(cracks["log"], cracks["problem"]))
     table = accuracy.records.table
-    stopped = made_by_all(table[~table["direct"] & (table["budget"] == 100) & (table["resolution"] == 12800)])
+    stopped = made_by_all(of_methods_there(table[(table["budget"] == BUDGET) & (table["resolution"] == 12800)]))
     if len(stopped):
-        say("12,800 triangles, 100 iterations: errors over the fitted mesh's, solved directly, from and to", *np.sort(
-            [1 + mean_excess(by(stopped, m), "ratio") / 100 for m in accuracy.by_kind.index])[[0, -1]])
+        errors = [1 + mean_excess(by(stopped, m), "ratio_equal") / 100 for m in accuracy.by_kind.index]
+        say(f"12,800 triangles, {BUDGET} iterations: errors over the fitted mesh's, solved directly", min(errors), max(errors))
 
 
 def jumps_in_motion(jumps):
