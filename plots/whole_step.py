@@ -219,8 +219,8 @@ def print_counts(fronts):
 
 
 def print_iterations(rows):
-    """How hard the meshes are for SAME."""
-    rows = rows[rows["solver"] == SAME]
+    """How hard the meshes are for SAME; a cut that is refused makes none."""
+    rows = rows[(rows["solver"] == SAME) & (rows["verdict"] != "refused")]
     cuts, sizes = sorted(set(rows["place"])), sorted(set(rows["resolution"]))
     median = rows.groupby(["method", "place", "resolution"])["iterations"].agg(load.median)
     load.print_table(f"Iterations of a step by {SAME}, medians over sheets, cases, steps and stiffnesses, by cuts / triangles",
