@@ -3,6 +3,7 @@
 of the pages, labelled by their words. Of the published rows in --results."""
 
 import numpy as np
+import pandas as pd
 
 import whole_step
 from common import load
@@ -61,12 +62,31 @@ def method_table(to_split, to_warp):
         say(f"{method}: after 20 cuts, by size", *(with_interval(of(to_warp, method, 20, n)) for n in SIZES))
 
 
-def on_fronts(fronts, errors):
-    counts = {key: table[table["layer"] == 1].drop_duplicates([*SETTING, "method"])["method"].value_counts()
-              for key, table in fronts.items()}
-    for method, count in counts[points.LEADS].items():
-        say(f"on the front of most settings: {method}", str(count))
-    say("conventional_split", str(counts[points.LEADS].get("conventional_split", 0)))
+def settings_of(table):
+    """In how many settings a method is on the front."""
+    return table[table["layer"] == 1].drop_duplicates([*SETTING, "method"])["method"].value_counts()
+
+
+def drawn_counts(motions, error, draws=300):
+    """settings_of() the fronts of medians over cuts that are drawn anew, the same for all methods and settings: 95 %."""
+    random, keys, counts = np.random.default_rng(1), [*SETTING, "method", "solver"], []
+    motions = motions.assign(cut=motions["sheet"] + motions["case"].astype(str), grew=motions["verdict"].eq("energy_growth").astype(float))
+    tables = {size: here.pivot(index=keys, columns="cut", values=["ms", "grew"]) for size, here in motions.groupby("resolution")}
+    for _ in range(draws):
+        parts = []
+        for size, table in tables.items():
+            cuts = random.integers(0, table["ms"].shape[1], table["ms"].shape[1])
+            parts.append(pd.DataFrame({"ms": [load.median(x) for x in table["ms"].to_numpy()[:, cuts]],
+                                       "grew": table["grew"].iloc[:, cuts].mean(axis=1)}).reset_index().assign(resolution=size))
+        drawn = pd.concat(parts, ignore_index=True).dropna(subset=["ms"])
+        counts.append(settings_of(points.joined(points.best_of(drawn), error)))
+    return pd.concat(counts, axis=1).fillna(0).quantile([0.025, 0.975], axis=1)
+
+
+def on_fronts(motions, fronts, errors):
+    counts, drawn = settings_of(fronts[points.LEADS]), drawn_counts(motions, errors[points.LEADS])
+    for method in sorted(drawn, key=lambda m: -counts.get(m, 0)):
+        say(f"on the front of how many settings [95 %]: {method}", f"{counts.get(method, 0)} [{drawn[method].min():g}, {drawn[method].max():g}]")
     percent = 100 * errors[points.LEADS].set_index(["method", "resolution"])["error"]
     for method in NAMED:
         say(f"errors at {SIZES} triangles, %: {method}", *(percent[method, n] for n in SIZES))
@@ -111,12 +131,20 @@ def growth(motions):
         for method in GREW:
             say(f"{words}: {method}", grew[method])
         say(f"{words}: the others", span(grew.drop(GREW)))
+    others = motions[motions["method"] != "element_deletion"]
+    for key, here in others.groupby(["stiffness_n_m", "step_s", "place"]):
+        say(f"energy grew by all but element_deletion, % of the motions: {whole_step.setting_name(key[::-1])}",
+            100 * (here["verdict"] == "energy_growth").mean())
+    for stiffness, here in others.groupby("stiffness_n_m"):
+        say(f"... all at {stiffness:g} N/m", 100 * (here["verdict"] == "energy_growth").mean())
+    off = points.best_of(points.costs(motions)).groupby([*SETTING, "method"])["grew"].min().gt(0.5).groupby(SETTING).sum()
+    say("the setting in which energy grew in over half of the motions at all sizes after the most methods",
+        whole_step.setting_name(off.idxmax()), str(off.max()), f"of {motions['method'].nunique()}; next", str(off.nlargest(2).iloc[1]))
 
 
 def other_errors(fronts, errors):
     for key, table in fronts.items():
-        counts = table[table["layer"] == 1].drop_duplicates([*SETTING, "method"])["method"].value_counts()
-        say(f"on the front by {points.MEASURES[key].title}, of 12", *(f"{m} {n}" for m, n in counts.items()))
+        say(f"on the front by {points.MEASURES[key].title}, of 12", *(f"{m} {n}" for m, n in settings_of(table).items()))
     for key, table in errors.items():
         say(f"{points.MEASURES[key].title}: means over", f"{table['kinds'].max()} {points.MEASURES[key].of}", "of sizes",
             *map(str, sorted(set(table["resolution"]))))
@@ -146,7 +174,7 @@ def main():
     print("\nWhich method? (docs/results.md)")
     to_split = ratios(motions, "conventional_split")
     method_table(to_split, ratios(motions, "warp_and_refine"))
-    on_fronts(fronts, errors)
+    on_fronts(motions, fronts, errors)
     times(to_split)
     iterations(rows)
     fastest(motions)

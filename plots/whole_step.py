@@ -168,7 +168,7 @@ def summary(best, same, methods, context):
 def absent(drawn, methods):
     """Which methods are in no panel, in words."""
     lost = [m.replace("_", " ") for m in methods if m not in set(drawn["method"])]
-    return f"Not shown (refuses the scene, ended early, no published error, or one of {FAR} times the median): {', '.join(lost)}." if lost else ""
+    return f"Not shown (refuses the scene, ended early, no published error, or an error over {FAR} times the median): {', '.join(lost)}." if lost else ""
 
 
 def at(table, setting):
@@ -199,7 +199,7 @@ def print_costs(cost):
         rows.append([setting_name(setting), method, *(
             f"{load.number(cells[n]['ms'])} {SOLVERS.get(cells[n]['solver'], cells[n]['solver'])}" if n in cells else "-"
             for n in sorted(set(cost["resolution"])))])
-    load.print_table("ms for a cut and the 0.25 s after it, by the fastest solver (inf: half of the motions ended early)",
+    load.print_table("ms for a cut and the 0.25 s after it, by the fastest solver (inf: half of the motions ended early or were refused)",
                      ["setting", "method", *(str(n) for n in sorted(set(cost["resolution"])))], rows)
 
 

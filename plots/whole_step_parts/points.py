@@ -15,6 +15,7 @@ SETTING = ["place", "step_s", "stiffness_n_m"]  # cuts in the sheet, step, stiff
 PUBLISHED = load.REPOSITORY / "results/reference"
 BETWEEN_S = 0.25  # from one cut to the next
 TIMES = ["cut_update_us", "first_step_us", "step_us"]
+NO_ANSWER = 0.9  # an error that is on no front: that of a sheet that does not move is 1
 TO_THE_END = {"ok", "energy_growth", "inverted"}  # verdicts of motions that made all their steps
 
 
@@ -130,9 +131,9 @@ def errors_of(table, pooled=False):
 
 def joined(cost, error):
     """Both, of the methods and sizes that have both, with the layer of the front in each setting. A row with energy from
-    nowhere in more than half of its motions is on none: what went wrong has no price."""
+    nowhere in more than half of its motions is on none, nor is one with an error of NO_ANSWER: what went wrong has no price."""
     table = cost.merge(error, on=["method", "resolution"])
-    sound = table["ms"].where(table["grew"] <= 0.5, np.inf)
+    sound = table["ms"].where((table["grew"] <= 0.5) & (table["error"] < NO_ANSWER), np.inf)
     table["layer"] = 0
     for index in table.groupby(SETTING).groups.values():
         table.loc[index, "layer"] = load.front_layers(sound[index], table.loc[index, "error"])
