@@ -129,7 +129,8 @@ def pages(table, column, context, by_solver):
         solver = (f"Each by its fastest solver: {SAME}, unless CG (conjugate gradients with sliver blocks) or direct (CHOLMOD) stands "
                   "beside the name.")
     style.finish(figure, [], (
-        f"Lower left is better; the larger the marker, the larger the sheet. {solver} {sizes_of(table)}. Hollow markers are on no front. "
+        f"Lower left is better; the larger the marker, the larger the sheet. {solver} {sizes_of(table)}. Hollow markers and errors of "
+        f"{100 * points.NO_ANSWER:.0f} % and more are on no front. "
         "Time: median over sheets and cuts, bars quartiles. Error: |relative error|, geometric mean "
         f"over {points.MEASURES[column].of}; bars: 95 %, how the ratio to a fitted mesh changes as these are drawn anew. Not drawn: errors "
         f"of over {FAR} times the median behind the front. {source(context).capitalize()}; errors: commit {errors_commit[:10]}."),
