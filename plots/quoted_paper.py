@@ -7,6 +7,8 @@ import argparse
 import re
 from pathlib import Path
 
+import numpy as np
+
 import fig8_edge_quality as fig8
 import fig9_aspect_ratio as fig9
 import fig10_level_of_detail as fig10
@@ -14,6 +16,7 @@ import table1_timing as table1
 from accuracy_parts.ranking import at_equal_unknowns, made_by_all, mean_excess
 from accuracy_parts.records import CASE, Records
 from common import load, style
+from method_parts.kinds import kind_of
 
 SPLIT, ALONE, PAPERS, CGAL = ("conventional_split", ""), ("bowyer_watson", "rounds=0"), ("bowyer_watson", "rounds=1"), ("cgal_cdt", "")
 PLAIN = (SPLIT, ALONE, CGAL)  # without local split
@@ -32,6 +35,11 @@ def span(values, digits=3):
 def outer(ratios):
     """load.ratio() of each sheet: the lowest and highest mean, and the lowest and highest end of the intervals."""
     return (f"{span(r[0] for r in ratios)} [{load.number(min(r[1] for r in ratios))}, {load.number(max(r[2] for r in ratios))}]")
+
+
+def factor(logs):
+    """The geometric mean and its 95 % interval."""
+    return table1.interval(load.ratio(np.exp(logs), 1))
 
 
 def method(variant):
@@ -96,9 +104,12 @@ def accuracy(records):
     hole = made_by_all(table[table["problem"] == "kirsch_hole"])
     for variant in VARIANTS:
         say(f"at the hole, %, {method(variant)}", f"{mean_excess(load.of(hole, variant), 'ratio_equal'):+.1f}")
-    pairs = load.of(hole, PAPERS).merge(load.of(hole, SPLIT), on=CASE)
-    say("at the hole, one round over conventional split, its cases drawn anew",
-        table1.interval(load.ratio(pairs["ratio_equal_x"], pairs["ratio_equal_y"])))
+    pairs = load.of(table, PAPERS).merge(load.of(table, SPLIT), on=CASE)
+    pairs = pairs.assign(kind=pairs["problem"].map(kind_of),
+                         log=np.log(pairs["ratio_equal_x"] / pairs["ratio_equal_y"])).dropna(subset=["kind", "log"])
+    at_hole = pairs["kind"] == "hole"
+    say("one round over conventional split, equal unknowns: at tips, kinds drawn anew; at the hole, cases drawn anew",
+        factor(pairs[~at_hole].groupby("kind")["log"].mean()), factor(pairs[at_hole]["log"]))
 
 
 def edge(results):
