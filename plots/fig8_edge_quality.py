@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Figure 8 of the paper: the edge of a cut, which the paper calls "swirling" for the conventional split. Above each picture:
-the largest aspect ratio, and the root mean square distance (mm) and angle (degrees) between the lips and those of the same
-scene on a fine sheet."""
+"""Figure 8 of the paper. Above: largest aspect ratio; distance and angle of the lips from those on a fine sheet. Distance (mm)
+and angle (degrees) are root mean squares, of the same scene. The paper calls this edge of a cut "swirling" for the conventional
+split."""
 
 import functools
 

@@ -5,6 +5,7 @@ total columns: the same inside a running simulation, with the update and the fir
 
 import numpy as np
 import pandas as pd
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from common import load, style
@@ -83,8 +84,8 @@ def time_figure(timings, paper, others):
     style.failures([upper], [timings.run], looks)
     repetitions = timings.run.rows["repetition"].nunique()
     style.finish(figure, looks.values(), " ".join([
-        f"Time of the geometry of a cut ({', '.join(PHASES).replace('_us', '')}) on {style.sheet_title(timings.sheet)}, "
-        f"{timings.cache} caches. Line: median over the cuts of the median of {repetitions} repetitions; band: quartiles. "
+        f"Time of the geometry of a cut on {style.sheet_title(timings.sheet)}, {timings.cache} caches. Line: median of the cuts; "
+        f"band: quartiles. The geometry is {', '.join(PHASES).replace('_us', '')}; of {repetitions} repetitions the median is taken. "
         f"'Every edge tested' finds the crossings but does not cut.",
         *statements(timings, paper), *others, style.provenance(timings.run, timings.cuts, with_machine=True)]))
     return figure
@@ -113,8 +114,8 @@ def sheets_figure(run, timings):
     style.plain_numbers(axes[0])
     style.failures(axes, [t.run for t in timings], looks)
     style.finish(figure, looks.values(), " ".join([
-        "Time of the geometry per crossed triangle on every sheet. Line: median over the cuts of the median of the "
-        "repetitions; band: quartiles.", style.provenance(run, pd.concat([t.cuts for t in timings]), with_machine=True)]))
+        "Time of the geometry per crossed triangle on every sheet. Line: median of the cuts; band: quartiles. Of the repetitions "
+        "the median is taken.", style.provenance(run, pd.concat([t.cuts for t in timings]), with_machine=True)]))
     return figure
 
 
@@ -234,6 +235,7 @@ CURVES = {  # of the figure in motion: label, colour, marker, the paper's column
     "step_us": ("first step: rotate, assemble, setup, solve", "#d55e00", "^", None),
     "total_us": ("all of it", "#222222", "P", "total_ms"),
 }
+PAPERS = dict(markerfacecolor="white", linestyle="-.", markersize=3, linewidth=0.7)  # the column beside it
 
 
 def motion_figure(run, sheet):
@@ -255,8 +257,7 @@ def motion_figure(run, sheet):
                 legend.append(look)
             if beside:
                 paper = published(beside) / 1000
-                ax.plot(paper.index, paper, color=colour, marker=marker, markerfacecolor="white", linestyle="-.",
-                        markersize=3, linewidth=0.7, zorder=2)
+                ax.plot(paper.index, paper, **PAPERS, color=colour, marker=marker, zorder=2)
         ax.set_title(label(variant), loc="left")
         ax.set_ylabel("ms")
         style.resolution_axis(ax, cuts["resolution"], "log", labelled=ax is axes.flat[-1])
@@ -267,7 +268,8 @@ def motion_figure(run, sheet):
         "Hollow markers, dash-dotted: the paper's Table 1 (another CPU; cut, material and solver tolerance are unknown). Its "
         "'solver' column is drawn beside the update, which grows in the same way. The first step is one backward Euler step by conjugate "
         "gradients to 1e-2, of experiments/scenes/paper_table1.toml.",
-        *motion_statements(cuts), style.provenance(run, cuts, with_machine=True, with_crosses=False)]))
+        *motion_statements(cuts), style.provenance(run, cuts, with_machine=True, with_crosses=False)]),
+        [Line2D([], [], **PAPERS, color="#222222", marker="P", label="hollow: the paper's Table 1")])
     return figure
 
 

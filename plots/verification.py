@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Verification, not a ranking: energies and stress intensities extrapolated to h = 0 are compared with the exact ones, and
 rates of convergence with the expected ones, for all methods that promise the exact incision and with the direct solver. This
-checks the code, not the methods: all of these methods have nearly the same error."""
+checks the code, not the methods."""
 
 import contextlib
 import io
@@ -153,8 +153,7 @@ def figure_of(records, table):
     label_edges(axes, "n (squares per side)", "relative error")
     style.finish(figure, records.methods.values(), records.caption(
         "Verification, not a ranking: error of the primary measure over the resolution, direct solver, geometric mean over "
-        "sheets and ensemble, for the methods that promise the exact incision. This checks the code: all of these methods "
-        "have nearly the same error."))
+        "sheets and ensemble, for the methods that promise the exact incision. This checks the code."))
     return figure
 
 

@@ -129,7 +129,8 @@ def pages(table, column, context, by_solver):
         solver = (f"Each by its fastest solver: {SAME}, unless CG (conjugate gradients with sliver blocks) or direct (CHOLMOD) stands "
                   "beside the name.")
     style.finish(figure, [], (
-        f"Lower left is better; the larger the marker, the larger the sheet. {solver} {sizes_of(table)}. Hollow markers are on no front. "
+        f"Lower left is better; the larger the marker, the larger the sheet. {solver} {sizes_of(table)}. Hollow markers and errors of "
+        f"{100 * points.NO_ANSWER:.0f} % and more are on no front. "
         "Time: median over sheets and cuts, bars quartiles. Error: |relative error|, geometric mean "
         f"over {points.MEASURES[column].of}; bars: 95 %, how the ratio to a fitted mesh changes as these are drawn anew. Not drawn: errors "
         f"of over {FAR} times the median behind the front. {source(context).capitalize()}; errors: commit {errors_commit[:10]}."),
@@ -168,7 +169,7 @@ def summary(best, same, methods, context):
 def absent(drawn, methods):
     """Which methods are in no panel, in words."""
     lost = [m.replace("_", " ") for m in methods if m not in set(drawn["method"])]
-    return f"Not shown (refuses the scene, ended early, no published error, or one of {FAR} times the median): {', '.join(lost)}." if lost else ""
+    return f"Not shown (refuses the scene, ended early, no published error, or an error over {FAR} times the median): {', '.join(lost)}." if lost else ""
 
 
 def at(table, setting):
@@ -199,7 +200,7 @@ def print_costs(cost):
         rows.append([setting_name(setting), method, *(
             f"{load.number(cells[n]['ms'])} {SOLVERS.get(cells[n]['solver'], cells[n]['solver'])}" if n in cells else "-"
             for n in sorted(set(cost["resolution"])))])
-    load.print_table("ms for a cut and the 0.25 s after it, by the fastest solver (inf: half of the motions ended early)",
+    load.print_table("ms for a cut and the 0.25 s after it, by the fastest solver (inf: half of the motions ended early or were refused)",
                      ["setting", "method", *(str(n) for n in sorted(set(cost["resolution"])))], rows)
 
 
@@ -219,8 +220,8 @@ def print_counts(fronts):
 
 
 def print_iterations(rows):
-    """How hard the meshes are for SAME."""
-    rows = rows[rows["solver"] == SAME]
+    """How hard the meshes are for SAME; a cut that is refused makes none."""
+    rows = rows[(rows["solver"] == SAME) & (rows["verdict"] != "refused")]
     cuts, sizes = sorted(set(rows["place"])), sorted(set(rows["resolution"]))
     median = rows.groupby(["method", "place", "resolution"])["iterations"].agg(load.median)
     load.print_table(f"Iterations of a step by {SAME}, medians over sheets, cases, steps and stiffnesses, by cuts / triangles",

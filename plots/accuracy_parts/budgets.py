@@ -57,8 +57,8 @@ def budgets_figure(records):
     for row, sheet in zip(axes, records.sheets):
         row[0].set_ylabel(f"{style.sheet_title(sheet)}\nexcess error, %")
     style.finish(figure, records.looks.values(), records.caption(
-        f"Excess error against total time at {top} triangles, after {', '.join(map(str, records.budgets))} iterations of "
-        "conjugate gradients that start from zero (filled markers) and after the direct solve (hollow markers). "
+        f"Excess error at {top} triangles, by conjugate gradients (filled markers) and by a direct solver (hollow). "
+        f"Conjugate gradients start from zero and end after {', '.join(map(str, records.budgets))} iterations. "
         "Preconditioner: the diagonal block of each vertex (cg), or joint blocks of the vertices round slivers (cg sliver "
         "blocks). Beside the markers of the first method, and of programs: the iterations, where there is room. Marker: "
         "median over problems and ensembles; bars: quartiles."), front.legend_entries(records.looks.values()))

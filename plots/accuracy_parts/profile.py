@@ -45,9 +45,8 @@ def profile_figure(records):
     label_edges(axes, "total time, ms", "cases solved, %")
     drawn = members_throughout(records)
     style.finish(figure, records.looks.values(), drawn.caption(
-        f"Performance profile over {len(drawn.problems)} problems and {len(records.sheets)} sheets: share of the "
-        f"{len(solved_times(records, next(iter(records.looks)), 1))} cases (problem, sheet, member) whose primary measure "
-        "is within the tolerance, against the time of cut, assembly and solve. Each case is solved by the resolution, "
-        "solver and number of iterations that need the least time. Cases that failed, or that no resolution solves to "
-        "the tolerance, count as unsolved."))
+        f"Share of {len(solved_times(records, next(iter(records.looks)), 1))} cases whose error is within the tolerance, against "
+        f"the time of cut, assembly and solve. A case is a problem ({len(drawn.problems)}), sheet ({len(records.sheets)}) and member; "
+        "its error is that of the primary measure. Each case is solved by the resolution, solver and number of iterations "
+        "that need the least time. Cases that failed, or that no resolution solves to the tolerance, count as unsolved."))
     return figure

@@ -20,8 +20,8 @@ class Records:
     """The rows with: failed, ratio (error over the reference's), ms, variant columns, direct (solved to the end). Those
     solved with tip functions are left out."""
 
-    def __init__(self, folder):
-        table = load.read_records(folder / "records.csv", load.TEXT + ["problem", "solver", "primary"] + load.COUNTS + NEEDED,
+    def __init__(self, folder, records="records.csv", context="context.json"):
+        table = load.read_records(folder / records, load.TEXT + ["problem", "solver", "primary"] + load.COUNTS + NEEDED,
                                   all_columns=True)
         if "tip_functions" in table:
             table = table[table["tip_functions"] != 1]
@@ -31,7 +31,7 @@ class Records:
         table.loc[table["problem"].isin(self.exact), "excess_error"] = np.nan
         self.table = table.assign(failed=failed, ratio=1 + table["excess_error"], ms=table["total_us"] / 1000,
                                   excess_percent=100 * table["excess_error"], direct=table["budget"] == 0)
-        self.run = load.Run(table[~failed], table[failed], load.read_context(folder / "context.json"))
+        self.run = load.Run(table[~failed], table[failed], load.read_context(folder / context))
         self.programs = load.programs(table, self.run.context)
         self.looks = style.looks(set(zip(table["method"], table["knob"])), self.programs)
         self.methods = {v: look for v, look in self.looks.items() if v != REFERENCE}

@@ -7,16 +7,17 @@ from matplotlib.patheffects import withStroke
 LEADER = 8  # points: a name further off has one
 DISTANCES = np.arange(5, 110, 3)  # points, from a marker to its name
 ANGLES = np.radians([0, 180, -35, -145, 35, 145, -90, 90, -60, 60, -120, 120])
-OUTSIDE, ON_A_NAME, ON_A_POINT, FAR = 1000, 100, 8, 0.2  # how bad: once, for each, for each, for each point of the distance
+OUTSIDE, ON_A_NAME, ON_A_POINT, BY_ANOTHER, FAR = 1000, 100, 8, 4, 0.2  # how bad: once, for each, ..., for each point of the distance
 
 
 def place(ax, named, points, size, clear_lines=True):
     """Each of `named`, (x, y, text, colour), near its marker, where it covers none of `points`, (x, y) each, and no name
     before it; a thin line joins the two where the name is further off. The limits of the axes must be set. `clear_lines`: no line crosses
-    a name; in a crowd that takes names too far away."""
+    a name; in a crowd that takes names too far away, and there each keeps nearer to its own marker than to another one's."""
     figure = ax.figure
     figure.draw_without_rendering()
     taken = ax.transData.transform(np.asarray(points, float).reshape(-1, 2))
+    markers = ax.transData.transform(np.array([q[:2] for q in named], float).reshape(-1, 2))
     boxes, frame, reach = [], ax.get_window_extent().padded(-3), figure.dpi / 72
     for x, y, written, colour in named:
         text = ax.annotate(written, (x, y), xytext=(0, 0), textcoords="offset points", fontsize=size, color=colour,
@@ -37,7 +38,8 @@ def place(ax, named, points, size, clear_lines=True):
                            & (taken[:, 1] < here.y1 + 2)).sum()
                 judged = line if clear_lines else []
                 hidden = sum(hides(other, here, judged) for other in boxes)
-                bad = OUTSIDE * (not inside) + ON_A_NAME * hidden + ON_A_POINT * covered + FAR * distance
+                others = 0 if clear_lines else (gaps(here, markers) < gaps(here, ax.transData.transform([(x, y)]))).sum()
+                bad = OUTSIDE * (not inside) + ON_A_NAME * hidden + ON_A_POINT * covered + BY_ANOTHER * others + FAR * distance
                 if best is None or bad < best[0]:
                     best = (bad, dx, dy, here, line)
         _, dx, dy, here, line = best
@@ -54,6 +56,11 @@ def leader(marker, box):
     low, high = np.array([[box.x0, box.y0], [box.x1, box.y1]])
     free = 0.15 * (high[1] - low[1])  # what a line of text leaves free above and below
     return np.linspace(np.clip(marker, low + [0, free], high - [0, free]), marker, 12)
+
+
+def gaps(box, markers):
+    """How far each marker is from a box, in pixels."""
+    return np.hypot(*(markers - np.clip(markers, [box.x0, box.y0], [box.x1, box.y1])).T)
 
 
 def hides(name, box, line):

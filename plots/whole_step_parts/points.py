@@ -12,8 +12,10 @@ from common import front, load
 from method_parts.kinds import kind_of
 
 SETTING = ["place", "step_s", "stiffness_n_m"]  # cuts in the sheet, step, stiffness
+PUBLISHED = load.REPOSITORY / "results/reference"
 BETWEEN_S = 0.25  # from one cut to the next
 TIMES = ["cut_update_us", "first_step_us", "step_us"]
+NO_ANSWER = 0.9  # an error that is on no front: that of a sheet that does not move is 1
 TO_THE_END = {"ok", "energy_growth", "inverted"}  # verdicts of motions that made all their steps
 
 
@@ -24,9 +26,8 @@ class Measure(NamedTuple):
     column: str
     kind: Callable  # of a table of records, for each row: what the mean is taken over; none: the row does not count
 
-    def files(self):
+    def files(self, folder=PUBLISHED):
         """Its published records and their context."""
-        folder = load.REPOSITORY / "results/reference"
         return folder / f"{self.stem}.records.csv.gz", folder / f"{self.stem.removesuffix('.direct')}.context.json"
 
 
@@ -56,17 +57,22 @@ def steps_between(step_s):
     return np.round(BETWEEN_S / step_s)
 
 
-def costs(rows):
-    """A row per setting, method, size and solver: ms for one cut and the 0.25 s after it, the median and the quartiles of
-    all sheets but those that the method refuses. A case whose motion ended early costs infinitely much. `grew`: share of
-    the cases in which energy came from nowhere."""
+def motions(rows):
+    """The rows of the sheets that the method does not refuse, with ms for one cut and the 0.25 s after it: infinitely many
+    where the motion ended early."""
     made = rows["verdict"].isin(TO_THE_END)
     total = (rows["cut_update_us"] / rows["place"] + rows["first_step_us"]
              + (steps_between(rows["step_s"]) - 1) * rows["step_us"]) / 1000
     rows = rows.assign(ms=total.where(made, np.inf), made=made, cut_ms=rows["cut_update_us"] / rows["place"] / 1000)
     refused = (rows["verdict"] == "refused").groupby([rows["method"], rows["sheet"]]).transform("all")
+    return rows[~refused]
+
+
+def costs(rows):
+    """A row per setting, method, size and solver: the median and the quartiles of the ms of motions(). `grew`: share of the
+    cases in which energy came from nowhere."""
     found = []
-    for key, here in rows[~refused].groupby([*SETTING, "method", "resolution", "solver"], sort=False):
+    for key, here in motions(rows).groupby([*SETTING, "method", "resolution", "solver"], sort=False):
         low, middle, high = load.quantiles(here["ms"], [0.25, 0.5, 0.75])
         found.append(dict(zip([*SETTING, "method", "resolution", "solver"], key)) | {
             "ms": middle, "ms_low": low, "ms_high": high, "cut_ms": load.median(here["cut_ms"]), "n": len(here),
@@ -85,16 +91,16 @@ def _by_kind(rows, column):
     return np.exp(np.log(rows[column]).groupby(rows["kind"]).mean())
 
 
-def errors(measure):
+def errors(measure, folder=PUBLISHED):
     """errors_of() the published rows."""
-    return errors_of(published(measure))
+    return errors_of(published(measure, folder))
 
 
-def published(measure):
+def published(measure, folder=PUBLISHED):
     """The published rows of direct solves of the cases that all methods made, but for methods that miss over half of that kind
     and sheet, which have no row there, with `kind` and `size`, the absolute relative error. \\param measure  a key of MEASURES"""
     measure = MEASURES[measure]
-    table = load.read_records(measure.files()[0], load.TEXT + ["problem", "solver", "primary", "budget", "error"] + load.COUNTS,
+    table = load.read_records(measure.files(folder)[0], load.TEXT + ["problem", "solver", "primary", "budget", "error"] + load.COUNTS,
                               all_columns=True)
     table = table.assign(kind=measure.kind(table), failed=front.failed_rows(table), size=table[measure.column].abs())
     table = table[(table["budget"] == 0) & table["kind"].notna()]
@@ -125,9 +131,9 @@ def errors_of(table, pooled=False):
 
 def joined(cost, error):
     """Both, of the methods and sizes that have both, with the layer of the front in each setting. A row with energy from
-    nowhere in more than half of its motions is on none: what went wrong has no price."""
+    nowhere in more than half of its motions is on none, nor is one with an error of NO_ANSWER: what went wrong has no price."""
     table = cost.merge(error, on=["method", "resolution"])
-    sound = table["ms"].where(table["grew"] <= 0.5, np.inf)
+    sound = table["ms"].where((table["grew"] <= 0.5) & (table["error"] < NO_ANSWER), np.inf)
     table["layer"] = 0
     for index in table.groupby(SETTING).groups.values():
         table.loc[index, "layer"] = load.front_layers(sound[index], table.loc[index, "error"])
