@@ -269,7 +269,7 @@ def motion_figure(run, sheet):
         "'solver' column is drawn beside the update, which grows in the same way. The first step is one backward Euler step by conjugate "
         "gradients to 1e-2, of experiments/scenes/paper_table1.toml.",
         *motion_statements(cuts), style.provenance(run, cuts, with_machine=True, with_crosses=False)]),
-        [Line2D([], [], **PAPERS, color="#222222", marker="P", label="hollow: the paper's Table 1")])
+        [Line2D([], [], **PAPERS, color="#222222", label="dash-dotted: the paper's Table 1")])
     return figure
 
 
