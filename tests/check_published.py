@@ -157,6 +157,11 @@ def check_assembled(folder):
     packed = (reference / "a.records.csv.gz").read_bytes()
     publish.assemble(stages, state, "c0ffee", new)
     expect("the same records are packed differently", (new / "a.records.csv.gz").read_bytes() == packed)
+    full = {"s": {"full_files": ["a/a.txt"]}}
+    publish.assemble(full, state | {"quick": True}, "c0ffee", new)
+    expect("--quick wants a file of a full run", not (new / "a.txt").exists())
+    publish.assemble(full, state, "c0ffee", new)
+    expect("a file of a full run is missing", (new / "a.txt").is_file())
     for file in ("kept.png", "kept.caption.txt", "other.png"):
         (folder / "results/a" / file).write_text("text", encoding="utf-8")
     copies = [f"cp results/a/{file} {{folder}}" for file in ("kept.png", "kept.caption.txt", "other.png")]
