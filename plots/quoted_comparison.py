@@ -11,6 +11,7 @@ import numpy as np
 from accuracy_parts.ranking import at_equal_unknowns, made_by_all, mean_excess
 from accuracy_parts.records import CASE, REFERENCE, Records
 from common import load
+from common.quoted import say
 from method_comparison import JUMPS, MEASURES, OURS, cuts_of, jumped
 from method_parts import kinds
 from method_parts.accuracy import BUDGET, of_methods_there
@@ -27,26 +28,18 @@ DRAWS = 5000
 # ---- numbers in words
 
 
-def say(what, *values):
-    print(f"  {what}: {', '.join(value if isinstance(value, str) else short(value) for value in values)}")
-
-
-def short(value):
-    return f"{value:,.0f}" if 1e3 <= abs(value) < 1e6 else f"{value:.3g}"
-
-
 def signed(value):
     return f"{value:+,.1f}"
 
 
-def bracket(value, drawn, written=short):
+def bracket(value, drawn, written=load.number):
     """A number and the interval of those that were drawn."""
     return f"{written(value)} [{', '.join(written(end) for end in np.quantile(drawn, [0.025, 0.975]))}]"
 
 
 def largest(values, n):
     """Of {name: value}, the n largest."""
-    return [f"{name} {short(value)}" for name, value in sorted(values.items(), key=lambda item: -item[1])[:n]]
+    return [f"{name} {load.number(value)}" for name, value in sorted(values.items(), key=lambda item: -item[1])[:n]]
 
 
 # ---- draws
@@ -239,7 +232,7 @@ def shapes_and_price(cuts):
     print(f"\nPrice: times {OURS}")
     for method in ("cgal_refine", "delaunay_refine", *TIED, "adaptive_remesh", "active_node", SPLIT):
         ratios = times(cuts, method, OURS)
-        say(method, quantile(ratios), f"5 % below {short(ratios.quantile(0.05))}", f"5 % above {short(ratios.quantile(0.95))}")
+        say(method, quantile(ratios), f"5 % below {load.number(ratios.quantile(0.05))}", f"5 % above {load.number(ratios.quantile(0.95))}")
     print("\nsplit_and_tie or warp_and_refine?")
     for other in ("split_and_tie", "cut_polygons"):
         both = pairs(even(cuts), OURS, other)

@@ -16,20 +16,12 @@ import table1_timing as table1
 from accuracy_parts.ranking import at_equal_unknowns, made_by_all, mean_excess
 from accuracy_parts.records import CASE, Records
 from common import load, style
+from common.quoted import say, span
 from method_parts.kinds import kind_of
 
 SPLIT, ALONE, PAPERS, CGAL = ("conventional_split", ""), ("bowyer_watson", "rounds=0"), ("bowyer_watson", "rounds=1"), ("cgal_cdt", "")
 PLAIN = (SPLIT, ALONE, CGAL)  # without local split
 VARIANTS = (*PLAIN, PAPERS)
-
-
-def say(words, *values):
-    print(f"  {words}: {'; '.join(value if isinstance(value, str) else load.number(float(value)) for value in values)}")
-
-
-def span(values, digits=3):
-    values = [float(v) for v in values]
-    return f"{load.number(min(values), digits)} to {load.number(max(values), digits)}"
 
 
 def outer(ratios):

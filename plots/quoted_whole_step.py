@@ -7,6 +7,7 @@ import pandas as pd
 
 import whole_step
 from common import load
+from common.quoted import say, span
 from whole_step_parts import points
 from whole_step_parts.points import SETTING
 
@@ -16,14 +17,6 @@ REFINE = ["delaunay_refine", "cgal_refine", "global_remesh", "longest_edge"]
 NAMED = ["adaptive_remesh", "cut_polygons", "warp_and_refine", "conventional_split", "edge_release"]
 SLOW = ["delaunay_refine", "cgal_refine", "longest_edge", "bowyer_watson", "warp_and_refine", "conventional_split"]
 GREW = ["element_deletion", "conventional_split", "cut_polygons"]
-
-
-def say(words, *values):
-    print(f"{words}: {', '.join(v if isinstance(v, str) else load.number(float(v)) for v in values)}")
-
-
-def span(values):
-    return f"{load.number(float(min(values)))} to {load.number(float(max(values)))}"
 
 
 def ratios(motions, other):
