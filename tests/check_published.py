@@ -141,9 +141,13 @@ def check_assembled(folder):
     state = {"seconds": {"s": 90.0}}
     new = folder / "results/publish/reference"
     publish.assemble(stages, state, "c0ffee", new)
+    publish.write_about({"s": {"commit": "beef"}, "other": {"commit": "beef"}}, reference)
     publish.replace_reference(new, whole=False)
     expect("a part of the stages removes what others made", (reference / "old.png").is_file())
+    commits = {name: about["commit"] for name, about in publish.read_about(reference).items()}
+    expect(f"publish.json has the wrong commits: {commits}", commits == {"s": "c0ffee", "other": "beef"})
     publish.replace_reference(new, whole=True)
+    expect("publish.json tells of what is gone", list(publish.read_about(reference)) == ["s"])
     expect("a file that no stage makes stays", not (reference / "old.png").exists())
     expect("what experiments/track keeps there goes", (reference / "tracking.md").is_file())
     expect("the records are not whole", gzip.decompress((reference / "a.records.csv.gz").read_bytes()).decode() == ROWS)
@@ -152,8 +156,8 @@ def check_assembled(folder):
     expect("not under its name", (reference / "renamed.txt").read_text(encoding="utf-8") == "text")
     expect("a link to a figure leads away", (reference / "a.md").read_text(encoding="utf-8") == "[a](a.png) [b](b.md)")
     expect("a figure without its caption", (reference / "a.caption.txt").is_file())
-    about = json.loads((reference / "publish.json").read_text(encoding="utf-8"))
-    expect(f"publish.json: {about}", about["commit"] == "c0ffee" and about["minutes"] == {"s": 1.5})
+    about = publish.read_about(reference)["s"]
+    expect(f"publish.json: {about}", about["commit"] == "c0ffee" and about["minutes"] == 1.5)
     packed = (reference / "a.records.csv.gz").read_bytes()
     publish.assemble(stages, state, "c0ffee", new)
     expect("the same records are packed differently", (new / "a.records.csv.gz").read_bytes() == packed)
