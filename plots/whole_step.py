@@ -141,28 +141,23 @@ def pages(table, column, context, by_solver):
     return figure
 
 
-def summary(best, same, methods, context):
-    """readme_chart.png: one setting, left each method by its fastest solver, right all by the same."""
-    figure, axes = plt.subplots(1, 2, figsize=(9, 5.6), sharex=True, sharey=True)
-    figure.subplots_adjust(left=0.07, right=0.995, top=0.86, bottom=0.19, wspace=0.04)
-    setting, drawn = summarised(best), []
-    for ax, table, title in ((axes[0], best, "each by its fastest solver"), (axes[1], same, f"all by {SAME}")):
-        here = at(table, setting)
-        drawn.append((ax, draw(ax, here, 1.7)))
-        ax.set_title(title, loc="left", fontsize=9.5, fontweight="bold")
-        ax.set_xlabel("ms for a cut and the 0.25 s of motion after it", fontsize=9)
-        ax.tick_params(labelsize=8.5)
-    limits = np.array([ax.dataLim.intervalx for ax in axes])
-    for ax, made in drawn:
-        ax.set_xlim(limits[:, 0].min() / 1.5, limits[:, 1].max() * 2)
-        write_names(ax, made[(made["layer"] == 1) | (made["resolution"] == made["resolution"].max())], made, 7, False)
-    axes[0].set_ylabel(f"error of the cut sheet's solution, {points.MEASURES[points.LEADS].title}", fontsize=9)
-    handles = entries(pd.concat([made for _, made in drawn]), 1.6)
-    figure.legend(handles=handles, loc="upper left", ncol=-(-len(handles) // 2), fontsize=8.5, borderaxespad=0.2, handletextpad=0.3,
+def summary(table, methods, context):
+    """readme_chart.png: one setting, each method by its fastest solver."""
+    figure, ax = plt.subplots(figsize=(9, 6))
+    figure.subplots_adjust(left=0.07, right=0.995, top=0.9, bottom=0.17)
+    setting = summarised(table)
+    drawn = draw(ax, at(table, setting), 1.9)
+    ax.set_xlim(drawn["ms"].min() / 1.5, drawn["ms"].max() * 1.8)
+    ax.set_xlabel("ms for a cut and the 0.25 s of motion after it", fontsize=9.5)
+    ax.set_ylabel(f"error of the cut sheet's solution, {points.MEASURES[points.LEADS].title}", fontsize=9.5)
+    ax.tick_params(labelsize=9)
+    write_names(ax, drawn[(drawn["layer"] == 1) | (drawn["resolution"] == drawn["resolution"].max())], drawn, 8, False)
+    handles = entries(drawn, 1.6)
+    figure.legend(handles=handles, loc="upper left", ncol=-(-len(handles) // 2), fontsize=9, borderaxespad=0.2, handletextpad=0.3,
                   columnspacing=1.2)
-    figure.text(0.02, 0.015, f"Lower left is better. {setting_name(setting)}. {sizes_of(best)}: the more, the larger the marker. "
-                f"{source(context).capitalize()}.\nBars: quartiles of the time; how the error changes with the kind of problem. Named: the fronts and "
-                f"the largest sheets.\n{absent(pd.concat([made for _, made in drawn]), methods)}", fontsize=7.2, color="#555555")
+    figure.text(0.02, 0.012, f"Lower left is better. {setting_name(setting)}. {sizes_of(table)}: the more, the larger the marker. "
+                f"{source(context).capitalize()}.\nEach method by its fastest solver. Bars: quartiles of the time; how the error changes with the "
+                f"kind of problem. Named: the front and the largest sheets.\n{absent(drawn, methods)}", fontsize=7.5, color="#555555")
     return figure
 
 
@@ -268,9 +263,8 @@ def ways(cost):
 
 def readme_chart(folder):
     rows, context = read(folder)
-    error = points.errors(points.LEADS)
-    best, same = (points.joined(some, error) for some in ways(points.costs(rows)).values())
-    return summary(best, same, rows["method"].unique(), context)
+    table = points.joined(points.best_of(points.costs(rows)), points.errors(points.LEADS))
+    return summary(table, rows["method"].unique(), context)
 
 
 def main():
