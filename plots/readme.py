@@ -23,7 +23,7 @@ from common import load, style  # style: the fonts and axes of every figure
 WIDTH = 9.0  # inches; at 150 dpi twice the pixels of a page that is not a high-resolution one
 DPI = 150
 WINDOW = (0.345, 0.765, 0.355, 0.59)  # of the unit sheet: a stretch between vertices, a bend and the tip
-BANDS = {3: "#fbdca4", 10: "#f29d4b", 30: "#c8551b"}  # colours of aspect ratios above these
+BANDS = {3: "#fbdca4", 10: "#f29d4b"}  # colours of aspect ratios above these; triangles of more than 30 are lines here
 MESH, PATH, INCISION = "#8d8d8d", "#0072b2", "#a50021"
 
 
