@@ -9,6 +9,7 @@ import whole_step
 from common import load
 from common.quoted import say, span
 from whole_step_parts import points
+from whole_step_parts.draws import fronts as fronts_drawn
 from whole_step_parts.points import SETTING
 
 SIZES = [800, 3200, 12800]
@@ -60,24 +61,14 @@ def settings_of(table):
     return table[table["layer"] == 1].drop_duplicates([*SETTING, "method"])["method"].value_counts()
 
 
-def drawn_counts(motions, error, draws=300):
-    """settings_of() the fronts of medians over cuts that are drawn anew, the same for all methods and settings: 95 %."""
-    random, keys, counts = np.random.default_rng(1), [*SETTING, "method", "solver"], []
-    motions = motions.assign(cut=motions["sheet"] + motions["case"].astype(str), grew=motions["verdict"].eq("energy_growth").astype(float))
-    tables = {size: here.pivot(index=keys, columns="cut", values=["ms", "grew"]) for size, here in motions.groupby("resolution")}
-    for _ in range(draws):
-        parts = []
-        for size, table in tables.items():
-            cuts = random.integers(0, table["ms"].shape[1], table["ms"].shape[1])
-            parts.append(pd.DataFrame({"ms": [load.median(x) for x in table["ms"].to_numpy()[:, cuts]],
-                                       "grew": table["grew"].iloc[:, cuts].mean(axis=1)}).reset_index().assign(resolution=size))
-        drawn = pd.concat(parts, ignore_index=True).dropna(subset=["ms"])
-        counts.append(settings_of(points.joined(points.best_of(drawn), error)))
+def drawn_counts(motions, folder, draws=300):
+    """settings_of() the fronts of cuts and kinds of problems that are drawn anew: 95 %."""
+    counts = [settings_of(table) for table in fronts_drawn(motions, points.LEADS, draws, folder)]
     return pd.concat(counts, axis=1).fillna(0).quantile([0.025, 0.975], axis=1)
 
 
-def on_fronts(motions, fronts, errors):
-    counts, drawn = settings_of(fronts[points.LEADS]), drawn_counts(motions, errors[points.LEADS])
+def on_fronts(motions, fronts, errors, folder):
+    counts, drawn = settings_of(fronts[points.LEADS]), drawn_counts(motions, folder)
     for method in sorted(drawn, key=lambda m: -counts.get(m, 0)):
         say(f"on the front of how many settings [95 %]: {method}", f"{counts.get(method, 0)} [{drawn[method].min():g}, {drawn[method].max():g}]")
     percent = 100 * errors[points.LEADS].set_index(["method", "resolution"])["error"]
@@ -167,7 +158,7 @@ def main():
     print("\nWhich method? (docs/results.md)")
     to_split = ratios(motions, "conventional_split")
     method_table(to_split, ratios(motions, "warp_and_refine"))
-    on_fronts(motions, fronts, errors)
+    on_fronts(motions, fronts, errors, folder)
     times(to_split)
     iterations(rows)
     fastest(motions)

@@ -15,7 +15,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 from common import front, load, names, style
 from common.families import FAMILIES, family
-from whole_step_parts import points
+from whole_step_parts import draws, points
 from whole_step_parts.points import SETTING
 
 STEM = "whole_step"
@@ -23,7 +23,7 @@ SAME = "multigrid"
 REAL_TIME_MS = 1000 * points.BETWEEN_S
 SOLVERS = {"cg_sliver_blocks": "CG", "multigrid": "MG", "cholmod": "direct"}
 FAR = 4  # times the median error: such a method is not drawn, unless it is on the front
-PALE = 0.4
+PALE = 0.3
 SUMMARY = (4, 1 / 240, 1000)  # the setting of readme_chart.png
 
 
@@ -39,21 +39,22 @@ def near(table):
 
 
 def draw(ax, table, scale=1.0):
-    """The methods of a setting, the larger the sheet the larger the marker; pale behind the front.
-    Returns the rows that are drawn."""
+    """The methods of a setting, the larger the sheet the larger the marker; the paler, the smaller their `share`: on the front or,
+    where the table has it, how often. Returns the rows that are drawn."""
     sizes = sorted(set(table["resolution"]))
     table = made = near(table)
+    share = table["share"] if "share" in table else (table["layer"] == 1).astype(float)
     for method, here in table.groupby("method", sort=False):
         here = here.sort_values("resolution")
         colour, marker = family(method).colour, family(method).marker
-        for _, p in here.iterrows():
-            first = p["layer"] == 1
-            bars = dict(color=colour, linewidth=0.6 * scale, alpha=0.55 if first else 0.15, zorder=1.5)
+        for i, p in here.iterrows():
+            strength = PALE + (1 - PALE) * share[i]
+            bars = dict(color=colour, linewidth=0.6 * scale, alpha=0.55 if p["layer"] == 1 else 0.15, zorder=1.5)
             ax.hlines(p["error"], p["ms_low"], p["ms_high"] if np.isfinite(p["ms_high"]) else p["ms"], **bars)
             ax.vlines(p["ms"], p["error_low"], p["error_high"], **bars)
             ax.plot(p["ms"], p["error"], marker, color=colour if p["grew"] <= 0.5 else "white", markeredgecolor=colour,
-                    markersize=scale * (2.6 + 1.6 * sizes.index(p["resolution"])), alpha=1 if first else PALE,
-                    markeredgewidth=0.7 * scale, zorder=3 if first else 2)
+                    markersize=scale * (2.6 + 1.6 * sizes.index(p["resolution"])), alpha=strength,
+                    markeredgewidth=0.7 * scale, zorder=2 + share[i])
     best = table[table["layer"] == 1].sort_values("ms")
     ax.plot(best["ms"], best["error"], **front.FRONT_LINE)
     ax.set(xscale="log", yscale="log")
@@ -93,7 +94,9 @@ def entries(table, scale=1.0):
     handles = [Line2D([], [], linestyle="", marker=f.marker, color=f.colour, markersize=4 * scale, label=f.name)
                for f in FAMILIES if there & set(f.methods)]
     grey = dict(linestyle="", marker="o", markeredgecolor="#444444", markersize=4 * scale)
-    handles += [Line2D([], [], color="#444444", alpha=PALE, label="behind the front", **grey)]
+    strengths = {"behind the front": 0} if "share" not in table else {"on the front in all draws": 1, "in half of them": 0.5, "in none": 0}
+    handles += [Line2D([], [], color="#444444", alpha=PALE + (1 - PALE) * share, label=words, **grey)
+                for words, share in strengths.items()]
     if (table["grew"] > 0.5).any():
         handles += [Line2D([], [], color="white", label="energy grew in over half of the motions", **grey)]
     return handles + [Line2D([], [], label="front", **front.FRONT_LINE),
@@ -141,12 +144,11 @@ def pages(table, column, context, by_solver):
     return figure
 
 
-def summary(table, methods, context):
-    """readme_chart.png: one setting, each method by its fastest solver."""
+def summary(table, setting, methods, context):
+    """readme_chart.png: one setting, each method by its fastest solver. \param table  with the share of draws on the front"""
     figure, ax = plt.subplots(figsize=(9, 6))
     figure.subplots_adjust(left=0.07, right=0.995, top=0.9, bottom=0.17)
-    setting = summarised(table)
-    drawn = draw(ax, at(table, setting), 1.9)
+    drawn = draw(ax, table, 1.9)
     ax.set_xlim(drawn["ms"].min() / 1.5, drawn["ms"].max() * 1.8)
     ax.set_xlabel("ms for a cut and the 0.25 s of motion after it", fontsize=9.5)
     ax.set_ylabel(f"error of the cut sheet's solution, {points.MEASURES[points.LEADS].title}", fontsize=9.5)
@@ -156,8 +158,8 @@ def summary(table, methods, context):
     figure.legend(handles=handles, loc="upper left", ncol=-(-len(handles) // 2), fontsize=9, borderaxespad=0.2, handletextpad=0.3,
                   columnspacing=1.2)
     figure.text(0.02, 0.012, f"Lower left is better. {setting_name(setting)}. {sizes_of(table)}: the more, the larger the marker. "
-                f"{source(context).capitalize()}.\nEach method by its fastest solver. Bars: quartiles of the time; how the error changes with the "
-                f"kind of problem. Named: the front and the largest sheets.\n{absent(drawn, methods)}", fontsize=7.5, color="#555555")
+                f"{source(context).capitalize()}.\nEach method by its fastest solver. A draw: other cuts and kinds of problems. Bars: quartiles of the time; "
+                f"95 % of the error. Named: the front and the largest sheets.\n{absent(drawn, methods)}", fontsize=7.5, color="#555555")
     return figure
 
 
@@ -214,6 +216,13 @@ def print_counts(fronts):
                      ["method", *counts.columns], [[method, *map(str, row)] for method, row in zip(counts.index, counts.to_numpy())])
 
 
+def print_shares(rows):
+    share = 100 * on_front(rows).unstack()
+    load.print_table(f"{setting_name(summarised(rows))}: on the front in how many % of 1000 draws of cuts and of kinds of problems, each by "
+                     "its fastest solver, by triangles", ["method", *map(str, share.columns)],
+                     [[method, *(f"{x:.0f}" for x in row)] for method, row in zip(share.index, share.to_numpy())])
+
+
 def print_iterations(rows):
     """How hard the meshes are for SAME; a cut that is refused makes none."""
     rows = rows[(rows["solver"] == SAME) & (rows["verdict"] != "refused")]
@@ -228,6 +237,7 @@ def tables(rows, cost, fronts):
     text = io.StringIO()
     with contextlib.redirect_stdout(text):
         print_counts(fronts)
+        print_shares(rows)
         print_iterations(rows)
         for (column, kind), table in fronts.items():
             solver = "each by its fastest solver" if kind == "best" else f"all by {SAME}"
@@ -261,10 +271,17 @@ def ways(cost):
     return {"best": points.best_of(cost), "same": cost[cost["solver"] == SAME]}
 
 
+def on_front(rows):
+    """Of readme_chart.png, how often each is on the front."""
+    return draws.shares(points.motions(at(rows, summarised(rows))), points.LEADS).rename("share")
+
+
 def readme_chart(folder):
     rows, context = read(folder)
-    table = points.joined(points.best_of(points.costs(rows)), points.errors(points.LEADS))
-    return summary(table, rows["method"].unique(), context)
+    setting = summarised(rows)
+    table = points.joined(points.best_of(points.costs(at(rows, setting))), points.errors(points.LEADS))
+    table = table.merge(on_front(rows).reset_index(), how="left", on=["method", "resolution"])
+    return summary(table, setting, rows["method"].unique(), context)
 
 
 def main():

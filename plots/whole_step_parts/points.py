@@ -86,11 +86,6 @@ def best_of(table):
     return table.loc[table.groupby([*SETTING, "method", "resolution"], sort=False)["ms"].idxmin()]
 
 
-def _by_kind(rows, column):
-    """Geometric means of a positive column, by kind of problem."""
-    return np.exp(np.log(rows[column]).groupby(rows["kind"]).mean())
-
-
 def errors(measure, folder=PUBLISHED):
     """errors_of() the published rows."""
     return errors_of(published(measure, folder))
@@ -109,23 +104,29 @@ def published(measure, folder=PUBLISHED):
     return table[table["size"] > 0]
 
 
+def by_kind(table, pooled=False):
+    """Of rows of published(), two tables of logarithms with a column per kind of problem: by size, the fitted mesh's geometric mean of
+    `size`; by (method, size), the ratio to it in the cases that the method made. NaN: it made none. `pooled`: all sizes are 0."""
+    fitted = table[table["method"] == REFERENCE[0]]
+    pairs = table.merge(fitted[CASE + ["size"]], on=CASE, suffixes=("", "_fitted"))
+    pairs["log"] = np.log(pairs["size"] / pairs["size_fitted"])
+    if pooled:
+        fitted, pairs = fitted.assign(resolution=0), pairs.assign(resolution=0)
+    levels = np.log(fitted["size"]).groupby([fitted["resolution"], fitted["kind"]]).mean().unstack()
+    return levels, pairs.groupby(["method", "resolution", "kind"])["log"].mean().unstack().reindex(columns=levels.columns)
+
+
 def errors_of(table, pooled=False):
     """Of rows of published(), by (method, size) or, `pooled`, by method with size 0: the geometric mean of `size` over kinds of
     problems. It is the fitted mesh's, times the ratio to it in the cases that the method made, so that a method that
     refuses a sheet is not better for it. Its interval: how the ratio changes as kinds are drawn anew (bootstrap, 95 %)."""
-    fitted = table[table["method"] == REFERENCE[0]]
-    pairs = table.merge(fitted[CASE + ["size"]], on=CASE, suffixes=("", "_fitted"))
-    pairs["ratio"] = pairs["size"] / pairs["size_fitted"]
-    if pooled:
-        fitted, pairs = fitted.assign(resolution=0), pairs.assign(resolution=0)
+    levels, ratios = by_kind(table, pooled)
     found = []
-    for (method, resolution), here in pairs.groupby(["method", "resolution"], sort=False):
-        level = _by_kind(fitted[fitted["resolution"] == resolution], "size")
-        ratios = np.log(_by_kind(here, "ratio"))
-        middle = np.exp(np.log(level).mean())
-        low, high = middle * np.exp(np.quantile(load.drawn_means(ratios), [0.025, 0.975]))
-        found.append({"method": method, "resolution": resolution, "error": middle * np.exp(ratios.mean()), "error_low": low,
-                      "error_high": high, "cases": len(here), "kinds": len(ratios)})
+    for (method, resolution), here in ratios.iterrows():
+        here, middle = here.dropna(), np.exp(levels.loc[resolution].mean())
+        low, high = middle * np.exp(np.quantile(load.drawn_means(here), [0.025, 0.975]))
+        found.append({"method": method, "resolution": resolution, "error": middle * np.exp(here.mean()), "error_low": low,
+                      "error_high": high, "kinds": len(here)})
     return pd.DataFrame(found)
 
 
