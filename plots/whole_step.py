@@ -216,11 +216,13 @@ def print_counts(fronts):
                      ["method", *counts.columns], [[method, *map(str, row)] for method, row in zip(counts.index, counts.to_numpy())])
 
 
-def print_shares(rows):
-    share = 100 * on_front(rows).unstack()
-    load.print_table(f"{setting_name(summarised(rows))}: on the front in how many % of 1000 draws of cuts and of kinds of problems, each by "
-                     "its fastest solver, by triangles", ["method", *map(str, share.columns)],
-                     [[method, *(f"{x:.0f}" for x in row)] for method, row in zip(share.index, share.to_numpy())])
+def print_chart(table, setting):
+    """readme_chart.png in numbers."""
+    rows = [[str(p["resolution"]), p["method"], p["solver"], p["ms"], p["ms_low"], p["ms_high"], 100 * p["error"], 100 * p["error_low"],
+             100 * p["error_high"], f"{100 * p['share']:.0f}"] for _, p in table.sort_values(["resolution", "ms"]).iterrows()]
+    load.print_table(f"{setting_name(setting)}: time against error ({points.MEASURES[points.LEADS].title}), each by its fastest solver; on the "
+                     "front in how many % of 1000 draws of cuts and kinds of problems",
+                     ["triangles", "method", "solver", "ms", "q1", "q3", "error %", "from", "to", "on the front"], rows)
 
 
 def print_iterations(rows):
@@ -237,7 +239,7 @@ def tables(rows, cost, fronts):
     text = io.StringIO()
     with contextlib.redirect_stdout(text):
         print_counts(fronts)
-        print_shares(rows)
+        print_chart(*chart(rows))
         print_iterations(rows)
         for (column, kind), table in fronts.items():
             solver = "each by its fastest solver" if kind == "best" else f"all by {SAME}"
@@ -271,17 +273,18 @@ def ways(cost):
     return {"best": points.best_of(cost), "same": cost[cost["solver"] == SAME]}
 
 
-def on_front(rows):
-    """Of readme_chart.png, how often each is on the front."""
-    return draws.shares(points.motions(at(rows, summarised(rows))), points.LEADS).rename("share")
+def chart(rows):
+    """The points of readme_chart.png, with the share of draws in which each is on the front, and their setting."""
+    setting = summarised(rows)
+    here = at(rows, setting)
+    table = points.joined(points.best_of(points.costs(here)), points.errors(points.LEADS))
+    share = draws.shares(points.motions(here), points.LEADS).rename("share").reset_index()
+    return table.merge(share, how="left", on=["method", "resolution"]), setting
 
 
 def readme_chart(folder):
     rows, context = read(folder)
-    setting = summarised(rows)
-    table = points.joined(points.best_of(points.costs(at(rows, setting))), points.errors(points.LEADS))
-    table = table.merge(on_front(rows).reset_index(), how="left", on=["method", "resolution"])
-    return summary(table, setting, rows["method"].unique(), context)
+    return summary(*chart(rows), rows["method"].unique(), context)
 
 
 def main():
