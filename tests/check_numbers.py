@@ -66,25 +66,32 @@ def measured():
     return found
 
 
-def errors():
-    """A row per method, as in docs/measuring.md, Accuracy, and below the table: the mean over kinds, at a hole, the interval. In
-    percent over a fitted mesh with as many unknowns: the case's own, refined at the rate of all of its problem and sheet."""
-    case = ["problem", "sheet", "resolution", "case"]
+CASE = ["problem", "sheet", "resolution", "case"]
+FITTED = "body_fitted (reference)"
+
+
+def solved():
+    """The direct solves in plane of the cases that all methods made, but for those that refuse that kind of sheet."""
     rows = pd.read_csv(ROOT / "results/reference/method_comparison_accuracy.direct.records.csv.gz", low_memory=False,
-                       usecols=[*case, "method", "status", "verdict", "unknowns", "error"])
+                       usecols=[*CASE, "method", "status", "verdict", "unknowns", "error", "error_energy_norm"])
     rows["kind"] = rows["problem"].str.extract("^(centre_crack|inclined_crack|arc_crack|edge_crack|kirsch_hole|williams)")[0].replace(
         {"centre_crack": "crack", "inclined_crack": "crack"})
     rows = rows[rows["kind"].notna()]
     right = (rows["verdict"] == "ok") & rows["status"].isin(["ok", "deviated"])
     refuses = ~right.groupby([rows["method"], rows["sheet"]]).transform("any")  # this kind of sheet, altogether
     right |= refuses
-    rows = rows[right.groupby([rows[c] for c in case]).transform("all") & ~refuses]
-    fitted = rows[rows["method"] == "body_fitted (reference)"]
+    return rows[right.groupby([rows[c] for c in CASE]).transform("all") & ~refuses]
+
+
+def errors(rows):
+    """A row per method, as in docs/measuring.md, Accuracy, and below the table: the mean over kinds, at a hole, the interval. In
+    percent over a fitted mesh with as many unknowns: the case's own, refined at the rate of all of its problem and sheet."""
+    fitted = rows[rows["method"] == FITTED]
     rate = {}
     for key, of_all in fitted.groupby(["problem", "sheet"]):
         logs = np.log(of_all[["unknowns", "error"]]).cov().to_numpy()
         rate[key] = min(0.0, logs[0, 1] / logs[0, 0])
-    rows = rows.merge(fitted[[*case, "unknowns", "error"]], on=case, suffixes=("", "_fitted"))
+    rows = rows.merge(fitted[[*CASE, "unknowns", "error"]], on=CASE, suffixes=("", "_fitted"))
     power = np.array([rate[key] for key in zip(rows["problem"], rows["sheet"])])
     rows["log"] = np.log(rows["error"] / rows["error_fitted"]) - power * np.log(rows["unknowns"] / rows["unknowns_fitted"])
     found = {}
@@ -95,13 +102,31 @@ def errors():
     return found
 
 
+def chart(solves):
+    """{method: [ms, error in percent]} of README's chart at 3,200 triangles: 4 cuts, steps of 1/240 s, 1,000 N/m."""
+    rows = pd.read_csv(ROOT / "results/reference/whole_step.records.csv.gz", low_memory=False)
+    rows = rows[(rows["place"] == 4) & (rows["step_s"] < 0.005) & (rows["stiffness_n_m"] == 1000) & (rows["resolution"] == 3200)]
+    ms = (rows["cut_update_us"] / 4 + rows["first_step_us"] + 59 * rows["step_us"]) / 1000  # a cut each 0.25 s, which is 60 steps
+    ms = ms.where(rows["verdict"].isin(["ok", "energy_growth", "inverted"]), float("inf"))
+    fastest = ms.groupby([rows["method"], rows["solver"]]).median().groupby("method").min()
+    solves = solves[(solves["resolution"] == 3200) & solves["error_energy_norm"].notna()]
+    solves = solves.assign(log=np.log(solves["error_energy_norm"].abs()))
+    fitted = solves[solves["method"] == FITTED]
+    level = fitted.groupby("kind")["log"].mean().mean()
+    pairs = solves.merge(fitted[[*CASE, "log"]], on=CASE, suffixes=("", "_fitted"))
+    ratio = (pairs["log"] - pairs["log_fitted"]).groupby([pairs["method"], pairs["kind"]]).mean().groupby("method").mean()
+    return {method: [fastest[method], 100 * np.exp(level + ratio[method])] for method in fastest.index if method in ratio}
+
+
 NAMES = ["eigenvalue", "eigenvalue, 95 %", "four cuts", "graded sheet", "with bending", "AR < 3", "outside forced wedges",
          "vertices added", "us, median", "us, total"]
 PLACES = [4, 5, 6, 7, 8, 9, 10, 13, 14, 15]  # of these in the table of docs/results.md
 US = NAMES.index("us, median")
 
 truth = measured()
-error = errors()
+solves = solved()
+error, charted = errors(solves), chart(solves)
+whole_step = (ROOT / "results/reference/whole_step.txt").read_text(encoding="utf-8")
 results = (ROOT / "docs/results.md").read_text(encoding="utf-8")
 readme = (ROOT / "README.md").read_text(encoding="utf-8")
 seen = set()
@@ -122,7 +147,12 @@ for cells in rows_of(results, "## The table"):
 if seen != set(truth):
     problems.append(f"docs/results.md, The table: other methods than in the rows: {', '.join(sorted(seen ^ set(truth)))}")
 for cells in rows_of(readme, "## Which method?"):
-    expect(f"README.md, Which method?, {cells[0]}", cells[2], truth[re.search(r"`(\w+)`", cells[1])[1]][US])
+    method = re.search(r"`(\w+)`", cells[1])[1]
+    for name, said, value in zip(["ms", "error"], cells[2:], charted[method]):
+        expect(f"README.md, Which method?, {method}, {name}", said, value)
+    share = re.search(rf"^3200 +{method} .* (\d+)$", whole_step, re.MULTILINE)[1]  # drawn by chance, so of the published table
+    if cells[4] != share:
+        problems.append(f"README.md, Which method?, {method}: on the front in {cells[4]} %, the table says {share}")
 costs = rows_of(results, "## Which method?")
 for cells in costs:
     said = re.match(r"([\d.]+) us", cells[2])
