@@ -14,6 +14,7 @@ from PIL import Image
 
 import contact_sheet
 from common import load, render, style
+from common.families import family
 
 KEYS = ["method", "resolution"]
 
@@ -56,10 +57,20 @@ def write_table(table, path, limit):
     print("\n".join(lines))
 
 
+def looks_of(methods):
+    """The colour of the family; the second of a family is dashed."""
+    looks, seen = {}, []
+    for method in methods:
+        colour = family(method).colour
+        looks[method] = {"color": colour, "linestyle": "--" if colour in seen else "-", "linewidth": 1}
+        seen.append(colour)
+    return looks
+
+
 def draw(frames, limits, path):
     resolutions = sorted(frames["resolution"].unique())
     methods = list(dict.fromkeys(frames["method"]))
-    colour = dict(zip(methods, plt.get_cmap("tab10").colors))
+    looks = looks_of(methods)
     figure, axes = plt.subplots(2, len(resolutions), figsize=(style.PAGE, 4.6), sharey="row", squeeze=False)
     for column, resolution in enumerate(resolutions):
         share, run = axes[:, column]
@@ -68,20 +79,22 @@ def draw(frames, limits, path):
             if mine.empty:
                 continue
             ordered = np.sort(mine["total_ms"])
-            share.step(ordered, 100 * (1 - np.arange(len(ordered)) / len(ordered)), where="post", color=colour[method],
-                       linewidth=1, label=method.replace("_", " "))
+            share.step(ordered, 100 * (1 - np.arange(len(ordered)) / len(ordered)), where="post", **looks[method],
+                       label=method.replace("_", " "))
             second = mine.groupby(np.floor(mine["time_s"] - 1e-9))["total_ms"].median()
-            run.plot(second.index + 0.5, second, color=colour[method], linewidth=1)
+            run.plot(second.index + 0.5, second, **looks[method])
         for axis in (share, run):
             (axis.axvline if axis is share else axis.axhline)(limits[0], color="black", linewidth=0.7, linestyle="--")
             if len(limits) > 1:
                 (axis.axvline if axis is share else axis.axhline)(limits[1], color="black", linewidth=0.5, linestyle=":")
         share.set(xscale="log", yscale="log", ylim=(0.08, 100), xlabel="ms a frame",
-                  title=f"{resolution} triangles at first")
+                  title=f"{resolution:,} triangles at first")
         run.set(yscale="log", xlabel="time in the scene, s")
+        for axis in (share.xaxis, share.yaxis, run.yaxis):
+            axis.set_major_formatter(lambda value, _: f"{value:g}")
     axes[0][0].set_ylabel("frames that take longer, %")
     axes[1][0].set_ylabel("ms a frame, median of each second")
-    figure.legend(*axes[0][0].get_legend_handles_labels(), loc="lower center", ncols=4)
+    figure.legend(*axes[0][0].get_legend_handles_labels(), loc="lower center", ncols=len(methods))
     names = " and ".join(f"{limit:g} ms ({'dashed' if k == 0 else 'dotted'})" for k, limit in enumerate(limits[:2]))
     figure.suptitle(f"A swinging sheet, cut every quarter of a second. Lines: {names}.", fontsize=7)
     figure.tight_layout(rect=(0, 0.08, 1, 1))
