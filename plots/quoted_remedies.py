@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The numbers that docs/remedies.md quotes of the stages `remedies`, `one_change`, `tips` and `knobs` of experiments/publish and that are
 no cells of their texts, a line each, in the order of the page. Reads the published records. In brackets: 95 % intervals, by drawing
-the cuts anew (bootstrap), or the problems where errors are compared."""
+the cuts anew (bootstrap), or the problems where errors are compared, or the paths where all sheets have the same."""
 
 import numpy as np
 
@@ -84,10 +84,14 @@ def changes(results):
     for method in ("warp_and_refine", POLYGONS):
         for size in SIZES:
             cg, multigrid = (by(cuts, method, mass="lumped", solver=s, resolution=size) for s in ("cg", "multigrid"))
-            say(f"{method}, {size} triangles: a step by multigrid over one by CG", median_ratio(multigrid, cg, "step_us", one_change.CUT))
+            say(f"{method}, {size} triangles: a step by multigrid over one by CG", one_change.in_words(*one_change.ratio(multigrid, cg, "step_us")))
     say("multigrid: iterations at most", cuts.loc[cuts["solver"] == "multigrid", "iterations"].max())
     polygons = by(cuts, POLYGONS).pivot_table(index=one_change.CUT, columns="mass", values="eigenvalue_ratio")
     say("polygons: eigenvalue with a lumped mass over that with a stabilised one", *spread(polygons["lumped"] / polygons["stabilised"]))
+    merged = by(cuts, POLYGONS, mass="lumped", solver="cg")
+    for path, values in merged[merged["cut"] == "several"].groupby("case")["eigenvalue_ratio"]:
+        say(f"polygons, several, path {path}: eigenvalue from, to", values.min(), values.max())
+    say("polygons, all others: eigenvalue at most", merged[merged["cut"] != "several"]["eigenvalue_ratio"].max())
     grew = cuts[cuts["verdict"] == "energy_growth"].groupby(["method", "mass", "solver"]).size()
     say("energy grew, cuts of 64", *(f"{' '.join(key)} {n}" for key, n in grew.items()))
     tips = (SPLIT, 1)
@@ -157,6 +161,9 @@ def doubled(errors):
         for method in (("phantom_node", "ghost=0"), ("phantom_node", "ghost=0.01"), (SPLIT, "")):
             say(f"{problem}, {' '.join(method)}: released energy, {SIZES} triangles, %",
                 *(100 * by(errors, method, problem=problem, resolution=n)[RELEASED].mean() for n in SIZES))
+    for other in (("phantom_node", "ghost=0"), (SPLIT, "")):
+        say(f"error at equal unknowns with a lumped mass over that of {' '.join(other)}", mean_ratio(
+            by(errors, "phantom_node:lumped_mass"), by(errors, other), "ratio_equal", CASE))
 
 
 def mass(cuts):
@@ -175,13 +182,16 @@ def tips(results):
     rows = rows.assign(error=rows[tip_functions.MEASURE].abs(), ms=rows[["assemble_us", "setup_us", "solve_us"]].sum(axis=1) / 1000,
                        soft=rows["value_released_energy"] > rows["exact_released_energy"])
     say("largest relative residual", f"{rows['residual'].max():.1e}")
+    inside = rows[(rows["tip_functions"] == 1) & ~rows["problem"].str.startswith("edge_crack")]
+    for size in (*SIZES, 12800):
+        say(f"{POLYGONS} with over {SPLIT} with, inside the sheet, {size} triangles", mean_ratio(
+            *(by(inside, method, resolution=size) for method in (POLYGONS, SPLIT)), "error", CASE))
     for method, here in rows.groupby("method", sort=False):
         cases = here.pivot(index=["problem", "sheet", "case"], columns=["tip_functions", "resolution"], values="error")
-        means = cases.groupby("problem").mean()
         for size in SIZES:
-            say(f"{method}, {size} triangles with over 12,800 without: smaller cases; means by problem",
-                f"{(cases[1, size] < cases[0, 12800]).sum()} of {len(cases)}",
-                *(f"{problem} {load.number(ratio, 2)}" for problem, ratio in (means[1, size] / means[0, 12800]).items()))
+            say(f"{method}, {size} triangles with over 12,800 without: smaller cases; geometric means by problem, cases drawn anew",
+                f"{(cases[1, size] < cases[0, 12800]).sum()} of {len(cases)}", *(
+                    "{} {:.2f} [{:.2f}, {:.2f}]".format(problem, *load.ratio(c[1, size], c[0, 12800])[:3]) for problem, c in cases.groupby("problem")))
         say(f"{method}: released energy too large without, with, % of the cases", *(100 * here.groupby("tip_functions")["soft"].mean()))
         for column, on in (("error_tip_k1", 1), ("error_k1", 1), ("error_k1", 0)):
             of_k = by(here, method, tip_functions=on).groupby(["problem", "resolution"])[column].mean().groupby("resolution").mean()
