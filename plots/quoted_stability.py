@@ -47,6 +47,9 @@ def breaks_first(rows):
     for name in (MASS, POLYGONS):
         say(f"{name}: least after single and after four cuts",
             *(of(rows, sweep, name)[EXPLICIT].min() for sweep in ("single_cuts", "several_cuts")))
+    for name in (MASS, SPLIT):
+        cuts = rows[(rows["name"] == name) & rows["sweep"].isin(["single_cuts", "several_cuts"])]
+        say(f"docs/remedies.md: {name}, after {len(cuts)} cuts: median, least", *(rounded(cuts[EXPLICIT].quantile(share)) for share in (0.5, 0)))
     runs = of(rows, "explicit")
     pairs = of(runs, "explicit", MASS).merge(of(runs, "explicit", SPLIT), on=["case", "step_share"], suffixes=("", "_split"))
     for column in ("cut_update_us", "step_us"):
