@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+"""The numbers that docs/results.md and docs/remedies.md quote of the stage `knobs` of experiments/publish and that are no cells of
+method_comparison_knobs.txt, a line each. Reads the published records; those of a run by --results results. In brackets: 95 %
+intervals by drawing the cuts anew (bootstrap)."""
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+
+from common import load
+from common.quoted import say, span
+from method_comparison import MEASURES, cuts_of
+from method_parts.details import KEY
+from method_parts.sweeps import AFTER, BEFORE
+from quoted_comparison import DRAWS, by, files, quantile
+
+EIGENVALUE = "eigenvalue_ratio"
+
+
+def cuts(results, stem):
+    return cuts_of(load.run_of(*files(results, stem), MEASURES))[1]
+
+
+def ratio(rows, others, column):
+    """Of the same cuts, the median of one over that of the others; the cuts are drawn anew."""
+    both = rows.merge(others, on=KEY, suffixes=("", "_other"))[[column, f"{column}_other"]].to_numpy()
+    draws = np.random.default_rng(1).integers(0, len(both), (DRAWS, len(both)))
+    medians = np.median(both[draws], axis=1)
+    low, high = np.quantile(medians[:, 0] / medians[:, 1], [0.025, 0.975])
+    one, other = np.median(both, axis=0)
+    return f"{load.number(one / other)} [{load.number(low)}, {load.number(high)}]"
+
+
+def tail(rows):
+    values = rows[EIGENVALUE]
+    return quantile(values), f"95 % {quantile(values, 0.95)}", f"worst {load.number(values.max())}"
+
+
+def ablation(parts, polygons):
+    print("Parts: eigenvalue, median; 95 %; worst")
+    for before in BEFORE:
+        for after in AFTER:
+            say(f"{before}, then {after}", *tail(by(parts, f"ablation:{before}:{after}")))
+    say("cut_polygons", *tail(polygons))
+    print("Aspect ratio below 3 outside forced wedges, %")
+    good = parts["ar_max_cut_outside_wedges"] < 3
+    share = 100 * good.groupby(parts["method"]).mean()
+    refined = share.index.str.endswith(":refine")
+    say("with refinement, without", span(share[refined]), span(share[~refined]))
+
+
+def knobs(settings, default):
+    print("Knobs: median eigenvalue and us, over those of the default")
+    for (method, knob), rows in settings.groupby(["method", "knob"]):
+        if knob != default.get(method, knob):
+            usual = load.of(settings, (method, default[method]))
+            say(f"{method} {knob}", ratio(rows, usual, EIGENVALUE), ratio(rows, usual, "us_per_crossed"))
+
+
+def spacing(settings):
+    print("docs/remedies.md: active_node at 800 triangles: median eigenvalue, largest aspect ratio, vertices added")
+    for knob, rows in by(settings[settings["resolution"] == 800], "active_node").groupby("knob"):
+        say(knob, *(rows[column].median() for column in (EIGENVALUE, "ar_max_cut", "vertices_added")))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--results", type=Path, metavar="DIR", default=load.REPOSITORY / "results/reference")
+    results = parser.parse_args().results
+    settings = cuts(results, "method_comparison_knobs")
+    fine = cuts(results, "method_comparison_fine")
+    default = dict(zip(fine["method"], fine["knob"]))
+    ablation(cuts(results, "method_comparison_ablation"), settings[(settings["method"] == "cut_polygons")
+                                                                  & (settings["knob"] == default["cut_polygons"])])
+    knobs(settings, default)
+    spacing(settings)
+
+
+if __name__ == "__main__":
+    main()
