@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
 """Prints the numbers that docs/step.md quotes of the stages solvers and limits, in the order of the page, labelled by its words. Reads
-solver_table.csv, limits.txt and scaling.txt in --results. Milliseconds are of a step, in the median of its run."""
+solver_table.csv, limits.txt and scaling.txt in --results. Milliseconds are of a step, in the median of its run. --before FILE is the
+solver_table.csv of another run, whose times say how far runs differ: git show 256d83a:results/reference/solver_table.csv."""
 
+import argparse
 import itertools
+from pathlib import Path
 
 import pandas as pd
 
@@ -29,11 +32,11 @@ def table(path, first):
 
 
 class Solvers:
-    def __init__(self, folder):
+    def __init__(self, file):
         try:
-            rows = pd.read_csv(folder / "solver_table.csv", dtype={"cuts": str})
+            rows = pd.read_csv(file, dtype={"cuts": str})
         except (OSError, ValueError) as error:
-            load.stop(f"{folder / 'solver_table.csv'} can't be read: {error}")
+            load.stop(f"{file} can't be read: {error}")
         self.rows = rows.assign(step=rows["step"].round(6))
 
     def of(self, sweep, **values):
@@ -63,6 +66,19 @@ def same_work(rows):
                      & (rows["material"] == "skin") & (rows["step"] == round(SHORT, 6)) & rows["method"].isin([SPLIT, WARP])]
     times = one_scene.groupby(["solver", "method"])["step_ms"]
     say("rows of a direct solver for one scene in three sweeps, %", span(100 * (times.max() / times.min() - 1)))
+
+
+def against(rows, before):
+    """Times of another run over those here."""
+    both = rows.merge(before, on=[*SCENE, "solver"], suffixes=("", "_before"))
+    same = both["iterations"].fillna(-1) == both["iterations_before"].fillna(-1)
+    say("rows of both runs; with the same iterations", str(len(both)), str(same.sum()))
+    both = both.assign(ratio=both["step_ms_before"] / both["step_ms"])
+    for sweep, here in both.groupby("sweep"):
+        say(f"times of the other run over these, {sweep}: median, 5 to 95 %, all", here["ratio"].median(),
+            *(span(here["ratio"].quantile(ends)) for ends in ([0.05, 0.95], [0, 1])))
+    for row in both[both["sweep"] == "two cuts in motion"].sort_values("ratio").tail(4).itertuples():
+        say(f"  {row.method}, {row.solver}", row.ratio)
 
 
 def two_cuts(solvers):
@@ -165,8 +181,14 @@ def larger(folder):
 
 
 def main():
-    folder = load.results_folder("reference", __doc__)
-    solvers = Solvers(folder)
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--results", type=Path, metavar="DIR", default=load.REPOSITORY / "results/reference")
+    parser.add_argument("--before", type=Path, metavar="FILE")
+    options = parser.parse_args()
+    folder = options.results
+    solvers = Solvers(folder / "solver_table.csv")
+    if options.before:
+        against(solvers.rows, Solvers(options.before).rows)
     two_cuts(solvers)
     ten_solvers(solvers)
     settings(solvers)
