@@ -11,8 +11,8 @@ from atlas_parts import points
 from atlas_parts.points import EXPLICIT, text
 from atlas_parts.table import rounded
 from common import load
-from common.quoted import say, span
-from quoted_comparison import DRAWS, bracket
+from common.quoted import drawn_whole, say, span
+from quoted_comparison import bracket
 
 SPLIT, MASS, POLYGONS, RELEASE = "conventional split", "stabilised mass", "cut polygons", "edge release"
 DISTANCES = ["vertex", "edge", "border", "tip"]
@@ -42,9 +42,8 @@ def with_quartiles(ratios):
 
 def quantile(rows, share):
     """Of the explicit step. Each cut is on several sheets; the cuts are drawn anew, each with all of its sheets."""
-    steps = np.array([here[EXPLICIT].to_numpy() for _, here in rows.groupby(["cut", "case"])])
-    drawn = steps[np.random.default_rng(1).integers(0, len(steps), (DRAWS, len(steps)))]
-    return bracket(np.quantile(steps, share), np.quantile(drawn.reshape(DRAWS, -1), share, axis=1), rounded)
+    drawn = drawn_whole(rows, ["cut", "case"], [EXPLICIT])[:, :, 0]
+    return bracket(rows[EXPLICIT].quantile(share), np.quantile(drawn, share, axis=1), rounded)
 
 
 def breaks_first(rows):
