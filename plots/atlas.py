@@ -105,7 +105,8 @@ def page(rows, caption):
             draw(ax, rows, name, ylabels=gap >= 0.5)
             x += width
         top -= height + space
-    for y, (words, handles) in zip((0.78, 0.61, 0.44), panels.legends(set(rows["verdict"]))):
+    drawn = {name for _, _, names in ON_THE_PAGE for name in names if name in CELLS} | {"step_stiffness"}
+    for y, (words, handles) in zip((0.78, 0.61, 0.44), panels.legends(set(rows[rows["sweep"].isin(drawn)]["verdict"]))):
         figure.text(0.05 / style.PAGE, y / total, words, fontsize=6, va="center")
         figure.legend(handles=handles, loc="center left", ncol=len(handles), bbox_to_anchor=(0.16, y / total), fontsize=6,
                       handlelength=1.1, handleheight=0.9, columnspacing=0.9, handletextpad=0.4, borderpad=0)
@@ -132,7 +133,7 @@ def main():
     rows, context = points.read(folder), load.read_context(folder / "context.json")
     caption = ("A cell is one setting and one method: the worst of its cuts. Values go from harmless (left) to harmful; h is the "
                "mean edge of the uncut sheet. Why steps shrink: the largest eigenvalue of the membrane grows as (h / altitude)² of the thinnest "
-               "triangle, that of bending faster. At 1e-12 h, the snap distance, the path goes through the vertex. Tie: corners of thin triangles "
+               "triangle, that of bending faster. At 1e-12 h, below the snap distance, the path goes through the vertex. Tie: corners of thin triangles "
                "follow their neighbours. Ghost: a penalty on jumps of the gradient across the edges of cut triangles. Stabilised mass: "
                "thin triangles of a conventional split get mass against their stiff modes; hatched: in some cases its eigenvalue came out as no number. (To scale all of "
                "their mass would add 88 times the sheet's.) Ties and phantom nodes: their explicit step is predicted, the program makes none. b, left: time of a cut (without finding ties or polygons) over that of the conventional "

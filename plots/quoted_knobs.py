@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The numbers that docs/results.md and docs/remedies.md quote of the stage `knobs` of experiments/publish and that are no cells of
 method_comparison_knobs.txt, a line each. Reads the published records; those of a run by --results results. In brackets: 95 %
-intervals by drawing the cuts anew (bootstrap)."""
+intervals. Of the knobs and the ablation each curve is on two sheets of two sizes: the curves are drawn anew, each with all of them."""
 
 import argparse
 from pathlib import Path
@@ -9,32 +9,34 @@ from pathlib import Path
 import numpy as np
 
 from common import load
-from common.quoted import say, span
+from common.quoted import drawn_whole, say, span
 from method_comparison import MEASURES, cuts_of
 from method_parts.details import KEY
 from method_parts.sweeps import AFTER, BEFORE
-from quoted_comparison import DRAWS, by, files, quantile
+from quoted_comparison import bracket, by, files
 
 EIGENVALUE = "eigenvalue_ratio"
+CURVE = ["cut_family", "case"]
 
 
 def cuts(results, stem):
     return cuts_of(load.run_of(*files(results, stem), MEASURES))[1]
 
 
+def quantile(rows, share=0.5):
+    return bracket(rows[EIGENVALUE].quantile(share), np.quantile(drawn_whole(rows, CURVE, [EIGENVALUE])[:, :, 0], share, axis=1))
+
+
 def ratio(rows, others, column):
-    """Of the same cuts, the median of one over that of the others; the cuts are drawn anew."""
-    both = rows.merge(others, on=KEY, suffixes=("", "_other"))[[column, f"{column}_other"]].to_numpy()
-    draws = np.random.default_rng(1).integers(0, len(both), (DRAWS, len(both)))
-    medians = np.median(both[draws], axis=1)
-    low, high = np.quantile(medians[:, 0] / medians[:, 1], [0.025, 0.975])
-    one, other = np.median(both, axis=0)
-    return f"{load.number(one / other)} [{load.number(low)}, {load.number(high)}]"
+    """The median over that of the others, of the same cuts."""
+    both = [column, f"{column}_other"]
+    pairs = rows.merge(others, on=KEY, suffixes=("", "_other"))
+    drawn = np.median(drawn_whole(pairs, CURVE, both), axis=1)
+    return bracket(np.divide(*pairs[both].median()), drawn[:, 0] / drawn[:, 1])
 
 
 def tail(rows):
-    values = rows[EIGENVALUE]
-    return quantile(values), f"95 % {quantile(values, 0.95)}", f"worst {load.number(values.max())}"
+    return quantile(rows), f"95 % {quantile(rows, 0.95)}", f"worst {load.number(rows[EIGENVALUE].max())}"
 
 
 def ablation(parts, polygons):

@@ -100,7 +100,7 @@ def stability():
     bands = [*panels.legends(set())[0][1], *panels.legends(verdicts)[2][1]]
     figure.legend(handles=bands, loc="lower left", ncol=len(bands), bbox_to_anchor=(0.125, 0.155), fontsize=8.5, handlelength=1.2,
                   columnspacing=1.4)
-    figure.text(0.008, 0.02, "To the right the cut comes nearer; at $10^{-12}$ h, the snap distance, it goes through the vertex or along the border. "
+    figure.text(0.008, 0.02, "To the right the cut comes nearer; at $10^{-12}$ h, below the snap distance, it goes through the vertex or along the border. "
                 "h: mean edge.\nA cell: the worst of eight places on four sheets of 800 triangles (cuts in a row: of one). Stabilised mass: "
                 "after a conventional split.\nSteps with ties or phantom nodes are predicted.",
                 fontsize=8.5, color="#555555", linespacing=1.3)

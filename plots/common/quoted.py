@@ -1,5 +1,7 @@
 """Numbers that the pages quote, a line each, for plots/quoted_*.py."""
 
+import numpy as np
+
 from common import load
 
 
@@ -10,3 +12,10 @@ def say(words, *values):
 def span(values, digits=3):
     values = [float(value) for value in values]
     return f"{load.number(min(values), digits)} to {load.number(max(values), digits)}"
+
+
+def drawn_whole(rows, groups, columns, draws=5000):
+    """The columns in draws with replacement of whole groups of rows, all of one size: by draw, row and column."""
+    values = np.array([here[columns].to_numpy() for _, here in rows.groupby(groups)])
+    drawn = values[np.random.default_rng(1).integers(0, len(values), (draws, len(values)))]
+    return drawn.reshape(draws, -1, len(columns))
