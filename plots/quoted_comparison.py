@@ -168,6 +168,8 @@ def which_method(cuts, accuracy):
     say(f"{OURS}: in total", total(cuts, OURS, SPLIT))
     for method in ("snap_or_split", "cut_polygons"):
         say(f"{method}: error at a hole, its cases drawn anew", ratio_in_percent(np.log(accuracy.hole(method))))
+        say("... by size", *(f"{100 * np.expm1(np.log(here).mean()):+.0f}"
+                             for _, here in accuracy.hole(method).groupby(accuracy.rows["resolution"])))
     say("medians in us are within a factor of", *largest(
         {m: off_by(rows["us_per_crossed"], medians) for m, rows in cuts.groupby("method")}, 3))
     for method in ("adaptive_remesh", "delaunay_refine", OURS, "active_node", "split_and_tie", "cut_polygons", "snap_or_split"):

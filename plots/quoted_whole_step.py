@@ -2,6 +2,8 @@
 """Prints the numbers that docs/results.md and docs/step.md quote from whole_step and that are no cell of its tables, in the order
 of the pages, labelled by their words. Of the published rows in --results."""
 
+import itertools
+
 import numpy as np
 import pandas as pd
 
@@ -17,7 +19,7 @@ CASE = ["sheet", "resolution", "case", *SETTING]
 REFINE = ["delaunay_refine", "cgal_refine", "global_remesh", "longest_edge"]
 NAMED = ["adaptive_remesh", "cut_polygons", "warp_and_refine", "conventional_split", "edge_release"]
 SLOW = ["delaunay_refine", "cgal_refine", "longest_edge", "bowyer_watson", "warp_and_refine", "conventional_split"]
-GREW = ["element_deletion", "conventional_split", "cut_polygons"]
+GREW = ["element_deletion", "conventional_split", "example", "split_and_tie"]
 
 
 def ratios(motions, other):
@@ -108,13 +110,17 @@ def fastest(motions):
 
 def growth(motions):
     """In the motions of the sheets that a method does not refuse, those that ended early among them."""
-    for size in (None, 12800):
-        here = motions if size is None else motions[motions["resolution"] == size]
+    for stiffness, size in itertools.product(sorted(set(motions["stiffness_n_m"])), (None, 12800)):
+        here = motions[(motions["stiffness_n_m"] == stiffness) & (motions["resolution"].eq(size) | (size is None))]
         grew = 100 * (here["verdict"] == "energy_growth").groupby(here["method"]).mean()
-        words = "energy grew in % of the motions" + (f", {size} triangles" if size else "")
+        words = f"energy grew in % of the motions at {stiffness:g} N/m" + (f", {size} triangles" if size else "")
         for method in GREW:
             say(f"{words}: {method}", grew[method])
         say(f"{words}: the others", span(grew.drop(GREW)))
+    here = whole_step.at(motions, whole_step.SUMMARY).query("resolution == 3200")
+    for (method, solver), verdicts in here.groupby(["method", "solver"])["verdict"]:
+        if method in ("conventional_split", "example") and solver != "cg_sliver_blocks":
+            say(f"README's setting, 3200 triangles: {method}, {solver}", f"{verdicts.eq('energy_growth').sum()} of {len(verdicts)}")
     others = motions[motions["method"] != "element_deletion"]
     for key, here in others.groupby(["stiffness_n_m", "step_s", "place"]):
         say(f"energy grew by all but element_deletion, % of the motions: {whole_step.setting_name(key[::-1])}",
