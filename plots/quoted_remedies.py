@@ -142,7 +142,7 @@ def node(cuts, errors, knobs):
         say(f"{knob}, 800 triangles: eigenvalue, AR, vertices added", *here[["eigenvalue_ratio", "ar_max_cut", "vertices_added"]].median())
 
 
-def remesh(cuts, knobs):
+def remesh(cuts):
     print("\nRemesh: adaptive_remesh")
     for size in SIZES:
         here, split = (by(cuts, m, resolution=size) for m in (REMESH, SPLIT))
@@ -150,9 +150,6 @@ def remesh(cuts, knobs):
             split["eigenvalue_ratio"].median(), here["over_3_cut"].median())
         families = here.groupby("cut_family")["eigenvalue_ratio"].median()
         say(f"{size} triangles: eigenvalue by family", *(f"{family} {load.number(value)}" for family, value in families.items()))
-    for (knob, size), here in by(knobs, REMESH).groupby(["knob", "resolution"], sort=False):
-        say(f"{knob}, {size} triangles: eigenvalue, AR, vertices added; us",
-            *here[["eigenvalue_ratio", "ar_max_cut", "vertices_added"]].median(), per_crossed(here))
 
 
 def doubled(errors):
@@ -211,7 +208,7 @@ def main():
     changes(results)
     polygons(cuts, errors)
     node(cuts, errors, knobs)
-    remesh(cuts, knobs)
+    remesh(cuts)
     doubled(errors)
     mass(cuts)
     tips(results)
