@@ -27,12 +27,12 @@ def quantile(rows, share=0.5):
     return bracket(rows[EIGENVALUE].quantile(share), np.quantile(drawn_whole(rows, CURVE, [EIGENVALUE])[:, :, 0], share, axis=1))
 
 
-def ratio(rows, others, column):
-    """The median over that of the others, of the same cuts."""
+def ratio(rows, others, column, share=0.5):
+    """The median, or another quantile, over that of the others, of the same cuts."""
     both = [column, f"{column}_other"]
     pairs = rows.merge(others, on=KEY, suffixes=("", "_other"))
-    drawn = np.median(drawn_whole(pairs, CURVE, both), axis=1)
-    return bracket(np.divide(*pairs[both].median()), drawn[:, 0] / drawn[:, 1])
+    drawn = np.quantile(drawn_whole(pairs, CURVE, both), share, axis=1)
+    return bracket(np.divide(*pairs[both].quantile(share)), drawn[:, 0] / drawn[:, 1])
 
 
 def tail(rows):
@@ -45,6 +45,11 @@ def ablation(parts, polygons):
         for after in AFTER:
             say(f"{before}, then {after}", *tail(by(parts, f"ablation:{before}:{after}")))
     say("cut_polygons", *tail(polygons))
+    for before in ("nothing", "snap", "warp+thin"):
+        tied = by(parts, f"ablation:{before}:tie")
+        say(f"{before}: with constraints over without, at 95 %", ratio(tied, by(parts, f"ablation:{before}:nothing"), EIGENVALUE, 0.95))
+    tied = [by(parts, f"ablation:{before}:tie") for before in ("snap", "warp+thin")]
+    say("constraints after snap over those after warp+thin, at 95 %", ratio(*tied, EIGENVALUE, 0.95))
     print("Aspect ratio below 3 outside forced wedges, %")
     good = parts["ar_max_cut_outside_wedges"] < 3
     share = 100 * good.groupby(parts["method"]).mean()
@@ -58,6 +63,12 @@ def knobs(settings, default):
         if knob != default.get(method, knob):
             usual = load.of(settings, (method, default[method]))
             say(f"{method} {knob}", ratio(rows, usual, EIGENVALUE), ratio(rows, usual, "us_per_crossed"))
+
+
+def ghosts(settings):
+    print("Phantom nodes: eigenvalue, median; 95 %; worst")
+    for method, knob in (("phantom_node", "ghost=0.1"), ("phantom_node:lumped_mass", "")):
+        say(f"{method} {knob}", *tail(load.of(settings, (method, knob))))
 
 
 def spacing(settings):
@@ -76,6 +87,7 @@ def main():
     ablation(cuts(results, "method_comparison_ablation"), settings[(settings["method"] == "cut_polygons")
                                                                   & (settings["knob"] == default["cut_polygons"])])
     knobs(settings, default)
+    ghosts(settings)
     spacing(settings)
 
 
