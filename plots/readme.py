@@ -102,7 +102,7 @@ def stability():
                   columnspacing=1.4)
     figure.text(0.008, 0.02, "To the right the cut comes nearer; at $10^{-12}$ h, below the snap distance, it goes through the vertex or along the border. "
                 "h: mean edge.\nA cell: the worst of eight places on four sheets of 800 triangles (cuts in a row: of one). Stabilised mass: "
-                "after a conventional split.\nSteps with ties or phantom nodes are predicted.",
+                "after a conventional split.\nWarp, thin, tie: three parts together. Steps with ties or phantom nodes are predicted.",
                 fontsize=8.5, color="#555555", linespacing=1.3)
     return figure
 

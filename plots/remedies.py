@@ -51,11 +51,14 @@ def errors(folder):
 
 
 def interval(direct):
-    """The ends of that of the mean excess at equal unknowns, 95 %, in words: problems drawn anew (bootstrap)."""
+    """The ends of that of the mean excess at equal unknowns in percent, 95 %: problems drawn anew (bootstrap)."""
     if direct.empty:  # one size of sheets alone
-        return "-"
-    ends = np.exp(np.quantile(load.drawn_group_means(np.log(direct["ratio_equal"]), direct["problem"]), [0.025, 0.975]))
-    return kinds.in_words(np.round(100 * (ends - 1)) + 0.0)  # no -0
+        return np.full(2, np.nan)
+    return 100 * np.expm1(np.quantile(load.drawn_group_means(np.log(direct["ratio_equal"]), direct["problem"]), [0.025, 0.975]))
+
+
+def in_words(ends):
+    return "-" if np.isnan(ends).any() else kinds.in_words(np.round(ends) + 0.0)  # no -0
 
 
 def rows_of(run, excess):
@@ -74,12 +77,13 @@ def rows_of(run, excess):
 
 
 def figure_of(run, rows, cases, problems):
-    figure, axes = style.panels(1, 1, 9.5, width=style.PAGE)
+    figure, axes = style.panels(1, 1, 12.5, width=style.PAGE)
     ax = axes[0, 0]
     ax.set_xscale("log")
     for row in rows:
         colour, marker, _ = KINDS[kind_of(row)]
         ax.plot([row[2], row[3]], [row[9], row[9]], color=colour, linewidth=0.8, alpha=0.6)
+        ax.vlines(row[2], *row[10], color=colour, linewidth=0.8, alpha=0.35)
         ax.plot(row[2], row[9], marker=marker, color=colour, markersize=4.5, markeredgecolor="white", markeredgewidth=0.3)
     ax.axhline(0, color="#888888", linewidth=0.6, linestyle="--")
     ax.set_xlabel("largest eigenvalue / that of the uncut sheet: median, line to 95 %")
@@ -87,12 +91,12 @@ def figure_of(run, rows, cases, problems):
     ax.margins(x=0.12, y=0.08)
     marked = [(x, row[9]) for row in rows for x in np.geomspace(row[2], row[3], 40)]
     marked += [(x, 0) for x in np.geomspace(*ax.get_xlim(), 120)]
-    names.place(ax, [(row[2], row[9], label(row[0], row[1], row[-1]), KINDS[kind_of(row)][0]) for row in rows], marked, 6.5)
+    names.place(ax, [(row[2], row[9], label(row[0], row[1], row[-1]), KINDS[kind_of(row)][0]) for row in rows], marked, 6.2)
     legend = [Line2D([], [], color=colour, marker=marker, linestyle="none", markersize=4, label=f"changes {kind}")
               for kind, (colour, marker, _) in KINDS.items()]
     style.finish(figure, [], " ".join([
         "Left and low is good. Of two changes the colour is that of the mass, else of the unknowns. "
-        f"Errors: geometric means over {cases} cases of {problems} plane problems with exact answers, solved directly. "
+        f"Errors: geometric means over {cases} cases of {problems} plane problems, solved directly; upright lines: 95 %, problems drawn anew. "
         "Eigenvalues: of single and several cuts.", style.provenance(run, run.rows, with_crosses=False, per=())]), legend)
     return figure
 
@@ -107,7 +111,7 @@ def main():
     columns = ["method", "eigenvalue, median", "95 %", "worst", "95 %, without several", "worst", "with bending", "95 %",
                "error %, equal unknowns", "its 95 %", "error %, 100 CG", "us"]
     load.print_table("Remedies: eigenvalues over the uncut sheet's, errors over a fitted mesh's of {} cases of {} problems with 95 % "
-                     "intervals (problems drawn anew), warm geometry per crossed triangle".format(*used), columns, [[label(r[0], r[1], r[-1]), *r[2:-1]] for r in rows])
+                     "intervals (problems drawn anew), warm geometry per crossed triangle".format(*used), columns, [[label(r[0], r[1], r[-1]), *r[2:10], in_words(r[10]), *r[11:-1]] for r in rows])
     added = run.first_repetition().rows
     added = added[added["scaled_mass_added"].notna() & (added["method"] == "conventional_split")]
     load.print_table("Mass that scaling adds to the sheet's after conventional_split, %", ["", "median", "95 %", "worst"],

@@ -133,7 +133,7 @@ def pages(table, column, context, by_solver):
                   "beside the name.")
     style.finish(figure, [], (
         f"Lower left is better; the larger the marker, the larger the sheet. {solver} {sizes_of(table)}. Hollow markers and errors of "
-        f"{100 * points.NO_ANSWER:.0f} % and more are on no front. "
+        f"{100 * points.NO_ANSWER:.0f} % and more are on no front. E t: stiffness of the sheet. "
         "Time: median over sheets and cuts, bars quartiles. Error: |relative error|, geometric mean "
         f"over {points.MEASURES[column].of}; bars: 95 %, how the ratio to a fitted mesh changes as these are drawn anew. Not drawn: errors "
         f"of over {FAR} times the median behind the front. {source(context).capitalize()}; errors: commit {errors_commit[:10]}."),
@@ -157,7 +157,7 @@ def summary(table, setting, methods, context):
     handles = entries(drawn, 1.6)
     figure.legend(handles=handles, loc="upper left", ncol=-(-len(handles) // 2), fontsize=9, borderaxespad=0.2, handletextpad=0.3,
                   columnspacing=1.2)
-    figure.text(0.02, 0.012, f"Lower left is better. {setting_name(setting)}. {sizes_of(table)}: the more, the larger the marker. "
+    figure.text(0.02, 0.012, f"Lower left is better. {setting_name(setting).replace('E t', 'stiffness')}. {sizes_of(table)}, by size of marker. "
                 f"{source(context).capitalize()}.\nEach method by its fastest solver. A draw: other cuts and kinds of problems. Bars: quartiles of the time; "
                 f"95 % of the error. Named: the front and the largest sheets.\n{absent(drawn, methods)}", fontsize=7.5, color="#555555")
     return figure
