@@ -108,7 +108,7 @@ def fastest(motions):
         say(f"{solver} is the fastest {words} at {SIZES} triangles, % of the cases", *(share[n] for n in SIZES))
 
 
-def growth(motions):
+def growth(motions, folder):
     """In the motions of the sheets that a method does not refuse, those that ended early among them."""
     for stiffness, size in itertools.product(sorted(set(motions["stiffness_n_m"])), (None, 12800)):
         here = motions[(motions["stiffness_n_m"] == stiffness) & (motions["resolution"].eq(size) | (size is None))]
@@ -117,10 +117,10 @@ def growth(motions):
         for method in GREW:
             say(f"{words}: {method}", grew[method])
         say(f"{words}: the others", span(grew.drop(GREW)))
-    here = whole_step.at(motions, whole_step.SUMMARY).query("resolution == 3200")
-    for (method, solver), verdicts in here.groupby(["method", "solver"])["verdict"]:
-        if method in ("conventional_split", "example") and solver != "cg_sliver_blocks":
-            say(f"README's setting, 3200 triangles: {method}, {solver}", f"{verdicts.eq('energy_growth').sum()} of {len(verdicts)}")
+    chart = whole_step.read_chart(folder)[0].query(f"method == 'conventional_split' and solver == '{whole_step.SAME}'")
+    for size, verdicts in chart.groupby("resolution")["verdict"]:
+        say(f"README's chart, conventional_split at {size} triangles, {whole_step.SAME}: energy grew in",
+            f"{verdicts.eq('energy_growth').sum()} of {len(verdicts)}")
     others = motions[motions["method"] != "element_deletion"]
     for key, here in others.groupby(["stiffness_n_m", "step_s", "place"]):
         say(f"energy grew by all but element_deletion, % of the motions: {whole_step.setting_name(key[::-1])}",
@@ -168,7 +168,7 @@ def main():
     times(to_split)
     iterations(rows)
     fastest(motions)
-    growth(motions)
+    growth(motions, folder)
     other_errors(fronts, errors)
     print("\nIn motion, The step after the cut (docs/results.md)")
     rank_correlations(errors)

@@ -25,6 +25,7 @@ SOLVERS = {"cg_sliver_blocks": "CG", "multigrid": "MG", "cholmod": "direct"}
 FAR = 4  # times the median error: such a method is not drawn, unless it is on the front
 PALE = 0.3
 SUMMARY = (4, 1 / 240, 1000)  # the setting of readme_chart.png
+CHART = "whole_step_chart"  # the run of this setting on more cuts
 
 
 def setting_name(setting):
@@ -144,7 +145,7 @@ def pages(table, column, context, by_solver):
     return figure
 
 
-def summary(table, setting, methods, context):
+def summary(table, methods, context):
     """readme_chart.png: one setting, each method by its fastest solver. \param table  with the share of draws on the front"""
     figure, ax = plt.subplots(figsize=(9, 6))
     figure.subplots_adjust(left=0.07, right=0.995, top=0.9, bottom=0.17)
@@ -157,9 +158,10 @@ def summary(table, setting, methods, context):
     handles = entries(drawn, 1.6)
     figure.legend(handles=handles, loc="upper left", ncol=-(-len(handles) // 2), fontsize=9, borderaxespad=0.2, handletextpad=0.3,
                   columnspacing=1.2)
-    figure.text(0.02, 0.012, f"Lower left is better. {setting_name(setting).replace('E t', 'stiffness')}. {sizes_of(table)}, by size of marker. "
-                f"{source(context).capitalize()}.\nEach method by its fastest solver. A draw: other cuts and kinds of problems. Bars: quartiles of the time; "
-                f"95 % of the error. Named: the front and the largest sheets.\n{absent(drawn, methods)}", fontsize=7.5, color="#555555")
+    figure.text(0.02, 0.012, f"Lower left is better. {setting_name(setting_of(table)).replace('E t', 'stiffness')}; medians of {spoken(table['n'])} such sheets. "
+                f"{sizes_of(table)}, by size of marker.\nEach method by its fastest solver. A draw: other cuts and kinds of problems. Bars: quartiles of the time; "
+                f"95 % of the error. Named: the front and the largest sheets.\n{absent(drawn, methods)} "
+                f"{source(context).capitalize()}.", fontsize=7.5, color="#555555")
     return figure
 
 
@@ -171,6 +173,15 @@ def absent(drawn, methods):
 
 def at(table, setting):
     return table[np.isclose(table[SETTING].to_numpy(float), setting).all(axis=1)]
+
+
+def setting_of(table):
+    """Of a table of one setting."""
+    return tuple(table[SETTING].iloc[0])
+
+
+def spoken(counts):
+    return " to ".join(dict.fromkeys(map(str, (counts.min(), counts.max()))))
 
 
 def summarised(table):
@@ -216,11 +227,11 @@ def print_counts(fronts):
                      ["method", *counts.columns], [[method, *map(str, row)] for method, row in zip(counts.index, counts.to_numpy())])
 
 
-def print_chart(table, setting):
+def print_chart(table):
     """readme_chart.png in numbers."""
     rows = [[str(p["resolution"]), p["method"], p["solver"], p["ms"], p["ms_low"], p["ms_high"], 100 * p["error"], 100 * p["error_low"],
              100 * p["error_high"], f"{100 * p['share']:.0f}"] for _, p in table.sort_values(["resolution", "ms"]).iterrows()]
-    load.print_table(f"{setting_name(setting)}: time against error ({points.MEASURES[points.LEADS].title}), each by its fastest solver; on the "
+    load.print_table(f"{setting_name(setting_of(table))}, medians of {spoken(table['n'])} cuts: time against error ({points.MEASURES[points.LEADS].title}), each by its fastest solver; on the "
                      "front in how many % of 1000 draws of cuts and kinds of problems",
                      ["triangles", "method", "solver", "ms", "q1", "q3", "error %", "from", "to", "on the front"], rows)
 
@@ -235,11 +246,11 @@ def print_iterations(rows):
                      [[m, *(median.get((m, c, n), np.nan) for c in cuts for n in sizes)] for m in sorted(set(rows["method"]))])
 
 
-def tables(rows, cost, fronts):
+def tables(rows, one_setting, cost, fronts):
     text = io.StringIO()
     with contextlib.redirect_stdout(text):
         print_counts(fronts)
-        print_chart(*chart(rows))
+        print_chart(chart(one_setting))
         print_iterations(rows)
         for (column, kind), table in fronts.items():
             solver = "each by its fastest solver" if kind == "best" else f"all by {SAME}"
@@ -260,12 +271,12 @@ def print_ranks():
                          ["error", *ranks.columns], [[name, *row] for name, row in zip(ranks.index, ranks.to_numpy())])
 
 
-def read(folder):
+def read(folder, stem=STEM):
     """The rows and the context of a run, or those that are published in the folder."""
-    published = not (folder / "records.csv").is_file() and (folder / f"{STEM}.records.csv.gz").is_file()
-    rows = load.read_records(folder / (f"{STEM}.records.csv.gz" if published else "records.csv"),
+    published = not (folder / "records.csv").is_file() and (folder / f"{stem}.records.csv.gz").is_file()
+    rows = load.read_records(folder / (f"{stem}.records.csv.gz" if published else "records.csv"),
                              [*SETTING, *points.TIMES, "solver"], all_columns=True)
-    return rows, load.read_context(folder / (f"{STEM}.context.json" if published else "context.json"))
+    return rows, load.read_context(folder / (f"{stem}.context.json" if published else "context.json"))
 
 
 def ways(cost):
@@ -273,18 +284,26 @@ def ways(cost):
     return {"best": points.best_of(cost), "same": cost[cost["solver"] == SAME]}
 
 
-def chart(rows):
-    """The points of readme_chart.png, with the share of draws in which each is on the front, and their setting."""
-    setting = summarised(rows)
-    here = at(rows, setting)
+def read_chart(folder):
+    """The rows of one setting and the context of the run of its own, which has more cuts of it, where that is there."""
+    own = folder.with_name(CHART)
+    if (folder / f"{CHART}.records.csv.gz").is_file():
+        rows, context = read(folder, CHART)
+    else:
+        rows, context = read(own if (own / "records.csv").is_file() else folder)
+    return at(rows, summarised(rows)), context
+
+
+def chart(here):
+    """Of read_chart() the points of readme_chart.png, with the share of draws in which each is on the front."""
     table = points.joined(points.best_of(points.costs(here)), points.errors(points.LEADS))
     share = draws.shares(points.motions(here), points.LEADS).rename("share").reset_index()
-    return table.merge(share, how="left", on=["method", "resolution"]), setting
+    return table.merge(share, how="left", on=["method", "resolution"])
 
 
 def readme_chart(folder):
-    rows, context = read(folder)
-    return summary(*chart(rows), rows["method"].unique(), context)
+    here, context = read_chart(folder)
+    return summary(chart(here), here["method"].unique(), context)
 
 
 def main():
@@ -299,7 +318,7 @@ def main():
     figure = readme_chart(folder)
     figure.savefig(folder / "readme_chart.png", dpi=150)
     plt.close(figure)
-    load.write_beside(folder / f"{STEM}.txt", tables(rows, cost, fronts))
+    load.write_beside(folder / f"{STEM}.txt", tables(rows, read_chart(folder)[0], cost, fronts))
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ def fronts(motions, measure, draws, folder=points.PUBLISHED):
     motions = motions.assign(cut=motions["sheet"] + motions["case"].astype(str), grew=motions["verdict"].eq("energy_growth").astype(float))
     by_cut = {size: here.pivot(index=[*SETTING, "method", "solver"], columns="cut", values=["ms", "grew"])
               for size, here in motions.groupby("resolution")}
-    levels, ratios = points.by_kind(points.published(measure, folder))
+    levels, ratios = points.by_kind(points.with_fitted(points.published(measure, folder)))
     for _ in range(draws):
         times = pd.concat([_medians(table, random, size) for size, table in by_cut.items()], ignore_index=True)
         kinds = random.integers(0, levels.shape[1], levels.shape[1])

@@ -104,14 +104,17 @@ def published(measure, folder=PUBLISHED):
     return table[table["size"] > 0]
 
 
-def by_kind(table, pooled=False):
-    """Of rows of published(), two tables of logarithms with a column per kind of problem: by size, the fitted mesh's geometric mean of
-    `size`; by (method, size), the ratio to it in the cases that the method made. NaN: it made none. `pooled`: all sizes are 0."""
-    fitted = table[table["method"] == REFERENCE[0]]
-    pairs = table.merge(fitted[CASE + ["size"]], on=CASE, suffixes=("", "_fitted"))
-    pairs["log"] = np.log(pairs["size"] / pairs["size_fitted"])
-    if pooled:
-        fitted, pairs = fitted.assign(resolution=0), pairs.assign(resolution=0)
+def with_fitted(table):
+    """Rows of published() with `log`, the logarithm of the ratio of `size` to that of the fitted mesh in the same case."""
+    fitted = table.loc[table["method"] == REFERENCE[0], CASE + ["size"]]
+    pairs = table.merge(fitted, on=CASE, suffixes=("", "_fitted"))
+    return pairs.assign(log=np.log(pairs["size"] / pairs["size_fitted"]))
+
+
+def by_kind(pairs):
+    """Of rows of with_fitted(), two tables of logarithms with a column per kind of problem: by size, the fitted mesh's geometric mean
+    of `size`; by (method, size), the ratio to it in the cases that the method made. NaN: it made none."""
+    fitted = pairs[pairs["method"] == REFERENCE[0]]
     levels = np.log(fitted["size"]).groupby([fitted["resolution"], fitted["kind"]]).mean().unstack()
     return levels, pairs.groupby(["method", "resolution", "kind"])["log"].mean().unstack().reindex(columns=levels.columns)
 
@@ -120,13 +123,16 @@ def errors_of(table, pooled=False):
     """Of rows of published(), by (method, size) or, `pooled`, by method with size 0: the geometric mean of `size` over kinds of
     problems. It is the fitted mesh's, times the ratio to it in the cases that the method made, so that a method that
     refuses a sheet is not better for it. Its interval: how the ratio changes as kinds are drawn anew (bootstrap, 95 %)."""
-    levels, ratios = by_kind(table, pooled)
-    found = []
+    pairs = with_fitted(table)
+    if pooled:
+        pairs = pairs.assign(resolution=0)
+    levels, ratios = by_kind(pairs)
+    cases, found = pairs.groupby(["method", "resolution"]).size(), []
     for (method, resolution), here in ratios.iterrows():
         here, middle = here.dropna(), np.exp(levels.loc[resolution].mean())
         low, high = middle * np.exp(np.quantile(load.drawn_means(here), [0.025, 0.975]))
         found.append({"method": method, "resolution": resolution, "error": middle * np.exp(here.mean()), "error_low": low,
-                      "error_high": high, "kinds": len(here)})
+                      "error_high": high, "cases": cases[method, resolution], "kinds": len(here)})
     return pd.DataFrame(found)
 
 
