@@ -159,9 +159,9 @@ def summary(table, methods, context):
     figure.legend(handles=handles, loc="upper left", ncol=-(-len(handles) // 2), fontsize=9, borderaxespad=0.2, handletextpad=0.3,
                   columnspacing=1.2)
     figure.text(0.02, 0.012, f"Lower left is better. {setting_name(setting_of(table)).replace('E t', 'stiffness')}; medians of {spoken(table['n'])} such sheets. "
-                f"{sizes_of(table)}, by size of marker.\nEach method by its fastest solver. A draw: other cuts and kinds of problems. Bars: quartiles of the time; "
-                f"95 % of the error. Named: the front and the largest sheets.\n{absent(drawn, methods)} "
-                f"{source(context).capitalize()}.", fontsize=7.5, color="#555555")
+                f"{sizes_of(table)}, by size of marker. "
+                f"Commit {str(context.get('commit'))[:7]}.\nEach method by its fastest solver. A draw: other cuts and kinds of problems. Bars: quartiles of the time; "
+                f"95 % of the error. Named: the front and the largest sheets.\n{absent(drawn, methods)}", fontsize=7.5, color="#555555")
     return figure
 
 
