@@ -125,7 +125,7 @@ def main():
     folder = parser.parse_args().out
     methods = method_gallery.all_methods()
     save(gallery(methods), folder / "readme_gallery.png")
-    save(whole_step.readme_chart(load.REPOSITORY / "results/reference"), folder / "readme_chart.png")
+    save(whole_step.readme_chart(load.REPOSITORY / "results/reference")[0], folder / "readme_chart.png")
     save(stability(), folder / "readme_atlas.png")
 
 

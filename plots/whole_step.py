@@ -146,7 +146,7 @@ def pages(table, column, context, by_solver):
 
 
 def summary(table, methods, context):
-    """readme_chart.png: one setting, each method by its fastest solver. \param table  with the share of draws on the front"""
+    """readme_chart.png: one setting, each method by its fastest solver. \\param table  with the share of draws on the front"""
     figure, ax = plt.subplots(figsize=(9, 6))
     figure.subplots_adjust(left=0.07, right=0.995, top=0.9, bottom=0.17)
     drawn = draw(ax, table, 1.9)
@@ -220,18 +220,19 @@ def best_groups(cost):
 def print_counts(fronts):
     """In how many settings a method is on the front, by each error."""
     counts = pd.DataFrame({points.MEASURES[column].title: table[table["layer"] == 1].drop_duplicates([*SETTING, "method"])["method"].value_counts()
-                           for (column, way), table in fronts.items() if way == "best"}).fillna(0).astype(int)
+                           .reindex(table["method"].unique(), fill_value=0)
+                           for (column, way), table in fronts.items() if way == "best"})
     counts = counts.sort_values(list(counts.columns), ascending=False)
     settings = len(next(iter(fronts.values()))[SETTING].drop_duplicates())
     load.print_table(f"On the front in how many of the {settings} settings, each by its fastest solver, by the error",
-                     ["method", *counts.columns], [[method, *map(str, row)] for method, row in zip(counts.index, counts.to_numpy())])
+                     ["method", *counts.columns], [[method, *("-" if np.isnan(n) else f"{n:.0f}" for n in row)] for method, row in zip(counts.index, counts.to_numpy())])
 
 
 def print_chart(table):
     """readme_chart.png in numbers."""
     rows = [[str(p["resolution"]), p["method"], p["solver"], p["ms"], p["ms_low"], p["ms_high"], 100 * p["error"], 100 * p["error_low"],
              100 * p["error_high"], f"{100 * p['share']:.0f}"] for _, p in table.sort_values(["resolution", "ms"]).iterrows()]
-    load.print_table(f"{setting_name(setting_of(table))}, medians of {spoken(table['n'])} cuts: time against error ({points.MEASURES[points.LEADS].title}), each by its fastest solver; on the "
+    load.print_table(f"{setting_name(setting_of(table))}, medians of {spoken(table['n'])} sheets with their cuts: time against error ({points.MEASURES[points.LEADS].title}), each by its fastest solver; on the "
                      "front in how many % of 1000 draws of cuts and kinds of problems",
                      ["triangles", "method", "solver", "ms", "q1", "q3", "error %", "from", "to", "on the front"], rows)
 
@@ -246,11 +247,11 @@ def print_iterations(rows):
                      [[m, *(median.get((m, c, n), np.nan) for c in cuts for n in sizes)] for m in sorted(set(rows["method"]))])
 
 
-def tables(rows, one_setting, cost, fronts):
+def tables(rows, charted, cost, fronts):
     text = io.StringIO()
     with contextlib.redirect_stdout(text):
         print_counts(fronts)
-        print_chart(chart(one_setting))
+        print_chart(charted)
         print_iterations(rows)
         for (column, kind), table in fronts.items():
             solver = "each by its fastest solver" if kind == "best" else f"all by {SAME}"
@@ -286,7 +287,7 @@ def ways(cost):
 
 def read_chart(folder):
     """The rows of one setting and the context of the run of its own, which has more cuts of it, where that is there."""
-    own = folder.with_name(CHART)
+    own = folder.resolve().with_name(CHART)
     if (folder / f"{CHART}.records.csv.gz").is_file():
         rows, context = read(folder, CHART)
     else:
@@ -302,8 +303,10 @@ def chart(here):
 
 
 def readme_chart(folder):
+    """The figure, and its points."""
     here, context = read_chart(folder)
-    return summary(chart(here), here["method"].unique(), context)
+    table = chart(here)
+    return summary(table, here["method"].unique(), context), table
 
 
 def main():
@@ -315,10 +318,10 @@ def main():
     for (column, way), table in fronts.items():
         style.save(pages(table, column, context, way == "best"), folder,
                    STEM + "_same_solver" * (way == "same") + f"_{column}" * (column != points.LEADS))
-    figure = readme_chart(folder)
+    figure, charted = readme_chart(folder)
     figure.savefig(folder / "readme_chart.png", dpi=150)
     plt.close(figure)
-    load.write_beside(folder / f"{STEM}.txt", tables(rows, read_chart(folder)[0], cost, fronts))
+    load.write_beside(folder / f"{STEM}.txt", tables(rows, charted, cost, fronts))
 
 
 if __name__ == "__main__":
