@@ -225,15 +225,17 @@ def print_counts(fronts):
     counts = counts.sort_values(list(counts.columns), ascending=False)
     settings = len(next(iter(fronts.values()))[SETTING].drop_duplicates())
     load.print_table(f"On the front in how many of the {settings} settings, each by its fastest solver, by the error",
-                     ["method", *counts.columns], [[method, *("-" if np.isnan(n) else f"{n:.0f}" for n in row)] for method, row in zip(counts.index, counts.to_numpy())])
+                     ["method", *counts.columns], [[method, *("-" if np.isnan(n) else f"{n:.0f}" for n in row)]
+                                                   for method, row in zip(counts.index, counts.to_numpy())])
 
 
 def print_chart(table):
     """readme_chart.png in numbers."""
     rows = [[str(p["resolution"]), p["method"], p["solver"], p["ms"], p["ms_low"], p["ms_high"], 100 * p["error"], 100 * p["error_low"],
              100 * p["error_high"], f"{100 * p['share']:.0f}"] for _, p in table.sort_values(["resolution", "ms"]).iterrows()]
-    load.print_table(f"{setting_name(setting_of(table))}, medians of {spoken(table['n'])} sheets with their cuts: time against error ({points.MEASURES[points.LEADS].title}), each by its fastest solver; on the "
-                     "front in how many % of 1000 draws of cuts and kinds of problems",
+    load.print_table(f"{setting_name(setting_of(table))}, medians of {spoken(table['n'])} sheets with their cuts: time against error "
+                     f"({points.MEASURES[points.LEADS].title}), each by its fastest solver; on the front in how many % of 1000 draws of "
+                     "cuts and kinds of problems",
                      ["triangles", "method", "solver", "ms", "q1", "q3", "error %", "from", "to", "on the front"], rows)
 
 
