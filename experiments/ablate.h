@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "harness/cut/cut.h"
-#include "harness/scene/scene.h"
+#include "harness/simulation/scene.h"
 
 namespace cutbench {
 

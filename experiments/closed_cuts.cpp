@@ -11,8 +11,8 @@
 #include "harness/judge/assessment.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/predicates.h"
-#include "harness/run/experiment.h"
-#include "harness/truth/static_solve.h"
+#include "harness/study/experiment.h"
+#include "harness/problems/in_plane/static_solve.h"
 #include "methods/registry.h"
 
 namespace {

@@ -14,7 +14,7 @@
 #include "harness/judge/oracle_request.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/mesh_io.h"
-#include "harness/run/experiment.h"
+#include "harness/study/experiment.h"
 #include "methods/registry.h"
 
 namespace {

@@ -8,9 +8,9 @@
 
 #include "harness/base/stop_watch.h"
 #include "harness/cut/cut.h"
-#include "harness/fem/membrane.h"
-#include "harness/fem/multigrid.h"
-#include "harness/fem/state.h"
+#include "harness/fem/elements/membrane.h"
+#include "harness/fem/multigrid/multigrid.h"
+#include "harness/fem/model/state.h"
 #include "harness/mesh/families.h"
 #include "methods/registry.h"
 

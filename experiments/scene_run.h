@@ -6,7 +6,7 @@
 #include <string>
 
 #include "harness/cut/cut.h"
-#include "harness/scene/simulation.h"
+#include "harness/simulation/simulation.h"
 
 namespace cutbench {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "harness/cut/cut.h"
-#include "harness/scene/scene.h"
+#include "harness/simulation/scene.h"
 
 namespace cutbench {
 

@@ -12,8 +12,8 @@
 #include "harness/cut/cut_all.h"
 #include "harness/mesh/mesh_io.h"
 #include "harness/records/context.h"
-#include "harness/scene/frame_writer.h"
-#include "harness/scene/simulation.h"
+#include "harness/simulation/frame_writer.h"
+#include "harness/simulation/simulation.h"
 
 namespace cutbench {
 

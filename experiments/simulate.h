@@ -4,7 +4,7 @@
 #include <string>
 
 #include "harness/cut/cut.h"
-#include "harness/scene/scene.h"
+#include "harness/simulation/scene.h"
 
 namespace cutbench {
 
@@ -12,8 +12,8 @@ struct SimulateOptions {
   std::string method;     ///< as a caption names it: with its knob
   std::string command;    ///< as given
   std::string out;        ///< the sheet as it ends up; empty: not written
-  std::string frames;     ///< folder of the time series (harness/scene/frame_writer.h), with simulation.json and
-                          ///< energy.csv (harness/scene/energy_budget.h); empty: none
+  std::string frames;     ///< folder of the time series (harness/simulation/frame_writer.h), with simulation.json and
+                          ///< energy.csv (harness/simulation/energy_budget.h); empty: none
   int every = 8;          ///< steps from frame to frame
   std::string report;     ///< JSON file of what the steps cost; empty: not written
   std::string steps;      ///< CSV file of what each step cost; empty: not written

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/scene/step_log.h"
+#include "harness/simulation/step_log.h"
 
 namespace cutbench {
 

@@ -1,13 +1,13 @@
 // Accuracy runs through the program and, for methods that do wrong on purpose, through the harness: which rows there
 // are, that they agree with each other, and that a killed run goes on.
 
-#include "harness/run/accuracy.h"
+#include "harness/study/accuracy.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "harness/truth/problem.h"
+#include "harness/problems/common/problem.h"
 #include "methods/registry.h"
 #include "tests/program.h"
 

@@ -1,6 +1,6 @@
 // Local dynamics: what is far from the cuts stays where it is, and what is near moves as in the whole sheet.
 
-#include "harness/scene/active_region.h"
+#include "harness/simulation/active_region.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "harness/cut/cut.h"
 #include "harness/mesh/families.h"
-#include "harness/scene/simulation.h"
+#include "harness/simulation/simulation.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 #include "tests/mesh_checks.h"

@@ -1,6 +1,6 @@
 // Mass for thin elements: the bound holds, inertia is as promised, cuts update it, energies close, and explicit steps run
 // that blow up without it.
-#include "harness/fem/added_mass.h"
+#include "harness/fem/elements/added_mass.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <cmath>
 
 #include "harness/cases/cut_families.h"
-#include "harness/fem/largest_eigenvalue.h"
-#include "harness/fem/stepper.h"
-#include "harness/scene/energy_budget.h"
+#include "harness/fem/model/largest_eigenvalue.h"
+#include "harness/fem/time/stepper.h"
+#include "harness/simulation/energy_budget.h"
 #include "tests/dense_solves.h"
 #include "tests/fem_helpers.h"
 #include "tests/helpers.h"

@@ -1,6 +1,6 @@
 // A sheet takes over what another program made of it: the methods play that program.
 
-#include "harness/program/adopt.h"
+#include "harness/programs/adopt.h"
 
 #include <gtest/gtest.h>
 

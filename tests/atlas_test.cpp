@@ -1,7 +1,7 @@
 // The atlas on a small sheet, with the verdicts that it must find; its cuts, which must come as near as they say; and
 // methods that crash or hang on purpose, which may cost one row each.
 
-#include "harness/atlas/atlas.h"
+#include "harness/study/stability/atlas.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <map>
 #include <regex>
 
-#include "harness/atlas/placed_cuts.h"
+#include "harness/study/stability/placed_cuts.h"
 #include "harness/mesh/families.h"
 #include "methods/registry.h"
 #include "tests/program.h"

@@ -1,7 +1,7 @@
 // Bad input in files of scenes and experiments, and what only the cut or the run finds out.
 #include "harness/mesh/families.h"
 #include "harness/records/context.h"
-#include "harness/run/experiment.h"
+#include "harness/study/experiment.h"
 #include "tests/bad_input.h"
 #include "tests/mesh_checks.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/fem/bending.h"
+#include "harness/fem/elements/bending.h"
 #include "harness/mesh/sheet.h"
 
 namespace cutbench {

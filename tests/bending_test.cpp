@@ -1,6 +1,6 @@
 // The matrix of bending: rigid motions and nothing else cost nothing, its energy, one hinge by hand, and incisions.
 
-#include "harness/fem/bending.h"
+#include "harness/fem/elements/bending.h"
 
 #include <gtest/gtest.h>
 

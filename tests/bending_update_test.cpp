@@ -7,7 +7,7 @@
 
 #include "harness/cases/cut_families.h"
 #include "harness/cut/open.h"
-#include "harness/fem/bending.h"
+#include "harness/fem/elements/bending.h"
 #include "harness/mesh/families.h"
 #include "methods/registry.h"
 #include "tests/dense_solves.h"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "harness/fem/bending.h"
+#include "harness/fem/elements/bending.h"
 #include "harness/mesh/families.h"
 #include "tests/bending_helpers.h"
 #include "tests/helpers.h"

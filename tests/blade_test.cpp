@@ -8,7 +8,7 @@
 
 #include "harness/judge/oracle_request.h"
 #include "harness/mesh/families.h"
-#include "harness/scene/simulation.h"
+#include "harness/simulation/simulation.h"
 #include "methods/conventional_split/conventional_split.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"

@@ -1,7 +1,7 @@
 // The campaign counts, saves and makes small what goes wrong, and a crash or a hang costs one case: tried on methods
 // that do wrong on purpose.
 
-#include "harness/campaign/campaign.h"
+#include "harness/study/robustness/campaign.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -13,10 +13,10 @@
 #include <fstream>
 #include <set>
 
-#include "harness/base/isolated.h"
-#include "harness/campaign/campaign_case.h"
-#include "harness/campaign/failing_case.h"
-#include "harness/campaign/shrink.h"
+#include "harness/processes/isolated.h"
+#include "harness/study/robustness/campaign_case.h"
+#include "harness/study/robustness/failing_case.h"
+#include "harness/study/robustness/shrink.h"
 #include "harness/cases/mixture.h"
 #include "harness/mesh/families.h"
 #include "harness/records/record.h"

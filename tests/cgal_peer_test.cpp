@@ -1,6 +1,6 @@
 // The peer must be right where cuts are ordinary: else the campaign would show its mistakes as CGAL's.
 
-#include "harness/campaign/cgal_peer.h"
+#include "harness/study/robustness/cgal_peer.h"
 
 #include <gtest/gtest.h>
 

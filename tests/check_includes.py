@@ -13,17 +13,17 @@ ROOMS = {  # from the ground up: a room and the rooms below it that it may use
     "harness/path": ["base", "mesh"],
     "harness/cut": ["base", "mesh", "path"],
     "harness/fem": ["base", "mesh"],
-    "harness/measure": [],  # the oracle shares no code with what it judges
+    "harness/oracle": [],  # the oracle shares no code with what it judges
     "harness/judge": ["base", "mesh", "path", "cut", "measure"],
     "harness/cases": ["base", "mesh", "path"],
-    "harness/program": ["base", "mesh", "path", "cut", "measure", "judge"],
-    "harness/truth": ["base", "mesh", "path", "cut", "fem"],
-    "harness/scene": ["base", "mesh", "path", "cut", "fem", "cases"],
+    "harness/programs": ["base", "mesh", "path", "cut", "measure", "judge"],
+    "harness/problems": ["base", "mesh", "path", "cut", "fem"],
+    "harness/simulation": ["base", "mesh", "path", "cut", "fem", "cases"],
     "harness/records": ["base", "mesh", "cut", "fem", "judge", "scene"],
-    "harness/run": ["base", "mesh", "path", "cut", "fem", "measure", "judge", "cases", "truth", "scene",
+    "harness/study": ["base", "mesh", "path", "cut", "fem", "measure", "judge", "cases", "truth", "scene",
                     "records", "program"],
-    "harness/campaign": ["base", "mesh", "path", "cut", "measure", "judge", "cases", "records", "run", "program"],
-    "harness/atlas": ["base", "mesh", "path", "cut", "fem", "judge", "cases", "scene", "records", "run"],
+    "harness/study/robustness": ["base", "mesh", "path", "cut", "measure", "judge", "cases", "records", "run", "program"],
+    "harness/study/stability": ["base", "mesh", "path", "cut", "fem", "judge", "cases", "scene", "records", "run"],
     "harness": ["records", "run", "campaign", "atlas"],  # run_experiment
     "methods": ["base", "mesh", "path", "cut"],
 }

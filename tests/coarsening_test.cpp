@@ -1,7 +1,7 @@
 // The coarse unknowns of multigrid: parts of hats as a flood fill finds them, dense products, and after cuts what new
 // ones are.
 
-#include "harness/fem/coarsening.h"
+#include "harness/fem/multigrid/coarsening.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // Conjugate gradients whose first preconditioner gives up: who takes its place, and when the first is tried again.
-#include "harness/fem/conjugate_gradients.h"
+#include "harness/fem/linear/conjugate_gradients.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "harness/base/random.h"
-#include "harness/fem/factor_preconditioners.h"
+#include "harness/fem/solvers/factor_preconditioners.h"
 #include "tests/fem_helpers.h"
 
 namespace cutbench {

@@ -5,8 +5,8 @@
 #include <map>
 
 #include "harness/cases/cut_families.h"
-#include "harness/fem/largest_eigenvalue.h"
-#include "harness/fem/stepper.h"
+#include "harness/fem/model/largest_eigenvalue.h"
+#include "harness/fem/time/stepper.h"
 #include "harness/mesh/families.h"
 #include "tests/dense_solves.h"
 #include "tests/fem_helpers.h"

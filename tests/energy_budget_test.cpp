@@ -1,9 +1,9 @@
 // The energy budget closes: what is not accounted for is zero where it must be, and shrinks where it may.
-#include "harness/scene/energy_budget.h"
+#include "harness/simulation/energy_budget.h"
 
 #include <gtest/gtest.h>
 
-#include "harness/fem/stepper.h"
+#include "harness/fem/time/stepper.h"
 #include "harness/mesh/families.h"
 #include "tests/fem_helpers.h"
 

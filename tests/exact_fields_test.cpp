@@ -1,6 +1,6 @@
 // The exact answers, by finite differences and by other formulas.
 
-#include "harness/truth/exact_fields.h"
+#include "harness/problems/common/exact_fields.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "harness/base/random.h"
-#include "harness/truth/edge_crack.h"
-#include "harness/truth/lips.h"
+#include "harness/problems/in_plane/edge_crack.h"
+#include "harness/problems/common/lips.h"
 
 namespace cutbench {
 namespace {

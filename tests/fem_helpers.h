@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "harness/cut/cut.h"
-#include "harness/fem/state.h"
+#include "harness/fem/model/state.h"
 #include "harness/mesh/families.h"
 #include "methods/registry.h"
 

@@ -1,6 +1,6 @@
 // The audit of forced zones finds what a person would, and excuses nothing else.
 
-#include "harness/measure/forced_zones.h"
+#include "harness/oracle/forced_zones.h"
 
 #include <gtest/gtest.h>
 

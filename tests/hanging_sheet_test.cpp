@@ -1,6 +1,6 @@
 // The motion of a hanging sheet that is cut: its beginning is an equilibrium, its truth has converged, and errors fall.
 
-#include "harness/truth/hanging_sheet.h"
+#include "harness/problems/in_motion/hanging_sheet.h"
 
 #include <gtest/gtest.h>
 

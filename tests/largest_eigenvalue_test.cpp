@@ -1,14 +1,14 @@
 // The largest eigenvalue of (K, M), against a dense solve of matrices put together here from strain-displacement
 // matrices.
 
-#include "harness/fem/largest_eigenvalue.h"
+#include "harness/fem/model/largest_eigenvalue.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 
 #include "harness/cases/cut_families.h"
-#include "harness/fem/stepper.h"
+#include "harness/fem/time/stepper.h"
 #include "harness/mesh/families.h"
 #include "methods/registry.h"
 #include "tests/dense_solves.h"

@@ -1,6 +1,6 @@
 // Every solver against dense matrices: what it reaches, that it says when it did not, and that it follows the matrix.
 
-#include "harness/fem/linear_solver.h"
+#include "harness/fem/linear/linear_solver.h"
 
 #include <gtest/gtest.h>
 

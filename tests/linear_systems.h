@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "harness/base/random.h"
-#include "harness/fem/linear_solver.h"
+#include "harness/fem/linear/linear_solver.h"
 
 namespace cutbench {
 

@@ -1,6 +1,6 @@
 // Membrane elements computed four at a time, against plain formulas for one element.
 
-#include "harness/fem/membrane_sheet.h"
+#include "harness/fem/elements/membrane_sheet.h"
 
 #include <gtest/gtest.h>
 

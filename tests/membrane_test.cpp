@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 
 #include "harness/base/random.h"
-#include "harness/fem/element_stiffness.h"
+#include "harness/fem/elements/element_stiffness.h"
 #include "tests/dense_solves.h"
 
 namespace cutbench {

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/base/shard_of.h"
+#include "harness/study/shard_of.h"
 #include "tests/helpers.h"
 #include "tests/program.h"
 

@@ -7,7 +7,7 @@
 
 #include "harness/cases/cut_families.h"
 #include "harness/cases/mixture.h"
-#include "harness/measure/search.h"
+#include "harness/oracle/search.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 

@@ -1,6 +1,6 @@
 // The model after cuts: equal to a new one, and the invariants of the instant of a cut.
 
-#include "harness/fem/model.h"
+#include "harness/fem/model/model.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/fem/level_rows.h"
+#include "harness/fem/multigrid/level_rows.h"
 #include "harness/mesh/families.h"
 #include "tests/fem_helpers.h"
 

@@ -1,6 +1,6 @@
 // The cycle of multigrid as a preconditioner, and solves after cuts.
 
-#include "harness/fem/multigrid.h"
+#include "harness/fem/multigrid/multigrid.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "harness/cases/mixture.h"
-#include "harness/fem/linear_solver.h"
+#include "harness/fem/linear/linear_solver.h"
 #include "tests/helpers.h"
 #include "tests/multigrid_helpers.h"
 #include "tests/random_field.h"

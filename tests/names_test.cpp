@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "harness/base/progress.h"
+#include "harness/study/progress.h"
 
 namespace cutbench {
 namespace {

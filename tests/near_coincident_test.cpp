@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <map>
 
-#include "harness/campaign/cgal_peer.h"
+#include "harness/study/robustness/cgal_peer.h"
 #include "harness/judge/oracle_request.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/tolerances.h"

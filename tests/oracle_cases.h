@@ -11,8 +11,8 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "harness/measure/exact.h"
-#include "harness/measure/oracle.h"
+#include "harness/oracle/exact.h"
+#include "harness/oracle/oracle.h"
 
 namespace cutbench::oracle {
 

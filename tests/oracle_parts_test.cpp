@@ -8,9 +8,9 @@
 #include <numbers>
 #include <random>
 
-#include "harness/measure/exact.h"
-#include "harness/measure/expected_pieces.h"
-#include "harness/measure/flatten.h"
+#include "harness/oracle/exact.h"
+#include "harness/oracle/expected_pieces.h"
+#include "harness/oracle/flatten.h"
 #include "tests/oracle_cases.h"
 
 namespace cutbench::oracle {

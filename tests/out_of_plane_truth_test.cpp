@@ -8,9 +8,9 @@
 
 #include "harness/cut/cut.h"
 #include "harness/mesh/families.h"
-#include "harness/truth/bent_sheet.h"
-#include "harness/truth/heavy_elastica.h"
-#include "harness/truth/out_of_plane.h"
+#include "harness/problems/out_of_plane/bent_sheet.h"
+#include "harness/problems/out_of_plane/heavy_elastica.h"
+#include "harness/problems/out_of_plane/out_of_plane.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 

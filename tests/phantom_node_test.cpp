@@ -7,7 +7,7 @@
 #include <numeric>
 #include <set>
 
-#include "harness/fem/largest_eigenvalue.h"
+#include "harness/fem/model/largest_eigenvalue.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/predicates.h"
 #include "tests/dense_combination.h"

@@ -3,7 +3,7 @@
 #include "harness/path/pick.h"
 
 #include "harness/mesh/families.h"
-#include "harness/scene/simulation.h"
+#include "harness/simulation/simulation.h"
 #include "methods/registry.h"
 #include "tests/program.h"
 

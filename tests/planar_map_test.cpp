@@ -1,6 +1,6 @@
 // The oracle's arrangement of segments against CGAL's.
 
-#include "harness/measure/planar_map.h"
+#include "harness/oracle/planar_map.h"
 
 #include <CGAL/Arr_consolidated_curve_data_traits_2.h>
 #include <CGAL/Arr_segment_traits_2.h>

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/fem/bending.h"
+#include "harness/fem/elements/bending.h"
 #include "harness/mesh/families.h"
 #include "methods/registry.h"
 #include "tests/bending_helpers.h"

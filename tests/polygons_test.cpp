@@ -7,8 +7,8 @@
 
 #include "harness/cases/cut_families.h"
 #include "harness/cases/mixture.h"
-#include "harness/fem/largest_eigenvalue.h"
-#include "harness/fem/stepper.h"
+#include "harness/fem/model/largest_eigenvalue.h"
+#include "harness/fem/time/stepper.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/predicates.h"
 #include "methods/tools/divided.h"

@@ -1,5 +1,5 @@
 // Programs as methods: what they make is taken over or judged wrong, and whatever they do costs one row.
-#include "harness/program/program.h"
+#include "harness/programs/program.h"
 
 #include <nlohmann/json.hpp>
 

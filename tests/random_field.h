@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "harness/base/random.h"
-#include "harness/fem/block_matrix.h"
+#include "harness/fem/algebra/block_matrix.h"
 
 namespace cutbench {
 

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "harness/scene/scene.h"
+#include "harness/simulation/scene.h"
 #include "tests/mesh_checks.h"
 
 namespace cutbench {

@@ -1,11 +1,11 @@
 // Scene files: what is written arrives.
-#include "harness/scene/scene.h"
+#include "harness/simulation/scene.h"
 
 #include <fstream>
 #include <set>
 
 #include "harness/cases/cut_families.h"
-#include "harness/run/experiment.h"
+#include "harness/study/experiment.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 #include "tests/scene_file.h"

@@ -1,6 +1,6 @@
 // The one problem in motion with an exact answer: its exact solution by modes, and what cut sheets make of it.
 
-#include "harness/truth/severed_strip.h"
+#include "harness/problems/in_motion/severed_strip.h"
 
 #include <gtest/gtest.h>
 

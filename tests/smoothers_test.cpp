@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "harness/base/random.h"
-#include "harness/fem/level_matrix.h"
-#include "harness/fem/stiff_clusters.h"
+#include "harness/fem/multigrid/level_matrix.h"
+#include "harness/fem/multigrid/stiff_clusters.h"
 #include "tests/multigrid_helpers.h"
 #include "tests/random_field.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "harness/fem/cholmod_factor.h"
-#include "harness/fem/stepper.h"
+#include "harness/fem/linear/cholmod_factor.h"
+#include "harness/fem/time/stepper.h"
 #include "tests/fem_helpers.h"
 #include "tests/random_field.h"
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "harness/base/random.h"
-#include "harness/fem/linear_solver.h"
-#include "harness/fem/sliver_blocks.h"
+#include "harness/fem/linear/linear_solver.h"
+#include "harness/fem/solvers/sliver_blocks.h"
 #include "harness/mesh/mesh_data.h"
 #include "harness/mesh/sheet.h"
 #include "tests/linear_systems.h"

@@ -1,6 +1,6 @@
 // Steps in time and equilibria, against exact solutions.
 
-#include "harness/fem/stepper.h"
+#include "harness/fem/time/stepper.h"
 
 #include <gtest/gtest.h>
 

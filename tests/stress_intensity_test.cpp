@@ -1,7 +1,7 @@
 // K from fields that are known exactly and from computed ones: the extractor's own error, and that it does not depend
 // on where it looks, on straight cuts and on arcs.
 
-#include "harness/truth/stress_intensity.h"
+#include "harness/problems/common/stress_intensity.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <numbers>
 
 #include "harness/mesh/families.h"
-#include "harness/truth/quadrature.h"
-#include "harness/truth/static_solve.h"
+#include "harness/problems/common/quadrature.h"
+#include "harness/problems/in_plane/static_solve.h"
 #include "tests/truth_helpers.h"
 
 namespace cutbench {

@@ -4,9 +4,9 @@
 
 #include <set>
 
-#include "harness/fem/combination.h"
-#include "harness/fem/largest_eigenvalue.h"
-#include "harness/fem/stepper.h"
+#include "harness/fem/constraints/combination.h"
+#include "harness/fem/model/largest_eigenvalue.h"
+#include "harness/fem/time/stepper.h"
 #include "harness/mesh/families.h"
 #include "tests/dense_combination.h"
 #include "tests/dense_solves.h"

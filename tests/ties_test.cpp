@@ -8,10 +8,10 @@
 #include <set>
 
 #include "harness/cases/cut_families.h"
-#include "harness/fem/combination.h"
-#include "harness/fem/largest_eigenvalue.h"
-#include "harness/fem/linear_solver.h"
-#include "harness/fem/model.h"
+#include "harness/fem/constraints/combination.h"
+#include "harness/fem/model/largest_eigenvalue.h"
+#include "harness/fem/linear/linear_solver.h"
+#include "harness/fem/model/model.h"
 #include "harness/mesh/families.h"
 #include "tests/helpers.h"
 #include "tests/tied_cut.h"

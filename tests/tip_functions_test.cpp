@@ -2,7 +2,7 @@
 // coefficients, and what refuses them. The oracles evaluate complex roots, integrate in polar coordinates and
 // differentiate energies; they share no code with the functions.
 
-#include "harness/fem/tip_functions.h"
+#include "harness/fem/tips/tip_functions.h"
 
 #include <gtest/gtest.h>
 
@@ -11,12 +11,12 @@
 #include <numbers>
 
 #include "harness/base/random.h"
-#include "harness/fem/tip_quadrature.h"
-#include "harness/fem/tip_system.h"
+#include "harness/fem/tips/tip_quadrature.h"
+#include "harness/fem/tips/tip_system.h"
 #include "harness/mesh/families.h"
-#include "harness/truth/members.h"
-#include "harness/truth/static_solve.h"
-#include "harness/truth/stress_intensity.h"
+#include "harness/problems/common/members.h"
+#include "harness/problems/in_plane/static_solve.h"
+#include "harness/problems/common/stress_intensity.h"
 #include "tests/truth_helpers.h"
 
 namespace cutbench {

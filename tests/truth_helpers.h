@@ -6,7 +6,7 @@
 #include <string>
 
 #include "harness/cut/cut.h"
-#include "harness/truth/problem.h"
+#include "harness/problems/common/problem.h"
 #include "methods/registry.h"
 
 namespace cutbench {

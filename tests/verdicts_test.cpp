@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "harness/mesh/families.h"
-#include "harness/scene/simulation.h"
-#include "harness/scene/turned_over.h"
+#include "harness/simulation/simulation.h"
+#include "harness/simulation/turned_over.h"
 #include "methods/registry.h"
 #include "tests/fem_helpers.h"
 

@@ -1,5 +1,5 @@
 // The price of the ties in a case of several cuts: they are found after each of its cuts, as in a simulation.
-#include "harness/run/worker.h"
+#include "harness/study/worker.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // Extended position-based dynamics, against the linear solves of backward Euler.
 
-#include "harness/fem/xpbd.h"
+#include "harness/fem/time/xpbd.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "harness/fem/stepper.h"
+#include "harness/fem/time/stepper.h"
 #include "tests/fem_helpers.h"
 
 namespace cutbench {

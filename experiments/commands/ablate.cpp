@@ -5,7 +5,7 @@
 
 #include "experiments/commands/command.h"
 #include "experiments/commands/method_options.h"
-#include "harness/base/whole_file.h"
+#include "harness/files/whole_file.h"
 
 namespace cutbench {
 

@@ -7,7 +7,7 @@
 
 #include "experiments/commands/command.h"
 #include "harness/base/errors.h"
-#include "harness/base/whole_file.h"
+#include "harness/files/whole_file.h"
 #include "harness/records/compare_runs.h"
 
 namespace cutbench {

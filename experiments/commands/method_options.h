@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "harness/cut/cut.h"
-#include "harness/program/program.h"
-#include "harness/scene/scene.h"
+#include "harness/programs/program.h"
+#include "harness/simulation/scene.h"
 #include "methods/registry.h"
 
 namespace cutbench {

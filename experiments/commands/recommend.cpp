@@ -7,7 +7,7 @@
 #include "experiments/commands/method_options.h"
 #include "harness/base/errors.h"
 #include "harness/base/toml_reader.h"
-#include "harness/base/whole_file.h"
+#include "harness/files/whole_file.h"
 
 namespace cutbench {
 

@@ -6,8 +6,8 @@
 #include "experiments/commands/command.h"
 #include "experiments/commands/method_options.h"
 #include "harness/base/errors.h"
-#include "harness/base/whole_file.h"
-#include "harness/campaign/failing_case.h"
+#include "harness/files/whole_file.h"
+#include "harness/study/robustness/failing_case.h"
 #include "harness/judge/result_svg.h"
 #include "harness/mesh/mesh_io.h"
 

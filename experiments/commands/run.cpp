@@ -10,8 +10,8 @@
 
 #include "experiments/commands/command.h"
 #include "harness/base/errors.h"
-#include "harness/base/interrupt.h"
-#include "harness/run_experiment.h"
+#include "harness/processes/interrupt.h"
+#include "harness/study/run_experiment.h"
 #include "methods/registry.h"
 
 namespace cutbench {

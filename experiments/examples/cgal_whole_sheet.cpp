@@ -1,10 +1,10 @@
 // A foreign system behind files, as an adapter shows: CGAL triangulates the whole sheet anew, with the path among its
-// constraints (harness/campaign/cgal_peer.h), and knows nothing of the sheet it was.
+// constraints (harness/study/robustness/cgal_peer.h), and knows nothing of the sheet it was.
 // usage: cutbench_cgal_whole_sheet mesh.obj path.json out.obj
 #include <cstdio>
 #include <exception>
 
-#include "harness/campaign/cgal_peer.h"
+#include "harness/study/robustness/cgal_peer.h"
 #include "harness/judge/oracle_request.h"
 #include "harness/mesh/mesh_io.h"
 #include "harness/mesh/tolerances.h"

@@ -1,6 +1,6 @@
 // Classes of numbers that are joined pair by pair (union-find, Galler and Fischer 1964).
 //
-// The oracle (harness/measure) has one of its own: it shares no code with what it judges.
+// The oracle (harness/oracle) has one of its own: it shares no code with what it judges.
 #pragma once
 
 #include <cstddef>

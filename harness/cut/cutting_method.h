@@ -28,7 +28,7 @@ struct CutOptions;  // harness/cut/cut.h
 struct MethodNotes {
   int recovered_segments = 0;  ///< path segments that the method's triangulation lacked, and flips brought in
   bool stopped_early = false;  ///< improve() met a limit of its own, and left the remaining triangles as they were
-  double program_us = 0;       ///< a program of its own made the cut and took so long, by itself (harness/program)
+  double program_us = 0;       ///< a program of its own made the cut and took so long, by itself (harness/programs)
 };
 
 class CuttingMethod {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "harness/judge/oracle_request.h"
-#include "harness/measure/sheet_topology.h"
+#include "harness/oracle/sheet_topology.h"
 
 namespace cutbench {
 

@@ -6,8 +6,8 @@
 
 #include "harness/cut/cut.h"
 #include "harness/judge/findings.h"
-#include "harness/measure/forced_zones.h"
-#include "harness/measure/oracle.h"
+#include "harness/oracle/forced_zones.h"
+#include "harness/oracle/oracle.h"
 #include "harness/mesh/quality.h"
 
 namespace cutbench {

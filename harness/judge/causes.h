@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "harness/judge/findings.h"
-#include "harness/measure/exact.h"
-#include "harness/measure/search.h"
-#include "harness/measure/sheet_topology.h"
+#include "harness/oracle/exact.h"
+#include "harness/oracle/search.h"
+#include "harness/oracle/sheet_topology.h"
 
 namespace cutbench::causes {
 

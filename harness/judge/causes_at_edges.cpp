@@ -4,8 +4,8 @@
 #include <set>
 
 #include "harness/judge/causes.h"
-#include "harness/measure/clip.h"
-#include "harness/measure/flatten.h"
+#include "harness/oracle/clip.h"
+#include "harness/oracle/flatten.h"
 
 namespace cutbench::causes {
 

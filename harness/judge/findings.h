@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/measure/oracle.h"
+#include "harness/oracle/oracle.h"
 
 namespace cutbench {
 

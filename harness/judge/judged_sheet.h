@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "harness/cut/cut.h"
-#include "harness/measure/oracle.h"
+#include "harness/oracle/oracle.h"
 
 namespace cutbench {
 

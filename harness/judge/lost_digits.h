@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/measure/plane.h"
+#include "harness/oracle/plane.h"
 
 namespace cutbench {
 

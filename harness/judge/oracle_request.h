@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "harness/cut/cut.h"
-#include "harness/measure/oracle.h"
+#include "harness/oracle/oracle.h"
 
 namespace cutbench {
 

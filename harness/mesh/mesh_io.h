@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "harness/base/whole_file.h"
+#include "harness/files/whole_file.h"
 #include "harness/mesh/mesh_data.h"
 
 namespace cutbench {

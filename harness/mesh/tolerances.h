@@ -9,7 +9,7 @@
 //                     edge runs along it.
 // The distance of a point from a line is measured along the axis to which the line is steeper: 1 to 1.41 times the
 // shortest distance. So a piece within 1.41 snap distances of a vertex always goes through it, beyond 2 never.
-// The oracle (harness/measure) shares no code with this: it is told the distances in its request
+// The oracle (harness/oracle) shares no code with this: it is told the distances in its request
 // (harness/judge/oracle_request.cpp).
 #pragma once
 

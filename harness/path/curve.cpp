@@ -6,7 +6,7 @@
 
 #include "harness/base/errors.h"
 #include "harness/base/json_reader.h"
-#include "harness/base/whole_file.h"
+#include "harness/files/whole_file.h"
 #include "harness/path/pick.h"
 
 namespace cutbench {

@@ -8,13 +8,13 @@ void add_accuracy_run(std::vector<Metric>& t) {
   t.insert(
       t.end(),
       {{"problem", "", "problem", none, group,
-        "Problem with a known answer, harness/truth/problem.h; takes the place of cut_family. `case` is the "
+        "Problem with a known answer, harness/problems/common/problem.h; takes the place of cut_family. `case` is the "
         "member of its ensemble."},
-       {"solver", "", "solver", none, group, "Linear solver: harness/fem/linear_solver.h."},
+       {"solver", "", "solver", none, group, "Linear solver: harness/fem/linear/linear_solver.h."},
        {"budget", "", "iterations allowed", none, group,
         "Iterations from zero, whatever is reached by then; 0: until solved."},
        {"tip_functions", "", "tip functions", none, group,
-        "1: solved with functions for the tips (harness/fem/tip_functions.h) beside the linear ones. Such rows have "
+        "1: solved with functions for the tips (harness/fem/tips/tip_functions.h) beside the linear ones. Such rows have "
         "two measures more: `tip_k1` and `tip_k2`, K from the functions' coefficients."},
        {"exact_incision", "", "exact incision", none, group,
         "1: the method promises to open the requested path itself."},
@@ -31,7 +31,7 @@ void add_accuracy_run(std::vector<Metric>& t) {
         "error / that of the reference solved directly, minus one; empty where the reference's is below 1e-9, "
         "exact but for rounding."},
        {"value_*", "", "value of a measure", none, group,
-        "Value of each measure; the measures of problems are in harness/truth."},
+        "Value of each measure; the measures of problems are in harness/problems."},
        {"exact_*", "", "exact of a measure", none, group, "Its exact value; 0 for a norm of an error."},
        {"error_*", "", "error of a measure", lower, group, "Its error."},
        {"excess_*", "", "excess of a measure", lower, group, "Its excess error."}});

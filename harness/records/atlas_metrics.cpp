@@ -7,11 +7,11 @@ void add_atlas(std::vector<Metric>& t) {
     t.push_back({name, unit, label, Direction::none, Group::atlas_setting, definition});
   };
   add_setting("sweep", "", "sweep", "Its name in experiments/atlas.toml.");
-  add_setting("cut", "", "cut", "What the cut comes near: harness/atlas/placed_cuts.h; or a cut family.");
+  add_setting("cut", "", "cut", "What the cut comes near: harness/study/stability/placed_cuts.h; or a cut family.");
   add_setting("place", "", "place",
               "How near, in h of the uncut sheet; of `recut` an angle in degrees, of `in_a_row` a number of cuts, of "
               "`piece` its size in triangles' sides.");
-  add_setting("pose", "", "pose", "How the sheet starts: `flat`, `rolled`, `stretched` (harness/run/sweep.h).");
+  add_setting("pose", "", "pose", "How the sheet starts: `flat`, `rolled`, `stretched` (harness/study/sweep.h).");
   add_setting("pose_amount", "", "amount of the pose", "Degrees of `rolled`, the factor of `stretched`.");
   add_setting(
       "step_share", "", "explicit step / limit of the uncut sheet",
@@ -48,7 +48,7 @@ void add_atlas(std::vector<Metric>& t) {
   add("step_us", "us", "time of a step", Direction::lower, "Median over the steps of the motion.");
   add("energy_gain", "", "energy gained", Direction::lower,
       "What the energy budget can't explain over the largest kinetic and elastic energy: of an explicit motion all but "
-      "pins and jumps, else the remainder (harness/scene/energy_budget.h).");
+      "pins and jumps, else the remainder (harness/simulation/energy_budget.h).");
   add("drift_h", "h", "drift", Direction::lower,
       "Farthest that a vertex ends from where `cholmod` brings it in the same motion.");
 }

@@ -11,7 +11,7 @@
 #include "harness/base/errors.h"
 #include "harness/base/json_reader.h"
 #include "harness/base/toml_reader.h"
-#include "harness/base/whole_file.h"
+#include "harness/files/whole_file.h"
 
 namespace cutbench {
 

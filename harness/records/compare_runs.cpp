@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "harness/base/errors.h"
-#include "harness/base/whole_file.h"
+#include "harness/files/whole_file.h"
 #include "harness/records/metrics.h"
 #include "harness/records/record.h"
 

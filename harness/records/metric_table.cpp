@@ -215,7 +215,7 @@ std::function<Value(const Measured&)> of_ratio(EigenvalueRatios Measured::*which
 
 void add_stability_and_accuracy(std::vector<Metric>& t) {
   t.push_back({"eigenvalue_ratio", "", "largest eigenvalue / uncut", Direction::lower, Group::stability,
-               "Largest eigenvalue of the membrane's stiffness and lumped mass (harness/fem/largest_eigenvalue.h) over "
+               "Largest eigenvalue of the membrane's stiffness and lumped mass (harness/fem/model/largest_eigenvalue.h) over "
                "that of the uncut sheet, of the first `eigenvalue_cases` cuts only. Without bending the largest stable "
                "step of an explicit integrator shrinks by its root. Where vertices are constrained (x = C q) it is "
                "that of C^T K C and "
@@ -230,7 +230,7 @@ void add_stability_and_accuracy(std::vector<Metric>& t) {
   t.push_back(
       {"stabilised_eigenvalue_ratio", "", "largest eigenvalue, stabilised mass / uncut", Direction::lower,
        Group::stability,
-       "`eigenvalue_ratio` with `mass = \"stabilised\"` (harness/fem/added_mass.h), no element above the largest "
+       "`eigenvalue_ratio` with `mass = \"stabilised\"` (harness/fem/elements/added_mass.h), no element above the largest "
        "eigenvalue of one of the uncut sheet. Empty where vertices are constrained, like the next ones.",
        of_ratio(&Measured::membrane, &EigenvalueRatios::stabilised)});
   t.push_back({"stabilised_bending_eigenvalue_ratio", "", "largest eigenvalue with bending, stabilised mass / uncut",

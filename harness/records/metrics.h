@@ -13,7 +13,7 @@
 #include "harness/cut/cut_all.h"
 #include "harness/judge/assessment.h"
 #include "harness/records/record.h"
-#include "harness/scene/simulation.h"
+#include "harness/simulation/simulation.h"
 
 namespace cutbench {
 
@@ -69,9 +69,9 @@ struct Metric {
 
 /// The columns of all records, in their order.
 const std::vector<Metric>& all_metrics();
-/// The part of the table of accuracy runs; filled by harness/run/accuracy.cpp.
+/// The part of the table of accuracy runs; filled by harness/study/accuracy.cpp.
 void add_accuracy_run(std::vector<Metric>& table);
-/// That of campaigns, which count instead of measuring; filled by harness/campaign/campaign.cpp.
+/// That of campaigns, which count instead of measuring; filled by harness/study/robustness/campaign.cpp.
 void add_campaign(std::vector<Metric>& table);
 /// The atlas's part of the table.
 void add_atlas(std::vector<Metric>& table);

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/base/errors.h"
-#include "harness/base/whole_file.h"
+#include "harness/files/whole_file.h"
 
 namespace cutbench {
 

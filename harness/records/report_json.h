@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "harness/base/whole_file.h"
+#include "harness/files/whole_file.h"
 #include "harness/cut/cut_all.h"
 #include "harness/judge/assessment.h"
 

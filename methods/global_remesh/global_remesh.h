@@ -7,7 +7,7 @@
 // it. The path keeps the points where it crossed the old edges, so that the incision is the same as that of every other
 // method with an exact incision.
 //
-// Source: as harness/truth/body_fitted.cpp; CGAL 5.5, Delaunay_mesher_2.
+// Source: as harness/problems/common/body_fitted.cpp; CGAL 5.5, Delaunay_mesher_2.
 // Promises: the exact path, area, conforming; not that vertices stay.
 // Where it fails: the cost depends on the sheet and not on the cut. All data of vertices and triangles are lost: the
 // state is interpolated everywhere, once more with each cut. Crossings close together on the path stay, with small

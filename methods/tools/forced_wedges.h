@@ -1,5 +1,5 @@
 // Where a method need not try: wedges between two incisions, or an incision and the border, that are too sharp for good
-// triangles. For methods only; what a result is excused for is the audit's affair (harness/measure/forced_zones.h).
+// triangles. For methods only; what a result is excused for is the audit's affair (harness/oracle/forced_zones.h).
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-"""Records of an accuracy run (harness/run/accuracy.h), and the axes that its figures share."""
+"""Records of an accuracy run (harness/study/accuracy.h), and the axes that its figures share."""
 
 import copy
 

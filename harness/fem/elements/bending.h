@@ -1,0 +1,112 @@
+// Bending of a sheet that is flat at rest: one constant, positive semi-definite scalar matrix for x, y and z, whose
+// null space is what is linear in rest coordinates, so rigid motions of any size cost nothing and nothing is rotated.
+//
+//   patches  The enhanced rotation-free shell triangle (Flores and Onate, CMAME 194, 2005, EBST), for a flat rest
+//            sheet: slopes from the quadratic through a triangle and its three neighbours, averaged on the sides;
+//            Hessian from them by the divergence theorem. Does not depend on the mesh: passes the bending patch test on
+//            any.
+//   hinges   The quadratic hinge (Bergou et al. 2006, A quadratic bending model for inextensible surfaces), as the row
+//            that shows how an energy depends on the mesh.
+//
+// Each triangle's energy is half the sum of the squares of three linear rows over the vertices near it. What lies
+// across an incision is not near. A polygon (polygon_element.h) has the rows of one element: one quadratic, and one
+// Hessian from the slopes at its sides. Patches only; they pass the bending patch test with polygons, too.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "harness/fem/algebra/block_matrix.h"
+#include "harness/fem/elements/element_table.h"
+#include "harness/fem/algebra/growing_rows.h"
+#include "harness/fem/elements/physics.h"
+#include "harness/fem/algebra/row_sum.h"
+#include "harness/fem/elements/slope_patch.h"
+#include "harness/mesh/sheet.h"
+
+namespace cutbench {
+
+class Bending {
+ public:
+  /// A stencil that holds a vertex, and its place there; one is like another if the triangle is.
+  struct Holder {
+    std::int32_t triangle, place;
+    bool operator==(const Holder& other) const { return triangle == other.triangle; }
+    bool operator<(const Holder& other) const { return triangle < other.triangle; }
+  };
+  Bending() = default;
+  /// \pre kind is not `none`, and `patches` where there are polygons; rigidity D in N m.
+  /// \param elements  of the sheet, whose polygons count; null: no polygons
+  Bending(const Sheet& sheet, BendingKind kind, double rigidity, double poisson,
+          const ElementTable* elements = nullptr);
+  /// After a cut: rebuilds the stencils near the slots in the sheet's log and the rows of the vertices in them. Equal
+  /// to a new one but for the order of the columns within a row.
+  /// \param regrouped  the triangles that joined or left a polygon since the last call
+  void update(const Sheet& sheet, const ElementTable* elements = nullptr,
+              std::span<const TriangleIndex> regrouped = {});
+
+  /// N/m. Force = -K x, energy = x K x / 2, for each coordinate. Rows of freed vertices are empty.
+  const BlockMatrix<1>& matrix() const { return matrix_; }
+  const std::vector<std::int32_t>& written_rows() const { return work_.rows; }  ///< by the last update()
+  double energy(const Field& x, int dimension) const;
+  /// The three rows of a triangle's energy, in sqrt(N/m); none where it is free, or not the first of its polygon.
+  std::span<const StencilTerm> stencil(std::size_t triangle) const { return stencils_[triangle]; }
+  std::span<const Holder> stencils_of(std::size_t vertex) const { return stencils_of_[vertex]; }
+  void reserve_spare();  ///< room to grow by half, before anything has to be copied
+
+ private:
+  struct Stale {
+    TriangleIndex triangle;
+    int distance;  ///< in unseparated edges, from the nearest triangle that changed
+  };
+  void resize(const Sheet& sheet);
+  void mark_stale(TriangleIndex t, int distance);
+  void find_stale(const Sheet& sheet, std::span<const TriangleIndex> regrouped);
+  std::span<const TriangleIndex> members(const TriangleIndex& t) const;
+  double twice_area(const Sheet& sheet, TriangleIndex t) const;
+  void rebuild(const Sheet& sheet);
+  void fit_patch(const Sheet& sheet, TriangleIndex t);
+  bool stencil_is_stale(const Sheet& sheet, TriangleIndex t) const;
+  void replace_stencil(std::size_t t);
+  void put_on_list(std::int32_t vertex);
+  void write_row(std::size_t vertex);
+
+  // Terms of t's stencil, summed up in work_.
+  /// The sum that begins at zero, for this vertex.
+  std::array<double, 3>& term_of(std::int32_t vertex) {
+    std::int32_t& place = work_.place[static_cast<std::size_t>(vertex)];
+    if (place < 0) {
+      place = static_cast<std::int32_t>(work_.terms.size());
+      work_.terms.push_back({vertex, {}});
+    }
+    return work_.terms[static_cast<std::size_t>(place)].factor;
+  }
+  void add_rows(const Sheet& sheet, TriangleIndex t);
+  void patch_rows(const Sheet& sheet, TriangleIndex t);
+  void hinge_rows(const Sheet& sheet, TriangleIndex t);
+
+  BendingKind kind_ = BendingKind::none;
+  double rigidity_ = 0, poisson_ = 0;
+  GrowingRows<StencilTerm> slopes_;  ///< per triangle slot: SlopePatch::terms(); unused by hinges
+  std::vector<int> reach_;           ///< per triangle slot: of its patch; 0 for hinges
+  int longest_reach_ = 0;
+  GrowingRows<StencilTerm> stencils_;  ///< per triangle slot: its three rows, in sqrt(N/m)
+  GrowingRows<Holder> stencils_of_;    ///< per deformed vertex: the stencils that hold it, in order
+  BlockMatrix<1> matrix_;
+
+  /// Working storage, kept between calls so that they don't allocate.
+  struct Work {
+    const ElementTable* elements = nullptr;  ///< of the call under way
+    SlopePatch patch;
+    std::vector<Stale> stale;                          ///< nearest first
+    std::vector<std::uint32_t> stale_in, refitted_in;  ///< per triangle slot: the call that listed it, fitted its patch
+    std::vector<std::uint32_t> listed_in;              ///< per deformed vertex: the call that put it in `rows`
+    std::uint32_t call = 0;
+    std::vector<std::int32_t> rows;   ///< to be written
+    std::vector<std::int32_t> place;  ///< per deformed vertex: in `terms`; -1: none
+    std::vector<StencilTerm> terms;
+    RowSum<double> row{0};
+  } work_;
+};
+
+}  // namespace cutbench

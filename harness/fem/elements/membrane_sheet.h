@@ -1,0 +1,49 @@
+// All membrane elements of a sheet, four at a time (lanes.h): strains and forces in one pass, stiffness in another.
+// A collapsed element is computed by itself (deformation_of()), and so is each polygon (polygon_sheet.h).
+#pragma once
+
+#include <vector>
+
+#include "harness/fem/algebra/block_matrix.h"
+#include "harness/fem/elements/element_stiffness.h"
+#include "harness/fem/elements/polygon_sheet.h"
+
+namespace cutbench {
+
+template <int D>
+class MembraneSheet {
+ public:
+  /// \param bends  bending keeps polygons flat (polygon_sheet.h)
+  explicit MembraneSheet(const MembraneLaw& law, bool bends = false) : law_(law), polygons_(law, bends) {}
+  void resize(std::size_t elements);
+  void reserve_spare();
+
+  /// Where block (i, j) of an element is in the matrix; all nine are -1 where the slot of the table is free.
+  void set_slot(std::size_t element, std::size_t i, std::size_t j, std::int32_t slot) {
+    slots_[element / lane_count][i][j][element % lane_count] = slot;
+  }
+  void clear_slots(std::size_t element);
+  PolygonSheet<D>& polygons() { return polygons_; }
+
+  /// Deformations of all elements at x, and the forces they exert; the functions below refer to this x.
+  void rotate(const ElementTable& elements, const Field& x);
+  const Field& force() const { return force_; }  ///< N
+  double energy(const ElementTable& elements) const;
+  Deformation<D> deformation(const ElementTable& elements, std::size_t element) const;
+  /// Adds factor x stiffness to the blocks at the slots.
+  void add_stiffness(const ElementTable& elements, double factor, BlockMatrix<D>& blocks) const;
+
+ private:
+  using FourSlots = std::array<std::int32_t, lane_count>;
+  struct Four;
+  void recompute_collapsed(const ElementTable& elements, std::size_t i, Lanes determined, const Field& x);
+  void add_forces(const Four& four, const StrainInFrame<D, Lanes>& strained);
+
+  MembraneLaw law_;
+  std::vector<StrainInFrame<D, Lanes>> strained_;               // per four elements
+  std::vector<std::array<std::array<FourSlots, 3>, 3>> slots_;  // per four elements: of their nine blocks
+  Field force_;
+  PolygonSheet<D> polygons_;
+};
+
+}  // namespace cutbench

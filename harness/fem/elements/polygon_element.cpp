@@ -1,0 +1,52 @@
+#include "harness/fem/elements/polygon_element.h"
+
+#include <algorithm>
+
+namespace cutbench {
+
+PolygonElement::PolygonElement(const Sheet& sheet, const Polygon& of) : polygon(of) {
+  const auto place = [&](DeformedIndex d) { return sheet.rest(sheet.rest_vertex(d)); };
+  const std::size_t k = size();
+  const Point2 origin = place(polygon.corners[0]);  // differences, so that a sheet far from zero loses nothing
+  Point2 mean{};
+  for (const DeformedIndex d : polygon.corners) offset.push_back(place(d) - origin);
+  for (const Point2 p : offset) mean = mean + 1 / static_cast<double>(k) * p;
+  for (Point2& p : offset) p = p - mean;
+  for (const DeformedIndex d : polygon.inside) inside.push_back(place(d) - origin - mean);
+  for (std::size_t i = 0; i < k; ++i) area += cross(offset[i], offset[(i + 1) % k]) / 2;
+  for (std::size_t i = 0; i < k; ++i) {
+    const Point2 across = offset[(i + 1) % k] - offset[(i + k - 1) % k];
+    gradient.push_back({across.y / (2 * area), -across.x / (2 * area)});
+  }
+  const auto n = static_cast<Eigen::Index>(k);
+  departure = Eigen::MatrixXd::Identity(n, n) - Eigen::MatrixXd::Constant(n, n, 1.0 / static_cast<double>(k));
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j)
+      departure(i, j) -= dot(offset[static_cast<std::size_t>(i)], gradient[static_cast<std::size_t>(j)]);
+}
+
+Point2 PolygonElement::offset_of(DeformedIndex vertex) const {
+  const auto corner = std::find(polygon.corners.begin(), polygon.corners.end(), vertex);
+  if (corner != polygon.corners.end()) return offset[static_cast<std::size_t>(corner - polygon.corners.begin())];
+  const auto other = std::find(polygon.inside.begin(), polygon.inside.end(), vertex);
+  return inside[static_cast<std::size_t>(other - polygon.inside.begin())];
+}
+
+template <int D>
+LinearMap<D> PolygonElement::map(const Field& x) const {
+  const auto at = [&](std::size_t i) { return x.segment<D>(D * polygon.corners[i].value); };
+  const Eigen::Matrix<double, D, 1> first = at(0);
+  LinearMap<D> map{Eigen::Matrix<double, D, 1>::Zero(), Eigen::Matrix<double, D, 2>::Zero()};
+  for (std::size_t i = 1; i < size(); ++i) {
+    const Eigen::Matrix<double, D, 1> away = at(i) - first;
+    map.mean += away;
+    map.gradient += away * Eigen::RowVector2d(gradient[i].x, gradient[i].y);
+  }
+  map.mean = first + map.mean / static_cast<double>(size());
+  return map;
+}
+
+template LinearMap<2> PolygonElement::map<2>(const Field&) const;
+template LinearMap<3> PolygonElement::map<3>(const Field&) const;
+
+}  // namespace cutbench

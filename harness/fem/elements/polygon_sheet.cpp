@@ -1,0 +1,148 @@
+#include "harness/fem/elements/polygon_sheet.h"
+
+#include <Eigen/LU>
+
+#include "harness/fem/elements/element_stiffness.h"
+
+namespace cutbench {
+
+namespace {
+
+template <int D>
+Eigen::Matrix<double, D, 1> normal_of(const Deformation<D>& deformation) {
+  if constexpr (D == 3)
+    return deformation.frame.col(0).cross(deformation.frame.col(1)).normalized();
+  else
+    return Eigen::Matrix<double, D, 1>::Zero();  // nothing lies across a plane
+}
+
+Vector2<double> vector(Point2 p) { return {p.x, p.y}; }
+
+Eigen::Vector2d gradient(const PolygonElement& polygon, Eigen::Index corner) {
+  const auto [x, y] = polygon.gradient[static_cast<std::size_t>(corner)];
+  return {x, y};
+}
+
+}  // namespace
+
+Stabilisation stabilisation_of(const Lame& lame, bool bends) {
+  constexpr double tau = 0.5;
+  const double young = young_of(lame);
+  return {tau * young, bends ? 0 : tau * young};
+}
+
+template <int D>
+void PolygonSheet<D>::reset(std::size_t slot, const PolygonElement& polygon) {
+  if (slot >= states_.size()) states_.resize(slot + 1);
+  states_[slot].stabilisation = polygon.departure.transpose() * polygon.departure;
+  states_[slot].slots.assign(polygon.size() * polygon.size(), -1);
+}
+
+template <int D>
+void PolygonSheet<D>::set_slots(std::size_t slot, std::size_t i, std::span<const std::int32_t> blocks) {
+  auto& slots = states_[slot].slots;
+  std::copy(blocks.begin(), blocks.end(), slots.begin() + static_cast<std::ptrdiff_t>(i * blocks.size()));
+}
+
+template <int D>
+void PolygonSheet<D>::rotate(const ElementTable& elements, const Field& x, Field& force) {
+  for (std::size_t p = 0; p < elements.polygon_slots(); ++p)
+    if (elements.polygon(p).alive()) rotate(elements.polygon(p), x, states_[p], force);
+}
+
+template <int D>
+void PolygonSheet<D>::rotate(const PolygonElement& polygon, const Field& x, State& state, Field& force) const {
+  const LinearMap<D> map = polygon.map<D>(x);
+  state.deformation = deformation_of<D>(map.gradient, law_.strain, law_.lame);
+  const auto k = static_cast<Eigen::Index>(polygon.size());
+  state.departure.resize(D, k);
+  for (Eigen::Index i = 0; i < k; ++i) {
+    const auto corner = static_cast<std::size_t>(i);
+    state.departure.col(i) = x.segment<D>(D * polygon.polygon.corners[corner].value) - map.at(polygon.offset[corner]);
+  }
+  const auto& d = state.departure;
+  Eigen::Matrix<double, D, 2> pull = polygon.area * state.deformation.frame * state.deformation.stress;
+  Eigen::Matrix<double, D, Eigen::Dynamic> resisted = stabilisation_.in_plane * d;
+  state.across.setZero(k), state.tilt.setZero(D, k);
+  if (const double less = stabilisation_.in_plane - stabilisation_.across; D == 3 && less != 0) {
+    const Eigen::Matrix<double, D, 1> n = normal_of<D>(state.deformation);
+    state.across = d.transpose() * n;
+    resisted -= less * n * state.across.transpose();
+    const Eigen::Matrix2d metric = map.gradient.transpose() * map.gradient;
+    if (law_.strain != Strain::linear && metric.determinant() > 1e-14 * metric.squaredNorm()) {
+      const Eigen::Matrix<double, D, 2> dual = map.gradient * metric.inverse();
+      for (Eigen::Index i = 0; i < k; ++i) state.tilt.col(i) = dual * gradient(polygon, i);
+      pull += less * n * (d * state.across).transpose() * dual;
+    }
+  }
+  resisted = resisted * polygon.departure;
+  for (Eigen::Index i = 0; i < k; ++i) {
+    const auto corner = static_cast<std::size_t>(i);
+    force.segment<D>(D * polygon.polygon.corners[corner].value) -= pull * gradient(polygon, i) + resisted.col(i);
+  }
+}
+
+template <int D>
+double PolygonSheet<D>::energy(const ElementTable& elements) const {
+  double sum = 0;
+  for (std::size_t p = 0; p < elements.polygon_slots(); ++p) {
+    if (!elements.polygon(p).alive()) continue;
+    const double across = states_[p].across.squaredNorm();
+    sum += elements.polygon(p).area * states_[p].deformation.energy +
+           (stabilisation_.in_plane * states_[p].departure.squaredNorm() -
+            (stabilisation_.in_plane - stabilisation_.across) * across) /
+               2;
+  }
+  return sum;
+}
+
+template <int D>
+void PolygonSheet<D>::add_stiffness(const ElementTable& elements, double factor, BlockMatrix<D>& blocks) const {
+  const double less = stabilisation_.in_plane - stabilisation_.across;
+  for (std::size_t p = 0; p < elements.polygon_slots(); ++p) {
+    const PolygonElement& polygon = elements.polygon(p);
+    if (!polygon.alive()) continue;
+    const State& state = states_[p];
+    const ElementStiffness<D> stiffness({}, factor * polygon.area, strain_of<D>(state.deformation), law_);
+    const Eigen::Matrix<double, D, 1> n = normal_of<D>(state.deformation);
+    const Block flat = stabilisation_.in_plane * Block::Identity() - less * n * n.transpose();
+    const Eigen::VectorXd pulled = polygon.departure.transpose() * state.across;
+    const double across = state.across.squaredNorm();
+    const auto k = static_cast<Eigen::Index>(polygon.size());
+    for (Eigen::Index i = 0; i < k; ++i)
+      for (Eigen::Index j = 0; j < k; ++j) {
+        const auto block = stiffness.block(vector(polygon.gradient[static_cast<std::size_t>(i)]),
+                                           vector(polygon.gradient[static_cast<std::size_t>(j)]));
+        Block stabilisation = state.stabilisation(i, j) * flat;
+        if (D == 3 && less != 0)
+          stabilisation +=
+              less * (pulled[i] * state.tilt.col(j) * n.transpose() + pulled[j] * n * state.tilt.col(i).transpose() +
+                      across * state.tilt.col(i).dot(state.tilt.col(j)) * n * n.transpose());
+        blocks.block(state.slots[static_cast<std::size_t>(i * k + j)]) +=
+            Eigen::Map<const Block>(block.data()) + factor * stabilisation;
+      }
+  }
+}
+
+Eigen::MatrixXd rest_stiffness(const PolygonElement& polygon, const Lame& lame) {
+  const auto k = static_cast<Eigen::Index>(polygon.size());
+  StrainInFrame<2, double> at_rest{};
+  at_rest.frame[0][0] = at_rest.frame[1][1] = 1;
+  const ElementStiffness<2> stiffness({}, polygon.area, at_rest, {Strain::linear, StressStiffness::none, lame});
+  const Eigen::MatrixXd stabilisation =
+      stabilisation_of(lame, false).in_plane * polygon.departure.transpose() * polygon.departure;
+  Eigen::MatrixXd matrix(2 * k, 2 * k);
+  for (Eigen::Index i = 0; i < k; ++i)
+    for (Eigen::Index j = 0; j < k; ++j) {
+      const auto block = stiffness.block(vector(polygon.gradient[static_cast<std::size_t>(i)]),
+                                         vector(polygon.gradient[static_cast<std::size_t>(j)]));
+      matrix.block<2, 2>(2 * i, 2 * j) =
+          Eigen::Map<const Eigen::Matrix2d>(block.data()) + stabilisation(i, j) * Eigen::Matrix2d::Identity();
+    }
+  return matrix;
+}
+
+template class PolygonSheet<2>;
+template class PolygonSheet<3>;
+
+}  // namespace cutbench

@@ -1,0 +1,53 @@
+// Solvers of the symmetric positive definite system of one step, behind one interface. Each reports what it reached; a
+// solve that did not converge is never published as a time.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "harness/fem/linear/system_matrix.h"
+
+namespace cutbench {
+
+struct SolverOptions {
+  std::string name = "cg";  ///< of solver_names()
+  double tolerance = 1e-2;  ///< of |b - A x| / |b|; a direct solver ignores it
+  int max_iterations = 10000;
+};
+
+struct SolveReport {
+  int iterations = 0;   ///< 0 for a direct solver
+  double residual = 0;  ///< |b - A x| / |b| with the true residual, computed anew from x; 0 where b is 0
+  /// residual <= tolerance, and that of the equilibrated system, |b - A x| in the norm of the inverse diagonal blocks;
+  /// all finite. Direct: residual <= 1e-8, or a backward error at the level of rounding.
+  bool converged = false;
+  bool fell_back = false;  ///< the preconditioner gave up, now or lately, and the next took its place
+};
+
+template <int D>
+class LinearSolver {
+ public:
+  virtual ~LinearSolver() = default;
+  /// Preconditioner or factorisation. `a` must outlive the solves.
+  virtual void setup(const SystemMatrix<D>& a) = 0;
+  /// Solves A x = b. Held unknowns of x come out zero, whatever b says of them.
+  /// \param start  an estimate of x, zero where unknowns are held, for solvers that iterate; where it has another size or
+  ///               is no better than zero, they start from zero
+  virtual SolveReport solve(const Field& b, Field& x, const Field& start = {}) = 0;
+};
+
+/// Iterative: "cg", conjugate gradients with the inverse diagonal blocks; "cg_sliver_blocks", the vertices joined by
+/// slivers share a block; "multigrid", a V-cycle that knows the cuts (multigrid.h), and "local_global" where that
+/// takes more than 100 iterations; "cholmod_stale", the factor of an
+/// older matrix; "local_global", a factor that no rotation changes (factor_preconditioners.h); "eigen_cg" and
+/// "eigen_cg_ichol" (eigen_solvers.h). Direct: "cholmod"; "cholmod_same_order", which keeps the order of elimination
+/// after a cut (cholmod_factor.h); "eigen_ldlt".
+const std::vector<std::string>& solver_names();
+/// Throws InputError for an unknown name.
+template <int D>
+std::unique_ptr<LinearSolver<D>> make_solver(const SolverOptions& options);
+
+/// For solvers: b with zeros where unknowns are held.
+void project(const std::vector<std::uint8_t>& held, const Eigen::Ref<const Field>& b, Field& projected);
+
+}  // namespace cutbench

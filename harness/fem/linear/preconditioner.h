@@ -1,0 +1,19 @@
+// What conjugate gradients are told of a system beyond its diagonal blocks.
+#pragma once
+
+#include "harness/fem/linear/system_matrix.h"
+
+namespace cutbench {
+
+template <int D>
+class Preconditioner {
+ public:
+  virtual ~Preconditioner() = default;
+  /// `a` must outlive the calls of apply().
+  virtual void setup(const SystemMatrix<D>& a) = 0;
+  /// z = B r, with B symmetric and positive definite. On entry z holds the residual times the inverse diagonal blocks.
+  /// \pre r is zero where unknowns are held. Then z is, too.
+  virtual void apply(const Field& r, Field& z) = 0;
+};
+
+}  // namespace cutbench

@@ -1,0 +1,233 @@
+#include "harness/fem/model/largest_eigenvalue.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SparseCholesky>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "harness/fem/elements/added_mass.h"
+#include "harness/fem/constraints/combination.h"
+#include "harness/fem/elements/element_table.h"
+#include "harness/fem/elements/membrane.h"
+#include "harness/fem/elements/polygon_sheet.h"
+
+namespace cutbench {
+
+namespace {
+
+using Eigen::VectorXd;
+
+/// y = L^-1 C^T K C L^-T x, element by element, with L L^T = C^T M C.
+class ScaledStiffness {
+ public:
+  ScaledStiffness(const Sheet& sheet, const Ties& ties, const Elasticity& elasticity)
+      : lame_(lame_of({.stiffness = 1, .poisson = elasticity.poisson}, elasticity.plane)),
+        elements_(sheet),
+        combination_(ties, sheet.deformed_slots()),
+        ghosts_(ties.ghosts) {
+    for (const Polygon& polygon : ties.polygons) {
+      const std::size_t slot = elements_.add_polygon(sheet, polygon);
+      polygons_.push_back(rest_stiffness(elements_.polygon(slot), lame_));
+    }
+    lumped_ = VectorXd::Zero(static_cast<Eigen::Index>(combination_.vertices()));
+    for (const Element& element : elements_)
+      if (element.is_triangle())
+        for (const auto d : element.vertex) lumped_[d.value] += element.area / 3;
+    for (std::size_t p = 0; p < polygons_.size(); ++p)
+      for (const auto d : elements_.polygon(p).polygon.corners) lumped_[d.value] += elements_.polygon(p).corner_area();
+    if (elasticity.bending != BendingKind::none)
+      bending_.emplace(sheet, elasticity.bending, elasticity.bending_length2, elasticity.poisson, &elements_);
+    if (adds_mass(elasticity.mass)) add_mass(elasticity);
+    factor(ties.lumped);
+  }
+
+  ElementModes modes() const {
+    return {
+        &elements_, {lumped_.data(), lumped_.size()}, bending_ ? &*bending_ : nullptr, 2 * (lame_.mu + lame_.lambda)};
+  }
+  double added_mass_share() const { return added_ ? added_->total() / lumped_.sum() : 0; }
+
+  Eigen::Index size() const { return 2 * static_cast<Eigen::Index>(combination_.unknowns()); }
+  bool is_mass_positive() const { return is_mass_positive_; }
+
+  void apply(const VectorXd& x, VectorXd& y) {
+    scaled_ = Eigen::Map<const TwoPerUnknown>(x.data(), mass_.rows(), 2);
+    mass_.matrixU().solveInPlace(scaled_);
+    scaled_ = mass_.permutationPinv() * scaled_;
+    combination_.expand(2, Eigen::Map<const VectorXd>(scaled_.data(), size()), moved_);
+    force_.setZero(moved_.size());
+    for (const Element& element : elements_)
+      if (element.is_triangle()) add_force(element);
+    for (std::size_t p = 0; p < polygons_.size(); ++p) add_force(elements_.polygon(p), polygons_[p]);
+    // Bending acts on each coordinate alike, so that membrane and bending together are stiffest in the plane.
+    if (bending_) add_product_per_coordinate(bending_->matrix(), 2, 1, moved_, force_);
+    combination_.reduce(2, force_, y);
+    for (const GhostEdge& ghost : ghosts_) add_force(ghost, y);
+    scaled_ = mass_.permutationP() * Eigen::Map<const TwoPerUnknown>(y.data(), mass_.rows(), 2);
+    mass_.matrixL().solveInPlace(scaled_);
+    y = Eigen::Map<const VectorXd>(scaled_.data(), size());
+  }
+
+ private:
+  using TwoPerUnknown = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+
+  void add_mass(const Elasticity& elasticity) {
+    Incidence incidence;
+    incidence.resize(combination_.vertices());
+    for (std::size_t e = 0; e < elements_.size(); ++e)
+      if (elements_[e].alive()) incidence.add(elements_[e], e);
+    std::vector<std::size_t> all(combination_.vertices());
+    std::iota(all.begin(), all.end(), 0);
+    added_.emplace(elasticity.mass, 1, elasticity.mass_limit);
+    added_->update(modes(), incidence, all);
+  }
+
+  /// Calls act(i, j, m) for the entries of the mass of the sheet's vertices, the diagonal first.
+  template <class Act>
+  void for_each_mass(const Act& act) const {
+    for (Eigen::Index i = 0; i < lumped_.size(); ++i) act(i, i, lumped_[i]);
+    for (std::size_t v = 0; added_ && v < added_->matrix().rows(); ++v) {
+      std::int32_t slot = added_->matrix().first_slot(v);
+      for (const std::int32_t j : added_->matrix().columns(v))
+        act(static_cast<Eigen::Index>(v), j, added_->matrix().block(slot++)(0));
+    }
+  }
+
+  void factor(const std::vector<double>& lumped) {
+    const auto n = static_cast<Eigen::Index>(combination_.unknowns());
+    if (n == 0) return;
+    std::vector<Eigen::Triplet<double>> entries;
+    VectorXd diagonal = VectorXd::Zero(n);
+    for (std::size_t u = 0; u < lumped.size(); ++u)
+      entries.emplace_back(u, u, diagonal[static_cast<Eigen::Index>(u)] = lumped[u]);
+    for_each_mass([&](Eigen::Index i, Eigen::Index j, double mass) {
+      if (!lumped.empty()) return;
+      const auto &row = combination_.row(static_cast<std::size_t>(i)),
+                 &column = combination_.row(static_cast<std::size_t>(j));
+      for (std::size_t k = 0; k < row.size; ++k)
+        for (std::size_t l = 0; l < column.size; ++l)
+          entries.emplace_back(row.unknown[k], column.unknown[l], row.weight[k] * column.weight[l] * mass);
+      for (std::size_t k = 0; k < row.size && i == j; ++k) diagonal[row.unknown[k]] += mass;
+    });
+    for (const GhostEdge& ghost : ghosts_)
+      for (std::size_t k = 0; k < 4 && lumped.empty(); ++k) {
+        for (std::size_t l = 0; l < 4; ++l)
+          entries.emplace_back(ghost.unknown[k].value, ghost.unknown[l].value,
+                               ghost.mass * ghost.jump[k] * ghost.jump[l]);
+        diagonal[ghost.unknown[k].value] += ghost.mass;
+      }
+    for (Eigen::Index u = 0; u < n; ++u)  // what nothing depends on has no stiffness either, and any mass will do
+      if (diagonal[u] == 0) entries.emplace_back(static_cast<int>(u), static_cast<int>(u), 1);
+    Eigen::SparseMatrix<double> matrix(n, n);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    mass_.compute(matrix);
+    is_mass_positive_ = mass_.info() == Eigen::Success;
+  }
+
+  void add_force(const GhostEdge& ghost, VectorXd& y) const {
+    Eigen::RowVector2d jump = Eigen::RowVector2d::Zero();
+    for (std::size_t k = 0; k < 4; ++k) jump += ghost.jump[k] * scaled_.row(ghost.unknown[k].value);
+    for (std::size_t k = 0; k < 4; ++k)
+      y.segment<2>(2 * ghost.unknown[k].value) += ghost.stiffness * ghost.jump[k] * jump.transpose();
+  }
+
+  void add_force(const PolygonElement& polygon, const Eigen::MatrixXd& stiffness) {
+    VectorXd moved(stiffness.rows());
+    Eigen::Index next = 0;
+    for (const auto d : polygon.polygon.corners) moved.segment<2>(2 * next++) = moved_.segment<2>(2 * d.value);
+    const VectorXd force = stiffness * moved;
+    next = 0;
+    for (const auto d : polygon.polygon.corners) force_.segment<2>(2 * d.value) += force.segment<2>(2 * next++);
+  }
+
+  void add_force(const Element& element) {
+    double xx = 0, yy = 0, xy = 0;  // strain
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [gx, gy] = element.gradient[k];
+      const double u = moved_[2 * element.vertex[k].value], v = moved_[2 * element.vertex[k].value + 1];
+      xx += u * gx, yy += v * gy, xy += (u * gy + v * gx) / 2;
+    }
+    const double pressure = lame_.lambda * (xx + yy), a = element.area;
+    const double sx = a * (2 * lame_.mu * xx + pressure), sy = a * (2 * lame_.mu * yy + pressure);
+    const double shear = a * 2 * lame_.mu * xy;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [gx, gy] = element.gradient[k];
+      force_[2 * element.vertex[k].value] += sx * gx + shear * gy;
+      force_[2 * element.vertex[k].value + 1] += shear * gx + sy * gy;
+    }
+  }
+
+  Lame lame_;
+  ElementTable elements_;
+  std::vector<Eigen::MatrixXd> polygons_;  // their stiffness
+  Combination combination_;
+  std::vector<GhostEdge> ghosts_;
+  VectorXd lumped_;
+  std::optional<Bending> bending_;
+  std::optional<AddedMass> added_;
+  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> mass_;
+  bool is_mass_positive_ = true;
+  TwoPerUnknown scaled_;
+  VectorXd moved_, force_;
+};
+
+}  // namespace
+
+double largest_element_eigenvalue(const Sheet& sheet, const Elasticity& elasticity) {
+  Elasticity lumped = elasticity;
+  lumped.mass = Mass::lumped;
+  return ScaledStiffness(sheet, {}, lumped).modes().largest();
+}
+
+double added_mass_share(const Sheet& sheet, const Ties& ties, const Elasticity& elasticity) {
+  return ScaledStiffness(sheet, ties, elasticity).added_mass_share();
+}
+
+double explicit_step_limit(double eigenvalue, const Material& material) {
+  const double w2 = eigenvalue * material.stiffness / material.density;
+  const double c = material.mass_damping + material.stiffness_damping * w2;
+  return 4 / (c + std::sqrt(c * c + 4 * w2));
+}
+
+double largest_eigenvalue(const Sheet& sheet, const Ties& ties, const Elasticity& elasticity) {
+  constexpr double tolerance = 1e-3;  // met at two checks, for at the first it may be met by the second largest
+  constexpr int most_steps = 1000, between_checks = 8;
+  ScaledStiffness stiffness(sheet, ties, elasticity);
+  const Eigen::Index n = stiffness.size();
+  if (n == 0) return 0;
+  if (!stiffness.is_mass_positive()) return std::numeric_limits<double>::quiet_NaN();
+  std::mt19937_64 bits(1);  // its bits, unlike the distributions, are the same everywhere
+  VectorXd q(n), before = VectorXd::Zero(n), next;
+  for (double& x : q) x = static_cast<double>(bits() >> 11) * 0x1p-53 - 0.5;
+  q.normalize();
+  // Without orthogonalisation: what that costs is copies of eigenvalues already found.
+  std::vector<double> diagonal, beside;
+  bool met = false;
+  for (int step = 1;; ++step) {
+    stiffness.apply(q, next);
+    const double alpha = q.dot(next);
+    next -= alpha * q;
+    if (!beside.empty()) next -= beside.back() * before;
+    const double beta = next.norm();
+    diagonal.push_back(alpha);
+    const bool exhausted = step == n || beta <= 1e-14 * std::abs(alpha) || step == most_steps;
+    if (exhausted || step % between_checks == 0) {
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> small;
+      small.computeFromTridiagonal(Eigen::Map<VectorXd>(diagonal.data(), step),
+                                   Eigen::Map<VectorXd>(beside.data(), step - 1));
+      const double value = small.eigenvalues()[step - 1];
+      const bool meets = beta * std::abs(small.eigenvectors()(step - 1, step - 1)) <= tolerance * value;
+      if (exhausted || (meets && met)) return value;
+      met = meets;
+    }
+    beside.push_back(beta);
+    before.swap(q);
+    q = next / beta;
+  }
+}
+
+}  // namespace cutbench

@@ -1,0 +1,180 @@
+#include "harness/fem/model/model.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace cutbench {
+
+template <int D>
+Model<D>::Model(const Sheet& sheet, const Material& material, const Physics& physics, std::vector<Pin> pins,
+                std::vector<Traction> tractions)
+    : material_(material),
+      physics_(physics),
+      pins_(std::move(pins)),
+      tractions_(std::move(tractions)),
+      elements_(sheet),
+      membrane_(law_of(material, physics), physics.bending != BendingKind::none) {
+  if (physics.mass == Mass::consistent) consistent_mass_.emplace();
+  resize(sheet);
+  ++round_;
+  for (std::size_t e = 0; e < elements_.size(); ++e)
+    if (elements_[e].alive()) incidence_.add(elements_[e], e);
+  for (std::size_t v = 0; v < vertices(); ++v) marked_.push_back(v);
+  refresh_vertices(sheet);
+  if (physics.bending != BendingKind::none)
+    bending_.emplace(sheet, physics.bending, material.bending, material.poisson);
+  if (!adds_mass(physics.mass)) return;
+  added_mass_.emplace(physics.mass, material.density, physics.mass_limit * element_modes().largest());
+  refresh_added_mass();
+}
+
+template <int D>
+void Model<D>::reserve_spare() {
+  elements_.reserve_spare(), blocks_.reserve_spare(), incidence_.reserve_spare(), membrane_.reserve_spare();
+  polygons_of_.reserve_spare();
+  cutbench::reserve_spare(mass_, external_, held_, pin_of_, places_, marked_in_);
+  if (consistent_mass_) consistent_mass_->reserve_spare();
+  if (bending_) bending_->reserve_spare();
+}
+
+template <int D>
+void Model<D>::resize(const Sheet& sheet) {
+  const std::size_t n = sheet.deformed_slots();
+  incidence_.resize(n), polygons_of_.resize(n), blocks_.resize(n), marked_in_.resize(std::max(n, marked_in_.size()));
+  if (consistent_mass_) consistent_mass_->resize(n);
+  held_.resize(D * n, 1), pin_of_.resize(D * n, -1), places_.resize(n);
+  membrane_.resize(elements_.size());
+  mass_.resize(n), external_.resize(D * n);
+}
+
+template <int D>
+ElementModes Model<D>::element_modes() const {
+  const Lame lame = lame_of(material_, physics_.plane);
+  return {&elements_, view_of(mass_), bending(), 2 * (lame.mu + lame.lambda) / material_.density};
+}
+
+/// The part of the mass that is not in the blocks; null: none.
+template <int D>
+const BlockMatrix<1>* Model<D>::mass_matrix() const {
+  return consistent_mass_ ? &*consistent_mass_ : added_mass_ ? &added_mass_->matrix() : nullptr;
+}
+
+template <int D>
+Field Model<D>::positions(const Sheet& sheet) const {
+  Field x = Field::Zero(static_cast<Eigen::Index>(D * sheet.deformed_slots()));
+  for (std::size_t v = 0; v < sheet.deformed_slots(); ++v) {
+    const auto p = coordinates(sheet.position(DeformedIndex(v)));
+    for (std::size_t k = 0; k < D; ++k) x[static_cast<Eigen::Index>(D * v + k)] = p[k];
+  }
+  return x;
+}
+
+template <int D>
+double Model<D>::held_displacement(std::size_t unknown, double time) const {
+  const Pin& pin = pins_[static_cast<std::size_t>(pin_of_[unknown])];
+  return coordinates(pin.displacement)[unknown % D] + held_velocity(unknown) * time;
+}
+
+template <int D>
+double Model<D>::held_velocity(std::size_t unknown) const {
+  return coordinates(pins_[static_cast<std::size_t>(pin_of_[unknown])].velocity)[unknown % D];
+}
+
+template <int D>
+std::size_t Model<D>::unheld_pieces() const {
+  std::vector<std::uint8_t> seen(vertices());
+  std::vector<std::size_t> front;
+  std::size_t unheld = 0;
+  for (std::size_t start = 0; start < vertices(); ++start) {
+    if (seen[start] || blocks_.columns(start).empty()) continue;
+    bool held = false;
+    front.assign(1, start);
+    seen[start] = 1;
+    while (!front.empty()) {
+      const std::size_t v = front.back();
+      front.pop_back();
+      for (std::size_t k = 0; k < D; ++k) held |= held_[D * v + k] != 0;
+      for (const auto j : blocks_.columns(v))
+        if (!std::exchange(seen[static_cast<std::size_t>(j)], 1)) front.push_back(static_cast<std::size_t>(j));
+    }
+    unheld += !held;
+  }
+  return unheld;
+}
+
+// --- of a state ------------------------------------------------------------------------------------------------------
+
+template <int D>
+void Model<D>::rotate(const Field& x) {
+  membrane_.rotate(elements_, x);
+}
+
+template <int D>
+void Model<D>::add_internal_force(const Field& x, Field& f) const {
+  f += membrane_.force();
+  if (bending_) add_product_per_coordinate(bending_->matrix(), D, -1, x, f);
+}
+
+template <int D>
+void Model<D>::add_impulse(double h, const Field& x, double factor, const Field& v, Field& y) {
+  y += h * membrane_.force();
+  spread<D>(v, velocity_), spread<D>(x, bent_);
+  for (std::size_t i = 0; i < vertices(); ++i)  // K_b (h x) and factor stiffness_factor K_b v at once
+    bent_[i] = h * bent_[i] + factor * stiffness_factor_ * velocity_[i];
+  for (std::size_t i = 0; i < vertices(); ++i) {
+    const std::size_t ahead = std::min(i + rows_ahead, vertices() - 1);
+    blocks_.prefetch_row(ahead);
+    if (bending_) bending_->matrix().prefetch_row(ahead);
+    Lanes sum = factor * blocks_.row_product(i, velocity_);
+    if (bending_) sum += bending_->matrix().row_product(i, bent_);
+    for (std::size_t k = 0; k < D; ++k) y[static_cast<Eigen::Index>(D * i + k)] -= sum[k];
+  }
+  if (const auto* mass = mass_matrix()) add_product_per_coordinate(*mass, D, -factor * mass_factor_, v, y);
+}
+
+template <int D>
+void Model<D>::assemble(double mass_factor, double stiffness_factor) {
+  mass_factor_ = mass_factor, stiffness_factor_ = stiffness_factor;
+  blocks_.set_zero();
+  membrane_.add_stiffness(elements_, stiffness_factor, blocks_);
+  if (consistent_mass_) return;
+  for (std::size_t v = 0; v < vertices(); ++v)
+    if (!blocks_.columns(v).empty()) blocks_.block(blocks_.first_slot(v)).diagonal().array() += mass_factor * mass_[v];
+}
+
+template <int D>
+SystemMatrix<D> Model<D>::system() const {
+  SystemMatrix<D> a;
+  a.blocks = &blocks_, a.held = &held_, a.elements = &elements_, a.places = &places_, a.pattern = history_.now();
+  a.history = &history_;
+  if (bending_) a.scalar.push_back({stiffness_factor_, &bending_->matrix()});
+  if (const auto* mass = mass_matrix()) a.scalar.push_back({mass_factor_, mass});
+  return a;
+}
+
+template <int D>
+void Model<D>::add_mass_product(double factor, const Field& x, Field& y) const {
+  if (const auto* mass = mass_matrix()) add_product_per_coordinate(*mass, D, factor, x, y);
+  if (consistent_mass_) return;
+  for (std::size_t v = 0; v < mass_.size(); ++v) {
+    const auto at = static_cast<Eigen::Index>(D * v);
+    y.template segment<D>(at) += factor * mass_[v] * x.template segment<D>(at);
+  }
+}
+
+template <int D>
+Energy Model<D>::energy(const Field& x, const Field& v) const {
+  Energy energy;
+  energy.membrane = membrane_.energy(elements_);
+  if (bending_) energy.bending = bending_->energy(x, D);
+  Field momentum = Field::Zero(v.size());
+  add_mass_product(1, v, momentum);
+  energy.kinetic = v.dot(momentum) / 2;
+  energy.potential = -external_force().dot(x);
+  return energy;
+}
+
+template class Model<2>;
+template class Model<3>;
+
+}  // namespace cutbench

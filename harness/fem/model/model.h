@@ -1,0 +1,140 @@
+// The discrete sheet: elements, mass, bending, loads, held vertices and the system matrix. After each cut it is
+// updated: only what the cut touched is computed again, and the result equals that of a new model.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "harness/fem/elements/added_mass.h"
+#include "harness/fem/elements/bending.h"
+#include "harness/fem/constraints/combination.h"
+#include "harness/fem/elements/incidence.h"
+#include "harness/fem/elements/membrane_sheet.h"
+#include "harness/fem/linear/system_matrix.h"
+
+namespace cutbench {
+
+/// Joules.
+struct Energy {
+  double membrane = 0, bending = 0, kinetic = 0;
+  double potential = 0;  ///< of gravity and tractions, zero at the origin
+  double total() const { return membrane + bending + kinetic + potential; }
+};
+
+template <int D>
+class Model {
+ public:
+  /// The limit of an added mass is that of this sheet's elements: \pre `sheet` is not cut yet, where there is such a mass.
+  Model(const Sheet& sheet, const Material& material, const Physics& physics, std::vector<Pin> pins,
+        std::vector<Traction> tractions);
+
+  /// Reserves room to grow by half, so that the first cut of a running simulation copies no arrays. A copy of the model
+  /// has no such room.
+  void reserve_spare();
+  /// Call both after each single cut, before the next begin_cut() clears the log, and transfer() for the state: they
+  /// replace indices and add elements (Xin et al. 2018, 4.2) where the sheet's log says so.
+  void update(const Sheet& sheet);
+  void update_bending(const Sheet& sheet);  ///< nothing without bending
+  /// Constrains vertices and makes polygons of triangles; call it after update() and update_bending(). Constraints of
+  /// before are removed. Polygons of before stay, unless the cut touched their triangles or they share one with a new
+  /// polygon. Forces, energies and the matrix remain those of all vertices; a solver solves for the unknowns of tied().
+  /// Vertices inside polygons are no unknowns: they have no mass and are held, and follow() moves them.
+  /// \pre `sheet` is that of the last update().
+  void tie(const Sheet& sheet, const Ties& ties);
+  /// Gives the vertices inside polygons their values, positions or velocities.
+  void follow(Field& x) const;
+
+  std::size_t vertices() const { return static_cast<std::size_t>(mass_.size()); }  ///< slots of the opened sheet
+  /// Positions of the sheet's vertices, m.
+  Field positions(const Sheet& sheet) const;
+
+  // --- of a state ----------------------------------------------------------------------------------------------------
+  void rotate(const Field& x);  ///< the deformation of every element; the functions below refer to this x
+  /// f += internal forces, of membrane and bending, N. \pre rotate(x).
+  void add_internal_force(const Field& x, Field& f) const;
+  /// y += h (internal forces at x) - factor A v, with A of the last assemble(). Faster than one by one: bending, which
+  /// is linear, is in both. \pre rotate(x).
+  void add_impulse(double h, const Field& x, double factor, const Field& v, Field& y);
+  void add_external_force(Field& f) const { f += external_force(); }
+  /// A = mass_factor M + stiffness_factor K, with K the tangent at the rotated state. \pre rotate().
+  void assemble(double mass_factor, double stiffness_factor);
+  /// Of the last assemble(). Refers to this model.
+  SystemMatrix<D> system() const;
+  TiedSystem<D>* tied() { return is_tied_ ? &*tied_ : nullptr; }  ///< null where no vertex is constrained
+  /// y += factor M x.
+  void add_mass_product(double factor, const Field& x, Field& y) const;
+  Energy energy(const Field& x, const Field& v) const;  ///< \pre rotate(x)
+
+  // --- of the model --------------------------------------------------------------------------------------------------
+  const ElementTable& elements() const { return elements_; }
+  const Incidence& incidence() const { return incidence_; }
+  const BlockMatrix<D>& blocks() const { return blocks_; }
+  const Bending* bending() const { return bending_ ? &*bending_ : nullptr; }
+  Deformation<D> deformation(std::size_t element) const { return membrane_.deformation(elements_, element); }
+  std::vector<Polygon> polygons() const;
+  PolygonsLeft polygons_left() const;                       ///< by the last update(); refers to this
+  FieldView lumped_mass() const { return view_of(mass_); }  ///< kg, per vertex, without what is added
+  const AddedMass* added_mass() const { return added_mass_ ? &*added_mass_ : nullptr; }
+  FieldView external_force() const { return view_of(external_); }  ///< N
+  const std::vector<std::uint8_t>& held() const { return held_; }  ///< per unknown; those of freed slots are, too
+  /// Pieces no unknown of which is held: they have no equilibrium. Looks at everything.
+  std::size_t unheld_pieces() const;
+  bool pinned(std::size_t unknown) const { return pin_of_[unknown] >= 0; }
+  /// How far from its initial place a held unknown is to be at a time, m. \pre pinned(unknown).
+  double held_displacement(std::size_t unknown, double time) const;
+  double held_velocity(std::size_t unknown) const;  ///< m/s
+  const Material& material() const { return material_; }
+  const Physics& physics() const { return physics_; }
+
+ private:
+  static std::array<double, 3> coordinates(Point3 p) { return {p.x, p.y, p.z}; }
+  static FieldView view_of(const std::vector<double>& values) {
+    return {values.data(), static_cast<Eigen::Index>(values.size())};
+  }
+  void resize(const Sheet& sheet);
+  void refresh_vertices(const Sheet& sheet);
+  void refresh_row(std::size_t v);
+  void set_polygon_slots(std::size_t v);
+  void refresh_mass(std::size_t v);
+  ElementModes element_modes() const;
+  void refresh_added_mass();
+  const BlockMatrix<1>* mass_matrix() const;
+  void refresh_loads(const Sheet& sheet, std::size_t v);
+  void begin_marking();
+  void mark(std::span<const DeformedIndex> vertices);
+  void merge(const Sheet& sheet, std::span<const Polygon> polygons);
+  void dissolve(std::size_t polygon);
+
+  Material material_;
+  Physics physics_;
+  std::vector<Pin> pins_;
+  std::vector<Traction> tractions_;
+
+  ElementTable elements_;
+  Incidence incidence_;                    // of all triangles
+  GrowingRows<std::int32_t> polygons_of_;  // per vertex: those of which it is a corner
+  BlockMatrix<D> blocks_;
+  MembraneSheet<D> membrane_;
+  std::optional<Bending> bending_;
+  std::optional<BlockMatrix<1>> consistent_mass_;
+  std::optional<AddedMass> added_mass_;
+  std::optional<TiedSystem<D>> tied_;
+  bool is_tied_ = false;                           // since the last update()
+  double mass_factor_ = 0, stiffness_factor_ = 0;  // of the last assemble()
+  std::vector<double> mass_, external_;            // with room to grow, which a Field has not
+  std::vector<std::uint8_t> held_;
+  std::vector<std::int32_t> pin_of_;  // per unknown: the first pin that holds it, -1 where there is none
+  std::vector<Point2> places_;        // per vertex, in rest space
+  PatternHistory history_;            // of the system
+  // Working storage of update().
+  std::vector<std::uint32_t> marked_in_;
+  std::uint32_t round_ = 0;
+  std::vector<std::size_t> marked_;  // vertices whose rows change
+  std::vector<std::int32_t> columns_, polygon_slots_;
+  std::vector<TriangleIndex> freed_;      // left a polygon in the last update()
+  std::vector<TriangleIndex> regrouped_;  // joined or left one, and bending does not know it yet
+  std::vector<Lanes> velocity_, bent_;    // of add_impulse(), per vertex
+};
+
+}  // namespace cutbench

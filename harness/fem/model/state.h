@@ -1,0 +1,43 @@
+// The state of a moving sheet: positions and velocities of the opened sheet's vertices, and their transfer at a cut.
+#pragma once
+
+#include "harness/fem/model/model.h"
+
+namespace cutbench {
+
+struct State {
+  Field x;       ///< m
+  Field v;       ///< m/s
+  Field anchor;  ///< m: the initial place of each vertex, from which pins count
+  /// m/s: what the last implicit step began with to add to v. The next step's solve starts from it. Empty: from zero.
+  Field dv;
+  double time = 0;  ///< s
+};
+
+/// At rest where the sheet is, held vertices where they are to be at time 0.
+template <int D>
+State initial_state(const Model<D>& model, const Sheet& sheet);
+
+/// Gives the vertices that the cut made or moved their positions and velocities: weighted means of those they came
+/// from, in the order of the log, so that parents come before children.
+void transfer(const EditLog& log, std::size_t deformed_slots, int dimension, State& state);
+
+/// After Sheet::compact(). \param deformed  its map
+void renumber(const std::vector<DeformedIndex>& deformed, int dimension, State& state);
+
+/// Anchors and velocities of pinned vertices where the model has pins that the state does not know yet.
+template <int D>
+void hold_where_it_is(const Model<D>& model, State& state);
+
+/// Energies, momenta and residual force, recorded before and after a cut.
+struct Balance {
+  Energy energy;
+  Point3 momentum;          ///< kg m/s
+  Point3 angular_momentum;  ///< kg m2/s, about the origin
+  double residual = 0;      ///< N: norm of internal and external force on the unknowns that are not held
+};
+/// Rotates the model's elements to the state.
+template <int D>
+Balance balance_of(Model<D>& model, const State& state);
+
+}  // namespace cutbench

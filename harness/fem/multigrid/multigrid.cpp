@@ -1,0 +1,278 @@
+#include "harness/fem/multigrid/multigrid.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "harness/base/stop_watch.h"
+
+namespace cutbench {
+
+namespace {
+
+constexpr std::size_t most_factored = 200;  // unknowns of a dense factorisation
+constexpr double widest_for_floats = 1e5;   // largest diagonal block over the median one
+
+/// All places that are not finite are alike.
+bool is_same(Point2 a, Point2 b) { return (a.x == b.x && a.y == b.y) || (std::isnan(a.x) && std::isnan(b.x)); }
+
+/// The inverse of a block, or zero where it is not positive definite.
+template <class Block>
+Block inverse_of(const Block& block) {
+  Block inverse = block.inverse();
+  constexpr int last = Block::RowsAtCompileTime - 1;
+  const bool positive = block(0, 0) > 0 && block.determinant() > 0 && inverse(last, last) > 0;
+  if (!positive || !inverse.allFinite()) inverse.setZero();
+  return inverse;
+}
+
+}  // namespace
+
+// --- rows ------------------------------------------------------------------------------------------------------------
+
+/// Lists the rows that are not those of the last setup(). False: the levels are to be made anew.
+template <int D>
+bool Multigrid<D>::find_changed(const SystemMatrix<D>& a) {
+  const std::size_t n = a.vertices(), before = rows_.size();
+  const bool same_factors = std::equal(factors_.begin(), factors_.end(), a.scalar.begin(), a.scalar.end(),
+                                       [](double factor, const auto& term) { return factor == term.factor; });
+  changed_.clear();
+  if (a.pattern == pattern_ && before == n && same_factors) return true;
+  const bool follows = same_factors && before > 0 && before <= n && a.history && a.history->holds(pattern_) &&
+                       rows_.blocks.slots() < 2 * slots_made_;
+  if (follows) {
+    const auto marked = a.history->changed_since(pattern_);
+    changed_.assign(marked.begin(), marked.end());
+    for (std::size_t i = before; i < n; ++i) changed_.push_back(static_cast<std::int32_t>(i));
+    std::sort(changed_.begin(), changed_.end());
+    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+    if (2 * changed_.size() < n) return true;
+  }
+  changed_.resize(n);
+  std::iota(changed_.begin(), changed_.end(), 0);
+  return false;
+}
+
+/// The row of A; the scalar matrices in one, each with its factor.
+template <int D>
+void Multigrid<D>::read_row(const SystemMatrix<D>& a, std::size_t i) {
+  const auto [order, is_linked_anew] = rows_.blocks.set(i, a.blocks->columns(i));
+  slots_.resize(rows_.blocks.slots());
+  for (std::size_t k = 0; k < order.size(); ++k)
+    slots_[rows_.blocks.first_slot(i) + k] = a.blocks->first_slot(i) + order[k];
+  scalars_.clear();
+  for (const auto& term : a.scalar) {
+    std::int32_t slot = term.matrix->first_slot(i);
+    for (const std::int32_t j : term.matrix->columns(i)) scalars_[j] += term.factor * term.matrix->block(slot++)(0);
+  }
+  const bool has_new_scalars = rows_.set_scalars(i, scalars_.columns(), scalars_.sums()),
+             is_elsewhere = read_place(a, i);
+  if (is_linked_anew || has_new_scalars) changes_.rows.push_back(static_cast<std::int32_t>(i));
+  if (is_linked_anew || is_elsewhere) changes_.links.push_back(static_cast<std::int32_t>(i));
+}
+
+template <int D>
+bool Multigrid<D>::read_place(const SystemMatrix<D>& a, std::size_t i) {
+  const auto held = a.held->begin() + static_cast<std::ptrdiff_t>(D * i);
+  const bool needs_no_correction = std::find(held, held + D, 0) == held + D;
+  const bool is_known = a.places && i < a.places->size() && !needs_no_correction;
+  const Point2 place = is_known ? (*a.places)[i] : Point2{std::numeric_limits<double>::quiet_NaN(), 0};
+  return !is_same(std::exchange(places_[i], place), place);
+}
+
+template <int D>
+void Multigrid<D>::find_held(const SystemMatrix<D>& a) {
+  has_held_.assign(a.vertices(), 0);
+  for (std::size_t u = 0; u < a.held->size(); ++u)
+    if ((*a.held)[u] && !a.blocks->columns(u / D).empty()) has_held_[u / D] = 1;
+}
+
+// --- values ----------------------------------------------------------------------------------------------------------
+
+/// The sizes of the diagonal blocks, by what is not held, and whether floats do for the finest level.
+template <int D>
+void Multigrid<D>::look_at_sizes(const SystemMatrix<D>& a) {
+  a.diagonals(diagonals_);
+  sizes_.assign(a.vertices(), 0), sorted_.clear();
+  in_doubles_ = false, trace_ = median_size_ = 0;
+  for (std::size_t i = 0; i < a.vertices(); ++i) {
+    if (a.blocks->columns(i).empty()) continue;
+    const Block& diagonal = diagonals_[i];
+    double sum = 0;
+    int free = 0;
+    for (int c = 0; c < D; ++c)
+      if (!(*a.held)[D * i + static_cast<std::size_t>(c)]) sum += diagonal(c, c), ++free;
+    if (free == 0) continue;
+    sizes_[i] = D * sum / free;
+    trace_ += sizes_[i];
+    if (std::isfinite(sizes_[i])) sorted_.push_back(sizes_[i]);  // NaN has no place in an order
+  }
+  if (sorted_.empty()) return;
+  const double largest = *std::max_element(sorted_.begin(), sorted_.end());
+  const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(sorted_.size() / 2);
+  std::nth_element(sorted_.begin(), middle, sorted_.end());
+  median_size_ = *middle;
+  in_doubles_ = !(largest < widest_for_floats * median_size_ && largest < 1e30 && median_size_ > 1e-30);
+}
+
+/// Zero in rows and columns of held coordinates, and where the block is not positive definite.
+template <int D>
+template <class S>
+void Multigrid<D>::set_inverse(Level<S>& level, std::size_t i, Block diagonal, const std::array<bool, D>& is_held) {
+  for (int c = 0; c < D; ++c)
+    if (is_held[static_cast<std::size_t>(c)]) diagonal.row(c).setZero(), diagonal.col(c).setZero(), diagonal(c, c) = 1;
+  Block inverse = inverse_of(diagonal);
+  for (std::size_t c = 0; c < D; ++c)
+    if (const auto k = static_cast<int>(c); is_held[c] || inverse(k, k) == 0)
+      inverse(k, k) = 0, level.idle.push_back(D * i + c);
+  level.matrix.set_inverse(i, inverse);
+}
+
+/// The finest level: zero in rows and columns of held unknowns.
+template <int D>
+template <class S>
+void Multigrid<D>::fill(const SystemMatrix<D>& a, Level<S>& level, bool& is_new) {
+  if (is_new) level.matrix.follow(rows_), level.resize(), is_new = false;
+  const auto held = [&](std::size_t i, int c) { return (*a.held)[D * i + static_cast<std::size_t>(c)] != 0; };
+  level.idle.clear();
+  for (std::size_t i = 0; i < a.vertices(); ++i) {
+    std::size_t k = rows_.blocks.first_slot(i);
+    for (const std::int32_t column : rows_.blocks[i]) {
+      const auto j = static_cast<std::size_t>(column);
+      Eigen::Map<Eigen::Matrix<S, D, D>> block(level.matrix.block(k));
+      block = a.blocks->block(slots_[k++]).template cast<S>();
+      if (!has_held_[i] && !has_held_[j]) continue;
+      for (int c = 0; c < D; ++c) {
+        if (held(i, c)) block.row(c).setZero();
+        if (held(j, c)) block.col(c).setZero();
+      }
+    }
+    if (rows_.blocks[i].empty()) continue;
+    std::array<bool, D> is_held{};
+    for (int c = 0; c < D; ++c) is_held[static_cast<std::size_t>(c)] = held(i, c);
+    set_inverse(level, i, diagonals_[i] + level.matrix.left_out(i) * Block::Identity(), is_held);
+  }
+}
+
+/// A row of P^T A: the members' rows, each times its weight.
+template <int D>
+template <class S>
+void Multigrid<D>::sum_members(Level<S>& fine, std::span<const Coarsening::Weight> members) {
+  const LevelMatrix<D, S>& a = fine.matrix;
+  fine.part_row.clear();
+  for (const auto& member : members) {
+    const auto v = static_cast<std::size_t>(member.other);
+    const S* block = a.block(a.rows().blocks.first_slot(v));
+    for (const std::int32_t j : a.rows().blocks[v]) {
+      Columns<S>& sum = fine.part_row[j];
+      for (int c = 0; c < D; ++c, block += D)
+        sum.col(c) += S(member.weight) * Eigen::Map<const Eigen::Array<S, 4, 1>>(block);
+    }
+  }
+}
+
+/// P^T A P, row by row: columns of P^T A with the same parent become one.
+template <int D>
+template <class S>
+void Multigrid<D>::fill_coarse(Level<S>& fine, CoarseLevel& level) {
+  std::vector<Columns<S>> sums;
+  level.idle.clear();
+  place_.resize(std::max(place_.size(), level.from.coarse_size()));
+  fine.part_row.resize(level.from.fine_size());
+  for (std::size_t i = 0; i < level.from.coarse_size(); ++i) {
+    const auto columns = level.rows.blocks[i];
+    if (columns.empty()) continue;
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      place_[static_cast<std::size_t>(columns[k])] = static_cast<std::int32_t>(k);
+    sums.assign(columns.size(), Columns<S>::Zero());
+    sum_members(fine, level.from.members(i));
+    const auto fine_columns = fine.part_row.columns();
+    const auto part = fine.part_row.sums();
+    for (std::size_t k = 0; k < part.size(); ++k)
+      for (const auto& parent : level.from.parents(static_cast<std::size_t>(fine_columns[k])))
+        sums[static_cast<std::size_t>(place_[static_cast<std::size_t>(parent.other)])] += S(parent.weight) * part[k];
+    float* to = level.matrix.block(level.rows.blocks.first_slot(i));
+    for (const Columns<S>& sum : sums)
+      for (int c = 0; c < D; ++c)
+        for (int k = 0; k < D; ++k) *to++ = static_cast<float>(sum(k, c));
+    const Block diagonal = level.matrix.diagonal(i);
+    std::array<bool, D> is_held{};
+    for (int c = 0; c < D; ++c) is_held[static_cast<std::size_t>(c)] = diagonal(c, c) == 0;  // all its members are
+    set_inverse(level, i, diagonal, is_held);
+  }
+}
+
+template <int D>
+void Multigrid<D>::factor_coarsest() {
+  solves_coarsest_ = false;
+  if (coarse_.empty() || coarse_.back().matrix.size() > most_factored) return;
+  Eigen::MatrixXd dense = coarse_.back().matrix.dense();
+  for (Eigen::Index u = 0; u < dense.rows(); ++u)  // all its members are held
+    if (dense(u, u) == 0) dense(u, u) = 1;
+  coarsest_.compute(dense);
+  solves_coarsest_ = coarsest_.info() == Eigen::Success;
+}
+
+template <int D>
+void Multigrid<D>::setup(const SystemMatrix<D>& a) {
+  StopWatch watch;
+  const bool follows = find_changed(a);
+  if (!changed_.empty()) {
+    const std::size_t n = a.vertices();
+    if (!follows) rows_ = {}, factors_.clear();
+    rows_.resize(n), places_.resize(n), scalars_.resize(n), place_in_front_.resize(n, -1);
+    changes_ = {};
+    for (const std::int32_t i : changed_) read_row(a, static_cast<std::size_t>(i));
+    if (!follows)
+      for (const auto& term : a.scalar) factors_.push_back(term.factor);
+    follows ? update_levels(a) : make_levels(a);
+  }
+  pattern_ = a.pattern;
+  rows_us_ = watch.lap();
+  find_held(a);
+  look_at_sizes(a);
+  if (!changed_.empty()) clusters_.find(sizes_, median_size_, rows_);
+  if (in_doubles_)
+    fill(a, finest_in_doubles_, double_is_new_), clusters_.factor(finest_in_doubles_.matrix, *a.held);
+  else
+    fill(a, finest_, float_is_new_), clusters_.factor(finest_.matrix, *a.held);
+  // Every other time the coarse matrices of the last time do: rotations change them little. They leave the trace alone,
+  // so another trace shows another step or material.
+  coarse_are_old_ = changed_.empty() && !coarse_are_old_ && std::abs(trace_ - coarse_trace_) <= 0.01 * coarse_trace_;
+  if (!coarse_are_old_) fill_coarse_levels();
+}
+
+template <int D>
+void Multigrid<D>::fill_coarse_levels() {
+  coarse_trace_ = trace_;
+  for (std::size_t l = 0; l < coarse_.size(); ++l)
+    if (l > 0)
+      fill_coarse(static_cast<Level<float>&>(coarse_[l - 1]), coarse_[l]);
+    else if (in_doubles_)
+      fill_coarse(finest_in_doubles_, coarse_[l]);
+    else
+      fill_coarse(finest_, coarse_[l]);
+  factor_coarsest();
+}
+
+template <int D>
+auto Multigrid<D>::entries() const -> Entries {
+  Entries all;
+  const auto add = [&](const auto& level) {
+    for (std::size_t i = 0; i < level.matrix.size(); ++i)
+      all.blocks += static_cast<double>(level.matrix.rows().blocks[i].size());
+    all.scalars += static_cast<double>(level.matrix.scalar_count());
+  };
+  in_doubles_ ? add(finest_in_doubles_) : add(finest_);
+  for (const CoarseLevel& level : coarse_) add(level);
+  return all;
+}
+
+template class Multigrid<2>;
+template class Multigrid<3>;
+
+}  // namespace cutbench

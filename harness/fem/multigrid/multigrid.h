@@ -1,0 +1,120 @@
+// Multigrid for a sheet that is cut: one V-cycle as a preconditioner of conjugate gradients (Trottenberg, Oosterlee and
+// Schueller, Multigrid, 2001, 7.8). The levels are those of Coarsening, with lattices of twice the median edge, four
+// times, and so on; their matrices are the Galerkin products P^T A P, so each is symmetric and positive definite where A
+// is. Vertices that slivers tie together are one more unknown of the first coarse level, and clusters of stiff vertices
+// are solved exactly (StiffClusters). On the coarsest level a Cholesky factorisation solves.
+//
+// Levels are in floats: a preconditioner need not be accurate, and the time is that of reading the matrix. Where the
+// diagonal blocks of A differ too much for floats (slivers), the finest level is in doubles. Without places of the
+// vertices there is the finest level alone, which is symmetric Gauss-Seidel.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <array>
+#include <deque>
+#include <vector>
+
+#include "harness/fem/multigrid/coarsening.h"
+#include "harness/fem/multigrid/level_matrix.h"
+#include "harness/fem/linear/preconditioner.h"
+#include "harness/fem/multigrid/stiff_clusters.h"
+
+namespace cutbench {
+
+template <int D>
+class Multigrid final : public Preconditioner<D> {
+ public:
+  /// After cuts the levels follow the rows that have changed, where `a` knows its history; else, and where most rows
+  /// have changed, they are made anew. Their matrices are computed every other time, and wherever the rows or the
+  /// trace of `a` have changed.
+  void setup(const SystemMatrix<D>& a) override;
+  void apply(const Field& r, Field& z) override;
+  std::size_t levels() const { return coarse_.size() + 1; }
+  /// Microseconds that the last setup() took for the rows of all levels, without their values.
+  double rows_us() const { return rows_us_; }
+  /// Entries that a cycle reads, each twice, of all levels. \pre setup() was called
+  struct Entries {
+    double blocks = 0, scalars = 0;
+  };
+  Entries entries() const;
+
+ private:
+  using Block = typename BlockMatrix<D>::Block;
+  /// The columns of a block, each with values behind it that nobody looks at: so they are read four by four.
+  template <class S>
+  using Columns = Eigen::Array<S, 4, D>;
+  /// A matrix with a right side, a solution and a residual.
+  template <class S>
+  struct Level {
+    LevelMatrix<D, S> matrix;
+    typename LevelMatrix<D, S>::Vector r, z, t;
+    std::vector<std::size_t> idle;                    // unknowns that are held, or whose block is not positive definite
+    RowSum<Columns<S>> part_row{Columns<S>::Zero()};  // of P^T A, with A this matrix
+    void set_idle_zero(typename LevelMatrix<D, S>::Vector& field) const {
+      for (const std::size_t u : idle) field[u] = 0;
+    }
+    void resize() {
+      for (auto* field : {&r, &z, &t}) field->resize(D * matrix.rows().size() + LevelMatrix<D, S>::padding);
+    }
+  };
+  struct CoarseLevel : Level<float> {
+    explicit CoarseLevel(double spacing) : from(spacing) {}
+    Coarsening from;  // the next finer level
+    LevelRows rows;
+  };
+
+  bool find_changed(const SystemMatrix<D>& a);
+  void read_row(const SystemMatrix<D>& a, std::size_t i);
+  bool read_place(const SystemMatrix<D>& a, std::size_t i);  // true: it is another
+  Coarsening::Regrouping regroup(const SystemMatrix<D>& a);
+  void find_held(const SystemMatrix<D>& a);
+  template <class S>
+  void set_inverse(Level<S>& level, std::size_t i, Block diagonal, const std::array<bool, D>& is_held);
+  void make_levels(const SystemMatrix<D>& a);
+  void update_levels(const SystemMatrix<D>& a);
+  void update(CoarseLevel& level, const LevelRows& fine, const std::vector<Point2>& places, const RowChanges& changes,
+              const Coarsening::Regrouping& regrouping);
+  void look_at_sizes(const SystemMatrix<D>& a);
+  void fill_coarse_levels();
+  template <class S>
+  void fill(const SystemMatrix<D>& a, Level<S>& level, bool& is_new);
+  template <class S>
+  void fill_coarse(Level<S>& fine, CoarseLevel& level);
+  template <class S>
+  void sum_members(Level<S>& fine, std::span<const Coarsening::Weight> members);
+  void factor_coarsest();
+  template <class S>
+  void cycle(Level<S>& level, std::size_t next);
+  template <class S>
+  void correct(Level<S>& level, std::size_t next);
+
+  std::uint64_t pattern_ = 0;
+  std::vector<double> factors_;         // of the scalar parts of A
+  std::vector<std::uint8_t> has_held_;  // per vertex: one of its unknowns is held
+  LevelRows rows_;                      // of A
+  std::vector<std::int32_t> slots_;     // per slot of rows_.blocks: where A keeps the block
+  std::vector<Point2> places_;          // per vertex; NaN where no hat is wanted
+  std::vector<std::int32_t> changed_;   // vertices whose rows the levels have not followed yet
+  RowChanges changes_;                  // what is different there
+  std::size_t slots_made_ = 0;          // slots of rows_ when the levels were made
+  double rows_us_ = 0;
+  bool in_doubles_ = false, float_is_new_ = true, double_is_new_ = true;  // new: the rows are to be set
+  Level<float> finest_;
+  Level<double> finest_in_doubles_;
+  StiffClusters<D> clusters_;
+  std::deque<CoarseLevel> coarse_;  // each refers to rows of its own
+  Eigen::LLT<Eigen::MatrixXd> coarsest_;
+  bool solves_coarsest_ = false;
+  std::vector<Block> diagonals_;  // of A
+  std::vector<double> sizes_;     // per vertex: the trace of its diagonal block
+  double median_size_ = 0;
+  double trace_ = 0, coarse_trace_ = 0;  // of A, at the last setup() and when the coarse matrices were computed
+  bool coarse_are_old_ = true;
+  // Working storage.
+  std::vector<std::int32_t> place_;  // per coarse unknown: its place in the row at hand
+  RowSum<double> scalars_{0};        // of the row at hand
+  std::vector<double> sorted_;
+  std::vector<std::int32_t> front_, place_in_front_;  // the second: per vertex, or -1
+};
+
+}  // namespace cutbench

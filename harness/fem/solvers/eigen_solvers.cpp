@@ -1,0 +1,159 @@
+#include "harness/fem/solvers/eigen_solvers.h"
+
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/LU>
+#include <Eigen/SparseCholesky>
+
+#include "harness/fem/linear/compressed_columns.h"
+#include "harness/fem/linear/direct_solve.h"
+
+namespace cutbench {
+
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+constexpr int most_rounds = 5;
+
+template <int D>
+Eigen::Map<const Sparse> lower_triangle(const CompressedColumns<D>& a) {
+  const auto n = static_cast<Eigen::Index>(a.unknowns());
+  return {n, n, static_cast<Eigen::Index>(a.rows().size()), a.begin().data(), a.rows().data(), a.values().data()};
+}
+
+bool all_finite(const std::vector<double>& values) {
+  return Eigen::Map<const Field>(values.data(), static_cast<Eigen::Index>(values.size())).allFinite();
+}
+
+template <int D, class Method>
+class EigenIterative final : public LinearSolver<D> {
+ public:
+  explicit EigenIterative(const SolverOptions& options) : options_(options) {}
+
+  void setup(const SystemMatrix<D>& a) override {
+    matrix_ = &a;
+    columns_.set_pattern(a);
+    columns_.set_values(a);
+    usable_ = all_finite(columns_.values());
+    for (std::size_t i = 0; usable_ && i < a.vertices(); ++i) {
+      const auto block = a.diagonal(i);
+      usable_ = block(0, 0) > 0 && block.determinant() > 0;
+    }
+    if (!usable_) return;
+    full_ =
+        lower_triangle(columns_).template selfadjointView<Eigen::Lower>();  // its products are the fastest of Eigen's
+    method_.compute(full_);
+    usable_ = method_.info() == Eigen::Success;
+  }
+
+  SolveReport solve(const Field& b, Field& x, const Field& start) override {
+    project(*matrix_->held, b, b_);
+    x.setZero(b.size());
+    SolveReport report;
+    if (b_.isZero(0)) {
+      report.converged = true;
+      return report;
+    }
+    report.residual = 1;
+    if (!usable_ || !b_.allFinite()) return report;
+    if (start.size() == b.size()) project(*matrix_->held, start, x);
+    const double norm = b_.norm(), equilibrated = equilibrated_norm(b_);
+    double tolerance = options_.tolerance;
+    for (int round = 0; round < most_rounds && !report.converged; ++round, tolerance /= 10) {
+      method_.setTolerance(tolerance);
+      method_.setMaxIterations(options_.max_iterations - report.iterations);
+      const Field next = method_.solveWithGuess(b_, x);
+      if (!next.allFinite()) return report;
+      x = next;
+      report.iterations += static_cast<int>(method_.iterations());
+      matrix_->multiply(x, r_);
+      r_ = b_ - r_;
+      report.residual = r_.norm() / norm;
+      report.converged =
+          report.residual <= options_.tolerance && equilibrated_norm(r_) <= options_.tolerance * equilibrated;
+      if (report.iterations >= options_.max_iterations) break;
+    }
+    return report;
+  }
+
+ private:
+  /// In the norm of the inverse diagonal blocks.
+  double equilibrated_norm(const Field& r) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < matrix_->vertices(); ++i) {
+      const Eigen::Matrix<double, D, 1> at = r.template segment<D>(static_cast<Eigen::Index>(D * i));
+      sum += at.dot(matrix_->diagonal(i).inverse() * at);
+    }
+    return std::sqrt(sum);
+  }
+
+  SolverOptions options_;
+  CompressedColumns<D> columns_;
+  Sparse full_;
+  Method method_;
+  const SystemMatrix<D>* matrix_ = nullptr;
+  bool usable_ = false;
+  Field b_, r_;
+};
+
+template <int D>
+class EigenDirect final : public LinearSolver<D> {
+ public:
+  void setup(const SystemMatrix<D>& a) override {
+    matrix_ = &a;
+    const bool is_new = columns_.set_pattern(a);
+    columns_.set_values(a);
+    const auto lower = lower_triangle(columns_);
+    factored_ = all_finite(columns_.values());
+    if (is_new) ldlt_.analyzePattern(lower);
+    if (!factored_) return;
+    ldlt_.factorize(lower);
+    factored_ = ldlt_.info() == Eigen::Success && ldlt_.vectorD().minCoeff() > 0;
+  }
+
+  SolveReport solve(const Field& b, Field& x, const Field& /*start*/) override {
+    project(*matrix_->held, b, b_);
+    x.setZero(b.size());
+    SolveReport report;
+    const bool nothing = b_.isZero(0);
+    report.residual = nothing ? 0 : 1;
+    if (!factored_) return report;
+    const double norm = b_.norm();
+    if (!nothing) {
+      x = ldlt_.solve(b_);
+      matrix_->multiply(x, r_);
+      report.residual = (b_ - r_).norm() / norm;
+    }
+    report.converged = is_direct_solution(report.residual, norm, columns_.largest(), x.norm());
+    return report;
+  }
+
+ private:
+  CompressedColumns<D> columns_;
+  Eigen::SimplicialLDLT<Sparse, Eigen::Lower> ldlt_;
+  const SystemMatrix<D>* matrix_ = nullptr;
+  bool factored_ = false;
+  Field b_, r_;
+};
+
+}  // namespace
+
+template <int D>
+std::unique_ptr<LinearSolver<D>> make_eigen_cg(const SolverOptions& options, EigenPreconditioner preconditioner) {
+  constexpr int both = Eigen::Lower | Eigen::Upper;
+  if (preconditioner == EigenPreconditioner::diagonal)
+    return std::make_unique<EigenIterative<D, Eigen::ConjugateGradient<Sparse, both>>>(options);
+  using Incomplete = Eigen::IncompleteCholesky<double, Eigen::Lower, Eigen::AMDOrdering<int>>;
+  return std::make_unique<EigenIterative<D, Eigen::ConjugateGradient<Sparse, both, Incomplete>>>(options);
+}
+
+template <int D>
+std::unique_ptr<LinearSolver<D>> make_eigen_ldlt() {
+  return std::make_unique<EigenDirect<D>>();
+}
+
+template std::unique_ptr<LinearSolver<2>> make_eigen_cg(const SolverOptions&, EigenPreconditioner);
+template std::unique_ptr<LinearSolver<3>> make_eigen_cg(const SolverOptions&, EigenPreconditioner);
+template std::unique_ptr<LinearSolver<2>> make_eigen_ldlt();
+template std::unique_ptr<LinearSolver<3>> make_eigen_ldlt();
+
+}  // namespace cutbench

@@ -1,0 +1,112 @@
+#include "harness/fem/solvers/sliver_blocks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+namespace cutbench {
+
+template <int D>
+void SliverBlocks<D>::find_groups(const ElementTable& elements) {
+  joins_.clear();
+  for (const Element& e : elements) {
+    if (!e.is_triangle()) continue;
+    // |gradient| = opposite edge / (2 area), so AR = longest edge^2 / (2 area) = 2 area (largest |gradient|)^2.
+    const std::array<double, 3> squared{squared_length(e.gradient[0]), squared_length(e.gradient[1]),
+                                        squared_length(e.gradient[2])};
+    if (!(2 * e.area * *std::max_element(squared.begin(), squared.end()) > good_aspect_ratio)) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t l = (k + 1) % 3;
+      const auto [low, high] = std::minmax({e.vertex[k].value, e.vertex[l].value});
+      joins_.push_back({2 * e.area * std::sqrt(squared[k] * squared[l]), low, high});
+    }
+  }
+  std::sort(joins_.begin(), joins_.end(), [](const Join& one, const Join& other) {
+    return std::tuple(-one.weight, one.a, one.b) < std::tuple(-other.weight, other.a, other.b);
+  });
+  for (const Join& join : joins_) {
+    if (joined_.find(join.a) != joined_.find(join.b) &&
+        joined_.size(join.a) + joined_.size(join.b) <= static_cast<std::size_t>(largest_group))
+      joined_.join(join.a, join.b);
+  }
+}
+
+template <int D>
+void SliverBlocks<D>::setup(const SystemMatrix<D>& a) {
+  groups_.clear();
+  gathered_.resize(D * largest_group);
+  if (!a.elements) return;
+  joined_.reset(a.vertices()), group_.assign(a.vertices(), -1), place_.resize(a.vertices());
+  find_groups(*a.elements);
+  for (const Join& join : joins_)
+    for (const std::int32_t v : {join.a, join.b}) {
+      const std::size_t top = joined_.find(v);
+      if (joined_.size(v) == 1) continue;  // every join was left out
+      auto& group = group_[top];
+      if (group < 0) group = static_cast<std::int32_t>(groups_.size()), groups_.emplace_back();
+      // The entry of the smallest vertex of the class numbers the group before that vertex itself is met.
+      auto& vertices = groups_[static_cast<std::size_t>(group)].vertices;
+      group_[static_cast<std::size_t>(v)] = group;
+      vertices.push_back(v);
+    }
+  for (auto& group : groups_) {
+    auto& v = group.vertices;
+    std::sort(v.begin(), v.end());
+    v.erase(std::unique(v.begin(), v.end()), v.end());
+    factor(a, group);
+  }
+  std::erase_if(groups_, [](const Group& group) { return group.factor.info() != Eigen::Success; });
+}
+
+template <int D>
+void SliverBlocks<D>::factor(const SystemMatrix<D>& a, Group& group) {
+  const auto n = static_cast<Eigen::Index>(group.vertices.size());
+  for (Eigen::Index k = 0; k < n; ++k)
+    place_[static_cast<std::size_t>(group.vertices[static_cast<std::size_t>(k)])] = static_cast<std::int32_t>(k);
+  const std::int32_t own = group_[static_cast<std::size_t>(group.vertices.front())];
+  block_.setZero(D * n, D * n);
+  // Calls entry(row, column, slot) for the blocks of a part whose row and column are in the group.
+  const auto visit = [&](const auto& part, const auto& entry) {
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const auto i = static_cast<std::size_t>(group.vertices[static_cast<std::size_t>(k)]);
+      std::int32_t slot = part.first_slot(i);
+      for (const std::int32_t j : part.columns(i)) {
+        if (group_[static_cast<std::size_t>(j)] == own) entry(D * k, D * place_[static_cast<std::size_t>(j)], slot);
+        ++slot;
+      }
+    }
+  };
+  visit(*a.blocks, [&](Eigen::Index row, Eigen::Index column, std::int32_t slot) {
+    block_.template block<D, D>(row, column) += a.blocks->block(slot);
+  });
+  for (const auto& term : a.scalar)
+    visit(*term.matrix, [&](Eigen::Index row, Eigen::Index column, std::int32_t slot) {
+      block_.template block<D, D>(row, column).diagonal().array() += term.factor * term.matrix->block(slot)(0);
+    });
+  for (Eigen::Index u = 0; u < D * n; ++u) {
+    const std::int32_t v = group.vertices[static_cast<std::size_t>(u / D)];
+    if (!(*a.held)[static_cast<std::size_t>(D * v + u % D)]) continue;
+    block_.row(u).setZero(), block_.col(u).setZero(), block_(u, u) = 1;
+  }
+  group.factor.compute(block_);
+}
+
+template <int D>
+void SliverBlocks<D>::apply(const Field& r, Field& z) {
+  for (const Group& group : groups_) {
+    const auto n = static_cast<Eigen::Index>(group.vertices.size());
+    auto gathered = gathered_.head(D * n);
+    for (Eigen::Index k = 0; k < n; ++k)
+      gathered.segment<D>(D * k) = r.segment<D>(D * group.vertices[static_cast<std::size_t>(k)]);
+    group.factor.matrixL().solveInPlace(gathered);
+    group.factor.matrixU().solveInPlace(gathered);
+    for (Eigen::Index k = 0; k < n; ++k)
+      z.segment<D>(D * group.vertices[static_cast<std::size_t>(k)]) = gathered.segment<D>(D * k);
+  }
+}
+
+template class SliverBlocks<2>;
+template class SliverBlocks<3>;
+
+}  // namespace cutbench

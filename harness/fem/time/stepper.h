@@ -1,0 +1,89 @@
+// Time integration, and equilibrium. Every implicit step is written as a residual in the new velocity v:
+//
+//   r(v) = M (v - v0) - h (f(x0 + h v) + f_ext - alpha M v - beta K v)
+//
+// and solved by Newton's method with the positive semi-definite tangent K, A = (1 + h alpha) M + (h beta + h^2) K. The
+// first iteration is linearised at x0 (Baraff and Witkin, Large steps in cloth simulation, 1998): A dv = h (f(x0) +
+// f_ext) + M v0 - A v0. Further ones are at x0 + h v.
+//
+//   backward_euler    as above; x = x0 + h v. First order; damps.
+//   midpoint          the same with h / 2 gives vm, the velocity at the middle of the step; v = 2 vm - v0,
+//                     x = x0 + h vm. Second order; no numerical damping of linear motion. It can gain energy where
+//                     large rotations are stiff (slivers, few Newton iterations).
+//   symplectic_euler  v = v0 + h M^-1 f(x0, v0); x = x0 + h v. Explicit: stable below 2 / omega_max. Mass that was
+//                     added to thin elements is factored after each cut (mass_solver.h), all other is lumped.
+//   xpbd              as backward_euler, but by sweeps over the elements instead of a linear solve (xpbd.h)
+//   equilibrium       f(x) + f_ext = 0 by Newton with a line search on the energy.
+//
+// Where vertices are constrained, x = x0 + C q, the implicit integrators solve C^T A C dq = C^T rhs.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "harness/fem/linear/linear_solver.h"
+#include "harness/fem/linear/mass_solver.h"
+#include "harness/fem/model/state.h"
+#include "harness/fem/time/xpbd.h"
+
+namespace cutbench {
+
+struct StepOptions {
+  Integrator integrator = Integrator::backward_euler;
+  double step = 1.0 / 240;  ///< s
+  int newton = 1;           ///< linear solves per step; equilibrium: at most
+  int sweeps = 1;           ///< of xpbd, per step
+  SolverOptions solver;
+};
+
+/// Microseconds (steady clock), summed over the Newton iterations.
+struct StepTimes {
+  double rotate = 0;    ///< deformations, forces and right-hand side
+  double assemble = 0;  ///< element matrices into the system
+  double setup = 0;     ///< preconditioner or factorisation
+  double solve = 0;
+  double total() const { return rotate + assemble + setup + solve; }
+};
+
+struct StepReport {
+  std::string verdict = "ok", reason;  ///< "solver_stalled", "newton_failed", "not_finite"
+  int newton = 0;                      ///< linear solves
+  int iterations = 0;                  ///< of the linear solver, summed; of xpbd the sweeps
+  double residual = 0;                 ///< the largest that a linear solve left
+  int fallbacks = 0;                   ///< solves that another preconditioner ended (SolveReport::fell_back)
+  /// Equilibrium: |f| over the scale of the forces. A step of three solves or more: the size of the last Newton step over
+  /// that of the one before, in the norm of A; newton_failed where it is not smaller, and no rounding error. The first
+  /// one is linearised elsewhere than the others and does not compare.
+  double newton_residual = 0;
+  StepTimes time_us;
+};
+
+template <int D>
+class Stepper {
+ public:
+  /// Throws InputError for an unknown solver. Symplectic Euler and XPBD take no consistent mass (scenes refuse it), and no
+  /// constrained vertices; XPBD no polygons and no added mass either.
+  explicit Stepper(const StepOptions& options);
+  StepReport step(Model<D>& model, State& state);
+
+ private:
+  void implicit_step(Model<D>& model, State& state, double h, StepReport& report);
+  void right_hand_side(Model<D>& model, const State& state, double h, bool first, StepReport& report);
+  void explicit_step(Model<D>& model, State& state, StepReport& report);
+  void position_step(Model<D>& model, State& state, StepReport& report);
+  void solve_added_mass(const Model<D>& model, const State& state, StepReport& report);
+  void equilibrium(Model<D>& model, State& state, StepReport& report);
+  void solve(Model<D>& model, const Field& start, StepReport& report);
+  void judge_newton(const Model<D>& model, double h, double before2, double last2, StepReport& report);
+  void hold(Model<D>& model, const State& state, double h);
+  void forces(Model<D>& model, const Field& x, StepReport& report);
+
+  StepOptions options_;
+  std::unique_ptr<LinearSolver<D>> solver_;
+  MassSolver<D> mass_solver_;
+  Xpbd<D> xpbd_;
+  std::uint64_t mass_of_ = 0;                           // the change of the model that it was set up after
+  Field v_, x_, force_, rhs_, dv_, product_, reduced_;  // kept between steps
+};
+
+}  // namespace cutbench

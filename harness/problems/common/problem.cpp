@@ -1,0 +1,38 @@
+#include "harness/problems/common/problem.h"
+
+#include <algorithm>
+
+#include "harness/base/errors.h"
+#include "harness/problems/in_plane/edge_crack.h"
+#include "harness/problems/in_motion/hanging_sheet.h"
+#include "harness/problems/out_of_plane/out_of_plane.h"
+#include "harness/problems/in_motion/severed_strip.h"
+#include "harness/problems/in_plane/window_problem.h"
+
+namespace cutbench {
+
+const std::vector<std::unique_ptr<const Problem>>& all_problems() {
+  static const auto problems = [] {
+    std::vector<std::unique_ptr<const Problem>> all;
+    append_window_problems(all);
+    append_edge_cracks(all);
+    append_out_of_plane(all);
+    all.push_back(severed_strip(Integrator::midpoint));
+    all.push_back(severed_strip(Integrator::backward_euler));
+    all.push_back(hanging_sheet(Integrator::midpoint));
+    all.push_back(hanging_sheet(Integrator::backward_euler));
+    return all;
+  }();
+  return problems;
+}
+
+const Problem& find_problem(const std::string& name) {
+  const auto& all = all_problems();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& problem) { return problem->name() == name; });
+  if (found != all.end()) return **found;
+  std::string known;
+  for (const auto& problem : all) known += (known.empty() ? "" : ", ") + problem->name();
+  throw InputError("unknown problem \"" + name + "\"; known are " + known);
+}
+
+}  // namespace cutbench

@@ -1,0 +1,15 @@
+// A cut from the edge of a strip in tension: a finite plate, whose answer is a handbook's fit.
+#pragma once
+
+#include "harness/problems/common/problem.h"
+
+namespace cutbench {
+
+/// F of K1 = s sqrt(pi a) F, x = depth / width: sqrt(2/(pi x) tan(pi x/2)) (0.752 + 2.02 x + 0.37 (1 - sin(pi x/2))^3)
+/// / cos(pi x/2), within 0.5 % for any x (Tada, Paris and Irwin, The Stress Analysis of Cracks Handbook).
+double edge_crack_factor(double x);
+
+/// At depths of 0.3, 0.4 and 0.5 of the width.
+void append_edge_cracks(std::vector<std::unique_ptr<const Problem>>& problems);
+
+}  // namespace cutbench

@@ -1,0 +1,163 @@
+#include "harness/problems/in_plane/static_solve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "harness/base/stop_watch.h"
+#include "harness/problems/common/border_edges.h"
+
+namespace cutbench {
+
+namespace {
+
+const Physics in_the_plane{.dimension = 2, .strain = Strain::linear, .bending = BendingKind::none};
+
+}  // namespace
+
+StaticSolve::StaticSolve(const Sheet& sheet, const Elastic& elastic, const Ties& ties)
+    : sheet_(sheet), model_(sheet, {.stiffness = elastic.young, .poisson = elastic.poisson}, in_the_plane, {}, {}) {
+  if (!ties.polygons.empty()) model_.tie(sheet, {.polygons = ties.polygons});
+  if (!ties.ties.empty()) tied_.emplace(ties, model_.vertices());
+  held_ = model_.held();
+  given_ = force_ = Field::Zero(static_cast<Eigen::Index>(held_.size()));
+}
+
+void StaticSolve::hold_border(const std::function<Eigen::Vector2d(Point2, Point2)>& value) {
+  Field values = Field::Zero(given_.size());
+  for_each_border_edge(sheet_, [&](HalfEdge h) {
+    const auto corners = sheet_.corners(triangle_of(h));
+    const Point2 inside = 1.0 / 3 * (corners[0] + corners[1] + corners[2]);
+    for (const DeformedIndex d : deformed_ends(sheet_, h))
+      values.segment<2>(2 * d.value) = value(sheet_.rest(sheet_.rest_vertex(d)), inside);
+  });
+  hold_border(values);
+}
+
+void StaticSolve::hold_border(const Field& value) {
+  for_each_border_edge(sheet_, [&](HalfEdge h) {
+    for (const DeformedIndex d : deformed_ends(sheet_, h)) {
+      held_[2 * d()] = held_[2 * d() + 1] = 1;
+      given_.segment<2>(2 * d.value) = value.segment<2>(2 * d.value);
+    }
+  });
+}
+
+void StaticSolve::hold(Point2 p, int axis, double value) {
+  for (std::size_t d = 0; d < sheet_.deformed_slots(); ++d) {
+    const VertexIndex v = sheet_.rest_vertex(DeformedIndex(d));
+    if (!v.valid() || !(sheet_.rest(v) == p)) continue;
+    const std::size_t unknown = 2 * d + static_cast<std::size_t>(axis);
+    held_[unknown] = 1, given_[static_cast<Eigen::Index>(unknown)] = value;
+  }
+}
+
+void StaticSolve::pull_border(const std::function<bool(Point2, Point2)>& where, const Eigen::Vector2d& force) {
+  for_each_border_edge(sheet_, [&](HalfEdge h) {
+    const Point2 a = sheet_.rest(sheet_.origin(h)), b = sheet_.rest(sheet_.target(h));
+    if (!where(a, b)) return;
+    for (const DeformedIndex d : deformed_ends(sheet_, h))
+      force_.segment<2>(2 * d.value) += std::sqrt(squared_length(b - a)) / 2 * force;
+  });
+}
+
+void StaticSolve::hold_loose_pieces() {
+  const BlockMatrix<2>& blocks = model_.blocks();
+  std::vector<std::uint8_t> seen(model_.vertices());
+  std::vector<std::size_t> piece;
+  loose_.assign(model_.vertices(), 0);
+  for (std::size_t start = 0; start < seen.size(); ++start) {
+    if (seen[start] || blocks.columns(start).empty()) continue;
+    bool held = false;
+    piece.assign(1, start), seen[start] = 1;
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      held = held || held_[2 * piece[i]] || held_[2 * piece[i] + 1];
+      for (const auto j : blocks.columns(piece[i]))
+        if (!std::exchange(seen[static_cast<std::size_t>(j)], 1)) piece.push_back(static_cast<std::size_t>(j));
+    }
+    if (held) continue;
+    for (const std::size_t v : piece) loose_[v] = held_[2 * v] = held_[2 * v + 1] = 1;
+  }
+  for (const Polygon& polygon : model_.polygons())
+    for (const DeformedIndex d : polygon.inside) loose_[d()] = loose_[polygon.corners.front()()];
+}
+
+void StaticSolve::make_tip_functions(std::span<const Budget> budgets) {
+  if (std::none_of(budgets.begin(), budgets.end(), [](const Budget& budget) { return budget.tip_functions; })) return;
+  if (tied_) {
+    why_no_tips_ = "the method constrains vertices, which tip functions don't take";
+    return;
+  }
+  StopWatch watch;
+  tips_.emplace(sheet_);
+  if (tips_->tips().empty()) why_no_tips_ = "no incision ends inside the sheet, with room for tip functions";
+  with_tips_.emplace(sheet_, elements(), *tips_, lame_of(model_.material(), in_the_plane.plane));
+  tips_us_ = watch.lap();
+}
+
+double StaticSolve::tip_energy(const Solution& solution) const {
+  return solution.of_tips.size() == 0 ? 0 : with_tips_->energy(solution.displacement, solution.of_tips);
+}
+
+SystemMatrix<2> StaticSolve::held_system() const {
+  SystemMatrix<2> system = model_.system();
+  system.held = &held_;
+  return system;
+}
+
+StaticSolve::Solution StaticSolve::solve(const Budget& budget) {
+  if (budget.tip_functions && !why_no_tips_.empty()) {
+    Solution refused;
+    refused.answer.refused = true, refused.answer.reason = why_no_tips_;
+    return refused;
+  }
+  StopWatch watch;
+  if (!std::exchange(assembled_, true)) {
+    model_.rotate(Field::Zero(given_.size()));
+    model_.assemble(0, 1);
+    right_ = Field::Zero(given_.size());
+    if (tied_) tied_->extrapolate(held_, given_);
+    model_.system().add_product(given_, right_);
+    right_ = force_ - right_;
+    if (tied_) {
+      tied_->assemble(held_system(), model_.material().stiffness);
+      const Field all = right_;
+      tied_->reduce(held_, all, right_);
+      tied_->subtract_ghosts(given_, right_);
+    }
+    assemble_us_ = watch.lap();
+  }
+  const SystemMatrix<2> system = tied_ ? tied_->system() : held_system();
+  SolverOptions options = budget.solver;
+  if (budget.iterations > 0) options.tolerance = 0, options.max_iterations = budget.iterations;
+  const auto solver = make_solver<2>(options);
+  Solution solution;
+  Answer& answer = solution.answer;
+  watch.lap();
+  solver->setup(system);
+  answer.setup_us = watch.lap();
+  SolveReport report;
+  if (budget.tip_functions)
+    report = with_tips_->solve(*solver, given_, right_, solution.displacement, solution.of_tips);
+  else
+    report = solver->solve(right_, solution.displacement);
+  answer.solve_us = watch.lap();
+  for (const auto h : *system.held) answer.unknowns += !h;
+  answer.unknowns += static_cast<std::size_t>(solution.of_tips.size());
+  if (tied_) {
+    const Field unknowns = solution.displacement;
+    tied_->expand(unknowns, solution.displacement);
+  }
+  solution.displacement += given_;
+  model_.follow(solution.displacement);
+
+  answer.assemble_us = assemble_us_ + (budget.tip_functions ? tips_us_ : 0);
+  answer.iterations = report.iterations, answer.residual = report.residual;
+  if (!solution.displacement.allFinite())
+    answer.verdict = "not_finite", answer.reason = "the displacement is not finite";
+  else if (budget.iterations == 0 && !report.converged)
+    answer.verdict = "solver_stalled", answer.reason = options.name + " reached " + std::to_string(report.residual);
+  return solution;
+}
+
+}  // namespace cutbench

@@ -1,0 +1,165 @@
+#include "harness/problems/in_plane/window_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/problems/common/quadrature.h"
+
+namespace cutbench {
+
+WindowComparison::WindowComparison(const WindowCase& window, const Specimen& specimen, const Sheet& sheet,
+                                   const StaticSolve& solve, const ElasticField& field)
+    : window_(window),
+      sheet_(sheet),
+      solve_(solve),
+      field_(field),
+      border_(border_work(field, uniform_field(field.elastic(), field.frame(), window.before), specimen.cuts)) {
+  sample_elements();
+  for (const LipSample& lip : window.lips) lips_.push_back({in_rest(lip.at), turned(lip.normal), lip.length});
+  opening_ = opening(field, lips_);
+  if (window.rim > 0) find_rim();
+  for (const WindowTip& end : window.tips) {
+    if (!end.modes) continue;
+    const Tip tip{in_rest(end.tip.at), field.frame().angle + end.tip.angle, end.tip.curvature};
+    intensities_.emplace_back(sheet, solve.elements(), field.elastic(), tip, end.modes(field.frame()), Ring{},
+                              solve.tip_functions());
+    tips_.push_back(tip);
+  }
+}
+
+Point2 WindowComparison::in_rest(Point2 local) const { return field_.frame().to_rest({local.x, local.y}); }
+
+Point2 WindowComparison::turned(Point2 local) const {
+  return Axes{{0, 0}, field_.frame().angle}.to_rest({local.x, local.y});
+}
+
+bool WindowComparison::looked_at(std::size_t element) const {
+  const Element& e = solve_.elements()[element];
+  return e.alive() && !solve_.loose(e.vertex[0]);
+}
+
+void WindowComparison::sample_elements() {
+  std::vector<Point2> tips;
+  for (const WindowTip& end : window_.tips) tips.push_back(in_rest(end.tip.at));
+  for (std::size_t e = 0; e < solve_.elements().size(); ++e) {
+    if (!looked_at(e)) continue;
+    const auto corners = sheet_.corners(TriangleIndex(e));
+    integrate(corners, tips, 1, [&](Point2 p, double weight) {
+      const auto exact = field_.state(p);
+      samples_.push_back({p - corners[0], weight * solve_.elements()[e].fraction, exact.stress, exact.displacement});
+    });
+    elements_.push_back({e, samples_.size()});
+  }
+}
+
+void WindowComparison::find_rim() {
+  for (const auto& [e, end] : elements_)
+    for (int k = 0; k < 3; ++k) {
+      const HalfEdge h = half_edge(TriangleIndex(e), k);
+      if (sheet_.mark(h) != EdgeMark::incision) continue;
+      const Point2 a = sheet_.rest(sheet_.origin(h)), b = sheet_.rest(sheet_.target(h));
+      const Complex middle = field_.frame().to_local(0.5 * (a + b)), out = middle / std::abs(middle);
+      const Point2 tangent = turned({-out.imag(), out.real()});
+      const Eigen::Vector2d along(tangent.x, tangent.y);
+      const Eigen::Matrix2d exact = field_.stress(field_.frame().to_rest(window_.rim * out));
+      rim_.push_back({e, 0.5 * (a + b), std::sqrt(squared_length(b - a)), along.dot(exact * along), along});
+    }
+}
+
+WindowComparison::Sums WindowComparison::sum(const StaticSolve::Solution& solution) const {
+  const Elastic& elastic = field_.elastic();
+  Sums sums;
+  sums.energy = solve_.tip_energy(solution);
+  std::size_t next = 0;
+  for (const auto& [e, end] : elements_) {
+    const Element& element = solve_.elements()[e];
+    const auto [first, gradient] = displacement_in(solve_.elements(), e, solution.displacement);
+    const Eigen::Matrix2d linear = elastic.stress((gradient + gradient.transpose()) / 2);
+    sums.energy += element.material_area() / 2 * linear.cwiseProduct(gradient).sum();
+    const Point2 corner = sheet_.corners(TriangleIndex(e))[0];
+    for (; next < end; ++next) {
+      const auto& [from_corner, weight, exact, moved] = samples_[next];
+      const auto of_tips = solve_.tip_displacement(solution, TriangleIndex(e), corner + from_corner);
+      const Eigen::Matrix2d here = linear + elastic.stress((of_tips.gradient + of_tips.gradient.transpose()) / 2);
+      const Eigen::Matrix2d off = exact - here;
+      sums.error_energy += weight * off.cwiseProduct(elastic.strain(off)).sum();
+      sums.worst_stress = std::max(sums.worst_stress, off.cwiseAbs().maxCoeff());
+      const Eigen::Vector2d value = first + gradient * Eigen::Vector2d(from_corner.x, from_corner.y) + of_tips.value;
+      sums.error_squared += weight * (value - moved).squaredNorm();
+      sums.exact_squared += weight * moved.squaredNorm();
+    }
+  }
+  return sums;
+}
+
+double WindowComparison::opening_error(const StaticSolve::Solution& solution) const {
+  const auto found =
+      opening(sheet_, solution.displacement, lips_, sheet_.mean_edge(), solve_.tip_functions(), solution.of_tips);
+  double off = 0, scale = 0;
+  for (std::size_t i = 0; i < lips_.size(); ++i)
+    off += lips_[i].length * std::pow(found[i] - opening_[i], 2), scale += lips_[i].length * std::pow(opening_[i], 2);
+  return std::sqrt(off / scale);
+}
+
+double WindowComparison::rim_error(const StaticSolve::Solution& solution) const {
+  double off = 0, scale = 0;
+  for (const auto& [e, middle, length, hoop, tangent] : rim_) {
+    const Eigen::Matrix2d gradient = displacement_in(solve_.elements(), e, solution.displacement).gradient +
+                                     solve_.tip_displacement(solution, TriangleIndex(e), middle).gradient;
+    const Eigen::Matrix2d stress = field_.elastic().stress((gradient + gradient.transpose()) / 2);
+    off += length * std::pow(tangent.dot(stress * tangent) - hoop, 2);
+    scale += length * hoop * hoop;
+  }
+  return scale > 0 ? std::sqrt(off / scale) : 1;
+}
+
+/// At the ends of an arc sliding goes in opposite directions: the mean is that of the first one's.
+StressIntensity WindowComparison::mean(const std::function<StressIntensity(std::size_t i)>& of_tip) const {
+  StressIntensity mean;
+  const auto tips = static_cast<double>(tips_.size());
+  for (std::size_t i = 0; i < tips_.size(); ++i) {
+    const auto [k1, k2] = of_tip(i);
+    const bool mirrored = window_.tips[i].k.k2 * window_.tips[0].k.k2 < 0;
+    mean.k1 += k1 / tips, mean.k2 += (mirrored ? -k2 : k2) / tips;
+  }
+  return mean;
+}
+
+std::vector<Measure> WindowComparison::measures(const StaticSolve::Solution& solution) const {
+  const auto [after, released] = border_;
+  const Sums sums = sum(solution);
+  const StressIntensity k = mean(
+      [&](std::size_t i) { return intensities_[i].of(solve_.elements(), solution.displacement, solution.of_tips); });
+  const double pull = std::hypot(window_.before.xx, window_.before.yy, window_.before.xy);
+  const StressIntensity exact_k = window_.tips.empty() ? StressIntensity{} : window_.tips[0].k;
+  const double intensity = std::hypot(exact_k.k1, exact_k.k2);
+  std::vector<Measure> measures;
+  for (const std::string& name : window_.measures) {
+    const auto compared = [&](double value, double exact, double scale) {
+      measures.push_back({name, value, exact, std::abs(value - exact) / scale});
+    };
+    if (name == "released_energy") compared(released + after - sums.energy, released, released);
+    if (name == "strain_energy") compared(sums.energy, after, after);
+    if (name == "opening") compared(opening_error(solution), 0, 1);
+    if (name == "energy_norm") compared(std::sqrt(sums.error_energy / (2 * after)), 0, 1);
+    if (name == "displacement_l2") compared(std::sqrt(sums.error_squared / sums.exact_squared), 0, 1);
+    if (name == "rim_stress") compared(rim_error(solution), 0, 1);
+    if (name == "stress") compared(sums.worst_stress / pull, 0, 1);
+    if (name == "k1") compared(k.k1, exact_k.k1, intensity);
+    if (name == "k2") compared(k.k2, exact_k.k2, intensity);
+  }
+  if (solution.of_tips.size() == 0 || tips_.empty()) return measures;
+  std::size_t missing = 0;
+  const StressIntensity of_tips = mean([&](std::size_t i) {
+    const auto found = intensity_of_coefficients(*solve_.tip_functions(), solution.of_tips, tips_[i], field_.elastic(),
+                                                 sheet_.mean_edge());
+    missing += !found;
+    return found.value_or(StressIntensity{});
+  });
+  if (missing > 0) return measures;
+  measures.push_back({tip_measures[0], of_tips.k1, exact_k.k1, std::abs(of_tips.k1 - exact_k.k1) / intensity});
+  measures.push_back({tip_measures[1], of_tips.k2, exact_k.k2, std::abs(of_tips.k2 - exact_k.k2) / intensity});
+  return measures;
+}
+
+}  // namespace cutbench

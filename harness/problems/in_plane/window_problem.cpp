@@ -1,0 +1,77 @@
+#include "harness/problems/in_plane/window_problem.h"
+
+#include <numbers>
+#include <utility>
+
+#include "harness/mesh/families.h"
+#include "harness/problems/common/members.h"
+#include "harness/problems/in_plane/mouth.h"
+#include "harness/problems/in_plane/window_comparison.h"
+
+namespace cutbench {
+
+namespace {
+
+/// The same frame for a member of every size: only its distance from the mesh's cells is in units of them.
+Axes member_frame(Point2 middle, int n, std::uint64_t seed, std::size_t index) {
+  MemberNumbers numbers(seed, index);
+  Axes frame;
+  Point2 place{0.5 + numbers.between(-0.5, 0.5) / n, 0.5 + numbers.between(-0.5, 0.5) / n};
+  if (index % 2 == 0) {
+    const int row = n / 2;
+    place.y = (row + distance_from_mesh_line(numbers)) / n;
+  } else {
+    frame.angle = numbers.between(0, 2 * std::numbers::pi);
+  }
+  frame.origin = place - (Axes{{0, 0}, frame.angle}).to_rest({middle.x, middle.y});
+  return frame;
+}
+
+class WindowProblem final : public Problem {
+ public:
+  explicit WindowProblem(WindowCase window) : window_(std::move(window)) {}
+  std::string name() const override { return window_.name; }
+  std::string effect() const override { return window_.effect; }
+  std::string truth() const override { return window_.truth; }
+  std::vector<std::string> measures() const override { return window_.measures; }
+
+  Specimen specimen(const std::string& family, int n, std::uint64_t seed, std::size_t index) const override {
+    const Axes frame = member_frame(window_.middle, n, seed, index);
+    Specimen specimen{make_sheet(family, n), window_.cuts, frame.origin, frame.angle};
+    for (Curve& cut : specimen.cuts)
+      for (Point2& p : cut.points) p = frame.to_rest({p.x, p.y});
+    return specimen;
+  }
+
+  std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
+                             const Ties& ties) const override {
+    const ElasticField field = window_.field({specimen.origin, specimen.angle});
+    StaticSolve solve(sheet, sheet_material, ties);
+    if (window_.mouth)
+      solve.hold_border(continued_over_the_mouth(field, sheet));
+    else
+      solve.hold_border([&](Point2 p, Point2 inside) { return field.displacement(p, inside); });
+    solve.hold_loose_pieces();
+    solve.make_tip_functions(budgets);
+    const WindowComparison comparison(window_, specimen, sheet, solve, field);
+    std::vector<Answer> answers;
+    for (const Budget& budget : budgets) {
+      StaticSolve::Solution solution = solve.solve(budget);
+      if (!solution.answer.refused && solution.answer.verdict != "not_finite")
+        solution.answer.measures = comparison.measures(solution);
+      answers.push_back(std::move(solution.answer));
+    }
+    return answers;
+  }
+
+ private:
+  WindowCase window_;
+};
+
+}  // namespace
+
+std::unique_ptr<const Problem> make_window_problem(WindowCase window) {
+  return std::make_unique<WindowProblem>(std::move(window));
+}
+
+}  // namespace cutbench

@@ -1,0 +1,98 @@
+#include "harness/problems/out_of_plane/bent_sheet.h"
+
+#include <cmath>
+#include <map>
+
+namespace cutbench {
+
+namespace {
+
+std::vector<Pin> pins_for(const Sheet& sheet, const std::function<Start(DeformedIndex)>& start) {
+  std::vector<Pin> pins;
+  std::vector<std::uint8_t> seen(sheet.vertex_slots());
+  for (const DeformedIndex d : vertices_in_use(sheet)) {
+    const auto held = start(d).held;
+    const VertexIndex v = sheet.rest_vertex(d);
+    if ((held[0] || held[1] || held[2]) && !std::exchange(seen[v()], 1))
+      pins.push_back({.where = {sheet.rest(v), sheet.rest(v)}, .axes = held});
+  }
+  return pins;
+}
+
+}  // namespace
+
+BentSheet::BentSheet(const Sheet& sheet, const Material& material, BendingKind bending, double gravity,
+                     const std::function<Start(DeformedIndex)>& start, const Ties& ties)
+    : model_(sheet, material, {.bending = bending, .gravity = {0, 0, -gravity}}, pins_for(sheet, start), {}),
+      state_(initial_state(model_, sheet)) {
+  if (!ties.polygons.empty()) model_.tie(sheet, ties);
+  for (const DeformedIndex d : vertices_in_use(sheet)) {
+    const Point3 p = start(d).position;
+    state_.x.segment<3>(3 * d.value) << p.x, p.y, p.z;
+  }
+  state_.anchor = state_.x;
+}
+
+bool BentSheet::solve_to_equilibrium(const SolverOptions& solver, Answer& answer) {
+  Stepper<3> stepper({.integrator = Integrator::equilibrium, .newton = 100, .solver = solver});
+  const StepReport report = stepper.step(model_, state_);
+  answer.verdict = report.verdict, answer.reason = report.reason;
+  answer.unknowns = 0;
+  for (const std::uint8_t h : model_.held()) answer.unknowns += h == 0;
+  answer.assemble_us += report.time_us.rotate + report.time_us.assemble;
+  answer.setup_us += report.time_us.setup, answer.solve_us += report.time_us.solve;
+  answer.iterations += report.newton;
+  answer.residual = std::max(answer.residual, report.newton_residual);
+  if (answer.verdict != "ok") return false;
+  model_.rotate(state_.x);
+  force_.setZero(state_.x.size());
+  model_.add_internal_force(state_.x, force_);
+  model_.add_external_force(force_);
+  return true;
+}
+
+Point3 BentSheet::position(DeformedIndex d) const {
+  return {state_.x[3 * d.value], state_.x[3 * d.value + 1], state_.x[3 * d.value + 2]};
+}
+
+Energy BentSheet::energy() const { return model_.energy(state_.x, state_.v); }
+
+Point3 BentSheet::support(DeformedIndex d) const {
+  return {-force_[3 * d.value], -force_[3 * d.value + 1], -force_[3 * d.value + 2]};
+}
+
+std::vector<DeformedIndex> vertices_in_use(const Sheet& sheet) {
+  std::vector<DeformedIndex> result;
+  for (std::size_t d = 0; d < sheet.deformed_slots(); ++d)
+    if (sheet.rest_vertex(DeformedIndex(d)).valid()) result.emplace_back(d);
+  return result;
+}
+
+std::vector<Point2> sides(const Sheet& sheet) {
+  std::vector<Point2> centre(sheet.deformed_slots());
+  std::vector<double> largest(sheet.deformed_slots());
+  for (std::size_t t = 0; t < sheet.triangle_slots(); ++t) {
+    if (!sheet.triangle(TriangleIndex(t)).alive()) continue;
+    const auto c = sheet.corners(TriangleIndex(t));
+    const double twice_area = cross(c[1] - c[0], c[2] - c[0]);
+    for (const DeformedIndex d : sheet.triangle(TriangleIndex(t)).deformed)
+      if (twice_area > largest[d()]) largest[d()] = twice_area, centre[d()] = 1.0 / 3 * (c[0] + c[1] + c[2]);
+  }
+  return centre;
+}
+
+Point2 to_frame(const Specimen& specimen, Point2 rest) {
+  const Point2 axis{std::cos(specimen.angle), std::sin(specimen.angle)}, p = rest - specimen.origin;
+  return {dot(axis, p), cross(axis, p)};
+}
+
+Point2 from_frame(const Specimen& specimen, Point2 p) {
+  const double c = std::cos(specimen.angle), s = std::sin(specimen.angle);
+  return specimen.origin + Point2{c * p.x - s * p.y, s * p.x + c * p.y};
+}
+
+Measure compared(std::string name, double value, double exact) {
+  return {std::move(name), value, exact, std::abs(value - exact) / std::abs(exact)};
+}
+
+}  // namespace cutbench

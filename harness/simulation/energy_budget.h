@@ -1,0 +1,92 @@
+// Where the energy of a moving sheet goes, step by step. Each integrator's step moves the sheet by dx = h u, with forces
+// f at a place x* of the step and damping of a velocity w; the pins supply what is missing:
+//
+//   M dv = h (f(x*) + f_ext - alpha M w - beta K w + f_pins)
+//
+//   backward Euler    u = w = v,               x* = x0 + dx      loss = (dv'M dv + dx'K dx) / 2
+//   midpoint          u = w = (v0 + v) / 2,    x* = x0 + dx / 2  loss = 0 but for pins that set off
+//   symplectic Euler  u = v, w = v0,           x* = x0           loss = (dv'M dv + dx'(f(x) - f(x0))) / 2
+//
+// Multiplied by dx:
+//
+//   change of (kinetic + elastic + potential) = work of the pins - h u'(alpha M w + beta K w)   damping
+//                                             - loss                                            numerical loss
+//                                             + remainder
+//
+// The remainder is the error of the linearisation (with K made positive) and of the linear solver: zero to rounding for
+// a linear sheet and a direct solver. The loss of symplectic Euler has either sign; it is bounded where the step is
+// stable, and a gain without bounds where it is not.
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "harness/fem/model/state.h"
+
+namespace cutbench {
+
+/// After a step; J. The values below the energy are sums from the beginning.
+struct BudgetRow {
+  double time = 0;  ///< s
+  Energy energy;
+  double pin_work = 0;        ///< done by what moves the pins
+  double damping = 0;         ///< lost
+  double numerical_loss = 0;  ///< lost by the integrator
+  double jumps = 0;           ///< of the total at cuts
+  double remainder = 0;       ///< gained, and not explained by the above
+};
+
+/// Of these the energy of each step can be accounted for. At rest there is no step; the forces that sweeps of xpbd leave
+/// over are not known.
+constexpr bool keeps_budget(Integrator integrator) {
+  return integrator != Integrator::equilibrium && integrator != Integrator::xpbd;
+}
+
+class EnergyBudget {
+ public:
+  /// The largest rises over any span of time, relative to the largest kinetic + elastic energy so far: of the remainder,
+  /// which only an error can raise and no damping or loss can hide; of the sum of the jumps, which are errors of the
+  /// mesh, for a cut does not move the sheet; and of the total, less work of pins and jumps.
+  struct Gains {
+    double remainder = 0, jumps = 0, unexplained = 0;
+  };
+  /// A scene whose gains exceed them has the verdict energy_growth. The errors of an explicit step are in its loss and
+  /// its damping, and even a stable one lets the total swing.
+  static constexpr double most_remainder = 0.05, most_jumps = 0.05, most_unexplained = 0.01,
+                          most_unexplained_explicit = 0.5;
+
+  /// \param noise  J: energies below it are rounding
+  /// \param time   s, of the first moment
+  /// \pre balance_of() the first moment; the integrator is not equilibrium.
+  explicit EnergyBudget(const Balance& first, Integrator integrator = Integrator::backward_euler, double noise = 0,
+                        double time = 0);
+
+  /// After a step from `before` to `after`: \pre the model's matrix is still that step's.
+  template <int D>
+  void add_step(Model<D>& model, const State& before, const State& after, double step);
+  void add_cut(const Balance& before, const Balance& after);
+
+  const std::vector<BudgetRow>& rows() const { return rows_; }
+  Gains gains() const;
+  /// What exceeds its bound, in words; empty: nothing.
+  std::string fault() const;
+  /// CSV. Throws OutputError.
+  void write(const std::filesystem::path& file) const;
+
+ private:
+  /// The largest rise over any span.
+  struct Rise {
+    double lowest = 0, largest = 0;
+    void add(double value) { lowest = std::min(lowest, value), largest = std::max(largest, value - lowest); }
+  };
+  void judge_last();
+
+  Integrator integrator_;
+  std::vector<BudgetRow> rows_;
+  double scale_;
+  Rise remainder_, jumps_, unexplained_;
+};
+
+}  // namespace cutbench

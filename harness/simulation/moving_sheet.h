@@ -1,0 +1,42 @@
+// A scene's sheet with everything that a step or a cut changes.
+#pragma once
+
+#include <vector>
+
+#include "harness/fem/model/state.h"
+#include "harness/mesh/locator.h"
+#include "harness/simulation/scene.h"
+
+namespace cutbench {
+
+template <int D>
+struct MovingSheet {
+  /// At the scene's first moment. Throws InputError.
+  explicit MovingSheet(const Scene& scene)
+      : sheet(mesh_of(scene)),
+        locator(sheet),
+        pins(pins_of(scene, sheet)),
+        model(sheet, scene.material, scene.physics, pins, scene.tractions),
+        state(initial_state(model, sheet)) {
+    hold_tied_vertices(pins, scene.tractions, sheet);
+  }
+
+  /// The sheet with its vertices where they are now.
+  Sheet posed() const {
+    Sheet posed = sheet;
+    for (std::size_t v = 0; v < posed.deformed_slots(); ++v) {
+      const auto x = state.x.template segment<D>(static_cast<Eigen::Index>(D * v));
+      posed.set_position(DeformedIndex(v), {x[0], x[1], D == 3 ? x[D - 1] : 0});
+    }
+    return posed;
+  }
+  Balance balance() { return balance_of(model, state); }
+
+  Sheet sheet;
+  Locator locator;
+  std::vector<Pin> pins;
+  Model<D> model;
+  State state;
+};
+
+}  // namespace cutbench

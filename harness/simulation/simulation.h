@@ -1,0 +1,64 @@
+// A running simulation and the cuts made in it. A cut comes right after a step; then the state of new vertices is
+// transferred, the model is updated, and the next step follows.
+#pragma once
+
+#include <memory>
+
+#include "harness/cut/cut_all.h"
+#include "harness/fem/time/stepper.h"
+#include "harness/simulation/energy_budget.h"
+#include "harness/simulation/motion_cut.h"
+#include "harness/simulation/scene.h"
+#include "harness/simulation/step_log.h"
+
+namespace cutbench {
+
+/// How the steps of a simulation went: `ok`, or what went wrong with them, first. A verdict that ends the simulation
+/// takes the place of one that doesn't.
+///   not_finite      a position, velocity or energy: ends it
+///   solver_stalled  the linear solver did not reach its tolerance, or a piece at rest is held nowhere: ends it
+///   newton_failed   Newton's method did not converge (StepReport::newton_residual): ends it
+///   timed_out       it took longer than limit_time(): ends it
+///   inverted        triangles are turned over (turned_over.h): any in the plane, over 1 % of the area in space
+///   energy_growth   energy came from nowhere (EnergyBudget::fault())
+struct SimulationVerdict {
+  std::string name = "ok", reason;
+  double time = 0;  ///< s, simulated: when it was found
+};
+
+/// Largest stable steps of symplectic Euler, s (explicit_step_limit()); NaN with constrained vertices and of springs.
+struct StepLimits {
+  double membrane = 0, with_bending = 0;
+};
+
+class Simulation {
+ public:
+  virtual ~Simulation() = default;
+  /// The scene at its first moment. Throws InputError.
+  static std::unique_ptr<Simulation> start(const Scene& scene);
+
+  virtual const Sheet& sheet() const = 0;
+  virtual Sheet posed_sheet() const = 0;  ///< with the vertices where they are now
+  /// Steps, with the scene's own cuts made by `method` when they are due. Returns the first report that is not ok, or
+  /// the last one. Throws InputError where a pick misses the sheet.
+  virtual StepReport advance(double time, CuttingMethod& method, const CutOptions& options) = 0;
+  /// Makes one step, the cuts, and one more step, and then restores the state before.
+  virtual MotionCut try_cut(const std::vector<Curve>& cuts, Cutter& cutter, CuttingMethod& method,
+                            const CutOptions& options) = 0;
+  virtual Balance balance() = 0;
+  virtual const std::vector<MotionCut>& made_cuts() const = 0;  ///< by advance(), with what jumped
+  virtual const std::vector<LoggedStep>& steps() const = 0;     ///< made by advance()
+  virtual double time() const = 0;
+  /// From now on every step is judged by its energies and shapes, outside the step's clock: a quarter of a step more.
+  virtual void watch() = 0;
+  virtual const EnergyBudget* budget() const = 0;  ///< none where it isn't watched, and in equilibrium
+  /// Of the steps so far; energies and shapes only where it is watched.
+  virtual const SimulationVerdict& verdict() const = 0;
+  /// advance() makes no more steps once the process has taken so long from now on. \param seconds  of processor time
+  virtual void limit_time(double seconds) = 0;
+  /// Of the sheet as it is cut now, at rest and with nothing held; NaN where the method ties vertices. Looks at
+  /// everything.
+  virtual StepLimits step_limits() = 0;
+};
+
+}  // namespace cutbench

@@ -1,0 +1,57 @@
+#include "harness/simulation/turned_over.h"
+
+#include <Eigen/Geometry>
+
+#include "harness/mesh/predicates.h"
+
+namespace cutbench {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// Half the cross product of two sides in space.
+Vector3d area_vector(const ElementTable& elements, TriangleIndex t, const Field& x) {
+  const Element& e = elements[t()];
+  if (!e.is_triangle()) {
+    const auto f = elements.polygon(static_cast<std::size_t>(e.polygon)).map<3>(x).gradient;
+    return e.area * f.col(0).cross(f.col(1));
+  }
+  const auto at = [&](std::size_t k) { return Vector3d(x.segment<3>(3 * e.vertex[k].value)); };
+  return (at(1) - at(0)).cross(at(2) - at(0)) / 2;
+}
+
+bool is_turned_in_plane(const ElementTable& elements, TriangleIndex t, const Field& x) {
+  const Element& e = elements[t()];
+  if (!e.is_triangle())
+    return elements.polygon(static_cast<std::size_t>(e.polygon)).map<2>(x).gradient.determinant() <= 0;
+  const auto at = [&](std::size_t k) { return Point2{x[2 * e.vertex[k].value], x[2 * e.vertex[k].value + 1]}; };
+  return orientation(at(0), at(1), at(2)) <= 0;
+}
+
+bool is_turned_in_space(const Sheet& sheet, const ElementTable& elements, TriangleIndex t, const Field& x) {
+  const Triangle& triangle = sheet.triangle(t);
+  Vector3d around = Vector3d::Zero();
+  for (std::size_t k = 0; k < 3; ++k)
+    if (triangle.opposite[k].valid() && triangle.mark[k] != EdgeMark::incision)
+      around += area_vector(elements, triangle_of(triangle.opposite[k]), x);
+  return around.dot(area_vector(elements, t, x)) < 0;
+}
+
+}  // namespace
+
+TurnedOver turned_over(const Sheet& sheet, const ElementTable& elements, const Field& x, int dimension) {
+  TurnedOver found;
+  double all = 0;
+  for (std::size_t i = 0; i < sheet.triangle_slots(); ++i) {
+    const TriangleIndex t(i);
+    if (!elements[i].alive()) continue;
+    all += elements[i].area;
+    if (!(dimension == 2 ? is_turned_in_plane(elements, t, x) : is_turned_in_space(sheet, elements, t, x))) continue;
+    ++found.triangles, found.area += elements[i].area;
+  }
+  if (all > 0) found.area /= all;
+  return found;
+}
+
+}  // namespace cutbench

@@ -1,0 +1,339 @@
+#include "harness/study/accuracy.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+
+#include "harness/base/own_seed.h"
+#include "harness/study/progress.h"
+#include "harness/cut/cut_all.h"
+#include "harness/judge/assessment.h"
+#include "harness/judge/judged_sheet.h"
+#include "harness/mesh/families.h"
+#include "harness/records/metrics.h"
+#include "harness/study/accuracy_summary.h"
+#include "harness/study/right_results.h"
+#include "harness/study/worker.h"
+#include "harness/problems/common/problem.h"
+
+namespace cutbench {
+
+namespace {
+
+/// Errors of the reference below it are round-off: no measuring stick.
+constexpr double exact_to_rounding = 1e-9;
+
+/// Solver, budget and tip functions, too, say what was measured.
+constexpr std::size_t accuracy_key_columns = key_columns + 3;
+
+using Clock = std::chrono::steady_clock;
+
+double us_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
+}
+
+/// The errors of the reference, solved directly, by the name of the measure.
+using Yardstick = std::map<std::string, double>;
+
+class AccuracyRun {
+ public:
+  AccuracyRun(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
+              const RunOptions& options)
+      : experiment_(experiment),
+        plan_(*experiment.accuracy),
+        options_(options),
+        file_(std::filesystem::path(options.out) / experiment.stem, identity(experiment, context, options),
+              accuracy_columns(), accuracy_key_columns) {
+    for (const Variant& v : variants_of(experiment, methods)) workers_.emplace_back(v);
+    for (const auto& solver : plan_.direct) direct_.push_back({.solver = {.name = solver}});
+    budgets_ = direct_;
+    if (plan_.tip_functions)
+      for (Budget with : direct_) with.tip_functions = true, budgets_.push_back(with);
+    for (const auto& solver : plan_.preconditioners)
+      for (int n : plan_.iterations) budgets_.push_back({.solver = {.name = solver}, .iterations = n});
+    cut_options_.chord_tolerance = experiment.chord_tolerance;
+  }
+
+  void run() {
+    if (!file_.note().empty() && !options_.quiet)
+      std::fprintf(stderr, "%s: %s\n", experiment_.stem.c_str(), file_.note().c_str());
+    std::size_t total = 0;
+    for (const auto& name : plan_.problems)
+      for (int resolution : experiment_.resolutions) total += members(find_problem(name), resolution);
+    Progress progress(experiment_.stem, total * experiment_.sheets.size(), options_.quiet);
+    std::size_t number = 0;
+    for (const auto& name : plan_.problems) {
+      const Problem& problem = find_problem(name);
+      for (const auto& sheet : experiment_.sheets)
+        for (int resolution : experiment_.resolutions)
+          for (std::size_t i = 0; i < members(problem, resolution); ++i, progress.step())
+            if (options_.is_ours(number++)) run_member(problem, sheet, resolution, i);
+    }
+  }
+
+  RecordFile& file() { return file_; }
+  const std::map<std::string, double>& minutes() const { return minutes_; }
+
+  /// Of the rows, those of before a resumption too.
+  AccuracySummary summary() const {
+    AccuracySummary summary;
+    for (const std::string& line : file_.lines()) summary.add(Record(accuracy_columns(), line));
+    return summary;
+  }
+
+ private:
+  static std::string identity(const Experiment& e, const Context& context, const RunOptions& options) {
+    return nlohmann::json{context.identity(),
+                          e.stem,
+                          e.sheets,
+                          e.resolutions,
+                          identity_of_methods(e),
+                          e.seed,
+                          e.chord_tolerance,
+                          e.accuracy->problems,
+                          e.accuracy->direct,
+                          e.accuracy->preconditioners,
+                          e.accuracy->members,
+                          e.accuracy->members_nonlinear,
+                          e.accuracy->iterations,
+                          e.accuracy->tip_functions,
+                          e.accuracy->reference}
+               .dump() +
+           shard_line(options);
+  }
+
+  std::size_t members(const Problem& problem, int resolution) const {
+    const auto& plan = problem.takes_budgets() ? plan_.members : plan_.members_nonlinear;
+    const auto found =
+        std::find_if(plan.begin(), plan.end(), [&](const auto& entry) { return entry.first == resolution; });
+    return static_cast<std::size_t>(found->second);
+  }
+
+  const std::vector<Budget>& budgets_for(const Problem& problem) const {
+    return problem.takes_budgets() ? budgets_ : direct_;
+  }
+
+  void run_member(const Problem& problem, const std::string& family, int resolution, std::size_t i) {
+    Record start(accuracy_columns());
+    start.set("suite_version", std::string(suite_version)), start.set("problem", problem.name());
+    start.set("sheet", family), start.set("resolution", std::int64_t{resolution});
+    start.set("case", static_cast<std::int64_t>(i)), start.set("repetition", std::int64_t{0});
+    start.set("seed", static_cast<std::int64_t>(experiment_.seed)), start.set("cache", std::string("warm"));
+    start.set("primary", problem.measures().front());
+    const auto of_worker = [&](const Worker& worker) {
+      Record row = start;
+      row.set("method", worker.variant.row->name), row.set("knob", worker.variant.knob_text());
+      return row;
+    };
+    Record of_reference = start;
+    of_reference.set("method", std::string(reference_method));
+    if ((!plan_.reference || is_done(of_reference, problem)) &&
+        std::all_of(workers_.begin(), workers_.end(),
+                    [&](const Worker& worker) { return is_done(of_worker(worker), problem); }))
+      return;
+
+    const Specimen specimen =
+        problem.specimen(family, squares_per_side(resolution), own_seed(experiment_.seed, problem.name()), i);
+    const BaseSheet base{Sheet(specimen.mesh)};
+    Yardstick yardstick;
+    if (plan_.reference) yardstick = run_reference(problem, specimen, base, of_reference);
+    for (Worker& worker : workers_)
+      if (!is_done(of_worker(worker), problem))
+        run_method(problem, specimen, base, worker, of_worker(worker), yardstick);
+  }
+
+  bool is_done(Record row, const Problem& problem) const {
+    const auto& budgets = budgets_for(problem);
+    return std::all_of(budgets.begin(), budgets.end(), [&](const Budget& budget) {
+      set_budget(row, budget);
+      return file_.has(key(row));
+    });
+  }
+
+  static void set_budget(Record& row, const Budget& budget) {
+    row.set("solver", budget.solver.name), row.set("budget", std::int64_t{budget.iterations});
+    row.set("tip_functions", std::int64_t{budget.tip_functions});
+  }
+  static std::string key(const Record& row) { return row.key(accuracy_key_columns); }
+
+  Yardstick run_reference(const Problem& problem, const Specimen& specimen, const BaseSheet& base, Record row) {
+    const auto start = Clock::now();
+    row.set("exact_incision", std::int64_t{1});
+    std::optional<Sheet> sheet;
+    try {
+      sheet = body_fitted(specimen);
+      row.set("cut_us", us_since(start));
+      // Its edges are chords of about h: what they cut off a curve is part of its error, not a fault.
+      CutOptions chords = cut_options_;
+      chords.chord_tolerance = std::numeric_limits<double>::infinity();
+      const Assessment a =
+          assess_result(base.sheet, sheet->to_mesh_data(), specimen.cuts, promises_of_everybody, chords);
+      row.set("status", std::string("ok"));
+      set_assessment(row, nullptr, a, base);
+      if (!a.judgement.ok) sheet.reset();
+    } catch (const std::exception& error) {
+      set_failure(row, "failed", "crashed", error.what());
+      sheet.reset();
+    }
+    const Yardstick yardstick = answer(problem, specimen, sheet ? &*sheet : nullptr, {}, row, {});
+    minutes_[reference_method] += us_since(start) / 60e6;
+    return yardstick;
+  }
+
+  void run_method(const Problem& problem, const Specimen& specimen, const BaseSheet& base, Worker& worker, Record row,
+                  const Yardstick& yardstick) {
+    const auto start = Clock::now();
+    worker.forget_base();
+    const CutRun cut = worker.measure(base, specimen.cuts, cut_options_, false);
+    fill(row, {.cut = &cut});
+    row.set("exact_incision", std::int64_t{worker.variant.row->promises.exact_incision});
+    row.set("cut_us", cut.time_us.total());
+    bool solvable = cut.status != Status::failed && cut.status != Status::refused;
+    if (solvable) {
+      const Variant& v = worker.variant;
+      const oracle::Judgement judgement =
+          judge_one_by_one(base.sheet, worker.sheet, specimen.cuts, v.row->promises, v.row->make(v.knob), cut_options_);
+      const Assessment a = assess(base.sheet, worker.sheet, judgement, {});
+      set_assessment(row, &cut, a, base);
+      solvable = a.judgement.ok;
+    }
+    const bool takes_them = (worker.ties.ties.empty() || problem.takes_ties()) &&
+                            (worker.ties.polygons.empty() || problem.takes_polygons());
+    if (solvable && !takes_them) {
+      row.set("status", std::string(name_of(Status::refused)));
+      row.set("reason", std::string("vertices are tied or triangles merged, which the problem does not take"));
+      solvable = false;
+    }
+    answer(problem, specimen, solvable ? &worker.sheet : nullptr, worker.ties, row, yardstick);
+    minutes_[AccuracySummary::label(row.get("method"), row.get("knob"))] += us_since(start) / 60e6;
+  }
+
+  static void set_failure(Record& row, const std::string& status, const std::string& verdict, const std::string& why) {
+    row.set("status", status), row.set("verdict", verdict), row.set("reason", why);
+  }
+
+  static void set_assessment(Record& row, const CutRun* cut, const Assessment& a, const BaseSheet& base) {
+    fill(row, {.h = base.sheet.mean_edge(), .cut = cut, .judged = true, .assessment = &a});
+    row.set("triangles", static_cast<std::int64_t>(base.sheet.triangle_count()) + a.triangles_added);
+  }
+
+  /// A row per budget. `sheet`: null where there is nothing to solve, which the row says already. Returns the errors of
+  /// the first direct solve.
+  Yardstick answer(const Problem& problem, const Specimen& specimen, const Sheet* sheet, const Ties& ties, Record& row,
+                   const Yardstick& yardstick) {
+    const std::vector<Budget>& budgets = budgets_for(problem);
+    std::vector<Answer> answers;
+    try {
+      if (sheet) answers = problem.answer(specimen, *sheet, budgets, ties);
+    } catch (const std::exception& error) {
+      set_failure(row, row.get("status"), "crashed", error.what());
+    }
+    Yardstick errors;
+    if (!answers.empty() && answers.front().verdict == "ok")
+      for (const Measure& m : answers.front().measures) errors[m.name] = m.error;
+    const bool is_reference = row.get("method") == reference_method;
+    for (std::size_t b = 0; b < budgets.size(); ++b) {
+      Record full = row;
+      set_budget(full, budgets[b]);
+      if (b < answers.size()) set_answer(full, answers[b], is_reference ? errors : yardstick);
+      if (!file_.has(key(full))) file_.append(full);
+    }
+    return errors;
+  }
+
+  static void set_answer(Record& row, const Answer& answer, const Yardstick& yardstick) {
+    if (answer.refused) {
+      row.set("status", std::string(name_of(Status::refused))), row.set("reason", answer.reason);
+      return;
+    }
+    row.set("unknowns", static_cast<std::int64_t>(answer.unknowns));
+    row.set("assemble_us", answer.assemble_us);
+    row.set("setup_us", answer.setup_us), row.set("solve_us", answer.solve_us);
+    row.set("total_us", std::stod(row.get("cut_us")) + answer.assemble_us + answer.setup_us + answer.solve_us);
+    row.set("iterations", std::int64_t{answer.iterations}), row.set("residual", answer.residual);
+    row.set("verdict", answer.verdict), row.set("reason", answer.reason);
+    if (answer.verdict != "ok") return;
+    for (const Measure& m : answer.measures) {
+      const auto reference = yardstick.find(m.name);
+      const bool measurable = reference != yardstick.end() && reference->second > exact_to_rounding;
+      const double excess = measurable ? m.error / reference->second - 1 : 0;
+      row.set("value_" + m.name, m.value), row.set("exact_" + m.name, m.exact), row.set("error_" + m.name, m.error);
+      if (measurable) row.set("excess_" + m.name, excess);
+      if (m.name != row.get("primary")) continue;
+      row.set("error", m.error);
+      if (measurable) row.set("excess_error", excess);
+    }
+  }
+
+  const Experiment& experiment_;
+  const Experiment::Accuracy& plan_;
+  const RunOptions& options_;
+  RecordFile file_;
+  CutOptions cut_options_;
+  std::vector<Worker> workers_;
+  std::vector<Budget> direct_, budgets_;  // budgets_: the direct ones first
+  std::map<std::string, double> minutes_;
+};
+
+}  // namespace
+
+const std::vector<std::string>& accuracy_columns() {
+  static const std::vector<std::string> columns = [] {
+    std::vector<std::string> names = key_column_names("problem"), measures;
+    for (const char* name : {"solver",
+                             "budget",
+                             "tip_functions",
+                             "status",
+                             "verdict",
+                             "reason",
+                             "exact_incision",
+                             "cut_us",
+                             "assemble_us",
+                             "setup_us",
+                             "solve_us",
+                             "total_us",
+                             "unknowns",
+                             "triangles",
+                             "vertices_added",
+                             "iterations",
+                             "residual",
+                             "crossed_triangles",
+                             "incision_error_h",
+                             "ar_max_cut",
+                             "ar_max_all",
+                             "angle_max_deg_cut",
+                             "altitude_min_h_cut",
+                             "primary",
+                             "error",
+                             "excess_error"})
+      names.emplace_back(name);
+    for (const auto& problem : all_problems())
+      for (const std::string& measure : problem->measures())
+        if (std::find(measures.begin(), measures.end(), measure) == measures.end()) measures.push_back(measure);
+    measures.insert(measures.end(), tip_measures.begin(), tip_measures.end());
+    for (const std::string& measure : measures)
+      for (const char* kind : {"value_", "exact_", "error_", "excess_"}) names.push_back(kind + measure);
+    return names;
+  }();
+  return columns;
+}
+
+bool run_accuracy(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
+                  const RunOptions& options) {
+  AccuracyRun run(experiment, methods, context, options);
+  run.run();
+  run.file().finish(context, experiment.stem, experiment.claim, options.command, experiment.seed);
+  const AccuracySummary summary = run.summary();
+  if (!options.quiet) summary.print(experiment.stem, run.minutes());
+  RightResults results;
+  for (const std::string& line : run.file().lines()) results.add(Record(accuracy_columns(), line));
+  return results.report(experiment, options.quiet) && summary.all_ok();
+}
+
+}  // namespace cutbench

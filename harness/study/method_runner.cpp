@@ -1,0 +1,331 @@
+#include "harness/study/method_runner.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "harness/processes/isolated.h"
+#include "harness/base/own_seed.h"
+#include "harness/study/progress.h"
+#include "harness/cases/cut_families.h"
+#include "harness/cut/cut_all.h"
+#include "harness/fem/model/largest_eigenvalue.h"
+#include "harness/judge/assessment.h"
+#include "harness/judge/judged_sheet.h"
+#include "harness/mesh/families.h"
+#include "harness/records/metrics.h"
+#include "harness/study/chill_caches.h"
+#include "harness/study/every_edge.h"
+#include "harness/study/right_results.h"
+#include "harness/study/summary.h"
+#include "harness/study/worker.h"
+#include "harness/simulation/simulation.h"
+
+namespace cutbench {
+
+namespace {
+
+/// The skin of experiments/scenes, whose side is 1 m: 2 mm thick.
+constexpr Elasticity bent_skin{.poisson = 0.45, .bending = BendingKind::patches, .bending_length2 = 4.2e-7};
+
+/// A cut that takes longer, its judgement included, is ended.
+constexpr double longest_cut_s = 600;
+
+/// A cut and what is known of it, for all methods.
+struct Case {
+  std::string sheet, family;
+  int resolution = 0;
+  std::size_t number = 0;
+  std::vector<Curve> cuts;
+  std::vector<oracle::ForcedCorner> forced;
+};
+
+class Runner {
+ public:
+  Runner(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
+         const RunOptions& options)
+      : experiment_(experiment),
+        options_(options),
+        file_(std::filesystem::path(options.out) / experiment.stem, identity(experiment, context, options)) {
+    for (const Variant& v : variants_of(experiment, methods)) workers_.emplace_back(v);
+    cut_options_.chord_tolerance = experiment.chord_tolerance;
+  }
+
+  void run() {
+    const auto cases = static_cast<std::size_t>(experiment_.cases);
+    const std::size_t groups =
+        experiment_.sheets.size() * experiment_.resolutions.size() * experiment_.cut_families.size();
+    Progress progress(experiment_.stem, groups * cases, options_.quiet);
+    if (!file_.note().empty() && !options_.quiet)
+      std::fprintf(stderr, "%s: %s\n", experiment_.stem.c_str(), file_.note().c_str());
+    std::size_t item = 0;
+    for (const auto& sheet : experiment_.sheets)
+      for (int resolution : experiment_.resolutions) {
+        bool is_made = false;
+        for (const auto& family : experiment_.cut_families) {
+          const std::vector<std::size_t> numbers = options_.ours(item, cases);
+          item += cases;
+          if (!numbers.empty() && !is_made) make_base(sheet, resolution), is_made = true;
+          if (experiment_.times)
+            for (const std::size_t i : numbers) run_case(drawn(sheet, resolution, family, i)), progress.step();
+          else
+            judge_on_all_cores(sheet, resolution, family, numbers), progress.step(numbers.size());
+          progress.step(cases - numbers.size());
+        }
+      }
+  }
+
+  RecordFile& file() { return file_; }
+  const Summary& summary() const { return summary_; }
+
+ private:
+  /// All that rows depend on, and which rows there are.
+  static std::string identity(const Experiment& e, const Context& context, const RunOptions& options) {
+    return nlohmann::json{context.identity(e.times),
+                          e.stem,
+                          e.sheets,
+                          e.cut_families,
+                          e.resolutions,
+                          identity_of_methods(e),
+                          e.seed,
+                          e.cases,
+                          e.repetitions,
+                          e.times,
+                          e.cold,
+                          e.quality,
+                          e.every_edge,
+                          e.chord_tolerance,
+                          e.scene_text,
+                          e.cut_time,
+                          e.scene_cases,
+                          e.eigenvalue_cases,
+                          e.own_cuts}
+               .dump() +
+           shard_line(options);
+  }
+
+  void make_base(const std::string& sheet, int resolution) {
+    start_scene(sheet, resolution);
+    base_ = BaseSheet(motion_ ? motion_->sheet() : Sheet(make_sheet(sheet, squares_per_side(resolution))));
+    for (Worker& worker : workers_) worker.forget_base();
+    if (experiment_.eigenvalue_cases > 0)
+      base_eigenvalue_ = largest_eigenvalue(base_.sheet),
+      base_bending_ = largest_eigenvalue(base_.sheet, {}, bent_skin);
+  }
+
+  Case drawn(const std::string& sheet, int resolution, const std::string& family, std::size_t i) const {
+    std::uint64_t seed = experiment_.seed;
+    if (experiment_.own_cuts) seed = own_seed(own_seed(seed, sheet), std::to_string(resolution));
+    return {sheet, family, resolution, i, make_case(family, seed, i, base_.sheet), {}};
+  }
+
+  Record start_row(const Case& c, const std::string& method, const std::string& knob, int repetition,
+                   const char* cache) const {
+    Record row;
+    row.set("suite_version", std::string(suite_version)), row.set("cut_family", c.family), row.set("sheet", c.sheet);
+    row.set("method", method), row.set("knob", knob), row.set("resolution", std::int64_t{c.resolution});
+    row.set("case", static_cast<std::int64_t>(c.number)), row.set("repetition", std::int64_t{repetition});
+    row.set("seed", static_cast<std::int64_t>(experiment_.seed)), row.set("cache", std::string(cache));
+    return row;
+  }
+  Record start_row(const Case& c, const Worker& worker, int repetition, const char* cache) const {
+    return start_row(c, worker.variant.row->name, worker.variant.knob_text(), repetition, cache);
+  }
+
+  /// Cuts and fills the row of the first repetition.
+  void judge(Case& c, Worker& worker, Record& row, Summary::Cut& summary) {
+    const CutRun run = worker.cut(base_, c.cuts, cut_options_);
+    if (c.forced.empty() && experiment_.quality) c.forced = forced_corners_of(base_.sheet, c.cuts);
+    judge_into(row, summary, worker, c.cuts, c.forced, run);
+    summary.crossed_triangles = static_cast<double>(run.crossed_triangles);
+    if (static_cast<int>(c.number) < experiment_.eigenvalue_cases && row.get("verdict") == "ok" &&
+        (run.status == Status::ok || run.status == Status::deviated))
+      fill_eigenvalues(row, worker);
+  }
+
+  /// What a child process tells of a cut.
+  struct Told {
+    std::array<char, 4000> line{};
+    Summary::Cut summary;
+  };
+
+  void judge_on_all_cores(const std::string& sheet, int resolution, const std::string& family,
+                          const std::vector<std::size_t>& numbers) {
+    std::vector<Case> cases;
+    for (const std::size_t i : numbers) cases.push_back(drawn(sheet, resolution, family, i));
+    std::vector<std::pair<Case*, Worker*>> missing;
+    for (Case& c : cases)
+      for (Worker& worker : workers_)
+        if (!file_.has(start_row(c, worker, 0, "warm").key())) missing.emplace_back(&c, &worker);
+    const SharedArray<Told> told(missing.size());
+    const auto fates = run_isolated(missing.size(), {options_.workers, longest_cut_s}, [&](std::size_t k) {
+      Record row = start_row(*missing[k].first, *missing[k].second, 0, "warm");
+      judge(*missing[k].first, *missing[k].second, row, told[k].summary);
+      for (const std::string& time : columns_of({Group::time})) row.set(time, std::string());
+      row.line().copy(told[k].line.data(), told[k].line.size() - 1);
+    });
+    for (std::size_t k = 0; k < missing.size(); ++k) {
+      const Worker& worker = *missing[k].second;
+      Record row = start_row(*missing[k].first, worker, 0, "warm");
+      Summary::Cut summary = told[k].summary;
+      if (fates[k] == Fate::done) {
+        row = Record(column_names(), told[k].line.data());
+      } else {
+        row.set("status", std::string(name_of(Status::failed)));
+        row.set("verdict", std::string(fates[k] == Fate::timed_out ? "timed_out" : "crashed"));
+        summary.ok = false;
+      }
+      file_.append(row);
+      summary.refused = row.get("status") == name_of(Status::refused);
+      summary_.add(resolution, worker.variant.row->name, worker.variant.knob_text(), summary);
+    }
+  }
+
+  void run_case(Case c) {
+    // A first, unrecorded cut by each method, which is judged and warms up; then the repetitions with the methods in
+    // turn, so that a slow spell of the machine hits all alike.
+    std::vector<Record> judged;
+    std::vector<Summary::Cut> summaries(workers_.size());
+    for (std::size_t w = 0; w < workers_.size(); ++w) {
+      Record& row = judged.emplace_back(start_row(c, workers_[w], 0, "warm"));
+      if (!file_.has(row.key())) judge(c, workers_[w], row, summaries[w]);
+    }
+    std::size_t crossed = 0;
+    for (int r = 0; r < experiment_.repetitions + (experiment_.cold ? 1 : 0); ++r) {
+      const bool cold = r == experiment_.repetitions;
+      const int repetition = cold ? 0 : r;
+      const char* cache = cold ? "cold" : "warm";
+      for (std::size_t w = 0; w < workers_.size(); ++w) {
+        Worker& worker = workers_[w];
+        Record row = start_row(c, worker, repetition, cache);
+        if (file_.has(row.key())) continue;
+        const CutRun run = worker.measure(base_, c.cuts, cut_options_, cold);
+        if (run.crossed_triangles > 0) crossed = run.crossed_triangles;
+        if (r == 0)
+          fill(row = judged[w], {.cut = &run}, {Group::time});
+        else
+          fill(row, {.cut = &run});
+        file_.append(row);
+        if (!cold) summarize(c.resolution, worker.variant, summaries[w], run);
+      }
+      if (experiment_.every_edge && crossed == 0)  // all rows but this one were there
+        for (Worker& worker : workers_)
+          crossed = std::max(crossed, worker.cut(base_, c.cuts, cut_options_).crossed_triangles);
+      if (experiment_.every_edge)
+        time_every_edge(c.cuts, start_row(c, "every_edge", "", repetition, cache), c.resolution, crossed, cold);
+    }
+    if (!motion_ || c.number >= static_cast<std::size_t>(experiment_.scene_cases)) return;
+    for (Worker& worker : workers_) run_in_motion(c.cuts, worker, start_row(c, worker, 0, "simulation"));
+  }
+
+  void fill_eigenvalues(Record& row, const Worker& worker) const {
+    Measured measured{.membrane = ratios(worker.sheet, worker.ties, {}, base_eigenvalue_)};
+    if (worker.ties.phantoms == 0)  // phantom nodes do not bend
+      measured.bent = ratios(worker.sheet, worker.ties, bent_skin, base_bending_);
+    fill(row, measured, {Group::stability});
+  }
+
+  EigenvalueRatios ratios(const Sheet& sheet, const Ties& ties, Elasticity elasticity, double base) const {
+    EigenvalueRatios ratios{.lumped = largest_eigenvalue(sheet, ties, elasticity) / base};
+    if (!ties.ties.empty()) return ratios;
+    elasticity.mass_limit = largest_element_eigenvalue(base_.sheet, elasticity);
+    elasticity.mass = Mass::stabilised;
+    ratios.stabilised = largest_eigenvalue(sheet, ties, elasticity) / base;
+    elasticity.mass = Mass::scaled;
+    ratios.scaled = largest_eigenvalue(sheet, ties, elasticity) / base;
+    ratios.scaled_added = added_mass_share(sheet, ties, elasticity);
+    return ratios;
+  }
+
+  /// The experiment's scene on this sheet, brought to the last step before the cut.
+  void start_scene(const std::string& sheet, int resolution) {
+    if (!experiment_.scene) return;
+    Scene scene = *experiment_.scene;
+    scene.family = sheet, scene.resolution = resolution;
+    motion_ = Simulation::start(scene);
+    const StepReport report =
+        motion_->advance(experiment_.cut_time - scene.step, *workers_.front().method, cut_options_);
+    if (report.verdict != "ok")
+      throw InputError(scene.stem + ": the scene fails before its cut (" + report.verdict + "; " + report.reason +
+                       "); change its step or its solver");
+  }
+
+  /// The cut made in the running scene, where nothing is warmed up for it.
+  void run_in_motion(const std::vector<Curve>& cuts, Worker& worker, Record row) {
+    if (file_.has(row.key())) return;
+    const MotionCut m = motion_->try_cut(cuts, worker.cutter, *worker.method, cut_options_);
+    fill(row, {.cut = &m.cut, .motion = &m});
+    file_.append(row);
+    if (m.verdict != "ok") summary_.add_failure();
+  }
+
+  void summarize(int resolution, const Variant& variant, Summary::Cut cut, const CutRun& run) {
+    cut.geometry_us = run.time_us.total(), cut.crossed_triangles = static_cast<double>(run.crossed_triangles);
+    cut.refused = run.status == Status::refused;
+    cut.ok = cut.ok && run.verdict == "ok";
+    summary_.add(resolution, variant.row->name, variant.knob_text(), cut);
+  }
+
+  void judge_into(Record& row, Summary::Cut& summary, const Worker& worker, const std::vector<Curve>& cuts,
+                  const std::vector<oracle::ForcedCorner>& forced, const CutRun& run) {
+    fill(row, {.cut = &run, .judged = true});
+    summary.ok = run.verdict == "ok";
+    if (run.status == Status::failed || run.status == Status::refused) return;
+    const Variant& v = worker.variant;
+    const oracle::Judgement judgement =
+        judge_one_by_one(base_.sheet, worker.sheet, cuts, v.row->promises, v.row->make(v.knob), cut_options_);
+    const Assessment a = assess(base_.sheet, worker.sheet, judgement, forced);
+    fill(row,
+         {.h = base_.sheet.mean_edge(), .cut = &run, .judged = true, .assessment = &a, .shapes = experiment_.quality});
+    summary.ok = a.judgement.ok, summary.vertices_added = static_cast<double>(a.vertices_added);
+    if (!experiment_.quality) return;
+    if (a.cut.triangles > 0) summary.ar_max_cut = a.cut.ar_max;
+    summary.over_3_cut = static_cast<double>(a.cut.over_3);
+  }
+
+  void time_every_edge(const std::vector<Curve>& cuts, Record row, int resolution, std::size_t crossed, bool cold) {
+    if (file_.has(row.key())) return;
+    if (cold) chill_caches();
+    const auto start = std::chrono::steady_clock::now();
+    std::size_t crossings = 0;
+    for (const Curve& curve : cuts)
+      if (curve.kind == Curve::Kind::bezier) crossings += count_crossings_by_every_edge(base_.sheet, curve);
+    const double us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+    row.set("geometry_us", us);
+    row.set("status", std::string("ok"));
+    row.set("verdict", std::string(crossings > 0 ? "ok" : "not_terminated"));
+    row.set("crossed_triangles", static_cast<std::int64_t>(crossed));  // the cut's, as a unit
+    file_.append(row);
+    Summary::Cut summary;
+    summary.geometry_us = us, summary.crossed_triangles = static_cast<double>(crossed);
+    if (!cold) summary_.add(resolution, "every_edge", "", summary);
+  }
+
+  const Experiment& experiment_;
+  const RunOptions& options_;
+  RecordFile file_;
+  std::vector<Worker> workers_;
+  CutOptions cut_options_;
+  BaseSheet base_;
+  double base_eigenvalue_ = 0, base_bending_ = 0;  // of its sheet, where they are asked for
+  std::unique_ptr<Simulation> motion_;
+  Summary summary_;
+};
+
+}  // namespace
+
+bool run_methods(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
+                 const RunOptions& options) {
+  Runner runner(experiment, methods, context, options);
+  runner.run();
+  runner.file().finish(context, experiment.stem, experiment.claim, options.command, experiment.seed);
+  if (!options.quiet) runner.summary().print(experiment.stem);
+  RightResults results;
+  for (const std::string& line : runner.file().lines()) results.add(Record(column_names(), line));
+  return results.report(experiment, options.quiet) && runner.summary().all_ok();
+}
+
+}  // namespace cutbench

@@ -1,0 +1,211 @@
+#include "harness/study/stability/try_point.h"
+
+#include <algorithm>
+#include <numbers>
+#include <span>
+
+#include "harness/study/stability/placed_cuts.h"
+#include "harness/fem/model/largest_eigenvalue.h"
+#include "harness/judge/assessment.h"
+#include "harness/judge/judged_sheet.h"
+#include "harness/simulation/simulation.h"
+
+namespace cutbench {
+
+namespace {
+
+/// Of many cuts in a row only the last ones are judged: the points before them judged the others.
+constexpr std::size_t most_judged = 4;
+
+void put(const std::string& text, std::span<char> to) {
+  std::fill(to.begin(), to.end(), '\0');
+  text.copy(to.data(), to.size() - 1);
+}
+
+void pose(MeshData& mesh, const SweepPoint& point, double size) {
+  for (Point3& p : mesh.deformed) {
+    if (point.pose == "stretched") p.x *= point.pose_amount;
+    if (point.pose == "rolled" && point.pose_amount > 0) {
+      const double angle = point.pose_amount * std::numbers::pi / 180, radius = size / angle, at = p.x / radius;
+      p = {radius * std::sin(at), p.y, radius * (1 - std::cos(at))};
+    }
+  }
+}
+
+/// In rest position: where the cut is judged and its eigenvalue is computed.
+Sheet flat_sheet(Scene scene) {
+  scene.mesh.reset();
+  Sheet sheet(mesh_of(scene));
+  hold_tied_vertices(pins_of(scene, sheet), scene.tractions, sheet);
+  return sheet;
+}
+
+Elasticity with_mass(Elasticity elasticity, const Scene& scene) {
+  elasticity.mass = scene.physics.mass;
+  if (adds_mass(elasticity.mass))
+    elasticity.mass_limit = scene.physics.mass_limit * largest_element_eigenvalue(flat_sheet(scene), elasticity);
+  return elasticity;
+}
+
+Elasticity elasticity_of(const Scene& scene) {
+  return with_mass({.poisson = scene.material.poisson,
+                    .plane = scene.physics.plane,
+                    .bending = scene.physics.bending,
+                    .bending_length2 = scene.material.bending / scene.material.stiffness},
+                   scene);
+}
+
+class Point {
+ public:
+  Point(const Trial& trial, TrialResult& result)
+      : trial_(trial), result_(result), scene_(scene_of(trial)), before_(flat_sheet(scene_)) {
+    curves_ = placed_cut(trial.point->cut, trial.point->place, trial.seed, trial.index, before_);
+    for (const Curve& curve : curves_) scene_.cuts.emplace_back().curve = curve;
+  }
+
+  void run() {
+    at("the cut");
+    if (!cut()) return;
+    if (trial_.sweep->steps > 0) move();
+  }
+
+ private:
+  double& measure(PointMeasure::Kind kind) { return result_.measure[kind]; }
+  void at(const std::string& what) { put("in " + what, result_.reason); }
+  void conclude(const std::string& verdict, const std::string& reason) {
+    put(verdict, result_.verdict), put(reason, result_.reason);
+  }
+
+  /// False: the verdict is final.
+  bool cut() {
+    const MethodRow& row = *trial_.variant->row;
+    const auto make = [&] { return row.make(trial_.variant->knob); };
+    Sheet sheet = before_;
+    const std::size_t unjudged = curves_.size() > most_judged ? curves_.size() - 1 : 0;
+    {
+      Locator locator(sheet);
+      Cutter cutter;
+      const auto method = make();
+      for (std::size_t i = 0; i < unjudged; ++i) cutter.cut(sheet, locator, curves_[i], *method, trial_.options);
+    }
+    JudgedSheet judged(sheet, row.promises, make());
+    double us = 0, error = 0;
+    for (std::size_t i = unjudged; i < curves_.size(); ++i) {
+      const JudgedSheet::Finding finding = judged.cut(curves_[i], trial_.options);
+      const CutOutcome& outcome = judged.outcome;
+      put(name_of(outcome.status), result_.status);
+      us += outcome.time_us.total(), error = std::max(error, judged.judgement.incision_error);
+      if (!finding.ok()) return conclude(finding.verdict, finding.reason), false;
+      if (outcome.status == Status::refused) return conclude("refused", outcome.reason), false;
+      if (outcome.status == Status::failed) return conclude("failed", outcome.reason), false;
+    }
+    conclude("ok", "");
+    measure(PointMeasure::geometry_us) = us, measure(PointMeasure::incision_error_h) = error / before_.mean_edge();
+    measure_sheet(judged.sheet, *make());
+    return true;
+  }
+
+  void measure_sheet(const Sheet& sheet, const CuttingMethod& method) {
+    const Assessment a = assess(before_, sheet, {}, {});
+    measure(PointMeasure::triangles) = static_cast<double>(sheet.triangle_count());
+    measure(PointMeasure::vertices_added) = static_cast<double>(a.vertices_added);
+    if (a.cut.triangles > 0)
+      measure(PointMeasure::ar_max_cut) = a.cut.ar_max, measure(PointMeasure::altitude_min_h_cut) = a.cut.altitude_min;
+    if (!trial_.point->eigenvalue) return;
+    at("the eigenvalue");
+    const Ties ties = method.ties(before_, sheet);
+    measure(PointMeasure::eigenvalue_ratio) =
+        largest_eigenvalue(sheet, ties, with_mass({}, scene_)) / largest_eigenvalue(before_);
+    Scene scene = scene_;
+    if (ties.phantoms > 0) scene.physics.bending = BendingKind::none;  // phantom nodes do not bend
+    measure(PointMeasure::explicit_step_ratio) = explicit_step_of(scene, sheet, ties) / trial_.uncut_step_s;
+    conclude("ok", "");
+  }
+
+  void move() {
+    at("the motion");
+    const auto motion = moved(scene_);
+    const SimulationVerdict& verdict = motion->verdict();
+    conclude(verdict.name, verdict.reason);
+    for (const MotionCut& made : motion->made_cuts())
+      if (made.cut.status == Status::refused) conclude("refused", made.reason);
+    note_steps(*motion);
+    if (trial_.sweep->drift && verdict.name == "ok") note_drift(*motion);
+  }
+
+  std::unique_ptr<Simulation> moved(const Scene& scene) const {
+    auto motion = Simulation::start(scene);
+    motion->watch();
+    const auto method = trial_.variant->row->make(trial_.variant->knob);
+    motion->advance(trial_.sweep->steps * scene.step, *method, trial_.options);
+    return motion;
+  }
+
+  void note_steps(const Simulation& motion) {
+    const auto& steps = motion.steps();
+    measure(PointMeasure::steps) = static_cast<double>(steps.size());
+    if (steps.empty()) return;
+    std::vector<double> us;
+    double iterations = 0, residual = 0, cut_update = 0;
+    for (const LoggedStep& s : steps) {
+      us.push_back(s.step.time_us.total());
+      cut_update += s.total_us() - us.back();
+      iterations += s.step.iterations, residual = std::max(residual, s.step.residual);
+    }
+    measure(PointMeasure::cut_update_us) = cut_update, measure(PointMeasure::first_step_us) = us.front();
+    std::nth_element(us.begin(), us.begin() + static_cast<std::ptrdiff_t>(us.size() / 2), us.end());
+    measure(PointMeasure::step_us) = us[us.size() / 2];
+    measure(PointMeasure::iterations) = iterations / static_cast<double>(steps.size());
+    measure(PointMeasure::residual) = residual;
+    if (!motion.budget()) return;
+    const EnergyBudget::Gains gains = motion.budget()->gains();
+    measure(PointMeasure::energy_gain) =
+        scene_.integrator == Integrator::symplectic_euler ? gains.unexplained : gains.remainder;
+  }
+
+  /// How far the fastest vertex is from where a direct solver would have brought it.
+  void note_drift(const Simulation& motion) {
+    at("the motion by a direct solver");
+    Scene scene = scene_;
+    scene.solver.name = "cholmod";
+    const auto reference = moved(scene);
+    conclude("ok", "");
+    if (reference->verdict().name != "ok") return;
+    const Sheet a = motion.posed_sheet(), b = reference->posed_sheet();
+    double farthest = 0;
+    for (std::size_t v = 0; v < a.deformed_slots(); ++v) {
+      const DeformedIndex d(v);
+      if (a.rest_vertex(d).valid()) farthest = std::max(farthest, length(a.position(d) + -1 * b.position(d)));
+    }
+    measure(PointMeasure::drift_h) = farthest / before_.mean_edge();
+  }
+
+  const Trial& trial_;
+  TrialResult& result_;
+  Scene scene_;
+  Sheet before_;
+  std::vector<Curve> curves_;
+};
+
+}  // namespace
+
+Scene scene_of(const Trial& trial) {
+  Scene scene = trial.point->scene;
+  scene.stem = trial.sweep->name, scene.family = trial.sheet, scene.resolution = trial.resolution;
+  scene.duration = std::numeric_limits<double>::infinity(), scene.cuts.clear();
+  if (trial.point->step_share > 0) scene.step = trial.point->step_share * trial.uncut_step_s;
+  if (trial.point->pose != "flat") {
+    MeshData mesh = mesh_of(scene);
+    pose(mesh, *trial.point, scene.size);
+    scene.mesh = std::move(mesh);
+  }
+  return scene;
+}
+
+double explicit_step_of(const Scene& scene, const Sheet& sheet, const Ties& ties) {
+  return explicit_step_limit(largest_eigenvalue(sheet, ties, elasticity_of(scene)), scene.material);
+}
+
+void try_point(const Trial& trial, TrialResult& result) { Point(trial, result).run(); }
+
+}  // namespace cutbench

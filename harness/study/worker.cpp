@@ -1,0 +1,52 @@
+#include "harness/study/worker.h"
+
+#include "harness/base/stop_watch.h"
+#include "harness/study/chill_caches.h"
+
+namespace cutbench {
+
+void Worker::restore(const BaseSheet& base, const std::vector<Curve>& cuts) {
+  if (undoable_) {
+    sheet.rollback();
+  } else {
+    sheet = base.sheet;
+    sheet.reserve(4 * sheet.triangle_slots(), 4 * sheet.vertex_slots(), 4 * sheet.deformed_slots());
+    sheet.begin_cut();  // so that a cut that is refused can be undone, too
+  }
+  locator_ = base.locator;
+  undoable_ = cuts.size() == 1;
+}
+
+CutRun Worker::cut(const BaseSheet& base, const std::vector<Curve>& cuts, const CutOptions& options) {
+  restore(base, cuts);
+  return cut_restored(base, cuts, options);
+}
+
+CutRun Worker::measure(const BaseSheet& base, const std::vector<Curve>& cuts, const CutOptions& options, bool cold) {
+  const bool is_program = !variant.row->command.empty();  // a new process each time: nothing stays warm
+  for (int i = 0; i < (is_program ? 0 : cold ? 1 : 2); ++i) cut(base, cuts, options);
+  restore(base, cuts);
+  if (cold) chill_caches();
+  return cut_restored(base, cuts, options);
+}
+
+CutRun Worker::cut_restored(const BaseSheet& base, const std::vector<Curve>& cuts, const CutOptions& options) {
+  using Tying = CuttingMethod::Tying;
+  double tie_us = 0;
+  const auto find_ties = [&] {
+    StopWatch watch;
+    ties = method->ties(base.sheet, sheet);
+    tie_us += watch.lap();
+  };
+  ties = {};
+  const Tying tying = method->tying();
+  const bool anew_after_each = tying != Tying::nothing && tying != Tying::polygons;
+  CutRun run = cut_all(sheet, locator_, cutter, cuts, *method, options,
+                       anew_after_each ? std::function<void()>(find_ties) : nullptr);
+  // A scene's polygons follow each cut (CuttingMethod::next_ties), which takes about as long as all of them at once.
+  if (tying == Tying::polygons && (run.status == Status::ok || run.status == Status::deviated)) find_ties();
+  run.time_us.tie = tie_us;
+  return run;
+}
+
+}  // namespace cutbench
