@@ -45,7 +45,7 @@ struct Ablation {
 /// Runs them one after the other, the whole model first. What can't be started has the verdict `refused`. A run that takes
 /// more than `time_limit` seconds of processor time, or ten times as long as the whole model, is `timed_out`.
 /// The last row is explicit: symplectic Euler at 0.9 of the largest step that the whole model's cut sheet allows, unless
-/// there is none (vertices are tied) or the scene is in equilibrium or explicit already.
+/// there is none (vertices are constrained) or the scene is in equilibrium or explicit already.
 std::vector<Ablation> ablate(const Scene& scene, CuttingMethod& method, const CutOptions& options, double time_limit);
 
 void print_ablations(const std::vector<Ablation>& rows);

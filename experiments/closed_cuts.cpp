@@ -1,5 +1,5 @@
-// Cuts that stay closed: the path is embedded and improved, and its lips stay tied. Nothing should move then; what does
-// is an artefact of the method's new triangles. By every method at its default knob, on a loaded sheet at rest: how far
+// Cuts that stay closed: the path is embedded and improved, and its lips stay constrained. Nothing should move then; what does
+// is an artefact of the method's new triangles. By every method at its default parameter, on a loaded sheet at rest: how far
 // the equilibrium jumps (pop), what is out of balance before it relaxes, and how much data carried per triangle drift
 // over many closed cuts. usage: cutbench_closed_cuts [TRIANGLES [CUTS]]
 #include <algorithm>
@@ -11,8 +11,8 @@
 #include "harness/judge/assessment.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/predicates.h"
-#include "harness/study/experiment.h"
 #include "harness/problems/in_plane/static_solve.h"
+#include "harness/study/experiment.h"
 #include "methods/registry.h"
 
 namespace {
@@ -37,7 +37,9 @@ class Closed final : public CuttingMethod {
             sheet.triangle(TriangleIndex(t)).alive() && sheet.mark(h) == EdgeMark::path)
           sheet.set_mark(h, EdgeMark::none);
   }
-  Ties ties(const Sheet& before, const Sheet& cut) const override { return method_->ties(before, cut); }
+  Constraints constraints(const Sheet& before, const Sheet& cut) const override {
+    return method_->constraints(before, cut);
+  }
 
  private:
   std::unique_ptr<CuttingMethod> method_;
@@ -46,8 +48,8 @@ class Closed final : public CuttingMethod {
 bool is_held(Point2 p) { return p.y == 0; }
 
 /// The sheet stands on its lower edge and is pulled up and aside at its upper one.
-StaticSolve load(const Sheet& sheet, const Ties& ties) {
-  StaticSolve problem(sheet, elastic, ties);
+StaticSolve load(const Sheet& sheet, const Constraints& constraints) {
+  StaticSolve problem(sheet, elastic, constraints);
   for (std::size_t v = 0; v < sheet.vertex_slots(); ++v)
     if (const VertexIndex i(v); sheet.triangle_of_vertex(i).valid() && is_held(sheet.rest(i)))
       for (const int axis : {0, 1}) problem.hold(sheet.rest(i), axis, 0);
@@ -55,8 +57,8 @@ StaticSolve load(const Sheet& sheet, const Ties& ties) {
   return problem;
 }
 
-Field equilibrium(const Sheet& sheet, const Ties& ties = {}) {
-  return load(sheet, ties).solve({.solver = {.name = "cholmod"}, .iterations = 0}).displacement;
+Field equilibrium(const Sheet& sheet, const Constraints& constraints = {}) {
+  return load(sheet, constraints).solve({.solver = {.name = "cholmod"}, .iterations = 0}).displacement;
 }
 
 Eigen::Vector2d rest_of(const Sheet& sheet, std::size_t d) {
@@ -64,22 +66,22 @@ Eigen::Vector2d rest_of(const Sheet& sheet, std::size_t d) {
   return {p.x, p.y};
 }
 
-/// Norm of the forces out of balance at displacement u, over that of the load; where vertices are tied, once they are
+/// Norm of the forces out of balance at displacement u, over that of the load; where vertices are constrained, once they are
 /// where their masters are, and of what these bear.
-double out_of_balance(const Sheet& sheet, const Field& u, const Ties& ties) {
+double out_of_balance(const Sheet& sheet, const Field& u, const Constraints& constraints) {
   Model<2> model(sheet, {.stiffness = elastic.young, .poisson = elastic.poisson},
                  {.dimension = 2, .strain = Strain::linear, .bending = BendingKind::none}, {}, {});
   Field x = u;
   for (std::size_t d = 0; d < sheet.deformed_slots(); ++d)
     if (sheet.rest_vertex(DeformedIndex(d)).valid())
       x.segment<2>(2 * static_cast<Eigen::Index>(d)) += rest_of(sheet, d);
-  const Field load_on_it = load(sheet, ties).force();
+  const Field load_on_it = load(sheet, constraints).force();
   Field force = load_on_it;
-  model.tie(sheet, ties);
-  if (model.tied()) model.tied()->satisfy(model.held(), x);
+  model.constraint(sheet, constraints);
+  if (model.constrained()) model.constrained()->satisfy(model.held(), x);
   model.rotate(x);
   model.add_internal_force(x, force);
-  if (model.tied()) model.tied()->transfer_forces(model.held(), force);
+  if (model.constrained()) model.constrained()->transfer_forces(model.held(), force);
   double sum = 0;
   for (std::size_t d = 0; d < sheet.deformed_slots(); ++d)
     if (const VertexIndex v = sheet.rest_vertex(DeformedIndex(d)); v.valid() && !is_held(sheet.rest(v)))
@@ -101,7 +103,7 @@ std::optional<Pop> pop_of(const MethodRow& row, int n, std::size_t i) {
     sheet.set_position(DeformedIndex(d), {x[0], x[1], 0});
   }
   Locator locator(sheet);
-  Closed method(row.make(row.knob.value));
+  Closed method(row.make(row.parameter.value));
   const Curve curve = make_case("curved", seed, i, sheet).front();
   if (Cutter().cut(sheet, locator, curve, method, {}).status != Status::ok) return {};
   Field carried = Field::Zero(2 * static_cast<Eigen::Index>(sheet.deformed_slots()));
@@ -110,8 +112,8 @@ std::optional<Pop> pop_of(const MethodRow& row, int n, std::size_t i) {
     const auto [x, y, z] = sheet.position(DeformedIndex(d));
     carried.segment<2>(2 * static_cast<Eigen::Index>(d)) = Eigen::Vector2d(x, y) - rest_of(sheet, d);
   }
-  const Ties ties = method.ties(uncut, sheet);
-  const Field moved = equilibrium(sheet, ties) - carried;
+  const Constraints constraints = method.constraints(uncut, sheet);
+  const Field moved = equilibrium(sheet, constraints) - carried;
   Pop pop;
   double squares = 0;
   for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) {
@@ -122,7 +124,7 @@ std::optional<Pop> pop_of(const MethodRow& row, int n, std::size_t i) {
   const double scale = before.cwiseAbs().maxCoeff();
   pop.largest /= scale;
   pop.rms = std::sqrt(squares / static_cast<double>(sheet.deformed_count())) / scale;
-  pop.residual = out_of_balance(sheet, carried, ties);
+  pop.residual = out_of_balance(sheet, carried, constraints);
   return pop;
 }
 
@@ -168,7 +170,7 @@ Drift drift_of(const MethodRow& row, int n, std::size_t cuts) {
     data.push_back(data_at(centroid(sheet.corners(TriangleIndex(t)))));
   Locator locator(sheet);
   Cutter cutter;
-  Closed method(row.make(row.knob.value));
+  Closed method(row.make(row.parameter.value));
   Drift drift;
   for (std::size_t i = 0; i < cuts; ++i) {
     const Sheet before = sheet;

@@ -31,17 +31,20 @@ int list_methods(bool as_json) {
                                      {p.keeps_vertices, "keeps_vertices"}})
       if (kept) promises.emplace_back(name);
     if (as_json) {
-      nlohmann::ordered_json entry{{"name", m.name}, {"summary", m.summary}, {"knob", nullptr}, {"promises", promises}};
+      nlohmann::ordered_json entry{
+          {"name", m.name}, {"summary", m.summary}, {"parameter", nullptr}, {"promises", promises}};
       entry["incision_bound"] = {{"longest_edges", p.incision_bound.longest_edges},
                                  {"chord_tolerances", p.incision_bound.chord_tolerances}};
-      if (!m.knob.name.empty())
-        entry["knob"] = {{"name", m.knob.name}, {"default", m.knob.value}, {"meaning", m.knob.meaning}};
+      if (!m.parameter.name.empty())
+        entry["parameter"] = {
+            {"name", m.parameter.name}, {"default", m.parameter.value}, {"meaning", m.parameter.meaning}};
       list.push_back(entry);
       continue;
     }
     std::printf("%-20s %s\n", m.name.c_str(), m.summary.c_str());
-    if (!m.knob.name.empty())
-      std::printf("%20s   knob %s = %g: %s\n", "", m.knob.name.c_str(), m.knob.value, m.knob.meaning.c_str());
+    if (!m.parameter.name.empty())
+      std::printf("%20s   parameter %s = %g: %s\n", "", m.parameter.name.c_str(), m.parameter.value,
+                  m.parameter.meaning.c_str());
     std::string text;
     for (const auto& name : promises) text += (text.empty() ? "" : ", ") + name;
     std::printf("%20s   promises %s\n", "", text.empty() ? "nothing" : text.c_str());

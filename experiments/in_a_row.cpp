@@ -88,7 +88,7 @@ double first_cost(const MeshData& grid, std::size_t cuts, CuttingMethod& method)
 /// Prints the method's row; false where a cut failed or a result was wrong.
 bool cut_in_a_row(const MethodRow& row, int n, std::size_t cuts, const std::string& folder) {
   // Bowyer-Watson without local split: each round would multiply the triangles.
-  const auto make = [&row] { return row.make(row.name == "bowyer_watson" ? 0 : row.knob.value); };
+  const auto make = [&row] { return row.make(row.name == "bowyer_watson" ? 0 : row.parameter.value); };
   const auto method = make();
   const MeshData grid = make_sheet("grid", n);
   const double heap_before = heap_bytes();

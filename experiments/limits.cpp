@@ -9,8 +9,8 @@
 #include "harness/base/stop_watch.h"
 #include "harness/cut/cut.h"
 #include "harness/fem/elements/membrane.h"
-#include "harness/fem/multigrid/multigrid.h"
 #include "harness/fem/model/state.h"
+#include "harness/fem/multigrid/multigrid.h"
 #include "harness/mesh/families.h"
 #include "methods/registry.h"
 
@@ -75,7 +75,7 @@ std::vector<Phase> phases_of(int n, const MethodRow& row, double& working_set) {
   Locator locator(sheet);
   Model<3> model(sheet, skin, {.bending = BendingKind::patches}, {{.where = {{-1, -1}, {1e-9, 2}}}}, {});
   State state = initial_state(model, sheet);
-  const auto method = row.make(row.knob.value);
+  const auto method = row.make(row.parameter.value);
   Cutter().cut(sheet, locator, {Curve::Kind::polyline, false, {{0.2, 0.31}, {0.8, 0.52}}}, *method, {});
   transfer(sheet.log(), sheet.deformed_slots(), 3, state);
   model.update(sheet);

@@ -12,8 +12,8 @@
 
 #include "harness/base/stop_watch.h"
 #include "harness/cut/cut.h"
-#include "harness/fem/multigrid/multigrid.h"
 #include "harness/fem/model/state.h"
+#include "harness/fem/multigrid/multigrid.h"
 #include "harness/mesh/families.h"
 #include "methods/registry.h"
 
@@ -103,7 +103,7 @@ void measure(const MethodRow& row, int n) {
   const double triangles = 2.0 * n * n, h = 1 / std::sqrt(triangles / 2), before = peak_bytes();
   const double side = std::min(width * h, 0.7);
   const bool shared = triangles >= smallest_shared;
-  const auto method = row.make(row.knob.value);
+  const auto method = row.make(row.parameter.value);
   std::unique_ptr<Body> body;
   double bytes = 0;
   std::vector<std::vector<double>> costs(6);

@@ -17,7 +17,7 @@ Scene scene_of(Scene scene, const Choice& choice) {
 
 std::unique_ptr<CuttingMethod> method_of(const Choice& choice) {
   const MethodRow& row = find_method(choice.method);
-  return row.make(row.knob.value);
+  return row.make(row.parameter.value);
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ void print_budget(const EnergyBudget& budget) {
               100 * gains.jumps);
 }
 
-/// What to compare an explicit step with; null where the method ties vertices.
+/// What to compare an explicit step with; null where the method constraints vertices.
 nlohmann::ordered_json limits_of(Simulation& motion) {
   const StepLimits limits = motion.step_limits();
   if (!std::isfinite(limits.membrane)) return nullptr;

@@ -9,7 +9,7 @@
 namespace cutbench {
 
 struct SimulateOptions {
-  std::string method;     ///< as a caption names it: with its knob
+  std::string method;     ///< as a caption names it: with its parameter
   std::string command;    ///< as given
   std::string out;        ///< the sheet as it ends up; empty: not written
   std::string frames;     ///< folder of the time series (harness/simulation/frame_writer.h), with simulation.json and

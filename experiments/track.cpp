@@ -123,7 +123,7 @@ constexpr EnumName<Phase> phases[] = {{Phase::locate, "locate"},
 
 Counted run_phase(Phase counted, const MethodRow& row, int triangles, const Region& region) {
   Bench bench(triangles);
-  const auto method = row.make(row.knob.value);
+  const auto method = row.make(row.parameter.value);
   const CutOptions options;
   Counted all;
   Tracer tracer;
@@ -165,7 +165,7 @@ Counted run_phase(Phase counted, const MethodRow& row, int triangles, const Regi
 
 Counted run_cut(const MethodRow& row, int triangles, const Region& region) {
   Bench bench(triangles);
-  const auto method = row.make(row.knob.value);
+  const auto method = row.make(row.parameter.value);
   Counted all;
   for (const Curve& curve : bench.curves) {
     const auto cut = [&] { return bench.cutter.cut(bench.sheet, bench.locator, curve, *method, {}); };
@@ -185,7 +185,7 @@ Counted run_cut(const MethodRow& row, int triangles, const Region& region) {
 Counted run_score(int triangles, const Region& region) {
   Bench bench(triangles);
   const MethodRow& row = find_method("warp_and_refine");
-  const auto method = row.make(row.knob.value);
+  const auto method = row.make(row.parameter.value);
   bench.cutter.cut(bench.sheet, bench.locator, bench.curves[0], *method, {});
   const auto request = request_for(bench.base, {&bench.curves[0], 1}, row.promises, {}, true);
   const auto mesh = for_oracle(bench.sheet);

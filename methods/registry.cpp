@@ -241,7 +241,7 @@ const std::vector<MethodRow>& ablation_methods() {
                                                       {After::flips, "flips"},
                                                       {After::smoothing, "smoothing"},
                                                       {After::refine, "refine"},
-                                                      {After::tie, "tie"}};
+                                                      {After::constraint, "tie"}};
   static const auto rows = [&] {
     std::vector<MethodRow> made;
     for (const auto& [before, first] : befores)

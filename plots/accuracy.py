@@ -22,7 +22,7 @@ STEM = "accuracy"
 def problems_figure(records):
     """A panel for each problem: its error against time, over all sheets."""
     direct = records.rows(direct=True)
-    cells = cells_of(direct, "ms", "error", ["problem", "method", "knob", "resolution"], ["problem"])
+    cells = cells_of(direct, "ms", "error", ["problem", "method", "parameter", "resolution"], ["problem"])
     columns = min(4, len(records.problems))
     figure, axes = style.panels(-(-len(records.problems) // columns), columns, 3.9, sharex=True, width=style.PAGE)
     for i, ax in enumerate(axes.flat):

@@ -71,16 +71,16 @@ def below_limit(column, what, figure, share):
     """Held where so large a share of the cuts of each sheet is below the limit."""
     def find(run):
         parts, verdicts = [], {}
-        for knob, cuts in fig9.paper_method(run).items():
+        for parameter, cuts in fig9.paper_method(run).items():
             good, n = fig9.held(cuts, column)
-            parts.append(f"{knob or 'default'}: {good} of {n} cuts")
+            parts.append(f"{parameter or 'default'}: {good} of {n} cuts")
             counts = {style.sheet_title(sheet): fig9.held(cuts.select(sheet=sheet), column)
                       for sheet in style.sheet_order(cuts.everything()["sheet"])}
             held = [sheet for sheet, (here, tried) in counts.items() if here >= share * tried]
             where = f" on {', '.join(held)}" if held and len(held) < len(counts) else ""
-            verdicts[f"{knob or 'default'}{where}"] = HELD if held else NOT_HELD
+            verdicts[f"{parameter or 'default'}{where}"] = HELD if held else NOT_HELD
             if where:
-                verdicts[f"{knob or 'default'} elsewhere"] = NOT_HELD
+                verdicts[f"{parameter or 'default'} elsewhere"] = NOT_HELD
         if not parts:
             return None
         return Finding(summed_up(verdicts), f"{what} below {fig9.LIMIT} (held: in {100 * share:g} % of the cuts on a "

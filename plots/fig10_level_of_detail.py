@@ -39,16 +39,16 @@ def label(description, frame):
 
 
 def read_levels(folder):
-    """{(method, knob): {tolerance: [(unknowns, error in mm)]}} of the same cut at several resolutions."""
+    """{(method, parameter): {tolerance: [(unknowns, error in mm)]}} of the same cut at several resolutions."""
     levels, described = {}, []
     for file in sorted(folder.glob("levels/*/*/simulation.json")):
         description = render.read_description(file.parent)
         if description["verdict"] != "ok":
             continue
-        method, _, knob = description["method"].partition(" ")
+        method, _, parameter = description["method"].partition(" ")
         error = 1000 * incision_error(render.read_frame(file.parent, 1e9))
         tolerance = str(description.get("chord_tolerance", ""))
-        levels.setdefault((method, knob), {}).setdefault(tolerance, []).append((description["unknowns"], error))
+        levels.setdefault((method, parameter), {}).setdefault(tolerance, []).append((description["unknowns"], error))
         described.append(description)
     return levels, described
 

@@ -55,13 +55,13 @@ class Reference:
 
 
 def measured(results):
-    """[(scene, time, (method, knob), mm, degrees, verdict)], and the worth {(scene, time): (mm, degrees)}."""
+    """[(scene, time, (method, parameter), mm, degrees, verdict)], and the worth {(scene, time): (mm, degrees)}."""
     reference, rows, worth = Reference(results), [], {}
     for scene in SCENES:
         for time in TIMES:
             for description, frame in scene_panels.read_shot(results, Shot(f"{STEM}_{scene}", "", time)):
-                method, _, knob = description["method"].partition(" ")
-                rows.append((scene, time, (method, knob), *reference.difference(description, frame),
+                method, _, parameter = description["method"].partition(" ")
+                rows.append((scene, time, (method, parameter), *reference.difference(description, frame),
                              description["verdict"]))
                 worth[scene, time] = reference.worth(description["bending"], round(frame.time, 6))
     return rows, worth

@@ -16,8 +16,8 @@ LIMIT_TESTS = {"strict": "ar_max_cut_strict", "outside wedges": "ar_max_cut_outs
 
 def draw_panel(ax, run, column, looks):
     """One sheet: a curve per method, the limit, the failures."""
-    for (method, knob), look in looks.items():
-        table = load.quartiles(run.select(method=method, knob=knob).rows, "resolution", column)
+    for (method, parameter), look in looks.items():
+        table = load.quartiles(run.select(method=method, parameter=parameter).rows, "resolution", column)
         style.curve(ax, look, table)
     ax.axhline(LIMIT, **LIMIT_LINE)
 
@@ -68,27 +68,27 @@ def held(run, column):
 
 
 def paper_method(run):
-    """{knob: run} of the paper's method."""
+    """{parameter: run} of the paper's method."""
     everything = run.everything()
-    knobs = sorted(set(everything[everything["method"] == "bowyer_watson"]["knob"]), key=style.natural)
-    return {knob: run.select(method="bowyer_watson", knob=knob) for knob in knobs}
+    parameters = sorted(set(everything[everything["method"] == "bowyer_watson"]["parameter"]), key=style.natural)
+    return {parameter: run.select(method="bowyer_watson", parameter=parameter) for parameter in parameters}
 
 
 def claim_sentence(run):
-    counts = {knob: {name: held(cuts, column) for name, column in LIMIT_TESTS.items()}
-              for knob, cuts in paper_method(run).items()}
-    counts = {knob: tests for knob, tests in counts.items() if tests["strict"][1]}
+    counts = {parameter: {name: held(cuts, column) for name, column in LIMIT_TESTS.items()}
+              for parameter, cuts in paper_method(run).items()}
+    counts = {parameter: tests for parameter, tests in counts.items() if tests["strict"][1]}
     if not counts:
         return f"The claim 'maximum AR < {LIMIT}' of the paper's method was not tested: no cuts by bowyer_watson."
-    shares = "; ".join(f"{knob or 'no knob'}: " + ", ".join(f"{good}/{n} {name}" for name, (good, n) in tests.items())
-                       for knob, tests in counts.items())
+    shares = "; ".join(f"{parameter or 'no parameter'}: " + ", ".join(f"{good}/{n} {name}" for name, (good, n) in tests.items())
+                       for parameter, tests in counts.items())
     missed = any(good < n for tests in counts.values() for good, n in tests.values())
     return (f"The paper's claim 'maximum AR < {LIMIT}' {'did not hold' if missed else 'held in every cut'}. Cuts below "
             f"{LIMIT} by its method (strict: outside forced corners; then also outside forced wedges): {shares}.")
 
 
 def average_sentence(run):
-    shares = [f"{knob or 'no knob'}: {good}/{n}" for knob, cuts in paper_method(run).items()
+    shares = [f"{parameter or 'no parameter'}: {good}/{n}" for parameter, cuts in paper_method(run).items()
               for good, n in [held(cuts, "ar_mean_all")] if n]
     if not shares:
         return "The paper's text, 'average aspect ratio less than 3', was not tested: no cuts by bowyer_watson."
@@ -102,8 +102,8 @@ def print_numbers(run):
     for sheet in style.sheet_order(run.everything()["sheet"]):
         on_sheet = run.select(sheet=sheet)
         for resolution in sorted(set(on_sheet.everything()["resolution"])):
-            for (method, knob), look in style.looks(on_sheet.variants("ar_max_cut")).items():
-                cuts = on_sheet.select(resolution=resolution, method=method, knob=knob)
+            for (method, parameter), look in style.looks(on_sheet.variants("ar_max_cut")).items():
+                cuts = on_sheet.select(resolution=resolution, method=method, parameter=parameter)
                 if len(cuts.everything()):
                     rows.append([sheet, str(resolution), look.label, *numbers(cuts)])
     load.print_table("Aspect ratio after the cut, medians over the cuts (max AR: triangles the cut made or changed)",
@@ -124,9 +124,9 @@ def print_rounds(run):
     sheet = style.sheet_order(everything["sheet"])[0]
     resolution = everything[everything["sheet"] == sheet]["resolution"].min()
     rows = []
-    for knob, cuts in paper_method(run.select(sheet=sheet, resolution=resolution)).items():
+    for parameter, cuts in paper_method(run.select(sheet=sheet, resolution=resolution)).items():
         medians = cuts.rows[["over_3_cut", "vertices_added", "ar_max_cut"]].median()
-        rows.append([knob or "no knob", str(load.count(cuts.rows)), *medians])
+        rows.append([parameter or "no parameter", str(load.count(cuts.rows)), *medians])
     if rows:
         load.print_table(f"Round by round: bowyer_watson, {sheet}, {resolution} triangles, medians over the cuts",
                          ["local split", "cuts", "triangles AR>3", "vertices added", "max AR"], rows)

@@ -2,7 +2,7 @@
 """All methods on the same cuts: the shapes of their triangles, their cost, the jumps of energy and residual at the cut,
 and tables of all of these, ranked by largest eigenvalue, smallest altitude and largest angle. Reads
 results/method_comparison and, where they exist, its neighbours method_comparison_accuracy (against exact solutions) and
-method_comparison_jumps (cuts in a running scene). Other settings of the methods: method_comparison_knobs.py."""
+method_comparison_jumps (cuts in a running scene). Other settings of the methods: method_comparison_parameters.py."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -101,7 +101,7 @@ def jumped(run):
 def ranking(table, sheets):
     """The variants, best first: by the sum of their ranks in the three measures of shape, each the mean over the sheets
     of the rank of the median there. Also the ranks."""
-    variants = sorted(set(zip(table["method"], table["knob"])))
+    variants = sorted(set(zip(table["method"], table["parameter"])))
     ranks = pd.DataFrame(index=variants, columns=[m.column for m in SHAPES], dtype=float)
     for m in SHAPES:
         per_sheet = pd.DataFrame({s: {v: np.sign(m.worst) * spread(of(table, v, s)[m.column], m.worst)[0][2] for v in variants}
@@ -119,7 +119,7 @@ def caption(what, run, rows):
     size = f"{sizes[0]}" if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]}"
     return (f"Dots, bars and numbers: cuts in the even sheets; diamonds: in the graded one. {what} Families: {families}; {size} triangles. "
             "Within a family of methods, and among the families, the best shapes are on top, by the sum of the ranks of "
-            "median eigenvalue, altitude and angle. All knobs have their defaults. A method has no marker for a kind of sheet "
+            "median eigenvalue, altitude and angle. All parameters have their defaults. A method has no marker for a kind of sheet "
             "that it refuses. " + style.provenance(run, rows, with_crosses=False, per=["sheet"]))
 
 
@@ -134,7 +134,7 @@ def summary(table, jumps, order, ranks):
     rows = []
     for variant in order:
         cuts = of(table, variant)
-        row = {"method": variant[0], "knob": variant[1], "cuts": len(cuts), "failed": int(cuts["failed"].sum()),
+        row = {"method": variant[0], "parameter": variant[1], "cuts": len(cuts), "failed": int(cuts["failed"].sum()),
                "rank": ranks.loc[[variant], "sum"].iloc[0] / len(SHAPES)}
         for m in SHAPES + PRICE:
             quantiles, worst = spread(cuts[m.column], m.worst)
@@ -164,7 +164,7 @@ def as_text(name, table):
     shown = table.copy()
     for column in shown.columns[shown.dtypes == float]:
         shown[column] = [f"{x:.3g}" if np.isfinite(x) else "-" for x in shown[column]]
-    of_all = [c for c in ("method", "knob", "cuts", "failed", "rank") if c in shown]
+    of_all = [c for c in ("method", "parameter", "cuts", "failed", "rank") if c in shown]
     what = TITLES.get(name, "medians over the cuts of all families, sheets and sizes; the best shapes first")
     if table.attrs.get("note"):
         what += f". {table.attrs['note']}"
@@ -192,7 +192,7 @@ def cuts_of(run):
     table = measured(run)
     table["failed"] = (table["verdict"] != "ok") | table["status"].isin(["failed", "refused"])
     # A kind of sheet that a method is not made for says nothing about it.
-    refused = (table["status"] == "refused").groupby([table[c] for c in ("method", "knob", "sheet")]).transform("all")
+    refused = (table["status"] == "refused").groupby([table[c] for c in ("method", "parameter", "sheet")]).transform("all")
     return run, table[~refused]
 
 

@@ -83,7 +83,7 @@ def cut_by(method, folder):
 
 
 def all_methods():
-    """What the program says of its methods: names, knobs, promises."""
+    """What the program says of its methods: names, parameters, promises."""
     return json.loads(run("methods", "--json").stdout)
 
 
@@ -97,9 +97,9 @@ def cut_by_all(methods):
 
 
 def title(method):
-    """Its name, and its knob's default."""
-    knob = f" {method['knob']['default']:g}" if method["knob"] else ""
-    return method["name"].replace("_", " ") + knob
+    """Its name, and its parameter's default."""
+    parameter = f" {method['parameter']['default']:g}" if method["parameter"] else ""
+    return method["name"].replace("_", " ") + parameter
 
 
 def draw_method(ax, title, result, norm):
@@ -149,7 +149,7 @@ def draw(folder, only=None):
         bar.ax.minorticks_off()
     which = "every method" if only is None else "every method of the run"
     missing = f"Not drawn, as `cutbench methods` does not have them: {', '.join(left_out)}. " if left_out else ""
-    style.finish(figure, [], f"The same cut by {which}, at rest, near the tip of the cut. Each knob (the number beside "
+    style.finish(figure, [], f"The same cut by {which}, at rest, near the tip of the cut. Each parameter (the number beside "
                  f"the name) has its default. The sheet is the paper's grid of {2 * SQUARES ** 2} triangles; the chord "
                  "tolerance is 0.05 h. Blue: requested path. Red: incision. AR: largest aspect ratio of the triangles that "
                  f"the cut made or changed. {missing}Constrained vertices are not marked. {style.AR_DEFINITION} "

@@ -76,7 +76,7 @@ def columns_asked(table, args):
 
 def curve_looks(cells, present, programs):
     """The Look of each curve: the method's, its line by the solver; and the legend's entries of the solvers."""
-    looks = style.looks(set(zip(cells["method"], cells["knob"])), programs)
+    looks = style.looks(set(zip(cells["method"], cells["parameter"])), programs)
     solvers = list(dict.fromkeys(cells["solver"])) if "solver" in present else []
     lines = dict(zip(solvers, LINES * len(solvers)))
     entries = [Line2D([], [], color="#777777", linestyle=line, linewidth=0.8, label=solver)
@@ -103,9 +103,9 @@ def figure_of(cells, run, args, x, y, present):
         front.scale(ax.set_xscale, cells["x"])
         front.scale(ax.set_yscale, cells["y"])
         ax.set_title(style.sheet_title(sheet), pad=12 if cells["failed"].any() else None)
-        for key, points in here.groupby(["method", "knob"] + present, sort=False):
-            named = dict(zip(["method", "knob"] + present, key))
-            look = looks[named["method"], named["knob"]]
+        for key, points in here.groupby(["method", "parameter"] + present, sort=False):
+            named = dict(zip(["method", "parameter"] + present, key))
+            look = looks[named["method"], named["parameter"]]
             if len(lines) > 1:
                 look = replace(look, line=lines[named["solver"]])
             size = 0.7 + 0.6 * budgets.index(named["budget"]) / max(1, len(budgets) - 1) if "budget" in named else 1
@@ -132,7 +132,7 @@ def print_ranking(cells, x, y, present):
         here = cells[cells["sheet"] == sheet].assign(order=lambda t: t["layer"].replace(0, np.inf))
         rows = []
         for _, p in here.sort_values(["order", "x"]).iterrows():
-            name = style.looks([(p["method"], p["knob"])])[p["method"], p["knob"]].label
+            name = style.looks([(p["method"], p["parameter"])])[p["method"], p["parameter"]].label
             rows.append([str(p["layer"] or "-"), name, *(str(p[c]) for c in present), str(int(p["resolution"])),
                          p["x"], p["x_q1"], p["x_q3"], p["y"], p["y_q1"], p["y_q3"], str(p["n"]), str(p["failed"])])
         load.print_table(f"{y.column} against {x.column}, {sheet}: front 1 is beaten by none in both",
@@ -148,7 +148,7 @@ def main():
     present = [c for c in [*front.SOLVE, "cache"] if c in table and (c in front.SOLVE or table[c].nunique() > 1)]
     if "budget" in present:
         table = table.astype({"budget": int})
-    cells = front.cells(table, x, y, ["sheet", "method", "knob", *present, "resolution"], ["sheet"])
+    cells = front.cells(table, x, y, ["sheet", "method", "parameter", *present, "resolution"], ["sheet"])
     if cells.empty or not cells["layer"].any():
         load.stop(f"no row of {args.name} has both {x.column} and {y.column}")
     failed = front.failed_rows(table)

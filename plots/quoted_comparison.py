@@ -20,7 +20,7 @@ from method_parts.details import KEY
 SPLIT = "conventional_split"
 REFINING = ["adaptive_remesh", "longest_edge", "global_remesh", "cgal_refine", "delaunay_refine"]
 TIED = ["cut_polygons", "split_and_tie", "phantom_node"]
-MORE = ["stabilised_bending_eigenvalue_ratio", "angle_min_deg_cut", "tie_us"]
+MORE = ["stabilised_bending_eigenvalue_ratio", "angle_min_deg_cut", "constrain_us"]
 PHASES = [f"{phase}_us" for phase in ("geometry", "transfer", "pattern", "bending", "rotate", "assemble", "setup", "solve")]
 DRAWS = 5000
 
@@ -209,7 +209,7 @@ def the_table(cuts, accuracy):
         for which, rows in (("after one cut or a re-cut", cuts[cuts["cut_family"] != "several"]), ("after four", several(cuts))):
             say(f"{method} {which}: us, times {SPLIT}, times {OURS}, share of time to find ties or polygons",
                 by(rows, method)["us_per_crossed"].median(), quantile(times(rows, method, SPLIT)), quantile(times(rows, method, OURS)),
-                by(rows, method)["tie_us"].sum() / by(rows, method)["geometry_us"].sum())
+                by(rows, method)["constrain_us"].sum() / by(rows, method)["geometry_us"].sum())
 
 
 def findings(cuts, accuracy):

@@ -41,10 +41,10 @@ def method(variant):
 def shapes(run):
     print("Shapes and cost: figure 9")
     say("results that failed", f"{load.count(run.failed)} of {load.count(run.everything())}")
-    for knob, cuts in fig9.paper_method(run).items():
+    for parameter, cuts in fig9.paper_method(run).items():
         good, n = fig9.held(cuts, "ar_mean_all")
         medians = cuts.rows.groupby(["sheet", "resolution"])["ar_mean_all"].median()
-        say(f"{knob}: mean over the sheet below 3; medians by sheet and size", f"{good} of {n}, {100 * good / n:.1f} %", span(medians))
+        say(f"{parameter}: mean over the sheet below 3; medians by sheet and size", f"{good} of {n}, {100 * good / n:.1f} %", span(medians))
 
 
 def cost(timings):
@@ -89,7 +89,7 @@ def accuracy(records):
     print("Accuracy")
     table = records.table[records.table["direct"]]
     bad = table[table["failed"]]
-    cases = table.groupby(["method", "knob"]).size()
+    cases = table.groupby(["method", "parameter"]).size()
     say("cuts by each variant, failed of all", span(cases, 4), f"{len(bad)} of {len(table)}")
     say("problems of those that failed", *(f"{p} {n}" for p, n in bad["problem"].value_counts().items()))
     say("largest AR of bending_patch_slit", records.rows(problem="bending_patch_slit")["ar_max_cut"].max())

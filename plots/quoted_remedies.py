@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The numbers that docs/remedies.md quotes of the stages `remedies`, `one_change`, `tips` and `knobs` of experiments/publish and that are
+"""The numbers that docs/remedies.md quotes of the stages `remedies`, `one_change`, `tips` and `parameters` of experiments/publish and that are
 no cells of their texts, a line each, in the order of the page. Reads the published records. In brackets: 95 % intervals, by drawing
 the cuts anew (bootstrap), or the problems where errors are compared, or the paths where all sheets have the same."""
 
@@ -17,12 +17,12 @@ from method_parts.details import KEY
 SPLIT, POLYGONS, REMESH, NODE = "conventional_split", "cut_polygons", "adaptive_remesh", "active_node"
 SIZES = [800, 3200]
 MEASURES = ["eigenvalue_ratio", "bending_eigenvalue_ratio", "stabilised_eigenvalue_ratio", "stabilised_bending_eigenvalue_ratio",
-            "ar_max_cut", "ar_max_cut_outside_wedges", "over_3_cut", "vertices_added", "geometry_us", "tie_us", "crossed_triangles", "pieces"]
+            "ar_max_cut", "ar_max_cut_outside_wedges", "over_3_cut", "vertices_added", "geometry_us", "constrain_us", "crossed_triangles", "pieces"]
 RELEASED = "error_released_energy"
 
 
 def by(rows, method, **values):
-    """\\param method  its name, or (method, knob)"""
+    """\\param method  its name, or (method, parameter)"""
     rows = rows[rows["method"] == method] if isinstance(method, str) else load.of(rows, method)
     for column, value in values.items():
         rows = rows[rows[column] == value]
@@ -65,8 +65,8 @@ def per_crossed(cuts, column="geometry_us"):
 
 def chart(cuts, accuracy):
     print("The table below the chart")
-    for (method, knob), here in cuts[cuts["cut_family"] != "several"].groupby(["method", "knob"], sort=False):
-        say(f"without several: {method} {knob}", *spread(here["eigenvalue_ratio"]))
+    for (method, parameter), here in cuts[cuts["cut_family"] != "several"].groupby(["method", "parameter"], sort=False):
+        say(f"without several: {method} {parameter}", *spread(here["eigenvalue_ratio"]))
         if method in remedies.ADDED_MASS["stabilised"]:
             say(f"without several: {method}, stabilised mass", *spread(here["stabilised_eigenvalue_ratio"]))
     exact = accuracy.table[accuracy.table["problem"].isin(accuracy.exact)]
@@ -115,11 +115,11 @@ def polygons(cuts, errors):
     for size in SIZES:
         for method in (POLYGONS, "split_and_tie"):
             say(f"{method}, {size} triangles: us per crossed triangle, of them to find polygons or ties",
-                *(per_crossed(by(cuts, method, resolution=size), column) for column in ("geometry_us", "tie_us")))
+                *(per_crossed(by(cuts, method, resolution=size), column) for column in ("geometry_us", "constrain_us")))
     say(f"time over that of {SPLIT}", median_ratio(here, by(cuts, SPLIT), "geometry_us", KEY))
 
 
-def node(cuts, errors, knobs):
+def node(cuts, errors, parameters):
     print("\nMove a node with the blade: active_node")
     cracks = errors[errors["problem"].str.contains("_crack")]
     for method in (NODE, "warp_and_refine", "snap_or_split", SPLIT):
@@ -138,8 +138,8 @@ def node(cuts, errors, knobs):
     for sizes in ([800], [3200], SIZES):
         of_sizes = cuts[cuts["resolution"].isin(sizes)]
         say(f"time over that of {SPLIT}, {sizes} triangles", median_ratio(by(of_sizes, NODE), by(of_sizes, SPLIT), "geometry_us", KEY))
-    for knob, here in by(knobs, NODE, resolution=800).groupby("knob", sort=False):
-        say(f"{knob}, 800 triangles: eigenvalue, AR, vertices added", *here[["eigenvalue_ratio", "ar_max_cut", "vertices_added"]].median())
+    for parameter, here in by(parameters, NODE, resolution=800).groupby("parameter", sort=False):
+        say(f"{parameter}, 800 triangles: eigenvalue, AR, vertices added", *here[["eigenvalue_ratio", "ar_max_cut", "vertices_added"]].median())
 
 
 def remesh(cuts):
@@ -200,14 +200,14 @@ def tips(results):
 
 def main():
     results = load.results_folder("reference", __doc__)
-    cuts, knobs = (load.run_of(results / f"{stem}.records.csv.gz", results / f"{stem}.context.json", MEASURES).first_repetition().rows
-                   for stem in ("remedies", "method_comparison_knobs"))
+    cuts, parameters = (load.run_of(results / f"{stem}.records.csv.gz", results / f"{stem}.context.json", MEASURES).first_repetition().rows
+                   for stem in ("remedies", "method_comparison_parameters"))
     accuracy = Records(results, "remedies_accuracy.direct.records.csv.gz", "remedies_accuracy.context.json")
     errors = made_by_all(at_equal_unknowns(accuracy).ranked().table)
     chart(cuts, accuracy)
     changes(results)
     polygons(cuts, errors)
-    node(cuts, errors, knobs)
+    node(cuts, errors, parameters)
     remesh(cuts)
     doubled(errors)
     mass(cuts)

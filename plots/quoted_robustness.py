@@ -7,7 +7,7 @@ import pandas as pd
 from common import load
 from common.quoted import say, span
 
-PEER = "cgal_whole_sheet (peer)"
+CROSS_CHECK = "cgal_whole_sheet (cross-check)"
 OUTCOMES = ["tried", "ok", "noop", "deviated", "refused", "failed", "wrong", "crashed", "timed_out", "carefully"]
 
 
@@ -18,13 +18,13 @@ def lines(path):
         load.stop(f"{path} can't be read: {error.strerror}")
 
 
-def campaign(folder):
+def robustness(folder):
     print("Half a million adversarial cuts")
     context = load.read_context(folder / "robustness.context.json")
     say("commit and seed", context["commit"][:7], str(context["seed"]))
     rows = pd.read_csv(folder / "robustness.records.csv.gz")
-    by_peer = rows["method"] == PEER
-    own, peer = rows[~by_peer], rows[by_peer]
+    by_cross_check = rows["method"] == CROSS_CHECK
+    own, cross_check = rows[~by_cross_check], rows[by_cross_check]
     say("methods; sheets", *map(str, (own["method"].nunique(), len(own[["sheet", "resolution"]].drop_duplicates()))))
     one = own[own["method"] == "example"]
     cases, near = one["cases"].sum(), one["near_event_cases"].sum()
@@ -33,8 +33,8 @@ def campaign(folder):
         say(outcome, f"{own[outcome].sum():,.0f}")
     refused = own.groupby("method")["refused"].sum().sort_values(ascending=False)
     say("refused most; by all others", *(f"{method} {n:,.0f}" for method, n in refused.head(2).items()), f"{refused[2:].sum():,.0f}")
-    say("wrong by the peer", f"{peer['wrong'].sum():,.0f} of {peer['tried'].sum():,.0f}")
-    say("... by family", *(f"{family} {n:.0f}" for family, n in peer.groupby("cut_family")["wrong"].sum().sort_values().items()))
+    say("wrong by the cross-check", f"{cross_check['wrong'].sum():,.0f} of {cross_check['tried'].sum():,.0f}")
+    say("... by family", *(f"{family} {n:.0f}" for family, n in cross_check.groupby("cut_family")["wrong"].sum().sort_values().items()))
 
 
 def near_coincident(folder):
@@ -43,11 +43,11 @@ def near_coincident(folder):
     words = [line.split() for line in lines(folder / "near_coincident.txt") if line[:1].isdigit()]
     rows = pd.DataFrame([[*line, "nan"][:len(names)] for line in words], columns=names)
     rows[["eps", *names[2:]]] = rows[["eps", *names[2:]]].astype(float)
-    own, peer = rows[rows["method"] != "peer"], rows[rows["method"] == "peer"]
+    own, cross_check = rows[rows["method"] != "cross_check"], rows[rows["method"] == "cross_check"]
     say("methods; cuts of each at each eps; refused, failed, wrong of all", str(own["method"].nunique()), span(own["tried"]),
         *(f"{own[c].sum():.0f}" for c in ("refused", "failed", "wrong")))
-    for row in peer[peer["wrong"] > 0].itertuples():
-        say(f"peer, eps {row.eps:g}: wrong; constraint moved", f"{row.wrong:.0f} of {row.tried:.0f}", row.moved)
+    for row in cross_check[cross_check["wrong"] > 0].itertuples():
+        say(f"cross_check, eps {row.eps:g}: wrong; constraint moved", f"{row.wrong:.0f} of {row.tried:.0f}", row.moved)
 
 
 def in_a_row(folder):
@@ -68,7 +68,7 @@ def in_a_row(folder):
 
 def main():
     folder = load.results_folder("reference", __doc__)
-    campaign(folder)
+    robustness(folder)
     near_coincident(folder)
     in_a_row(folder)
 

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""The numbers that docs/stability.md quotes of the stage `atlas` of experiments/publish and that are no cell of atlas.md, a line
-each, in the order of the page, labelled by their words. Reads the published records; those of a run by --results results/atlas."""
+"""The numbers that docs/stability.md quotes of the stage `stability` of experiments/publish and that are no cell the stability sweeps.md, a line
+each, in the order of the page, labelled by their words. Reads the published records; those of a run by --results results/stability."""
 
 import argparse
 from pathlib import Path
 
 import numpy as np
 
-from atlas_parts import points
-from atlas_parts.points import EXPLICIT, text
-from atlas_parts.table import rounded
+from stability_parts import points
+from stability_parts.points import EXPLICIT, text
+from stability_parts.table import rounded
 from common import load
 from common.quoted import drawn_whole, say, span
 from quoted_comparison import bracket

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The figures of README.md: readme_gallery.png, the same cut by every method, made by the program that
 experiments/reproduce builds, and from the records in results/reference readme_chart.png, the time of a cut and of the
-motion after it against the error, and readme_atlas.png, where methods stop working. Writes them there."""
+motion after it against the error, and readme_stability.png, where methods stop working. Writes them there."""
 
 import argparse
 import io
@@ -14,10 +14,10 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from PIL import Image
 
-import atlas
+import stability
 import method_gallery
 import whole_step
-from atlas_parts import panels, points
+from stability_parts import panels, points
 from common import load, style  # style: the fonts and axes of every figure
 
 WIDTH = 9.0  # inches; at 150 dpi twice the pixels of a page that is not a high-resolution one
@@ -78,11 +78,11 @@ def gallery(methods):
     return figure
 
 
-# ---- the atlas in short
+# ---- the stability sweeps in short
 
 
 def stability():
-    """Four panels of the atlas, large enough to be read beside the text."""
+    """Four panels of the stability sweeps, large enough to be read beside the text."""
     rows = points.on_the_page(points.read(load.REPOSITORY / "results/reference"))
     shown = ["vertex", "border", "strip", "in_a_row"]
     figure, axes = plt.subplots(1, 4, figsize=(WIDTH, 3.8))
@@ -91,7 +91,7 @@ def stability():
     for k, (ax, panel) in enumerate(zip(axes, shown)):
         if k < 3:
             ax.set_position([0.135 + 0.195 * k, 0.33, 0.18, 0.55])
-        atlas.draw(ax, rows, panel, ylabels=k in (0, 3))
+        stability.draw(ax, rows, panel, ylabels=k in (0, 3))
         ax.set_title(ax.get_title(loc="left"), loc="left", fontsize=9)
         ax.xaxis.label.set_fontsize(8.5)
         ax.tick_params(labelsize=7.5)
@@ -126,7 +126,7 @@ def main():
     methods = method_gallery.all_methods()
     save(gallery(methods), folder / "readme_gallery.png")
     save(whole_step.readme_chart(load.REPOSITORY / "results/reference")[0], folder / "readme_chart.png")
-    save(stability(), folder / "readme_atlas.png")
+    save(stability(), folder / "readme_stability.png")
 
 
 if __name__ == "__main__":

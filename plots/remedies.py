@@ -30,13 +30,13 @@ def kind_of(row):
     return "the mass" if row[-1] else next(kind for kind, (_, _, methods) in KINDS.items() if row[0] in methods)
 
 
-def label(method, knob, mass=""):
+def label(method, parameter, mass=""):
     several = method == "phantom_node"
-    return NAMES.get(method, method.replace("_", " ")) + (f", {knob}" if several else "") + (f", {mass} mass" if mass else "")
+    return NAMES.get(method, method.replace("_", " ")) + (f", {parameter}" if several else "") + (f", {mass} mass" if mass else "")
 
 
 def errors(folder):
-    """Excess error in percent, by (method, knob): over a fitted mesh of as many unknowns, of the cases that no method
+    """Excess error in percent, by (method, parameter): over a fitted mesh of as many unknowns, of the cases that no method
     failed, solved directly, with its 95 % interval; and after 100 iterations over one of as many triangles. Also how many
     cases of how many problems these are."""
     records = at_equal_unknowns(Records(folder)).ranked()
@@ -65,14 +65,14 @@ def rows_of(run, excess):
     """Of each method, and of some with an added mass: it leaves the errors at rest and the time of the cut as they are."""
     cuts = run.rows[run.rows["eigenvalue_ratio"].notna()]
     rows = []
-    for (method, knob), here in cuts.groupby(["method", "knob"], sort=False):
+    for (method, parameter), here in cuts.groupby(["method", "parameter"], sort=False):
         single = here["cut_family"] != "several"
         per_crossed = (here["geometry_us"] / here["crossed_triangles"]).median()
         for mass in ["", *(m for m, methods in ADDED_MASS.items() if method in methods)]:
             prefix = f"{mass}_" if mass else ""
             ratio, bends = here[f"{prefix}eigenvalue_ratio"], here[f"{prefix}bending_eigenvalue_ratio"]
-            rows.append([method, knob, *np.quantile(ratio, [0.5, 0.95, 1]), *np.quantile(ratio[single], [0.95, 1]),
-                         bends.median(), bends.quantile(0.95), *excess[method, knob], per_crossed, mass])
+            rows.append([method, parameter, *np.quantile(ratio, [0.5, 0.95, 1]), *np.quantile(ratio[single], [0.95, 1]),
+                         bends.median(), bends.quantile(0.95), *excess[method, parameter], per_crossed, mass])
     return sorted(rows, key=lambda r: r[2])
 
 
@@ -118,8 +118,8 @@ def main():
                      [[words, *(100 * np.quantile(added[column], [0.5, 0.95, 1]))] for words, column in
                       [("membrane", "scaled_mass_added"), ("with bending", "scaled_bending_mass_added")]])
     by_kind = kinds.table_of(at_equal_unknowns(Records(folder.with_name("remedies_accuracy"))).ranked())
-    columns = [c for c in by_kind.columns if c not in ("method", "knob")]
-    load.print_table(kinds.WHAT, ["method", *columns], [[label(r["method"], r["knob"]), *(r[c] for c in columns)]
+    columns = [c for c in by_kind.columns if c not in ("method", "parameter")]
+    load.print_table(kinds.WHAT, ["method", *columns], [[label(r["method"], r["parameter"]), *(r[c] for c in columns)]
                                                         for _, r in by_kind.iterrows()])
 
 

@@ -39,7 +39,7 @@ class Timings:
 
     def of(self, variant, resolution=None, cuts=None):
         cuts = self.cuts if cuts is None else cuts
-        chosen = (cuts["method"] == variant[0]) & (cuts["knob"] == variant[1])
+        chosen = (cuts["method"] == variant[0]) & (cuts["parameter"] == variant[1])
         return cuts[chosen if resolution is None else chosen & (cuts["resolution"] == resolution)]
 
     def ratio(self, upper, lower, resolution):
@@ -54,8 +54,8 @@ class Timings:
 
     def papers_method(self):
         """The paper's method with its local split: one round, else whatever was run."""
-        knobs = sorted((k for m, k in self.variants if m == "bowyer_watson"), key=lambda k: (k != "rounds=1", k))
-        return ("bowyer_watson", knobs[0]) if knobs else None
+        parameters = sorted((k for m, k in self.variants if m == "bowyer_watson"), key=lambda k: (k != "rounds=1", k))
+        return ("bowyer_watson", parameters[0]) if parameters else None
 
 
 def published(column="geometry_ms"):
@@ -122,7 +122,7 @@ def sheets_figure(run, timings):
 def phases_figure(timings):
     """Stacked phases per crossed triangle at the lowest and the highest resolution; None if no method has phases."""
     cuts = timings.cuts.dropna(subset=list(PHASES), how="all")
-    looks = style.looks(set(zip(cuts["method"], cuts["knob"])))
+    looks = style.looks(set(zip(cuts["method"], cuts["parameter"])))
     resolutions = sorted({cuts["resolution"].min(), cuts["resolution"].max()}) if len(cuts) else []
     if not resolutions:
         return None
@@ -241,14 +241,14 @@ PAPERS = dict(markerfacecolor="white", linestyle="-.", markersize=3, linewidth=0
 def motion_figure(run, sheet):
     """What a cut costs inside the running simulation, beside all three columns of the paper's table."""
     cuts = in_motion(run, sheet)
-    variants = [v for v in style.looks(set(zip(cuts["method"], cuts["knob"])))
+    variants = [v for v in style.looks(set(zip(cuts["method"], cuts["parameter"])))
                 if v in (("bowyer_watson", "rounds=0"), ("bowyer_watson", "rounds=1"))]
     if cuts.empty or not variants:
         return None
     figure, axes = style.panels(len(variants), 1, 5.0, subplot_kw={"yscale": "log"}, sharey=True)
     legend = []
     for ax, variant in zip(axes.flat, variants):
-        here = cuts[(cuts["method"] == variant[0]) & (cuts["knob"] == variant[1])]
+        here = cuts[(cuts["method"] == variant[0]) & (cuts["parameter"] == variant[1])]
         for column, (name, colour, marker, beside) in CURVES.items():
             look = style.Look(name, colour, marker)
             table = load.quartiles(here, "resolution", column)
@@ -289,9 +289,9 @@ def print_motion(run, sheet):
     cuts = in_motion(run, sheet)
     rows = []
     for resolution in sorted(set(cuts["resolution"])):
-        for variant, look in style.looks(set(zip(cuts["method"], cuts["knob"]))).items():
+        for variant, look in style.looks(set(zip(cuts["method"], cuts["parameter"]))).items():
             here = cuts[(cuts["resolution"] == resolution) & (cuts["method"] == variant[0]) &
-                        (cuts["knob"] == variant[1])]
+                        (cuts["parameter"] == variant[1])]
             medians = here[["geometry_us", "update_us", "bending_us", *STEP, "solver_iterations"]].median()
             rows.append([str(resolution), look.label, str(load.count(here)), *medians,
                          load.ratio(here["rebuild_us"], here["pattern_us"])[0],
@@ -317,7 +317,7 @@ def print_numbers(timings, paper):
             cold_median = timings.of(variant, resolution, cold)["geometry_us"].median()
             slower = cold_median / median if timings.cache == "warm" else np.nan
             against = "-" if variant == BASELINE else interval(timings.ratio(BASELINE, variant, resolution))
-            failed = timings.run.select(resolution=resolution, method=variant[0], knob=variant[1]).failed
+            failed = timings.run.select(resolution=resolution, method=variant[0], parameter=variant[1]).failed
             rows.append([str(resolution), look.label, str(load.count(here)), str(load.count(failed)),
                          here["crossed_triangles"].median(), q1, median, q3, cold_median, slower,
                          here["ns_per_crossed"].median(), against, paper.get(resolution, np.nan)])

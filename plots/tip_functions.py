@@ -43,11 +43,11 @@ def rows_of(table):
 
 def figure_of(run, table):
     figure, axes = style.panels(1, len(KINDS), 6.2, width=style.PAGE, sharey=True)
-    looks = style.looks(set(zip(table["method"], table["knob"])))
+    looks = style.looks(set(zip(table["method"], table["parameter"])))
     for ax, (kind, problems) in zip(axes[0], KINDS.items()):
         here = table[table["problem"].isin(problems)]
-        for (method, knob), look in looks.items():
-            of_method = here[(here["method"] == method) & (here["knob"] == knob)]
+        for (method, parameter), look in looks.items():
+            of_method = here[(here["method"] == method) & (here["parameter"] == parameter)]
             for on, line in ((0, "--"), (1, "-")):
                 errors = means(of_method[of_method["tip_functions"] == on], MEASURE)
                 ax.plot(errors.index, errors, **(look.drawn() | {"linestyle": line, "linewidth": 1}))

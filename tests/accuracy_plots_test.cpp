@@ -11,7 +11,7 @@ using AccuracyPlots = Program;
 TEST_F(AccuracyPlots, ShowEveryMethodAndWhatFailed) {
   write(folder_ / "accuracy.toml",
         "claim = \"c\"\nsheets = [\"grid\"]\nresolutions = [72, 128, 200]\n"
-        "methods = [\"conventional_split\", {name = \"bowyer_watson\", knob = [0, 1]}]\n[accuracy]\n"
+        "methods = [\"conventional_split\", {name = \"bowyer_watson\", parameter = [0, 1]}]\n[accuracy]\n"
         "problems = [\"centre_crack\", \"arc_crack_45\"]\nmembers = [3, 3, 3]\ndirect = [\"cholmod\"]\n"
         "preconditioners = [\"cg\", \"cg_sliver_blocks\"]\niterations = [10, 100]\n");
   const Result made = run("run accuracy.toml --out results");

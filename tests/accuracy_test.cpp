@@ -36,7 +36,7 @@ std::vector<std::string> without_times(std::vector<Record> rows) {
 
 class Accuracy : public Program {
  protected:
-  static constexpr const char* methods = "[\"conventional_split\", {name = \"bowyer_watson\", knob = [0, 1]}]";
+  static constexpr const char* methods = "[\"conventional_split\", {name = \"bowyer_watson\", parameter = [0, 1]}]";
   static std::string experiment(const std::string& more = "", const std::string& problems = "\"centre_crack\"") {
     return std::string("claim = \"c\"\nsheets = [\"delaunay\"]\nresolutions = [32, 72]\nmethods = ") + methods + "\n" +
            more + "[accuracy]\nproblems = [" + problems + "]\nmembers = [2, 1]\ndirect = [\"cholmod\"]\n" +

@@ -67,7 +67,7 @@ TEST(ActiveNode, TurnsNoTriangleOver) {
           return sum;
         };
         Locator locator(sheet);
-        const auto method = row.make(row.knob.value);
+        const auto method = row.make(row.parameter.value);
         for (const Curve& curve : make_case(cuts, 11, i, sheet)) {
           EXPECT_EQ(Cutter().cut(sheet, locator, curve, *method, {}).status, Status::ok);
           EXPECT_NEAR(static_cast<double>(total(sheet) / total(before)), 1, 1e-12)

@@ -230,7 +230,7 @@ TEST_P(LocalDynamicsOf, IsTheWholeSheetHeldFarAway) {
   }
 
   const auto end_of = [&](const Scene& scene) {
-    const auto method = find_method(kind.method).make(find_method(kind.method).knob.value);
+    const auto method = find_method(kind.method).make(find_method(kind.method).parameter.value);
     const auto motion = Simulation::start(scene);
     EXPECT_EQ(motion->advance(scene.duration, *method, {}).verdict, "ok");
     EXPECT_EQ(motion->made_cuts().size(), 2u);

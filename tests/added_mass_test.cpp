@@ -171,7 +171,7 @@ void cut_and_compare(const std::string& method, Mass kind, BendingKind bending) 
       Body<D> body(make_sheet(sheet, 8), skin, physics);
       for (std::size_t again = 0; again < 3; ++again)
         for (const Curve& curve : make_case(family, 20, again, body.sheet)) {
-          if (body.cut(curve, method, find_method(method).knob.value) != Status::ok) continue;
+          if (body.cut(curve, method, find_method(method).parameter.value) != Status::ok) continue;
           ++made;
           const double limit = body.model.added_mass()->limit();
           physics.mass_limit = 1;

@@ -104,7 +104,7 @@ TEST_P(Adopt, IsTheSameSheetEverywhere) {
       Sheet expected = start, adopted = start;
       Locator locator(expected), other_locator(adopted);
       const MethodRow& row = find_method(method);
-      const Status status = Cutter().cut(expected, locator, curves.front(), *row.make(row.knob.value), {}).status;
+      const Status status = Cutter().cut(expected, locator, curves.front(), *row.make(row.parameter.value), {}).status;
       if (status != Status::ok) continue;
       Copies copies(in_disorder(expected.to_mesh_data(), random));
       ASSERT_EQ(Cutter().cut(adopted, other_locator, curves.front(), copies, {}).status, Status::ok);

@@ -11,7 +11,7 @@ namespace {
 
 const std::string good = "cut --method cgal_cdt --mesh sheet.off --path path.json --out out.obj";
 
-std::string knob(const std::string& method, const std::string& value) {
+std::string parameter(const std::string& method, const std::string& value) {
   return "cut --method " + method + " --set " + value + " --mesh sheet.off --path path.json --out out.obj";
 }
 
@@ -30,17 +30,17 @@ TEST_F(BadInput, Options) {
                "unknown method \"\"; `cutbench methods` lists them"},
               {"cut --method bowyer_watson --set rounds=inf --mesh sheet.off --path path.json --out out.obj", 2,
                "rounds must be a whole number from 0 to 6"},
-              {knob("bowyer_watson", "rounds=0.5"), 2, "rounds must be a whole number from 0 to 6"},
-              {knob("cgal_refine", "bound=1"), 2, "bound must be 0, or a number from 2 to 1000"},
-              {knob("delaunay_refine", "bound=1001"), 2, "bound must be 0, or a number from 2 to 1000"},
-              {knob("longest_edge", "cap=101"), 2, "cap must be a number from 0 to 100"},
-              {knob("snap_or_split", "tolerance=0.6"), 2, "tolerance must be a number from 0 to 0.5"},
-              {knob("adaptive_remesh", "tip=0.05"), 2, "tip must be 0, or a number from 0.1 to 1"},
-              {knob("cut_polygons", "thinness=2"), 2, "thinness must be a number from 0 to 1"},
-              {knob("split_and_tie", "thinness=-1"), 2, "thinness must be a number from 0 to 0.3"},
-              {knob("vertex_snap", "reach=0.6"), 2, "reach must be a number from 0 to 0.5"},
-              {knob("active_node", "spacing=0.1"), 2, "spacing must be 0, or a number from 0.25 to 4"},
-              {knob("warp_and_refine", "reach=-1"), 2, "reach must be a number from 0 to 0.5"},
+              {parameter("bowyer_watson", "rounds=0.5"), 2, "rounds must be a whole number from 0 to 6"},
+              {parameter("cgal_refine", "bound=1"), 2, "bound must be 0, or a number from 2 to 1000"},
+              {parameter("delaunay_refine", "bound=1001"), 2, "bound must be 0, or a number from 2 to 1000"},
+              {parameter("longest_edge", "cap=101"), 2, "cap must be a number from 0 to 100"},
+              {parameter("snap_or_split", "tolerance=0.6"), 2, "tolerance must be a number from 0 to 0.5"},
+              {parameter("adaptive_remesh", "tip=0.05"), 2, "tip must be 0, or a number from 0.1 to 1"},
+              {parameter("cut_polygons", "thinness=2"), 2, "thinness must be a number from 0 to 1"},
+              {parameter("split_and_tie", "thinness=-1"), 2, "thinness must be a number from 0 to 0.3"},
+              {parameter("vertex_snap", "reach=0.6"), 2, "reach must be a number from 0 to 0.5"},
+              {parameter("active_node", "spacing=0.1"), 2, "spacing must be 0, or a number from 0.25 to 4"},
+              {parameter("warp_and_refine", "reach=-1"), 2, "reach must be a number from 0 to 0.5"},
               {good + " --chord-tolerance 1x", 2, "\"1x\" is not a number"},
               {"simulate " + std::string(CUTBENCH_TEST_CASES) +
                    "/../../experiments/scenes/falling_piece.toml "

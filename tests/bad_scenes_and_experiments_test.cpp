@@ -79,8 +79,8 @@ TEST_F(BadInput, Experiments) {
   ASSERT_EQ(experiment(text), "no InputError");
   ASSERT_EQ(experiment(text + "eigenvalue_cases = 0\n"), "no InputError");  // the default
   const std::string head = "claim = \"c\"\nsheets = [\"grid\"]\nresolutions = [200]\nmethods = [\"example\"]\n";
-  const std::string campaign = head + "[campaign]\n", accuracy = head + "[accuracy]\n";
-  ASSERT_EQ(experiment(campaign), "no InputError");
+  const std::string robustness = head + "[robustness]\n", accuracy = head + "[accuracy]\n";
+  ASSERT_EQ(experiment(robustness), "no InputError");
   ASSERT_EQ(experiment(accuracy + "direct = [\"cholmod\"]\nmembers = [1]\n"), "no InputError");
   write(folder_ / "of_a_file.toml", scene_of("[sheet]\nfile = \"sheet.off\"\n"));
   write(folder_ / "of_a_family.toml", scene_of("[sheet]\nresolution = 200\n"));
@@ -107,17 +107,17 @@ TEST_F(BadInput, Experiments) {
            {with("cases = 3", "cases = 0"), "\"cases\" must be between 1 and 1000000"},
            {with("cases = 3", "cases = 3.5"), "\"cases\" has a value of the wrong kind"},
            {with("cases = 3", "cases = 99999999999999999999"), "line 5"},
-           {with("knob = [0, 1]", "knobs = [0, 1]"), "did you mean \"knob\""},
-           {with("knob = [0, 1]", "knob = 1"), "\"knob\" must be a list"},
+           {with("parameter = [0, 1]", "parameters = [0, 1]"), "did you mean \"parameter\""},
+           {with("parameter = [0, 1]", "parameter = 1"), "\"parameter\" must be a list"},
            {with("name = ", "name = 1, nam = "), "unknown key \"nam\""},
            {with("\"conventional_split\"", "3"),
-            "an entry of \"methods\" is a name, {name = ..., knob = [...]} or {name = ..., command = ...}"},
+            "an entry of \"methods\" is a name, {name = ..., parameter = [...]} or {name = ..., command = ...}"},
            {text + "scene = \"none.toml\"\ncut_time = 0\n", "none.toml: can't be read"},
            {text + "scene = \"of_a_file.toml\"\ncut_time = 0\n", "\"scene\" has a sheet from a file"},
            {text + "scene = \"of_a_part.toml\"\ncut_time = 0\n",
             "\"active_radius\" is that round the scene's own cuts"},
            {text + "scene = \"of_a_family.toml\"\ncut_time = 0.1\n", "\"cut_time\" must lie within the scene's"},
-           {campaign + "mesh_files = [\"none.off\"]\n", "there is no file"},
+           {robustness + "mesh_files = [\"none.off\"]\n", "there is no file"},
            {accuracy + "direct = [\"gauss\"]\nmembers = [1]\n", "solver \"gauss\" is not known"},
            {accuracy + "problems = [\"none\"]\ndirect = [\"cholmod\"]\nmembers = [1]\n", "none"},
            {accuracy + "direct = [\"cholmod\"]\nmembers = [1, 2]\n", "\"members\" must be as many numbers as"},
@@ -133,17 +133,19 @@ TEST_F(BadInput, Experiments) {
     EXPECT_NE(experiment(bad).find(message), std::string::npos) << bad.substr(0, 300) << "\nsays " << experiment(bad);
   for (std::size_t n = 0; n < text.find("methods"); ++n) EXPECT_NE(experiment(text.substr(0, n)), "no InputError") << n;
 
-  // What only the program knows: methods, their knobs, and the command line.
+  // What only the program knows: methods, their parameters, and the command line.
   write(folder_ / "e.toml", text);
-  write(folder_ / "twice.toml", with("[0, 1]", "[0, 0]")), write(folder_ / "knob.toml", with("[0, 1]", "[0, 0.5]"));
-  write(folder_ / "knobless.toml", with("\"conventional_split\"", "{name = \"conventional_split\", knob = [1]}"));
+  write(folder_ / "twice.toml", with("[0, 1]", "[0, 0]")),
+      write(folder_ / "parameter.toml", with("[0, 1]", "[0, 0.5]"));
+  write(folder_ / "parameterless.toml",
+        with("\"conventional_split\"", "{name = \"conventional_split\", parameter = [1]}"));
   expect_all({{"run twice.toml --out r", 2, "method \"bowyer_watson\" is there twice with rounds=0"},
-              {"run knob.toml --out r", 2, "rounds must be a whole number"},
-              {"run knobless.toml --out r", 2, "method \"conventional_split\" has no knob"},
+              {"run parameter.toml --out r", 2, "rounds must be a whole number"},
+              {"run parameterless.toml --out r", 2, "method \"conventional_split\" has no parameter"},
               {"run e.toml --out r --shard 1/2x", 2, "--shard 1/2x"},
               {"run e.toml --out r --seed -1", 2, "--seed -1: give a whole number"},
               {"run e.toml --out r --seed 1e30", 2, "--seed 1e30: give a whole number"},
-              {"run e.toml --out r --methods peer", 2, "--methods peer is not in the experiment"},
+              {"run e.toml --out r --methods cross_check", 2, "--methods cross_check is not in the experiment"},
               {"run e.toml --out r --sweeps vertex", 2, "--sweeps is for an experiment that has [[sweeps]]"},
               {"run e.toml --out r --cases 0", 2, "--cases"},
               {"run e.toml --out r --repetitions 0", 2, "--repetitions"}});

@@ -86,7 +86,7 @@ std::vector<Cut> cut_sheets(int n, std::size_t cases) {
                   Sheet(make_sheet(family, n))};
           Locator locator(cut.sheet);
           Cutter cutter;
-          const auto method = row.make(row.knob.value);
+          const auto method = row.make(row.parameter.value);
           for (const Curve& curve : make_case(kind, 90, i, cut.sheet))
             cutter.cut(cut.sheet, locator, curve, *method, {});
           result.push_back(std::move(cut));

@@ -147,8 +147,8 @@ TEST(Bending, NothingHoldsAcrossAnIncision) {
   for (const MethodRow& row : whole_sheet_methods()) {
     Sheet sheet(make_sheet("delaunay", 10));
     Locator locator(sheet);
-    Cutter().cut(sheet, locator, {Curve::Kind::polyline, false, {{-0.1, 0.41}, {1.1, 0.52}}}, *row.make(row.knob.value),
-                 {});
+    Cutter().cut(sheet, locator, {Curve::Kind::polyline, false, {{-0.1, 0.41}, {1.1, 0.52}}},
+                 *row.make(row.parameter.value), {});
     ASSERT_EQ(count_pieces(sheet), 2u);
     for (const Bending& bending : {patches(sheet), hinges(sheet)}) {
       std::vector<int> side(sheet.deformed_slots());

@@ -37,7 +37,7 @@ TEST(BendingUpdate, IsLikeNewAfterEveryKindOfCut) {
       Bending bending(sheet, kind, rigidity, poisson);
       Locator locator(sheet);
       Cutter cutter;
-      const auto method = row.make(row.knob.value);
+      const auto method = row.make(row.parameter.value);
       for (const std::string cut : cut_families())
         for (const Curve& curve : make_case(cut, 92, 1, sheet)) {
           SCOPED_TRACE(row.name + ", " + family + ", " + cut);
@@ -178,8 +178,8 @@ TEST(BendingUpdate, LeavesWhatIsFarFromTheCutWhereItIs) {
   const Bending before = bending;
   Locator locator(sheet);
   const auto& row = find_method("conventional_split");
-  Cutter().cut(sheet, locator, {Curve::Kind::polyline, false, {{0.1, 0.1}, {0.2, 0.15}}}, *row.make(row.knob.value),
-               {});
+  Cutter().cut(sheet, locator, {Curve::Kind::polyline, false, {{0.1, 0.1}, {0.2, 0.15}}},
+               *row.make(row.parameter.value), {});
   bending.update(sheet);
   std::size_t far = 0;
   for (std::size_t d = 0; d < before.matrix().rows(); ++d) {

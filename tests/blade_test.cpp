@@ -117,13 +117,13 @@ TEST(Blade, InTheEndTheIncisionIsThatOfTheCutAtOnce) {
   Random random(11);
   for (const MethodRow& row : all_methods()) {
     if (!row.promises.exact_incision) continue;
-    const double knob = row.knob.name == "rounds" ? std::min(row.knob.value, 1.0) : row.knob.value;
+    const double parameter = row.parameter.name == "rounds" ? std::min(row.parameter.value, 1.0) : row.parameter.value;
     for (const char* family : {"grid", "delaunay"})
       for (const auto& [name, curve] : paths) {
         if (random.coin()) continue;  // half of them, others for the next method
         const std::string where = row.name + ", " + family + ", " + name;
         const CutOptions options;
-        Table at_once(make_sheet(family, 10), row, knob), by_parts(make_sheet(family, 10), row, knob);
+        Table at_once(make_sheet(family, 10), row, parameter), by_parts(make_sheet(family, 10), row, parameter);
         const Sheet before = at_once.sheet;
         ASSERT_EQ(at_once.cut(curve, options.chord_tolerance), "") << where;
         const Blade blade(curve);

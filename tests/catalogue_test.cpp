@@ -23,16 +23,16 @@ using nlohmann::json;
 /// Cases that don't come out as their files say they should, as "case" or "case, method", and why.
 const std::map<std::string, std::string> known_failures{};
 
-/// A case by one method with one value of its knob.
+/// A case by one method with one value of its parameter.
 struct Trial {
   const CatalogueCase& file;
   const MethodRow& row;
-  double knob;
-  std::string method;  ///< with its knob
+  double parameter;
+  std::string method;  ///< with its parameter
 };
 
 std::vector<Trial> trials_of(const CatalogueCase& file, const MethodRow& row) {
-  if (row.knob.name != "rounds") return {{file, row, row.knob.value, row.name}};
+  if (row.parameter.name != "rounds") return {{file, row, row.parameter.value, row.name}};
   std::vector<Trial> trials;
   for (int k : file.rounds) trials.push_back({file, row, static_cast<double>(k), row.name + "_" + std::to_string(k)});
   return trials;
@@ -83,7 +83,7 @@ void run_member(const CatalogueMember& member, const Trial& trial, double chord)
   EXPECT_NE(notes.find(expect.value("note", "")), std::string::npos) << notes;
   EXPECT_EQ(notes.empty(), !expect.contains("note")) << notes;
 
-  Table table(mesh, trial.row, trial.knob);
+  Table table(mesh, trial.row, trial.parameter);
   const Sheet uncut = table.sheet;
   bool whole = trial.row.promises.keeps_area;  // all of the sheet, and the method takes it
   for (std::size_t i = 0; i < cuts.size(); ++i) {

@@ -42,8 +42,8 @@ def write(path, rows):
         writer.writerows(rows)
 
 
-def of(row, method, knob):
-    return row["method"] == method and row["knob"] == knob
+def of(row, method, parameter):
+    return row["method"] == method and row["parameter"] == parameter
 
 
 def check_all_there(results):
@@ -138,7 +138,7 @@ def check_ranked_cases(records):
     from accuracy_parts.ranking import made_by_all
     made = made_by_all(records.rows(direct=True))
     expect(f"cases that somebody failed are ranked: {set(made['case'])}", set(made["case"]) == {1, 2})
-    sizes = made.groupby(["method", "knob"]).size()
+    sizes = made.groupby(["method", "parameter"]).size()
     expect(f"methods are ranked on different cases: {sizes.to_dict()}", sizes.nunique() == 1)
 
 
@@ -202,7 +202,7 @@ def check_program(results):
     rows = [row for row in read(folder / "records.csv") if row["resolution"] == "200"]
     for row in rows:
         if of(row, "bowyer_watson", "rounds=1"):
-            row["method"], row["knob"] = "my_own", ""
+            row["method"], row["parameter"] = "my_own", ""
     write(folder / "records.csv", rows)
     context = json.loads((folder / "context.json").read_text(encoding="utf-8"))
     context["command"] += " --command my_own=python3 my_own.py {mesh} {path} {out}"

@@ -102,17 +102,17 @@ def options():
     for more, says in [("--nonsense 1", "--nonsense"), ("--out", "--out"), ("--chord-tolerance 0", "must be positive"),
                        ("--chord-tolerance -1", "must be positive"), ("--chord-tolerance nan", "not a number"),
                        ("--chord-tolerance 1x", "not a number"), ("--chord-tolerance", "--chord-tolerance"),
-                       ("--set a=1", "has no knob"), ("--mesh sheet.off", "--mesh"),
+                       ("--set a=1", "has no parameter"), ("--mesh sheet.off", "--mesh"),
                        ("--report none/r.json", "there is no folder none"), ("--report sheet.off", "take the place"),
                        ("--report path.json", "take the place"), ("--report out.obj", "take the place")]:
         yield Fault(f"{CUT} {more}", 2, says)
     one = "cut --mesh sheet.off --path path.json --out out.obj --method "
     yield Fault(one + "conventionl_split", 2, 'did you mean "conventional_split"?')
     yield Fault(one + "foo", 2, "unknown method \"foo\"; `cutbench methods` lists them")
-    for knob in ["bowyer_watson --set rounds=12", "bowyer_watson --set rounds=-1", "bowyer_watson --set rounds=0.5",
+    for parameter in ["bowyer_watson --set rounds=12", "bowyer_watson --set rounds=-1", "bowyer_watson --set rounds=0.5",
                  "bowyer_watson --set rounds=inf", "cgal_refine --set bound=1", "snap_or_split --set tolerance=0.6",
                  "split_and_tie --set thinness=-1", "vertex_snap --set reach=0.6", "longest_edge --set cap=101"]:
-        yield Fault(one + knob, 2, "must be")
+        yield Fault(one + parameter, 2, "must be")
     yield Fault(one + "bowyer_watson --set round=1", 2, "is set as rounds=VALUE")
     yield Fault(one + "bowyer_watson --set rounds=x", 2, "not a number")
     for out, says in [("out", "unknown mesh format"), ("out.stl", "unknown mesh format"), ("none/out.obj", "no folder none"),

@@ -24,7 +24,7 @@ ROOMS = {  # from the ground up: a room and the rooms below it that it may use
                     "records", "program"],
     "harness/study/robustness": ["base", "mesh", "path", "cut", "measure", "judge", "cases", "records", "run", "program"],
     "harness/study/stability": ["base", "mesh", "path", "cut", "fem", "judge", "cases", "scene", "records", "run"],
-    "harness": ["records", "run", "campaign", "atlas"],  # run_experiment
+    "harness": ["records", "run", "robustness", "stability"],  # run_experiment
     "methods": ["base", "mesh", "path", "cut"],
 }
 

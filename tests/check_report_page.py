@@ -133,10 +133,10 @@ class Oracle:
         self.all_motions = rows_of("whole_step")
         self.motions = self.at(*SETTING)
         self.errors = error_rows()
-        self.campaign = rows_of("robustness")
-        self.atlas = [r for r in rows_of("atlas") if r["sweep"] == "vertex" and r["mass"] == "lumped"]
-        knobs = {r["method"]: r["knob"] for r in self.motions + self.cuts}
-        self.campaign, self.atlas = ([r for r in rows if knobs.get(r["method"]) == r["knob"]] for rows in (self.campaign, self.atlas))
+        self.robustness = rows_of("robustness")
+        self.stability = [r for r in rows_of("stability") if r["sweep"] == "vertex" and r["mass"] == "lumped"]
+        parameters = {r["method"]: r["parameter"] for r in self.motions + self.cuts}
+        self.robustness, self.stability = ([r for r in rows if parameters.get(r["method"]) == r["parameter"]] for rows in (self.robustness, self.stability))
 
     def at(self, place, step, stiffness):
         return [r for r in self.all_motions if float(r["place"]) == float(place) and abs(float(r["step_s"]) - step) < 1e-9
@@ -156,12 +156,12 @@ class Oracle:
         for method, error in errors(here(self.errors, "sheet triangles")).items():
             if not method.startswith("body_fitted"):
                 found[method]["error_percent"] = 100 * error
-        for (method,), rows in grouped(here(self.campaign, "sheet"), "method").items():
+        for (method,), rows in grouped(here(self.robustness, "sheet"), "method").items():
             def total(*names, rows=rows):
                 return sum(int(r[n]) for r in rows for n in names)
             found[method] |= {"faults": total("failed", "wrong", "crashed", "timed_out"),
                               "refused_percent": 100 * total("refused") / total("tried")}
-        for (method,), rows in grouped(here(self.atlas, "sheet"), "method").items():
+        for (method,), rows in grouped(here(self.stability, "sheet"), "method").items():
             steps = [float(r["explicit_step_ratio"]) for r in rows if r["explicit_step_ratio"]]
             if steps:
                 found[method]["explicit_step"] = min(steps)

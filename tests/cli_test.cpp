@@ -111,7 +111,7 @@ TEST_F(Cli, RepeatedPolylineIsANoop) {
 TEST_F(Cli, BadOptionsAreRefused) {
   expect_refused(cut("", "conventionl_split"),
                  "unknown method \"conventionl_split\"; did you mean \"conventional_split\"?");
-  expect_refused(cut("--set rounds=1"), "has no knob");
+  expect_refused(cut("--set rounds=1"), "has no parameter");
   expect_refused(cut("--set rounds=x", "bowyer_watson"), "not a number");
   expect_refused(cut("--set depth=1", "bowyer_watson"), "rounds=VALUE");
   expect_refused(cut("--set rounds=-1", "bowyer_watson"), "rounds");

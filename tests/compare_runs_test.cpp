@@ -26,7 +26,7 @@ class CompareRuns : public testing::Test {
     const auto folder = folder_ / name;
     std::filesystem::create_directories(folder);
     std::ofstream out(folder / "records.csv");
-    out << "suite_version,scene,sheet,method,knob,resolution,case,repetition,seed,cache,status,verdict,ar_max_cut,"
+    out << "suite_version,scene,sheet,method,parameter,resolution,case,repetition,seed,cache,status,verdict,ar_max_cut,"
            "geometry_us\n";
     for (std::size_t i = 0; i < rows.size(); ++i)
       out << "4,curved,grid,bowyer_watson,rounds=1,800," << i << ',' << rows[i].repetition << ",1,warm,"

@@ -107,7 +107,7 @@ TEST_P(CornerCases, ComeOutRight) {
   for (const Case& c : cases())
     for (const char* family : {"grid", "alternating"})
       for (double chord : {0.05, infinite}) {
-        Table table(make_sheet(family, 4), row, row.knob.value);
+        Table table(make_sheet(family, 4), row, row.parameter.value);
         std::size_t i = 0;
         for (const Step& step : c.steps) {
           SCOPED_TRACE(c.name + ", cut " + std::to_string(i++) + ", " + family + ", chord tolerance " +
@@ -130,7 +130,7 @@ TEST_P(CornerCases, SheetWithAHole) {
   for (Point2 p : mesh.rest) middle = middle + 1.0 / static_cast<double>(mesh.rest.size()) * p;
   const double size = sheet.size();
   const Point2 along{size, 0.1 * size}, aside{-0.1 * size, size};
-  Table table(mesh, row, row.knob.value);
+  Table table(mesh, row, row.parameter.value);
   EXPECT_EQ(table.cut({polyline, false, {middle, middle + along}}, 0.05), "");
   EXPECT_EQ(table.judgement.pieces, 1);
   EXPECT_EQ(table.cut({polyline, false, {middle - aside, middle + aside}}, 0.05), "");

@@ -8,11 +8,11 @@
 #include "harness/fem/model/largest_eigenvalue.h"
 #include "harness/fem/time/stepper.h"
 #include "harness/mesh/families.h"
+#include "tests/constrained_cut.h"
 #include "tests/dense_solves.h"
 #include "tests/fem_helpers.h"
 #include "tests/helpers.h"
 #include "tests/sound_polygons.h"
-#include "tests/tied_cut.h"
 #include "tests/truth_helpers.h"
 
 namespace cutbench {
@@ -25,7 +25,7 @@ const std::vector<std::string> cuts_to_make{"straight",      "curved",          
 constexpr Material leather{.density = 2, .stiffness = 1000, .poisson = 0.3, .bending = 0.02};
 
 void merge_as_after_a_cut(Body<3>& body, const Sheet& before, const CuttingMethod& method) {
-  body.model.tie(body.sheet, method.next_ties(before, body.sheet, body.model.polygons_left()));
+  body.model.constraint(body.sheet, method.next_constraints(before, body.sheet, body.model.polygons_left()));
 }
 
 // --- the model -------------------------------------------------------------------------------------------------------
@@ -47,7 +47,7 @@ TEST(PolygonModel, FollowsCutsAsOneMadeAnew) {
           merge_as_after_a_cut(body, before, *method);
           expect_sound(body.sheet, body.model.polygons());
           Model<3> fresh = body.fresh_model();
-          fresh.tie(body.sheet, {.polygons = body.model.polygons()});
+          fresh.constraint(body.sheet, {.polygons = body.model.polygons()});
           const Field x = bent(fresh, body.sheet);
           for (Model<3>* const model : {&body.model, &fresh}) model->rotate(x), model->assemble(1.2, 0.1);
           EXPECT_EQ(body.model.held(), fresh.held());
@@ -64,11 +64,11 @@ TEST(PolygonModel, FollowsCutsAsOneMadeAnew) {
 
 /// Every quadratic has its exact energy, per element, wherever patches know the curvature: with polygons as without.
 TEST(PolygonBending, PassesThePatchTest) {
-  for_each_tied_cut({cut_polygons}, 12, 1, 877, [&](const TiedCut& cut) {
+  for_each_constrained_cut({cut_polygons}, 12, 1, 877, [&](const ConstrainedCut& cut) {
     const Sheet& sheet = cut.sheet();
     if (count_pieces(sheet) > 1) return;  // a piece may be too small to know a curvature
     ElementTable elements(sheet);
-    for (const Polygon& polygon : cut.ties.polygons) elements.add_polygon(sheet, polygon);
+    for (const Polygon& polygon : cut.constraints.polygons) elements.add_polygon(sheet, polygon);
     const double rigidity = 0.7, poisson = 0.3, xx = 0.4, yy = -0.3, xy = 0.5;
     const Bending plain(sheet, BendingKind::patches, rigidity, poisson),
         merged(sheet, BendingKind::patches, rigidity, poisson, &elements);
@@ -83,7 +83,7 @@ TEST(PolygonBending, PassesThePatchTest) {
     // As the triangles alone have it: exact, where no strip between cuts is too narrow to know a curvature.
     if (std::abs(plain.energy(w, 1) - exact) > 1e-9 * exact) return;
     EXPECT_NEAR(merged.energy(w, 1), exact, 1e-8 * exact);
-    for (const Polygon& polygon : cut.ties.polygons)
+    for (const Polygon& polygon : cut.constraints.polygons)
       for (const DeformedIndex d : polygon.inside) EXPECT_TRUE(merged.matrix().columns(d()).empty());
   });
 }
@@ -93,10 +93,10 @@ TEST(PolygonBending, EigenvalueWithBendingIsFarBelowThatOfTheSplit) {
   double worst_split = 0, worst = 0;
   for (const std::string family : sheet_families())
     for (std::size_t i = 0; i < scaled(4); ++i) {
-      const TiedCut cut(family, 16, cut_polygons, "straight", 877, i);
+      const ConstrainedCut cut(family, 16, cut_polygons, "straight", 877, i);
       const double whole = largest_eigenvalue(cut.before, {}, bends);
       worst_split = std::max(worst_split, largest_eigenvalue(cut.sheet(), {}, bends) / whole);
-      worst = std::max(worst, largest_eigenvalue(cut.sheet(), cut.ties, bends) / whole);
+      worst = std::max(worst, largest_eigenvalue(cut.sheet(), cut.constraints, bends) / whole);
     }
   std::cout << "largest eigenvalue with bending: split " << worst_split << ", polygons " << worst << "\n";
   EXPECT_LE(worst, 0.1 * worst_split);
@@ -115,10 +115,10 @@ TEST(CutPolygons, FollowTheLastCut) {
     asked.push_back(0);
     const PolygonsLeft left = body.model.polygons_left();
     const auto counted = [&](TriangleIndex t) { return ++asked.back(), left.of(t); };
-    const Ties ties = method->next_ties(before, body.sheet, {counted, left.freed});
+    const Constraints constraints = method->next_constraints(before, body.sheet, {counted, left.freed});
     const std::size_t old = body.model.polygons().size();
-    body.model.tie(body.sheet, ties);
-    EXPECT_EQ(body.model.polygons().size(), old + ties.polygons.size());
+    body.model.constraint(body.sheet, constraints);
+    EXPECT_EQ(body.model.polygons().size(), old + constraints.polygons.size());
   }
   EXPECT_GT(asked.front(), 40u);
   EXPECT_LT(*std::max_element(asked.begin(), asked.end()), 2 * asked.front());
@@ -136,7 +136,7 @@ TEST(CutPolygons, AreAsGoodCutByCutAsAtOnce) {
         if (body.cut(curve, "cut_polygons", 0.7) == Status::ok) merge_as_after_a_cut(body, before, *method);
       const double whole = largest_eigenvalue(before),
                    value = largest_eigenvalue(body.sheet, {.polygons = body.model.polygons()}) / whole,
-                   at_once = largest_eigenvalue(body.sheet, method->ties(before, body.sheet)) / whole;
+                   at_once = largest_eigenvalue(body.sheet, method->constraints(before, body.sheet)) / whole;
       worst = std::max(worst, value), worst_at_once = std::max(worst_at_once, at_once);
       logs += std::log(value / at_once), ++cases;
     }
@@ -152,9 +152,9 @@ TEST(CutPolygons, EigenvalueStaysNearThatOfTheUncutSheet) {
   for (const std::string family : sheet_families())
     for (const std::string cuts : {"straight", "curved", "partial"})
       for (std::size_t i = 0; i < scaled(4); ++i) {
-        const TiedCut cut(family, 16, cut_polygons, cuts, 877, i);
+        const ConstrainedCut cut(family, 16, cut_polygons, cuts, 877, i);
         const double whole = largest_eigenvalue(cut.before);
-        worst = std::max(worst, largest_eigenvalue(cut.sheet(), cut.ties) / whole);
+        worst = std::max(worst, largest_eigenvalue(cut.sheet(), cut.constraints) / whole);
         worst_split = std::max(worst_split, largest_eigenvalue(cut.sheet()) / whole);
       }
   std::cout << "largest eigenvalue: split " << worst_split << ", polygons " << worst << "\n";
@@ -211,9 +211,9 @@ TEST(CutPolygons, CracksOpenBetterThanByTheSplit) {
     for (std::size_t member = 0; member < scaled(4); ++member) {
       const Specimen specimen = problem.specimen(family, 24, 877, member);
       const Sheet before(specimen.mesh), cut = cut_by(specimen, "cut_polygons", 0.7);
-      const Ties ties = find_method("cut_polygons").make(0.7)->ties(before, cut);
+      const Constraints constraints = find_method("cut_polygons").make(0.7)->constraints(before, cut);
       const Budget direct;
-      const Answer merged = problem.answer(specimen, cut, {&direct, 1}, ties).front();
+      const Answer merged = problem.answer(specimen, cut, {&direct, 1}, constraints).front();
       ASSERT_EQ(merged.verdict, "ok") << merged.reason;
       const auto error = [](const Answer& answer) { return measure_of(answer, "released_energy").error; };
       worst = std::max(worst, error(merged) / error(solved(problem, specimen, cut)));

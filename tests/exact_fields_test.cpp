@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "harness/base/random.h"
-#include "harness/problems/in_plane/edge_crack.h"
 #include "harness/problems/common/lips.h"
+#include "harness/problems/in_plane/edge_crack.h"
 
 namespace cutbench {
 namespace {

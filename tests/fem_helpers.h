@@ -23,8 +23,8 @@ class Body {
         pins_(pins),
         tractions_(tractions) {}
 
-  Status cut(const Curve& curve, const std::string& method = "conventional_split", double knob = 0) {
-    const auto tool = find_method(method).make(knob);
+  Status cut(const Curve& curve, const std::string& method = "conventional_split", double parameter = 0) {
+    const auto tool = find_method(method).make(parameter);
     const CutOutcome outcome = Cutter().cut(sheet, locator_, curve, *tool, {});
     if (outcome.status != Status::ok && outcome.status != Status::deviated) return outcome.status;  // bit-unchanged
     transfer(sheet.log(), sheet.deformed_slots(), D, state);

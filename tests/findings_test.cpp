@@ -30,7 +30,7 @@ std::optional<Made> make(const Sheet& before, const std::vector<Curve>& cuts, co
   Sheet sheet = before;
   Locator locator(sheet);
   Cutter cutter;
-  if (cut_all(sheet, locator, cutter, cuts, *row.make(row.knob.value), {}).status != Status::ok) return {};
+  if (cut_all(sheet, locator, cutter, cuts, *row.make(row.parameter.value), {}).status != Status::ok) return {};
   made.result = sheet.to_mesh_data();
   return made;
 }

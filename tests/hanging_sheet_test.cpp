@@ -59,7 +59,7 @@ TEST(HangingSheet, DISABLED_TheTruthOfThePublishedSizes) {
     const auto problem = hanging_sheet(integrator), finer = hanging_sheet(integrator, 4, 192);
     for (const std::string method : {"adaptive_remesh", "conventional_split"}) {
       const Specimen specimen = problem->specimen("delaunay", 40, own_seed(1, problem->name()), 0);
-      const Sheet cut = cut_by(specimen, method, find_method(method).knob.value);
+      const Sheet cut = cut_by(specimen, method, find_method(method).parameter.value);
       for (const std::string measure : {"flap_motion", "gape_motion"})
         std::cout << problem->name() << ", " << method << ", " << measure << ": "
                   << 100 * measure_of(solved(*problem, specimen, cut), measure).error << " %, against finer meshes "

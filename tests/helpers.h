@@ -124,8 +124,8 @@ inline oracle::Mesh for_oracle(const MeshData& mesh) {
 /// A sheet under the knife of one method, which is expected to make every cut.
 class Table : public JudgedSheet {
  public:
-  Table(const MeshData& mesh, const MethodRow& row, double knob)
-      : JudgedSheet(Sheet(mesh), row.promises, row.make(knob)), may_delete_(!row.promises.keeps_area) {}
+  Table(const MeshData& mesh, const MethodRow& row, double parameter)
+      : JudgedSheet(Sheet(mesh), row.promises, row.make(parameter)), may_delete_(!row.promises.keeps_area) {}
 
   /// Cuts, and returns what is wrong with the outcome; empty: nothing. A sheet that the method doesn't support must be
   /// refused; one that takes triangles out may refuse to take all.
@@ -153,7 +153,7 @@ inline const std::vector<MethodRow>& whole_sheet_methods() {
     const Sheet irregular(make_sheet("delaunay", 4));
     std::vector<MethodRow> some;
     for (const MethodRow& row : all_methods())
-      if (row.promises.keeps_area && !row.make(row.knob.value)->why_unsupported(irregular)) some.push_back(row);
+      if (row.promises.keeps_area && !row.make(row.parameter.value)->why_unsupported(irregular)) some.push_back(row);
     return some;
   }();
   return rows;

@@ -23,12 +23,12 @@ class InARow : public testing::TestWithParam<std::size_t> {
   const MethodRow& row() const { return whole_sheet_methods()[GetParam()]; }
   /// Without local split: each round would multiply the triangles.
   std::unique_ptr<CuttingMethod> make() const {
-    return row().make(row().name == "bowyer_watson" ? 0 : row().knob.value);
+    return row().make(row().name == "bowyer_watson" ? 0 : row().parameter.value);
   }
   /// Those that refine, or mesh the whole sheet each time, need as long for ten cuts as others for a hundred.
   std::size_t cuts() const {
     const bool long_ones =
-        row().name == "global_remesh" || row().name == "adaptive_remesh" || row().knob.name == "bound";
+        row().name == "global_remesh" || row().name == "adaptive_remesh" || row().parameter.name == "bound";
     return scaled(long_ones ? 50 : 500);
   }
 };

@@ -20,7 +20,7 @@ TEST(Invariants, DividingTrianglesKeepsTheDeformedSurface) {
           Sheet sheet(lifted(mesh));
           Locator locator(sheet);
           Cutter cutter;
-          const auto cut = find_method(method).make(find_method(method).knob.value);
+          const auto cut = find_method(method).make(find_method(method).parameter.value);
           for (const Curve& curve : make_case(family, 77, i, sheet)) {
             const double area = surface_area(sheet);
             cutter.cut(sheet, locator, curve, *cut, {});
@@ -37,7 +37,7 @@ TEST(Invariants, TheLogGivesTheDeformedPositions) {
       Sheet sheet(lifted(make_sheet("delaunay", 6)));
       Locator locator(sheet);
       Cutter cutter;
-      const auto cut = row.make(row.knob.value);
+      const auto cut = row.make(row.parameter.value);
       for (const Curve& curve : make_case(family, 78, 0, sheet)) {
         std::vector<Point3> position;
         for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) position.push_back(sheet.position(DeformedIndex(d)));
@@ -77,7 +77,7 @@ TEST(Invariants, AnAffineStateStaysAffine) {
           sheet.set_position(DeformedIndex(d), affine(sheet.rest(sheet.rest_vertex(DeformedIndex(d)))));
         Locator locator(sheet);
         Cutter cutter;
-        const auto cut = row.make(row.knob.value);
+        const auto cut = row.make(row.parameter.value);
         for (const Curve& curve : make_case(family, 80, i, sheet)) cutter.cut(sheet, locator, curve, *cut, {});
         double farthest = 0;
         for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) {
@@ -118,8 +118,8 @@ TEST(Invariants, AFailedCutLeavesTheSheetAsItWas) {
         Sheet sheet(lifted(make_sheet("grid", 6)));
         Locator locator(sheet);
         Cutter cutter;
-        Failing failing(row.make(row.knob.value), in_improve);
-        const auto method = row.make(row.knob.value);
+        Failing failing(row.make(row.parameter.value), in_improve);
+        const auto method = row.make(row.parameter.value);
         for (const Curve& curve : make_case(family, 79, 1, sheet)) {
           const Sheet before = sheet;
           const CutOutcome outcome = cutter.cut(sheet, locator, curve, failing, {});
@@ -133,7 +133,7 @@ TEST(Invariants, AFailedCutLeavesTheSheetAsItWas) {
           // And nothing stays behind: the cut that follows is the one a fresh cutter makes of a fresh sheet.
           Sheet fresh = before;
           Locator fresh_locator(fresh);
-          Cutter().cut(fresh, fresh_locator, curve, *row.make(row.knob.value), {});
+          Cutter().cut(fresh, fresh_locator, curve, *row.make(row.parameter.value), {});
           cutter.cut(sheet, locator, curve, *method, {});
           EXPECT_EQ(difference(fresh, sheet), "");
         }
@@ -178,10 +178,10 @@ TEST(Invariants, ACutSheetCanBeReadAndCutAgain) {
   for (const MethodRow& row : whole_sheet_methods())
     for (std::size_t i = 0; i < scaled(10); ++i) {
       SCOPED_TRACE(row.name + " " + std::to_string(i));
-      Table table(make_sheet("delaunay", 6), row, row.knob.value);
+      Table table(make_sheet("delaunay", 6), row, row.parameter.value);
       const auto cuts = make_case("recut", 80, i, table.sheet);
       ASSERT_EQ(table.cut(cuts[0], 0.05), "");
-      Table again(table.sheet.to_mesh_data(), row, row.knob.value);
+      Table again(table.sheet.to_mesh_data(), row, row.parameter.value);
       EXPECT_EQ(count_pieces(again.sheet), count_pieces(table.sheet));
       EXPECT_EQ(again.sheet.deformed_count(), table.sheet.deformed_count());
       EXPECT_EQ(table.cut(cuts[1], 0.05), "");
@@ -193,7 +193,7 @@ TEST(Invariants, ACutSheetCanBeReadAndCutAgain) {
 
 TEST(Invariants, ManyCutsInARow) {
   for (const MethodRow& row : all_methods()) {
-    Table table(make_sheet("grid", 8), row, row.knob.value);
+    Table table(make_sheet("grid", 8), row, row.parameter.value);
     table.flatten_tolerance = 1e-5;  // finer than the pieces get
     for (std::size_t i = 0; i < cut_families().size() + scaled(cut_families().size()); ++i) {
       const std::string family = cut_families()[i % cut_families().size()];

@@ -52,7 +52,7 @@ TEST(LargestEigenvalue, IsThatOfADenseSolve) {
     for (const std::string method : {"conventional_split", "snap_or_split"})
       for (const std::string cut : {"curved", "several"}) {
         SCOPED_TRACE(family + ", " + method + ", " + cut);
-        Table table(make_sheet(family, 7), find_method(method), find_method(method).knob.value);
+        Table table(make_sheet(family, 7), find_method(method), find_method(method).parameter.value);
         for (const Curve& curve : make_case(cut, 5, 1, table.sheet)) ASSERT_EQ(table.cut(curve, 0.05), "");
         const double expected = by_dense_solve(table.sheet.to_mesh_data());
         EXPECT_NEAR(largest_eigenvalue(table.sheet), expected, 1e-4 * expected);
@@ -78,7 +78,7 @@ TEST(LargestEigenvalue, WithBendingIsThatOfADenseSolveInSpace) {
   for (const BendingKind kind : {BendingKind::patches, BendingKind::hinges})
     for (const std::string method : {"conventional_split", "warp_and_refine"}) {
       Body<3> body(make_sheet("grid", 6), skin, {.bending = kind});
-      ASSERT_EQ(body.cut(line({0.21, 0.27}, {0.83, 0.71}), method, find_method(method).knob.value), Status::ok);
+      ASSERT_EQ(body.cut(line({0.21, 0.27}, {0.83, 0.71}), method, find_method(method).parameter.value), Status::ok);
       const auto n = static_cast<Eigen::Index>(3 * body.sheet.deformed_slots());
       body.model.rotate(body.model.positions(body.sheet)), body.model.assemble(0, 1);
       const Eigen::MatrixXd stiffness = dense(body.model);
@@ -99,7 +99,7 @@ TEST(LargestEigenvalue, IsWhereExplicitStepsBreakDown) {
       material.mass_damping = 1e4 * damping, material.stiffness_damping = damping;
       const auto grows = [&](double factor) {
         Body<3> body(make_sheet("grid", 8), material, {.strain = Strain::linear, .bending = BendingKind::patches});
-        EXPECT_EQ(body.cut(line({0.21, 0.27}, {0.83, 0.71}), method, find_method(method).knob.value), Status::ok);
+        EXPECT_EQ(body.cut(line({0.21, 0.27}, {0.83, 0.71}), method, find_method(method).parameter.value), Status::ok);
         const double with = largest_eigenvalue(body.sheet, {}, elasticity_of(material, BendingKind::patches));
         EXPECT_GT(with, 1.5 * largest_eigenvalue(body.sheet, {}, elasticity_of(material, BendingKind::none)));
         const double step = factor * explicit_step_limit(with, material);

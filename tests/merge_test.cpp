@@ -112,10 +112,10 @@ TEST_F(Merge, OneCaseOfEachKind) {
   }
 }
 
-TEST_F(Merge, OneCaseOfACampaign) {
+TEST_F(Merge, OneCaseOfARobustnessRun) {
   write(folder_ / "c.toml",
         "claim = \"c\"\nsheets = [\"grid\", \"delaunay\"]\nresolutions = [32, 72]\ncases = 1\nmethods = "
-        "[\"conventional_split\"]\n[campaign]\ntime_limit_s = 60\n");
+        "[\"conventional_split\"]\n[robustness]\ntime_limit_s = 60\n");
   expect_equal("c", {2, 3, 5});
   for (const std::string folder : {"s1of2", "s2of2"}) {
     const auto lines = lines_of(read(folder_ / folder / "c" / "records.csv"));
@@ -140,18 +140,18 @@ TEST(ShardOf, SpreadsWhatRecurs) {
 }
 
 /// Its points are tried in other processes, in turns by shard.
-TEST_F(Merge, Atlas) {
+TEST_F(Merge, Stability) {
   write(folder_ / "a.toml",
         "claim = \"c\"\nsheets = [\"grid\", \"delaunay\"]\nresolutions = [200]\nmethods = [\"conventional_split\", "
         "\"cut_polygons\"]\n[[sweeps]]\nname = \"a\"\nscene = \"" CUTBENCH_EXPERIMENTS
-        "/scenes/atlas_sheet.toml\"\ncases = 2\nsteps = 2\ncut = [\"straight\", \"curved\"]\n");
+        "/scenes/stability_sheet.toml\"\ncases = 2\nsteps = 2\ncut = [\"straight\", \"curved\"]\n");
   expect_equal("a");
 }
 
-TEST_F(Merge, Campaign) {
+TEST_F(Merge, Robustness) {
   write(folder_ / "c.toml",
         "claim = \"c\"\nsheets = [\"grid\", \"delaunay\"]\nresolutions = [72]\ncases = 20\nmethods = "
-        "[\"conventional_split\", \"snap_or_split\"]\n[campaign]\ntime_limit_s = 60\n");
+        "[\"conventional_split\", \"snap_or_split\"]\n[robustness]\ntime_limit_s = 60\n");
   expect_equal("c");
 }
 
@@ -187,7 +187,7 @@ TEST_F(Merge, OnlyWhatRecordsNoTimesTakesJobs) {
   EXPECT_NE(refused.error.find("records times"), std::string::npos) << refused.error;
   write(folder_ / "c.toml",
         "claim = \"c\"\nsheets = [\"grid\"]\nresolutions = [72]\ncases = 20\nmethods = [\"conventional_split\"]\n"
-        "[campaign]\ntime_limit_s = 60\n");
+        "[robustness]\ntime_limit_s = 60\n");
   for (const std::string jobs : {"1", "2"}) EXPECT_EQ(run("run c.toml --jobs " + jobs + " --out jobs" + jobs).code, 0);
   EXPECT_EQ(lines_without_times(read(folder_ / "jobs1" / "c" / "records.csv")),
             lines_without_times(read(folder_ / "jobs2" / "c" / "records.csv")));

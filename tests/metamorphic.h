@@ -5,18 +5,18 @@
 #include <map>
 #include <set>
 
+#include "harness/cases/adversarial.h"
 #include "harness/cases/cut_families.h"
-#include "harness/cases/mixture.h"
 #include "harness/oracle/search.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 
 namespace cutbench {
 
-/// A method with a value of its knob.
+/// A method with a value of its parameter.
 struct MethodVariant {
   const MethodRow* row;
-  double knob;
+  double parameter;
   std::string name;
 
   friend void PrintTo(const MethodVariant& variant, std::ostream* out) { *out << variant.name; }
@@ -26,7 +26,7 @@ struct MethodVariant {
 inline std::vector<MethodVariant> all_variants() {
   std::vector<MethodVariant> variants;
   for (const MethodRow& row : all_methods())
-    if (row.name != "bowyer_watson") variants.push_back({&row, row.knob.value, row.name});
+    if (row.name != "bowyer_watson") variants.push_back({&row, row.parameter.value, row.name});
   for (int rounds : {0, 1, 3})
     variants.push_back(
         {&find_method("bowyer_watson"), static_cast<double>(rounds), "bowyer_watson_rounds_" + std::to_string(rounds)});
@@ -51,11 +51,11 @@ inline std::string text_of(const TestCase& c) {
 }
 
 /// Calls visit(TestCase) for `n` cases of every family on every test mesh.
-/// \param mixture  and as many of the mixture. It lies at the very limits of snapping, where a change of direction or
+/// \param adversarial  and as many of the adversarial. It lies at the very limits of snapping, where a change of direction or
 /// of
 ///                 rounding may decide the other way.
 template <class Visit>
-void for_each_case(std::size_t n, std::uint64_t seed, Visit visit, bool mixture = false) {
+void for_each_case(std::size_t n, std::uint64_t seed, Visit visit, bool adversarial = false) {
   static const std::vector<NamedMesh> meshes = test_meshes(5);
   for (const auto& [name, mesh] : meshes) {
     const Sheet sheet(mesh);
@@ -64,9 +64,9 @@ void for_each_case(std::size_t n, std::uint64_t seed, Visit visit, bool mixture 
       const std::string number = " " + std::to_string(i) + ", seed " + std::to_string(seed) + ", sheet " + name;
       for (const std::string family : cut_families())
         visit(TestCase{family + number, &mesh, make_case(family, seed, i, sheet), chord});
-      for (std::size_t k = 0; mixture && k < cut_families().size(); ++k) {
-        MixtureCase drawn = make_mixture_case(seed, i * cut_families().size() + k, sheet);
-        visit(TestCase{"mixture " + drawn.family + " " + std::to_string(k) + number, &mesh, std::move(drawn.cuts),
+      for (std::size_t k = 0; adversarial && k < cut_families().size(); ++k) {
+        AdversarialCase drawn = make_adversarial_case(seed, i * cut_families().size() + k, sheet);
+        visit(TestCase{"adversarial " + drawn.family + " " + std::to_string(k) + number, &mesh, std::move(drawn.cuts),
                        chord});
       }
     }
@@ -85,7 +85,7 @@ inline CutSheet cut_with(const MethodVariant& variant, const MeshData& mesh, con
   CutSheet result{Sheet(mesh), {}, 0};
   Locator locator(result.sheet);
   Cutter cutter;
-  const auto method = variant.row->make(variant.knob);
+  const auto method = variant.row->make(variant.parameter);
   for (const Curve& curve : cuts) {
     const CutOutcome outcome = cutter.cut(result.sheet, locator, curve, *method, {.chord_tolerance = chord});
     result.statuses.push_back(name_of(outcome.status));

@@ -66,7 +66,7 @@ double off_circle(Point2 p, Point2 q, Point2 r, Point2 s) {
 
 /// Empty where each edge of `a` that `b` lacks is the diagonal of four points on one circle, up to `tolerance` in their
 /// coordinates. A polygon with all its corners on one circle has only such edges inside.
-std::string untied_edge(const Shape& a, const Shape& b, double tolerance) {
+std::string unconstrained_edge(const Shape& a, const Shape& b, double tolerance) {
   const auto at = [&](int i) { return a.points[static_cast<std::size_t>(i)]; };
   for (const auto& [edge, apexes] : a.apexes) {
     if (b.apexes.contains(edge)) continue;
@@ -79,7 +79,7 @@ std::string untied_edge(const Shape& a, const Shape& b, double tolerance) {
       if (std::abs(off_circle(p, q, r, s)) <= tolerance / std::sqrt(shortest)) continue;
     }
     char text[200];
-    std::snprintf(text, sizeof text, "untied edge {%.17g, %.17g} - {%.17g, %.17g}, off %g", p.x, p.y, q.x, q.y,
+    std::snprintf(text, sizeof text, "unconstrained edge {%.17g, %.17g} - {%.17g, %.17g}, off %g", p.x, p.y, q.x, q.y,
                   apexes.size() == 2 ? off_circle(p, q, at(apexes[0]), at(apexes[1])) : 0.0);
     return text;
   }
@@ -135,14 +135,14 @@ double largest_coordinate(const Shape& shape) {
 /// Turned by a right angle, mirrored or renumbered, a cut opens the same edges and leaves the same triangles.
 ///
 /// "The same" is up to three things. Crossings are reckoned from the end of the edge that lies to the path's right, so
-/// mirroring moves them by an ulp, and with them exact ties between diagonals. Where a segment had to be recovered by
+/// mirroring moves them by an ulp, and with them exact constraints between diagonals. Where a segment had to be recovered by
 /// flips, the triangles round it depend on the order of the flips. And the local split goes from triangle to triangle
 /// by their numbers and changes its neighbours as it goes. In these two the incision of a first cut is compared; the
 /// next one meets other triangles. Of methods that choose where the incision goes, and may have to choose between two
 /// vertices equally near, the pieces after a first cut are.
 TEST_P(EveryVariant, MovesWithTheSheet) {
   const bool is_exact = GetParam().row->promises.exact_incision;
-  const bool splits_locally = GetParam().knob > 0 || !is_exact || !GetParam().row->promises.keeps_vertices;
+  const bool splits_locally = GetParam().parameter > 0 || !is_exact || !GetParam().row->promises.keeps_vertices;
   std::size_t tried = 0, in_full = 0;
   for_each_case(scaled(2), 412, [&](TestCase c) {
     if (HasFailure()) return;
@@ -167,7 +167,7 @@ TEST_P(EveryVariant, MovesWithTheSheet) {
       if (what.empty() && !splits_locally) what = different_edges(expected, found, rounding);
       if (what.empty() && !splits_locally && !recovered) {
         ++in_full;
-        what = untied_edge(expected, found, rounding) + untied_edge(found, expected, rounding);
+        what = unconstrained_edge(expected, found, rounding) + unconstrained_edge(found, expected, rounding);
       }
       EXPECT_EQ(what, "") << motion.name << ": " << text_of(c);
     }

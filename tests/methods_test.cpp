@@ -19,24 +19,24 @@ constexpr std::uint64_t seed = 20180507;
 
 struct Variant {
   const MethodRow* row;
-  double knob;
+  double parameter;
 };
 
 std::string name_of_variant(const Variant& v) {
-  if (v.row->knob.name.empty()) return v.row->name;
+  if (v.row->parameter.name.empty()) return v.row->name;
   std::ostringstream value;
-  value << v.knob;
-  std::string name = v.row->name + "_" + v.row->knob.name + "_" + value.str();
+  value << v.parameter;
+  std::string name = v.row->name + "_" + v.row->parameter.name + "_" + value.str();
   std::replace(name.begin(), name.end(), '.', '_');
   return name;
 }
 
-/// Every row at its default, and with its knob at zero.
+/// Every row at its default, and with its parameter at zero.
 std::vector<Variant> all_variants() {
   std::vector<Variant> variants;
   for (const MethodRow& row : all_methods()) {
-    variants.push_back({&row, row.knob.value});
-    if (!row.knob.name.empty() && row.knob.value != 0) variants.push_back({&row, 0});
+    variants.push_back({&row, row.parameter.value});
+    if (!row.parameter.name.empty() && row.parameter.value != 0) variants.push_back({&row, 0});
   }
   return variants;
 }
@@ -51,7 +51,7 @@ TEST_P(EveryMethod, CutsWithoutFault) {
     for (std::size_t m = 0; m < small.size(); ++m) {
       Random random(1000 * i + m);
       const auto& [name, mesh] = (i % 2 == 0 ? small : large)[m];
-      Table table(i % 4 < 2 ? mesh : lifted(mesh), *variant.row, variant.knob);
+      Table table(i % 4 < 2 ? mesh : lifted(mesh), *variant.row, variant.parameter);
       const double chord = random.coin() ? 0.05 : infinite;
       const std::uint64_t case_seed = seed + m;
       std::size_t k = 0;
@@ -83,17 +83,17 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod,
 /// What the ablation is made of: no experiment with all methods has them.
 TEST(Ablation, EveryCombinationCutsWithoutFault) {
   for (const MethodRow& row : ablation_methods()) {
-    const auto method = row.make(row.knob.value);
-    bool tied = false;
+    const auto method = row.make(row.parameter.value);
+    bool constrained = false;
     for (const std::string family : sheet_families())
       for (const std::string cuts : {"curved", "several"}) {
         SCOPED_TRACE(row.name + ", " + family + ", " + cuts);
-        Table table(make_sheet(family, 10), row, row.knob.value);
+        Table table(make_sheet(family, 10), row, row.parameter.value);
         const Sheet before = table.sheet;
         for (const Curve& curve : make_case(cuts, seed, 0, before)) EXPECT_EQ(table.cut(curve, 0.05), "");
-        tied |= !method->ties(before, table.sheet).empty();
+        constrained |= !method->constraints(before, table.sheet).empty();
       }
-    EXPECT_EQ(tied, method->tying() != CuttingMethod::Tying::nothing) << row.name;
+    EXPECT_EQ(constrained, method->constraint_kind() != CuttingMethod::ConstraintKind::nothing) << row.name;
   }
 }
 
@@ -119,16 +119,17 @@ TEST(JudgeOneByOne, ALaterCutMeetsTheIncisionNotTheCurve) {
   Sheet after = before;
   Locator locator(after);
   Cutter cutter;
-  for (const Curve& curve : cuts) cutter.cut(after, locator, curve, *row.make(row.knob.value), options);
+  for (const Curve& curve : cuts) cutter.cut(after, locator, curve, *row.make(row.parameter.value), options);
   const oracle::Judgement whole =
       oracle::judge(request_for(before, cuts, row.promises, options, true), for_oracle(after));
   EXPECT_EQ(whole.verdict, "wrong_pieces");
-  const oracle::Judgement each = judge_one_by_one(before, after, cuts, row.promises, row.make(row.knob.value), options);
+  const oracle::Judgement each =
+      judge_one_by_one(before, after, cuts, row.promises, row.make(row.parameter.value), options);
   EXPECT_TRUE(each.ok) << each.problems.front();
   EXPECT_EQ(each.pieces, whole.pieces);
   EXPECT_NEAR(each.area_change, whole.area_change, 1e-12);
   const oracle::Judgement another =
-      judge_one_by_one(before, before, cuts, row.promises, row.make(row.knob.value), options);
+      judge_one_by_one(before, before, cuts, row.promises, row.make(row.parameter.value), options);
   EXPECT_EQ(another.verdict, "not_reproduced");
 }
 

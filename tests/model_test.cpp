@@ -52,7 +52,7 @@ void expect_fresh(Body<D>& body) {
 }
 
 template <int D>
-void cut_and_compare(const std::string& method, double knob, Mass mass) {
+void cut_and_compare(const std::string& method, double parameter, Mass mass) {
   std::size_t made = 0;
   for (const std::string sheet : sheet_families())
     for (const std::string family : cut_families())
@@ -61,7 +61,7 @@ void cut_and_compare(const std::string& method, double knob, Mass mass) {
         Body<D> body(make_sheet(sheet, 8), skin, physics_with(D, mass), corner_pins, pull);
         for (int again = 0; again < 3; ++again)  // the whole history of cuts
           for (const Curve& curve : make_case(family, 20, i + static_cast<std::size_t>(again), body.sheet)) {
-            if (body.cut(curve, method, knob) != Status::ok) continue;
+            if (body.cut(curve, method, parameter) != Status::ok) continue;
             ++made;
             expect_fresh(body);
             if (testing::Test::HasFailure()) return;
@@ -179,7 +179,7 @@ TEST(Model, PatchTestOnCutSheets) {
       for (std::size_t i = 0; i < scaled(10); ++i) {
         Body<2> body(make_sheet(sheet, 10), {.stiffness = 1e6, .poisson = 0.25},
                      {.dimension = 2, .strain = Strain::linear});
-        ASSERT_EQ(body.cut(make_case("straight", 5, i, body.sheet).front(), row.name, row.knob.value), Status::ok);
+        ASSERT_EQ(body.cut(make_case("straight", 5, i, body.sheet).front(), row.name, row.parameter.value), Status::ok);
         Model<2>& model = body.model;
         Field u = Field::Zero(body.state.x.size());
         for (std::size_t v = 0; v < model.vertices(); ++v) {
@@ -215,8 +215,8 @@ TEST(Model, NullModesArePiecesTimesThree) {
       SCOPED_TRACE(row.name + ", " + sheet);
       Body<2> body(make_sheet(sheet, 5), {.stiffness = 1000, .poisson = 0.3},
                    {.dimension = 2, .strain = Strain::linear});
-      body.cut(line({-0.1, 0.43}, {1.1, 0.57}), row.name, row.knob.value);
-      body.cut(polygon({{0.22, 0.71}, {0.55, 0.73}, {0.41, 0.93}}), row.name, row.knob.value);
+      body.cut(line({-0.1, 0.43}, {1.1, 0.57}), row.name, row.parameter.value);
+      body.cut(polygon({{0.22, 0.71}, {0.55, 0.73}, {0.41, 0.93}}), row.name, row.parameter.value);
       ASSERT_EQ(count_pieces(body.sheet), 3u);
       body.model.rotate(body.state.x), body.model.assemble(0, 1);
       const Eigen::VectorXd modes = eigenvalues(dense(body.model));

@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-#include "harness/cases/mixture.h"
+#include "harness/cases/adversarial.h"
 #include "harness/fem/linear/linear_solver.h"
 #include "tests/helpers.h"
 #include "tests/multigrid_helpers.h"
@@ -228,7 +228,7 @@ TEST(Multigrid, NotFinite) {
   }
 }
 
-/// The first step after cuts drawn as those of the robustness campaign. CUTBENCH_TEST_SCALE=200 makes 99,200 solves.
+/// The first step after cuts drawn as those of the robustness run. CUTBENCH_TEST_SCALE=200 makes 99,200 solves.
 TEST(Multigrid, AdversarialCuts) {
   constexpr std::uint64_t seed = 99173;
   std::size_t solves = 0, unsolved = 0, fallbacks = 0, iterations = 0;
@@ -247,10 +247,10 @@ TEST(Multigrid, AdversarialCuts) {
         for (const MethodRow& row : all_methods()) {
           SCOPED_TRACE(family + ", n " + std::to_string(n) + ", case " + std::to_string(i) + ", " + row.name);
           Body<3> body(mesh, skin, {.bending = BendingKind::patches, .gravity = {0, 0, -9.81}}, held_left());
-          const auto method = row.make(row.knob.value);
+          const auto method = row.make(row.parameter.value);
           if (method->why_unsupported(body.sheet)) continue;
-          for (const Curve& curve : make_mixture_case(seed, i, Sheet(mesh)).cuts)
-            body.cut(curve, row.name, row.knob.value);
+          for (const Curve& curve : make_adversarial_case(seed, i, Sheet(mesh)).cuts)
+            body.cut(curve, row.name, row.parameter.value);
           Field x = body.model.positions(body.sheet);
           x += 0.01 / n * random_field(i + 1, x.size());
           body.model.rotate(x);

@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <map>
 
-#include "harness/study/robustness/cgal_peer.h"
 #include "harness/judge/oracle_request.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/tolerances.h"
+#include "harness/study/robustness/cgal_check.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 
@@ -21,7 +21,7 @@ struct Row {
   std::size_t tried = 0;
   std::map<std::string, std::size_t> outcomes;  ///< status, or `wrong` where the oracle says so
   double incision_error = 0;                    ///< largest, in sides of the square
-  double moved = 0;                             ///< what the peer says about itself
+  double moved = 0;                             ///< what the cross-check says about itself
   std::string problem;                          ///< the first
 };
 
@@ -44,7 +44,7 @@ std::array<Curve, 3> cuts_of_case(std::size_t i, double eps) {
 }
 
 void cut_by_method(const MeshData& mesh, const MethodRow& method, const std::array<Curve, 3>& cuts, Row& row) {
-  Table table(mesh, method, method.knob.value);
+  Table table(mesh, method, method.parameter.value);
   for (const Curve& curve : cuts) {
     const std::string what = table.cut(curve, 0);
     const Status status = table.outcome.status;
@@ -58,11 +58,11 @@ void cut_by_method(const MeshData& mesh, const MethodRow& method, const std::arr
 }
 
 /// Judged with the slack of the methods' declared snapping, though it snaps nothing.
-void cut_by_peer(const MeshData& data, const std::array<Curve, 3>& cuts, Row& row) {
+void cut_by_cross_check(const MeshData& data, const std::array<Curve, 3>& cuts, Row& row) {
   const double snap = line_tolerance * Sheet(data).snap();
   oracle::Mesh mesh = for_oracle(data);
   for (const Curve& curve : cuts) {
-    const oracle::PeerResult result = oracle::cgal_whole_sheet_cut(mesh, for_oracle(curve), snap);
+    const oracle::CrossCheckResult result = oracle::cgal_whole_sheet_cut(mesh, for_oracle(curve), snap);
     const oracle::Request request{
         .before = mesh, .cuts = {for_oracle(curve)}, .tolerance = 2 * snap, .snap = snap, .vertex_tolerance = snap};
     const oracle::Judgement judgement = oracle::judge(request, result.mesh);
@@ -83,7 +83,7 @@ void print(std::FILE* out, double eps, const std::string& name, const Row& row) 
     std::fprintf(out, " %8zu", found == row.outcomes.end() ? 0 : found->second);
   }
   std::fprintf(out, "  %14.2g", row.incision_error);
-  if (name == "peer") std::fprintf(out, "  %15.2g", row.moved);
+  if (name == "cross_check") std::fprintf(out, "  %15.2g", row.moved);
   std::fprintf(out, "\n");
 }
 
@@ -94,7 +94,7 @@ TEST(NearCoincident, ACutItsShadowAndAThirdAcross) {
   const std::size_t cases = scaled(12);
   std::fprintf(out,
                "A cut of the unit square (128 triangles, all families), the same cut shifted by eps, a third across "
-               "both: %zu cases an eps\npeer: CGAL's constrained triangulation of the whole sheet\n\n"
+               "both: %zu cases an eps\ncross_check: CGAL's constrained triangulation of the whole sheet\n\n"
                "eps     method                tried       ok     noop deviated  refused   failed    wrong  "
                "incision error  constraint moved\n",
                cases);
@@ -115,8 +115,8 @@ TEST(NearCoincident, ACutItsShadowAndAThirdAcross) {
       }
     }
     Row row;
-    for (std::size_t i = 0; i < cases; ++i) cut_by_peer(meshes[i % meshes.size()], cuts_of_case(i, eps), row);
-    print(out, eps, "peer", row);
+    for (std::size_t i = 0; i < cases; ++i) cut_by_cross_check(meshes[i % meshes.size()], cuts_of_case(i, eps), row);
+    print(out, eps, "cross_check", row);
   }
   if (path) std::fclose(out);
 }

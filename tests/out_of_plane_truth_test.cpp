@@ -91,7 +91,7 @@ Sheet cut_open(const Specimen& specimen, const std::vector<Curve>& cuts, const s
   Cutter cutter;
   const MethodRow& row = find_method(method);
   for (const Curve& curve : cuts)
-    EXPECT_EQ(cutter.cut(sheet, locator, curve, *row.make(row.knob.value), {}).status, Status::ok);
+    EXPECT_EQ(cutter.cut(sheet, locator, curve, *row.make(row.parameter.value), {}).status, Status::ok);
   return sheet;
 }
 

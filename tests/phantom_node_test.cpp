@@ -10,10 +10,10 @@
 #include "harness/fem/model/largest_eigenvalue.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/predicates.h"
-#include "tests/dense_combination.h"
+#include "tests/constrained_cut.h"
+#include "tests/dense_constraint_matrix.h"
 #include "tests/fem_helpers.h"
 #include "tests/helpers.h"
-#include "tests/tied_cut.h"
 
 namespace cutbench {
 namespace {
@@ -61,9 +61,9 @@ std::vector<Part> parts_of(const Sheet& before, const Sheet& cut) {
 /// The field of random unknowns is linear in every part that is not slit.
 TEST(PhantomNode, IsLinearInEachPart) {
   std::size_t checked = 0, slits = 0;
-  for_each_tied_cut({{"phantom_node", 0}}, 9, 3, 641, [&](const TiedCut& cut) {
+  for_each_constrained_cut({{"phantom_node", 0}}, 9, 3, 641, [&](const ConstrainedCut& cut) {
     const Sheet& sheet = cut.sheet();
-    const Eigen::MatrixXd c = dense_combination(cut.ties, sheet.deformed_slots(), 1);
+    const Eigen::MatrixXd c = dense_constraint_matrix(cut.constraints, sheet.deformed_slots(), 1);
     const Field x = c * Field::Random(c.cols());
     for (const Part& part : parts_of(cut.before, sheet)) {
       slits += part.slit;
@@ -99,8 +99,8 @@ TEST(PhantomNode, OpensUpToTheTip) {
   Table table(make_sheet("grid", 10), find_method("phantom_node"), 0);
   ASSERT_EQ(table.cut(line({0.225, 0.553}, {0.775, 0.553}), 0.05), "");
   const Sheet& sheet = table.sheet;
-  const Ties ties = find_method("phantom_node").make(0)->ties(before, sheet);
-  const Eigen::MatrixXd c = dense_combination(ties, sheet.deformed_slots(), 1);
+  const Constraints constraints = find_method("phantom_node").make(0)->constraints(before, sheet);
+  const Eigen::MatrixXd c = dense_constraint_matrix(constraints, sheet.deformed_slots(), 1);
   std::map<VertexIndex, std::set<std::size_t>> copies;
   for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) copies[sheet.rest_vertex(DeformedIndex(d))].insert(d);
   std::size_t tips = 0, open = 0;
@@ -127,11 +127,12 @@ TEST(PhantomNode, VariantsBoundTheEigenvalue) {
     for (const std::string cuts : {"straight", "curved", "partial"})
       for (std::size_t i = 0; i < scaled(4); ++i) {
         SCOPED_TRACE(family + ", " + cuts + " " + std::to_string(i));
-        const TiedCut cut(family, 16, {"phantom_node", 0.1}, cuts, 641, i);
+        const ConstrainedCut cut(family, 16, {"phantom_node", 0.1}, cuts, 641, i);
         const double whole = largest_eigenvalue(cut.before);
-        EXPECT_LE(largest_eigenvalue(cut.sheet(), cut.ties), (cuts == "partial" ? 5 : 1.5) * whole);
-        const Ties plain = find_method("phantom_node").make(0)->ties(cut.before, cut.sheet()),
-                   lumped = find_method("phantom_node:lumped_mass").make(0)->ties(cut.before, cut.sheet());
+        EXPECT_LE(largest_eigenvalue(cut.sheet(), cut.constraints), (cuts == "partial" ? 5 : 1.5) * whole);
+        const Constraints plain = find_method("phantom_node").make(0)->constraints(cut.before, cut.sheet()),
+                          lumped =
+                              find_method("phantom_node:lumped_mass").make(0)->constraints(cut.before, cut.sheet());
         worst = std::max(worst, largest_eigenvalue(cut.sheet(), plain) / whole);
         EXPECT_NEAR(std::accumulate(lumped.lumped.begin(), lumped.lumped.end(), 0.0), 1, 1e-12);
         EXPECT_LE(largest_eigenvalue(cut.sheet(), lumped), 3 * whole);

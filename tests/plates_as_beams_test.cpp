@@ -111,7 +111,7 @@ TEST(Bending, ASlitLengthwiseCostsNothing) {
       Locator locator(sheet);
       const double y = 0.5 + 0.3 / n;
       const CutOutcome outcome = Cutter().cut(sheet, locator, {Curve::Kind::polyline, false, {{0.33, y}, {1.1, y}}},
-                                              *row.make(row.knob.value), {});
+                                              *row.make(row.parameter.value), {});
       ASSERT_EQ(outcome.status, Status::ok);
       // Where it may wander, it is not quite lengthwise; and another mesh bends otherwise by its own error.
       const bool is_exact = row.promises.exact_incision, same_mesh = row.promises.keeps_vertices;

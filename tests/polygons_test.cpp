@@ -5,18 +5,18 @@
 #include <map>
 #include <set>
 
+#include "harness/cases/adversarial.h"
 #include "harness/cases/cut_families.h"
-#include "harness/cases/mixture.h"
 #include "harness/fem/model/largest_eigenvalue.h"
 #include "harness/fem/time/stepper.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/predicates.h"
 #include "methods/tools/divided.h"
+#include "tests/constrained_cut.h"
 #include "tests/dense_solves.h"
 #include "tests/fem_helpers.h"
 #include "tests/helpers.h"
 #include "tests/sound_polygons.h"
-#include "tests/tied_cut.h"
 #include "tests/truth_helpers.h"
 
 namespace cutbench {
@@ -24,10 +24,10 @@ namespace {
 
 TEST(Polygons, AreSound) {
   std::size_t polygons = 0, inside = 0;
-  for_each_tied_cut({cut_polygons}, 9, 3, 877, [&](const TiedCut& cut) {
-    expect_sound(cut.sheet(), cut.ties.polygons);
-    polygons += cut.ties.polygons.size();
-    for (const Polygon& polygon : cut.ties.polygons) inside += polygon.inside.size();
+  for_each_constrained_cut({cut_polygons}, 9, 3, 877, [&](const ConstrainedCut& cut) {
+    expect_sound(cut.sheet(), cut.constraints.polygons);
+    polygons += cut.constraints.polygons.size();
+    for (const Polygon& polygon : cut.constraints.polygons) inside += polygon.inside.size();
   });
   EXPECT_GT(polygons, scaled(500));
   EXPECT_GT(inside, scaled(5));
@@ -42,11 +42,11 @@ TEST(Polygons, AreSoundAfterAdversarialCuts) {
       Sheet sheet = before;
       Locator locator(sheet);
       const auto method = find_method("cut_polygons").make(0.7);
-      for (const Curve& curve : make_mixture_case(877, i, before).cuts) {
+      for (const Curve& curve : make_adversarial_case(877, i, before).cuts) {
         Cutter().cut(sheet, locator, curve, *method, {});
-        const Ties ties = method->ties(before, sheet);
-        expect_sound(sheet, ties.polygons);
-        for (const Polygon& polygon : ties.polygons) {
+        const Constraints constraints = method->constraints(before, sheet);
+        expect_sound(sheet, constraints.polygons);
+        for (const Polygon& polygon : constraints.polygons) {
           const PolygonElement element(sheet, polygon);
           EXPECT_GT(element.area, 0);
           EXPECT_TRUE(element.departure.allFinite());
@@ -57,7 +57,7 @@ TEST(Polygons, AreSoundAfterAdversarialCuts) {
 
 /// Against a look at every triangle of the sheet before.
 TEST(Polygons, DividedTrianglesLieInTheirParents) {
-  for_each_tied_cut({cut_polygons}, 7, 1, 877, [&](const TiedCut& cut) {
+  for_each_constrained_cut({cut_polygons}, 7, 1, 877, [&](const ConstrainedCut& cut) {
     std::set<TriangleIndex> parts;
     for (const auto& [part, parent] : divided_triangles(cut.before, cut.sheet())) {
       parts.insert(part);
@@ -96,7 +96,7 @@ TEST(Polygons, HoldNoHeldVertexInside) {
       Locator locator(sheet);
       const auto method = find_method("cut_polygons").make(0.7);
       for (const Curve& curve : make_case("several", 31, i, sheet)) Cutter().cut(sheet, locator, curve, *method, {});
-      for (const Polygon& polygon : method->ties(holds ? held : before, sheet).polygons)
+      for (const Polygon& polygon : method->constraints(holds ? held : before, sheet).polygons)
         for (const DeformedIndex d : polygon.inside) {
           EXPECT_FALSE(sheet.is_held(sheet.rest_vertex(d)));
           free_inside += !holds;
@@ -111,8 +111,8 @@ TEST(Polygons, HoldNoHeldVertexInside) {
 /// The mean gradient is the integral of the field along the border, here by the trapezoidal rule side by side.
 TEST(PolygonElement, HasTheMeanGradientOfItsBorderAndDepartsFromNoLinearMap) {
   Random random(3);
-  for_each_tied_cut({cut_polygons}, 7, 1, 877, [&](const TiedCut& cut) {
-    for (const Polygon& polygon : cut.ties.polygons) {
+  for_each_constrained_cut({cut_polygons}, 7, 1, 877, [&](const ConstrainedCut& cut) {
+    for (const Polygon& polygon : cut.constraints.polygons) {
       const PolygonElement element(cut.sheet(), polygon);
       double area = 0;
       for (const TriangleIndex t : polygon.triangles) {
@@ -158,10 +158,10 @@ constexpr Material skin{.density = 2, .stiffness = 1000, .poisson = 0.3, .bendin
 /// Forces are the slope of the energy, by differences along random directions; in space with and without bending.
 template <int D>
 void forces_are_the_slope_of_the_energy(Strain strain, BendingKind bending) {
-  const TiedCut cut("alternating", 6, cut_polygons, "curved", 877, 1);
-  ASSERT_FALSE(cut.ties.polygons.empty());
+  const ConstrainedCut cut("alternating", 6, cut_polygons, "curved", 877, 1);
+  ASSERT_FALSE(cut.constraints.polygons.empty());
   Model<D> model(cut.sheet(), skin, {.dimension = D, .strain = strain, .bending = bending}, {}, {});
-  model.tie(cut.sheet(), cut.ties);
+  model.constraint(cut.sheet(), cut.constraints);
   Random random(5);
   Field x = bent(model, cut.sheet());
   for (auto& value : x) value += random.between(-0.01, 0.01);
@@ -194,16 +194,16 @@ TEST(PolygonSheet, ForcesAreTheSlopeOfTheEnergy) {
 }
 
 TEST(PolygonSheet, ASpringSheetRefusesThem) {
-  const TiedCut cut("alternating", 6, cut_polygons, "curved", 877, 1);
+  const ConstrainedCut cut("alternating", 6, cut_polygons, "curved", 877, 1);
   Model<3> model(cut.sheet(), skin, {.strain = Strain::springs}, {}, {});
-  EXPECT_THROW(model.tie(cut.sheet(), cut.ties), InputError);
+  EXPECT_THROW(model.constraint(cut.sheet(), cut.constraints), InputError);
 }
 
 TEST(PolygonSheet, TurningCostsNothing) {
-  for_each_tied_cut({cut_polygons}, 6, 1, 877, [&](const TiedCut& cut) {
+  for_each_constrained_cut({cut_polygons}, 6, 1, 877, [&](const ConstrainedCut& cut) {
     for (const Strain strain : {Strain::corotational, Strain::green}) {
       Model<3> model(cut.sheet(), skin, {.strain = strain, .bending = BendingKind::patches}, {}, {});
-      model.tie(cut.sheet(), cut.ties);
+      model.constraint(cut.sheet(), cut.constraints);
       const Eigen::AngleAxisd turn(2.1, Eigen::Vector3d(1, 2, -1).normalized());
       Field x = model.positions(cut.sheet()), force = Field::Zero(x.size());
       for (Eigen::Index v = 0; v < x.size(); v += 3) x.segment<3>(v) = (turn * Eigen::Vector3d(x.segment<3>(v))).eval();
@@ -219,10 +219,10 @@ TEST(PolygonSheet, TurningCostsNothing) {
 /// In the plane the stiffness is that of the linear forces, and has no modes of zero energy but those of rigid pieces:
 /// the stabilisation leaves none.
 TEST(PolygonSheet, StiffnessIsThatOfTheForcesAndHasThreeNullModesPerPiece) {
-  for_each_tied_cut({cut_polygons}, 4, 1, 877, [&](const TiedCut& cut) {
+  for_each_constrained_cut({cut_polygons}, 4, 1, 877, [&](const ConstrainedCut& cut) {
     Model<2> model(cut.sheet(), {.density = 1, .stiffness = 1, .poisson = 0.3},
                    {.dimension = 2, .strain = Strain::linear, .bending = BendingKind::none}, {}, {});
-    model.tie(cut.sheet(), cut.ties);
+    model.constraint(cut.sheet(), cut.constraints);
     const Field rest = model.positions(cut.sheet());
     model.rotate(rest);
     model.assemble(0, 1);
@@ -250,7 +250,7 @@ TEST(PolygonSheet, StiffnessIsThatOfTheForcesAndHasThreeNullModesPerPiece) {
     for (Eigen::Index i = 0; i < k.rows(); ++i)
       if (model.lumped_mass()[i / 2] > 0) m(i, i) = model.lumped_mass()[i / 2];
     const double expected = largest_mode(k, m);
-    EXPECT_NEAR(largest_eigenvalue(cut.sheet(), cut.ties), expected, 1e-3 * expected);
+    EXPECT_NEAR(largest_eigenvalue(cut.sheet(), cut.constraints), expected, 1e-3 * expected);
   });
 }
 

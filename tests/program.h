@@ -91,7 +91,7 @@ class Program : public testing::Test {
   static std::string small_experiment(const std::string& more = "") {
     return "claim = \"c\"\nsheets = [\"grid\", \"delaunay\"]\nresolutions = [200]\ncut_families = [\"curved\", "
            "\"recut\"]\n"
-           "cases = 3\nrepetitions = 2\nmethods = [\"conventional_split\", {name = \"bowyer_watson\", knob = [0, "
+           "cases = 3\nrepetitions = 2\nmethods = [\"conventional_split\", {name = \"bowyer_watson\", parameter = [0, "
            "1]}]\n" +
            more;
   }

@@ -197,9 +197,9 @@ TEST_F(Programs, AreRowsOfAnAccuracyRun) {
   EXPECT_EQ(errors["closed"], "");
 }
 
-TEST_F(Programs, AreCountedByACampaign) {
+TEST_F(Programs, AreCountedByARobustnessRun) {
   write(folder_ / "c.toml", "claim = \"c\"\nsheets = [\"delaunay\"]\nresolutions = [72]\ncases = 4\n" +
-                                methods_with_programs() + "[campaign]\ntime_limit_s = 60\n");
+                                methods_with_programs() + "[robustness]\ntime_limit_s = 60\n");
   EXPECT_EQ(run("run c.toml --out r").code, 1);
   std::map<std::string, std::map<std::string, int>> counts;
   for (const Record& row : records("c"))
@@ -282,7 +282,7 @@ TEST_F(Programs, ThatMakeNoCutAreNamed) {
   write(folder_ / "e.toml", small_experiment());
   write(folder_ / "c.toml",
         "claim = \"c\"\nsheets = [\"delaunay\"]\nresolutions = [72]\ncases = 4\nmethods = "
-        "\"all\"\n[campaign]\ntime_limit_s = 60\n");
+        "\"all\"\n[robustness]\ntime_limit_s = 60\n");
   write(folder_ / "a.toml",
         "claim = \"c\"\nsheets = [\"grid\"]\nresolutions = [200]\nmethods = \"all\"\n[accuracy]\n"
         "problems = [\"centre_crack\"]\nmembers = [1]\nreference = false\ndirect = [\"cholmod\"]\n");

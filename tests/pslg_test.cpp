@@ -55,7 +55,7 @@ TEST_P(Pslg, SegmentsAreCut) {
   const std::vector<Curve> segments = read_segments(folder / (GetParam() + ".pslg"));
   const MeshData mesh = sheet_over(segments);
   for (const MethodRow& method : all_methods()) {
-    Table table(mesh, method, method.knob.value);
+    Table table(mesh, method, method.parameter.value);
     for (std::size_t i = 0; i < segments.size(); ++i)
       ASSERT_EQ(table.cut(segments[i], 0.05), "") << method.name << ", segment " << i << ": " << text_of(segments[i]);
   }

@@ -28,7 +28,7 @@ TEST_P(Repeated, PolylineIsANoop) {
     CutSheet cut = cut_with(GetParam(), *c.mesh, c.cuts, c.chord_tolerance);
     Locator locator(cut.sheet);
     Cutter cutter;
-    const auto method = GetParam().row->make(GetParam().knob);
+    const auto method = GetParam().row->make(GetParam().parameter);
     for (const Curve& curve : c.cuts) {
       if (curve.kind != Curve::Kind::polyline) continue;
       for (const Curve& again : {curve, reversed(curve)}) {
@@ -57,7 +57,7 @@ TEST_P(Repeated, BezierIsANoop) {
     CutSheet cut = cut_with(GetParam(), *c.mesh, c.cuts, 0.05);
     Locator locator(cut.sheet);
     Cutter cutter;
-    const auto method = GetParam().row->make(GetParam().knob);
+    const auto method = GetParam().row->make(GetParam().parameter);
     for (const Curve& again : {c.cuts[0], reversed(c.cuts[0])}) {
       const Sheet before = cut.sheet;
       const CutOutcome outcome = cutter.cut(cut.sheet, locator, again, *method, {.chord_tolerance = 0.05});
@@ -79,7 +79,7 @@ TEST_P(Repeated, BackwardsIsTheSameCut) {
     std::string what;
     if (is_exact())
       what = different_cut(shape_of(forwards.sheet), shape_of(backwards.sheet), tolerance);
-    else if (count_pieces(forwards.sheet) != count_pieces(backwards.sheet))  // ties go to the node met first
+    else if (count_pieces(forwards.sheet) != count_pieces(backwards.sheet))  // constraints go to the node met first
       what = "pieces";
     if (forwards.statuses != backwards.statuses) what = "another status";
     EXPECT_EQ(what, "") << text_of(c);

@@ -27,7 +27,7 @@ TEST(Reshape, HeldVerticesStayWhereTheyAre) {
           const Sheet before = sheet;
           Locator locator(sheet);
           Cutter cutter;
-          const auto method = find_method(name).make(find_method(name).knob.value);
+          const auto method = find_method(name).make(find_method(name).parameter.value);
           for (const Curve& curve : make_case(family, 5, i, sheet)) cutter.cut(sheet, locator, curve, *method, {});
           for (std::size_t k = 0; k < before.vertex_slots(); ++k) {
             const VertexIndex v(k);
@@ -59,10 +59,10 @@ TEST(WarpAndRefine, LeavesNothingIllShapedThatNothingForces) {
     Locator locator(sheet);
     Cutter cutter;
     const MethodRow& row = find_method("warp_and_refine");
-    const auto method = row.make(row.knob.value);
+    const auto method = row.make(row.parameter.value);
     for (const Curve& curve : cuts) EXPECT_EQ(cutter.cut(sheet, locator, curve, *method, {}).status, Status::ok);
     const Assessment found =
-        assess(before, sheet, judge_one_by_one(before, sheet, cuts, row.promises, row.make(row.knob.value), {}),
+        assess(before, sheet, judge_one_by_one(before, sheet, cuts, row.promises, row.make(row.parameter.value), {}),
                forced_corners_of(before, cuts));
     EXPECT_TRUE(found.judgement.ok) << found.judgement.verdict;
     EXPECT_LT(found.ar_max_away_from_wedges, 3) << c.family << " " << c.n << " " << c.i;
@@ -80,7 +80,7 @@ TEST(WarpAndRefine, KeepsTheChordToleranceOfCurves) {
             const MethodRow& row = find_method(name);
             const Sheet before(make_sheet(sheet_family, i % 2 == 0 ? 20 : 33));
             const CutOptions options{.chord_tolerance = tolerance};
-            JudgedSheet sheet(before, row.promises, row.make(row.knob.value));
+            JudgedSheet sheet(before, row.promises, row.make(row.parameter.value));
             if (sheet.why_unsupported()) continue;
             const double allowed =
                 (tolerance + options.flatten_tolerance) * before.mean_edge() + meeting_tolerance * before.snap();
@@ -144,7 +144,7 @@ TEST(WarpAndRefine, NoTriangleIsIllShapedAndFewVerticesAreAdded) {
       const Sheet before = sheet;
       Locator locator(sheet);
       const auto cuts = make_case("curved", 7, i, sheet);
-      const CutOutcome outcome = Cutter().cut(sheet, locator, cuts[0], *row.make(row.knob.value), {});
+      const CutOutcome outcome = Cutter().cut(sheet, locator, cuts[0], *row.make(row.parameter.value), {});
       ASSERT_EQ(outcome.status, Status::ok);
       const Assessment a = assess_result(before, sheet.to_mesh_data(), cuts, promises_of_everybody, {});
       crossed += outcome.crossed_triangles, added += a.vertices_added;

@@ -265,7 +265,7 @@ TEST_F(SceneFile, PinsHoldTheNearestVertexAndAllItsCopies) {
   EXPECT_EQ(held(sheet, pins[1]), (std::vector<Point2>{{1, 0}}));
   EXPECT_EQ(held(sheet, pins[2]).size(), 11u);
   for (const MethodRow& row : whole_sheet_methods()) {  // from the second pin to the upper border
-    Table table(mesh_of(s), row, row.knob.value);
+    Table table(mesh_of(s), row, row.parameter.value);
     ASSERT_EQ(table.cut({Curve::Kind::polyline, false, {{1, 0}, {1.23, 2.1}}}, 0.05), "");
     EXPECT_EQ(held(table.sheet, pins[0]).size(), 1u);
     EXPECT_EQ(held(table.sheet, pins[1]), (std::vector<Point2>{{1, 0}, {1, 0}})) << row.name;

@@ -7,8 +7,8 @@
 #include <set>
 #include <vector>
 
+#include "harness/mesh/constraints.h"
 #include "harness/mesh/sheet.h"
-#include "harness/mesh/ties.h"
 
 namespace cutbench {
 

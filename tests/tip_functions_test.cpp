@@ -15,8 +15,8 @@
 #include "harness/fem/tips/tip_system.h"
 #include "harness/mesh/families.h"
 #include "harness/problems/common/members.h"
-#include "harness/problems/in_plane/static_solve.h"
 #include "harness/problems/common/stress_intensity.h"
+#include "harness/problems/in_plane/static_solve.h"
 #include "tests/truth_helpers.h"
 
 namespace cutbench {
@@ -69,14 +69,14 @@ TEST(TipQuadrature, OfPowersOfTheDistance) {
 struct Case {
   Specimen specimen;
   Sheet sheet;
-  Ties ties;
+  Constraints constraints;
 };
 Case made(const std::string& problem, const std::string& family, int n, std::size_t index,
           const std::string& method = "conventional_split") {
   const Specimen specimen = find_problem(problem).specimen(family, n, 1, index);
-  const double knob = find_method(method).knob.value;
-  const Sheet sheet = cut_by(specimen, method, knob);
-  return {specimen, sheet, find_method(method).make(knob)->ties(Sheet(specimen.mesh), sheet)};
+  const double parameter = find_method(method).parameter.value;
+  const Sheet sheet = cut_by(specimen, method, parameter);
+  return {specimen, sheet, find_method(method).make(parameter)->constraints(Sheet(specimen.mesh), sheet)};
 }
 
 Eigen::VectorXd some_coefficients(const TipFunctions& functions, std::uint64_t seed = 3) {
@@ -93,7 +93,7 @@ TEST(TipFunctions, AreWhereIncisionsEndInsideTheSheet) {
                                         {"two_cuts_one_geometry", 2},
                                         {"edge_crack_40", 1},
                                         {"kirsch_hole", 0}}) {
-      const auto [specimen, sheet, ties] = made(problem, "delaunay", 20, 1, method);
+      const auto [specimen, sheet, constraints] = made(problem, "delaunay", 20, 1, method);
       const TipFunctions functions(sheet);
       ASSERT_EQ(functions.tips().size(), tips) << problem << ' ' << method;
       for (const auto& tip : functions.tips()) {
@@ -119,7 +119,7 @@ TEST(TipFunctions, JumpAcrossTheIncisionAlone) {
     for (const std::string family : {"grid", "delaunay"})
       for (std::size_t index = 0; index < 4; ++index) {
         SCOPED_TRACE(problem + ' ' + family + ' ' + std::to_string(index));
-        const auto [specimen, sheet, ties] = made(problem, family, 20, index);
+        const auto [specimen, sheet, constraints] = made(problem, family, 20, index);
         const TipFunctions functions(sheet);
         std::size_t lips = 0;
         for (std::size_t slot = 0; slot < sheet.triangle_slots(); ++slot) {
@@ -154,7 +154,7 @@ TEST(TipFunctions, JumpAcrossTheIncisionAlone) {
 
 /// The functions as complex roots: F = Im, Re of w, and sin(theta) times these; w the square root of z, of either sign.
 TEST(TipFunctions, AreRootsWithTheRightDerivatives) {
-  const auto [specimen, sheet, ties] = made("arc_crack_60", "delaunay", 20, 1);
+  const auto [specimen, sheet, constraints] = made("arc_crack_60", "delaunay", 20, 1);
   const TipFunctions functions(sheet);
   std::size_t seen = 0;
   for (std::size_t slot = 0; slot < sheet.triangle_slots(); ++slot)
@@ -196,10 +196,10 @@ TEST(TipFunctions, AreRootsWithTheRightDerivatives) {
   EXPECT_GT(seen, 200u);
 }
 
-Model<2> model_of(const Sheet& sheet, const Ties& ties) {
+Model<2> model_of(const Sheet& sheet, const Constraints& constraints) {
   Model<2> model(sheet, {.stiffness = sheet_material.young, .poisson = sheet_material.poisson},
                  {.dimension = 2, .strain = Strain::linear}, {}, {});
-  model.tie(sheet, ties);
+  model.constraint(sheet, constraints);
   return model;
 }
 
@@ -207,8 +207,8 @@ struct Energies {
   Model<2> model;
   TipFunctions functions;
   TipSystem system;
-  explicit Energies(const Sheet& sheet, const Ties& ties = {})
-      : model(model_of(sheet, ties)),
+  explicit Energies(const Sheet& sheet, const Constraints& constraints = {})
+      : model(model_of(sheet, constraints)),
         functions(sheet),
         system(sheet, model.elements(), functions, lame_of(model.material(), Plane::stress)) {}
 };
@@ -219,7 +219,7 @@ TEST(TipFunctions, HaveTheEnergyOfTheirFields) {
   for (const std::string& problem : cracks)
     for (const std::size_t index : {0u, 1u}) {
       SCOPED_TRACE(problem);
-      const auto [specimen, sheet, ties] = made(problem, "delaunay", 16, index);
+      const auto [specimen, sheet, constraints] = made(problem, "delaunay", 16, index);
       const Energies energies(sheet);
       for (std::size_t tip = 0; tip < energies.functions.tips().size(); ++tip) {
         Eigen::VectorXd c = some_coefficients(energies.functions);
@@ -270,8 +270,8 @@ TEST(TipFunctions, HaveTheEnergyOfTheirFields) {
 TEST(TipFunctions, RigidMotionsAndStressAlongTheCutDoNothing) {
   for (const std::string method : {"conventional_split", "cut_polygons"})
     for (std::size_t index = 0; index < 4; ++index) {
-      const auto [specimen, sheet, ties] = made("centre_crack", "delaunay", 20, index, method);
-      const Energies energies(sheet, ties);
+      const auto [specimen, sheet, constraints] = made("centre_crack", "delaunay", 20, index, method);
+      const Energies energies(sheet, constraints);
       const Eigen::VectorXd c = some_coefficients(energies.functions);
       const auto moved = [&](const Eigen::Matrix2d& gradient) {
         Field u = Field::Zero(static_cast<Eigen::Index>(2 * sheet.deformed_slots()));
@@ -301,7 +301,7 @@ TEST(TipFunctions, TheSolutionHasTheLeastEnergy) {
   for (const std::string& problem : cracks) {
     if (problem == "edge_crack_40") continue;       // loaded, not held
     for (const std::size_t index : {0u, 1u, 2u}) {  // even ones have slivers beside the tip
-      const auto [specimen, sheet, ties] = made(problem, "grid", 12, index);
+      const auto [specimen, sheet, constraints] = made(problem, "grid", 12, index);
       Energies energies(sheet);
       StaticSolve solve(sheet, sheet_material);
       solve.hold_border([](Point2 p, Point2) { return Eigen::Vector2d(p.x * p.y, 0.3 * p.y - p.x * p.x); });
@@ -336,7 +336,7 @@ TEST(TipFunctions, TheSolutionHasTheLeastEnergy) {
 }
 
 TEST(TipFunctions, KFromTheirCoefficients) {
-  const auto [specimen, sheet, ties] = made("williams_mode_1", "delaunay", 20, 1);
+  const auto [specimen, sheet, constraints] = made("williams_mode_1", "delaunay", 20, 1);
   const TipFunctions functions(sheet);
   ASSERT_EQ(functions.tips().size(), 1u);
   // The displacements of Williams, as coefficients in their frame.
@@ -373,9 +373,9 @@ TEST(TipFunctions, ReproduceTheFieldAtATip) {
       for (std::size_t index = 0; index < 4; ++index) {
         SCOPED_TRACE("mode " + mode + ' ' + method + ' ' + std::to_string(index));
         const Problem& problem = find_problem("williams_mode_" + mode);
-        const auto [specimen, sheet, ties] = made("williams_mode_" + mode, "delaunay", 40, index, method);
+        const auto [specimen, sheet, constraints] = made("williams_mode_" + mode, "delaunay", 40, index, method);
         const std::array<Budget, 2> budgets{Budget{}, with_tips()};
-        const auto answers = problem.answer(specimen, sheet, budgets, ties);
+        const auto answers = problem.answer(specimen, sheet, budgets, constraints);
         ASSERT_EQ(answers[1].verdict, "ok");
         EXPECT_EQ(answers[1].unknowns, answers[0].unknowns + 8);
         EXPECT_LT(error_of(answers[1], "energy_norm"), 0.6 * error_of(answers[0], "energy_norm"));
@@ -397,7 +397,7 @@ TEST(TipFunctions, TheRateOfConvergenceIsBetter) {
     double off[2] = {0, 0}, on[2] = {0, 0};
     for (int level = 0; level < 2; ++level)
       for (std::size_t index = 0; index < 4; ++index) {
-        const auto [specimen, sheet, ties] = made(problem, "delaunay", 24 << level, index);
+        const auto [specimen, sheet, constraints] = made(problem, "delaunay", 24 << level, index);
         const std::array<Budget, 2> budgets{Budget{}, with_tips()};
         const auto answers = find_problem(problem).answer(specimen, sheet, budgets);
         off[level] += std::pow(error_of(answers[0], measure), power);
@@ -413,7 +413,7 @@ TEST(TipFunctions, AStressAlongTheCutStaysExact) {
   for (const std::string family : sheet_families())
     for (std::size_t index = 0; index < 4; ++index) {
       const Problem& problem = find_problem("parallel_stress");
-      const auto [specimen, sheet, ties] = made("parallel_stress", family, 16, index);
+      const auto [specimen, sheet, constraints] = made("parallel_stress", family, 16, index);
       const Budget budget = with_tips();
       const Answer answer = problem.answer(specimen, sheet, {&budget, 1}).front();
       EXPECT_EQ(answer.verdict, "ok");
@@ -424,9 +424,9 @@ TEST(TipFunctions, AStressAlongTheCutStaysExact) {
 TEST(TipFunctions, AreRefusedWhereTheyHaveNoPlace) {
   const auto reason = [](const std::string& problem_name, const std::string& method) {
     const Problem& problem = find_problem(problem_name);
-    const auto [specimen, sheet, ties] = made(problem_name, "grid", 12, 0, method);
+    const auto [specimen, sheet, constraints] = made(problem_name, "grid", 12, 0, method);
     const std::array<Budget, 2> budgets{Budget{}, with_tips()};
-    const auto answers = problem.answer(specimen, sheet, budgets, ties);
+    const auto answers = problem.answer(specimen, sheet, budgets, constraints);
     EXPECT_FALSE(answers[0].refused);
     EXPECT_FALSE(answers[0].measures.empty());
     EXPECT_EQ(answers[1].refused, answers[1].measures.empty());

@@ -12,11 +12,11 @@
 namespace cutbench {
 
 /// The specimen's sheet with its cuts made, or the mesh fitted to them ("body_fitted").
-inline Sheet cut_by(const Specimen& specimen, const std::string& method, double knob = 0) {
+inline Sheet cut_by(const Specimen& specimen, const std::string& method, double parameter = 0) {
   if (method == "body_fitted") return body_fitted(specimen);
   Sheet sheet(specimen.mesh);
   Locator locator(sheet);
-  const auto tool = find_method(method).make(knob);
+  const auto tool = find_method(method).make(parameter);
   for (const Curve& cut : specimen.cuts)
     EXPECT_EQ(Cutter().cut(sheet, locator, cut, *tool, {}).status, Status::ok) << method;
   return sheet;

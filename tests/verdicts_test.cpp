@@ -28,7 +28,7 @@ Scene falling(Integrator integrator, double step, int steps) {
 std::unique_ptr<Simulation> run(const Scene& scene, const std::string& method = "edge_release") {
   auto motion = Simulation::start(scene);
   motion->watch();
-  motion->advance(scene.duration, *find_method(method).make(find_method(method).knob.value), {});
+  motion->advance(scene.duration, *find_method(method).make(find_method(method).parameter.value), {});
   return motion;
 }
 

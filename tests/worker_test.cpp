@@ -1,4 +1,4 @@
-// The price of the ties in a case of several cuts: they are found after each of its cuts, as in a simulation.
+// The price of the constraints in a case of several cuts: they are found after each of its cuts, as in a simulation.
 #include "harness/study/worker.h"
 
 #include <gtest/gtest.h>
@@ -16,15 +16,15 @@ namespace {
 constexpr std::chrono::milliseconds slowness{2};
 
 /// Counts what it is asked for, and takes its time.
-class TiesSlowly final : public CuttingMethod {
+class ConstrainsSlowly final : public CuttingMethod {
  public:
-  TiesSlowly(Tying kind, std::size_t* asked) : kind_(kind), asked_(asked) {}
+  ConstrainsSlowly(ConstraintKind kind, std::size_t* asked) : kind_(kind), asked_(asked) {}
   void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override {
     CuttingMethod::embed(sheet, trace, notes);
     if (++embedded_ == fails_at) throw CutFailed("inverted", "on purpose");
   }
-  Tying tying() const override { return kind_; }
-  Ties ties(const Sheet&, const Sheet&) const override {
+  ConstraintKind constraint_kind() const override { return kind_; }
+  Constraints constraints(const Sheet&, const Sheet&) const override {
     ++*asked_;
     std::this_thread::sleep_for(slowness);
     return {};
@@ -33,17 +33,17 @@ class TiesSlowly final : public CuttingMethod {
   std::size_t fails_at = 0;
 
  private:
-  Tying kind_;
+  ConstraintKind kind_;
   std::size_t *asked_, embedded_ = 0;
 };
 
 class WorkerTest : public testing::Test {
  protected:
-  /// Cuts once, by the method that ties() counts for.
-  CutRun cut(const std::vector<Curve>& cuts, CuttingMethod::Tying kind, std::size_t fails_at = 0) {
+  /// Cuts once, by the method that constraints() counts for.
+  CutRun cut(const std::vector<Curve>& cuts, CuttingMethod::ConstraintKind kind, std::size_t fails_at = 0) {
     auto row = std::make_shared<MethodRow>(find_method("conventional_split"));
     row->make = [&](double) {
-      auto method = std::make_unique<TiesSlowly>(kind, &asked_);
+      auto method = std::make_unique<ConstrainsSlowly>(kind, &asked_);
       method->fails_at = fails_at;
       return method;
     };
@@ -58,47 +58,47 @@ class WorkerTest : public testing::Test {
   std::size_t asked_ = 0;
 };
 
-TEST_F(WorkerTest, TiesAreFoundAfterEachCutThatIsMade) {
-  const CutRun three = cut(three_cuts_, CuttingMethod::Tying::vertices);
+TEST_F(WorkerTest, ConstraintsAreFoundAfterEachCutThatIsMade) {
+  const CutRun three = cut(three_cuts_, CuttingMethod::ConstraintKind::vertices);
   EXPECT_EQ(three.status, Status::ok);
   EXPECT_EQ(asked_, 3u);
-  EXPECT_GE(three.time_us.tie, us(3));
+  EXPECT_GE(three.time_us.constrain, us(3));
 
   std::vector<Curve> beside = three_cuts_;
   beside.insert(beside.begin() + 1, line({2, 2}, {3, 3}));
-  EXPECT_EQ(cut(beside, CuttingMethod::Tying::phantoms).status, Status::ok);
+  EXPECT_EQ(cut(beside, CuttingMethod::ConstraintKind::phantoms).status, Status::ok);
   EXPECT_EQ(asked_, 3u) << "a cut that had nothing to do";
 
-  const CutRun failed = cut(three_cuts_, CuttingMethod::Tying::vertices, 2);
+  const CutRun failed = cut(three_cuts_, CuttingMethod::ConstraintKind::vertices, 2);
   EXPECT_EQ(failed.status, Status::failed);
   EXPECT_EQ(asked_, 1u);
-  EXPECT_GE(failed.time_us.tie, us(1));
+  EXPECT_GE(failed.time_us.constrain, us(1));
 }
 
 TEST_F(WorkerTest, PolygonsAreFoundOnceSinceAScenesFollowTheLastCut) {
-  const CutRun three = cut(three_cuts_, CuttingMethod::Tying::polygons);
+  const CutRun three = cut(three_cuts_, CuttingMethod::ConstraintKind::polygons);
   EXPECT_EQ(three.status, Status::ok);
   EXPECT_EQ(asked_, 1u);
-  EXPECT_GE(three.time_us.tie, us(1));
+  EXPECT_GE(three.time_us.constrain, us(1));
 }
 
-TEST_F(WorkerTest, AMethodThatTiesNothingIsNotAsked) {
-  EXPECT_EQ(cut(three_cuts_, CuttingMethod::Tying::nothing).time_us.tie, 0);
+TEST_F(WorkerTest, AMethodThatConstrainsNothingIsNotAsked) {
+  EXPECT_EQ(cut(three_cuts_, CuttingMethod::ConstraintKind::nothing).time_us.constrain, 0);
   EXPECT_EQ(asked_, 0u);
 }
 
-TEST_F(WorkerTest, ItsTiesAreThoseOfAllCuts) {
+TEST_F(WorkerTest, ItsConstraintsAreThoseOfAllCuts) {
   for (const std::string name : {"split_and_tie", "phantom_node", "cut_polygons"}) {
     SCOPED_TRACE(name);
     const auto row = std::make_shared<MethodRow>(find_method(name));
-    Worker worker({row, row->knob.value});
+    Worker worker({row, row->parameter.value});
     for (const bool cold : {false, true}) {
       const CutRun run = worker.measure(base_, three_cuts_, {}, cold);
-      EXPECT_GT(run.time_us.tie, 0);
-      const Ties all = worker.method->ties(base_.sheet, worker.sheet);
+      EXPECT_GT(run.time_us.constrain, 0);
+      const Constraints all = worker.method->constraints(base_.sheet, worker.sheet);
       EXPECT_FALSE(all.empty());
-      EXPECT_EQ(worker.ties.ties.size(), all.ties.size());
-      EXPECT_EQ(worker.ties.polygons, all.polygons);
+      EXPECT_EQ(worker.constraints.constraints.size(), all.constraints.size());
+      EXPECT_EQ(worker.constraints.polygons, all.polygons);
     }
   }
 }

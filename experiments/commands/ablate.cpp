@@ -22,7 +22,7 @@ Exit run_ablation(const AblateArguments& arguments) {
   if (!arguments.report.empty()) check_writable(arguments.report, "--report");
   Scene scene = read_scene(arguments.scene);
   set_resolution(scene, arguments.resolution);
-  const auto method = arguments.method.row().make(arguments.method.knob());
+  const auto method = arguments.method.row().make(arguments.method.parameter());
   const auto rows = ablate(scene, *method, arguments.method.chord_tolerance.cut_options(), arguments.time_limit);
   print_ablations(rows);
   if (!arguments.report.empty()) WholeFile(arguments.report, json_of(rows).dump(2) + "\n").place();

@@ -57,8 +57,8 @@ std::vector<Curve> in_rest_space(const std::vector<std::variant<Curve, PickedCur
 
 Exit cut_sheet(const CutArguments& arguments) {
   const MethodRow row = arguments.method.row();
-  const double knob = arguments.method.knob();
-  const auto method = row.make(knob);
+  const double parameter = arguments.method.parameter();
+  const auto method = row.make(parameter);
   const CutOptions options = arguments.method.chord_tolerance.cut_options();
   check_mesh_place(arguments.out, "--out");
   if (!arguments.report.empty()) check_report_place(arguments);
@@ -81,7 +81,7 @@ Exit cut_sheet(const CutArguments& arguments) {
     return fell_short;
   }
   const Assessment a =
-      assess(before, sheet, judge_one_by_one(before, sheet, cuts, row.promises, row.make(knob), options),
+      assess(before, sheet, judge_one_by_one(before, sheet, cuts, row.promises, row.make(parameter), options),
              forced_corners_of(before, cuts));
   WholeFile out = mesh_file(sheet.to_mesh_data(), arguments.out);
   if (!arguments.report.empty())

@@ -47,7 +47,8 @@ void MethodOptions::add_to(CLI::App& app) {
   app.add_option("--command-memory-limit", limits.memory_mb, "of the program, in MB")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
-  app.add_option("--set", settings, "KNOB=VALUE of the method; see `cutbench methods` for knobs and defaults");
+  app.add_option("--set", settings,
+                 "PARAMETER=VALUE of the method; see `cutbench methods` for parameters and defaults");
   chord_tolerance.add_to(
       app,
       "largest distance of the incision from a curved path, in mean rest edges, or inf: a straight piece "
@@ -61,15 +62,16 @@ MethodRow MethodOptions::row() const {
   return find_method(method);
 }
 
-double MethodOptions::knob() const {
+double MethodOptions::parameter() const {
   const MethodRow m = row();
-  double value = m.knob.value;
+  double value = m.parameter.value;
   for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');
     const std::string name = setting.substr(0, equals);
-    if (m.knob.name.empty()) throw InputError("--set " + setting + ": method \"" + m.name + "\" has no knob");
-    if (equals == std::string::npos || name != m.knob.name)
-      throw InputError("--set " + setting + ": the knob of \"" + m.name + "\" is set as " + m.knob.name + "=VALUE");
+    if (m.parameter.name.empty()) throw InputError("--set " + setting + ": method \"" + m.name + "\" has no parameter");
+    if (equals == std::string::npos || name != m.parameter.name)
+      throw InputError("--set " + setting + ": the parameter of \"" + m.name + "\" is set as " + m.parameter.name +
+                       "=VALUE");
     value = number(setting.substr(equals + 1), "--set " + name);
   }
   return value;

@@ -1,4 +1,4 @@
-// Options that several subcommands share: the method, its knob and the chord tolerance.
+// Options that several subcommands share: the method, its parameter and the chord tolerance.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -31,8 +31,8 @@ struct MethodOptions {
   void add_to(CLI::App& app);
   /// Throws InputError: no method of that name, none at all, or a command that lacks a file.
   MethodRow row() const;
-  /// Throws InputError: not the knob of the method, or not a number. The method checks the range.
-  double knob() const;
+  /// Throws InputError: not the parameter of the method, or not a number. The method checks the range.
+  double parameter() const;
 };
 
 /// Throws InputError: not 2 n^2, or the scene's sheet is read from a file. \param resolution  0: as it is

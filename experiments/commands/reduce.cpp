@@ -7,9 +7,9 @@
 #include "experiments/commands/method_options.h"
 #include "harness/base/errors.h"
 #include "harness/files/whole_file.h"
-#include "harness/study/robustness/failing_case.h"
 #include "harness/judge/result_svg.h"
 #include "harness/mesh/mesh_io.h"
+#include "harness/study/robustness/failing_case.h"
 
 namespace cutbench {
 
@@ -23,7 +23,7 @@ struct ReduceArguments {
 
 Exit reduce(const ReduceArguments& arguments) {
   const auto row = std::make_shared<const MethodRow>(arguments.method.row());
-  const Contender contender = contender_of({row, arguments.method.knob()});
+  const Contender contender = contender_of({row, arguments.method.parameter()});
   const CutOptions options = arguments.method.chord_tolerance.cut_options();
   const std::filesystem::path stem = arguments.out;
   for (const char* extension : {".obj", ".json", ".txt", ".svg"}) check_writable(arguments.out + extension, "--out");

@@ -71,7 +71,7 @@ Experiment read_part(const std::string& file, const RunArguments& arguments, con
   if (e.methods.empty())
     for (const MethodRow& row : all_methods()) e.methods.push_back({row.name, {}});
   std::vector<std::string> methods = arguments.methods;
-  const bool with_peer = e.campaign && std::erase(methods, "peer") > 0;
+  const bool with_cross_check = e.robustness && std::erase(methods, "cross_check") > 0;
   std::vector<Experiment::Entry> programs;  // they run whether --methods names them or not
   for (const std::string& command : arguments.commands) {
     e.programs.push_back(program_in(command));
@@ -82,12 +82,12 @@ Experiment read_part(const std::string& file, const RunArguments& arguments, con
   if (methods.empty() && !arguments.methods.empty()) e.methods.clear();
   e.methods.insert(e.methods.end(), programs.begin(), programs.end());
   restrict_to(e.resolutions, arguments.resolutions, "--resolutions", [](int r) { return r; });
-  if (e.atlas)
-    restrict_to(e.atlas->sweeps, arguments.sweeps, "--sweeps", [](const Sweep& s) { return s.name; });
+  if (e.stability)
+    restrict_to(e.stability->sweeps, arguments.sweeps, "--sweeps", [](const Sweep& s) { return s.name; });
   else if (!arguments.sweeps.empty())
     throw InputError(file + ": --sweeps is for an experiment that has [[sweeps]]");
-  if (e.campaign && !arguments.methods.empty()) e.campaign->peer = with_peer;
-  if (e.campaign && !arguments.resolutions.empty()) e.campaign->mesh_files.clear();
+  if (e.robustness && !arguments.methods.empty()) e.robustness->cross_check = with_cross_check;
+  if (e.robustness && !arguments.resolutions.empty()) e.robustness->mesh_files.clear();
   if (arguments.cases > 0) e.cases = arguments.cases;
   if (arguments.cases > 0 && e.accuracy)
     for (auto* members : {&e.accuracy->members, &e.accuracy->members_nonlinear})
@@ -98,7 +98,7 @@ Experiment read_part(const std::string& file, const RunArguments& arguments, con
     e.seed = seed_of_commit(context);
   else if (!arguments.seed.empty())
     e.seed = seed_in(arguments.seed);
-  variants_of(e, nameable_methods());  // throws where a method or its knob is wrong
+  variants_of(e, nameable_methods());  // throws where a method or its parameter is wrong
   return e;
 }
 
@@ -124,7 +124,7 @@ class OneCore {
   cpu_set_t before_{};
 };
 
-bool records_times(const Experiment& e) { return !e.campaign && e.times; }
+bool records_times(const Experiment& e) { return !e.robustness && e.times; }
 
 bool run_measured(const Experiment& e, const Context& context, const RunOptions& options) {
   const OneCore pinned(options.shard);
@@ -178,7 +178,7 @@ Command add_run(CLI::App& app) {
   command->add_option("--out", arguments->out, "results folder")->capture_default_str();
   command
       ->add_option("--jobs", arguments->jobs,
-                   "processes of a campaign, or of an experiment with `times = false`; all cores where it is not "
+                   "processes of a robustness run, or of an experiment with `times = false`; all cores where it is not "
                    "given. Other experiments stay on one core")
       ->check(CLI::PositiveNumber);
   command->add_option("--shard", arguments->shard, "i/N: only one N-th of the cases, the i-th")->capture_default_str();

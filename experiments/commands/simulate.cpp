@@ -30,8 +30,8 @@ Exit run_scene(const SimulateArguments& arguments, const std::string& command_li
   if (!arguments.steps.empty()) check_writable(arguments.steps, "--steps");
   Scene scene = read_scene(arguments.scene);
   const MethodRow row = arguments.method.row();
-  const double knob = arguments.method.knob();
-  const auto method = row.make(knob);
+  const double parameter = arguments.method.parameter();
+  const auto method = row.make(parameter);
   set_resolution(scene, arguments.resolution);
   if (!arguments.solver.empty()) {
     check_names({arguments.solver}, solver_names(), "--solver");
@@ -43,9 +43,10 @@ Exit run_scene(const SimulateArguments& arguments, const std::string& command_li
   for (std::size_t i = 0; i < scene.cuts.size(); ++i)
     if (!scene.cuts[i].curve.points.empty())
       arguments.misses.check(sheet, scene.cuts[i].curve, arguments.scene + ", cut " + std::to_string(i));
-  char knob_text[64] = "";
-  if (!row.knob.name.empty()) std::snprintf(knob_text, sizeof knob_text, " %s=%g", row.knob.name.c_str(), knob);
-  const SimulateOptions options{.method = row.name + knob_text,
+  char parameter_text[64] = "";
+  if (!row.parameter.name.empty())
+    std::snprintf(parameter_text, sizeof parameter_text, " %s=%g", row.parameter.name.c_str(), parameter);
+  const SimulateOptions options{.method = row.name + parameter_text,
                                 .command = command_line,
                                 .out = arguments.out,
                                 .frames = arguments.frames,

@@ -1,13 +1,13 @@
 // A foreign system behind files, as an adapter shows: CGAL triangulates the whole sheet anew, with the path among its
-// constraints (harness/study/robustness/cgal_peer.h), and knows nothing of the sheet it was.
+// constraints (harness/study/robustness/cgal_check.h), and knows nothing of the sheet it was.
 // usage: cutbench_cgal_whole_sheet mesh.obj path.json out.obj
 #include <cstdio>
 #include <exception>
 
-#include "harness/study/robustness/cgal_peer.h"
 #include "harness/judge/oracle_request.h"
 #include "harness/mesh/mesh_io.h"
 #include "harness/mesh/tolerances.h"
+#include "harness/study/robustness/cgal_check.h"
 
 int main(int argc, char** argv) {
   using namespace cutbench;
@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   try {
     const Sheet sheet(read_mesh(argv[1]));
     const Curve cut = read_path(argv[2]).front();
-    const oracle::PeerResult made =
+    const oracle::CrossCheckResult made =
         oracle::cgal_whole_sheet_cut(for_oracle(sheet), for_oracle(cut), default_flatten_tolerance * sheet.mean_edge());
     if (made.refused) return std::fprintf(stderr, "%s\n", made.reason.c_str()), 3;
     MeshData result;

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "harness/cut/patch.h"
+#include "harness/mesh/constraints.h"
 #include "harness/mesh/sheet.h"
-#include "harness/mesh/ties.h"
 #include "harness/path/curve.h"
 #include "harness/path/subdivision.h"
 
@@ -56,23 +56,23 @@ class CuttingMethod {
   /// remove one, or move its ends, unless the incision error stays within Promises::incision_bound.
   virtual void improve(Sheet& /*sheet*/, MethodNotes& /*notes*/) {}
 
-  /// What ties() may return for this method. It is asked before a cut, since not every solver supports every kind.
-  enum class Tying : std::uint8_t {
+  /// What constraints() may return for this method. It is asked before a cut, since not every solver supports every kind.
+  enum class ConstraintKind : std::uint8_t {
     nothing,          ///< no constraints: every vertex has its own unknowns
     vertices,         ///< constraints of vertices of the sheet to triangles of the sheet
     polygons,         ///< triangles that are one element together
     phantoms,         ///< constraints to triangles with phantom nodes, which are not vertices of the sheet
     phantoms_at_rest  ///< the same, with terms in stiffness or mass that hold for a sheet at rest only
   };
-  virtual Tying tying() const { return Tying::nothing; }
+  virtual ConstraintKind constraint_kind() const { return ConstraintKind::nothing; }
   /// The constraints between the vertices of a sheet that this method cut any number of times, and the polygons that it
   /// makes of triangles; none: every vertex has its own unknowns. Depends on the two sheets alone.
   /// \param before  the sheet before the first cut; no slot of it has moved since (Sheet::compact() would move them)
-  virtual Ties ties(const Sheet& /*before*/, const Sheet& /*cut*/) const { return {}; }
-  /// The same after one more cut, that of the log of `cut`. Returns all ties, but only the new polygons: an old polygon
+  virtual Constraints constraints(const Sheet& /*before*/, const Sheet& /*cut*/) const { return {}; }
+  /// The same after one more cut, that of the log of `cut`. Returns all constraints, but only the new polygons: an old polygon
   /// stays unless it shares a triangle with a new one. The default returns the polygons of all cuts.
-  virtual Ties next_ties(const Sheet& before, const Sheet& cut, const PolygonsLeft& /*left*/) const {
-    return ties(before, cut);
+  virtual Constraints next_constraints(const Sheet& before, const Sheet& cut, const PolygonsLeft& /*left*/) const {
+    return constraints(before, cut);
   }
 
  protected:
@@ -80,7 +80,7 @@ class CuttingMethod {
 };
 
 /// The one number of a method that may be swept.
-struct Knob {
+struct Parameter {
   std::string name;  ///< empty: the method has none
   double value = 0;  ///< default
   std::string meaning;
@@ -105,9 +105,9 @@ struct Promises {
 /// A row of the table of methods.
 struct MethodRow {
   std::string name, summary;
-  Knob knob;
+  Parameter parameter;
   Promises promises;
-  std::function<std::unique_ptr<CuttingMethod>(double knob)> make;  ///< throws InputError: a value out of range
+  std::function<std::unique_ptr<CuttingMethod>(double parameter)> make;  ///< throws InputError: a value out of range
   std::string command = {};  ///< of the program that makes the cuts; empty: a class of this process
 };
 

@@ -6,9 +6,9 @@
 
 #include "harness/cut/cut.h"
 #include "harness/judge/findings.h"
+#include "harness/mesh/quality.h"
 #include "harness/oracle/forced_zones.h"
 #include "harness/oracle/oracle.h"
-#include "harness/mesh/quality.h"
 
 namespace cutbench {
 

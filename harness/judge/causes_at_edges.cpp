@@ -82,11 +82,11 @@ std::optional<Finding> Causes::lost_triangle() const {
 // --- vertices and the path -------------------------------------------------------------------------------------------
 
 std::optional<Finding> Causes::one_vertex() const {
-  const std::vector<int> ties = bow_ties(after_, edges_);
-  if (ties.empty()) return {};
-  const Point& p = after_.rest[ties.front()];
+  const std::vector<int> constraints = bow_ties(after_, edges_);
+  if (constraints.empty()) return {};
+  const Point& p = after_.rest[constraints.front()];
   return Finding{"one_vertex",
-                 "vertex " + std::to_string(ties.front()) + " at " + at(p) +
+                 "vertex " + std::to_string(constraints.front()) + " at " + at(p) +
                      " joins triangles that share no edge: the two sides of a cut hang together there",
                  "give each side its own vertex at that place", p};
 }

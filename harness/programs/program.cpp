@@ -126,7 +126,7 @@ MethodRow method_of_program(const ProgramSettings& settings) {
   check_settings(settings);
   return {.name = settings.name,
           .summary = "a program: " + settings.command,
-          .knob = {},
+          .parameter = {},
           .promises = promises_of_programs,
           .make = [settings](double) { return std::make_unique<Program>(settings); },
           .command = settings.command};

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "harness/processes/subprocess.h"
 #include "harness/cut/cutting_method.h"
+#include "harness/processes/subprocess.h"
 
 namespace cutbench {
 

@@ -14,7 +14,8 @@ void add_accuracy_run(std::vector<Metric>& t) {
        {"budget", "", "iterations allowed", none, group,
         "Iterations from zero, whatever is reached by then; 0: until solved."},
        {"tip_functions", "", "tip functions", none, group,
-        "1: solved with functions for the tips (harness/fem/tips/tip_functions.h) beside the linear ones. Such rows have "
+        "1: solved with functions for the tips (harness/fem/tips/tip_functions.h) beside the linear ones. Such rows "
+        "have "
         "two measures more: `tip_k1` and `tip_k2`, K from the functions' coefficients."},
        {"exact_incision", "", "exact incision", none, group,
         "1: the method promises to open the requested path itself."},

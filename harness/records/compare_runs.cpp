@@ -90,13 +90,13 @@ class Pairs {
         visit(key, fields, fields[static_cast<std::size_t>(mine)], found->second[static_cast<std::size_t>(theirs)]);
     }
   }
-  /// Method and knob.
+  /// Method and parameter.
   std::string method(const std::vector<std::string>& fields) const {
-    const auto knob = base_.column("knob");
+    const auto parameter = base_.column("parameter");
     const std::string name = fields[static_cast<std::size_t>(base_.column("method"))];
-    return knob < 0 || fields[static_cast<std::size_t>(knob)].empty()
+    return parameter < 0 || fields[static_cast<std::size_t>(parameter)].empty()
                ? name
-               : name + " " + fields[static_cast<std::size_t>(knob)];
+               : name + " " + fields[static_cast<std::size_t>(parameter)];
   }
   /// The row without its repetition.
   std::string case_of(std::vector<std::string> fields) const {

@@ -9,9 +9,9 @@
 #include <string>
 
 #include "harness/base/errors.h"
-#include "harness/study/shard_of.h"
 #include "harness/files/whole_file.h"
 #include "harness/records/record.h"
+#include "harness/study/shard_of.h"
 
 namespace cutbench {
 
@@ -141,7 +141,7 @@ class Table {
     for (const Shard& shard : shards)
       for (const Fields& row : shard.rows) {
         const std::size_t next_block = block_number.size(), next_family = family_number.size();
-        const std::string block_key = key(row, {"sheet", "resolution", "method", "knob"});
+        const std::string block_key = key(row, {"sheet", "resolution", "method", "parameter"});
         const std::size_t block = block_number.emplace(block_key, next_block).first->second;
         const std::size_t family = family_number.emplace(key(row, {"cut_family"}), next_family).first->second;
         const auto [at, is_new] = sums.try_emplace({block, family}, row);

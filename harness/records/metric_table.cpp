@@ -100,13 +100,14 @@ void add_keys_and_outcome(std::vector<Metric>& t) {
                "Version of meshes, cuts and definitions. Rows of different versions do not compare."});
   t.push_back({"cut_family", "", "cut family", Direction::none, Group::key,
                "Family of cuts, such as `curved`: harness/cases/cut_families.h."});
-  t.push_back({"sheet", "", "sheet", Direction::none, Group::key,
-               "`grid` (the paper's), `alternating`, `delaunay`, `graded`: harness/mesh/families.h; in a campaign "
-               "also the stem of a mesh file."});
+  t.push_back(
+      {"sheet", "", "sheet", Direction::none, Group::key,
+       "`grid` (the paper's), `alternating`, `delaunay`, `graded`: harness/mesh/families.h; in a robustness run "
+       "also the stem of a mesh file."});
   t.push_back({"method", "", "method", Direction::none, Group::key,
                "Name of the method. `every_edge` is no method but the paper's wording taken literally: every edge of "
                "the sheet is tested against the path, and nothing is cut."});
-  t.push_back({"knob", "", "knob", Direction::none, Group::key,
+  t.push_back({"parameter", "", "parameter", Direction::none, Group::key,
                "The one number of the method that is swept, as `rounds=1`; empty if it has none."});
   t.push_back(
       {"resolution", "", "triangles, uncut sheet", Direction::none, Group::key, "Triangles of the uncut sheet."});
@@ -214,25 +215,26 @@ std::function<Value(const Measured&)> of_ratio(EigenvalueRatios Measured::*which
 }
 
 void add_stability_and_accuracy(std::vector<Metric>& t) {
-  t.push_back({"eigenvalue_ratio", "", "largest eigenvalue / uncut", Direction::lower, Group::stability,
-               "Largest eigenvalue of the membrane's stiffness and lumped mass (harness/fem/model/largest_eigenvalue.h) over "
-               "that of the uncut sheet, of the first `eigenvalue_cases` cuts only. Without bending the largest stable "
-               "step of an explicit integrator shrinks by its root. Where vertices are constrained (x = C q) it is "
-               "that of C^T K C and "
-               "C^T M C, with ghost penalties where the method has them; that mass is not lumped, and no explicit "
-               "step takes it, except for `phantom_node:lumped_mass`.",
-               of_ratio(&Measured::membrane, &EigenvalueRatios::lumped)});
+  t.push_back(
+      {"eigenvalue_ratio", "", "largest eigenvalue / uncut", Direction::lower, Group::stability,
+       "Largest eigenvalue of the membrane's stiffness and lumped mass (harness/fem/model/largest_eigenvalue.h) over "
+       "that of the uncut sheet, of the first `eigenvalue_cases` cuts only. Without bending the largest stable "
+       "step of an explicit integrator shrinks by its root. Where vertices are constrained (x = C q) it is "
+       "that of C^T K C and "
+       "C^T M C, with ghost penalties where the method has them; that mass is not lumped, and no explicit "
+       "step takes it, except for `phantom_node:lumped_mass`.",
+       of_ratio(&Measured::membrane, &EigenvalueRatios::lumped)});
   t.push_back(
       {"bending_eigenvalue_ratio", "", "largest eigenvalue with bending / uncut", Direction::lower, Group::stability,
        "The same with bending patches, D / (E h) = 4.2e-7 of the sheet's area (2 mm of skin on a side of 1 m) "
        "and nu = 0.45: by its root the largest stable step shrinks. Empty for phantom nodes, which do not bend.",
        of_ratio(&Measured::bent, &EigenvalueRatios::lumped)});
-  t.push_back(
-      {"stabilised_eigenvalue_ratio", "", "largest eigenvalue, stabilised mass / uncut", Direction::lower,
-       Group::stability,
-       "`eigenvalue_ratio` with `mass = \"stabilised\"` (harness/fem/elements/added_mass.h), no element above the largest "
-       "eigenvalue of one of the uncut sheet. Empty where vertices are constrained, like the next ones.",
-       of_ratio(&Measured::membrane, &EigenvalueRatios::stabilised)});
+  t.push_back({"stabilised_eigenvalue_ratio", "", "largest eigenvalue, stabilised mass / uncut", Direction::lower,
+               Group::stability,
+               "`eigenvalue_ratio` with `mass = \"stabilised\"` (harness/fem/elements/added_mass.h), no element above "
+               "the largest "
+               "eigenvalue of one of the uncut sheet. Empty where vertices are constrained, like the next ones.",
+               of_ratio(&Measured::membrane, &EigenvalueRatios::stabilised)});
   t.push_back({"stabilised_bending_eigenvalue_ratio", "", "largest eigenvalue with bending, stabilised mass / uncut",
                Direction::lower, Group::stability, "The same with bending, as in `bending_eigenvalue_ratio`.",
                of_ratio(&Measured::bent, &EigenvalueRatios::stabilised)});
@@ -270,8 +272,9 @@ void add_times(std::vector<Metric>& t) {
                of_phase(&PhaseTimes::improve)});
   t.push_back({"open_us", "us", "open", Direction::lower, Group::time, "Time in which the incision is opened.",
                of_phase(&PhaseTimes::open)});
-  t.push_back({"tie_us", "us", "constrain", Direction::lower, Group::time,
-               "Time in which vertices are constrained to others, by methods that do so.", of_phase(&PhaseTimes::tie)});
+  t.push_back({"constrain_us", "us", "constrain", Direction::lower, Group::time,
+               "Time in which vertices are constrained to others, by methods that do so.",
+               of_phase(&PhaseTimes::constrain)});
   t.push_back(
       {"process_us", "us", "program", Direction::lower, Group::time,
        "Time of a method that is a program of its own, instead of the phases: as it reports, else from its start to "
@@ -365,7 +368,7 @@ const std::vector<Metric>& all_metrics() {
     add_shapes(t, "_all", ", over the whole sheet after the cut.", &Assessment::all);
     add_shapes(t, "_cut", ", over the triangles that the cut made or changed.", &Assessment::cut);
     add_forced_zones(t), add_stability_and_accuracy(t), add_times(t), add_steps(t), add_jumps(t);
-    add_accuracy_run(t), add_campaign(t), add_atlas(t);
+    add_accuracy_run(t), add_robustness(t), add_stability(t);
     return t;
   }();
   return table;

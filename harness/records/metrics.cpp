@@ -36,9 +36,9 @@ constexpr std::array<GroupText, 14> group_texts{{
     {Group::step, "step", "Only of cuts inside a running scene: the update and the first step"},
     {Group::jump, "jump", "Only of cuts inside a running scene: energies, forces and their jumps"},
     {Group::accuracy_run, "accuracy_run", "Only of accuracy runs"},
-    {Group::campaign, "campaign", "Only of campaigns"},
-    {Group::atlas_setting, "atlas_setting", "Only of the atlas: the settings of a point"},
-    {Group::atlas, "atlas", "Only of the atlas: what came of a point"},
+    {Group::robustness, "robustness", "Only of robustness runs"},
+    {Group::stability_setting, "stability_setting", "Only of the stability sweeps: the settings of a point"},
+    {Group::stability_point, "stability_point", "Only of the stability sweeps: what came of a point"},
 }};
 
 const char* name_of(Group group) { return group_texts[static_cast<std::size_t>(group)].name; }

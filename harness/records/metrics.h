@@ -52,9 +52,9 @@ enum class Group : std::uint8_t {
   step,
   jump,
   accuracy_run,
-  campaign,
-  atlas_setting,
-  atlas
+  robustness,
+  stability_setting,
+  stability_point
 };
 
 struct Metric {
@@ -71,10 +71,10 @@ struct Metric {
 const std::vector<Metric>& all_metrics();
 /// The part of the table of accuracy runs; filled by harness/study/accuracy.cpp.
 void add_accuracy_run(std::vector<Metric>& table);
-/// That of campaigns, which count instead of measuring; filled by harness/study/robustness/campaign.cpp.
-void add_campaign(std::vector<Metric>& table);
-/// The atlas's part of the table.
-void add_atlas(std::vector<Metric>& table);
+/// That of robustness runs, which count instead of measuring; filled by harness/study/robustness/robustness.cpp.
+void add_robustness(std::vector<Metric>& table);
+/// The stability sweeps' part of the table.
+void add_stability(std::vector<Metric>& table);
 /// Names of the columns of these groups, in the table's order.
 std::vector<std::string> columns_of(std::initializer_list<Group> groups);
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "harness/files/whole_file.h"
 #include "harness/cut/cut_all.h"
+#include "harness/files/whole_file.h"
 #include "harness/judge/assessment.h"
 
 namespace cutbench {

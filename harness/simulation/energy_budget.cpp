@@ -74,7 +74,7 @@ void EnergyBudget::add_step(Model<D>& model, const State& before, const State& a
     row.numerical_loss += step * step * u.dot(stiffness_w) / 2;
 
   Field pin_force = mass_dv / step + damping - force;
-  if (model.tied()) model.tied()->transfer_forces(model.held(), pin_force);
+  if (model.constrained()) model.constrained()->transfer_forces(model.held(), pin_force);
   for (std::size_t i = 0; i < model.held().size(); ++i)
     if (model.pinned(i))
       row.pin_work += step * u[static_cast<Eigen::Index>(i)] * pin_force[static_cast<Eigen::Index>(i)];

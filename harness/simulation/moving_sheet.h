@@ -18,7 +18,7 @@ struct MovingSheet {
         pins(pins_of(scene, sheet)),
         model(sheet, scene.material, scene.physics, pins, scene.tractions),
         state(initial_state(model, sheet)) {
-    hold_tied_vertices(pins, scene.tractions, sheet);
+    hold_constrained_vertices(pins, scene.tractions, sheet);
   }
 
   /// The sheet with its vertices where they are now.

@@ -356,11 +356,11 @@ std::vector<Pin> pins_of(const Scene& scene, const Sheet& sheet) {
   return pins;
 }
 
-void hold_tied_vertices(const std::vector<Pin>& pins, const std::vector<Traction>& tractions, Sheet& sheet) {
+void hold_constrained_vertices(const std::vector<Pin>& pins, const std::vector<Traction>& tractions, Sheet& sheet) {
   for (std::size_t i = 0; i < sheet.vertex_slots(); ++i) {
     const VertexIndex v(i);
     if (!sheet.triangle_of_vertex(v).valid()) continue;
-    const auto holds = [&](const auto& tie) { return tie.where.contains(sheet.rest(v)); };
+    const auto holds = [&](const auto& constraint) { return constraint.where.contains(sheet.rest(v)); };
     const bool on_border = sheet.on_border(sheet.first_outgoing(v));
     if (std::any_of(pins.begin(), pins.end(), holds) ||
         (on_border && std::any_of(tractions.begin(), tractions.end(), holds)))

@@ -30,8 +30,8 @@
 #include <string>
 #include <vector>
 
-#include "harness/fem/linear/linear_solver.h"
 #include "harness/fem/elements/physics.h"
+#include "harness/fem/linear/linear_solver.h"
 #include "harness/mesh/mesh_data.h"
 #include "harness/mesh/sheet.h"
 #include "harness/path/curve.h"
@@ -93,7 +93,7 @@ MeshData mesh_of(const Scene& scene);
 std::vector<Pin> pins_of(const Scene& scene, const Sheet& sheet);
 
 /// Holds the rest vertices that are pinned, and those on the border that tractions pull at (Sheet::hold).
-void hold_tied_vertices(const std::vector<Pin>& pins, const std::vector<Traction>& tractions, Sheet& sheet);
+void hold_constrained_vertices(const std::vector<Pin>& pins, const std::vector<Traction>& tractions, Sheet& sheet);
 
 /// One or more curves, made one after the other; a seeded case depends on the sheet before any cut (make_case). None
 /// for a picked cut: it is not known before its time.

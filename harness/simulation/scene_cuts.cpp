@@ -98,7 +98,7 @@ bool SceneCuts<D>::leave_out_far_parts() {
   renumber(now_.sheet.compact().deformed, D, now_.state);
   now_.locator = Locator(now_.sheet);
   now_.pins.insert(now_.pins.end(), region.pins.begin(), region.pins.end());
-  hold_tied_vertices(region.pins, {}, now_.sheet);
+  hold_constrained_vertices(region.pins, {}, now_.sheet);
   now_.model = Model<D>(now_.sheet, scene_.material, scene_.physics, now_.pins, scene_.tractions);
   now_.model.reserve_spare();
   hold_where_it_is(now_.model, now_.state);
@@ -167,7 +167,7 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, const std::vector<Curve>& cu
   MotionCut result;
   result.parts = 1;
   std::optional<std::string> refusal;  // of any of the curves
-  if (const std::string reason = why_not(method.tying()); !reason.empty()) {
+  if (const std::string reason = why_not(method.constraint_kind()); !reason.empty()) {
     result.cut.status = Status::refused, result.cut.reason = result.reason = reason;
     return result;
   }
@@ -187,12 +187,12 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, const std::vector<Curve>& cu
     result.pattern_us += watch.lap();
     moving.model.update_bending(moving.sheet);
     result.bending_us += watch.lap();
-    if (method.tying() == CuttingMethod::Tying::nothing) continue;
-    const Ties ties = method.next_ties(before_cuts_, moving.sheet, moving.model.polygons_left());
-    result.cut.time_us.tie += watch.lap();
-    moving.model.tie(moving.sheet, ties);
+    if (method.constraint_kind() == CuttingMethod::ConstraintKind::nothing) continue;
+    const Constraints constraints = method.next_constraints(before_cuts_, moving.sheet, moving.model.polygons_left());
+    result.cut.time_us.constrain += watch.lap();
+    moving.model.constraint(moving.sheet, constraints);
     for (Field* const field : {&moving.state.x, &moving.state.v}) {  // the state of before the cut need not
-      if (moving.model.tied()) moving.model.tied()->satisfy(moving.model.held(), *field);
+      if (moving.model.constrained()) moving.model.constrained()->satisfy(moving.model.held(), *field);
       moving.model.follow(*field);
     }
     result.pattern_us += watch.lap();
@@ -201,21 +201,22 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, const std::vector<Curve>& cu
   return result;
 }
 
-/// A method can't be used in this scene for what it ties; empty: it can.
+/// A method can't be used in this scene for what it constrains; empty: it can.
 template <int D>
-std::string SceneCuts<D>::why_not(CuttingMethod::Tying tying) const {
-  if (tying == CuttingMethod::Tying::nothing) return {};
+std::string SceneCuts<D>::why_not(CuttingMethod::ConstraintKind constraint_kind) const {
+  if (constraint_kind == CuttingMethod::ConstraintKind::nothing) return {};
   if (scene_.integrator == Integrator::xpbd)
-    return "the method ties vertices or makes polygons, which xpbd does not take; choose another integrator";
-  if (tying == CuttingMethod::Tying::polygons)
+    return "the method constraints vertices or makes polygons, which xpbd does not take; choose another integrator";
+  if (constraint_kind == CuttingMethod::ConstraintKind::polygons)
     return scene_.physics.bending == BendingKind::hinges
                ? "the method's polygons have no hinges; set bending to patches, or to none"
                : "";
   if (scene_.integrator == Integrator::symplectic_euler)
-    return "the method ties vertices to others, which symplectic_euler does not take; choose an implicit integrator";
-  if (tying == CuttingMethod::Tying::phantoms_at_rest)
+    return "the method constraints vertices to others, which symplectic_euler does not take; choose an implicit "
+           "integrator";
+  if (constraint_kind == CuttingMethod::ConstraintKind::phantoms_at_rest)
     return "the method's ghost penalty or lumped mass is for sheets at rest; use phantom_node with ghost=0";
-  if (tying == CuttingMethod::Tying::phantoms && scene_.physics.bending != BendingKind::none)
+  if (constraint_kind == CuttingMethod::ConstraintKind::phantoms && scene_.physics.bending != BendingKind::none)
     return "the method's phantom nodes do not bend; set bending to none";
   return {};
 }

@@ -74,15 +74,15 @@ class SceneInMotion : public Simulation {
     if (const AddedMass* const added = now_.model.added_mass())
       elasticity.mass_limit = added->limit() * material.density / material.stiffness;
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    if (now_.model.tied() || scene_.physics.strain == Strain::springs) return {unknown, unknown};
-    const Ties ties{.polygons = now_.model.polygons()};
+    if (now_.model.constrained() || scene_.physics.strain == Strain::springs) return {unknown, unknown};
+    const Constraints constraints{.polygons = now_.model.polygons()};
     StepLimits limits;
-    limits.membrane = explicit_step_limit(largest_eigenvalue(now_.sheet, ties, elasticity), material);
+    limits.membrane = explicit_step_limit(largest_eigenvalue(now_.sheet, constraints, elasticity), material);
     elasticity.bending = scene_.physics.bending;
     elasticity.bending_length2 = material.bending / material.stiffness;
     limits.with_bending = elasticity.bending == BendingKind::none
                               ? limits.membrane
-                              : explicit_step_limit(largest_eigenvalue(now_.sheet, ties, elasticity), material);
+                              : explicit_step_limit(largest_eigenvalue(now_.sheet, constraints, elasticity), material);
     return limits;
   }
   Balance balance() override { return now_.balance(); }

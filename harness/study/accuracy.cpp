@@ -11,16 +11,16 @@
 #include <stdexcept>
 
 #include "harness/base/own_seed.h"
-#include "harness/study/progress.h"
 #include "harness/cut/cut_all.h"
 #include "harness/judge/assessment.h"
 #include "harness/judge/judged_sheet.h"
 #include "harness/mesh/families.h"
+#include "harness/problems/common/problem.h"
 #include "harness/records/metrics.h"
 #include "harness/study/accuracy_summary.h"
+#include "harness/study/progress.h"
 #include "harness/study/right_results.h"
 #include "harness/study/worker.h"
-#include "harness/problems/common/problem.h"
 
 namespace cutbench {
 
@@ -128,7 +128,7 @@ class AccuracyRun {
     start.set("primary", problem.measures().front());
     const auto of_worker = [&](const Worker& worker) {
       Record row = start;
-      row.set("method", worker.variant.row->name), row.set("knob", worker.variant.knob_text());
+      row.set("method", worker.variant.row->name), row.set("parameter", worker.variant.parameter_text());
       return row;
     };
     Record of_reference = start;
@@ -197,21 +197,21 @@ class AccuracyRun {
     bool solvable = cut.status != Status::failed && cut.status != Status::refused;
     if (solvable) {
       const Variant& v = worker.variant;
-      const oracle::Judgement judgement =
-          judge_one_by_one(base.sheet, worker.sheet, specimen.cuts, v.row->promises, v.row->make(v.knob), cut_options_);
+      const oracle::Judgement judgement = judge_one_by_one(base.sheet, worker.sheet, specimen.cuts, v.row->promises,
+                                                           v.row->make(v.parameter), cut_options_);
       const Assessment a = assess(base.sheet, worker.sheet, judgement, {});
       set_assessment(row, &cut, a, base);
       solvable = a.judgement.ok;
     }
-    const bool takes_them = (worker.ties.ties.empty() || problem.takes_ties()) &&
-                            (worker.ties.polygons.empty() || problem.takes_polygons());
+    const bool takes_them = (worker.constraints.constraints.empty() || problem.takes_constraints()) &&
+                            (worker.constraints.polygons.empty() || problem.takes_polygons());
     if (solvable && !takes_them) {
       row.set("status", std::string(name_of(Status::refused)));
-      row.set("reason", std::string("vertices are tied or triangles merged, which the problem does not take"));
+      row.set("reason", std::string("vertices are constrained or triangles merged, which the problem does not take"));
       solvable = false;
     }
-    answer(problem, specimen, solvable ? &worker.sheet : nullptr, worker.ties, row, yardstick);
-    minutes_[AccuracySummary::label(row.get("method"), row.get("knob"))] += us_since(start) / 60e6;
+    answer(problem, specimen, solvable ? &worker.sheet : nullptr, worker.constraints, row, yardstick);
+    minutes_[AccuracySummary::label(row.get("method"), row.get("parameter"))] += us_since(start) / 60e6;
   }
 
   static void set_failure(Record& row, const std::string& status, const std::string& verdict, const std::string& why) {
@@ -225,12 +225,12 @@ class AccuracyRun {
 
   /// A row per budget. `sheet`: null where there is nothing to solve, which the row says already. Returns the errors of
   /// the first direct solve.
-  Yardstick answer(const Problem& problem, const Specimen& specimen, const Sheet* sheet, const Ties& ties, Record& row,
-                   const Yardstick& yardstick) {
+  Yardstick answer(const Problem& problem, const Specimen& specimen, const Sheet* sheet, const Constraints& constraints,
+                   Record& row, const Yardstick& yardstick) {
     const std::vector<Budget>& budgets = budgets_for(problem);
     std::vector<Answer> answers;
     try {
-      if (sheet) answers = problem.answer(specimen, *sheet, budgets, ties);
+      if (sheet) answers = problem.answer(specimen, *sheet, budgets, constraints);
     } catch (const std::exception& error) {
       set_failure(row, row.get("status"), "crashed", error.what());
     }

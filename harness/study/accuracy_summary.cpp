@@ -20,7 +20,7 @@ double median(std::vector<double> values, std::size_t failed) {
 }  // namespace
 
 void AccuracySummary::add(const Record& row) {
-  const std::string method = label(row.get("method"), row.get("knob"));
+  const std::string method = label(row.get("method"), row.get("parameter"));
   if (std::find(methods_.begin(), methods_.end(), method) == methods_.end()) methods_.push_back(method);
   const std::string solver = row.get("solver") + (row.get("tip_functions") == "1" ? " + tips" : "");
   Group& group = groups_[{method, solver, std::stoi(row.get("budget"))}];

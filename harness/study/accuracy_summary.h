@@ -18,8 +18,8 @@ class AccuracySummary {
   /// To standard output. `minutes`: what each method, by its label(), took in this process with all that is done to
   /// what it made.
   void print(const std::string& title, const std::map<std::string, double>& minutes) const;
-  static std::string label(const std::string& method, const std::string& knob) {
-    return method + (knob.empty() ? "" : " " + knob);
+  static std::string label(const std::string& method, const std::string& parameter) {
+    return method + (parameter.empty() ? "" : " " + parameter);
   }
 
  private:

@@ -23,37 +23,37 @@ ProgramSettings read_program(const TomlReader& reader, const std::filesystem::pa
   return program;
 }
 
-/// A method by its name, with values of its knob, or a program.
+/// A method by its name, with values of its parameter, or a program.
 void read_entry(const toml::node& node, const std::filesystem::path& file, Experiment& e) {
   const std::string where = file.string();
   if (const auto name = node.value<std::string>()) return e.methods.push_back({*name, {}});
   const toml::table* table = node.as_table();
   if (!table)
-    throw InputError(where +
-                     ": an entry of \"methods\" is a name, {name = ..., knob = [...]} or {name = ..., command = ...}");
+    throw InputError(
+        where + ": an entry of \"methods\" is a name, {name = ..., parameter = [...]} or {name = ..., command = ...}");
   const TomlReader reader{*table, where + ", methods"};
   if (table->contains("command")) {
     check_keys(*table, {"name", "command", "time_limit_s", "memory_limit_mb"}, reader.where);
     e.programs.push_back(read_program(reader, file.parent_path()));
     return e.methods.push_back({e.programs.back().name, {}});
   }
-  check_keys(*table, {"name", "knob"}, reader.where);
+  check_keys(*table, {"name", "parameter"}, reader.where);
   e.methods.push_back({reader.value<std::string>("name"),
-                       table->contains("knob") ? reader.list<double>("knob") : std::vector<double>{}});
+                       table->contains("parameter") ? reader.list<double>("parameter") : std::vector<double>{}});
 }
 
-Experiment::Campaign read_campaign(const TomlReader& reader, const std::filesystem::path& folder) {
-  Experiment::Campaign campaign;
+Experiment::Robustness read_robustness(const TomlReader& reader, const std::filesystem::path& folder) {
+  Experiment::Robustness robustness;
   if (reader.has("mesh_files"))
     for (const auto& file : reader.list<std::string>("mesh_files")) {
-      campaign.mesh_files.push_back(folder / file);
+      robustness.mesh_files.push_back(folder / file);
       if (std::error_code ignored; !std::filesystem::is_regular_file(folder / file, ignored))
         reader.refuse("there is no file " + (folder / file).string() +
                       "; \"mesh_files\" are relative to the experiment's folder");
     }
-  campaign.time_limit_s = reader.positive("time_limit_s", campaign.time_limit_s);
-  campaign.peer = reader.value<bool>("peer", campaign.peer);
-  return campaign;
+  robustness.time_limit_s = reader.positive("time_limit_s", robustness.time_limit_s);
+  robustness.cross_check = reader.value<bool>("cross_check", robustness.cross_check);
+  return robustness;
 }
 
 Experiment::Accuracy read_accuracy(const TomlReader& reader, const std::vector<int>& resolutions) {
@@ -108,32 +108,32 @@ std::string text_of_file(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-Experiment::Atlas read_atlas(const TomlReader& reader, const std::filesystem::path& file, const Experiment& e) {
-  Experiment::Atlas atlas;
-  atlas.time_limit_s = reader.positive("time_limit_s", atlas.time_limit_s);
-  atlas.sweeps = read_sweeps(reader, file.parent_path());
-  atlas.text = text_of_file(file);
+Experiment::Stability read_stability(const TomlReader& reader, const std::filesystem::path& file, const Experiment& e) {
+  Experiment::Stability stability;
+  stability.time_limit_s = reader.positive("time_limit_s", stability.time_limit_s);
+  stability.sweeps = read_sweeps(reader, file.parent_path());
+  stability.text = text_of_file(file);
   std::vector<std::string> names, sheets;
-  for (const Sweep& sweep : atlas.sweeps) {
+  for (const Sweep& sweep : stability.sweeps) {
     names.push_back(sweep.name);
     sheets.insert(sheets.end(), sweep.sheets.begin(), sweep.sheets.end());
     for (const int resolution : sweep.resolutions)
       if (std::find(e.resolutions.begin(), e.resolutions.end(), resolution) == e.resolutions.end())
         reader.refuse("sweep \"" + sweep.name + "\": " + std::to_string(resolution) +
                       " is not one of the experiment's \"resolutions\"");
-    if (const auto& scene = sweep.scene_file; atlas.text.find(scene.string()) == std::string::npos)
-      atlas.text += scene.string() + text_of_file(scene);
+    if (const auto& scene = sweep.scene_file; stability.text.find(scene.string()) == std::string::npos)
+      stability.text += scene.string() + text_of_file(scene);
   }
   check_names(sheets, e.sheets, reader.where + ": a sweep's sheet");
   refuse_repeated(names, reader.where + ": the names of \"sweeps\"");
-  return atlas;
+  return stability;
 }
 
 }  // namespace
 
 std::string identity_of_methods(const Experiment& experiment) {
   nlohmann::json methods;
-  for (const auto& entry : experiment.methods) methods.push_back({entry.method, entry.knob_values});
+  for (const auto& entry : experiment.methods) methods.push_back({entry.method, entry.parameter_values});
   for (const auto& program : experiment.programs) methods.push_back({program.name, fingerprint_of_program(program)});
   return methods.dump();
 }
@@ -141,14 +141,14 @@ std::string identity_of_methods(const Experiment& experiment) {
 Experiment read_experiment(const std::filesystem::path& file) {
   const std::string name = file.string();
   const toml::table table = parse_toml(file);
-  const bool is_campaign = table.contains("campaign"), is_accuracy = table.contains("accuracy");
-  const bool is_atlas = table.contains("sweeps");
+  const bool is_robustness = table.contains("robustness"), is_accuracy = table.contains("accuracy");
+  const bool is_stability = table.contains("sweeps");
   std::vector<std::string> known{"claim", "sheets", "resolutions", "methods", "seed", "chord_tolerance"};
-  if (is_campaign)
-    known.insert(known.end(), {"campaign", "cases"});
+  if (is_robustness)
+    known.insert(known.end(), {"robustness", "cases"});
   else if (is_accuracy)
     known.emplace_back("accuracy");
-  else if (is_atlas)
+  else if (is_stability)
     known.insert(known.end(), {"sweeps", "cases", "time_limit_s"});
   else
     known.insert(known.end(), {"cases", "own_cuts", "cut_families", "repetitions", "times", "cold", "quality",
@@ -159,9 +159,10 @@ Experiment read_experiment(const std::filesystem::path& file) {
   e.stem = file.stem().string();
   e.claim = reader.value<std::string>("claim");
   e.sheets = reader.list<std::string>("sheets");
-  if (is_campaign)
-    e.campaign = read_campaign(reader.section("campaign", {"mesh_files", "time_limit_s", "peer"}), file.parent_path());
-  else if (!is_accuracy && !is_atlas)
+  if (is_robustness)
+    e.robustness = read_robustness(reader.section("robustness", {"mesh_files", "time_limit_s", "cross_check"}),
+                                   file.parent_path());
+  else if (!is_accuracy && !is_stability)
     e.cut_families = reader.list<std::string>("cut_families");
   check_names(e.sheets, sheet_families(), name + ": sheet");
   check_names(e.cut_families, cut_families(), name + ": cut family");
@@ -182,11 +183,11 @@ Experiment read_experiment(const std::filesystem::path& file) {
     refuse_repeated(e.accuracy->preconditioners, name + ": \"preconditioners\"");
     refuse_repeated(e.accuracy->iterations, name + ": \"iterations\"");
   }
-  if (is_atlas) e.atlas = read_atlas(reader, file, e);
+  if (is_stability) e.stability = read_stability(reader, file, e);
   if (table["methods"].value<std::string>() != "all")
     for (const auto& node : reader.array("methods")) read_entry(node, file, e);
   e.seed = static_cast<std::uint64_t>(reader.value<std::int64_t>("seed", 1));
-  e.cases = reader.count("cases", is_atlas ? 1000000 : 1), e.repetitions = reader.count("repetitions", 1);
+  e.cases = reader.count("cases", is_stability ? 1000000 : 1), e.repetitions = reader.count("repetitions", 1);
   e.cold = reader.value<bool>("cold", false), e.quality = reader.value<bool>("quality", true);
   e.own_cuts = reader.value<bool>("own_cuts", false);
   e.eigenvalue_cases = reader.count("eigenvalue_cases", 0, 0);

@@ -9,23 +9,23 @@
 #include <vector>
 
 #include "harness/programs/program.h"
-#include "harness/study/sweep.h"
 #include "harness/simulation/scene.h"
+#include "harness/study/sweep.h"
 
 namespace cutbench {
 
 struct Experiment {
-  /// A method and the values of its knob to run it with; none: its default.
+  /// A method and the values of its parameter to run it with; none: its default.
   struct Entry {
     std::string method;
-    std::vector<double> knob_values;
+    std::vector<double> parameter_values;
   };
 
-  /// Cuts of the mixture (harness/cases/mixture.h) instead of families, counted instead of measured.
-  struct Campaign {
+  /// Adversarial cuts (harness/cases/adversarial.h) instead of families, counted instead of measured.
+  struct Robustness {
     std::vector<std::filesystem::path> mesh_files;  ///< sheets besides the families
     double time_limit_s = 10;                       ///< processor time of a case, its judgement included
-    bool peer = false;                              ///< CGAL's triangulation of the whole sheet cuts, too
+    bool cross_check = false;                       ///< CGAL's triangulation of the whole sheet cuts, too
   };
 
   /// Problems with a known solution (harness/problems/common/problem.h) instead of cut families: every cut sheet is loaded,
@@ -42,7 +42,7 @@ struct Experiment {
   };
 
   /// Sweeps to where the methods fail (harness/study/sweep.h) instead of cut families.
-  struct Atlas {
+  struct Stability {
     std::vector<Sweep> sweeps;
     std::string text;          ///< of the files that the points depend on
     double time_limit_s = 20;  ///< processor time of a point
@@ -55,15 +55,15 @@ struct Experiment {
   std::vector<Entry> methods;             ///< empty: the file says "all", and the caller fills them in
   std::vector<ProgramSettings> programs;  ///< methods that are programs; `methods` names them, too
   std::uint64_t seed = 1;                 ///< for development; published figures use --seed commit
-  int cases = 1;                  ///< per sheet, resolution and cut family; of a campaign per sheet and resolution; of
-                                  ///< an atlas the most of a point
-  bool own_cuts = false;          ///< each sheet and size has cuts of its own, instead of the same as all others
-  int repetitions = 1;            ///< of each cut, warm
-  bool times = true;              ///< false: no times are recorded, and all cores may work
-  bool cold = false;              ///< cut once more with cold caches
-  bool quality = true;            ///< shapes, forced zones; the oracle judges every case either way
-  int eigenvalue_cases = 0;       ///< in so many cases the largest eigenvalue (harness/fem) is computed, too
-  bool every_edge = false;        ///< time the search over every edge too, as the paper words it
+  int cases = 1;             ///< per sheet, resolution and cut family; of a robustness run per sheet and resolution; of
+                             ///< the stability sweeps the most of a point
+  bool own_cuts = false;     ///< each sheet and size has cuts of its own, instead of the same as all others
+  int repetitions = 1;       ///< of each cut, warm
+  bool times = true;         ///< false: no times are recorded, and all cores may work
+  bool cold = false;         ///< cut once more with cold caches
+  bool quality = true;       ///< shapes, forced zones; the oracle judges every case either way
+  int eigenvalue_cases = 0;  ///< in so many cases the largest eigenvalue (harness/fem) is computed, too
+  bool every_edge = false;   ///< time the search over every edge too, as the paper words it
   double chord_tolerance = 0.05;  ///< in mean rest edges
   /// Each cut is made once more inside this running scene, after its first step that ends at `cut_time` or later. Sheet
   /// and resolution are the experiment's.
@@ -71,12 +71,12 @@ struct Experiment {
   std::string scene_text;  ///< of its file
   double cut_time = 0;     ///< s
   int scene_cases = 0;     ///< only so many of the cases are cut in the scene
-  std::optional<Campaign> campaign;
+  std::optional<Robustness> robustness;
   std::optional<Accuracy> accuracy;
-  std::optional<Atlas> atlas;
+  std::optional<Stability> stability;
 };
 
-/// The methods with their knobs and programs, as a text that differs where their rows could.
+/// The methods with their parameters and programs, as a text that differs where their rows could.
 std::string identity_of_methods(const Experiment& experiment);
 
 /// Throws InputError: unreadable, not TOML, unknown or missing keys (with the nearest known one), values out of range.

@@ -7,22 +7,22 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "harness/processes/isolated.h"
 #include "harness/base/own_seed.h"
-#include "harness/study/progress.h"
 #include "harness/cases/cut_families.h"
 #include "harness/cut/cut_all.h"
 #include "harness/fem/model/largest_eigenvalue.h"
 #include "harness/judge/assessment.h"
 #include "harness/judge/judged_sheet.h"
 #include "harness/mesh/families.h"
+#include "harness/processes/isolated.h"
 #include "harness/records/metrics.h"
+#include "harness/simulation/simulation.h"
 #include "harness/study/chill_caches.h"
 #include "harness/study/every_edge.h"
+#include "harness/study/progress.h"
 #include "harness/study/right_results.h"
 #include "harness/study/summary.h"
 #include "harness/study/worker.h"
-#include "harness/simulation/simulation.h"
 
 namespace cutbench {
 
@@ -122,17 +122,17 @@ class Runner {
     return {sheet, family, resolution, i, make_case(family, seed, i, base_.sheet), {}};
   }
 
-  Record start_row(const Case& c, const std::string& method, const std::string& knob, int repetition,
+  Record start_row(const Case& c, const std::string& method, const std::string& parameter, int repetition,
                    const char* cache) const {
     Record row;
     row.set("suite_version", std::string(suite_version)), row.set("cut_family", c.family), row.set("sheet", c.sheet);
-    row.set("method", method), row.set("knob", knob), row.set("resolution", std::int64_t{c.resolution});
+    row.set("method", method), row.set("parameter", parameter), row.set("resolution", std::int64_t{c.resolution});
     row.set("case", static_cast<std::int64_t>(c.number)), row.set("repetition", std::int64_t{repetition});
     row.set("seed", static_cast<std::int64_t>(experiment_.seed)), row.set("cache", std::string(cache));
     return row;
   }
   Record start_row(const Case& c, const Worker& worker, int repetition, const char* cache) const {
-    return start_row(c, worker.variant.row->name, worker.variant.knob_text(), repetition, cache);
+    return start_row(c, worker.variant.row->name, worker.variant.parameter_text(), repetition, cache);
   }
 
   /// Cuts and fills the row of the first repetition.
@@ -180,7 +180,7 @@ class Runner {
       }
       file_.append(row);
       summary.refused = row.get("status") == name_of(Status::refused);
-      summary_.add(resolution, worker.variant.row->name, worker.variant.knob_text(), summary);
+      summary_.add(resolution, worker.variant.row->name, worker.variant.parameter_text(), summary);
     }
   }
 
@@ -222,21 +222,22 @@ class Runner {
   }
 
   void fill_eigenvalues(Record& row, const Worker& worker) const {
-    Measured measured{.membrane = ratios(worker.sheet, worker.ties, {}, base_eigenvalue_)};
-    if (worker.ties.phantoms == 0)  // phantom nodes do not bend
-      measured.bent = ratios(worker.sheet, worker.ties, bent_skin, base_bending_);
+    Measured measured{.membrane = ratios(worker.sheet, worker.constraints, {}, base_eigenvalue_)};
+    if (worker.constraints.phantoms == 0)  // phantom nodes do not bend
+      measured.bent = ratios(worker.sheet, worker.constraints, bent_skin, base_bending_);
     fill(row, measured, {Group::stability});
   }
 
-  EigenvalueRatios ratios(const Sheet& sheet, const Ties& ties, Elasticity elasticity, double base) const {
-    EigenvalueRatios ratios{.lumped = largest_eigenvalue(sheet, ties, elasticity) / base};
-    if (!ties.ties.empty()) return ratios;
+  EigenvalueRatios ratios(const Sheet& sheet, const Constraints& constraints, Elasticity elasticity,
+                          double base) const {
+    EigenvalueRatios ratios{.lumped = largest_eigenvalue(sheet, constraints, elasticity) / base};
+    if (!constraints.constraints.empty()) return ratios;
     elasticity.mass_limit = largest_element_eigenvalue(base_.sheet, elasticity);
     elasticity.mass = Mass::stabilised;
-    ratios.stabilised = largest_eigenvalue(sheet, ties, elasticity) / base;
+    ratios.stabilised = largest_eigenvalue(sheet, constraints, elasticity) / base;
     elasticity.mass = Mass::scaled;
-    ratios.scaled = largest_eigenvalue(sheet, ties, elasticity) / base;
-    ratios.scaled_added = added_mass_share(sheet, ties, elasticity);
+    ratios.scaled = largest_eigenvalue(sheet, constraints, elasticity) / base;
+    ratios.scaled_added = added_mass_share(sheet, constraints, elasticity);
     return ratios;
   }
 
@@ -266,7 +267,7 @@ class Runner {
     cut.geometry_us = run.time_us.total(), cut.crossed_triangles = static_cast<double>(run.crossed_triangles);
     cut.refused = run.status == Status::refused;
     cut.ok = cut.ok && run.verdict == "ok";
-    summary_.add(resolution, variant.row->name, variant.knob_text(), cut);
+    summary_.add(resolution, variant.row->name, variant.parameter_text(), cut);
   }
 
   void judge_into(Record& row, Summary::Cut& summary, const Worker& worker, const std::vector<Curve>& cuts,
@@ -276,7 +277,7 @@ class Runner {
     if (run.status == Status::failed || run.status == Status::refused) return;
     const Variant& v = worker.variant;
     const oracle::Judgement judgement =
-        judge_one_by_one(base_.sheet, worker.sheet, cuts, v.row->promises, v.row->make(v.knob), cut_options_);
+        judge_one_by_one(base_.sheet, worker.sheet, cuts, v.row->promises, v.row->make(v.parameter), cut_options_);
     const Assessment a = assess(base_.sheet, worker.sheet, judgement, forced);
     fill(row,
          {.h = base_.sheet.mean_edge(), .cut = &run, .judged = true, .assessment = &a, .shapes = experiment_.quality});

@@ -1,4 +1,4 @@
-// Any experiment: cut families, a robustness campaign or an accuracy run.
+// Any experiment: cut families, a robustness run or an accuracy run.
 #pragma once
 
 #include <vector>

@@ -22,23 +22,23 @@ std::string median(const std::vector<Summary::Cut>& cuts, double (*value)(const 
 
 }  // namespace
 
-void Summary::add(int resolution, const std::string& method, const std::string& knob, const Cut& cut) {
-  cuts_[{resolution, method, knob}].push_back(cut);
+void Summary::add(int resolution, const std::string& method, const std::string& parameter, const Cut& cut) {
+  cuts_[{resolution, method, parameter}].push_back(cut);
   failed_ += !cut.ok;
 }
 
 void Summary::print(const std::string& title) const {
   std::printf("\n%s: medians over sheets, cases and repetitions\n", title.c_str());
-  std::printf("%9s  %-20s %-10s %7s %7s %6s %9s %11s %9s %9s %9s %9s\n", "triangles", "method", "knob", "cuts",
+  std::printf("%9s  %-20s %-10s %7s %7s %6s %9s %11s %9s %9s %9s %9s\n", "triangles", "method", "parameter", "cuts",
               "refused", "failed", "max AR", "AR > 3", "vertices", "us/cut", "crossed", "ns/cr.");
   std::printf("%9s  %-20s %-10s %7s %7s %6s %9s %11s %9s %9s %9s %9s\n", "", "", "", "", "", "", "(changed)",
               "(changed)", "added", "", "triangles", "triangle");
   for (const auto& [key, cuts] : cuts_) {
-    const auto& [resolution, method, knob] = key;
+    const auto& [resolution, method, parameter] = key;
     const auto failed = std::count_if(cuts.begin(), cuts.end(), [](const Cut& c) { return !c.ok; });
     const auto refused = std::count_if(cuts.begin(), cuts.end(), [](const Cut& c) { return c.refused; });
     std::printf(
-        "%9d  %-20s %-10s %7zu %7td %6td %9s %11s %9s %9s %9s %9s\n", resolution, method.c_str(), knob.c_str(),
+        "%9d  %-20s %-10s %7zu %7td %6td %9s %11s %9s %9s %9s %9s\n", resolution, method.c_str(), parameter.c_str(),
         cuts.size(), refused, failed,
         median(
             cuts, [](const Cut& c) { return c.ar_max_cut; }, "%.1f")

@@ -15,7 +15,7 @@ class Summary {
     bool ok = true, refused = false;
     double crossed_triangles = -1, vertices_added = -1, ar_max_cut = -1, over_3_cut = -1, geometry_us = -1;
   };
-  void add(int resolution, const std::string& method, const std::string& knob, const Cut& cut);
+  void add(int resolution, const std::string& method, const std::string& parameter, const Cut& cut);
   void add_failure() { ++failed_; }  ///< of something that is not in the table
   bool all_ok() const { return failed_ == 0; }
   /// To standard output: medians over sheets, cases and repetitions.

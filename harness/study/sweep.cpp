@@ -106,7 +106,7 @@ toml::array values_of(const TomlReader& sweep, const char* key) {
   return one;
 }
 
-/// Every combination: the last setting varies fastest.
+/// Every constraint_matrix: the last setting varies fastest.
 std::vector<SweepPoint> read_points(const TomlReader& sweep, const Scene& scene) {
   std::vector<SweepPoint> points{{.scene = scene}};
   for (const SweepSetting& setting : settings) {

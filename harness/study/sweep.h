@@ -1,5 +1,5 @@
-// A sweep of the stability atlas: points that differ in a few settings, such as how far a cut passes a vertex, or the
-// step and the solver of the motion after it. A setting with several values is an axis; every combination is a point.
+// A sweep of the stability sweeps: points that differ in a few settings, such as how far a cut passes a vertex, or the
+// step and the solver of the motion after it. A setting with several values is an axis; every constraint_matrix is a point.
 #pragma once
 
 #include <filesystem>
@@ -46,7 +46,7 @@ struct Sweep {
   int cases = 1;                             ///< seeded places of each point
   int steps = 0;                             ///< of the motion after the cut; 0: the cut alone
   bool drift = false;                        ///< measured, against the same motion solved by `cholmod`
-  std::vector<SweepPoint> points;            ///< every combination of the settings' values, the last varies fastest
+  std::vector<SweepPoint> points;  ///< every constraint_matrix of the settings' values, the last varies fastest
 };
 
 /// As read_scene(). Refuses an `active_radius`: it is that round the scene's own cuts.

@@ -7,10 +7,10 @@
 
 namespace cutbench {
 
-std::string Variant::knob_text() const {
-  if (row->knob.name.empty()) return "";
+std::string Variant::parameter_text() const {
+  if (row->parameter.name.empty()) return "";
   char buffer[64];
-  std::snprintf(buffer, sizeof buffer, "%s=%g", row->knob.name.c_str(), knob);
+  std::snprintf(buffer, sizeof buffer, "%s=%g", row->parameter.name.c_str(), parameter);
   return buffer;
 }
 
@@ -38,17 +38,18 @@ std::vector<Variant> variants_of(const Experiment& experiment, const std::vector
   std::vector<Variant> variants;
   for (const auto& entry : experiment.methods) {
     const auto row = std::make_shared<const MethodRow>(row_of(experiment, entry.method, methods));
-    if (!entry.knob_values.empty() && row->knob.name.empty())
-      throw InputError(experiment.stem + ": method \"" + entry.method + "\" has no knob");
-    if (entry.knob_values.empty()) variants.push_back({row, row->knob.value});
-    for (double value : entry.knob_values) variants.push_back({row, value});
+    if (!entry.parameter_values.empty() && row->parameter.name.empty())
+      throw InputError(experiment.stem + ": method \"" + entry.method + "\" has no parameter");
+    if (entry.parameter_values.empty()) variants.push_back({row, row->parameter.value});
+    for (double value : entry.parameter_values) variants.push_back({row, value});
   }
   for (std::size_t i = 0; i < variants.size(); ++i) {
-    variants[i].row->make(variants[i].knob);  // refuses a value out of range
+    variants[i].row->make(variants[i].parameter);  // refuses a value out of range
     for (std::size_t j = 0; j < i; ++j)
-      if (variants[i].row->name == variants[j].row->name && variants[i].knob_text() == variants[j].knob_text())
+      if (variants[i].row->name == variants[j].row->name &&
+          variants[i].parameter_text() == variants[j].parameter_text())
         throw InputError(experiment.stem + ": method \"" + variants[i].row->name + "\" is there twice" +
-                         (variants[i].row->knob.name.empty() ? "" : " with " + variants[i].knob_text()) +
+                         (variants[i].row->parameter.name.empty() ? "" : " with " + variants[i].parameter_text()) +
                          "; delete one");
   }
   return variants;

@@ -1,13 +1,13 @@
-// What an experiment runs: methods with the values of their knobs, and the options of the command line.
+// What an experiment runs: methods with the values of their parameters, and the options of the command line.
 #pragma once
 
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "harness/study/shard_of.h"
 #include "harness/cut/cutting_method.h"
 #include "harness/study/experiment.h"
+#include "harness/study/shard_of.h"
 
 namespace cutbench {
 
@@ -36,13 +36,13 @@ inline std::string shard_line(const RunOptions& options) {
   return "\n" + std::to_string(options.shard) + "/" + std::to_string(options.shards);
 }
 
-/// A method with a value of its knob, as it appears in records and figures.
+/// A method with a value of its parameter, as it appears in records and figures.
 struct Variant {
   std::shared_ptr<const MethodRow> row;
-  double knob;
-  std::string knob_text() const;  ///< "rounds=1", or empty
+  double parameter;
+  std::string parameter_text() const;  ///< "rounds=1", or empty
 };
-/// The experiment's methods and programs. Throws InputError for unknown methods, values of a knob out of range, and anything named twice.
+/// The experiment's methods and programs. Throws InputError for unknown methods, values of a parameter out of range, and anything named twice.
 std::vector<Variant> variants_of(const Experiment& experiment, const std::vector<MethodRow>& methods);
 
 }  // namespace cutbench

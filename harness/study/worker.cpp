@@ -31,21 +31,23 @@ CutRun Worker::measure(const BaseSheet& base, const std::vector<Curve>& cuts, co
 }
 
 CutRun Worker::cut_restored(const BaseSheet& base, const std::vector<Curve>& cuts, const CutOptions& options) {
-  using Tying = CuttingMethod::Tying;
-  double tie_us = 0;
-  const auto find_ties = [&] {
+  using ConstraintKind = CuttingMethod::ConstraintKind;
+  double constrain_us = 0;
+  const auto find_constraints = [&] {
     StopWatch watch;
-    ties = method->ties(base.sheet, sheet);
-    tie_us += watch.lap();
+    constraints = method->constraints(base.sheet, sheet);
+    constrain_us += watch.lap();
   };
-  ties = {};
-  const Tying tying = method->tying();
-  const bool anew_after_each = tying != Tying::nothing && tying != Tying::polygons;
+  constraints = {};
+  const ConstraintKind constraint_kind = method->constraint_kind();
+  const bool anew_after_each =
+      constraint_kind != ConstraintKind::nothing && constraint_kind != ConstraintKind::polygons;
   CutRun run = cut_all(sheet, locator_, cutter, cuts, *method, options,
-                       anew_after_each ? std::function<void()>(find_ties) : nullptr);
-  // A scene's polygons follow each cut (CuttingMethod::next_ties), which takes about as long as all of them at once.
-  if (tying == Tying::polygons && (run.status == Status::ok || run.status == Status::deviated)) find_ties();
-  run.time_us.tie = tie_us;
+                       anew_after_each ? std::function<void()>(find_constraints) : nullptr);
+  // A scene's polygons follow each cut (CuttingMethod::next_constraints), which takes about as long as all of them at once.
+  if (constraint_kind == ConstraintKind::polygons && (run.status == Status::ok || run.status == Status::deviated))
+    find_constraints();
+  run.time_us.constrain = constrain_us;
   return run;
 }
 

@@ -18,11 +18,11 @@ struct BaseSheet {
 
 class Worker {
  public:
-  explicit Worker(const Variant& v) : variant(v), method(v.row->make(v.knob)) {}
+  explicit Worker(const Variant& v) : variant(v), method(v.row->make(v.parameter)) {}
 
   /// Another base sheet comes next; the worker's is not one cut away from it.
   void forget_base() { undoable_ = false; }
-  /// Cuts the base sheet. What the method ties is part of the price: it is found anew after each cut (polygons: once).
+  /// Cuts the base sheet. What the method constraints is part of the price: it is found anew after each cut (polygons: once).
   CutRun cut(const BaseSheet& base, const std::vector<Curve>& cuts, const CutOptions& options);
   /// Cold: right after other work has driven everything out of the caches. Warm: the same cut, made and undone twice
   /// just before; a program runs once either way.
@@ -31,8 +31,8 @@ class Worker {
   Variant variant;
   std::unique_ptr<CuttingMethod> method;
   Cutter cutter;
-  Sheet sheet;  ///< what the last cut made of the base sheet
-  Ties ties;    ///< of it
+  Sheet sheet;              ///< what the last cut made of the base sheet
+  Constraints constraints;  ///< of it
 
  private:
   /// Makes the sheet the base sheet again: by undoing a single cut, so that the caches stay as they are.

@@ -26,7 +26,7 @@ namespace cutbench {
 class BowyerWatson : public CuttingMethod {
  public:
   struct Options {
-    int rounds = 0;                       ///< of the local split; the registry's knob, there 1 by default
+    int rounds = 0;                       ///< of the local split; the registry's parameter, there 1 by default
     double max_aspect = 3;                ///< a triangle beyond it is ill-shaped
     double min_edge = 1e-6;               ///< no edge is made shorter than this, in mean rest edges
     std::size_t most_vertices = 200'000;  ///< made by one cut; then the local split stops where it is

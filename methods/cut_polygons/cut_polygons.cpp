@@ -9,11 +9,11 @@ void CutPolygons::embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) {
   notes.recovered_segments = embed_by_static_split(sheet, trace, patch_work_);
 }
 
-Ties CutPolygons::ties(const Sheet& before, const Sheet& cut) const {
+Constraints CutPolygons::constraints(const Sheet& before, const Sheet& cut) const {
   return {.polygons = merge_thin_parts(before, cut, options_.thinness)};
 }
 
-Ties CutPolygons::next_ties(const Sheet& before, const Sheet& cut, const PolygonsLeft& left) const {
+Constraints CutPolygons::next_constraints(const Sheet& before, const Sheet& cut, const PolygonsLeft& left) const {
   return {.polygons = merge_new_thin_parts(before, cut, options_.thinness, left)};
 }
 

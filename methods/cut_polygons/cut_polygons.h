@@ -34,9 +34,11 @@ class CutPolygons : public CuttingMethod {
   explicit CutPolygons(const Options& options) : options_(options) {}
 
   void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
-  Tying tying() const override { return options_.thinness > 0 ? Tying::polygons : Tying::nothing; }
-  Ties ties(const Sheet& before, const Sheet& cut) const override;
-  Ties next_ties(const Sheet& before, const Sheet& cut, const PolygonsLeft& left) const override;
+  ConstraintKind constraint_kind() const override {
+    return options_.thinness > 0 ? ConstraintKind::polygons : ConstraintKind::nothing;
+  }
+  Constraints constraints(const Sheet& before, const Sheet& cut) const override;
+  Constraints next_constraints(const Sheet& before, const Sheet& cut, const PolygonsLeft& left) const override;
 
  private:
   Options options_;

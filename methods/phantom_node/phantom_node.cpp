@@ -22,11 +22,11 @@ class Doubling {
     join_copies();
   }
 
-  Ties run() {
+  Constraints run() {
     number_phantoms();
-    Ties ties;
-    ties.phantoms = phantoms_;
-    if (options_.ghost > 0) add_ghosts(options_.ghost, ties.ghosts);
+    Constraints constraints;
+    constraints.phantoms = phantoms_;
+    if (options_.ghost > 0) add_ghosts(options_.ghost, constraints.ghosts);
     std::vector<std::uint8_t> seen(parts_.vertices().size());
     // The slit parts last: where a lip enters one, it goes along with the part that it comes from.
     for (const bool slit : {false, true})
@@ -35,12 +35,12 @@ class Doubling {
           const DeformedIndex d = parts_.triangle(i).deformed[k];
           if (std::exchange(seen[parts_.number_of(d)], 1)) continue;
           if (parts_.is_new(parts_.triangle(i).vertex[k]))
-            ties.ties.push_back(tie_of(d, i));
+            constraints.constraints.push_back(constraint_of(d, i));
           else if (const DeformedIndex one = unknown(parts_.number_of(d)); one != d)
-            ties.ties.push_back({d, {one, one, one}, {1, 0, 0}});
+            constraints.constraints.push_back({d, {one, one, one}, {1, 0, 0}});
         }
-    if (options_.lumped_mass) lump(ties);
-    return ties;
+    if (options_.lumped_mass) lump(constraints);
+    return constraints;
   }
 
  private:
@@ -75,10 +75,11 @@ class Doubling {
 
   /// A third of the mass of each part to each copy of its parent's corners, where it is slit to those that its vertices
   /// depend on. Looks at the whole sheet.
-  void lump(Ties& ties) {
-    ties.lumped.assign(cut_.deformed_slots() + phantoms_, 0);
-    std::vector<const Tie*> tie_of_vertex(parts_.vertices().size());
-    for (const Tie& tie : ties.ties) tie_of_vertex[parts_.number_of(tie.vertex)] = &tie;
+  void lump(Constraints& constraints) {
+    constraints.lumped.assign(cut_.deformed_slots() + phantoms_, 0);
+    std::vector<const Constraint*> constraint_of_vertex(parts_.vertices().size());
+    for (const Constraint& constraint : constraints.constraints)
+      constraint_of_vertex[parts_.number_of(constraint.vertex)] = &constraint;
     for (std::size_t slot = 0; slot < cut_.triangle_slots(); ++slot) {
       const TriangleIndex t(slot);
       if (!cut_.triangle(t).alive()) continue;
@@ -88,13 +89,14 @@ class Doubling {
       for (std::size_t k = 0; k < 3; ++k) {
         const DeformedIndex d = cut_.triangle(t).deformed[k];
         if (i == parts_.size())
-          ties.lumped[whole_unknown(d)()] += share;
+          constraints.lumped[whole_unknown(d)()] += share;
         else if (!tips_.is_slit(i))
-          ties.lumped[unknown(copy(i, k))()] += share;
-        else if (const Tie* const tie = tie_of_vertex[parts_.number_of(d)]; tie == nullptr)
-          ties.lumped[d()] += share;
+          constraints.lumped[unknown(copy(i, k))()] += share;
+        else if (const Constraint* const constraint = constraint_of_vertex[parts_.number_of(d)]; constraint == nullptr)
+          constraints.lumped[d()] += share;
         else
-          for (std::size_t l = 0; l < 3; ++l) ties.lumped[tie->masters[l]()] += share * std::max(0.0, tie->weights[l]);
+          for (std::size_t l = 0; l < 3; ++l)
+            constraints.lumped[constraint->masters[l]()] += share * std::max(0.0, constraint->weights[l]);
       }
     }
   }
@@ -156,22 +158,23 @@ class Doubling {
     return DeformedIndex(cut_.deformed_slots() + static_cast<std::size_t>(phantom_[one - vertices]));
   }
 
-  Tie tie_of(DeformedIndex d, std::size_t i) {
+  Constraint constraint_of(DeformedIndex d, std::size_t i) {
     const Point2 p = cut_.rest(cut_.rest_vertex(d));
     const auto c = parts_.before().corners(parts_.parent_slot(i));
     const double twice = cross(c[1] - c[0], c[2] - c[0]);
-    Tie tie{d, {}, {}};
+    Constraint constraint{d, {}, {}};
     for (std::size_t k = 0; k < 3; ++k) {
-      tie.masters[k] = unknown(copy(i, k));
+      constraint.masters[k] = unknown(copy(i, k));
       const Point2 from = c[(k + 1) % 3], to = c[(k + 2) % 3];
       const double area = cross(from - p, to - p);
       // A path that is no farther from an edge goes along it, so this is the rounding of a crossing.
       const bool on_edge =
           std::abs(area) <= rounding_tolerance * parts_.before().snap() * std::sqrt(squared_length(to - from));
-      tie.weights[k] = on_edge ? 0 : area / twice;
+      constraint.weights[k] = on_edge ? 0 : area / twice;
     }
-    *std::max_element(tie.weights.begin(), tie.weights.end()) += 1 - (tie.weights[0] + tie.weights[1] + tie.weights[2]);
-    return tie;
+    *std::max_element(constraint.weights.begin(), constraint.weights.end()) +=
+        1 - (constraint.weights[0] + constraint.weights[1] + constraint.weights[2]);
+    return constraint;
   }
 
   const PhantomNode::Options options_;
@@ -189,6 +192,8 @@ void PhantomNode::embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) {
   notes.recovered_segments = embed_by_static_split(sheet, trace, patch_work_);
 }
 
-Ties PhantomNode::ties(const Sheet& before, const Sheet& cut) const { return Doubling(before, cut, options_).run(); }
+Constraints PhantomNode::constraints(const Sheet& before, const Sheet& cut) const {
+  return Doubling(before, cut, options_).run();
+}
 
 }  // namespace cutbench

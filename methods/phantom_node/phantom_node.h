@@ -5,7 +5,7 @@
 // first cut. A part has its own copy of its parent's three corners as its unknowns: a corner that belongs to the part
 // is that vertex of the sheet, any other is a phantom node. Parts on the two sides of an edge of the sheet that are
 // joined along it, or along a piece of it, share the copies of its two ends. All vertices that cuts made are
-// constrained to the corners of their part by their barycentric coordinates (Ties, harness/mesh/ties.h). So sums over
+// constrained to the corners of their part by their barycentric coordinates (Constraints, harness/mesh/constraints.h). So sums over
 // the triangles of a part are exact integrals over it, for any number of cuts, junctions and loops.
 //  - Tip rule: a part that lies on both sides of an incision, because that ends inside, is slit. It has one copy of each
 //    corner, but its field is linear in each of its triangles only: where the incision enters, the two lips go along with
@@ -50,10 +50,10 @@ class PhantomNode : public CuttingMethod {
   explicit PhantomNode(const Options& options) : options_(options) {}
 
   void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
-  Tying tying() const override {
-    return options_.ghost > 0 || options_.lumped_mass ? Tying::phantoms_at_rest : Tying::phantoms;
+  ConstraintKind constraint_kind() const override {
+    return options_.ghost > 0 || options_.lumped_mass ? ConstraintKind::phantoms_at_rest : ConstraintKind::phantoms;
   }
-  Ties ties(const Sheet& before, const Sheet& cut) const override;
+  Constraints constraints(const Sheet& before, const Sheet& cut) const override;
 
  private:
   Options options_;

@@ -3,7 +3,7 @@
 //
 // How it works: the cut is that of conventional_split, incision and triangles alike. Vertices of slivers that it made
 // are then constrained: each is extrapolated from a well-shaped master triangle on its own side of the cut, by the
-// linear field of that triangle. Which vertices, and which masters: methods/tools/tie_slivers.h, with rules for tips,
+// linear field of that triangle. Which vertices, and which masters: methods/tools/constrain_slivers.h, with rules for tips,
 // junctions and the border.
 //
 // Source: aggregated finite elements (Badia, Verdugo and Martin, The aggregated unfitted finite element method for
@@ -11,7 +11,7 @@
 // Promises: the exact path, area, conforming, no vertex moved; an affine displacement is reproduced exactly.
 // Where it fails: on pieces that consist of slivers only, and with an explicit integrator, since the mass is no longer
 // lumped. The triangles stay ill-shaped for every other use. Vertices near a cut jump to the field of their master
-// triangle at the instant of the cut. Which vertices are tied is found again after each cut, from all cuts.
+// triangle at the instant of the cut. Which vertices are constrained is found again after each cut, from all cuts.
 #pragma once
 
 #include "harness/cut/cutting_method.h"
@@ -21,13 +21,15 @@ namespace cutbench {
 class SplitAndTie : public CuttingMethod {
  public:
   struct Options {
-    double thinness = 0.1;  ///< lengths below it, times the longest edge nearby, are short; 0: nothing is tied
+    double thinness = 0.1;  ///< lengths below it, times the longest edge nearby, are short; 0: nothing is constrained
   };
   explicit SplitAndTie(const Options& options) : options_(options) {}
 
   void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
-  Tying tying() const override { return options_.thinness > 0 ? Tying::vertices : Tying::nothing; }
-  Ties ties(const Sheet& before, const Sheet& cut) const override;
+  ConstraintKind constraint_kind() const override {
+    return options_.thinness > 0 ? ConstraintKind::vertices : ConstraintKind::nothing;
+  }
+  Constraints constraints(const Sheet& before, const Sheet& cut) const override;
 
  private:
   Options options_;

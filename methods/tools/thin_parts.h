@@ -15,8 +15,8 @@
 // the ratio of the extreme eigenvalues of its matrix.
 #pragma once
 
+#include "harness/mesh/constraints.h"
 #include "harness/mesh/sheet.h"
-#include "harness/mesh/ties.h"
 
 namespace cutbench {
 

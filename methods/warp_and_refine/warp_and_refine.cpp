@@ -1,6 +1,6 @@
 #include "methods/warp_and_refine/warp_and_refine.h"
 
-#include "methods/tools/tie_slivers.h"
+#include "methods/tools/constrain_slivers.h"
 
 namespace cutbench {
 
@@ -23,8 +23,8 @@ void WarpAndRefine::improve(Sheet& sheet, MethodNotes& notes) {
   if (options_.after == After::refine) notes.stopped_early = !reshape_.refine();
 }
 
-Ties WarpAndRefine::ties(const Sheet& before, const Sheet& cut) const {
-  return options_.after == After::tie ? tie_slivers(before, cut, options_.thinness, false) : Ties{};
+Constraints WarpAndRefine::constraints(const Sheet& before, const Sheet& cut) const {
+  return options_.after == After::constraint ? constrain_slivers(before, cut, options_.thinness, false) : Constraints{};
 }
 
 }  // namespace cutbench

@@ -44,15 +44,15 @@ namespace cutbench {
 
 class WarpAndRefine : public CuttingMethod {
  public:
-  /// The step before the split and the last step after it. A later step of After includes the earlier ones, except tie
-  /// (methods/tools/tie_slivers.h), which does not change the mesh. The method is warp_and_thin with refine; the other
+  /// The step before the split and the last step after it. A later step of After includes the earlier ones, except constraint
+  /// (methods/tools/constrain_slivers.h), which does not change the mesh. The method is warp_and_thin with refine; the other
   /// combinations are rows of the ablation.
   enum class Before : std::uint8_t { nothing, snap, warp, thin, warp_and_thin };
-  enum class After : std::uint8_t { nothing, flips, smoothing, refine, tie };
+  enum class After : std::uint8_t { nothing, flips, smoothing, refine, constraint };
   struct Options {
     Before before = Before::warp_and_thin;
     After after = After::refine;
-    double thinness = 0.1;  ///< of slivers (After::tie)
+    double thinness = 0.1;  ///< of slivers (After::constraint)
     double snap = 0.25;     ///< of an edge: crossings nearer to a vertex go through it (Before::snap)
     Warp::Options warping;
     Reshape::Options reshaping;
@@ -63,8 +63,10 @@ class WarpAndRefine : public CuttingMethod {
   void adapt(Sheet& sheet, Subdivision& trace, const Polyline& path) override;
   void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
   void improve(Sheet& sheet, MethodNotes& notes) override;
-  Tying tying() const override { return options_.after == After::tie ? Tying::vertices : Tying::nothing; }
-  Ties ties(const Sheet& before, const Sheet& cut) const override;
+  ConstraintKind constraint_kind() const override {
+    return options_.after == After::constraint ? ConstraintKind::vertices : ConstraintKind::nothing;
+  }
+  Constraints constraints(const Sheet& before, const Sheet& cut) const override;
 
  private:
   Options options_;

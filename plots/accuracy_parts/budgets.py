@@ -35,7 +35,7 @@ def budgets_figure(records):
     for row, sheet in zip(axes, records.sheets):
         for ax, solver in zip(row, records.solvers):
             here = table[(table["sheet"] == sheet) & (table["direct"] | (table["solver"] == solver))]
-            cells = cells_of(here, "ms", "excess_percent", ["method", "knob", "budget"])
+            cells = cells_of(here, "ms", "excess_percent", ["method", "parameter", "budget"])
             everything += list(cells["y"])
             for variant, look in records.looks.items():
                 points = of(cells, variant).sort_values("budget")

@@ -46,7 +46,7 @@ def points(records, x):
             y = 100 * np.exp(np.log(errors).mean())
             low, high = (y, y) if variant == REFERENCE else (100 * end for end in interval(errors, reference))
             q1, middle, q3 = load.quantiles(made[x], [0.25, 0.5, 0.75])
-            rows.append({"sheet": sheet, "resolution": resolution, "method": variant[0], "knob": variant[1], "x": middle,
+            rows.append({"sheet": sheet, "resolution": resolution, "method": variant[0], "parameter": variant[1], "x": middle,
                          "x_q1": q1, "x_q3": q3, "x_made": tried.loc[~tried["failed"], x].median(), "y": y, "y_q1": low,
                          "y_q3": high, "n": len(tried), "failed": int(tried["failed"].sum())})
     found = pd.DataFrame(rows)

@@ -33,7 +33,7 @@ class Records:
                                   excess_percent=100 * table["excess_error"], direct=table["budget"] == 0)
         self.run = load.Run(table[~failed], table[failed], load.read_context(folder / context))
         self.programs = load.programs(table, self.run.context)
-        self.looks = style.looks(set(zip(table["method"], table["knob"])), self.programs)
+        self.looks = style.looks(set(zip(table["method"], table["parameter"])), self.programs)
         self.methods = {v: look for v, look in self.looks.items() if v != REFERENCE}
         self.sheets = style.sheet_order(table["sheet"])
         self.problems = list(dict.fromkeys(table["problem"]))

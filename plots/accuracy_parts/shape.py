@@ -83,7 +83,7 @@ def factor_per_decade(table, draws=2000):
     interval over problems, each of which has the same cuts on all sheets and sizes. And the number of cases that say
     anything: those with another of their level."""
     table = table[(table["ratio"] > 0) & np.isfinite(table["ratio"]) & (table["ar_max_cut"] > 0)]
-    level = [table[c] for c in (*CASE[:3], "method", "knob")]
+    level = [table[c] for c in (*CASE[:3], "method", "parameter")]
     table = table[table["case"].groupby(level).transform("size") > 1]
     if table.empty:
         return np.nan, np.nan, np.nan, 0
@@ -101,8 +101,8 @@ def factor_per_decade(table, draws=2000):
 
 def within(values, table):
     """The values without the two levels of factor_per_decade(), by taking the means of either out in turns."""
-    levels = [table.groupby([table[c] for c in (*CASE[:3], "method", "knob")]).ngroup(),
-              table.groupby([table[c] for c in ("problem", "sheet", "method", "knob")] + [table["case"] % 2]).ngroup()]
+    levels = [table.groupby([table[c] for c in (*CASE[:3], "method", "parameter")]).ngroup(),
+              table.groupby([table[c] for c in ("problem", "sheet", "method", "parameter")] + [table["case"] % 2]).ngroup()]
     for _ in range(50):
         for level in levels:
             values = values - values.groupby(level).transform("mean")
@@ -135,7 +135,7 @@ def shape_statements(records):
 def lags_of(records, solver, budget):
     """Each error after so many iterations over the same sheet's, solved directly: the same sheet on both sides, so nothing
     but the solver's progress is in it."""
-    keys = [*CASE, "method", "knob"]
+    keys = [*CASE, "method", "parameter"]
     records = records.ranked()
     direct = records.rows(direct=True, failed=False).drop_duplicates(keys)[keys + ["error"]]
     table = records.rows(solver=solver, budget=budget, failed=False).merge(direct, on=keys, suffixes=("", "_d"))

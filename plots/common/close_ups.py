@@ -13,7 +13,7 @@ from scipy.sparse.csgraph import connected_components
 
 from common import families, load, render, scene_panels, style
 
-METHODS = ["warp_and_refine", "bowyer_watson rounds=1", "conventional_split", "cgal_cdt"]  # a knob only where several are there
+METHODS = ["warp_and_refine", "bowyer_watson rounds=1", "conventional_split", "cgal_cdt"]  # a parameter only where several are there
 HALF = 0.075  # m, of the width of a close-up: 3 edges of 800 triangles across
 GAP, TITLE, ROW = 0.06, 0.33, 1.28  # inches: between panels, over them, and the height of a close-up
 

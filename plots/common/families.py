@@ -31,7 +31,7 @@ def family(method):
 
 
 def name(method, programs=()):
-    """A method without its knob."""
+    """A method without its parameter."""
     known = next((look.label.partition(",")[0] for (m, _), look in style.KNOWN.items() if m == method), None)
     return (known or method.replace("_", " ").replace(":", ", ")) + style.PROGRAM * (method in programs)
 

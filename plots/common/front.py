@@ -89,9 +89,9 @@ def draw_front(ax, points):
 def draw_failures(ax, points, looks):
     """At the top edge of a panel: a cross where a group with failures is, if any of it was made, and on the right, per
     method, how many failed of how many."""
-    for number, ((method, knob), look) in enumerate(
+    for number, ((method, parameter), look) in enumerate(
             (v, look) for v, look in looks.items() if _of(points, v)["failed"].any()):
-        here = _of(points, (method, knob))
+        here = _of(points, (method, parameter))
         for x in here.loc[(here["failed"] > 0) & np.isfinite(here["x_made"]), "x_made"]:
             ax.annotate("×", (x, 1), xycoords=ax.get_xaxis_transform(), va="center", ha="center", fontsize=6,
                         color=look.colour, annotation_clip=False)
@@ -101,7 +101,7 @@ def draw_failures(ax, points, looks):
 
 
 def _of(points, variant):
-    return points[(points["method"] == variant[0]) & (points["knob"] == variant[1])]
+    return points[(points["method"] == variant[0]) & (points["parameter"] == variant[1])]
 
 
 def legend_entries(looks):

@@ -18,12 +18,12 @@ import pandas as pd
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 SUITE_VERSIONS = ["2", "3", "4", "5"]  # that can be read; older column names are renamed on reading
-TEXT = ["suite_version", "sheet", "method", "knob", "seed", "cache", "status", "verdict", "reason"]
+TEXT = ["suite_version", "sheet", "method", "parameter", "seed", "cache", "status", "verdict", "reason"]
 TEXT_OF_SOME = ["cut_family", "problem", "solver", "primary",  # text in the records that have them
                 "sweep", "cut", "pose", "integrator", "stress_stiffness", "mass", "bending"]
 OPTIONAL = ["process_us"]  # read wherever it is: which methods are programs
 COUNTS = ["resolution", "case", "repetition"]
-VARIANT = ["method", "knob"]
+VARIANT = ["method", "parameter"]
 CUT = ["suite_version", "cut_family", "sheet", "resolution", "case"]  # names one cut, whatever the method
 
 
@@ -74,9 +74,9 @@ class Run:
         return Run(*(t.drop_duplicates(VARIANT + cut_columns(t)) for t in (self.rows, self.failed)), self.context)
 
     def variants(self, column):
-        """(method, knob) of the rows that have `column`, and of those with nothing but failures."""
+        """(method, parameter) of the rows that have `column`, and of those with nothing but failures."""
         def found(table):
-            return set(zip(table["method"], table["knob"]))
+            return set(zip(table["method"], table["parameter"]))
         measured = found(self.rows[self.rows[column].notna()])
         return measured | (found(self.failed) - found(self.rows))
 
@@ -231,8 +231,8 @@ def quartiles(table, by, column):
 
 
 def of(table, variant, sheet=None):
-    """The rows of a (method, knob), on one sheet or all."""
-    here = table[(table["method"] == variant[0]) & (table["knob"] == variant[1])]
+    """The rows of a (method, parameter), on one sheet or all."""
+    here = table[(table["method"] == variant[0]) & (table["parameter"] == variant[1])]
     return here if sheet is None else here[here["sheet"] == sheet]
 
 
@@ -293,7 +293,7 @@ def front_layers(x, y):
 
 
 def median_repetition(table, columns):
-    """A row per method, knob and cut: the medians over its repetitions."""
+    """A row per method, parameter and cut: the medians over its repetitions."""
     return table.groupby(VARIANT + cut_columns(table))[columns].median().reset_index()
 
 

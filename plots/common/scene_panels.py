@@ -32,8 +32,8 @@ def arguments(stem, description):
 
 
 def look_of(description):
-    method, _, knob = description["method"].partition(" ")
-    return style.looks([(method, knob)])[method, knob]
+    method, _, parameter = description["method"].partition(" ")
+    return style.looks([(method, parameter)])[method, parameter]
 
 
 def folders(results, scene):
@@ -47,7 +47,7 @@ def folders(results, scene):
 def read_shot(folder, shot):
     """[(description, frame)] of each method, in the order of every legend."""
     read = [(render.read_description(d), d) for d in folders(folder, shot.scene)]
-    known = [f"{method} {knob}".strip() for method, knob in style.KNOWN]
+    known = [f"{method} {parameter}".strip() for method, parameter in style.KNOWN]
     read.sort(key=lambda r: (known.index(r[0]["method"]) if r[0]["method"] in known else len(known), r[0]["method"]))
     return [(description, render.read_frame(d, shot.time)) for description, d in read]
 

@@ -1,4 +1,4 @@
-"""The style of every figure: one colour, marker and line for each method and knob, sizes for a column of 8.5 cm, two lines
+"""The style of every figure: one colour, marker and line for each method and parameter, sizes for a column of 8.5 cm, two lines
 of the caption below the axes and all of it in a file beside the figure. The same data give the same bytes."""
 
 import re
@@ -66,9 +66,9 @@ SHEETS = {"grid": "the paper's grid", "alternating": "alternating", "delaunay": 
 
 
 def looks(variants, programs=()):
-    """The Look of each (method, knob), in the order of the legend; those whose method is one of `programs` say so. A method
+    """The Look of each (method, parameter), in the order of the legend; those whose method is one of `programs` say so. A method
     that KNOWN does not name gets the free colour its name hashes to (the next one if another method of this figure has
-    it), its knobs lighter shades of it."""
+    it), its parameters lighter shades of it."""
     chosen = {v: look for v, look in KNOWN.items() if v in variants}
     unknown = sorted(set(variants) - set(KNOWN), key=lambda v: (v[0], natural(v[1])))
     colours = {method: look.colour for (method, _), look in reversed(KNOWN.items())}
@@ -80,19 +80,19 @@ def looks(variants, programs=()):
             while some_free and FREE_COLOURS[slot % len(FREE_COLOURS)] in colours.values():
                 slot += 1
             colours[method] = FREE_COLOURS[slot % len(FREE_COLOURS)]
-        for i, (_, knob) in enumerate(v for v in unknown if v[0] == method):
-            label = names.get(method, method.replace("_", " ")) + (f", {knob}" if knob else "")
+        for i, (_, parameter) in enumerate(v for v in unknown if v[0] == method):
+            label = names.get(method, method.replace("_", " ")) + (f", {parameter}" if parameter else "")
             label += PROGRAM * (method in programs)
             marker = FREE_MARKERS[(zlib.crc32(method.encode()) + i) % len(FREE_MARKERS)]
             line = ("-", "--", "-.", ":")[(i + any(m == method for m, _ in KNOWN)) % 4]
-            chosen[method, knob] = Look(label, lighter(colours[method], min(0.25 * i, 0.6)), marker, line,
+            chosen[method, parameter] = Look(label, lighter(colours[method], min(0.25 * i, 0.6)), marker, line,
                                         program=method in programs)
     return chosen
 
 
-def natural(knob):
+def natural(parameter):
     """Sorts rounds=2 before rounds=10."""
-    name, _, value = knob.partition("=")
+    name, _, value = parameter.partition("=")
     try:
         return name, float(value), value
     except ValueError:
@@ -146,16 +146,16 @@ def curve(ax, look, table):
 def failures(axes, runs, looks):
     """At the top of each panel, a row for each method that failed anywhere: a cross at the resolution and the number of
     failed cuts. Call it last: it raises the upper limit of the logarithmic y axis, which all panels must share."""
-    failed = {(method, knob): look for (method, knob), look in looks.items()
-              if any(len(run.select(method=method, knob=knob).failed) for run in runs)}
+    failed = {(method, parameter): look for (method, parameter), look in looks.items()
+              if any(len(run.select(method=method, parameter=parameter).failed) for run in runs)}
     if not failed:
         return
     row = 0.26 / 2.54 / axes[0].get_window_extent().height * axes[0].figure.dpi  # 0.26 cm, as part of the panel
     low, high = np.log10(axes[0].get_ylim())
     axes[0].set_ylim(top=10 ** (low + (high - low) / (1 - row * len(failed))))
     for ax, run in zip(axes, runs):
-        for i, ((method, knob), look) in enumerate(failed.items()):
-            for resolution, cuts in run.select(method=method, knob=knob).failed.groupby("resolution"):
+        for i, ((method, parameter), look) in enumerate(failed.items()):
+            for resolution, cuts in run.select(method=method, parameter=parameter).failed.groupby("resolution"):
                 place = dict(xy=(resolution, 1 - row * (i + 0.5)), xycoords=ax.get_xaxis_transform(), va="center",
                              textcoords="offset points", color=look.colour, annotation_clip=False)
                 ax.annotate("×", xytext=(0, 0), ha="center", fontsize=7, **place)

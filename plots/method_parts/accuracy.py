@@ -31,7 +31,7 @@ def summary(folder):
     common = {sheet: made_by_all(of_methods_there(table)) for sheet, table in kept.items()}
     rows = []
     for variant in records.methods:
-        row = {"method": variant[0], "knob": variant[1]}
+        row = {"method": variant[0], "parameter": variant[1]}
         for sheet, table in kept.items():
             made = of(common[sheet], variant)
             direct = made[made["direct"]]
@@ -53,7 +53,7 @@ def summary(folder):
 
 def of_methods_there(table):
     """Without the methods that refuse a kind of sheet altogether, which would leave no case that all made."""
-    key = [table[c] for c in ("method", "knob", "sheet")]
+    key = [table[c] for c in ("method", "parameter", "sheet")]
     return table[~table["failed"].groupby(key).transform("all")]
 
 

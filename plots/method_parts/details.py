@@ -23,7 +23,7 @@ def by_sheet_and_family(table, order, sheets):
     largest = table["resolution"].max()
     for variant in order:
         cuts = of(table, variant)
-        row = {"method": variant[0], "knob": variant[1]}
+        row = {"method": variant[0], "parameter": variant[1]}
         for sheet in sheets:
             here = cuts[cuts["sheet"] == sheet]
             here = here[here["ar_max_cut_outside_wedges"].notna() | here["failed"]]
@@ -72,7 +72,7 @@ def altitude_law(table, order):
             continue
         product = cuts["eigenvalue_ratio"] * cuts["altitude_min_h_cut"] ** 2
         logarithms = np.log(cuts[["eigenvalue_ratio", "altitude_min_h_cut"]])
-        rows.append({"method": variant[0], "knob": variant[1], "cuts": len(cuts),
+        rows.append({"method": variant[0], "parameter": variant[1], "cuts": len(cuts),
                      "correlation of logarithms": -logarithms.corr().iloc[0, 1],
                      **{f"eigenvalue x altitude2, {name}": product.quantile(share)
                         for name, share in (("5 %", 0.05), ("median", 0.5), ("95 %", 0.95))}})
@@ -84,7 +84,7 @@ def jumps(table, order):
     rows = []
     for variant in order:
         cuts = of(table, variant)
-        row = {"method": variant[0], "knob": variant[1], "cuts": len(cuts)}
+        row = {"method": variant[0], "parameter": variant[1], "cuts": len(cuts)}
         for column in ("membrane_jump", "bending_jump", "residual_jump"):
             for name, share in (("median", 0.5), ("95 %", 0.95), ("worst", 1)):
                 row[f"{column}, {name}"] = cuts[column].quantile(share)
@@ -106,7 +106,7 @@ def against(table, one, order):
         ratio = pairs["geometry_us_theirs"] / pairs["geometry_us"]
         asked = pairs[pairs["eigenvalue_ratio"].notna() & pairs["eigenvalue_ratio_theirs"].notna()]
         no_larger = asked["eigenvalue_ratio"] <= asked["eigenvalue_ratio_theirs"]
-        row = {"method": variant[0], "knob": variant[1], "pairs": len(pairs)}
+        row = {"method": variant[0], "parameter": variant[1], "pairs": len(pairs)}
         for share in (0.05, 0.5, 0.95):
             row[f"time over {one[0]}'s, {100 * share:g} %"] = ratio.quantile(share)
         row[f"no larger eigenvalue by {one[0]}, %"] = 100 * no_larger.mean() if len(asked) else np.nan

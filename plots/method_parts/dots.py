@@ -44,7 +44,7 @@ def table_of_dots(order, widths, programs=()):
     several = pd.Series([method for method, _ in order]).value_counts()
     left = axes[0, 0]
     left.set_yticks([y for y, _ in variants], [
-        families.name(m, programs) + (f", {knob}" if several[m] > 1 else "") for _, (m, knob) in variants])
+        families.name(m, programs) + (f", {parameter}" if several[m] > 1 else "") for _, (m, parameter) in variants])
     left.set_ylim(height - 0.3, -0.6)
     for y, family in headings:
         left.annotate(family.name, (0, y), xycoords=left.get_yaxis_transform(), xytext=(-4, 0), ha="right", va="center",

@@ -51,7 +51,7 @@ def table_of(records):
     table = table.assign(kind=table["problem"].map(kind_of))
     table = table[table["kind"].notna()]
     fitted = of(table, REFERENCE)
-    structured = table.groupby([table[c] for c in ("method", "knob", "sheet")])["failed"].transform("all")
+    structured = table.groupby([table[c] for c in ("method", "parameter", "sheet")])["failed"].transform("all")
     common = made_by_all(table[~structured])
     rows = []
     for variant in records.methods:
@@ -59,13 +59,13 @@ def table_of(records):
         kinds = {kind: mean_excess(made[made["kind"] == kind], measure.column) for kind in KINDS if (made["kind"] == kind).any()}
         if not kinds:
             continue
-        rows.append({"method": variant[0], "knob": variant[1], "error, kinds": mean_over(kinds),
+        rows.append({"method": variant[0], "parameter": variant[1], "error, kinds": mean_over(kinds),
                      "error, its 95 %": in_words(interval(kinds)),
                      **{f"error, {kind}": value for kind, value in kinds.items()},
                      **{f"error, by {m}": by_measure(made, fitted, m) for m in MEASURES
                         if f"error_{m}" in made}})
     if not rows:
-        return pd.DataFrame(columns=["method", "knob", "error, kinds"])
+        return pd.DataFrame(columns=["method", "parameter", "error, kinds"])
     result = pd.DataFrame(rows).sort_values("error, kinds", kind="stable")
     result.attrs["note"] = measure.note and f"{measure.note} All here are over {measure.fitted}."
     return result

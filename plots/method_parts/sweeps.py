@@ -1,5 +1,5 @@
-"""Two more figures of method_comparison.py: shapes against cost for each setting of each method's knob
-(method_comparison_knobs), and the effect of each part of warp_and_refine (method_comparison_ablation)."""
+"""Two more figures of method_comparison.py: shapes against cost for each setting of each method's parameter
+(method_comparison_parameters), and the effect of each part of warp_and_refine (method_comparison_ablation)."""
 
 import numpy as np
 from matplotlib.colors import LogNorm, Normalize
@@ -29,18 +29,18 @@ def below_three(rows):
 
 
 def settings_by_method(table):
-    """{method: [(variant, what is written below it)]}, the settings of a knob in their order. A variant `method:part` is
+    """{method: [(variant, what is written below it)]}, the settings of a parameter in their order. A variant `method:part` is
     the last setting of the method."""
     found = {}
-    for method, knob in sorted(set(zip(table["method"], table["knob"])), key=lambda v: (v[0], style.natural(v[1]))):
+    for method, parameter in sorted(set(zip(table["method"], table["parameter"])), key=lambda v: (v[0], style.natural(v[1]))):
         name, _, part = method.partition(":")
-        found.setdefault(name, []).append(((method, knob), part.replace("_", "\n") or knob.partition("=")[2] or "-"))
+        found.setdefault(name, []).append(((method, parameter), part.replace("_", "\n") or parameter.partition("=")[2] or "-"))
     return found
 
 
-def draw_knobs(folder, table, caption, defaults):
-    """A panel for each method: medians of eigenvalue, aspect ratio and time by the setting of its knob, on one axis. Grey: the
-    default. A line does not join bound=0 to the others, which sets no bound, nor a variant that has no knob."""
+def draw_parameters(folder, table, caption, defaults):
+    """A panel for each method: medians of eigenvalue, aspect ratio and time by the setting of its parameter, on one axis. Grey: the
+    default. A line does not join bound=0 to the others, which sets no bound, nor a variant that has no parameter."""
     methods = settings_by_method(table)
     groups = families.grouped(methods)
     methods = {m: methods[m] for _, names in groups for m in names}
@@ -49,7 +49,7 @@ def draw_knobs(folder, table, caption, defaults):
     for ax in axes.flat[len(methods):]:
         ax.set_visible(False)
     for (method, settings), ax in zip(methods.items(), axes.flat):
-        knob = next((k.partition("=")[0] for (_, k), _ in settings if k), "")
+        parameter = next((k.partition("=")[0] for (_, k), _ in settings if k), "")
         joined = slice(method in OFF_AT_ZERO, len(settings) - sum(":" in m for (m, _), _ in settings))
         for column, _, looks in CURVES:
             values = [median_of(of(table, variant), column) for variant, _ in settings]
@@ -63,10 +63,10 @@ def draw_knobs(folder, table, caption, defaults):
         ax.set_xticks(range(len(settings)), [written for _, written in settings])
         ax.grid(axis="x", visible=False)
         ax.set_title(families.name(method), loc="left", fontweight="bold", color=families.family(method).colour)
-        ax.set_title(knob, loc="right")
+        ax.set_title(parameter, loc="right")
     entries = [Line2D([], [], label=label, **looks) for _, label, looks in CURVES]
     style.finish(figure, [], caption, entries + [Patch(color="#e6e6e6", label="default")])
-    style.save(figure, folder, "method_comparison_knobs")
+    style.save(figure, folder, "method_comparison_parameters")
 
 
 def draw_ablation(folder, table, caption):

@@ -10,14 +10,14 @@ import pandas as pd
 import method_comparison
 import method_gallery
 import whole_step
-from atlas_parts import points as atlas_points
+from stability_parts import points as stability_points
 from common import load, style
 from method_parts.dots import spread
 from whole_step_parts import points
 
 ALL = "all"
 FAULTS = ["failed", "wrong", "crashed", "timed_out"]
-CAMPAIGN = ["tried", "refused", *FAULTS]
+ROBUSTNESS = ["tried", "refused", *FAULTS]
 
 
 @dataclass(frozen=True)
@@ -56,11 +56,11 @@ COLUMNS = [
     Column("failed_percent", "cuts that failed", "%", "method_comparison", ("status", "verdict"),
            "Share of the cuts that failed, were refused or were judged wrong; a kind of sheet that a method refuses altogether is left out."),
     Column("faults", "adversarial cuts: faults", "", "robustness", tuple(FAULTS),
-           "Cuts that failed, were wrong, crashed or timed out in the robustness campaign.", ("sheet",)),
+           "Cuts that failed, were wrong, crashed or timed out in the robustness run.", ("sheet",)),
     Column("refused_percent", "adversarial cuts: refused", "%", "robustness", ("refused", "tried"),
-           "Share of the cuts of the robustness campaign.", ("sheet",)),
-    Column("explicit_step", "worst explicit step / uncut", "", "atlas", ("explicit_step_ratio",),
-           "Least over the places of the atlas' sweep `vertex`, paths ever closer to a vertex. A cut that was not made has none.",
+           "Share of the cuts of the robustness run.", ("sheet",)),
+    Column("explicit_step", "worst explicit step / uncut", "", "stability", ("explicit_step_ratio",),
+           "Least over the places of the stability sweeps' sweep `vertex`, paths ever closer to a vertex. A cut that was not made has none.",
            ("sheet",), "higher"),
 ]
 
@@ -91,7 +91,7 @@ def chosen(table, **values):
 
 
 def of_cuts(table):
-    """{column: {(method, knob): value}} of rows of method_comparison.measured()."""
+    """{column: {(method, parameter): value}} of rows of method_comparison.measured()."""
     worst = {m.column: m.worst for m in method_comparison.SHAPES + method_comparison.PRICE}
     groups = dict(list(table.groupby(load.VARIANT)))
     found = {key: {v: spread(cuts[key], worst.get(key, np.inf))[0][2] for v, cuts in groups.items()}
@@ -109,13 +109,13 @@ def of_motions(rows):
     return dict(zip(cost["method"], cost["ms"]))
 
 
-def of_campaign(table):
-    sums = table.groupby(load.VARIANT)[CAMPAIGN].sum()
+def of_robustness(table):
+    sums = table.groupby(load.VARIANT)[ROBUSTNESS].sum()
     return {"faults": dict(sums[FAULTS].sum(axis=1)), "refused_percent": dict(100 * sums["refused"] / sums["tried"])}
 
 
-def of_atlas(rows):
-    return {"explicit_step": dict(rows.groupby(load.VARIANT)[atlas_points.EXPLICIT].min())}
+def of_stability(rows):
+    return {"explicit_step": dict(rows.groupby(load.VARIANT)[stability_points.EXPLICIT].min())}
 
 
 class Comparison:
@@ -125,8 +125,8 @@ class Comparison:
         self.origins, self.variants, self.cells = {}, {}, {}
         self.sheets, self.families, self.sizes, self.setting = [], [], [], ""
         self.programs = set()
-        for stem, read in (("method_comparison", self._cuts), ("whole_step", self._motions), ("robustness", self._campaign),
-                           ("atlas", self._atlas)):
+        for stem, read in (("method_comparison", self._cuts), ("whole_step", self._motions), ("robustness", self._robustness),
+                           ("stability", self._stability)):
             files = files_of(results, stem)
             if files:
                 self.origins[stem] = origin(files)
@@ -135,13 +135,13 @@ class Comparison:
     def _put(self, choice, found):
         for column, values in found.items():
             cell = self.cells.setdefault(column, {})["|".join(map(str, choice))] = {}
-            for (method, knob), value in values.items():
-                if method in self.variants and self.variants[method] == knob and not np.isnan(value):
+            for (method, parameter), value in values.items():
+                if method in self.variants and self.variants[method] == parameter and not np.isnan(value):
                     cell[method] = float(f"{value:.6g}") if np.isfinite(value) else "inf"
 
     def _cuts(self, files):
         run, table = method_comparison.cuts_of(load.run_of(*files, method_comparison.MEASURES))
-        self.variants |= dict(sorted(zip(table["method"], table["knob"])))
+        self.variants |= dict(sorted(zip(table["method"], table["parameter"])))
         self.programs = load.programs(run.everything(), run.context)
         self.sheets = style.sheet_order(table["sheet"])
         self.families = list(dict.fromkeys(table["cut_family"]))
@@ -155,10 +155,10 @@ class Comparison:
         setting = whole_step.summarised(rows)
         self.setting = whole_step.setting_name(setting)
         rows = whole_step.at(rows, setting)
-        self.variants |= {m: k for m, k in zip(rows["method"], rows["knob"]) if m not in self.variants}
+        self.variants |= {m: k for m, k in zip(rows["method"], rows["parameter"]) if m not in self.variants}
         self.sheets = self.sheets or style.sheet_order(rows["sheet"])
         self.sizes = self.sizes or sorted(set(rows["resolution"]))
-        rows = rows[rows["knob"] == rows["method"].map(self.variants)]
+        rows = rows[rows["parameter"] == rows["method"].map(self.variants)]
         published = points.published(points.LEADS)
         self.origins["method_comparison_accuracy"] = origin(points.MEASURES[points.LEADS].files())
         for sheet, size in itertools.product([ALL, *self.sheets], [ALL, *self.sizes]):
@@ -168,24 +168,24 @@ class Comparison:
             self._put((sheet, size), {key: {(m, self.variants.get(m)): x for m, x in values.items()}
                                       for key, values in found.items()})
 
-    def _campaign(self, files):
-        table = pd.read_csv(files[0], usecols=[*load.VARIANT, "sheet", *CAMPAIGN], keep_default_na=False, comment="#")
+    def _robustness(self, files):
+        table = pd.read_csv(files[0], usecols=[*load.VARIANT, "sheet", *ROBUSTNESS], keep_default_na=False, comment="#")
         for sheet in [ALL, *self.sheets]:
-            self._put((sheet,), of_campaign(chosen(table, sheet=sheet)))
+            self._put((sheet,), of_robustness(chosen(table, sheet=sheet)))
 
-    def _atlas(self, files):
-        rows = atlas_points.read(files[0].parent)
+    def _stability(self, files):
+        rows = stability_points.read(files[0].parent)
         rows = rows[(rows["sweep"] == "vertex") & (rows["mass"] == "lumped")]
         for sheet in [ALL, *self.sheets]:
-            self._put((sheet,), of_atlas(chosen(rows, sheet=sheet)))
+            self._put((sheet,), of_stability(chosen(rows, sheet=sheet)))
 
     def as_json(self):
         about = {m["name"]: m for m in method_gallery.all_methods()} if method_gallery.PROGRAM.is_file() else {}
         methods = []
-        for method, knob in sorted(self.variants.items()):
+        for method, parameter in sorted(self.variants.items()):
             text = about.get(method, {})
-            of_knob = text.get("knob") or {}
-            methods.append({"name": method, "knob": knob, "summary": text.get("summary", ""), "meaning": of_knob.get("meaning", ""),
+            of_parameter = text.get("parameter") or {}
+            methods.append({"name": method, "parameter": parameter, "summary": text.get("summary", ""), "meaning": of_parameter.get("meaning", ""),
                             "promises": [p.replace("_", " ") for p in text.get("promises", [])],
                             "program": method in self.programs})
         cells = {column: {choice: [values.get(m["name"]) for m in methods] for choice, values in choices.items()}

@@ -33,7 +33,7 @@ function makeTable(data) {
   function about(method) {
     const stems = [...new Set(data.columns.map((column) => column.stem))];
     const text = method.summary ? `${method.summary[0].toUpperCase()}${method.summary.slice(1)}.` : "";
-    const lines = [text, method.knob && `Knob ${method.knob}${method.meaning ? `: ${method.meaning}` : ""}.`,
+    const lines = [text, method.parameter && `Parameter ${method.parameter}${method.meaning ? `: ${method.meaning}` : ""}.`,
       method.promises.length && `It promises: ${method.promises.join(", ")}.`, method.program && "A program of its own."];
     return element("div", { class: "about" }, ...lines.filter(Boolean).map((line) => element("p", {}, line)),
       element("p", {}, element("a", { href: "#" + state.text({ open: method.name, at: `row-${method.name}` }) }, "Link to this row"), "."),

@@ -99,7 +99,7 @@ def published(measure, folder=PUBLISHED):
                               all_columns=True)
     table = table.assign(kind=measure.kind(table), failed=front.failed_rows(table), size=table[measure.column].abs())
     table = table[(table["budget"] == 0) & table["kind"].notna()]
-    key = [table[c] for c in ("method", "knob", "sheet", "kind")]
+    key = [table[c] for c in ("method", "parameter", "sheet", "kind")]
     table = made_by_all(table[table["failed"].groupby(key).transform("mean") <= 0.5])
     return table[table["size"] > 0]
 

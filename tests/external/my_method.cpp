@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
       argc, argv,
       {{.name = "flip_once",
         .summary = "the Delaunay split and one round of flips",
-        .knob = {},
+        .parameter = {},
         .promises = {.exact_incision = true, .keeps_area = true, .conforming = true, .keeps_vertices = true},
         .make = [](double) { return std::make_unique<FlipOnce>(); }}});
 }

@@ -84,7 +84,7 @@ void cut_unjudged(const Sheet& uncut, const std::vector<Curve>& cuts, const Meth
   Sheet sheet = uncut;
   Locator locator(sheet);
   Cutter cutter;
-  const auto method = row.make(row.knob.value);
+  const auto method = row.make(row.parameter.value);
   for (const Curve& curve : cuts) {
     cutter.cut(sheet, locator, curve, *method, {});
     end_unless(check(sheet).empty(), row.name + ": check() finds faults");
@@ -92,7 +92,7 @@ void cut_unjudged(const Sheet& uncut, const std::vector<Curve>& cuts, const Meth
 }
 
 void cut_judged(const Sheet& sheet, const std::vector<Curve>& cuts, const MethodRow& row) {
-  JudgedSheet judged(sheet, row.promises, row.make(row.knob.value));
+  JudgedSheet judged(sheet, row.promises, row.make(row.parameter.value));
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     const auto finding = judged.cut(cuts[i], {});
     end_unless(finding.ok(), row.name + ", cut " + std::to_string(i) + ": " + finding.verdict + ": " + finding.reason);

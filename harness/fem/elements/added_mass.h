@@ -27,8 +27,8 @@
 #include <span>
 #include <vector>
 
-#include "harness/fem/elements/bending.h"
 #include "harness/fem/algebra/block_matrix.h"
+#include "harness/fem/elements/bending.h"
 #include "harness/fem/elements/element_table.h"
 #include "harness/fem/elements/incidence.h"
 #include "harness/fem/elements/membrane.h"

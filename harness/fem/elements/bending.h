@@ -17,10 +17,10 @@
 #include <vector>
 
 #include "harness/fem/algebra/block_matrix.h"
-#include "harness/fem/elements/element_table.h"
 #include "harness/fem/algebra/growing_rows.h"
-#include "harness/fem/elements/physics.h"
 #include "harness/fem/algebra/row_sum.h"
+#include "harness/fem/elements/element_table.h"
+#include "harness/fem/elements/physics.h"
 #include "harness/fem/elements/slope_patch.h"
 #include "harness/mesh/sheet.h"
 

@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "harness/fem/elements/element_table.h"
 #include "harness/fem/algebra/growing_rows.h"
+#include "harness/fem/elements/element_table.h"
 
 namespace cutbench {
 

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "harness/fem/algebra/block_matrix.h"
+#include "harness/mesh/constraints.h"
 #include "harness/mesh/sheet.h"
-#include "harness/mesh/ties.h"
 
 namespace cutbench {
 

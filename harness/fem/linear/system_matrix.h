@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "harness/fem/algebra/block_matrix.h"
-#include "harness/fem/elements/element_table.h"
 #include "harness/fem/algebra/pattern_history.h"
+#include "harness/fem/elements/element_table.h"
 
 namespace cutbench {
 

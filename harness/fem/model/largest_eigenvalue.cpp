@@ -9,8 +9,8 @@
 #include <random>
 #include <vector>
 
+#include "harness/fem/constraints/constraint_matrix.h"
 #include "harness/fem/elements/added_mass.h"
-#include "harness/fem/constraints/combination.h"
 #include "harness/fem/elements/element_table.h"
 #include "harness/fem/elements/membrane.h"
 #include "harness/fem/elements/polygon_sheet.h"
@@ -24,16 +24,16 @@ using Eigen::VectorXd;
 /// y = L^-1 C^T K C L^-T x, element by element, with L L^T = C^T M C.
 class ScaledStiffness {
  public:
-  ScaledStiffness(const Sheet& sheet, const Ties& ties, const Elasticity& elasticity)
+  ScaledStiffness(const Sheet& sheet, const Constraints& constraints, const Elasticity& elasticity)
       : lame_(lame_of({.stiffness = 1, .poisson = elasticity.poisson}, elasticity.plane)),
         elements_(sheet),
-        combination_(ties, sheet.deformed_slots()),
-        ghosts_(ties.ghosts) {
-    for (const Polygon& polygon : ties.polygons) {
+        constraint_matrix_(constraints, sheet.deformed_slots()),
+        ghosts_(constraints.ghosts) {
+    for (const Polygon& polygon : constraints.polygons) {
       const std::size_t slot = elements_.add_polygon(sheet, polygon);
       polygons_.push_back(rest_stiffness(elements_.polygon(slot), lame_));
     }
-    lumped_ = VectorXd::Zero(static_cast<Eigen::Index>(combination_.vertices()));
+    lumped_ = VectorXd::Zero(static_cast<Eigen::Index>(constraint_matrix_.vertices()));
     for (const Element& element : elements_)
       if (element.is_triangle())
         for (const auto d : element.vertex) lumped_[d.value] += element.area / 3;
@@ -42,7 +42,7 @@ class ScaledStiffness {
     if (elasticity.bending != BendingKind::none)
       bending_.emplace(sheet, elasticity.bending, elasticity.bending_length2, elasticity.poisson, &elements_);
     if (adds_mass(elasticity.mass)) add_mass(elasticity);
-    factor(ties.lumped);
+    factor(constraints.lumped);
   }
 
   ElementModes modes() const {
@@ -51,21 +51,21 @@ class ScaledStiffness {
   }
   double added_mass_share() const { return added_ ? added_->total() / lumped_.sum() : 0; }
 
-  Eigen::Index size() const { return 2 * static_cast<Eigen::Index>(combination_.unknowns()); }
+  Eigen::Index size() const { return 2 * static_cast<Eigen::Index>(constraint_matrix_.unknowns()); }
   bool is_mass_positive() const { return is_mass_positive_; }
 
   void apply(const VectorXd& x, VectorXd& y) {
     scaled_ = Eigen::Map<const TwoPerUnknown>(x.data(), mass_.rows(), 2);
     mass_.matrixU().solveInPlace(scaled_);
     scaled_ = mass_.permutationPinv() * scaled_;
-    combination_.expand(2, Eigen::Map<const VectorXd>(scaled_.data(), size()), moved_);
+    constraint_matrix_.expand(2, Eigen::Map<const VectorXd>(scaled_.data(), size()), moved_);
     force_.setZero(moved_.size());
     for (const Element& element : elements_)
       if (element.is_triangle()) add_force(element);
     for (std::size_t p = 0; p < polygons_.size(); ++p) add_force(elements_.polygon(p), polygons_[p]);
     // Bending acts on each coordinate alike, so that membrane and bending together are stiffest in the plane.
     if (bending_) add_product_per_coordinate(bending_->matrix(), 2, 1, moved_, force_);
-    combination_.reduce(2, force_, y);
+    constraint_matrix_.reduce(2, force_, y);
     for (const GhostEdge& ghost : ghosts_) add_force(ghost, y);
     scaled_ = mass_.permutationP() * Eigen::Map<const TwoPerUnknown>(y.data(), mass_.rows(), 2);
     mass_.matrixL().solveInPlace(scaled_);
@@ -77,10 +77,10 @@ class ScaledStiffness {
 
   void add_mass(const Elasticity& elasticity) {
     Incidence incidence;
-    incidence.resize(combination_.vertices());
+    incidence.resize(constraint_matrix_.vertices());
     for (std::size_t e = 0; e < elements_.size(); ++e)
       if (elements_[e].alive()) incidence.add(elements_[e], e);
-    std::vector<std::size_t> all(combination_.vertices());
+    std::vector<std::size_t> all(constraint_matrix_.vertices());
     std::iota(all.begin(), all.end(), 0);
     added_.emplace(elasticity.mass, 1, elasticity.mass_limit);
     added_->update(modes(), incidence, all);
@@ -98,7 +98,7 @@ class ScaledStiffness {
   }
 
   void factor(const std::vector<double>& lumped) {
-    const auto n = static_cast<Eigen::Index>(combination_.unknowns());
+    const auto n = static_cast<Eigen::Index>(constraint_matrix_.unknowns());
     if (n == 0) return;
     std::vector<Eigen::Triplet<double>> entries;
     VectorXd diagonal = VectorXd::Zero(n);
@@ -106,8 +106,8 @@ class ScaledStiffness {
       entries.emplace_back(u, u, diagonal[static_cast<Eigen::Index>(u)] = lumped[u]);
     for_each_mass([&](Eigen::Index i, Eigen::Index j, double mass) {
       if (!lumped.empty()) return;
-      const auto &row = combination_.row(static_cast<std::size_t>(i)),
-                 &column = combination_.row(static_cast<std::size_t>(j));
+      const auto &row = constraint_matrix_.row(static_cast<std::size_t>(i)),
+                 &column = constraint_matrix_.row(static_cast<std::size_t>(j));
       for (std::size_t k = 0; k < row.size; ++k)
         for (std::size_t l = 0; l < column.size; ++l)
           entries.emplace_back(row.unknown[k], column.unknown[l], row.weight[k] * column.weight[l] * mass);
@@ -164,7 +164,7 @@ class ScaledStiffness {
   Lame lame_;
   ElementTable elements_;
   std::vector<Eigen::MatrixXd> polygons_;  // their stiffness
-  Combination combination_;
+  ConstraintMatrix constraint_matrix_;
   std::vector<GhostEdge> ghosts_;
   VectorXd lumped_;
   std::optional<Bending> bending_;
@@ -183,8 +183,8 @@ double largest_element_eigenvalue(const Sheet& sheet, const Elasticity& elastici
   return ScaledStiffness(sheet, {}, lumped).modes().largest();
 }
 
-double added_mass_share(const Sheet& sheet, const Ties& ties, const Elasticity& elasticity) {
-  return ScaledStiffness(sheet, ties, elasticity).added_mass_share();
+double added_mass_share(const Sheet& sheet, const Constraints& constraints, const Elasticity& elasticity) {
+  return ScaledStiffness(sheet, constraints, elasticity).added_mass_share();
 }
 
 double explicit_step_limit(double eigenvalue, const Material& material) {
@@ -193,10 +193,10 @@ double explicit_step_limit(double eigenvalue, const Material& material) {
   return 4 / (c + std::sqrt(c * c + 4 * w2));
 }
 
-double largest_eigenvalue(const Sheet& sheet, const Ties& ties, const Elasticity& elasticity) {
+double largest_eigenvalue(const Sheet& sheet, const Constraints& constraints, const Elasticity& elasticity) {
   constexpr double tolerance = 1e-3;  // met at two checks, for at the first it may be met by the second largest
   constexpr int most_steps = 1000, between_checks = 8;
-  ScaledStiffness stiffness(sheet, ties, elasticity);
+  ScaledStiffness stiffness(sheet, constraints, elasticity);
   const Eigen::Index n = stiffness.size();
   if (n == 0) return 0;
   if (!stiffness.is_mass_positive()) return std::numeric_limits<double>::quiet_NaN();

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "harness/fem/constraints/constraint_matrix.h"
 #include "harness/fem/elements/added_mass.h"
 #include "harness/fem/elements/bending.h"
-#include "harness/fem/constraints/combination.h"
 #include "harness/fem/elements/incidence.h"
 #include "harness/fem/elements/membrane_sheet.h"
 #include "harness/fem/linear/system_matrix.h"
@@ -38,10 +38,10 @@ class Model {
   void update_bending(const Sheet& sheet);  ///< nothing without bending
   /// Constrains vertices and makes polygons of triangles; call it after update() and update_bending(). Constraints of
   /// before are removed. Polygons of before stay, unless the cut touched their triangles or they share one with a new
-  /// polygon. Forces, energies and the matrix remain those of all vertices; a solver solves for the unknowns of tied().
+  /// polygon. Forces, energies and the matrix remain those of all vertices; a solver solves for the unknowns of constrained().
   /// Vertices inside polygons are no unknowns: they have no mass and are held, and follow() moves them.
   /// \pre `sheet` is that of the last update().
-  void tie(const Sheet& sheet, const Ties& ties);
+  void constraint(const Sheet& sheet, const Constraints& constraints);
   /// Gives the vertices inside polygons their values, positions or velocities.
   void follow(Field& x) const;
 
@@ -61,7 +61,9 @@ class Model {
   void assemble(double mass_factor, double stiffness_factor);
   /// Of the last assemble(). Refers to this model.
   SystemMatrix<D> system() const;
-  TiedSystem<D>* tied() { return is_tied_ ? &*tied_ : nullptr; }  ///< null where no vertex is constrained
+  ConstrainedSystem<D>* constrained() {
+    return is_constrained_ ? &*constrained_ : nullptr;
+  }  ///< null where no vertex is constrained
   /// y += factor M x.
   void add_mass_product(double factor, const Field& x, Field& y) const;
   Energy energy(const Field& x, const Field& v) const;  ///< \pre rotate(x)
@@ -119,8 +121,8 @@ class Model {
   std::optional<Bending> bending_;
   std::optional<BlockMatrix<1>> consistent_mass_;
   std::optional<AddedMass> added_mass_;
-  std::optional<TiedSystem<D>> tied_;
-  bool is_tied_ = false;                           // since the last update()
+  std::optional<ConstrainedSystem<D>> constrained_;
+  bool is_constrained_ = false;                    // since the last update()
   double mass_factor_ = 0, stiffness_factor_ = 0;  // of the last assemble()
   std::vector<double> mass_, external_;            // with room to grow, which a Field has not
   std::vector<std::uint8_t> held_;

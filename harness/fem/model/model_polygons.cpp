@@ -1,4 +1,4 @@
-// Tied vertices and polygons of the model: triangles become one element, and are elements of their own again.
+// Constrained vertices and polygons of the model: triangles become one element, and are elements of their own again.
 #include <algorithm>
 
 #include "harness/base/errors.h"
@@ -7,17 +7,17 @@
 namespace cutbench {
 
 template <int D>
-void Model<D>::tie(const Sheet& sheet, const Ties& ties) {
+void Model<D>::constraint(const Sheet& sheet, const Constraints& constraints) {
   begin_marking();
-  merge(sheet, ties.polygons);
+  merge(sheet, constraints.polygons);
   refresh_vertices(sheet);
   if (!bending_) refresh_added_mass();
   if (!regrouped_.empty()) update_bending(sheet);
-  is_tied_ = !ties.ties.empty();
-  if (is_tied_ && tied_)
-    tied_->change(ties, vertices());
-  else if (is_tied_)
-    tied_.emplace(ties, vertices());
+  is_constrained_ = !constraints.constraints.empty();
+  if (is_constrained_ && constrained_)
+    constrained_->change(constraints, vertices());
+  else if (is_constrained_)
+    constrained_.emplace(constraints, vertices());
 }
 
 template <int D>
@@ -74,12 +74,12 @@ void Model<D>::follow(Field& x) const {
 }
 
 // What the other files call; model.cpp instantiates the rest of the class.
-template void Model<2>::tie(const Sheet&, const Ties&);
+template void Model<2>::constraint(const Sheet&, const Constraints&);
 template void Model<2>::dissolve(std::size_t);
 template std::vector<Polygon> Model<2>::polygons() const;
 template PolygonsLeft Model<2>::polygons_left() const;
 template void Model<2>::follow(Field&) const;
-template void Model<3>::tie(const Sheet&, const Ties&);
+template void Model<3>::constraint(const Sheet&, const Constraints&);
 template void Model<3>::dissolve(std::size_t);
 template std::vector<Polygon> Model<3>::polygons() const;
 template PolygonsLeft Model<3>::polygons_left() const;

@@ -10,7 +10,7 @@ namespace cutbench {
 template <int D>
 void Model<D>::update(const Sheet& sheet) {
   const EditLog& log = sheet.log();
-  is_tied_ = false;
+  is_constrained_ = false;
   freed_.clear();
   begin_marking();
   for (const auto& touched : log.touched) {

@@ -78,9 +78,9 @@ Balance balance_of(Model<D>& model, const State& state) {
   model.add_external_force(force);
   for (std::size_t i = 0; i < model.held().size(); ++i)
     if (model.held()[i]) force[static_cast<Eigen::Index>(i)] = 0;
-  if (const auto* tied = model.tied()) {
+  if (const auto* constrained = model.constrained()) {
     Field reduced;
-    tied->reduce(model.held(), force, reduced);
+    constrained->reduce(model.held(), force, reduced);
     force = reduced;
   }
   balance.residual = force.norm();

@@ -20,8 +20,8 @@
 
 #include "harness/base/points.h"
 #include "harness/base/union_find.h"
-#include "harness/fem/multigrid/level_rows.h"
 #include "harness/fem/algebra/row_sum.h"
+#include "harness/fem/multigrid/level_rows.h"
 
 namespace cutbench {
 

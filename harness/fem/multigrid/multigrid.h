@@ -1,7 +1,7 @@
 // Multigrid for a sheet that is cut: one V-cycle as a preconditioner of conjugate gradients (Trottenberg, Oosterlee and
 // Schueller, Multigrid, 2001, 7.8). The levels are those of Coarsening, with lattices of twice the median edge, four
 // times, and so on; their matrices are the Galerkin products P^T A P, so each is symmetric and positive definite where A
-// is. Vertices that slivers tie together are one more unknown of the first coarse level, and clusters of stiff vertices
+// is. Vertices that slivers constraint together are one more unknown of the first coarse level, and clusters of stiff vertices
 // are solved exactly (StiffClusters). On the coarsest level a Cholesky factorisation solves.
 //
 // Levels are in floats: a preconditioner need not be accurate, and the time is that of reading the matrix. Where the
@@ -14,9 +14,9 @@
 #include <deque>
 #include <vector>
 
+#include "harness/fem/linear/preconditioner.h"
 #include "harness/fem/multigrid/coarsening.h"
 #include "harness/fem/multigrid/level_matrix.h"
-#include "harness/fem/linear/preconditioner.h"
 #include "harness/fem/multigrid/stiff_clusters.h"
 
 namespace cutbench {

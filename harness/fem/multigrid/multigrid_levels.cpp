@@ -27,7 +27,7 @@ double median_edge(const SweepRows& links, const std::vector<Point2>& places) {
 
 }  // namespace
 
-/// Vertices that slivers tie together: one has more than `strong` of its stiffness from the other. Neither the hats nor
+/// Vertices that slivers constraint together: one has more than `strong` of its stiffness from the other. Neither the hats nor
 /// the sweeps move them together against their neighbours. Looks at what has changed, and at all groups there.
 template <int D>
 Coarsening::Regrouping Multigrid<D>::regroup(const SystemMatrix<D>& a) {

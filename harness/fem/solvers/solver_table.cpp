@@ -1,10 +1,9 @@
-#include "harness/fem/linear/linear_solver.h"
-
-#include "harness/fem/solvers/cholmod_solver.h"
 #include "harness/fem/linear/conjugate_gradients.h"
+#include "harness/fem/linear/linear_solver.h"
+#include "harness/fem/multigrid/multigrid.h"
+#include "harness/fem/solvers/cholmod_solver.h"
 #include "harness/fem/solvers/eigen_solvers.h"
 #include "harness/fem/solvers/factor_preconditioners.h"
-#include "harness/fem/multigrid/multigrid.h"
 #include "harness/fem/solvers/sliver_blocks.h"
 #include "harness/mesh/mesh_data.h"
 

@@ -95,23 +95,23 @@ void Stepper<D>::forces(Model<D>& model, const Field& x, StepReport& report) {
 template <int D>
 void Stepper<D>::solve(Model<D>& model, const Field& start, StepReport& report) {
   SystemMatrix<D> a = model.system();
-  TiedSystem<D>* const tied = model.tied();
+  ConstrainedSystem<D>* const constrained = model.constrained();
   project(model, rhs_);
-  if (tied) {
+  if (constrained) {
     Clock clock(report.time_us.assemble);
-    tied->assemble(a);
-    tied->reduce(model.held(), rhs_, reduced_);
-    a = tied->system();
+    constrained->assemble(a);
+    constrained->reduce(model.held(), rhs_, reduced_);
+    a = constrained->system();
   }
   {
     Clock clock(report.time_us.setup);
     solver_->setup(a);
   }
   Clock clock(report.time_us.solve);
-  const SolveReport solved = solver_->solve(tied ? reduced_ : rhs_, dv_, start);
-  if (tied) {
+  const SolveReport solved = solver_->solve(constrained ? reduced_ : rhs_, dv_, start);
+  if (constrained) {
     reduced_ = dv_;
-    tied->expand(reduced_, dv_);
+    constrained->expand(reduced_, dv_);
   }
   ++report.newton;
   report.iterations += solved.iterations;
@@ -122,19 +122,19 @@ void Stepper<D>::solve(Model<D>& model, const Field& start, StepReport& report) 
     report.reason = options_.solver.name + " left a relative residual of " + text(solved.residual);
 }
 
-/// Velocities of held unknowns: what brings them where they are to be after h. What is tied to them goes along.
+/// Velocities of held unknowns: what brings them where they are to be after h. What is constrained to them goes along.
 template <int D>
 void Stepper<D>::hold(Model<D>& model, const State& state, double h) {
-  const TiedSystem<D>* const tied = model.tied();
-  if (tied) product_ = v_;
+  const ConstrainedSystem<D>* const constrained = model.constrained();
+  if (constrained) product_ = v_;
   for (std::size_t i = 0; i < model.held().size(); ++i) {
     if (!model.held()[i]) continue;
     const auto k = static_cast<Eigen::Index>(i);
     v_[k] = model.pinned(i) ? (state.anchor[k] + model.held_displacement(i, state.time + h) - state.x[k]) / h : 0;
   }
-  if (!tied) return;
+  if (!constrained) return;
   v_ -= product_;
-  tied->extrapolate(model.held(), v_);
+  constrained->extrapolate(model.held(), v_);
   v_ += product_;
 }
 
@@ -266,15 +266,15 @@ void Stepper<D>::equilibrium(Model<D>& model, State& state, StepReport& report) 
     return;
   }
   const Field still = Field::Zero(state.v.size());
-  const TiedSystem<D>* const tied = model.tied();
+  const ConstrainedSystem<D>* const constrained = model.constrained();
   x_ = state.x;
   for (std::size_t i = 0; i < model.held().size(); ++i)
     if (model.pinned(i))
       state.x[static_cast<Eigen::Index>(i)] =
           state.anchor[static_cast<Eigen::Index>(i)] + model.held_displacement(i, state.time + options_.step);
-  if (tied) {
+  if (constrained) {
     state.x -= x_;
-    tied->extrapolate(model.held(), state.x);
+    constrained->extrapolate(model.held(), state.x);
     state.x += x_;
   }
   state.v.setZero();
@@ -287,8 +287,8 @@ void Stepper<D>::equilibrium(Model<D>& model, State& state, StepReport& report) 
       if (model.held()[i]) scale += std::abs(force_[static_cast<Eigen::Index>(i)]);
     rhs_ = force_;
     project(model, rhs_);
-    if (tied) tied->reduce(model.held(), rhs_, reduced_);
-    const double left = tied ? reduced_.norm() : rhs_.norm();
+    if (constrained) constrained->reduce(model.held(), rhs_, reduced_);
+    const double left = constrained ? reduced_.norm() : rhs_.norm();
     report.newton_residual = scale > 0 ? left / scale : left;
     // Settled: the forces cancel, or rounding is all that the last step was.
     if (report.newton_residual <= 1e-10 || last_step <= 1e-13 * state.x.cwiseAbs().maxCoeff()) return;

@@ -10,15 +10,15 @@ namespace {
 
 /// Of one triangle: C, and its derivative by each corner's place, which is a column for each value of C.
 template <int D>
-struct Constraint {
+struct Projection {
   Eigen::Vector3d value;
   std::array<Eigen::Matrix<double, D, 3>, 3> gradient;
 };
 
 template <int D>
-Constraint<D> strain_constraint(const Element& element, const Field& x, Strain strain, const Lame& lame) {
+Projection<D> strain_constraint(const Element& element, const Field& x, Strain strain, const Lame& lame) {
   const Deformation<D> now = deformation_of<D>(element, x, strain, lame);
-  Constraint<D> c;
+  Projection<D> c;
   c.value = {now.strain(0, 0), now.strain(1, 1), 2 * now.strain(0, 1)};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto& [gx, gy] = element.gradient[k];
@@ -30,7 +30,7 @@ Constraint<D> strain_constraint(const Element& element, const Field& x, Strain s
 }
 
 template <int D>
-Constraint<D> spring_constraint(const Element& element, const Field& x) {
+Projection<D> spring_constraint(const Element& element, const Field& x) {
   std::array<std::array<double, D>, 2> f{};
   std::array<Vector2<double>, 3> gradient;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -41,7 +41,7 @@ Constraint<D> spring_constraint(const Element& element, const Field& x) {
     }
   }
   const Springs<D, double> springs(gradient, f);
-  Constraint<D> c;
+  Projection<D> c;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto column = static_cast<Eigen::Index>(i);
     c.value[column] = springs.stretch[i] - 1;
@@ -89,7 +89,7 @@ void Xpbd<D>::sweep_membrane(const Model<D>& model, double h, const Field& x0, F
   for (std::size_t e = 0; e < model.elements().size(); ++e) {
     const Element& element = model.elements()[e];
     if (!element.alive()) continue;
-    Constraint<D> c = law.strain == Strain::springs ? spring_constraint<D>(element, x)
+    Projection<D> c = law.strain == Strain::springs ? spring_constraint<D>(element, x)
                                                     : strain_constraint<D>(element, x, law.strain, law.lame);
     std::array<Eigen::Matrix<double, D, 3>, 3> moves;  // W G^T
     Eigen::Matrix3d mobility = Eigen::Matrix3d::Zero();

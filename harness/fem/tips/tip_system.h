@@ -7,8 +7,8 @@
 #include <Eigen/Core>
 
 #include "harness/fem/elements/element_table.h"
-#include "harness/fem/linear/linear_solver.h"
 #include "harness/fem/elements/membrane.h"
+#include "harness/fem/linear/linear_solver.h"
 #include "harness/fem/tips/tip_functions.h"
 
 namespace cutbench {

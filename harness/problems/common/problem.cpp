@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "harness/base/errors.h"
-#include "harness/problems/in_plane/edge_crack.h"
 #include "harness/problems/in_motion/hanging_sheet.h"
-#include "harness/problems/out_of_plane/out_of_plane.h"
 #include "harness/problems/in_motion/severed_strip.h"
+#include "harness/problems/in_plane/edge_crack.h"
 #include "harness/problems/in_plane/window_problem.h"
+#include "harness/problems/out_of_plane/out_of_plane.h"
 
 namespace cutbench {
 

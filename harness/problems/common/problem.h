@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "harness/fem/linear/linear_solver.h"
+#include "harness/mesh/constraints.h"
 #include "harness/mesh/mesh_data.h"
 #include "harness/mesh/sheet.h"
-#include "harness/mesh/ties.h"
 #include "harness/path/curve.h"
 
 namespace cutbench {
@@ -69,17 +69,17 @@ class Problem {
   virtual std::vector<std::string> measures() const = 0;
   virtual bool takes_budgets() const { return true; }  ///< false: several linear solves, solved directly only
   /// False: it bends, which it does at the sheet's own vertices alone.
-  virtual bool takes_ties() const { return takes_budgets(); }
+  virtual bool takes_constraints() const { return takes_budgets(); }
   virtual bool in_motion() const { return false; }      ///< not at rest: "all" of an experiment leaves it out
   virtual bool takes_polygons() const { return true; }  ///< false: it changes the cut sheet once more
 
   /// Member `index` on a sheet of `family` (sheet_families()) with 2 n^2 triangles; depends on the arguments alone.
   virtual Specimen specimen(const std::string& family, int n, std::uint64_t seed, std::size_t index) const = 0;
   /// Loads the opened sheet, solves it once per budget, and compares. One assembly serves all budgets.
-  /// \pre `sheet` is that of `specimen` with its cuts made, by whatever method, or body_fitted() to them; `ties` are
-  /// those of the method: no vertex is constrained unless takes_ties(), and no polygon in them unless takes_polygons().
+  /// \pre `sheet` is that of `specimen` with its cuts made, by whatever method, or body_fitted() to them; `constraints` are
+  /// those of the method: no vertex is constrained unless takes_constraints(), and no polygon in them unless takes_polygons().
   virtual std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
-                                     const Ties& ties) const = 0;
+                                     const Constraints& constraints) const = 0;
   std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets) const {
     return answer(specimen, sheet, budgets, {});
   }

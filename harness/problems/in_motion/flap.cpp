@@ -3,9 +3,9 @@
 #include <numbers>
 
 #include "harness/mesh/families.h"
+#include "harness/problems/common/members.h"
 #include "harness/problems/out_of_plane/bent_sheet.h"
 #include "harness/problems/out_of_plane/heavy_elastica.h"
-#include "harness/problems/common/members.h"
 #include "harness/problems/out_of_plane/out_of_plane.h"
 
 namespace cutbench {
@@ -37,7 +37,7 @@ class Flap : public Problem {
   }
 
   std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
-                             const Ties& ties) const override {
+                             const Constraints& constraints) const override {
     const std::vector<Point2> side = sides(sheet);
     const auto in_flap = [&](DeformedIndex d) {
       const Point2 p = to_frame(specimen, side[d()]);
@@ -55,7 +55,7 @@ class Flap : public Problem {
     for (const Budget& budget : budgets) {
       Answer& answer = answers.emplace_back();
       BentSheet bent(sheet, {.density = 1, .stiffness = stiffness, .poisson = 0, .bending = 1}, bending_, weight, start,
-                     ties);
+                     constraints);
       if (!bent.solve_to_equilibrium(budget.solver, answer)) continue;
       double squares = 0, mass = 0, tip = 0, tip_mass = 0;
       for (const DeformedIndex d : vertices_in_use(sheet)) {

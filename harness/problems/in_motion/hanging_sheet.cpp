@@ -10,9 +10,9 @@
 #include "harness/fem/time/stepper.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/predicates.h"
-#include "harness/problems/out_of_plane/bent_sheet.h"
 #include "harness/problems/common/lips.h"
 #include "harness/problems/common/members.h"
+#include "harness/problems/out_of_plane/bent_sheet.h"
 
 namespace cutbench {
 
@@ -86,7 +86,7 @@ class HangingSheet : public Problem {
     return {"flap_motion", "gape_motion", "strain_energy_motion", "energy_lost"};
   }
   bool takes_budgets() const override { return false; }
-  bool takes_ties() const override { return true; }
+  bool takes_constraints() const override { return true; }
   bool in_motion() const override { return true; }
 
   Specimen specimen(const std::string& family, int n, std::uint64_t seed, std::size_t index) const override {
@@ -103,7 +103,7 @@ class HangingSheet : public Problem {
   }
 
   std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
-                             const Ties& ties) const override {
+                             const Constraints& constraints) const override {
     const auto squares =
         static_cast<int>(std::lround(std::sqrt(static_cast<double>(specimen.mesh.triangles.size()) / 2)));
     const Motion& exact = fine_motion(specimen, squares);
@@ -112,7 +112,7 @@ class HangingSheet : public Problem {
     for (const Budget& budget : budgets) {
       Answer& answer = answers.emplace_back();
       const Motion motion = swing(
-          specimen, sheet, ties, [&](Point2 p) { return uncut.at(p); }, budget.solver, squares, answer);
+          specimen, sheet, constraints, [&](Point2 p) { return uncut.at(p); }, budget.solver, squares, answer);
       if (motion.is_whole && exact.is_whole)
         answer.measures = compared_with(exact, motion);
       else if (motion.is_whole)
@@ -144,14 +144,14 @@ class HangingSheet : public Problem {
     return swing(specimen, body_fitted(uncut), {}, start, {.name = "cholmod_same_order"}, squares, answer);
   }
 
-  Motion swing(const Specimen& specimen, const Sheet& sheet, const Ties& ties,
+  Motion swing(const Specimen& specimen, const Sheet& sheet, const Constraints& constraints,
                const std::function<double(Point2)>& start, const SolverOptions& solver, int squares,
                Answer& answer) const {
     constexpr double infinity = Box::infinity;
     Model<2> model(sheet, {.density = 1, .stiffness = 1, .poisson = 0},
                    {.dimension = 2, .strain = Strain::linear, .gravity = {0, -gravity, 0}},
                    {{.where = {{-infinity, 1}, {infinity, infinity}}}}, {});
-    if (!ties.empty()) model.tie(sheet, ties);
+    if (!constraints.empty()) model.constraint(sheet, constraints);
     State state = initial_state(model, sheet);
     DeformedIndex corner;
     for (const DeformedIndex d : vertices_in_use(sheet)) {

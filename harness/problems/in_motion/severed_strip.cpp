@@ -8,8 +8,8 @@
 
 #include "harness/fem/time/stepper.h"
 #include "harness/mesh/families.h"
-#include "harness/problems/out_of_plane/bent_sheet.h"
 #include "harness/problems/common/members.h"
+#include "harness/problems/out_of_plane/bent_sheet.h"
 
 namespace cutbench {
 
@@ -101,7 +101,7 @@ class SeveredStrip : public Problem {
   std::string truth() const override { return "a bar released at one end: a triangle wave (nu = 0; Graff, chapter 2)"; }
   std::vector<std::string> measures() const override { return {"lip_motion", "lip_speed", "arrival", "energy_kept"}; }
   bool takes_budgets() const override { return false; }
-  bool takes_ties() const override { return true; }
+  bool takes_constraints() const override { return true; }
   bool in_motion() const override { return true; }
 
   Specimen specimen(const std::string& family, int n, std::uint64_t seed, std::size_t index) const override {
@@ -116,16 +116,16 @@ class SeveredStrip : public Problem {
   }
 
   std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
-                             const Ties& ties) const override {
+                             const Constraints& constraints) const override {
     const double squares = std::sqrt(static_cast<double>(specimen.mesh.triangles.size()) / 2);
     std::vector<Answer> answers;
     for (const Budget& budget : budgets)
-      swing(sheet, ties, budget.solver, specimen.origin.x, step_ / squares, answers.emplace_back());
+      swing(sheet, constraints, budget.solver, specimen.origin.x, step_ / squares, answers.emplace_back());
     return answers;
   }
 
  private:
-  void swing(const Sheet& sheet, const Ties& ties, const SolverOptions& solver, double cut, double step,
+  void swing(const Sheet& sheet, const Constraints& constraints, const SolverOptions& solver, double cut, double step,
              Answer& answer) const {
     std::vector<Bar> bars = bars_of(sheet, cut);
     if (bars.empty()) {
@@ -137,7 +137,7 @@ class SeveredStrip : public Problem {
                    {{.where = {{-infinity, -infinity}, {0, infinity}}},
                     {.where = {{1, -infinity}, {infinity, infinity}}, .displacement = {strain, 0, 0}}},
                    {});
-    if (!ties.empty()) model.tie(sheet, ties);
+    if (!constraints.empty()) model.constraint(sheet, constraints);
     State state = initial_state(model, sheet);
     for (const DeformedIndex d : vertices_in_use(sheet)) {
       const Point2 p = sheet.rest(sheet.rest_vertex(d));

@@ -7,8 +7,8 @@
 
 #include "harness/mesh/families.h"
 #include "harness/problems/common/members.h"
-#include "harness/problems/in_plane/static_solve.h"
 #include "harness/problems/common/stress_intensity.h"
+#include "harness/problems/in_plane/static_solve.h"
 
 namespace cutbench {
 
@@ -75,8 +75,8 @@ class EdgeCrack final : public Problem {
   }
 
   std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
-                             const Ties& ties) const override {
-    StaticSolve solve(sheet, sheet_material, ties);
+                             const Constraints& constraints) const override {
+    StaticSolve solve(sheet, sheet_material, constraints);
     const auto at = [](double y) { return [y](Point2 a, Point2 b) { return a.y == y && b.y == y; }; };
     solve.pull_border(at(0), {0, -pull}), solve.pull_border(at(height), {0, pull});
     // Tractions in equilibrium: what is held takes no force.

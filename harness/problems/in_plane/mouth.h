@@ -3,7 +3,7 @@
 // and no mesh converges.
 #pragma once
 
-#include "harness/fem/constraints/combination.h"
+#include "harness/fem/constraints/constraint_matrix.h"
 #include "harness/mesh/sheet.h"
 #include "harness/problems/common/elastic_field.h"
 

@@ -15,10 +15,10 @@ const Physics in_the_plane{.dimension = 2, .strain = Strain::linear, .bending = 
 
 }  // namespace
 
-StaticSolve::StaticSolve(const Sheet& sheet, const Elastic& elastic, const Ties& ties)
+StaticSolve::StaticSolve(const Sheet& sheet, const Elastic& elastic, const Constraints& constraints)
     : sheet_(sheet), model_(sheet, {.stiffness = elastic.young, .poisson = elastic.poisson}, in_the_plane, {}, {}) {
-  if (!ties.polygons.empty()) model_.tie(sheet, {.polygons = ties.polygons});
-  if (!ties.ties.empty()) tied_.emplace(ties, model_.vertices());
+  if (!constraints.polygons.empty()) model_.constraint(sheet, {.polygons = constraints.polygons});
+  if (!constraints.constraints.empty()) constrained_.emplace(constraints, model_.vertices());
   held_ = model_.held();
   given_ = force_ = Field::Zero(static_cast<Eigen::Index>(held_.size()));
 }
@@ -84,7 +84,7 @@ void StaticSolve::hold_loose_pieces() {
 
 void StaticSolve::make_tip_functions(std::span<const Budget> budgets) {
   if (std::none_of(budgets.begin(), budgets.end(), [](const Budget& budget) { return budget.tip_functions; })) return;
-  if (tied_) {
+  if (constrained_) {
     why_no_tips_ = "the method constrains vertices, which tip functions don't take";
     return;
   }
@@ -116,18 +116,18 @@ StaticSolve::Solution StaticSolve::solve(const Budget& budget) {
     model_.rotate(Field::Zero(given_.size()));
     model_.assemble(0, 1);
     right_ = Field::Zero(given_.size());
-    if (tied_) tied_->extrapolate(held_, given_);
+    if (constrained_) constrained_->extrapolate(held_, given_);
     model_.system().add_product(given_, right_);
     right_ = force_ - right_;
-    if (tied_) {
-      tied_->assemble(held_system(), model_.material().stiffness);
+    if (constrained_) {
+      constrained_->assemble(held_system(), model_.material().stiffness);
       const Field all = right_;
-      tied_->reduce(held_, all, right_);
-      tied_->subtract_ghosts(given_, right_);
+      constrained_->reduce(held_, all, right_);
+      constrained_->subtract_ghosts(given_, right_);
     }
     assemble_us_ = watch.lap();
   }
-  const SystemMatrix<2> system = tied_ ? tied_->system() : held_system();
+  const SystemMatrix<2> system = constrained_ ? constrained_->system() : held_system();
   SolverOptions options = budget.solver;
   if (budget.iterations > 0) options.tolerance = 0, options.max_iterations = budget.iterations;
   const auto solver = make_solver<2>(options);
@@ -144,9 +144,9 @@ StaticSolve::Solution StaticSolve::solve(const Budget& budget) {
   answer.solve_us = watch.lap();
   for (const auto h : *system.held) answer.unknowns += !h;
   answer.unknowns += static_cast<std::size_t>(solution.of_tips.size());
-  if (tied_) {
+  if (constrained_) {
     const Field unknowns = solution.displacement;
-    tied_->expand(unknowns, solution.displacement);
+    constrained_->expand(unknowns, solution.displacement);
   }
   solution.displacement += given_;
   model_.follow(solution.displacement);

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "harness/fem/constraints/combination.h"
+#include "harness/fem/constraints/constraint_matrix.h"
 #include "harness/fem/model/model.h"
 #include "harness/fem/tips/tip_system.h"
 #include "harness/problems/common/elastic_field.h"
@@ -16,7 +16,7 @@ namespace cutbench {
 
 class StaticSolve {
  public:
-  StaticSolve(const Sheet& sheet, const Elastic& elastic, const Ties& ties = {});
+  StaticSolve(const Sheet& sheet, const Elastic& elastic, const Constraints& constraints = {});
 
   /// Gives every vertex of the sheet's border its displacement: `value` of its rest position, and of a point inside a
   /// triangle there, which says on which lip it is.
@@ -60,13 +60,13 @@ class StaticSolve {
 
   const Sheet& sheet_;
   Model<2> model_;
-  std::optional<TiedSystem<2>> tied_;
+  std::optional<ConstrainedSystem<2>> constrained_;
   std::optional<TipFunctions> tips_;
   std::optional<TipSystem> with_tips_;  // made with tips_
   std::string why_no_tips_;
   std::vector<std::uint8_t> held_, loose_;
   Field given_, force_;
-  Field right_;  // of the assembled system, tied where anything is
+  Field right_;  // of the assembled system, constrained where anything is
   double assemble_us_ = 0, tips_us_ = 0;
   bool assembled_ = false;
 };

@@ -44,9 +44,9 @@ class WindowProblem final : public Problem {
   }
 
   std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
-                             const Ties& ties) const override {
+                             const Constraints& constraints) const override {
     const ElasticField field = window_.field({specimen.origin, specimen.angle});
-    StaticSolve solve(sheet, sheet_material, ties);
+    StaticSolve solve(sheet, sheet_material, constraints);
     if (window_.mouth)
       solve.hold_border(continued_over_the_mouth(field, sheet));
     else

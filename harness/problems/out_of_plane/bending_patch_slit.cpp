@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "harness/mesh/families.h"
-#include "harness/problems/out_of_plane/bent_sheet.h"
 #include "harness/problems/common/members.h"
+#include "harness/problems/out_of_plane/bent_sheet.h"
 #include "harness/problems/out_of_plane/out_of_plane.h"
 
 namespace cutbench {
@@ -40,7 +40,7 @@ class BendingPatchSlit : public Problem {
   }
 
   std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
-                             const Ties& ties) const override {
+                             const Constraints& constraints) const override {
     const std::vector<int> ring = rings(sheet);
     const auto exact = [&](DeformedIndex d) { return on_cylinder(specimen, sheet.rest(sheet.rest_vertex(d))); };
     std::vector<Answer> answers;
@@ -51,7 +51,7 @@ class BendingPatchSlit : public Problem {
             const bool held = ring[d()] < held_rings;
             return Start{exact(d), {held, held, held}};
           },
-          ties);
+          constraints);
       Answer& answer = answers.emplace_back();
       if (!bent.solve_to_equilibrium(budget.solver, answer)) continue;
       double squares = 0, mass = 0, largest = 0;

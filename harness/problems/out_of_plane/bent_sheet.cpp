@@ -22,10 +22,10 @@ std::vector<Pin> pins_for(const Sheet& sheet, const std::function<Start(Deformed
 }  // namespace
 
 BentSheet::BentSheet(const Sheet& sheet, const Material& material, BendingKind bending, double gravity,
-                     const std::function<Start(DeformedIndex)>& start, const Ties& ties)
+                     const std::function<Start(DeformedIndex)>& start, const Constraints& constraints)
     : model_(sheet, material, {.bending = bending, .gravity = {0, 0, -gravity}}, pins_for(sheet, start), {}),
       state_(initial_state(model_, sheet)) {
-  if (!ties.polygons.empty()) model_.tie(sheet, ties);
+  if (!constraints.polygons.empty()) model_.constraint(sheet, constraints);
   for (const DeformedIndex d : vertices_in_use(sheet)) {
     const Point3 p = start(d).position;
     state_.x.segment<3>(3 * d.value) << p.x, p.y, p.z;

@@ -19,9 +19,9 @@ struct Start {
 class BentSheet {
  public:
   /// One pin for each held rest vertex, so `start` must hold all copies of it or none on an axis. Gravity pulls along
-  /// -z. Of `ties` the polygons count. \pre fewer than 32767 held rest vertices.
+  /// -z. Of `constraints` the polygons count. \pre fewer than 32767 held rest vertices.
   BentSheet(const Sheet& sheet, const Material& material, BendingKind bending, double gravity,
-            const std::function<Start(DeformedIndex)>& start, const Ties& ties = {});
+            const std::function<Start(DeformedIndex)>& start, const Constraints& constraints = {});
 
   /// Adds what it took to `answer`: `iterations` are Newton's, `residual` is the last one's, of the forces. False where
   /// there is no equilibrium, which is then the verdict.

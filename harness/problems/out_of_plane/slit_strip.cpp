@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "harness/mesh/families.h"
+#include "harness/problems/common/members.h"
 #include "harness/problems/out_of_plane/bent_sheet.h"
 #include "harness/problems/out_of_plane/heavy_elastica.h"
-#include "harness/problems/common/members.h"
 #include "harness/problems/out_of_plane/out_of_plane.h"
 
 namespace cutbench {
@@ -37,14 +37,14 @@ class SlitStrip : public Problem {
   }
 
   std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
-                             const Ties& ties) const override {
+                             const Constraints& constraints) const override {
     const Sheet whole(specimen.mesh);
     const double depth = -elastica_.at(1).z;
     std::vector<Answer> answers;
     for (const Budget& budget : budgets) {
       Answer& answer = answers.emplace_back();
       Answer of_whole;
-      BentSheet slit = hung(sheet, ties), uncut = hung(whole);
+      BentSheet slit = hung(sheet, constraints), uncut = hung(whole);
       if (!slit.solve_to_equilibrium(budget.solver, answer)) continue;
       if (!uncut.solve_to_equilibrium(budget.solver, of_whole)) {
         answer.verdict = of_whole.verdict, answer.reason = "the sheet before the cut: " + of_whole.reason;
@@ -79,7 +79,7 @@ class SlitStrip : public Problem {
   static constexpr double clamp =
       0.2;  // m, held on the exact shape: three columns of vertices at n = 10, as no fewer will do
 
-  BentSheet hung(const Sheet& sheet, const Ties& ties = {}) const {
+  BentSheet hung(const Sheet& sheet, const Constraints& constraints = {}) const {
     return {sheet,
             {.density = 1, .stiffness = stiffness, .poisson = 0, .bending = 1},
             bending_,
@@ -90,7 +90,7 @@ class SlitStrip : public Problem {
               const bool held = rest.x <= clamp;
               return Start{{s.x, rest.y, s.z}, {held, held, held}};
             },
-            ties};
+            constraints};
   }
 
   /// Mean depth of the free end, x = 1, between two rest y.

@@ -26,8 +26,8 @@
 #include <numbers>
 
 #include "harness/mesh/families.h"
-#include "harness/problems/out_of_plane/bent_sheet.h"
 #include "harness/problems/common/members.h"
+#include "harness/problems/out_of_plane/bent_sheet.h"
 #include "harness/problems/out_of_plane/out_of_plane.h"
 
 namespace cutbench {
@@ -59,7 +59,7 @@ class TrouserTear : public Problem {
   }
 
   std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
-                             const Ties&) const override {
+                             const Constraints&) const override {
     const Sheet shorter = sewn_up(specimen, sheet);
     std::vector<Answer> answers;
     for (const Budget& budget : budgets) {

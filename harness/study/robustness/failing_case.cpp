@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <fstream>
 
-#include "harness/processes/subprocess.h"
 #include "harness/cut/cut_all.h"
 #include "harness/judge/judged_sheet.h"
 #include "harness/mesh/mesh_io.h"
+#include "harness/processes/subprocess.h"
 
 namespace cutbench {
 
@@ -25,12 +25,12 @@ std::string outcome_of_command(const Variant& variant, const std::filesystem::pa
     Sheet sheet = before;
     Locator locator(sheet);
     Cutter cutter;
-    const auto method = variant.row->make(variant.knob);
+    const auto method = variant.row->make(variant.parameter);
     const CutRun run = cut_all(sheet, locator, cutter, cuts, *method, options);
     if (run.status == Status::failed) return say("failed (" + run.verdict + "): " + run.reason);
     if (run.status == Status::refused) return say("refused: " + run.reason);
     const oracle::Judgement judgement =
-        judge_one_by_one(before, sheet, cuts, variant.row->promises, variant.row->make(variant.knob), options);
+        judge_one_by_one(before, sheet, cuts, variant.row->promises, variant.row->make(variant.parameter), options);
     say(judgement.ok ? std::string(name_of(run.status)) + ": the result passes"
                      : "failed (" + judgement.verdict + "): " + judgement.problems.front());
   };
@@ -50,9 +50,9 @@ std::string outcome_of_command(const Variant& variant, const std::filesystem::pa
 std::string command(const Variant& variant, const std::filesystem::path& stem, const CutOptions& options) {
   char chord[32];
   std::snprintf(chord, sizeof chord, "%.17g", options.chord_tolerance);
-  const std::string knob = variant.knob_text();
+  const std::string parameter = variant.parameter_text();
   const std::string method = variant.row->command.empty()
-                                 ? "--method " + variant.row->name + (knob.empty() ? "" : " --set " + knob)
+                                 ? "--method " + variant.row->name + (parameter.empty() ? "" : " --set " + parameter)
                                  : "--command " + quoted(variant.row->command);
   return "build/release/cutbench cut --mesh " + stem.string() + ".obj --path " + stem.string() + ".json " + method +
          " --chord-tolerance " + chord + " --out result.obj";
@@ -97,7 +97,7 @@ void save(const FailingCase& failing, const std::filesystem::path& folder, const
       text += command(*contender.variant, stem, options) +
               "\nprints: " + outcome_of_command(*contender.variant, mesh, path, options, time_limit_s) + "\n";
     else
-      text += "made by the peer: no command makes it\n";
+      text += "made by the cross-check: no command makes it\n";
   };
   write(failing.name, failing.cut_case);
 

@@ -4,11 +4,11 @@
 #include <numbers>
 #include <span>
 
-#include "harness/study/stability/placed_cuts.h"
 #include "harness/fem/model/largest_eigenvalue.h"
 #include "harness/judge/assessment.h"
 #include "harness/judge/judged_sheet.h"
 #include "harness/simulation/simulation.h"
+#include "harness/study/stability/placed_cuts.h"
 
 namespace cutbench {
 
@@ -36,7 +36,7 @@ void pose(MeshData& mesh, const SweepPoint& point, double size) {
 Sheet flat_sheet(Scene scene) {
   scene.mesh.reset();
   Sheet sheet(mesh_of(scene));
-  hold_tied_vertices(pins_of(scene, sheet), scene.tractions, sheet);
+  hold_constrained_vertices(pins_of(scene, sheet), scene.tractions, sheet);
   return sheet;
 }
 
@@ -79,7 +79,7 @@ class Point {
   /// False: the verdict is final.
   bool cut() {
     const MethodRow& row = *trial_.variant->row;
-    const auto make = [&] { return row.make(trial_.variant->knob); };
+    const auto make = [&] { return row.make(trial_.variant->parameter); };
     Sheet sheet = before_;
     const std::size_t unjudged = curves_.size() > most_judged ? curves_.size() - 1 : 0;
     {
@@ -113,12 +113,12 @@ class Point {
       measure(PointMeasure::ar_max_cut) = a.cut.ar_max, measure(PointMeasure::altitude_min_h_cut) = a.cut.altitude_min;
     if (!trial_.point->eigenvalue) return;
     at("the eigenvalue");
-    const Ties ties = method.ties(before_, sheet);
+    const Constraints constraints = method.constraints(before_, sheet);
     measure(PointMeasure::eigenvalue_ratio) =
-        largest_eigenvalue(sheet, ties, with_mass({}, scene_)) / largest_eigenvalue(before_);
+        largest_eigenvalue(sheet, constraints, with_mass({}, scene_)) / largest_eigenvalue(before_);
     Scene scene = scene_;
-    if (ties.phantoms > 0) scene.physics.bending = BendingKind::none;  // phantom nodes do not bend
-    measure(PointMeasure::explicit_step_ratio) = explicit_step_of(scene, sheet, ties) / trial_.uncut_step_s;
+    if (constraints.phantoms > 0) scene.physics.bending = BendingKind::none;  // phantom nodes do not bend
+    measure(PointMeasure::explicit_step_ratio) = explicit_step_of(scene, sheet, constraints) / trial_.uncut_step_s;
     conclude("ok", "");
   }
 
@@ -136,7 +136,7 @@ class Point {
   std::unique_ptr<Simulation> moved(const Scene& scene) const {
     auto motion = Simulation::start(scene);
     motion->watch();
-    const auto method = trial_.variant->row->make(trial_.variant->knob);
+    const auto method = trial_.variant->row->make(trial_.variant->parameter);
     motion->advance(trial_.sweep->steps * scene.step, *method, trial_.options);
     return motion;
   }
@@ -202,8 +202,8 @@ Scene scene_of(const Trial& trial) {
   return scene;
 }
 
-double explicit_step_of(const Scene& scene, const Sheet& sheet, const Ties& ties) {
-  return explicit_step_limit(largest_eigenvalue(sheet, ties, elasticity_of(scene)), scene.material);
+double explicit_step_of(const Scene& scene, const Sheet& sheet, const Constraints& constraints) {
+  return explicit_step_limit(largest_eigenvalue(sheet, constraints, elasticity_of(scene)), scene.material);
 }
 
 void try_point(const Trial& trial, TrialResult& result) { Point(trial, result).run(); }

@@ -1,4 +1,4 @@
-// One point of the atlas: the cut by itself, judged and measured, and then the motion of a scene that begins with it.
+// One point of the stability sweeps: the cut by itself, judged and measured, and then the motion of a scene that begins with it.
 #pragma once
 
 #include <array>
@@ -82,7 +82,7 @@ Scene scene_of(const Trial& trial);
 
 /// The largest stable explicit step of a sheet made of the scene's material, s, bending included; NaN where its mass is
 /// not positive.
-double explicit_step_of(const Scene& scene, const Sheet& sheet, const Ties& ties = {});
+double explicit_step_of(const Scene& scene, const Sheet& sheet, const Constraints& constraints = {});
 
 /// The verdict is that of the cut where it is not ok, else that of the motion: `refused`, `failed`, the oracle's, or a
 /// SimulationVerdict. While it is under way the reason says what it is at.

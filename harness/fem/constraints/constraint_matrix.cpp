@@ -1,0 +1,350 @@
+#include "harness/fem/constraints/constraint_matrix.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "harness/fem/linear/linear_solver.h"
+
+namespace cutbench {
+
+void ConstraintMatrix::set(const Constraints& constraints, std::size_t vertices) {
+  const auto free = [&](std::size_t i) { rows_[i] = {{static_cast<std::int32_t>(i)}, {1}, 1}; };
+  for (const std::int32_t v : constrained_) free(static_cast<std::size_t>(v));
+  for (std::size_t i = rows_.size(); i < vertices; ++i) rows_.emplace_back(), free(i);
+  constrained_.clear(), phantoms_ = constraints.phantoms;
+  for (const Constraint& constraint : constraints.constraints) {
+    Row& row = rows_[constraint.vertex()];
+    row.size = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (constraint.weights[k] != 0)
+        row.unknown[row.size] = constraint.masters[k].value, row.weight[row.size++] = constraint.weights[k];
+    constrained_.push_back(constraint.vertex.value);
+  }
+  std::sort(constrained_.begin(), constrained_.end());
+}
+
+void ConstraintMatrix::expand(int dimension, const Field& q, Field& x) const {
+  x.setZero(static_cast<Eigen::Index>(vertices()) * dimension);
+  for (std::size_t i = 0; i < vertices(); ++i)
+    for (std::size_t k = 0; k < rows_[i].size; ++k)
+      x.segment(static_cast<Eigen::Index>(i) * dimension, dimension) +=
+          rows_[i].weight[k] * q.segment(rows_[i].unknown[k] * dimension, dimension);
+}
+
+void ConstraintMatrix::reduce(int dimension, const Field& f, Field& r) const {
+  r.setZero(static_cast<Eigen::Index>(unknowns()) * dimension);
+  for (std::size_t i = 0; i < vertices(); ++i)
+    for (std::size_t k = 0; k < rows_[i].size; ++k)
+      r.segment(rows_[i].unknown[k] * dimension, dimension) +=
+          rows_[i].weight[k] * f.segment(static_cast<Eigen::Index>(i) * dimension, dimension);
+}
+
+template <int D>
+void ConstrainedSystem<D>::change(const Constraints& constraints, std::size_t vertices) {
+  constraint_matrix_.set(constraints, vertices), ghosts_ = constraints.ghosts;
+  is_changed_ = true;
+}
+
+/// Rows that constraints change: of what is constrained, of its masters and neighbours, of phantom nodes and ghost penalties.
+template <int D>
+void ConstrainedSystem<D>::find_near(const SystemMatrix<D>& a) {
+  for (const std::size_t u : near_rows_) near_[u] = 0;
+  near_rows_.clear();
+  near_.resize(constraint_matrix_.unknowns());
+  const auto mark = [&](std::size_t u) {
+    if (!std::exchange(near_[u], 1)) near_rows_.push_back(u);
+  };
+  const auto mark_all = [&](std::span<const std::int32_t> rows) {
+    for (const std::int32_t u : rows) mark(static_cast<std::size_t>(u));
+  };
+  for (std::size_t u = constraint_matrix_.vertices(); u < constraint_matrix_.unknowns(); ++u) mark(u);
+  for (const std::int32_t v : constraint_matrix_.constrained()) {
+    const ConstraintMatrix::Row& row = constraint_matrix_.row(static_cast<std::size_t>(v));
+    mark(static_cast<std::size_t>(v)), mark_all({row.unknown.data(), row.size});
+    mark_all(a.blocks->columns(static_cast<std::size_t>(v)));
+    for (const auto& term : a.scalar) mark_all(term.matrix->columns(static_cast<std::size_t>(v)));
+  }
+  for (const GhostEdge& ghost : ghosts_)
+    for (const DeformedIndex u : ghost.unknown) mark(u());
+  std::sort(near_rows_.begin(), near_rows_.end());
+}
+
+/// All rows, where it is not known which have changed.
+template <int D>
+void ConstrainedSystem<D>::find_changed(const SystemMatrix<D>& a) {
+  changed_rows_.clear();
+  if (pattern_ > 0 && a.history && a.history->holds(pattern_)) {
+    changed_rows_ = near_rows_;
+    for (const std::int32_t u : a.history->changed_since(pattern_))
+      changed_rows_.push_back(static_cast<std::size_t>(u));
+    std::sort(changed_rows_.begin(), changed_rows_.end());
+    changed_rows_.erase(std::unique(changed_rows_.begin(), changed_rows_.end()), changed_rows_.end());
+  } else {
+    blocks_ = {}, scalars_.assign(a.scalar.size(), {});
+    for (std::size_t u = 0; u < constraint_matrix_.unknowns(); ++u) changed_rows_.push_back(u);
+  }
+}
+
+/// Calls act(part, i, j, slot, u, v, weight) for what each entry (i, j) of A in the rows above adds to entry (u, v).
+template <int D>
+template <class Act>
+void ConstrainedSystem<D>::for_each_share(const SystemMatrix<D>& a, const Act& act) const {
+  const auto visit = [&](std::size_t number, const auto& part) {
+    for (const std::size_t i : near_rows_) {
+      if (i >= a.vertices()) break;
+      std::int32_t slot = part.first_slot(i);
+      const ConstraintMatrix::Row& row = constraint_matrix_.row(i);
+      for (const std::int32_t j : part.columns(i)) {
+        const ConstraintMatrix::Row& column = constraint_matrix_.row(static_cast<std::size_t>(j));
+        for (std::size_t k = 0; k < row.size; ++k)
+          for (std::size_t l = 0; l < column.size; ++l)
+            act(number, i, static_cast<std::size_t>(j), slot, static_cast<std::size_t>(row.unknown[k]),
+                column.unknown[l], row.weight[k] * column.weight[l]);
+        ++slot;
+      }
+    }
+  };
+  visit(0, *a.blocks);
+  for (std::size_t k = 0; k < a.scalar.size(); ++k) visit(k + 1, *a.scalar[k].matrix);
+}
+
+/// Vertices that are constrained on some axes and held on others: C differs by the axis.
+template <int D>
+bool ConstrainedSystem<D>::is_split(std::size_t vertex) const {
+  const auto held = held_vertices_.begin() + static_cast<std::ptrdiff_t>(D * vertex);
+  return constraint_matrix_.is_constrained(vertex) && std::find(held, held + D, 1) != held + D;
+}
+
+/// Those that have changed and are those of A.
+template <int D>
+void ConstrainedSystem<D>::copy_rows(const SystemMatrix<D>& a) {
+  for (const std::size_t u : changed_rows_) {
+    if (u >= constraint_matrix_.vertices() || near_[u]) continue;
+    blocks_.set_row(u, a.blocks->columns(u));
+    for (std::size_t k = 0; k < scalars_.size(); ++k) {
+      scalars_[k].set_row(u, a.scalar[k].matrix->columns(u));
+      std::int32_t from = a.scalar[k].matrix->first_slot(u), to = scalars_[k].first_slot(u);
+      for (std::size_t n = scalars_[k].columns(u).size(); n > 0; --n)
+        scalars_[k].block(to++) = a.scalar[k].matrix->block(from++);
+    }
+  }
+}
+
+template <int D>
+void ConstrainedSystem<D>::set_near_rows(const SystemMatrix<D>& a) {
+  const std::size_t parts = 1 + a.scalar.size(), rows = near_rows_.size();
+  const auto place = [&](std::size_t u) {
+    return static_cast<std::size_t>(std::lower_bound(near_rows_.begin(), near_rows_.end(), u) - near_rows_.begin());
+  };
+  std::vector<std::vector<std::int32_t>> columns(parts * rows);
+  const auto part_of = [&](std::size_t part, std::size_t i, std::size_t j) {
+    return is_split(i) || is_split(j) ? 0 : part;  // a scalar acts on all axes alike
+  };
+  for_each_share(a, [&](std::size_t part, std::size_t i, std::size_t j, std::int32_t, std::size_t u, std::int32_t v,
+                        double) { columns[part_of(part, i, j) * rows + place(u)].push_back(v); });
+  for (const GhostEdge& ghost : ghosts_)
+    for (const DeformedIndex u : ghost.unknown)
+      for (const DeformedIndex v : ghost.unknown) columns[place(u())].push_back(v.value);
+  for (std::size_t part = 0; part < parts; ++part)
+    for (std::size_t r = 0; r < rows; ++r) {
+      auto& all = columns[part * rows + r];
+      std::sort(all.begin(), all.end());
+      all.erase(std::unique(all.begin(), all.end()), all.end());
+      const auto own = std::find(all.begin(), all.end(), static_cast<std::int32_t>(near_rows_[r]));
+      if (own != all.end()) std::rotate(all.begin(), own, own + 1);
+      if (part == 0)
+        blocks_.set_row(near_rows_[r], all);
+      else
+        scalars_[part - 1].set_row(near_rows_[r], all);
+    }
+}
+
+template <int D>
+void ConstrainedSystem<D>::set_shares(const SystemMatrix<D>& a) {
+  shares_.clear(), split_shares_.clear();
+  for_each_share(a, [&](std::size_t part, std::size_t i, std::size_t j, std::int32_t slot, std::size_t u,
+                        std::int32_t v, double weight) {
+    if (is_split(i) || is_split(j))
+      split_shares_.push_back({{slot, blocks_.find(u, v), weight}, part, i, j});
+    else if (part == 0)
+      shares_.push_back({slot, blocks_.find(u, v), weight});
+    else
+      scalars_[part - 1].block(scalars_[part - 1].find(u, v)) += weight * a.scalar[part - 1].matrix->block(slot);
+  });
+}
+
+template <int D>
+void ConstrainedSystem<D>::follow(const SystemMatrix<D>& a) {
+  find_changed(a);
+  find_near(a);
+  blocks_.resize(constraint_matrix_.unknowns());
+  for (auto& scalar : scalars_) scalar.resize(constraint_matrix_.unknowns());
+  copy_rows(a), set_near_rows(a), set_shares(a), find_places(a);
+  history_.begin_change();
+  for (const std::size_t u : changed_rows_)
+    if (u < constraint_matrix_.unknowns()) history_.mark(u);
+  for (const std::size_t u : near_rows_) history_.mark(u);
+  pattern_ = a.pattern, is_changed_ = false;
+}
+
+template <int D>
+void ConstrainedSystem<D>::find_places(const SystemMatrix<D>& a) {
+  places_.resize(a.places ? constraint_matrix_.unknowns() : 0);
+  if (!a.places) return;
+  const std::size_t first = constraint_matrix_.vertices();
+  for (const std::size_t u : changed_rows_)
+    if (u < first) places_[u] = (*a.places)[u];
+  std::fill(places_.begin() + static_cast<std::ptrdiff_t>(first), places_.end(), Point2{});
+  std::vector<double> dependents(constraint_matrix_.unknowns() - first);
+  for (const std::int32_t v : constraint_matrix_.constrained()) {
+    const auto& row = constraint_matrix_.row(static_cast<std::size_t>(v));
+    for (std::size_t k = 0; k < row.size; ++k)
+      if (const auto u = static_cast<std::size_t>(row.unknown[k]); constraint_matrix_.is_phantom(row.unknown[k]))
+        places_[u] = places_[u] + (*a.places)[static_cast<std::size_t>(v)], ++dependents[u - first];
+  }
+  for (std::size_t u = first; u < places_.size(); ++u) places_[u] = 1 / dependents[u - first] * places_[u];
+}
+
+template <int D>
+void ConstrainedSystem<D>::assemble(const SystemMatrix<D>& a, double stiffness) {
+  held_vertices_ = *a.held;
+  if (is_changed_) follow(a);
+  factors_.clear();
+  for (const auto& term : a.scalar) factors_.push_back(term.factor);
+  for (std::size_t u = 0; u < constraint_matrix_.unknowns(); ++u) {
+    if (near_[u]) {
+      blocks_.set_row_zero(u);
+      continue;
+    }
+    std::int32_t from = a.blocks->first_slot(u), to = blocks_.first_slot(u);
+    for (std::size_t n = blocks_.columns(u).size(); n > 0; --n) blocks_.block(to++) = a.blocks->block(from++);
+  }
+  for (const Share& share : shares_) blocks_.block(share.to) += share.weight * a.blocks->block(share.from);
+  for (const SplitShare& split : split_shares_) {
+    typename BlockMatrix<D>::Block block;
+    if (split.part == 0)
+      block = a.blocks->block(split.share.from);
+    else
+      block = a.scalar[split.part - 1].factor * a.scalar[split.part - 1].matrix->block(split.share.from)(0) *
+              BlockMatrix<D>::Block::Identity();
+    for (std::size_t k = 0; k < D; ++k) {
+      if (held_vertices_[D * split.i + k]) block.row(static_cast<Eigen::Index>(k)).setZero();
+      if (held_vertices_[D * split.j + k]) block.col(static_cast<Eigen::Index>(k)).setZero();
+    }
+    blocks_.block(split.share.to) += split.share.weight * block;
+  }
+  held_ = held_vertices_;
+  held_.resize(D * constraint_matrix_.unknowns(), 0);
+  for (const std::int32_t v : constraint_matrix_.constrained())
+    std::fill_n(held_.begin() + D * v, D, static_cast<std::uint8_t>(1));
+  for (std::size_t u = 0; u < blocks_.rows(); ++u) {
+    double scalar = 0;
+    for (const auto& matrix : scalars_)
+      if (!matrix.columns(u).empty()) scalar += std::abs(matrix.block(matrix.first_slot(u))(0));
+    for (std::size_t k = 0; k < D && scalar == 0; ++k) {
+      const auto c = static_cast<Eigen::Index>(k);
+      if (blocks_.columns(u).empty() || blocks_.block(blocks_.first_slot(u))(c, c) == 0) held_[D * u + k] = 1;
+    }
+  }
+  ghost_stiffness_ = stiffness;
+  for (const GhostEdge& ghost : ghosts_)
+    for (std::size_t k = 0; k < 4; ++k)
+      for (std::size_t l = 0; l < 4; ++l)
+        for (std::size_t axis = 0; axis < D; ++axis)
+          if (const auto c = static_cast<Eigen::Index>(axis); acts(ghost, axis))
+            blocks_.block(blocks_.find(ghost.unknown[k](), ghost.unknown[l].value))(c, c) +=
+                stiffness * ghost.stiffness * ghost.jump[k] * ghost.jump[l];
+}
+
+template <int D>
+SystemMatrix<D> ConstrainedSystem<D>::system() const {
+  SystemMatrix<D> a;
+  a.blocks = &blocks_, a.held = &held_, a.pattern = history_.now(), a.history = &history_;
+  for (std::size_t k = 0; k < scalars_.size(); ++k) a.scalar.push_back({factors_[k], &scalars_[k]});
+  if (!places_.empty()) a.places = &places_;
+  return a;
+}
+
+template <int D>
+void ConstrainedSystem<D>::reduce(const std::vector<std::uint8_t>& held, const Field& f, Field& r) const {
+  Field free;
+  project(held, f, free);
+  constraint_matrix_.reduce(D, free, r);
+  for (std::size_t u = 0; u < held.size(); ++u)
+    if (held[u]) r[static_cast<Eigen::Index>(u)] = 0;
+}
+
+/// Not where it would be alone in saying where a phantom is.
+template <int D>
+bool ConstrainedSystem<D>::acts(const GhostEdge& ghost, std::size_t axis) const {
+  return std::none_of(ghost.unknown.begin(), ghost.unknown.end(),
+                      [&](DeformedIndex u) { return constraint_matrix_.is_phantom(u.value) && held_[D * u() + axis]; });
+}
+
+template <int D>
+void ConstrainedSystem<D>::subtract_ghosts(const Field& given, Field& r) const {
+  const auto vertices = constraint_matrix_.vertices();
+  for (const GhostEdge& ghost : ghosts_)
+    for (std::size_t k = 0; k < 4; ++k)
+      for (std::size_t l = 0; l < 4; ++l)
+        for (std::size_t axis = 0; axis < D; ++axis) {
+          const std::size_t from = D * ghost.unknown[l]() + axis, to = D * ghost.unknown[k]() + axis;
+          if (ghost.unknown[l]() >= vertices || !held_vertices_[from] || held_[to] || !acts(ghost, axis)) continue;
+          r[static_cast<Eigen::Index>(to)] -= ghost_stiffness_ * ghost.stiffness * ghost.jump[k] * ghost.jump[l] *
+                                              given[static_cast<Eigen::Index>(from)];
+        }
+}
+
+template <int D>
+void ConstrainedSystem<D>::expand(const Field& q, Field& x) const {
+  constraint_matrix_.expand(D, q, x);
+  for (std::size_t u = 0; u < held_vertices_.size(); ++u)
+    if (held_vertices_[u]) x[static_cast<Eigen::Index>(u)] = 0;
+}
+
+template <int D>
+void ConstrainedSystem<D>::extrapolate(std::int32_t constrained, const std::vector<std::uint8_t>& held,
+                                       Field& x) const {
+  const auto& row = constraint_matrix_.row(static_cast<std::size_t>(constrained));
+  for (std::int32_t k = 0; k < D; ++k) {
+    if (held[static_cast<std::size_t>(D * constrained + k)]) continue;
+    double sum = 0;
+    for (std::size_t l = 0; l < row.size; ++l)
+      if (!constraint_matrix_.is_phantom(row.unknown[l])) sum += row.weight[l] * x[D * row.unknown[l] + k];
+    x[D * constrained + k] = sum;
+  }
+}
+
+template <int D>
+void ConstrainedSystem<D>::extrapolate(const std::vector<std::uint8_t>& held, Field& x) const {
+  for (const std::int32_t v : constraint_matrix_.constrained()) extrapolate(v, held, x);
+}
+
+template <int D>
+void ConstrainedSystem<D>::transfer_forces(const std::vector<std::uint8_t>& held, Field& f) const {
+  for (const std::int32_t v : constraint_matrix_.constrained()) {
+    const auto& row = constraint_matrix_.row(static_cast<std::size_t>(v));
+    for (std::int32_t k = 0; k < D; ++k) {
+      if (held[static_cast<std::size_t>(D * v + k)]) continue;
+      const double force = std::exchange(f[D * v + k], 0);
+      for (std::size_t l = 0; l < row.size; ++l)
+        if (!constraint_matrix_.is_phantom(row.unknown[l])) f[D * row.unknown[l] + k] += row.weight[l] * force;
+    }
+  }
+}
+
+template <int D>
+void ConstrainedSystem<D>::satisfy(const std::vector<std::uint8_t>& held, Field& x) const {
+  for (const std::int32_t v : constraint_matrix_.constrained()) {
+    const auto& row = constraint_matrix_.row(static_cast<std::size_t>(v));
+    const auto end = row.unknown.begin() + static_cast<std::ptrdiff_t>(row.size);
+    if (std::none_of(row.unknown.begin(), end, [&](std::int32_t u) { return constraint_matrix_.is_phantom(u); }))
+      extrapolate(v, held, x);
+  }
+}
+
+template class ConstrainedSystem<2>;
+template class ConstrainedSystem<3>;
+
+}  // namespace cutbench

@@ -1,0 +1,184 @@
+#include "harness/study/stability/stability.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+
+#include "harness/cases/cut_families.h"
+#include "harness/processes/isolated.h"
+#include "harness/records/record.h"
+#include "harness/study/progress.h"
+#include "harness/study/stability/placed_cuts.h"
+#include "harness/study/stability/try_point.h"
+
+namespace cutbench {
+
+namespace {
+
+/// Points between two writes to the file: what a killed run has to do again.
+constexpr std::size_t batch = 200;
+
+template <class T>
+bool wants(const std::vector<T>& some, const T& one) {
+  return some.empty() || std::find(some.begin(), some.end(), one) != some.end();
+}
+
+class StabilityRun {
+ public:
+  StabilityRun(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
+               const RunOptions& options)
+      : experiment_(experiment),
+        options_(options),
+        variants_(variants_of(experiment, methods)),
+        file_(std::filesystem::path(options.out) / experiment.stem, identity(experiment, context, options),
+              stability_columns(), stability_key_columns()) {
+    std::vector<std::string> cuts(placed_cuts().begin(), placed_cuts().end());
+    cuts.insert(cuts.end(), cut_families().begin(), cut_families().end());
+    for (const Sweep& sweep : experiment.stability->sweeps)
+      for (const SweepPoint& point : sweep.points)
+        check_names({point.cut}, cuts, experiment.stem + ", sweep \"" + sweep.name + "\": cut");
+  }
+
+  void run() {
+    if (!file_.note().empty() && !options_.quiet)
+      std::fprintf(stderr, "%s: %s\n", experiment_.stem.c_str(), file_.note().c_str());
+    const std::vector<Trial> trials = missing_trials();
+    Progress progress(experiment_.stem, trials.size(), options_.quiet);
+    for (std::size_t begin = 0; begin < trials.size(); begin += batch) {
+      const std::size_t n = std::min(batch, trials.size() - begin);
+      const SharedArray<TrialResult> results(n);
+      const auto fates = run_isolated(
+          n, {options_.workers, experiment_.stability->time_limit_s},
+          [&](std::size_t i) { try_point(trials[begin + i], results[i]); },
+          [&](std::size_t begun) { progress.show(begun); });
+      for (std::size_t i = 0; i < n; ++i) append(trials[begin + i], results[i], fates[i]);
+      progress.step(n);
+    }
+  }
+
+  RecordFile& file() { return file_; }
+
+  /// Of all rows, also those that an interrupted run had written.
+  bool print_summary() const {
+    std::map<std::string, std::map<std::string, std::size_t>> counts;
+    bool ok = true;
+    for (const std::string& line : file_.lines()) {
+      const Record row(stability_columns(), line);
+      ++counts[row.get("sweep")][row.get("verdict")];
+      ok &= row.get("verdict") != "crashed" && row.get("verdict") != "failed" && row.get("verdict") != "timed_out";
+    }
+    for (const Sweep& sweep : experiment_.stability->sweeps) {
+      if (options_.quiet) break;
+      std::printf("%-24s", sweep.name.c_str());
+      for (const auto& [verdict, n] : counts[sweep.name]) std::printf(" %zu %s", n, verdict.c_str());
+      std::printf("\n");
+    }
+    return ok;
+  }
+
+ private:
+  static std::string identity(const Experiment& e, const Context& context, const RunOptions& options) {
+    std::string text = context.identity() + e.stem + e.stability->text + std::to_string(e.seed) + "," +
+                       std::to_string(e.cases) + "," + std::to_string(e.chord_tolerance);
+    for (const int resolution : e.resolutions) text += "," + std::to_string(resolution);
+    for (const auto& entry : e.methods) text += "," + entry.method;
+    return text + shard_line(options);
+  }
+
+  /// Those of the shard that are not in the file yet. The points of a sweep stay together, methods in turn.
+  std::vector<Trial> missing_trials() {
+    std::vector<Trial> trials;
+    std::size_t number = 0;
+    for (const Sweep& sweep : experiment_.stability->sweeps)
+      for (const std::string& sheet : experiment_.sheets)
+        for (const int resolution : experiment_.resolutions) {
+          if (!wants(sweep.sheets, sheet) || !wants(sweep.resolutions, resolution)) continue;
+          for (const SweepPoint& point : sweep.points)
+            for (int i = 0; i < std::min(sweep.cases, experiment_.cases); ++i)
+              for (const Variant& variant : variants_) {
+                if (!wants(sweep.methods, variant.row->name)) continue;
+                if (!options_.is_ours(number++)) continue;
+                Trial trial{.sweep = &sweep,
+                            .point = &point,
+                            .variant = &variant,
+                            .sheet = sheet,
+                            .resolution = resolution,
+                            .index = static_cast<std::size_t>(i),
+                            .seed = experiment_.seed,
+                            .options = {.chord_tolerance = experiment_.chord_tolerance},
+                            .uncut_step_s = 0};
+                if (file_.has(start_row(trial).key(stability_key_columns()))) continue;
+                trial.uncut_step_s = uncut_step(trial);
+                trials.push_back(trial);
+              }
+        }
+    return trials;
+  }
+
+  double uncut_step(const Trial& trial) {
+    if (!trial.point->eigenvalue && trial.point->step_share == 0) return 0;
+    Scene scene = trial.point->scene;
+    scene.family = trial.sheet, scene.resolution = trial.resolution;
+    const Material& m = scene.material;
+    const auto key = std::tuple(trial.sheet, trial.resolution, trial.sweep->scene_file.string(), m.stiffness, m.poisson,
+                                m.stiffness_damping, m.mass_damping, scene.physics.bending);
+    const auto [entry, is_new] = uncut_steps_.try_emplace(key, 0);
+    if (is_new) entry->second = explicit_step_of(scene, Sheet(mesh_of(scene)));
+    return entry->second;
+  }
+
+  Record start_row(const Trial& trial) const {
+    Record row(stability_columns());
+    row.set("suite_version", std::string(suite_version)), row.set("sweep", trial.sweep->name);
+    row.set("sheet", trial.sheet), row.set("method", trial.variant->row->name);
+    row.set("parameter", trial.variant->parameter_text()), row.set("resolution", std::int64_t{trial.resolution});
+    row.set("case", static_cast<std::int64_t>(trial.index)), row.set("repetition", std::int64_t{0});
+    row.set("seed", static_cast<std::int64_t>(trial.seed));
+    row.set("cache", std::string(trial.sweep->steps > 0 ? "simulation" : "cold"));
+    for (const SweepSetting& setting : sweep_settings()) row.set(setting.name, setting.get(*trial.point));
+    return row;
+  }
+
+  void append(const Trial& trial, const TrialResult& result, Fate fate) {
+    Record row = start_row(trial);
+    row.set("status", std::string(result.status.data()));
+    row.set("verdict", std::string(fate == Fate::done        ? result.verdict.data()
+                                   : fate == Fate::timed_out ? "timed_out"
+                                                             : "crashed"));
+    row.set("reason", std::string(result.reason.data()));
+    for (std::size_t m = 0; m < measure_names.size(); ++m)
+      if (!std::isnan(result.measure[m])) row.set(measure_names[m], result.measure[m]);
+    file_.append(row);
+  }
+
+  const Experiment& experiment_;
+  const RunOptions& options_;
+  std::vector<Variant> variants_;
+  RecordFile file_;
+  std::map<std::tuple<std::string, int, std::string, double, double, double, double, BendingKind>, double> uncut_steps_;
+};
+
+}  // namespace
+
+std::size_t stability_key_columns() { return key_columns + sweep_settings().size(); }
+
+const std::vector<std::string>& stability_columns() {
+  static const std::vector<std::string> columns = [] {
+    std::vector<std::string> names = key_column_names("sweep");
+    for (const SweepSetting& setting : sweep_settings()) names.emplace_back(setting.name);
+    for (const char* name : {"status", "verdict", "reason"}) names.emplace_back(name);
+    names.insert(names.end(), measure_names.begin(), measure_names.end());
+    return names;
+  }();
+  return columns;
+}
+
+bool run_stability(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
+                   const RunOptions& options) {
+  StabilityRun run(experiment, methods, context, options);
+  run.run();
+  run.file().finish(context, experiment.stem, experiment.claim, options.command, experiment.seed);
+  return run.print_summary();
+}
+
+}  // namespace cutbench
