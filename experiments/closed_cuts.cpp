@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "harness/cases/cut_families.h"
+#include "harness/cut/constraint_source.h"
 #include "harness/judge/assessment.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/predicates.h"
@@ -37,9 +38,7 @@ class Closed final : public CuttingMethod {
             sheet.triangle(TriangleIndex(t)).alive() && sheet.mark(h) == EdgeMark::path)
           sheet.set_mark(h, EdgeMark::none);
   }
-  Constraints constraints(const Sheet& before, const Sheet& cut) const override {
-    return method_->constraints(before, cut);
-  }
+  const ConstraintSource* constraint_source() const override { return method_->constraint_source(); }
 
  private:
   std::unique_ptr<CuttingMethod> method_;
@@ -112,7 +111,7 @@ std::optional<Pop> pop_of(const MethodRow& row, int n, std::size_t i) {
     const auto [x, y, z] = sheet.position(DeformedIndex(d));
     carried.segment<2>(2 * static_cast<Eigen::Index>(d)) = Eigen::Vector2d(x, y) - rest_of(sheet, d);
   }
-  const Constraints constraints = method.constraints(uncut, sheet);
+  const Constraints constraints = constraints_of(method, uncut, sheet);
   const Field moved = equilibrium(sheet, constraints) - carried;
   Pop pop;
   double squares = 0;

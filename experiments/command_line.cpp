@@ -20,6 +20,11 @@ using namespace cutbench;
 
 // --- cutbench methods ------------------------------------------------------------------------------------------------
 
+/// An end that is not there is null.
+nlohmann::ordered_json json_of(const Range& range) {
+  return {{"least", range.least}, {"most", range.most}, {"whole", range.whole}, {"or_zero", range.or_zero}};
+}
+
 int list_methods(bool as_json) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const MethodRow& m : all_methods()) {
@@ -36,15 +41,17 @@ int list_methods(bool as_json) {
       entry["incision_bound"] = {{"longest_edges", p.incision_bound.longest_edges},
                                  {"chord_tolerances", p.incision_bound.chord_tolerances}};
       if (!m.parameter.name.empty())
-        entry["parameter"] = {
-            {"name", m.parameter.name}, {"default", m.parameter.value}, {"meaning", m.parameter.meaning}};
+        entry["parameter"] = {{"name", m.parameter.name},
+                              {"default", m.parameter.value},
+                              {"range", json_of(m.parameter.range)},
+                              {"meaning", m.parameter.meaning}};
       list.push_back(entry);
       continue;
     }
     std::printf("%-20s %s\n", m.name.c_str(), m.summary.c_str());
     if (!m.parameter.name.empty())
-      std::printf("%20s   parameter %s = %g: %s\n", "", m.parameter.name.c_str(), m.parameter.value,
-                  m.parameter.meaning.c_str());
+      std::printf("%20s   parameter %s = %g, %s: %s\n", "", m.parameter.name.c_str(), m.parameter.value,
+                  m.parameter.range.text().c_str(), m.parameter.meaning.c_str());
     std::string text;
     for (const auto& name : promises) text += (text.empty() ? "" : ", ") + name;
     std::printf("%20s   promises %s\n", "", text.empty() ? "nothing" : text.c_str());

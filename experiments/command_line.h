@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "harness/cut/cutting_method.h"
+#include "harness/cut/method_row.h"
 
 namespace cutbench {
 

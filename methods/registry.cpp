@@ -1,7 +1,6 @@
 #include "methods/registry.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -31,13 +30,7 @@ namespace cutbench {
 
 namespace {
 
-constexpr int most_rounds = 6;  // of the local split: ill-shaped triangles multiply by 3.8 in each
-
 constexpr Promises exact_split{.exact_incision = true, .keeps_area = true, .conforming = true, .keeps_vertices = true};
-
-}  // namespace
-
-namespace {
 
 /// The baseline, then by name.
 std::vector<MethodRow>& table() {
@@ -50,33 +43,32 @@ std::vector<MethodRow>& table() {
       {"active_node",
        "the tip is a vertex that moves with the blade, flips edges, takes in what is near and leaves a path vertex "
        "every h",
-       {"spacing", 1, "between vertices of the path, in mean rest edges, 0.25 to 4; 0: every crossing stays"},
+       {"spacing",
+        1,
+        "between vertices of the path, in mean rest edges; 0: every crossing stays",
+        {.least = 0.25, .most = 4, .or_zero = true}},
        {.exact_incision = false,
         .keeps_area = true,
         .conforming = true,
         .keeps_vertices = false,
         .incision_bound = {.longest_edges = 0, .chord_tolerances = 1}},
-       [](double spacing) {
-         if (!(spacing == 0 || (spacing >= 0.25 && spacing <= 4)))
-           throw InputError("active_node: spacing must be 0, or a number from 0.25 to 4");
-         return std::make_unique<ActiveNode>(ActiveNode::Options{.spacing = spacing});
-       }},
+       [](double spacing) { return std::make_unique<ActiveNode>(ActiveNode::Options{.spacing = spacing}); }},
       {"adaptive_remesh",
        "edges round the cut are split, flipped and collapsed to a size field that is fine at the tips",
-       {"tip", 0.2, "edge length asked for at the tips, mean rest edges, 0.1 to 1; 0: flips alone"},
+       {"tip",
+        0.2,
+        "edge length asked for at the tips, mean rest edges; 0: flips alone",
+        {.least = 0.1, .most = 1, .or_zero = true}},
        {.exact_incision = true, .keeps_area = true, .conforming = true, .keeps_vertices = false},
-       [](double tip) {
-         if (!(tip == 0 || (tip >= 0.1 && tip <= 1)))
-           throw InputError("adaptive_remesh: tip must be 0, or a number from 0.1 to 1");
-         return std::make_unique<AdaptiveRemesh>(AdaptiveRemesh::Options{.tip = tip});
-       }},
+       [](double tip) { return std::make_unique<AdaptiveRemesh>(AdaptiveRemesh::Options{.tip = tip}); }},
       {"bowyer_watson",
        "the paper's method: Bowyer-Watson in each crossed triangle, then local split",
-       {"rounds", 1, "rounds of the local split; 0: the best diagonal alone"},
+       {"rounds",
+        1,
+        "rounds of the local split; 0: the best diagonal alone",
+        {.least = 0, .most = 6, .whole = true}},  // ill-shaped triangles multiply by 3.8 in each round
        exact_split,
        [](double rounds) {
-         if (!(rounds >= 0 && rounds <= most_rounds && rounds == std::floor(rounds)))
-           throw InputError("bowyer_watson: rounds must be a whole number from 0 to " + std::to_string(most_rounds));
          return std::make_unique<BowyerWatson>(BowyerWatson::Options{.rounds = static_cast<int>(rounds)});
        }},
       {"cgal_cdt",
@@ -86,11 +78,12 @@ std::vector<MethodRow>& table() {
        [](double) { return std::make_unique<CgalCdt>(); }},
       {"cgal_refine",
        "CGAL's Delaunay refinement round the cut",
-       {"bound", 3, "largest aspect ratio allowed outside forced wedges; 0: constrained Delaunay alone"},
+       {"bound",
+        3,
+        "largest aspect ratio allowed outside forced wedges; 0: constrained Delaunay alone",
+        {.least = 2, .most = 1000, .or_zero = true}},
        exact_split,
        [](double bound) {
-         if (!(bound == 0 || (bound >= 2 && bound <= 1000)))
-           throw InputError("cgal_refine: bound must be 0, or a number from 2 to 1000");
          return std::make_unique<CgalRefine>(
              CgalRefine::Options{.bound = bound == 0 ? std::numeric_limits<double>::infinity() : bound});
        }},
@@ -105,19 +98,20 @@ std::vector<MethodRow>& table() {
        [](double) { return std::make_unique<Cisamr>(); }},
       {"cut_polygons",
        "conventional split; thin parts and their neighbours are one element together, a polygon",
-       {"thinness", 0.7, "4 area / perimeter over that of the divided triangle, below which a part is thin, 0 to 1"},
+       {"thinness",
+        0.7,
+        "4 area / perimeter over that of the divided triangle, below which a part is thin",
+        {.least = 0, .most = 1}},
        exact_split,
-       [](double thinness) {
-         if (!(thinness >= 0 && thinness <= 1)) throw InputError("cut_polygons: thinness must be a number from 0 to 1");
-         return std::make_unique<CutPolygons>(CutPolygons::Options{.thinness = thinness});
-       }},
+       [](double thinness) { return std::make_unique<CutPolygons>(CutPolygons::Options{.thinness = thinness}); }},
       {"delaunay_refine",
        "local Delaunay refinement round the cut, by off-centres",
-       {"bound", 3, "largest aspect ratio allowed outside forced wedges; 0: flips alone"},
+       {"bound",
+        3,
+        "largest aspect ratio allowed outside forced wedges; 0: flips alone",
+        {.least = 2, .most = 1000, .or_zero = true}},
        exact_split,
        [](double bound) {
-         if (!(bound == 0 || (bound >= 2 && bound <= 1000)))
-           throw InputError("delaunay_refine: bound must be 0, or a number from 2 to 1000");
          return std::make_unique<DelaunayRefine>(
              DelaunayRefinement::Options{.bound = bound == 0 ? std::numeric_limits<double>::infinity() : bound});
        }},
@@ -151,64 +145,52 @@ std::vector<MethodRow>& table() {
        [](double) { return std::make_unique<GlobalRemesh>(); }},
       {"longest_edge",
        "local split by longest-edge propagation, with Delaunay flips",
-       {"cap", 8, "vertices that the split may make, per vertex of the path; 0: flips alone"},
+       {"cap",
+        8,
+        "vertices that the split may make, per vertex of the path; 0: flips alone",
+        {.least = 0, .most = 100}},
        exact_split,
-       [](double cap) {
-         if (!(cap >= 0 && cap <= 100)) throw InputError("longest_edge: cap must be a number from 0 to 100");
-         return std::make_unique<LongestEdge>(LongestEdge::Options{.cap = cap});
-       }},
+       [](double cap) { return std::make_unique<LongestEdge>(LongestEdge::Options{.cap = cap}); }},
       {"phantom_node",
        "crossed triangles are doubled with phantom nodes, and the field is linear in each part",
-       {"ghost", 0, "ghost penalty, dimensionless, for statics: usually 0.01 to 1; 0: none"},
+       {"ghost", 0, "ghost penalty, dimensionless, for statics: usually 0.01 to 1; 0: none", {.least = 0, .most = 100}},
        exact_split,
-       [](double ghost) {
-         if (!(ghost >= 0 && ghost <= 100)) throw InputError("phantom_node: ghost must be a number from 0 to 100");
-         return std::make_unique<PhantomNode>(PhantomNode::Options{.ghost = ghost});
-       }},
+       [](double ghost) { return std::make_unique<PhantomNode>(PhantomNode::Options{.ghost = ghost}); }},
       {"snap_or_split",
        "crossings near a vertex move to the vertex, the others are split",
-       {"tolerance", 0.25, "fraction of the edge up to which a crossing goes to the vertex, 0 to 0.5"},
+       {"tolerance", 0.25, "fraction of the edge up to which a crossing goes to the vertex", {.least = 0, .most = 0.5}},
        {.exact_incision = false,
         .keeps_area = true,
         .conforming = true,
         .keeps_vertices = true,
         .incision_bound = {.longest_edges = 0.5, .chord_tolerances = 1}},
-       [](double tolerance) {
-         if (!(tolerance >= 0 && tolerance <= 0.5))
-           throw InputError("snap_or_split: tolerance must be a number from 0 to 0.5");
-         return std::make_unique<SnapOrSplit>(tolerance);
-       }},
+       [](double tolerance) { return std::make_unique<SnapOrSplit>(tolerance); }},
       {"split_and_tie",
        "conventional split; vertices of slivers are constrained to well-shaped triangles on their side",
-       {"thinness", 0.1, "altitude over the longest edge nearby below which a triangle is a sliver, 0 to 0.3"},
+       {"thinness",
+        0.1,
+        "altitude over the longest edge nearby below which a triangle is a sliver",
+        {.least = 0, .most = 0.3}},
        exact_split,
-       [](double thinness) {
-         if (!(thinness >= 0 && thinness <= 0.3))
-           throw InputError("split_and_tie: thinness must be a number from 0 to 0.3");
-         return std::make_unique<SplitAndTie>(SplitAndTie::Options{.thinness = thinness});
-       }},
+       [](double thinness) { return std::make_unique<SplitAndTie>(SplitAndTie::Options{.thinness = thinness}); }},
       {"vertex_snap",
        "the nearest vertices move onto the path, the remaining crossings are split",
-       {"reach", 0.5, "fraction of the edge over which a vertex comes to a crossing, 0 to 0.5"},
+       {"reach", 0.5, "fraction of the edge over which a vertex comes to a crossing", {.least = 0, .most = 0.5}},
        {.exact_incision = false,
         .keeps_area = true,
         .conforming = true,
         .keeps_vertices = false,
         .incision_bound = {.longest_edges = 1, .chord_tolerances = 1}},
-       [](double reach) {
-         if (!(reach >= 0 && reach <= 0.5)) throw InputError("vertex_snap: reach must be a number from 0 to 0.5");
-         return std::make_unique<VertexSnap>(VertexSnap::Options{.reach = reach});
-       }},
+       [](double reach) { return std::make_unique<VertexSnap>(VertexSnap::Options{.reach = reach}); }},
       {"warp_and_refine",
        "vertices near the path move onto it, short edges are removed, flips and smoothing, then refinement",
-       {"reach", 0.4, "fraction of the edge over which a vertex comes to a crossing, 0 to 0.5"},
+       {"reach", 0.4, "fraction of the edge over which a vertex comes to a crossing", {.least = 0, .most = 0.5}},
        {.exact_incision = false,
         .keeps_area = true,
         .conforming = true,
         .keeps_vertices = false,
         .incision_bound = {.longest_edges = 0, .chord_tolerances = 1}},
        [](double reach) {
-         if (!(reach >= 0 && reach <= 0.5)) throw InputError("warp_and_refine: reach must be a number from 0 to 0.5");
          WarpAndRefine::Options options;
          options.warping.reach = reach;
          return std::make_unique<WarpAndRefine>(options);

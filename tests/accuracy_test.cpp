@@ -258,7 +258,7 @@ TEST_F(Accuracy, AFailureIsARow) {
   for (const bool refuses : {false, true}) {
     contenders.push_back(contenders.front());
     contenders.back().name = refuses ? "refusing" : "closing";
-    contenders.back().make = [refuses](double) { return std::make_unique<Saboteur>(refuses); };
+    contenders.back().factory = [refuses](double) { return std::make_unique<Saboteur>(refuses); };
   }
   Experiment e;
   e.stem = "e", e.claim = "c", e.sheets = {"grid"}, e.resolutions = {72};

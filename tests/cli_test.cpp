@@ -26,10 +26,17 @@ class Cli : public Program {
 TEST_F(Cli, MethodsListsEveryRow) {
   const auto json = nlohmann::json::parse(run("methods --json").out);
   ASSERT_EQ(json.size(), all_methods().size());
-  for (std::size_t i = 0; i < json.size(); ++i) EXPECT_EQ(json[i]["name"], all_methods()[i].name);
   const auto text = run("methods");
   EXPECT_EQ(text.code, 0);
-  for (const auto& row : all_methods()) EXPECT_NE(text.out.find(row.summary), std::string::npos);
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const MethodRow& row = all_methods()[i];
+    EXPECT_EQ(json[i]["name"], row.name);
+    EXPECT_NE(text.out.find(row.summary), std::string::npos);
+    EXPECT_EQ(json[i]["parameter"].is_null(), row.parameter.name.empty());
+    if (row.parameter.name.empty()) continue;
+    EXPECT_EQ(json[i]["parameter"]["range"]["most"], row.parameter.range.most) << row.name;
+    EXPECT_NE(text.out.find(row.parameter.range.text() + ": " + row.parameter.meaning), std::string::npos) << row.name;
+  }
 }
 
 /// --help of each subcommand says what it prints, with an example that runs, and --version what was built.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "harness/cases/cut_families.h"
+#include "harness/cut/constraint_source.h"
 #include "harness/mesh/families.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
@@ -25,7 +26,7 @@ struct ConstrainedCut {
                  std::uint64_t seed, std::size_t number)
       : before(make_sheet(family, n)), table(make_sheet(family, n), find_method(method.name), method.parameter) {
     for (const Curve& curve : make_case(cuts, seed, number, before)) EXPECT_EQ(table.cut(curve, 0.05), "");
-    constraints = method.make()->constraints(before, table.sheet);
+    constraints = constraints_of(*method.make(), before, table.sheet);
   }
   const Sheet& sheet() const { return table.sheet; }
 

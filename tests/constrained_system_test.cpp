@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "harness/cut/constraint_source.h"
 #include "harness/fem/constraints/constraint_matrix.h"
 #include "harness/fem/model/largest_eigenvalue.h"
 #include "harness/fem/time/stepper.h"
@@ -114,7 +115,7 @@ TEST(Constraints, SystemFollowsCutsAsOneMadeAnew) {
     for (const Curve& cut : {line({-0.1, 0.41}, {0.6, 0.52}), line({0.3, -0.1}, {0.44, 0.8}),
                              line({0.7, 0.5}, {0.9, 0.1}), line({-0.1, 0.9}, {1.1, 0.85})}) {
       ASSERT_EQ(body.cut(cut, method.name, method.parameter), Status::ok);
-      const Constraints constraints = method.make()->constraints(before, body.sheet);
+      const Constraints constraints = constraints_of(*method.make(), before, body.sheet);
       body.model.constraint(body.sheet, constraints);
       ASSERT_TRUE(body.model.constrained());
       Model<3> fresh = body.fresh_model();
@@ -158,7 +159,7 @@ TEST(Constraints, HoldInMotion) {
                    {.bending = BendingKind::none, .gravity = {0, 0, -10}});
       ASSERT_EQ(body.cut(line({-0.1, 0.41}, {0.6, 0.52}), name, find_method(name).parameter.value), Status::ok);
       const Constraints constraints =
-          find_method(name).make(find_method(name).parameter.value)->constraints(before, body.sheet);
+          constraints_of(*find_method(name).make(find_method(name).parameter.value), before, body.sheet);
       ASSERT_FALSE(constraints.empty());
       body.model.constraint(body.sheet, constraints);
       const Eigen::MatrixXd c = dense_constraint_matrix(constraints, body.model.vertices(), 3);

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "harness/cases/cut_families.h"
+#include "harness/cut/constraint_source.h"
 #include "harness/fem/constraints/constraint_matrix.h"
 #include "harness/fem/linear/linear_solver.h"
 #include "harness/fem/model/largest_eigenvalue.h"
@@ -123,7 +124,7 @@ TEST(Constraints, NoVertexStandsForOneThatStandsForIt) {
   const auto method = find_method("split_and_tie").make(0.1);
   for (const Curve& curve : make_case("several", 47203279896981, 12, before))
     EXPECT_EQ(cutter.cut(sheet, locator, curve, *method, {}).status, Status::ok);
-  const Constraints constraints = method->constraints(before, sheet);
+  const Constraints constraints = constraints_of(*method, before, sheet);
   EXPECT_GT(constraints.constraints.size(), 100u);
   std::set<DeformedIndex> constrained;
   for (const Constraint& constraint : constraints.constraints) constrained.insert(constraint.vertex);
@@ -145,7 +146,7 @@ TEST(Constraints, CracksOpenAsTheyDoByTheSplitAlone) {
                      std::to_string(member));
         const Specimen specimen = problem.specimen(family, 24, 641, member);
         const Sheet before(specimen.mesh), cut = cut_by(specimen, name);
-        const Constraints constraints = method.make()->constraints(before, cut);
+        const Constraints constraints = constraints_of(*method.make(), before, cut);
         const Budget direct;
         const Answer constrained = problem.answer(specimen, cut, {&direct, 1}, constraints).front();
         const Answer split = solved(problem, specimen, cut);

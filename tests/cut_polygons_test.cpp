@@ -5,6 +5,7 @@
 #include <map>
 
 #include "harness/cases/cut_families.h"
+#include "harness/cut/constraint_source.h"
 #include "harness/fem/model/largest_eigenvalue.h"
 #include "harness/fem/time/stepper.h"
 #include "harness/mesh/families.h"
@@ -25,7 +26,8 @@ const std::vector<std::string> cuts_to_make{"straight",      "curved",          
 constexpr Material leather{.density = 2, .stiffness = 1000, .poisson = 0.3, .bending = 0.02};
 
 void merge_as_after_a_cut(Body<3>& body, const Sheet& before, const CuttingMethod& method) {
-  body.model.constraint(body.sheet, method.next_constraints(before, body.sheet, body.model.polygons_left()));
+  body.model.constraint(body.sheet,
+                        method.constraint_source()->next_constraints(before, body.sheet, body.model.polygons_left()));
 }
 
 // --- the model -------------------------------------------------------------------------------------------------------
@@ -115,7 +117,8 @@ TEST(CutPolygons, FollowTheLastCut) {
     asked.push_back(0);
     const PolygonsLeft left = body.model.polygons_left();
     const auto counted = [&](TriangleIndex t) { return ++asked.back(), left.of(t); };
-    const Constraints constraints = method->next_constraints(before, body.sheet, {counted, left.freed});
+    const Constraints constraints =
+        method->constraint_source()->next_constraints(before, body.sheet, {counted, left.freed});
     const std::size_t old = body.model.polygons().size();
     body.model.constraint(body.sheet, constraints);
     EXPECT_EQ(body.model.polygons().size(), old + constraints.polygons.size());
@@ -136,7 +139,7 @@ TEST(CutPolygons, AreAsGoodCutByCutAsAtOnce) {
         if (body.cut(curve, "cut_polygons", 0.7) == Status::ok) merge_as_after_a_cut(body, before, *method);
       const double whole = largest_eigenvalue(before),
                    value = largest_eigenvalue(body.sheet, {.polygons = body.model.polygons()}) / whole,
-                   at_once = largest_eigenvalue(body.sheet, method->constraints(before, body.sheet)) / whole;
+                   at_once = largest_eigenvalue(body.sheet, constraints_of(*method, before, body.sheet)) / whole;
       worst = std::max(worst, value), worst_at_once = std::max(worst_at_once, at_once);
       logs += std::log(value / at_once), ++cases;
     }
@@ -211,7 +214,7 @@ TEST(CutPolygons, CracksOpenBetterThanByTheSplit) {
     for (std::size_t member = 0; member < scaled(4); ++member) {
       const Specimen specimen = problem.specimen(family, 24, 877, member);
       const Sheet before(specimen.mesh), cut = cut_by(specimen, "cut_polygons", 0.7);
-      const Constraints constraints = find_method("cut_polygons").make(0.7)->constraints(before, cut);
+      const Constraints constraints = constraints_of(*find_method("cut_polygons").make(0.7), before, cut);
       const Budget direct;
       const Answer merged = problem.answer(specimen, cut, {&direct, 1}, constraints).front();
       ASSERT_EQ(merged.verdict, "ok") << merged.reason;

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <tuple>
 
 #include "harness/cases/cut_families.h"
+#include "harness/cut/constraint_source.h"
 #include "harness/judge/oracle_request.h"
 #include "harness/mesh/families.h"
 #include "methods/registry.h"
@@ -91,9 +93,9 @@ TEST(Ablation, EveryCombinationCutsWithoutFault) {
         Table table(make_sheet(family, 10), row, row.parameter.value);
         const Sheet before = table.sheet;
         for (const Curve& curve : make_case(cuts, seed, 0, before)) EXPECT_EQ(table.cut(curve, 0.05), "");
-        constrained |= !method->constraints(before, table.sheet).empty();
+        constrained |= !constraints_of(*method, before, table.sheet).empty();
       }
-    EXPECT_EQ(constrained, method->constraint_kind() != CuttingMethod::ConstraintKind::nothing) << row.name;
+    EXPECT_EQ(constrained, method->constraint_source() != nullptr) << row.name;
   }
 }
 
@@ -108,6 +110,45 @@ TEST(EdgeRelease, LeavesCornersInsideTrianglesOut) {
     EXPECT_EQ(table.cut(path, infinite), "");
     EXPECT_EQ(table.sheet.triangle_count(), triangles);
   }
+}
+
+void expect_refused(const MethodRow& row, double value) {
+  try {
+    row.make(value);
+    ADD_FAILURE() << row.name << " takes " << value;
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_TRUE(text.starts_with(row.name + ": " + row.parameter.name + " must be ")) << text;
+    EXPECT_NE(text.find(row.parameter.range.text()), std::string::npos) << text;
+    EXPECT_NE(text.find("the default is "), std::string::npos) << text;
+  }
+}
+
+TEST(Parameter, IsTakenWithinItsRangeAlone) {
+  std::size_t parameters = 0;
+  for (const MethodRow& row : nameable_methods()) {
+    if (row.parameter.name.empty()) continue;
+    SCOPED_TRACE(row.name);
+    ++parameters;
+    const Range& range = row.parameter.range;
+    for (const double good : {range.least, range.most, row.parameter.value}) EXPECT_TRUE(row.make(good)) << good;
+    const double below = std::nextafter(range.least, -infinite), above = std::nextafter(range.most, infinite);
+    for (const double bad : {below, above, -1.0, -infinite, infinite, std::nan("")}) expect_refused(row, bad);
+    if (range.whole) expect_refused(row, range.least + 0.5);
+    if (range.or_zero) EXPECT_TRUE(row.make(0));
+    if (range.or_zero) expect_refused(row, range.least / 2);
+  }
+  EXPECT_EQ(parameters, 12u);
+}
+
+TEST(Parameter, ARangeSaysWhatItHas) {
+  EXPECT_EQ((Range{.least = 0, .most = 6, .whole = true}.text()), "a whole number from 0 to 6");
+  EXPECT_EQ((Range{.least = 2, .most = 1000, .or_zero = true}.text()), "0, or a number from 2 to 1000");
+  EXPECT_EQ((Range{.least = 0.5}.text()), "a number of at least 0.5");
+  EXPECT_EQ((Range{.most = 0.5, .whole = true}.text()), "a whole number of at most 0.5");
+  EXPECT_EQ(Range{}.text(), "a number");
+  EXPECT_TRUE(Range{}.has(-1e300));
+  EXPECT_FALSE(Range{}.has(infinite));
 }
 
 /// Four cuts whose exact curves make four pieces, but whose incisions, each within the tolerance of its curve, five.

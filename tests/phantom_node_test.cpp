@@ -7,6 +7,7 @@
 #include <numeric>
 #include <set>
 
+#include "harness/cut/constraint_source.h"
 #include "harness/fem/model/largest_eigenvalue.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/predicates.h"
@@ -99,7 +100,7 @@ TEST(PhantomNode, OpensUpToTheTip) {
   Table table(make_sheet("grid", 10), find_method("phantom_node"), 0);
   ASSERT_EQ(table.cut(line({0.225, 0.553}, {0.775, 0.553}), 0.05), "");
   const Sheet& sheet = table.sheet;
-  const Constraints constraints = find_method("phantom_node").make(0)->constraints(before, sheet);
+  const Constraints constraints = constraints_of(*find_method("phantom_node").make(0), before, sheet);
   const Eigen::MatrixXd c = dense_constraint_matrix(constraints, sheet.deformed_slots(), 1);
   std::map<VertexIndex, std::set<std::size_t>> copies;
   for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) copies[sheet.rest_vertex(DeformedIndex(d))].insert(d);
@@ -130,9 +131,9 @@ TEST(PhantomNode, VariantsBoundTheEigenvalue) {
         const ConstrainedCut cut(family, 16, {"phantom_node", 0.1}, cuts, 641, i);
         const double whole = largest_eigenvalue(cut.before);
         EXPECT_LE(largest_eigenvalue(cut.sheet(), cut.constraints), (cuts == "partial" ? 5 : 1.5) * whole);
-        const Constraints plain = find_method("phantom_node").make(0)->constraints(cut.before, cut.sheet()),
+        const Constraints plain = constraints_of(*find_method("phantom_node").make(0), cut.before, cut.sheet()),
                           lumped =
-                              find_method("phantom_node:lumped_mass").make(0)->constraints(cut.before, cut.sheet());
+                              constraints_of(*find_method("phantom_node:lumped_mass").make(0), cut.before, cut.sheet());
         worst = std::max(worst, largest_eigenvalue(cut.sheet(), plain) / whole);
         EXPECT_NEAR(std::accumulate(lumped.lumped.begin(), lumped.lumped.end(), 0.0), 1, 1e-12);
         EXPECT_LE(largest_eigenvalue(cut.sheet(), lumped), 3 * whole);

@@ -7,6 +7,7 @@
 
 #include "harness/cases/adversarial.h"
 #include "harness/cases/cut_families.h"
+#include "harness/cut/constraint_source.h"
 #include "harness/fem/model/largest_eigenvalue.h"
 #include "harness/fem/time/stepper.h"
 #include "harness/mesh/families.h"
@@ -44,7 +45,7 @@ TEST(Polygons, AreSoundAfterAdversarialCuts) {
       const auto method = find_method("cut_polygons").make(0.7);
       for (const Curve& curve : make_adversarial_case(877, i, before).cuts) {
         Cutter().cut(sheet, locator, curve, *method, {});
-        const Constraints constraints = method->constraints(before, sheet);
+        const Constraints constraints = constraints_of(*method, before, sheet);
         expect_sound(sheet, constraints.polygons);
         for (const Polygon& polygon : constraints.polygons) {
           const PolygonElement element(sheet, polygon);
@@ -96,7 +97,7 @@ TEST(Polygons, HoldNoHeldVertexInside) {
       Locator locator(sheet);
       const auto method = find_method("cut_polygons").make(0.7);
       for (const Curve& curve : make_case("several", 31, i, sheet)) Cutter().cut(sheet, locator, curve, *method, {});
-      for (const Polygon& polygon : method->constraints(holds ? held : before, sheet).polygons)
+      for (const Polygon& polygon : constraints_of(*method, holds ? held : before, sheet).polygons)
         for (const DeformedIndex d : polygon.inside) {
           EXPECT_FALSE(sheet.is_held(sheet.rest_vertex(d)));
           free_inside += !holds;

@@ -64,7 +64,7 @@ class Saboteur : public CuttingMethod {
 MethodRow row_of(const std::string& name, Saboteur::Deed deed) {
   MethodRow row = find_method("conventional_split");
   row.name = name;
-  row.make = [deed](double) { return std::make_unique<Saboteur>(deed); };
+  row.factory = [deed](double) { return std::make_unique<Saboteur>(deed); };
   return row;
 }
 

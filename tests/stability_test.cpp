@@ -234,8 +234,8 @@ class Saboteur : public CuttingMethod {
 TEST_F(Stability, ACrashOrAHangCostsOneRow) {
   std::vector<MethodRow> rows{find_method("conventional_split"), find_method("conventional_split"),
                               find_method("conventional_split")};
-  rows[1].name = "crashing", rows[1].make = [](double) { return std::make_unique<Saboteur>(false); };
-  rows[2].name = "hanging", rows[2].make = [](double) { return std::make_unique<Saboteur>(true); };
+  rows[1].name = "crashing", rows[1].factory = [](double) { return std::make_unique<Saboteur>(false); };
+  rows[2].name = "hanging", rows[2].factory = [](double) { return std::make_unique<Saboteur>(true); };
   write(folder_ / "stability.toml", head(R"("crashing", "hanging", "conventional_split")") + "time_limit_s = 0.5\n" +
                                         sweep("cut", "cut = \"past_vertex\"\nplace = [0.1, 0.2]\n"));
   RunOptions options;

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "harness/base/random.h"
+#include "harness/cut/constraint_source.h"
 #include "harness/fem/tips/tip_quadrature.h"
 #include "harness/fem/tips/tip_system.h"
 #include "harness/mesh/families.h"
@@ -76,7 +77,7 @@ Case made(const std::string& problem, const std::string& family, int n, std::siz
   const Specimen specimen = find_problem(problem).specimen(family, n, 1, index);
   const double parameter = find_method(method).parameter.value;
   const Sheet sheet = cut_by(specimen, method, parameter);
-  return {specimen, sheet, find_method(method).make(parameter)->constraints(Sheet(specimen.mesh), sheet)};
+  return {specimen, sheet, constraints_of(*find_method(method).make(parameter), Sheet(specimen.mesh), sheet)};
 }
 
 Eigen::VectorXd some_coefficients(const TipFunctions& functions, std::uint64_t seed = 3) {

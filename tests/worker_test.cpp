@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <optional>
 #include <thread>
 
+#include "harness/cut/constraint_source.h"
 #include "harness/mesh/families.h"
 #include "methods/registry.h"
 #include "tests/fem_helpers.h"
@@ -16,33 +18,35 @@ namespace {
 constexpr std::chrono::milliseconds slowness{2};
 
 /// Counts what it is asked for, and takes its time.
-class ConstrainsSlowly final : public CuttingMethod {
+class ConstrainsSlowly final : public CuttingMethod, private ConstraintSource {
  public:
-  ConstrainsSlowly(ConstraintKind kind, std::size_t* asked) : kind_(kind), asked_(asked) {}
+  ConstrainsSlowly(std::optional<ConstraintKind> kind, std::size_t* asked) : kind_(kind), asked_(asked) {}
   void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override {
     CuttingMethod::embed(sheet, trace, notes);
     if (++embedded_ == fails_at) throw CutFailed("inverted", "on purpose");
   }
-  ConstraintKind constraint_kind() const override { return kind_; }
+  const ConstraintSource* constraint_source() const override { return kind_ ? this : nullptr; }
+
+  std::size_t fails_at = 0;
+
+ private:
+  ConstraintKind constraint_kind() const override { return *kind_; }
   Constraints constraints(const Sheet&, const Sheet&) const override {
     ++*asked_;
     std::this_thread::sleep_for(slowness);
     return {};
   }
 
-  std::size_t fails_at = 0;
-
- private:
-  ConstraintKind kind_;
+  std::optional<ConstraintKind> kind_;  ///< none: it is no source of constraints
   std::size_t *asked_, embedded_ = 0;
 };
 
 class WorkerTest : public testing::Test {
  protected:
   /// Cuts once, by the method that constraints() counts for.
-  CutRun cut(const std::vector<Curve>& cuts, CuttingMethod::ConstraintKind kind, std::size_t fails_at = 0) {
+  CutRun cut(const std::vector<Curve>& cuts, std::optional<ConstraintKind> kind, std::size_t fails_at = 0) {
     auto row = std::make_shared<MethodRow>(find_method("conventional_split"));
-    row->make = [&](double) {
+    row->factory = [&](double) {
       auto method = std::make_unique<ConstrainsSlowly>(kind, &asked_);
       method->fails_at = fails_at;
       return method;
@@ -59,31 +63,31 @@ class WorkerTest : public testing::Test {
 };
 
 TEST_F(WorkerTest, ConstraintsAreFoundAfterEachCutThatIsMade) {
-  const CutRun three = cut(three_cuts_, CuttingMethod::ConstraintKind::vertices);
+  const CutRun three = cut(three_cuts_, ConstraintKind::vertices);
   EXPECT_EQ(three.status, Status::ok);
   EXPECT_EQ(asked_, 3u);
   EXPECT_GE(three.time_us.constrain, us(3));
 
   std::vector<Curve> beside = three_cuts_;
   beside.insert(beside.begin() + 1, line({2, 2}, {3, 3}));
-  EXPECT_EQ(cut(beside, CuttingMethod::ConstraintKind::phantoms).status, Status::ok);
+  EXPECT_EQ(cut(beside, ConstraintKind::phantoms).status, Status::ok);
   EXPECT_EQ(asked_, 3u) << "a cut that had nothing to do";
 
-  const CutRun failed = cut(three_cuts_, CuttingMethod::ConstraintKind::vertices, 2);
+  const CutRun failed = cut(three_cuts_, ConstraintKind::vertices, 2);
   EXPECT_EQ(failed.status, Status::failed);
   EXPECT_EQ(asked_, 1u);
   EXPECT_GE(failed.time_us.constrain, us(1));
 }
 
 TEST_F(WorkerTest, PolygonsAreFoundOnceSinceAScenesFollowTheLastCut) {
-  const CutRun three = cut(three_cuts_, CuttingMethod::ConstraintKind::polygons);
+  const CutRun three = cut(three_cuts_, ConstraintKind::polygons);
   EXPECT_EQ(three.status, Status::ok);
   EXPECT_EQ(asked_, 1u);
   EXPECT_GE(three.time_us.constrain, us(1));
 }
 
 TEST_F(WorkerTest, AMethodThatConstrainsNothingIsNotAsked) {
-  EXPECT_EQ(cut(three_cuts_, CuttingMethod::ConstraintKind::nothing).time_us.constrain, 0);
+  EXPECT_EQ(cut(three_cuts_, {}).time_us.constrain, 0);
   EXPECT_EQ(asked_, 0u);
 }
 
@@ -95,7 +99,7 @@ TEST_F(WorkerTest, ItsConstraintsAreThoseOfAllCuts) {
     for (const bool cold : {false, true}) {
       const CutRun run = worker.measure(base_, three_cuts_, {}, cold);
       EXPECT_GT(run.time_us.constrain, 0);
-      const Constraints all = worker.method->constraints(base_.sheet, worker.sheet);
+      const Constraints all = constraints_of(*worker.method, base_.sheet, worker.sheet);
       EXPECT_FALSE(all.empty());
       EXPECT_EQ(worker.constraints.constraints.size(), all.constraints.size());
       EXPECT_EQ(worker.constraints.polygons, all.polygons);

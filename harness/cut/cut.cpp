@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "harness/base/stop_watch.h"
+#include "harness/cut/cut_program.h"
 #include "harness/cut/embed_carefully.h"
 #include "harness/cut/open.h"
 #include "harness/cut/patch.h"
@@ -54,7 +55,6 @@ CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, Cutti
     walk.locate(polyline_.points.front());
     outcome.time_us.locate = watch.lap();
 
-    method.begin(curve, options);
     const double chord_tolerance = options.chord_tolerance * sheet.mean_edge();
     Subdivision& trace = tracer_.trace(sheet, polyline_, walk, chord_tolerance);
     outcome.time_us.trace += watch.lap();
@@ -63,10 +63,16 @@ CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, Cutti
       return nothing_done(Status::noop, "the path lies outside the sheet, or where it is open already");
     watch.lap();  // counting is no part of a cut
 
+    CutProgram* const program = method.program();
     MethodNotes notes;
+    double program_us = 0;
     try {
-      method.adapt(sheet, trace, polyline_);
-      method.embed(sheet, trace, notes);
+      if (program) {
+        program_us = program->run(sheet, trace, curve, options);
+      } else {
+        method.adapt(sheet, trace, polyline_);
+        method.embed(sheet, trace, notes);
+      }
       mark_along(sheet, trace);
     } catch (const TooClose&) {
       sheet.rollback();
@@ -77,7 +83,7 @@ CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, Cutti
       outcome.deviation = embed_carefully(sheet, tracer_.trace(sheet, polyline_, again, chord_tolerance));
     }
     outcome.time_us.embed = watch.lap();
-    method.improve(sheet, notes);
+    if (!program) method.improve(sheet, notes);
     outcome.time_us.improve = watch.lap();
     open_path(sheet);
     outcome.time_us.open = watch.lap();
@@ -90,7 +96,7 @@ CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, Cutti
       outcome.reason = "a crossing was moved out of a wedge between older cuts that is too thin for doubles";
     }
     outcome.recovered_segments = notes.recovered_segments;
-    if (notes.program_us > 0) outcome.time_us = {.program = notes.program_us};
+    if (program_us > 0) outcome.time_us = {.program = program_us};
   } catch (const TooClose& reason) {
     sheet.rollback();
     outcome = nothing_done(Status::refused, reason.what());

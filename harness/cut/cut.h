@@ -32,8 +32,8 @@ struct CutOptions {
 /// the locator up to date. Where a program of its own made the cut there is `program` instead of the phases before it.
 struct PhaseTimes {
   double locate = 0, trace = 0, embed = 0, improve = 0, open = 0;
-  double constrain = 0;  ///< CuttingMethod::constraints() or next_constraints(), which a solver calls: Cutter leaves it 0
-  double program = 0;  ///< as it reports, else from its start to its end
+  double constrain = 0;  ///< of a ConstraintSource, which a solver asks: Cutter leaves it 0
+  double program = 0;    ///< as it reports, else from its start to its end
   double total() const { return locate + trace + embed + improve + open + constrain + program; }
   PhaseTimes& operator+=(const PhaseTimes& o) {
     locate += o.locate, trace += o.trace, embed += o.embed, improve += o.improve, open += o.open;

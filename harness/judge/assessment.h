@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "harness/cut/cut.h"
+#include "harness/cut/method_row.h"
 #include "harness/judge/findings.h"
 #include "harness/mesh/quality.h"
 #include "harness/oracle/forced_zones.h"

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "harness/cut/cut.h"
+#include "harness/cut/method_row.h"
 #include "harness/oracle/oracle.h"
 
 namespace cutbench {
@@ -19,7 +20,6 @@ class Watched : public CuttingMethod {
   std::optional<std::string> why_unsupported(const Sheet& sheet) const override {
     return method_->why_unsupported(sheet);
   }
-  void begin(const Curve& curve, const CutOptions& options) override { method_->begin(curve, options); }
   void adapt(Sheet& sheet, Subdivision& trace, const Polyline& path) override { method_->adapt(sheet, trace, path); }
   void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override {
     improved = false;
@@ -31,6 +31,7 @@ class Watched : public CuttingMethod {
     method_->improve(sheet, notes);
     improved = sheet.log().new_vertices.size() > before;
   }
+  CutProgram* program() override { return method_->program(); }
 
   bool improved = false;              ///< in the last cut
   std::size_t embedded_vertices = 0;  ///< by embed(), of all cuts

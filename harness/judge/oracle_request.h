@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "harness/cut/cut.h"
+#include "harness/cut/method_row.h"
 #include "harness/oracle/oracle.h"
 
 namespace cutbench {

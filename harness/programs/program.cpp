@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "harness/base/errors.h"
+#include "harness/cut/cut_program.h"
 #include "harness/judge/assessment.h"
 #include "harness/mesh/mesh_io.h"
 #include "harness/path/cut_failed.h"
@@ -49,28 +50,29 @@ double reported_us(const std::filesystem::path& file) {
   return value;
 }
 
-class Program : public CuttingMethod {
+class Program final : public CuttingMethod, public CutProgram {
  public:
   explicit Program(ProgramSettings settings) : settings_(std::move(settings)) {}
 
-  void begin(const Curve& curve, const CutOptions& options) override { curve_ = curve, options_ = options; }
+  CutProgram* program() override { return this; }
+  const std::string& command() const override { return settings_.command; }
 
-  void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override {
+  double run(Sheet& sheet, Subdivision& trace, const Curve& curve, const CutOptions& options) override {
     const Exchange files;
     write_mesh(sheet.to_mesh_data(), files.mesh);
-    write_path({curve_}, files.path);
+    write_path({curve}, files.path);
     const ProgramEnd end = run_program(files.filled_in(settings_.command), settings_.folder, settings_.limits);
     if (end.how == ProgramEnd::How::exited && end.code == exit_refused)
       throw CutRefused(end.message.empty() ? "the program refuses this cut, without a reason" : end.message);
     if (end.how == ProgramEnd::How::timed_out) throw CutFailed(verdict_timed_out, end.text());
     if (!end.succeeded()) throw CutFailed(verdict_crashed, end.text());
     const MeshData result = read_result(files.out);
-    judge(sheet, result);
+    judge(sheet, result, curve, options);
     adopt(sheet, result);
     trace.along.clear();  // what the path runs along is open as well
     const double own = reported_us(files.time);
     if (own <= 0 && settings_.command.find("{time}") != std::string::npos) note_no_time();
-    notes.program_us = own > 0 ? own : end.us;
+    return own > 0 ? own : end.us;
   }
 
  private:
@@ -93,16 +95,14 @@ class Program : public CuttingMethod {
   }
 
   /// As `cutbench score` does, and in its words.
-  void judge(const Sheet& sheet, const MeshData& result) const {
-    const Assessment a = judge_result(sheet, result, {&curve_, 1}, promises_of_everybody, options_);
+  static void judge(const Sheet& sheet, const MeshData& result, const Curve& curve, const CutOptions& options) {
+    const Assessment a = judge_result(sheet, result, {&curve, 1}, promises_of_everybody, options);
     if (a.judgement.ok) return;
     const Finding& f = a.findings.front();
     throw CutFailed(a.judgement.verdict, f.cause + ": " + f.text + "\nmend: " + f.mend);
   }
 
   ProgramSettings settings_;
-  Curve curve_;
-  CutOptions options_;
 };
 
 void check_settings(const ProgramSettings& settings) {
@@ -128,8 +128,7 @@ MethodRow method_of_program(const ProgramSettings& settings) {
           .summary = "a program: " + settings.command,
           .parameter = {},
           .promises = promises_of_programs,
-          .make = [settings](double) { return std::make_unique<Program>(settings); },
-          .command = settings.command};
+          .factory = [settings](double) { return std::make_unique<Program>(settings); }};
 }
 
 std::string fingerprint_of_program(const ProgramSettings& settings) {

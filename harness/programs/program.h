@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/cut/cutting_method.h"
+#include "harness/cut/method_row.h"
 #include "harness/processes/subprocess.h"
 
 namespace cutbench {

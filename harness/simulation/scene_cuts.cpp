@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "harness/base/stop_watch.h"
+#include "harness/cut/constraint_source.h"
 #include "harness/mesh/one_ring.h"
 #include "harness/simulation/active_region.h"
 
@@ -167,7 +168,8 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, const std::vector<Curve>& cu
   MotionCut result;
   result.parts = 1;
   std::optional<std::string> refusal;  // of any of the curves
-  if (const std::string reason = why_not(method.constraint_kind()); !reason.empty()) {
+  const ConstraintSource* const source = method.constraint_source();
+  if (const std::string reason = why_not(source); !reason.empty()) {
     result.cut.status = Status::refused, result.cut.reason = result.reason = reason;
     return result;
   }
@@ -187,8 +189,8 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, const std::vector<Curve>& cu
     result.pattern_us += watch.lap();
     moving.model.update_bending(moving.sheet);
     result.bending_us += watch.lap();
-    if (method.constraint_kind() == CuttingMethod::ConstraintKind::nothing) continue;
-    const Constraints constraints = method.next_constraints(before_cuts_, moving.sheet, moving.model.polygons_left());
+    if (!source) continue;
+    const Constraints constraints = source->next_constraints(before_cuts_, moving.sheet, moving.model.polygons_left());
     result.cut.time_us.constrain += watch.lap();
     moving.model.constraint(moving.sheet, constraints);
     for (Field* const field : {&moving.state.x, &moving.state.v}) {  // the state of before the cut need not
@@ -203,20 +205,21 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, const std::vector<Curve>& cu
 
 /// A method can't be used in this scene for what it constrains; empty: it can.
 template <int D>
-std::string SceneCuts<D>::why_not(CuttingMethod::ConstraintKind constraint_kind) const {
-  if (constraint_kind == CuttingMethod::ConstraintKind::nothing) return {};
+std::string SceneCuts<D>::why_not(const ConstraintSource* source) const {
+  if (!source) return {};
+  const ConstraintKind constraint_kind = source->constraint_kind();
   if (scene_.integrator == Integrator::xpbd)
     return "the method constraints vertices or makes polygons, which xpbd does not take; choose another integrator";
-  if (constraint_kind == CuttingMethod::ConstraintKind::polygons)
+  if (constraint_kind == ConstraintKind::polygons)
     return scene_.physics.bending == BendingKind::hinges
                ? "the method's polygons have no hinges; set bending to patches, or to none"
                : "";
   if (scene_.integrator == Integrator::symplectic_euler)
     return "the method constraints vertices to others, which symplectic_euler does not take; choose an implicit "
            "integrator";
-  if (constraint_kind == CuttingMethod::ConstraintKind::phantoms_at_rest)
+  if (constraint_kind == ConstraintKind::phantoms_at_rest)
     return "the method's ghost penalty or lumped mass is for sheets at rest; use phantom_node with ghost=0";
-  if (constraint_kind == CuttingMethod::ConstraintKind::phantoms && scene_.physics.bending != BendingKind::none)
+  if (constraint_kind == ConstraintKind::phantoms && scene_.physics.bending != BendingKind::none)
     return "the method's phantom nodes do not bend; set bending to none";
   return {};
 }

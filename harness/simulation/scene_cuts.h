@@ -51,7 +51,7 @@ class SceneCuts {
   void advance_blade(std::size_t number, CuttingMethod& method, const CutOptions& options, EnergyBudget* budget);
   MotionCut cut_with_balances(const std::vector<Curve>& curves, CuttingMethod& method, const CutOptions& options,
                               EnergyBudget* budget);
-  std::string why_not(CuttingMethod::ConstraintKind constraint_kind) const;
+  std::string why_not(const ConstraintSource* source) const;
 
   const Scene& scene_;
   MovingSheet<D>& now_;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/cut/cutting_method.h"
+#include "harness/cut/method_row.h"
 #include "harness/study/experiment.h"
 #include "harness/study/shard_of.h"
 

@@ -1,6 +1,7 @@
 #include "harness/study/worker.h"
 
 #include "harness/base/stop_watch.h"
+#include "harness/cut/constraint_source.h"
 #include "harness/study/chill_caches.h"
 
 namespace cutbench {
@@ -23,7 +24,7 @@ CutRun Worker::cut(const BaseSheet& base, const std::vector<Curve>& cuts, const 
 }
 
 CutRun Worker::measure(const BaseSheet& base, const std::vector<Curve>& cuts, const CutOptions& options, bool cold) {
-  const bool is_program = !variant.row->command.empty();  // a new process each time: nothing stays warm
+  const bool is_program = method->program() != nullptr;  // a new process each time: nothing stays warm
   for (int i = 0; i < (is_program ? 0 : cold ? 1 : 2); ++i) cut(base, cuts, options);
   restore(base, cuts);
   if (cold) chill_caches();
@@ -31,22 +32,20 @@ CutRun Worker::measure(const BaseSheet& base, const std::vector<Curve>& cuts, co
 }
 
 CutRun Worker::cut_restored(const BaseSheet& base, const std::vector<Curve>& cuts, const CutOptions& options) {
-  using ConstraintKind = CuttingMethod::ConstraintKind;
   double constrain_us = 0;
   const auto find_constraints = [&] {
     StopWatch watch;
-    constraints = method->constraints(base.sheet, sheet);
+    constraints = constraints_of(*method, base.sheet, sheet);
     constrain_us += watch.lap();
   };
   constraints = {};
-  const ConstraintKind constraint_kind = method->constraint_kind();
-  const bool anew_after_each =
-      constraint_kind != ConstraintKind::nothing && constraint_kind != ConstraintKind::polygons;
+  const ConstraintSource* const source = method->constraint_source();
+  const bool makes_polygons = source && source->constraint_kind() == ConstraintKind::polygons;
+  const bool anew_after_each = source && !makes_polygons;
   CutRun run = cut_all(sheet, locator_, cutter, cuts, *method, options,
                        anew_after_each ? std::function<void()>(find_constraints) : nullptr);
-  // A scene's polygons follow each cut (CuttingMethod::next_constraints), which takes about as long as all of them at once.
-  if (constraint_kind == ConstraintKind::polygons && (run.status == Status::ok || run.status == Status::deviated))
-    find_constraints();
+  // A scene's polygons follow each cut (next_constraints), which takes about as long as all of them at once.
+  if (makes_polygons && (run.status == Status::ok || run.status == Status::deviated)) find_constraints();
   run.time_us.constrain = constrain_us;
   return run;
 }

@@ -22,11 +22,11 @@
 // where the polygon does not.
 #pragma once
 
-#include "harness/cut/cutting_method.h"
+#include "harness/cut/constraint_source.h"
 
 namespace cutbench {
 
-class CutPolygons : public CuttingMethod {
+class CutPolygons : public CuttingMethod, private ConstraintSource {
  public:
   struct Options {
     double thinness = 0.7;  ///< of a part, over the triangle that it is of (thin_parts.h); 0: nothing is merged
@@ -34,13 +34,13 @@ class CutPolygons : public CuttingMethod {
   explicit CutPolygons(const Options& options) : options_(options) {}
 
   void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
-  ConstraintKind constraint_kind() const override {
-    return options_.thinness > 0 ? ConstraintKind::polygons : ConstraintKind::nothing;
-  }
+  const ConstraintSource* constraint_source() const override { return options_.thinness > 0 ? this : nullptr; }
+
+ private:
+  ConstraintKind constraint_kind() const override { return ConstraintKind::polygons; }
   Constraints constraints(const Sheet& before, const Sheet& cut) const override;
   Constraints next_constraints(const Sheet& before, const Sheet& cut, const PolygonsLeft& left) const override;
 
- private:
   Options options_;
 };
 

@@ -37,11 +37,11 @@
 // smaller than a triangle. The system is assembled again after each cut, not updated.
 #pragma once
 
-#include "harness/cut/cutting_method.h"
+#include "harness/cut/constraint_source.h"
 
 namespace cutbench {
 
-class PhantomNode : public CuttingMethod {
+class PhantomNode : public CuttingMethod, private ConstraintSource {
  public:
   struct Options {
     double ghost = 0;  ///< dimensionless; 0: no penalty
@@ -50,12 +50,14 @@ class PhantomNode : public CuttingMethod {
   explicit PhantomNode(const Options& options) : options_(options) {}
 
   void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
+  const ConstraintSource* constraint_source() const override { return this; }
+
+ private:
   ConstraintKind constraint_kind() const override {
     return options_.ghost > 0 || options_.lumped_mass ? ConstraintKind::phantoms_at_rest : ConstraintKind::phantoms;
   }
   Constraints constraints(const Sheet& before, const Sheet& cut) const override;
 
- private:
   Options options_;
 };
 

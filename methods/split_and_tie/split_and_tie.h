@@ -14,11 +14,11 @@
 // triangle at the instant of the cut. Which vertices are constrained is found again after each cut, from all cuts.
 #pragma once
 
-#include "harness/cut/cutting_method.h"
+#include "harness/cut/constraint_source.h"
 
 namespace cutbench {
 
-class SplitAndTie : public CuttingMethod {
+class SplitAndTie : public CuttingMethod, private ConstraintSource {
  public:
   struct Options {
     double thinness = 0.1;  ///< lengths below it, times the longest edge nearby, are short; 0: nothing is constrained
@@ -26,12 +26,12 @@ class SplitAndTie : public CuttingMethod {
   explicit SplitAndTie(const Options& options) : options_(options) {}
 
   void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
-  ConstraintKind constraint_kind() const override {
-    return options_.thinness > 0 ? ConstraintKind::vertices : ConstraintKind::nothing;
-  }
-  Constraints constraints(const Sheet& before, const Sheet& cut) const override;
+  const ConstraintSource* constraint_source() const override { return options_.thinness > 0 ? this : nullptr; }
 
  private:
+  ConstraintKind constraint_kind() const override { return ConstraintKind::vertices; }
+  Constraints constraints(const Sheet& before, const Sheet& cut) const override;
+
   Options options_;
 };
 

@@ -15,9 +15,9 @@ namespace cutbench {
 namespace {
 
 /// The constraints of one cut sheet.
-class ConstraintKind {
+class SliverConstraints {
  public:
-  ConstraintKind(const Sheet& before, const Sheet& cut, double thinness, bool only_divided)
+  SliverConstraints(const Sheet& before, const Sheet& cut, double thinness, bool only_divided)
       : sheet_(cut),
         thinness_(thinness),
         before_(before),
@@ -295,7 +295,7 @@ class ConstraintKind {
 }  // namespace
 
 Constraints constrain_slivers(const Sheet& before, const Sheet& cut, double thinness, bool only_divided) {
-  return ConstraintKind(before, cut, thinness, only_divided).run();
+  return SliverConstraints(before, cut, thinness, only_divided).run();
 }
 
 }  // namespace cutbench

@@ -24,7 +24,7 @@ void WarpAndRefine::improve(Sheet& sheet, MethodNotes& notes) {
 }
 
 Constraints WarpAndRefine::constraints(const Sheet& before, const Sheet& cut) const {
-  return options_.after == After::constraint ? constrain_slivers(before, cut, options_.thinness, false) : Constraints{};
+  return constrain_slivers(before, cut, options_.thinness, false);
 }
 
 }  // namespace cutbench

@@ -35,14 +35,14 @@
 // where the sheet is bent, and its bending energy, though by less than the slivers of a split without improvement.
 #pragma once
 
-#include "harness/cut/cutting_method.h"
+#include "harness/cut/constraint_source.h"
 #include "methods/tools/path_curve.h"
 #include "methods/tools/reshape.h"
 #include "methods/tools/warp.h"
 
 namespace cutbench {
 
-class WarpAndRefine : public CuttingMethod {
+class WarpAndRefine : public CuttingMethod, private ConstraintSource {
  public:
   /// The step before the split and the last step after it. A later step of After includes the earlier ones, except constraint
   /// (methods/tools/constrain_slivers.h), which does not change the mesh. The method is warp_and_thin with refine; the other
@@ -63,12 +63,14 @@ class WarpAndRefine : public CuttingMethod {
   void adapt(Sheet& sheet, Subdivision& trace, const Polyline& path) override;
   void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
   void improve(Sheet& sheet, MethodNotes& notes) override;
-  ConstraintKind constraint_kind() const override {
-    return options_.after == After::constraint ? ConstraintKind::vertices : ConstraintKind::nothing;
+  const ConstraintSource* constraint_source() const override {
+    return options_.after == After::constraint ? this : nullptr;
   }
-  Constraints constraints(const Sheet& before, const Sheet& cut) const override;
 
  private:
+  ConstraintKind constraint_kind() const override { return ConstraintKind::vertices; }
+  Constraints constraints(const Sheet& before, const Sheet& cut) const override;
+
   Options options_;
   PathGraph path_;
   Warp warp_;

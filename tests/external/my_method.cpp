@@ -32,5 +32,5 @@ int main(int argc, char** argv) {
         .summary = "the Delaunay split and one round of flips",
         .parameter = {},
         .promises = {.exact_incision = true, .keeps_area = true, .conforming = true, .keeps_vertices = true},
-        .make = [](double) { return std::make_unique<FlipOnce>(); }}});
+        .factory = [](double) { return std::make_unique<FlipOnce>(); }}});
 }

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "harness/cut/cut_all.h"
+#include "harness/cut/cut_program.h"
 #include "harness/judge/judged_sheet.h"
 #include "harness/mesh/mesh_io.h"
 #include "harness/processes/subprocess.h"
@@ -51,9 +52,11 @@ std::string command(const Variant& variant, const std::filesystem::path& stem, c
   char chord[32];
   std::snprintf(chord, sizeof chord, "%.17g", options.chord_tolerance);
   const std::string parameter = variant.parameter_text();
-  const std::string method = variant.row->command.empty()
-                                 ? "--method " + variant.row->name + (parameter.empty() ? "" : " --set " + parameter)
-                                 : "--command " + quoted(variant.row->command);
+  const auto made = variant.row->make(variant.parameter);
+  const CutProgram* const program = made->program();
+  const std::string method = program
+                                 ? "--command " + quoted(program->command())
+                                 : "--method " + variant.row->name + (parameter.empty() ? "" : " --set " + parameter);
   return "build/release/cutbench cut --mesh " + stem.string() + ".obj --path " + stem.string() + ".json " + method +
          " --chord-tolerance " + chord + " --out result.obj";
 }

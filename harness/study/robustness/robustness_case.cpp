@@ -22,9 +22,7 @@ Count::Kind count_of(Status status) {
 class MethodAtWork : public Subject {
  public:
   MethodAtWork(const Variant& variant, const Sheet& start, const CutOptions& options)
-      : sheet_(start, variant.row->promises, variant.row->make(variant.parameter)),
-        is_program_(!variant.row->command.empty()),
-        options_(options) {}
+      : MethodAtWork(variant, start, options, variant.row->make(variant.parameter)) {}
 
   Result cut(const Curve& curve) override {
     const JudgedSheet::Finding finding = sheet_.cut(curve, options_);
@@ -37,6 +35,12 @@ class MethodAtWork : public Subject {
   }
 
  private:
+  MethodAtWork(const Variant& variant, const Sheet& start, const CutOptions& options,
+               std::unique_ptr<CuttingMethod> method)
+      : is_program_(method->program() != nullptr),
+        sheet_(start, variant.row->promises, std::move(method)),
+        options_(options) {}
+
   /// What a program made is judged before the sheet takes it over.
   static Count::Kind fault_of_program(const std::string& verdict) {
     if (verdict == verdict_crashed) return Count::crashed;
@@ -44,8 +48,8 @@ class MethodAtWork : public Subject {
     return verdict == verdict_no_result ? Count::failed : Count::wrong;
   }
 
-  JudgedSheet sheet_;
   bool is_program_;
+  JudgedSheet sheet_;
   CutOptions options_;
 };
 

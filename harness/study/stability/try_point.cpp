@@ -4,6 +4,7 @@
 #include <numbers>
 #include <span>
 
+#include "harness/cut/constraint_source.h"
 #include "harness/fem/model/largest_eigenvalue.h"
 #include "harness/judge/assessment.h"
 #include "harness/judge/judged_sheet.h"
@@ -113,7 +114,7 @@ class Point {
       measure(PointMeasure::ar_max_cut) = a.cut.ar_max, measure(PointMeasure::altitude_min_h_cut) = a.cut.altitude_min;
     if (!trial_.point->eigenvalue) return;
     at("the eigenvalue");
-    const Constraints constraints = method.constraints(before_, sheet);
+    const Constraints constraints = constraints_of(method, before_, sheet);
     measure(PointMeasure::eigenvalue_ratio) =
         largest_eigenvalue(sheet, constraints, with_mass({}, scene_)) / largest_eigenvalue(before_);
     Scene scene = scene_;
