@@ -36,7 +36,7 @@ void print_findings(const Assessment& a, std::size_t cuts) {
 }
 
 /// Where another number of pieces than the exact path's is right.
-void print_why_another_number(const oracle::Judgement& j, std::size_t cuts) {
+void print_why_another_number(const Judgement& j, std::size_t cuts) {
   if (!j.ok || j.expected_pieces == 0 || j.pieces == j.expected_pieces) return;
   std::cout
       << j.pieces << " pieces instead of " << j.expected_pieces << " are right, too: " << j.least_pieces << " to "
@@ -48,8 +48,8 @@ void print_why_another_number(const oracle::Judgement& j, std::size_t cuts) {
 }
 
 void print(const Assessment& a, double h, std::size_t cuts) {
-  const oracle::Judgement& j = a.judgement;
-  std::cout << (j.ok ? "ok" : "failed: " + j.verdict) << '\n';
+  const Judgement& j = a.judgement;
+  std::cout << (j.ok ? "ok" : "failed: " + std::string(name_of(j.verdict))) << '\n';
   print_findings(a, cuts);
   for (const std::string& problem : j.problems)
     if (a.findings.empty() || problem != a.findings.front().cause + ": " + a.findings.front().text)

@@ -328,7 +328,7 @@ TEST(Findings, ALoopThatBecameASlitIsNamed) {
   ASSERT_TRUE(made);
   const std::vector<Curve> asked{{Curve::Kind::polyline, true, {a, b, c}}};
   const Assessment found = assess_result(sheet, made->result, asked, promises_of_everybody, {});
-  EXPECT_EQ(found.judgement.verdict, "wrong_pieces");
+  EXPECT_EQ(found.judgement.verdict, Verdict::wrong_pieces);
   ASSERT_EQ(found.findings.size(), 1u);
   EXPECT_EQ(found.findings.front().cause, "lost_loop") << found.findings.front().text;
   ASSERT_TRUE(found.findings.front().place);

@@ -133,11 +133,11 @@ class Table : public JudgedSheet {
     const bool refuses = why_unsupported().has_value();
     const Finding finding =
         JudgedSheet::cut(curve, CutOptions{.flatten_tolerance = flatten_tolerance, .chord_tolerance = chord_tolerance});
-    if (!finding.ok()) return finding.verdict + ": " + finding.reason;
+    if (!finding.ok()) return std::string(name_of(finding.verdict)) + ": " + finding.reason;
     const bool done = outcome.status == Status::ok || outcome.status == Status::noop;
     if (refuses ? outcome.status == Status::refused : done) return {};
     if (may_delete_ && outcome.status == Status::refused) return {};
-    return std::string(name_of(outcome.status)) + ", " + outcome.verdict + ": " + outcome.reason;
+    return std::string(name_of(outcome.status)) + ", " + name_of(outcome.verdict) + ": " + outcome.reason;
   }
 
   double flatten_tolerance = CutOptions().flatten_tolerance;

@@ -46,7 +46,8 @@ TEST_P(InARow, ThousandCutsWithoutFailure) {
       const bool judged = i % 125 == 49;  // the oracle takes far longer than the cuts
       const Sheet before = judged ? sheet : Sheet();
       const CutOutcome outcome = cutter.cut(sheet, locator, curve, *method, options);
-      std::string what = outcome.status == Status::failed ? outcome.verdict + ": " + outcome.reason : "";
+      std::string what =
+          outcome.status == Status::failed ? std::string(name_of(outcome.verdict)) + ": " + outcome.reason : "";
       if (judged && what.empty()) what = faults(sheet);
       if (judged && what.empty())
         for (const auto& problem :

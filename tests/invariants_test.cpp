@@ -98,11 +98,11 @@ class Failing : public CuttingMethod {
   void adapt(Sheet& sheet, Subdivision& trace, const Polyline& path) override { method_->adapt(sheet, trace, path); }
   void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override {
     method_->embed(sheet, trace, notes);
-    if (!in_improve_) throw CutFailed("inverted", "on purpose");
+    if (!in_improve_) throw CutFailed(Verdict::inverted, "on purpose");
   }
   void improve(Sheet& sheet, MethodNotes& notes) override {
     method_->improve(sheet, notes);
-    throw CutFailed("leak", "on purpose");
+    throw CutFailed(Verdict::leak, "on purpose");
   }
 
  private:
@@ -127,7 +127,7 @@ TEST(Invariants, AFailedCutLeavesTheSheetAsItWas) {
           EXPECT_EQ(faults(sheet), "");
           if (outcome.status != Status::noop) {
             EXPECT_EQ(outcome.status, Status::failed);
-            EXPECT_EQ(outcome.verdict, in_improve ? "leak" : "inverted");
+            EXPECT_EQ(outcome.verdict, in_improve ? Verdict::leak : Verdict::inverted);
             EXPECT_EQ(outcome.reason, "on purpose");
           }
           // And nothing stays behind: the cut that follows is the one a fresh cutter makes of a fresh sheet.

@@ -163,15 +163,14 @@ TEST(JudgeOneByOne, ALaterCutMeetsTheIncisionNotTheCurve) {
   for (const Curve& curve : cuts) cutter.cut(after, locator, curve, *row.make(row.parameter.value), options);
   const oracle::Judgement whole =
       oracle::judge(request_for(before, cuts, row.promises, options, true), for_oracle(after));
-  EXPECT_EQ(whole.verdict, "wrong_pieces");
-  const oracle::Judgement each =
-      judge_one_by_one(before, after, cuts, row.promises, row.make(row.parameter.value), options);
+  EXPECT_EQ(whole.verdict, oracle::Verdict::wrong_pieces);
+  const Judgement each = judge_one_by_one(before, after, cuts, row.promises, row.make(row.parameter.value), options);
   EXPECT_TRUE(each.ok) << each.problems.front();
   EXPECT_EQ(each.pieces, whole.pieces);
   EXPECT_NEAR(each.area_change, whole.area_change, 1e-12);
-  const oracle::Judgement another =
+  const Judgement another =
       judge_one_by_one(before, before, cuts, row.promises, row.make(row.parameter.value), options);
-  EXPECT_EQ(another.verdict, "not_reproduced");
+  EXPECT_EQ(another.verdict, Verdict::not_reproduced);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ TEST(Accepts, NothingOpenedForACurveWithHardlyAnySize) {
   };
   const double extent = 4.0 / 9;  // of the curve, in sizes
   EXPECT_TRUE(loop(2.04e-12 / extent).ok);
-  EXPECT_EQ(loop(2.2e-12 / extent).verdict, "incision");
+  EXPECT_EQ(loop(2.2e-12 / extent).verdict, Verdict::incision);
 }
 
 /// Where points may be merged that far, the slit needn't be there; but it may.
@@ -211,11 +211,11 @@ TEST(Accepts, BezierWithinTolerance) {
   EXPECT_EQ(j.expected_pieces, 2);
   EXPECT_NEAR(j.incision_error, 0.25 * (std::numbers::sqrt2 - 1), 2e-4);  // at the corners of the square
   r.tolerance = 0.1;
-  EXPECT_EQ(judge(r, after).verdict, "incision");
+  EXPECT_EQ(judge(r, after).verdict, Verdict::incision);
   r.exact_incision = false, r.tolerance = 0.11;  // what the method promises
   EXPECT_TRUE(judge(r, after).ok);
   r.tolerance = 0.1;
-  EXPECT_EQ(judge(r, after).verdict, "incision");
+  EXPECT_EQ(judge(r, after).verdict, Verdict::incision);
 }
 
 /// No assertion: prints what a judgement costs on the paper's largest sheet.

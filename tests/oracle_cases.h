@@ -149,7 +149,7 @@ inline Case crossing() {
 }
 
 inline std::string explain(const Judgement& j) {
-  std::string text = j.verdict;
+  std::string text = name_of(j.verdict);
   for (const std::string& p : j.problems) text += "\n  " + p;
   return text;
 }
@@ -157,14 +157,14 @@ inline std::string explain(const Judgement& j) {
 inline void expect_ok(const Case& c, int pieces) {
   const Judgement j = judge(c.request, c.after);
   EXPECT_TRUE(j.ok) << explain(j);
-  EXPECT_EQ(j.verdict, "ok");
+  EXPECT_EQ(j.verdict, Verdict::ok);
   EXPECT_EQ(j.pieces, pieces);
   EXPECT_EQ(j.expected_pieces, pieces);
   EXPECT_LT(std::abs(j.area_change), 1e-14);
   EXPECT_LT(j.incision_error, 1e-12);
 }
 
-inline void expect_verdict(const std::string& verdict, const Case& c) {
+inline void expect_verdict(Verdict verdict, const Case& c) {
   const Judgement j = judge(c.request, c.after);
   EXPECT_EQ(j.verdict, verdict) << explain(j);
   EXPECT_FALSE(j.ok);

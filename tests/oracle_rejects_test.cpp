@@ -16,7 +16,7 @@ TEST(Rejects, FlippedTriangle) {
   for (int t : {0, 5, 100}) {
     Case c = straight();
     std::swap(c.after.triangles[t][0], c.after.triangles[t][1]);
-    expect_verdict("inverted", c);
+    expect_verdict(Verdict::inverted, c);
   }
 }
 
@@ -24,7 +24,7 @@ TEST(Rejects, ZeroArea) {
   Case c = straight();
   const auto& t = c.after.triangles[3];
   c.after.rest[t[2]] = c.after.rest[t[0]];
-  expect_verdict("inverted", c);
+  expect_verdict(Verdict::inverted, c);
 }
 
 TEST(Rejects, SwappedIndices) {
@@ -38,7 +38,7 @@ TEST(Rejects, SwappedIndices) {
 TEST(Rejects, VertexMovedAcrossTheOppositeEdge) {
   Case c = cut_out();
   c.after.rest[vertex_at(c.after, {0.5, 0.5})] = {0.5, 0.76};
-  expect_verdict("inverted", c);
+  expect_verdict(Verdict::inverted, c);
 }
 
 TEST(Rejects, EveryDroppedTriangle) {
@@ -46,8 +46,9 @@ TEST(Rejects, EveryDroppedTriangle) {
   for (std::size_t t = 0; t < good.after.triangles.size(); ++t) {
     Case c = good;
     c.after.triangles.erase(c.after.triangles.begin() + long(t));
-    const std::string verdict = judge(c.request, c.after).verdict;
-    EXPECT_TRUE(verdict == "leak" || verdict == "non_manifold" || verdict == "unused_vertex") << t << " " << verdict;
+    const Verdict verdict = judge(c.request, c.after).verdict;
+    EXPECT_TRUE(verdict == Verdict::leak || verdict == Verdict::non_manifold || verdict == Verdict::unused_vertex)
+        << t << " " << verdict;
   }
 }
 
@@ -56,7 +57,7 @@ TEST(Rejects, EveryDuplicatedTriangle) {
   for (std::size_t t = 0; t < good.after.triangles.size(); ++t) {
     Case c = good;
     c.after.triangles.push_back(c.after.triangles[t]);
-    expect_verdict("non_manifold", c);
+    expect_verdict(Verdict::non_manifold, c);
   }
 }
 
@@ -65,7 +66,7 @@ TEST(Rejects, OverlappingTriangleWithItsOwnVertices) {
   const int first = int(c.after.rest.size());
   for (int v : c.after.triangles[9]) c.after.rest.push_back(Point(c.after.rest[v]));
   c.after.triangles.push_back({first, first + 1, first + 2});
-  expect_verdict("leak", c);
+  expect_verdict(Verdict::leak, c);
 }
 
 /// One triangle is split at the middle of an edge, its neighbour is not: a T-junction.
@@ -78,13 +79,14 @@ TEST(Rejects, EveryUnsplitNeighbour) {
     c.after.rest.push_back(between(c.after.rest[p], c.after.rest[q], 0.5));
     c.after.triangles[t] = {p, middle, r};
     c.after.triangles.push_back({middle, q, r});
-    const std::string verdict = judge(c.request, c.after).verdict;
+    const Verdict verdict = judge(c.request, c.after).verdict;
     const bool on_border = c.after.rest[p][1] == c.after.rest[q][1] && std::fmod(c.after.rest[p][1], 1.0) == 0;
     const bool on_side = c.after.rest[p][0] == c.after.rest[q][0] && std::fmod(c.after.rest[p][0], 1.0) == 0;
     if (on_border || on_side) {
-      EXPECT_EQ(verdict, "ok");  // the border has no neighbour
+      EXPECT_EQ(verdict, Verdict::ok);  // the border has no neighbour
     } else {
-      EXPECT_TRUE(verdict == "leak" || verdict == "inverted" || verdict == "non_manifold") << t << " " << verdict;
+      EXPECT_TRUE(verdict == Verdict::leak || verdict == Verdict::inverted || verdict == Verdict::non_manifold)
+          << t << " " << verdict;
     }
   }
 }
@@ -100,7 +102,7 @@ TEST(Rejects, PathVertexNotDoubled) {
         for (int& i : t)
           if (i == w) i = v;
       const Judgement j = judge(joined.request, joined.after);
-      EXPECT_EQ(j.verdict, "non_manifold") << explain(j);
+      EXPECT_EQ(j.verdict, Verdict::non_manifold) << explain(j);
     }
 }
 
@@ -110,44 +112,44 @@ TEST(Rejects, EdgesNotOpened) {
   c.after = open(split(grid(8), p, q), [&](const Point& a, const Point& b) {
     return on({{p, q}})(a, b) && !(std::min(a[0], b[0]) > 0.4 && std::max(a[0], b[0]) < 0.6);
   });
-  expect_verdict("wrong_pieces", c);
+  expect_verdict(Verdict::wrong_pieces, c);
   c = partial();
   const Point tip = c.request.cuts[0].points[1];
   c.after = open(split(grid(8), {0, 0.3}, {1, 0.8}), on({{{0.125, 0.3625}, tip}}));
-  expect_verdict("incision", c);
+  expect_verdict(Verdict::incision, c);
 }
 
 TEST(Rejects, PathFromFarOutsideNotOpened) {
   for (double far : {1e9, 1e59}) {
     Case c{request(grid(4), {polyline({{-far, 0.25}, {0.75, 0.25}})}), grid(4)};
-    expect_verdict("incision", c);
+    expect_verdict(Verdict::incision, c);
     c.after = open(grid(4), on({{{0, 0.25}, {0.5, 0.25}}}));
-    expect_verdict("incision", c);
+    expect_verdict(Verdict::incision, c);
   }
 }
 
 TEST(Rejects, CutThatStopsShort) {
   Case c = partial();
   c.after = open(split(grid(8), {0, 0.3}, {1, 0.8}), on({{{0, 0.3}, {0.25, 0.425}}}));
-  expect_verdict("incision", c);
+  expect_verdict(Verdict::incision, c);
   c.after = grid(8);
   c.request.tolerance = infinity;
-  expect_verdict("incision", c);
+  expect_verdict(Verdict::incision, c);
 }
 
 TEST(Rejects, IncisionNobodyAskedFor) {
   Case c = partial();
   const std::vector<Point> extra{{0.25, 0.75}, {0.5, 0.75}};
   c.after = open(split(grid(8), {0, 0.3}, {1, 0.8}), on({{{0, 0.3}, {0.375, 0.4875}}, extra}));
-  expect_verdict("incision", c);
-  expect_verdict("incision", {request(grid(8), {}), open(grid(8), on({extra}))});
+  expect_verdict(Verdict::incision, c);
+  expect_verdict(Verdict::incision, {request(grid(8), {}), open(grid(8), on({extra}))});
 }
 
 TEST(Rejects, ClosedOlderIncision) {
   const std::vector<Point> slit{{0.25, 0.5}, {0.75, 0.5}};
   Case c{request(open(grid(4), on({slit})), {}), grid(4)};
   c.request.keeps_vertices = false;
-  expect_verdict("incision", c);
+  expect_verdict(Verdict::incision, c);
 }
 
 TEST(Rejects, VertexMovedOffTheIncision) {
@@ -160,9 +162,9 @@ TEST(Rejects, VertexMovedOffTheIncision) {
   EXPECT_TRUE(judge(c.request, c.after).ok);
   EXPECT_NEAR(judge(c.request, c.after).incision_error, 1e-3, 2e-4);
   c.request.vertex_tolerance = 1e-4;
-  expect_verdict("incision", c);
+  expect_verdict(Verdict::incision, c);
   c.request.vertex_tolerance = infinity, c.request.tolerance = 1e-4;
-  expect_verdict("incision", c);
+  expect_verdict(Verdict::incision, c);
 }
 
 TEST(Rejects, OneLipMovedByOneUlp) {
@@ -172,14 +174,14 @@ TEST(Rejects, OneLipMovedByOneUlp) {
       p[1] = std::nextafter(p[1], 1.0);
       break;
     }
-  expect_verdict("leak", c);
+  expect_verdict(Verdict::leak, c);
 }
 
 TEST(Rejects, InputVertexMovedByOneUlp) {
   Case c = straight();
   const int v = vertex_at(c.after, {0.5, 0.125});
   c.after.rest[v][0] = std::nextafter(c.after.rest[v][0], 1.0);
-  expect_verdict("moved_vertex", c);
+  expect_verdict(Verdict::moved_vertex, c);
   c.request.keeps_vertices = false;
   EXPECT_TRUE(judge(c.request, c.after).ok);
 }
@@ -189,20 +191,20 @@ TEST(Rejects, BorderVertexMoved) {
   c.request.keeps_vertices = false;
   const int v = vertex_at(c.after, {0.5, 0});
   c.after.rest[v][1] = -1e-9;
-  expect_verdict("leak", c);
+  expect_verdict(Verdict::leak, c);
 }
 
 TEST(Rejects, UnusedVertex) {
   Case c = straight();
   c.after.rest.push_back({0.5, 0.5});
-  expect_verdict("unused_vertex", c);
+  expect_verdict(Verdict::unused_vertex, c);
 }
 
 TEST(Rejects, NotFinite) {
   for (const double bad : {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()}) {
     Case c = straight();
     c.after.rest[7][1] = bad;
-    expect_verdict("not_finite", c);
+    expect_verdict(Verdict::not_finite, c);
   }
 }
 
@@ -211,11 +213,11 @@ TEST(Rejects, BadIndex) {
   for (int bad : {-1, count, 1 << 30}) {
     Case c = straight();
     c.after.triangles[4][2] = bad;
-    expect_verdict("bad_index", c);
+    expect_verdict(Verdict::bad_index, c);
   }
   Case c = straight();
   c.after.triangles[4][2] = c.after.triangles[4][0];
-  expect_verdict("bad_index", c);
+  expect_verdict(Verdict::bad_index, c);
 }
 
 TEST(Rejects, EmptyResult) {
@@ -291,14 +293,14 @@ TEST(Deletion, OfOneMoreOrOneLessIsNot) {
   for (std::size_t t = 0; t < d.stays.size(); t += 3) {
     auto less = d.stays;
     less.erase(less.begin() + static_cast<std::ptrdiff_t>(t));
-    const std::string verdict = d.judge(less).verdict;
-    EXPECT_TRUE(verdict == "deletion" || verdict == "non_manifold") << t << " " << verdict;
+    const Verdict verdict = d.judge(less).verdict;
+    EXPECT_TRUE(verdict == Verdict::deletion || verdict == Verdict::non_manifold) << t << " " << verdict;
   }
   for (const auto& left : d.gone) {
     auto more = d.stays;
     more.push_back(left);
-    const std::string verdict = d.judge(more).verdict;
-    EXPECT_TRUE(verdict == "deletion" || verdict == "non_manifold") << verdict;
+    const Verdict verdict = d.judge(more).verdict;
+    EXPECT_TRUE(verdict == Verdict::deletion || verdict == Verdict::non_manifold) << verdict;
   }
 }
 
@@ -308,7 +310,7 @@ TEST(Deletion, MakesNoNewTriangles) {
   ASSERT_EQ(other[0], (std::array{0, 1, 10}));
   ASSERT_EQ(other[1], (std::array{0, 10, 9}));
   other[0] = {0, 1, 9}, other[1] = {1, 10, 9};
-  EXPECT_EQ(d.judge(other).verdict, "deletion");
+  EXPECT_EQ(d.judge(other).verdict, Verdict::deletion);
 }
 
 }  // namespace

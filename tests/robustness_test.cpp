@@ -43,7 +43,7 @@ class Saboteur : public CuttingMethod {
       }
     method_->embed(sheet, trace, notes);
     if (strike && deed_ == Deed::give_up) throw TooClose("on purpose");
-    if (strike && deed_ == Deed::fail) throw CutFailed("inverted", "on purpose");
+    if (strike && deed_ == Deed::fail) throw CutFailed(Verdict::inverted, "on purpose");
     if (strike && deed_ == Deed::leave_closed && !sheet.log().new_vertices.empty()) un_mark(sheet);
   }
 

@@ -23,7 +23,7 @@ class ConstrainsSlowly final : public CuttingMethod, private ConstraintSource {
   ConstrainsSlowly(std::optional<ConstraintKind> kind, std::size_t* asked) : kind_(kind), asked_(asked) {}
   void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override {
     CuttingMethod::embed(sheet, trace, notes);
-    if (++embedded_ == fails_at) throw CutFailed("inverted", "on purpose");
+    if (++embedded_ == fails_at) throw CutFailed(Verdict::inverted, "on purpose");
   }
   const ConstraintSource* constraint_source() const override { return kind_ ? this : nullptr; }
 

@@ -49,6 +49,22 @@ class LosesAHundredth final : public CuttingMethod {
   ConventionalSplit split_;
 };
 
+TEST(Verdicts, AreReadAsTheyAreWritten) {
+  for (const auto& entry : verdict_names) {
+    EXPECT_EQ(value_named(verdict_names, name_of(entry.value)), entry.value) << entry.name;
+    EXPECT_EQ(&entry - verdict_names.data(), static_cast<int>(entry.value)) << entry.name;
+  }
+  EXPECT_FALSE(value_named(verdict_names, "unknown"));
+}
+
+TEST(Verdicts, TheOraclesHaveTheSameNameInTheHarness) {
+  for (auto i = 0; i <= static_cast<int>(oracle::Verdict::incision); ++i) {
+    oracle::Judgement given;
+    given.verdict = static_cast<oracle::Verdict>(i);
+    EXPECT_STREQ(name_of(Judgement(given).verdict), name_of(given.verdict));
+  }
+}
+
 TEST(WrongMethods, AHundredthOfTheIncisionIsMissed) {
   for (const std::string family : sheet_families())
     for (const double angle : {0.1, 0.7, 2.0}) {
@@ -60,7 +76,7 @@ TEST(WrongMethods, AHundredthOfTheIncisionIsMissed) {
       auto method = std::make_unique<LosesAHundredth>();
       const LosesAHundredth& wrong_method = *method;
       JudgedSheet wrong(Sheet(make_sheet(family, 40)), {true, true, true, true}, std::move(method));
-      EXPECT_EQ(wrong.cut(path, {}).verdict, "incision");
+      EXPECT_EQ(wrong.cut(path, {}).verdict, Verdict::incision);
       EXPECT_NEAR(wrong.judgement.incision_error, wrong_method.lost * 0.8, 1e-3 * 0.8);
       EXPECT_LE(wrong_method.lost, 0.05);
     }
@@ -79,8 +95,8 @@ TEST(WrongMethods, AnIncisionBeyondTheBoundIsNoticed) {
     return finding.verdict;
   };
   for (const std::string family : sheet_families()) {
-    EXPECT_EQ(judge(family, 1), "ok") << family;
-    EXPECT_EQ(judge(family, 0.1), "incision") << family;
+    EXPECT_EQ(judge(family, 1), Verdict::ok) << family;
+    EXPECT_EQ(judge(family, 0.1), Verdict::incision) << family;
   }
 }
 

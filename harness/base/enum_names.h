@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
+#include <string_view>
 
 namespace cutbench {
 
@@ -20,6 +22,14 @@ constexpr const char* name_of(const EnumNames<E, N>& names, E value) {
   for (const auto& entry : names)
     if (entry.value == value) return entry.name;
   return "unknown";
+}
+
+/// None: no value has that name.
+template <class E, std::size_t N>
+constexpr std::optional<E> value_named(const EnumNames<E, N>& names, std::string_view name) {
+  for (const auto& entry : names)
+    if (entry.name == name) return entry.value;
+  return {};
 }
 
 }  // namespace cutbench

@@ -44,8 +44,9 @@ struct PhaseTimes {
 
 struct CutOutcome {
   Status status = Status::ok;
-  std::string verdict = "ok", reason;  ///< of a failure; the reason of a refusal or a noop, a note on what was done
-  std::size_t crossed_triangles = 0;   ///< of the mesh before the cut: those whose interior the path meets
+  Verdict verdict = Verdict::ok;      ///< of a failure
+  std::string reason;                 ///< of a failure or a refusal or a noop, a note on what was done
+  std::size_t crossed_triangles = 0;  ///< of the mesh before the cut: those whose interior the path meets
   int recovered_segments = 0;
   bool carefully = false;  ///< the method could not embed the path, and embed_carefully() did
   double deviation = 0;    ///< largest move of a crossing by embed_carefully(), rest units; beyond `line_tolerance`

@@ -12,7 +12,8 @@ namespace cutbench {
 /// Result of several cuts. It ends with the first failed or refused cut; the cuts before it stay.
 struct CutRun {
   Status status = Status::ok;
-  std::string verdict = "ok", reason;
+  Verdict verdict = Verdict::ok;
+  std::string reason;
   std::size_t crossed_triangles = 0;
   int recovered_segments = 0;
   bool carefully = false;  ///< at least one of them (CutOutcome::carefully)

@@ -41,8 +41,8 @@ std::size_t count_places(const oracle::Mesh& mesh) {
 }
 
 /// Whether quality() can be asked: it wants edges, and no numbers that overflow.
-bool can_be_measured(const oracle::Judgement& judgement, const oracle::Mesh& mesh) {
-  if (judgement.verdict == "not_finite" || judgement.verdict == "bad_index") return false;
+bool can_be_measured(const Judgement& judgement, const oracle::Mesh& mesh) {
+  if (judgement.verdict == Verdict::not_finite || judgement.verdict == Verdict::bad_index) return false;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto [a, b, c] = corners_of(mesh, t);
     for (const double length : {oracle::distance(a, b), oracle::distance(b, c), oracle::distance(c, a)})
@@ -87,12 +87,13 @@ void measure(Assessment& result, const oracle::Mesh& mesh, const std::vector<cha
 }
 
 /// The oracle judges places in rest space; but no simulation goes on from a vertex that is nowhere.
-void check_positions(oracle::Judgement& judgement, const std::vector<Point3>& positions) {
+void check_positions(Judgement& judgement, const std::vector<Point3>& positions) {
   const auto lost = std::find_if(positions.begin(), positions.end(), [](const Point3& p) {
     return !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z);
   });
-  if (lost == positions.end() || judgement.verdict == "not_finite") return;
-  judgement.ok = false, judgement.verdict = "not_finite";
+  if (lost == positions.end() || judgement.verdict == Verdict::not_finite) return;
+  judgement.ok = false;
+  judgement.verdict = Verdict::not_finite;
   judgement.problems.insert(judgement.problems.begin(),
                             "not_finite: position of vertex " + std::to_string(lost - positions.begin()));
 }
@@ -102,7 +103,8 @@ void find_faults(Assessment& a, const oracle::Request& request, const oracle::Me
                  const std::vector<Point3>& positions) {
   a.findings = find_causes(request, mesh, a.judgement);
   if (!a.findings.empty() && a.findings.front().cause == "rounded") {
-    a.judgement.ok = false, a.judgement.verdict = "rounded";
+    a.judgement.ok = false;
+    a.judgement.verdict = Verdict::rounded;
     a.judgement.problems.insert(a.judgement.problems.begin(), "rounded: " + a.findings.front().text);
   }
   check_positions(a.judgement, positions);
@@ -116,7 +118,7 @@ std::vector<oracle::ForcedCorner> forced_corners_of(const Sheet& before, std::sp
   return oracle::forced_corners(for_oracle(before), for_oracle(cuts), before.mean_edge());
 }
 
-Assessment assess(const Sheet& before, const Sheet& after, const oracle::Judgement& judgement,
+Assessment assess(const Sheet& before, const Sheet& after, const Judgement& judgement,
                   std::span<const oracle::ForcedCorner> forced) {
   Assessment result;
   result.judgement = judgement;
@@ -141,13 +143,13 @@ struct Exam {
       : request(request_for(before, cuts, asked, options, true)) {
     for (Point2 p : result.rest) mesh.rest.push_back({p.x, p.y});
     mesh.triangles = result.triangles;
-    oracle::Judgement& judgement = assessment.judgement;
+    Judgement& judgement = assessment.judgement;
     try {
       judgement = oracle::judge(request, mesh);
     } catch (const std::invalid_argument& error) {
       throw InputError(error.what());
     }
-    assessment.connected = judgement.verdict != "not_finite" && judgement.verdict != "bad_index" &&
+    assessment.connected = judgement.verdict != Verdict::not_finite && judgement.verdict != Verdict::bad_index &&
                            oracle::half_edges(mesh).repeated.empty();
     assessment.measured = can_be_measured(judgement, mesh);
     find_faults(assessment, request, mesh, result.deformed);

@@ -15,7 +15,7 @@ namespace cutbench {
 
 /// What the result is like. Lengths in h = mean rest edge of the uncut sheet, unless a name says otherwise.
 struct Assessment {
-  oracle::Judgement judgement;
+  Judgement judgement;
   std::vector<Finding> findings;  ///< of a wrong result, by assess_result()
   bool connected = true;  ///< false: the triangles fit together so badly that pieces and incision error are unknown
   bool measured = true;   ///< false: the result is too broken for the numbers below, which stay 0
@@ -28,7 +28,7 @@ struct Assessment {
   std::ptrdiff_t vertices_added = 0, deformed_vertices_added = 0, triangles_added = 0;
 };
 /// Measures a result; `judgement` (judge_one_by_one) is passed on. `forced`: forced_corners_of(before, cuts).
-Assessment assess(const Sheet& before, const Sheet& after, const oracle::Judgement& judgement,
+Assessment assess(const Sheet& before, const Sheet& after, const Judgement& judgement,
                   std::span<const oracle::ForcedCorner> forced);
 /// Judges a result that anybody made, all of its cuts together, and measures it, broken as it may be: a triangle of the
 /// cut is one whose corners, in their order round it, are not exactly those of a triangle before; rest vertices are

@@ -27,7 +27,7 @@ std::string at(const Point& p);
 
 class Causes {
  public:
-  Causes(const oracle::Request& request, const Mesh& after, const oracle::Judgement& judgement)
+  Causes(const oracle::Request& request, const Mesh& after, const Judgement& judgement)
       : request_(request), before_(request.before), after_(after), judgement_(judgement) {}
 
   std::vector<Finding> find();
@@ -85,7 +85,7 @@ class Causes {
 
   const oracle::Request& request_;
   const Mesh &before_, &after_;
-  const oracle::Judgement& judgement_;
+  const Judgement& judgement_;
   oracle::HalfEdges before_edges_, edges_;
   oracle::Borders borders_;
   double h_ = 0;

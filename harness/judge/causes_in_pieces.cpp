@@ -23,7 +23,7 @@ double Causes::area_of(int t) const {
 }
 
 std::optional<Finding> Causes::pieces(const char* cause, const char* mend) const {
-  if (judgement_.verdict != "wrong_pieces") return {};
+  if (judgement_.verdict != Verdict::wrong_pieces) return {};
   std::vector<Piece> all = all_pieces(oracle::pieces_of_triangles(edges_));
   std::sort(all.begin(), all.end(), [](const Piece& a, const Piece& b) { return a.area < b.area; });
   std::string text = std::to_string(judgement_.pieces) + " pieces instead of " +
@@ -41,7 +41,7 @@ std::optional<Finding> Causes::extra_pieces() const {
 }
 
 std::optional<Finding> Causes::lost_loop() const {
-  if (judgement_.verdict != "wrong_pieces" || judgement_.pieces >= judgement_.expected_pieces) return {};
+  if (judgement_.verdict != Verdict::wrong_pieces || judgement_.pieces >= judgement_.expected_pieces) return {};
   const std::vector<int> piece = oracle::pieces_of_triangles(edges_);
   const std::vector<Piece> all = all_pieces(piece);
   double smallest = std::numeric_limits<double>::infinity();

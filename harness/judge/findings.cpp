@@ -20,7 +20,7 @@ std::string number(double x, const char* format) {
 std::string at(const Point& p) { return "(" + number(p[0]) + ", " + number(p[1]) + ")"; }
 
 std::vector<Finding> Causes::find() {
-  if (judgement_.verdict == "not_finite" || judgement_.verdict == "bad_index") return {other()};
+  if (judgement_.verdict == Verdict::not_finite || judgement_.verdict == Verdict::bad_index) return {other()};
   before_edges_ = oracle::half_edges(before_), edges_ = oracle::half_edges(after_);
   h_ = oracle::edge_lengths(before_, before_edges_).mean;
   compare_places();
@@ -102,8 +102,8 @@ std::optional<Finding> Causes::rounded() const {
 }
 
 std::optional<Finding> Causes::other_rest() const {
-  if (10 * gone_.size() < 9 * places_before_ || judgement_.verdict == "wrong_pieces" ||
-      judgement_.verdict == "incision")
+  if (10 * gone_.size() < 9 * places_before_ || judgement_.verdict == Verdict::wrong_pieces ||
+      judgement_.verdict == Verdict::incision)
     return {};
   return Finding{
       "other_rest",
@@ -177,7 +177,7 @@ bool Causes::runs_against_neighbours(int t) const {
 
 Finding Causes::other() const {
   return {"other",
-          judgement_.problems.empty() ? judgement_.verdict : judgement_.problems.front(),
+          judgement_.problems.empty() ? name_of(judgement_.verdict) : judgement_.problems.front(),
           "see the verdict in results/README.md",
           {}};
 }
@@ -196,7 +196,7 @@ std::vector<Finding> Causes::with_cuts(std::vector<Finding> all) const {
 }  // namespace causes
 
 std::vector<Finding> find_causes(const oracle::Request& request, const oracle::Mesh& after,
-                                 const oracle::Judgement& judgement) {
+                                 const Judgement& judgement) {
   return causes::Causes(request, after, judgement).find();
 }
 

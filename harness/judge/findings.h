@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/judge/judgement.h"
 #include "harness/oracle/oracle.h"
 
 namespace cutbench {
@@ -35,7 +36,6 @@ struct Finding {
 ///   pieces          another number of pieces than the path makes, for none of these reasons
 ///   other           none of these; the text is the oracle's
 /// Empty where the result is right. \param judgement  of `after` by `request`
-std::vector<Finding> find_causes(const oracle::Request& request, const oracle::Mesh& after,
-                                 const oracle::Judgement& judgement);
+std::vector<Finding> find_causes(const oracle::Request& request, const oracle::Mesh& after, const Judgement& judgement);
 
 }  // namespace cutbench

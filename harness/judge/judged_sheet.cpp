@@ -9,6 +9,15 @@
 
 namespace cutbench {
 
+namespace {
+
+/// Of a line of Judgement::problems, which begins with it.
+Verdict verdict_of_problem(const std::string& problem) {
+  return value_named(verdict_names, problem.substr(0, problem.find(':'))).value();
+}
+
+}  // namespace
+
 JudgedSheet::JudgedSheet(Sheet start, const Promises& promises, std::unique_ptr<CuttingMethod> method)
     : sheet(std::move(start)), locator_(sheet), promises_(promises), method_(std::move(method)) {}
 
@@ -19,9 +28,9 @@ JudgedSheet::Finding JudgedSheet::cut(const Curve& curve, const CutOptions& opti
   const Status status = outcome.status;
   if (status != Status::ok && status != Status::deviated)
     if (const std::string what = difference(before, sheet); !what.empty())
-      return {"changed", std::string(name_of(status)) + ", but changed: " + what};
+      return {Verdict::changed, std::string(name_of(status)) + ", but changed: " + what};
   if (status == Status::refused || status == Status::failed) return {};
-  if (const auto faults = check(sheet); !faults.empty()) return {"check", faults.front()};
+  if (const auto faults = check(sheet); !faults.empty()) return {Verdict::check, faults.front()};
 
   oracle::Request request;
   if (status == Status::noop) {  // justified where the path opens nothing
@@ -40,40 +49,40 @@ JudgedSheet::Finding JudgedSheet::cut(const Curve& curve, const CutOptions& opti
   if (status == Status::deviated) {
     std::erase_if(judgement.problems, [](const std::string& problem) { return problem.starts_with("wrong_pieces"); });
     judgement.ok = judgement.problems.empty();
-    judgement.verdict =
-        judgement.ok ? "ok" : judgement.problems.front().substr(0, judgement.problems.front().find(':'));
+    judgement.verdict = judgement.ok ? Verdict::ok : verdict_of_problem(judgement.problems.front());
   }
   if (judgement.ok) return {};
   return {judgement.verdict, std::string(name_of(status)) + ", but " + judgement.problems.front()};
 }
 
-oracle::Judgement judge_one_by_one(const Sheet& start, const Sheet& result, std::span<const Curve> cuts,
-                                   const Promises& promises, std::unique_ptr<CuttingMethod> method,
-                                   const CutOptions& options) {
+Judgement judge_one_by_one(const Sheet& start, const Sheet& result, std::span<const Curve> cuts,
+                           const Promises& promises, std::unique_ptr<CuttingMethod> method, const CutOptions& options) {
   JudgedSheet again(start, promises, std::move(method));
-  oracle::Judgement all;
-  const auto stop = [&all](const std::string& verdict, std::vector<std::string> problems) {
-    all.ok = false, all.verdict = verdict, all.problems = std::move(problems);
+  Judgement all;
+  const auto stop = [&all](Verdict verdict, std::vector<std::string> problems) {
+    all.ok = false;
+    all.verdict = verdict;
+    all.problems = std::move(problems);
     return all;
   };
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     const std::string which =
         cuts.size() > 1 ? "cut " + std::to_string(i + 1) + " of " + std::to_string(cuts.size()) + ": " : "";
     const JudgedSheet::Finding finding = again.cut(cuts[i], options);
-    const oracle::Judgement& last = again.judgement;
+    const Judgement& last = again.judgement;
     all.pieces = last.pieces, all.expected_pieces = last.expected_pieces;
     all.incision_error = std::max(all.incision_error, last.incision_error);
     all.area_change += (1 + all.area_change) * last.area_change;
     if (!finding.ok()) {
       std::vector<std::string> problems =
-          last.ok ? std::vector{finding.verdict + ": " + finding.reason} : last.problems;
+          last.ok ? std::vector{std::string(name_of(finding.verdict)) + ": " + finding.reason} : last.problems;
       for (std::string& problem : problems) problem = which + problem;
       return stop(finding.verdict, std::move(problems));
     }
     if (again.outcome.status == Status::refused || again.outcome.status == Status::failed) break;  // unlike before
   }
   if (const std::string what = difference(again.sheet, result); !what.empty())
-    return stop("not_reproduced", {"not_reproduced: made once more, the cuts leave another sheet: " + what});
+    return stop(Verdict::not_reproduced, {"not_reproduced: made once more, the cuts leave another sheet: " + what});
   return all;
 }
 

@@ -9,7 +9,7 @@
 
 #include "harness/cut/cut.h"
 #include "harness/cut/method_row.h"
-#include "harness/oracle/oracle.h"
+#include "harness/judge/judgement.h"
 
 namespace cutbench {
 
@@ -45,8 +45,9 @@ class JudgedSheet {
   JudgedSheet(Sheet start, const Promises& promises, std::unique_ptr<CuttingMethod> method);
 
   struct Finding {
-    std::string verdict = "ok", reason;  ///< `changed`, `check`, or the oracle's
-    bool ok() const { return verdict == "ok"; }
+    Verdict verdict = Verdict::ok;  ///< `changed`, `check`, or the oracle's
+    std::string reason;
+    bool ok() const { return verdict == Verdict::ok; }
   };
   /// Cuts, and judges the result for every status: after noop, refused and failed the sheet must be bit-unchanged, and
   /// a noop must be justified; after ok it must pass check() and the oracle; after deviated the same, except for the
@@ -59,9 +60,8 @@ class JudgedSheet {
   std::size_t embedded_vertices() const { return method_.embedded_vertices; }
 
   Sheet sheet;
-  CutOutcome outcome;  ///< of the last cut
-  oracle::Judgement
-      judgement;  ///< of the last cut, where the oracle was asked, without what `deviated` forgives; rest units
+  CutOutcome outcome;   ///< of the last cut
+  Judgement judgement;  ///< of the last cut, where the oracle was asked, without what `deviated` forgives; rest units
 
  private:
   Locator locator_;
@@ -76,8 +76,7 @@ class JudgedSheet {
 /// last cut, the largest incision error and the total change of area. Verdict `not_reproduced` where the cuts do not
 /// make `result`, bit for bit.
 /// \param method  a new one, of the same kind
-oracle::Judgement judge_one_by_one(const Sheet& start, const Sheet& result, std::span<const Curve> cuts,
-                                   const Promises& promises, std::unique_ptr<CuttingMethod> method,
-                                   const CutOptions& options);
+Judgement judge_one_by_one(const Sheet& start, const Sheet& result, std::span<const Curve> cuts,
+                           const Promises& promises, std::unique_ptr<CuttingMethod> method, const CutOptions& options);
 
 }  // namespace cutbench

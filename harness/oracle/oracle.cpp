@@ -24,16 +24,16 @@ class Problems {
  public:
   explicit Problems(Judgement& judgement) : judgement_(judgement) {}
 
-  void add(const std::string& verdict, const std::string& text) {
+  void add(Verdict verdict, const std::string& text) {
     constexpr int shown = 5;
-    if (judgement_.verdict == "ok") judgement_.verdict = verdict;
+    if (judgement_.verdict == Verdict::ok) judgement_.verdict = verdict;
     judgement_.ok = false;
-    if (++count_[verdict] <= shown) judgement_.problems.push_back(verdict + ": " + text);
+    if (++count_[verdict] <= shown) judgement_.problems.push_back(std::string(name_of(verdict)) + ": " + text);
   }
 
  private:
   Judgement& judgement_;
-  std::map<std::string, int> count_;
+  std::map<Verdict, int> count_;
 };
 
 std::string name(const Mesh& mesh, int t) {
@@ -62,7 +62,7 @@ bool check_values(const Mesh& mesh, Problems& problems) {
   bool usable = true;
   for (std::size_t v = 0; v < mesh.rest.size(); ++v)
     if (!std::isfinite(mesh.rest[v][0]) || !std::isfinite(mesh.rest[v][1])) {
-      problems.add("not_finite", "vertex " + std::to_string(v));
+      problems.add(Verdict::not_finite, "vertex " + std::to_string(v));
       usable = false;
     }
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
@@ -70,7 +70,7 @@ bool check_values(const Mesh& mesh, Problems& problems) {
     const int count = static_cast<int>(mesh.rest.size());
     const bool in_range = std::min({a, b, c}) >= 0 && std::max({a, b, c}) < count;
     if (in_range && a != b && b != c && c != a) continue;
-    problems.add("bad_index", name(mesh, t) + " of " + std::to_string(count) + " vertices");
+    problems.add(Verdict::bad_index, name(mesh, t) + " of " + std::to_string(count) + " vertices");
     usable = false;
   }
   return usable;
@@ -79,16 +79,16 @@ bool check_values(const Mesh& mesh, Problems& problems) {
 void check_orientation(const Mesh& mesh, Problems& problems) {
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
-    if (orientation(mesh.rest[a], mesh.rest[b], mesh.rest[c]) <= 0) problems.add("inverted", name(mesh, t));
+    if (orientation(mesh.rest[a], mesh.rest[b], mesh.rest[c]) <= 0) problems.add(Verdict::inverted, name(mesh, t));
   }
 }
 
 /// True where the half-edges may be used.
 bool check_manifold(const Mesh& mesh, const HalfEdges& edges, Problems& problems) {
   for (int e : edges.repeated)
-    problems.add("non_manifold", "repeated edge " + std::to_string(e % 3) + " of " + name(mesh, e / 3));
+    problems.add(Verdict::non_manifold, "repeated edge " + std::to_string(e % 3) + " of " + name(mesh, e / 3));
   if (!edges.repeated.empty()) return false;
-  for (int v : bow_ties(mesh, edges)) problems.add("non_manifold", "bow-tie at vertex " + std::to_string(v));
+  for (int v : bow_ties(mesh, edges)) problems.add(Verdict::non_manifold, "bow-tie at vertex " + std::to_string(v));
   return true;
 }
 
@@ -101,20 +101,24 @@ struct Input {
   double on = 0;        ///< what lies so near to a segment lies on it
 };
 
+[[noreturn]] void refuse(const std::string& why) {
+  throw std::invalid_argument("the input of a cut can't be judged: " + why);
+}
+
 Input examine(const Request& request) {
   const Mesh& mesh = request.before;
   Judgement findings;
   Problems problems(findings);
   Input input;
-  if (mesh.triangles.empty()) problems.add("empty", "no triangles");
+  if (mesh.triangles.empty()) refuse("empty: no triangles");
   if (!(request.snap >= 0 && request.tolerance >= 0 && request.vertex_tolerance >= 0))
-    problems.add("request", "negative tolerance");
+    refuse("request: negative tolerance");
   if (check_values(mesh, problems)) {
     check_orientation(mesh, problems);
     input.edges = half_edges(mesh);
     check_manifold(mesh, input.edges, problems);
   }
-  if (!findings.ok) throw std::invalid_argument("the input of a cut can't be judged: " + findings.problems.front());
+  if (!findings.ok) refuse(findings.problems.front());
 
   const Borders borders = oracle::borders(mesh, input.edges);
   for (int e : borders.single) input.border.push_back(segment(mesh, e));
@@ -175,17 +179,18 @@ class Judge {
   void check_unused() {
     const std::vector<int> before = unused_vertices(request_.before);
     for (int v : unused_vertices(after_))
-      if (!std::binary_search(before.begin(), before.end(), v)) problems_.add("unused_vertex", std::to_string(v));
+      if (!std::binary_search(before.begin(), before.end(), v))
+        problems_.add(Verdict::unused_vertex, std::to_string(v));
   }
 
   void check_borders(const Borders& borders) {
     const SegmentSearch outline(input_.border), older(input_.incisions);
     std::vector<Segment> lips;
-    for (int e : borders.ambiguous) problems_.add("leak", "not just two lips " + name(segment(after_, e)));
+    for (int e : borders.ambiguous) problems_.add(Verdict::leak, "not just two lips " + name(segment(after_, e)));
     for (int e : borders.single) {
       edges_.push_back(segment(after_, e));
       if (request_.keeps_area && !outline.covers(edges_.back(), input_.on))
-        problems_.add("leak", "border edge " + name(edges_.back()));
+        problems_.add(Verdict::leak, "border edge " + name(edges_.back()));
     }
     for (const auto& pair : borders.lips) {
       lips.push_back(segment(after_, pair[0]));
@@ -204,22 +209,23 @@ class Judge {
     for (const auto& [a, b] : input_.border) perimeter += distance(a, b);
     const long double allowed = 1e-12L * before + input_.rounding * perimeter;
     if (request_.keeps_area && std::abs(after - before) > allowed)
-      problems_.add("area", "relative change " + number(judgement_.area_change));
+      problems_.add(Verdict::area, "relative change " + number(judgement_.area_change));
   }
 
   void check_vertices() {
     const auto bits = [](const Point& p) { return std::bit_cast<std::array<std::uint64_t, 2>>(p); };
     for (std::size_t v = 0; v < request_.before.rest.size(); ++v)
       if (v >= after_.rest.size() || bits(after_.rest[v]) != bits(request_.before.rest[v]))
-        problems_.add("moved_vertex", std::to_string(v));
+        problems_.add(Verdict::moved_vertex, std::to_string(v));
   }
 
   void check_deletion() {
     const double near = std::min(request_.tolerance, input_.lengths.longest) + slack();
     const Deletion found = judge_deletion(request_.before, after_, requested_path(asks_for_nothing()), near);
-    for (int t : found.invented) problems_.add("deletion", name(after_, t) + " is none of the sheet before");
-    for (int t : found.unasked) problems_.add("deletion", name(request_.before, t) + " is gone, and not on the path");
-    for (int t : found.left) problems_.add("deletion", name(after_, t) + " is on the path, and still there");
+    for (int t : found.invented) problems_.add(Verdict::deletion, name(after_, t) + " is none of the sheet before");
+    for (int t : found.unasked)
+      problems_.add(Verdict::deletion, name(request_.before, t) + " is gone, and not on the path");
+    for (int t : found.left) problems_.add(Verdict::deletion, name(after_, t) + " is on the path, and still there");
   }
 
   void count_pieces(const HalfEdges& edges) {
@@ -240,7 +246,7 @@ class Judge {
     if (judgement_.pieces > most) most += count_hairs(edges, requested, 2 * flattening);
     judgement_.least_pieces = expected.least, judgement_.most_pieces = most;
     if (judgement_.pieces < expected.least || judgement_.pieces > most)
-      problems_.add("wrong_pieces",
+      problems_.add(Verdict::wrong_pieces,
                     std::to_string(judgement_.pieces) + " instead of " + std::to_string(expected.expected));
   }
 
@@ -288,14 +294,14 @@ class Judge {
                                                TriangleSearch(request_.before), 0.02 * input_.lengths.mean);
     judgement_.incision_error = std::max(error.of_path, error.of_edges);
     const double allowed = allowed_error();
-    if (error.of_path > allowed) problems_.add("incision", "path not opened, off by " + number(error.of_path));
-    if (error.of_edges > allowed) problems_.add("incision", "edges off the path by " + number(error.of_edges));
-    for (const Segment& s : healed_) problems_.add("incision", "an older one has closed at " + name(s));
+    if (error.of_path > allowed) problems_.add(Verdict::incision, "path not opened, off by " + number(error.of_path));
+    if (error.of_edges > allowed) problems_.add(Verdict::incision, "edges off the path by " + number(error.of_edges));
+    for (const Segment& s : healed_) problems_.add(Verdict::incision, "an older one has closed at " + name(s));
     if (!request_.exact_incision) return;
     for (const Segment& s : added_)
       for (const Point& p : s)
         if (path.distance(p) > request_.vertex_tolerance + slack())
-          problems_.add("incision", "a vertex is off the path at " + name(p));
+          problems_.add(Verdict::incision, "a vertex is off the path at " + name(p));
   }
 
   /// Finely flattened, and what of it is near the sheet.
@@ -340,6 +346,15 @@ class Judge {
 };
 
 }  // namespace
+
+const char* name_of(Verdict verdict) {
+  constexpr const char* names[] = {"ok",           "not_finite",    "bad_index", "inverted",
+                                   "non_manifold", "unused_vertex", "leak",      "area",
+                                   "moved_vertex", "wrong_pieces",  "deletion",  "incision"};
+  return names[static_cast<std::size_t>(verdict)];
+}
+
+std::ostream& operator<<(std::ostream& out, Verdict verdict) { return out << name_of(verdict); }
 
 Judgement judge(const Request& request, const Mesh& after) {
   const Input input = examine(request);

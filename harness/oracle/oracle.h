@@ -4,7 +4,9 @@
 // own flattening, its own exact arrangement for the number of pieces.
 #pragma once
 
+#include <cstdint>
 #include <limits>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -33,6 +35,23 @@ struct Request {
   double vertex_tolerance = std::numeric_limits<double>::infinity();
 };
 
+enum class Verdict : std::uint8_t {
+  ok,
+  not_finite,
+  bad_index,
+  inverted,
+  non_manifold,
+  unused_vertex,
+  leak,
+  area,
+  moved_vertex,
+  wrong_pieces,
+  deletion,
+  incision
+};
+const char* name_of(Verdict verdict);
+std::ostream& operator<<(std::ostream& out, Verdict verdict);
+
 /// The verdict is that of the first problem, in this order:
 ///   not_finite     a rest coordinate of the result is NaN or infinite
 ///   bad_index      a triangle has an index out of range, or one twice
@@ -48,8 +67,8 @@ struct Request {
 ///   incision       the opened edges and the path are too far apart, or an older incision has closed
 struct Judgement {
   bool ok = true;
-  std::string verdict = "ok";         ///< or one of the above
-  std::vector<std::string> problems;  ///< one line each, at most five per verdict
+  Verdict verdict = Verdict::ok;
+  std::vector<std::string> problems;  ///< one line each, which the name of a verdict begins; at most five per verdict
   int pieces = 0;                     ///< sets of triangles connected through shared edges
   int expected_pieces = 0;
   int least_pieces = 0, most_pieces = 0;  ///< allowed, where the number hangs on less than the tolerances

@@ -4,14 +4,15 @@
 #include <stdexcept>
 #include <string>
 
+#include "harness/base/verdict.h"
+
 namespace cutbench {
 
 /// What a method (or the coordinates) can't do: the cut failed and the sheet is rolled back.
 struct CutFailed : std::runtime_error {
-  /// `name`: of the verdict, such as not_terminated or inverted (results/README.md); `why`: one
-  /// line, of a program's result a second one with the mend.
-  CutFailed(std::string name, const std::string& why) : std::runtime_error(why), verdict(std::move(name)) {}
-  std::string verdict;
+  /// `why`: one line, of a program's result a second one with the mend.
+  CutFailed(Verdict what, const std::string& why) : std::runtime_error(why), verdict(what) {}
+  Verdict verdict;
 };
 
 /// What a method can't be asked for, as it finds while it cuts: the sheet is rolled back and the cut is refused.
@@ -24,7 +25,7 @@ struct CutRefused : std::runtime_error {
 /// that cross. The sheet is rolled back, and the path embedded in another way (embed_carefully.h) before anything
 /// fails.
 struct TooClose : CutFailed {
-  explicit TooClose(const std::string& why) : CutFailed("inverted", why) {}
+  explicit TooClose(const std::string& why) : CutFailed(Verdict::inverted, why) {}
 };
 
 }  // namespace cutbench

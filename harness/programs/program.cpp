@@ -64,8 +64,8 @@ class Program final : public CuttingMethod, public CutProgram {
     const ProgramEnd end = run_program(files.filled_in(settings_.command), settings_.folder, settings_.limits);
     if (end.how == ProgramEnd::How::exited && end.code == exit_refused)
       throw CutRefused(end.message.empty() ? "the program refuses this cut, without a reason" : end.message);
-    if (end.how == ProgramEnd::How::timed_out) throw CutFailed(verdict_timed_out, end.text());
-    if (!end.succeeded()) throw CutFailed(verdict_crashed, end.text());
+    if (end.how == ProgramEnd::How::timed_out) throw CutFailed(Verdict::timed_out, end.text());
+    if (!end.succeeded()) throw CutFailed(Verdict::crashed, end.text());
     const MeshData result = read_result(files.out);
     judge(sheet, result, curve, options);
     adopt(sheet, result);
@@ -86,11 +86,11 @@ class Program final : public CuttingMethod, public CutProgram {
 
   static MeshData read_result(const std::filesystem::path& file) {
     if (std::error_code none; !std::filesystem::exists(file, none))
-      throw CutFailed(verdict_no_result, "the program ended well, but wrote no {out}");
+      throw CutFailed(Verdict::no_result, "the program ended well, but wrote no {out}");
     try {
       return read_mesh_as_is(file);
     } catch (const InputError& error) {
-      throw CutFailed(verdict_no_result, error.what());
+      throw CutFailed(Verdict::no_result, error.what());
     }
   }
 

@@ -33,9 +33,6 @@ MethodRow method_of_program(const ProgramSettings& settings);
 /// By this exit code a program refuses a cut. Not 2, by which interpreters say that they can't open a script.
 constexpr int exit_refused = 3;
 
-/// Verdicts of programs that made no result.
-constexpr const char *verdict_crashed = "crashed", *verdict_timed_out = "timed_out", *verdict_no_result = "no_result";
-
 /// The command and what it runs, for telling one version of a program from another: names, sizes and times of the files
 /// that the command names.
 std::string fingerprint_of_program(const ProgramSettings& settings);

@@ -71,9 +71,9 @@ Getter jump_of(Get get) {
 }
 
 Value verdict(const Measured& m) {
-  if (m.assessment) return m.assessment->judgement.verdict;
+  if (m.assessment) return name_of(m.assessment->judgement.verdict);
   if (m.motion) return m.motion->verdict;
-  return m.cut ? Value(m.cut->verdict) : Value();
+  return m.cut ? Value(name_of(m.cut->verdict)) : Value();
 }
 
 Value reason(const Measured& m) {

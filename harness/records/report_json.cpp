@@ -53,8 +53,8 @@ WholeFile report_file(const std::filesystem::path& file, const std::string& meth
 }
 
 std::string score_as_json(const Assessment& assessment, double h) {
-  const oracle::Judgement& j = assessment.judgement;
-  ordered_json document{{"verdict", j.verdict},
+  const Judgement& j = assessment.judgement;
+  ordered_json document{{"verdict", name_of(j.verdict)},
                         {"findings", as_json(assessment.findings)},
                         {"problems", j.problems},
                         {"expected_pieces", j.expected_pieces}};

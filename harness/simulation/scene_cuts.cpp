@@ -178,10 +178,11 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, const std::vector<Curve>& cu
     result.cut.status = run.status, result.cut.verdict = run.verdict, result.cut.reason = run.reason;
     result.cut.crossed_triangles += run.crossed_triangles;
     result.cut.time_us += run.time_us, result.cut.cpu_us += run.cpu_us;
-    result.verdict = run.verdict, result.reason = run.reason;
+    result.verdict = name_of(run.verdict);
+    result.reason = run.reason;
     if (run.status == Status::refused) refusal = run.reason;
     if (run.status == Status::noop || run.status == Status::refused) continue;
-    if (run.verdict != "ok") return result;
+    if (run.verdict != Verdict::ok) return result;
     StopWatch watch;
     transfer(moving.sheet.log(), moving.sheet.deformed_slots(), D, moving.state);
     result.transfer_us += watch.lap();

@@ -197,8 +197,8 @@ class AccuracyRun {
     bool solvable = cut.status != Status::failed && cut.status != Status::refused;
     if (solvable) {
       const Variant& v = worker.variant;
-      const oracle::Judgement judgement = judge_one_by_one(base.sheet, worker.sheet, specimen.cuts, v.row->promises,
-                                                           v.row->make(v.parameter), cut_options_);
+      const Judgement judgement = judge_one_by_one(base.sheet, worker.sheet, specimen.cuts, v.row->promises,
+                                                   v.row->make(v.parameter), cut_options_);
       const Assessment a = assess(base.sheet, worker.sheet, judgement, {});
       set_assessment(row, &cut, a, base);
       solvable = a.judgement.ok;
@@ -232,7 +232,7 @@ class AccuracyRun {
     try {
       if (sheet) answers = problem.answer(specimen, *sheet, budgets, constraints);
     } catch (const std::exception& error) {
-      set_failure(row, row.get("status"), "crashed", error.what());
+      set_failure(row, row.get("status"), name_of(Verdict::crashed), error.what());
     }
     Yardstick errors;
     if (!answers.empty() && answers.front().verdict == "ok")

@@ -175,7 +175,7 @@ class Runner {
         row = Record(column_names(), told[k].line.data());
       } else {
         row.set("status", std::string(name_of(Status::failed)));
-        row.set("verdict", std::string(fates[k] == Fate::timed_out ? "timed_out" : "crashed"));
+        row.set("verdict", std::string(name_of(fates[k] == Fate::timed_out ? Verdict::timed_out : Verdict::crashed)));
         summary.ok = false;
       }
       file_.append(row);
@@ -266,17 +266,17 @@ class Runner {
   void summarize(int resolution, const Variant& variant, Summary::Cut cut, const CutRun& run) {
     cut.geometry_us = run.time_us.total(), cut.crossed_triangles = static_cast<double>(run.crossed_triangles);
     cut.refused = run.status == Status::refused;
-    cut.ok = cut.ok && run.verdict == "ok";
+    cut.ok = cut.ok && run.verdict == Verdict::ok;
     summary_.add(resolution, variant.row->name, variant.parameter_text(), cut);
   }
 
   void judge_into(Record& row, Summary::Cut& summary, const Worker& worker, const std::vector<Curve>& cuts,
                   const std::vector<oracle::ForcedCorner>& forced, const CutRun& run) {
     fill(row, {.cut = &run, .judged = true});
-    summary.ok = run.verdict == "ok";
+    summary.ok = run.verdict == Verdict::ok;
     if (run.status == Status::failed || run.status == Status::refused) return;
     const Variant& v = worker.variant;
-    const oracle::Judgement judgement =
+    const Judgement judgement =
         judge_one_by_one(base_.sheet, worker.sheet, cuts, v.row->promises, v.row->make(v.parameter), cut_options_);
     const Assessment a = assess(base_.sheet, worker.sheet, judgement, forced);
     fill(row,
@@ -297,7 +297,7 @@ class Runner {
     const double us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
     row.set("geometry_us", us);
     row.set("status", std::string("ok"));
-    row.set("verdict", std::string(crossings > 0 ? "ok" : "not_terminated"));
+    row.set("verdict", std::string(name_of(crossings > 0 ? Verdict::ok : Verdict::not_terminated)));
     row.set("crossed_triangles", static_cast<std::int64_t>(crossed));  // the cut's, as a unit
     file_.append(row);
     Summary::Cut summary;

@@ -95,7 +95,8 @@ void cut_judged(const Sheet& sheet, const std::vector<Curve>& cuts, const Method
   JudgedSheet judged(sheet, row.promises, row.make(row.parameter.value));
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     const auto finding = judged.cut(cuts[i], {});
-    end_unless(finding.ok(), row.name + ", cut " + std::to_string(i) + ": " + finding.verdict + ": " + finding.reason);
+    end_unless(finding.ok(),
+               row.name + ", cut " + std::to_string(i) + ": " + name_of(finding.verdict) + ": " + finding.reason);
   }
 }
 

@@ -28,12 +28,12 @@ std::string outcome_of_command(const Variant& variant, const std::filesystem::pa
     Cutter cutter;
     const auto method = variant.row->make(variant.parameter);
     const CutRun run = cut_all(sheet, locator, cutter, cuts, *method, options);
-    if (run.status == Status::failed) return say("failed (" + run.verdict + "): " + run.reason);
+    if (run.status == Status::failed) return say("failed (" + std::string(name_of(run.verdict)) + "): " + run.reason);
     if (run.status == Status::refused) return say("refused: " + run.reason);
-    const oracle::Judgement judgement =
+    const Judgement judgement =
         judge_one_by_one(before, sheet, cuts, variant.row->promises, variant.row->make(variant.parameter), options);
     say(judgement.ok ? std::string(name_of(run.status)) + ": the result passes"
-                     : "failed (" + judgement.verdict + "): " + judgement.problems.front());
+                     : "failed (" + std::string(name_of(judgement.verdict)) + "): " + judgement.problems.front());
   };
   switch (run_isolated(1, {1, time_limit_s}, run_command).front()) {
     case Fate::done:

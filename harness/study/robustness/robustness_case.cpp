@@ -28,9 +28,9 @@ class MethodAtWork : public Subject {
     const JudgedSheet::Finding finding = sheet_.cut(curve, options_);
     const CutOutcome& outcome = sheet_.outcome;
     const double us = outcome.time_us.total();
-    if (!finding.ok()) return {Count::wrong, finding.verdict, finding.reason, us, outcome.carefully};
+    if (!finding.ok()) return {Count::wrong, name_of(finding.verdict), finding.reason, us, outcome.carefully};
     const bool program_failed = is_program_ && outcome.status == Status::failed;
-    return {program_failed ? fault_of_program(outcome.verdict) : count_of(outcome.status), outcome.verdict,
+    return {program_failed ? fault_of_program(outcome.verdict) : count_of(outcome.status), name_of(outcome.verdict),
             outcome.reason, us, outcome.carefully};
   }
 
@@ -42,10 +42,10 @@ class MethodAtWork : public Subject {
         options_(options) {}
 
   /// What a program made is judged before the sheet takes it over.
-  static Count::Kind fault_of_program(const std::string& verdict) {
-    if (verdict == verdict_crashed) return Count::crashed;
-    if (verdict == verdict_timed_out) return Count::timed_out;
-    return verdict == verdict_no_result ? Count::failed : Count::wrong;
+  static Count::Kind fault_of_program(Verdict verdict) {
+    if (verdict == Verdict::crashed) return Count::crashed;
+    if (verdict == Verdict::timed_out) return Count::timed_out;
+    return verdict == Verdict::no_result ? Count::failed : Count::wrong;
   }
 
   bool is_program_;
@@ -71,8 +71,8 @@ class CrossCheckAtWork : public Subject {
       mesh_ = std::move(request.before);
       return {Count::refused, "ok", result.reason, us};
     }
-    const oracle::Judgement judgement = oracle::judge(request, mesh_);
-    if (!judgement.ok) return {Count::wrong, judgement.verdict, judgement.problems.front(), us};
+    const Judgement judgement = oracle::judge(request, mesh_);
+    if (!judgement.ok) return {Count::wrong, name_of(judgement.verdict), judgement.problems.front(), us};
     return {Count::ok, "ok", "", us};
   }
 

@@ -96,7 +96,7 @@ class Point {
       const CutOutcome& outcome = judged.outcome;
       put(name_of(outcome.status), result_.status);
       us += outcome.time_us.total(), error = std::max(error, judged.judgement.incision_error);
-      if (!finding.ok()) return conclude(finding.verdict, finding.reason), false;
+      if (!finding.ok()) return conclude(name_of(finding.verdict), finding.reason), false;
       if (outcome.status == Status::refused) return conclude("refused", outcome.reason), false;
       if (outcome.status == Status::failed) return conclude("failed", outcome.reason), false;
     }
