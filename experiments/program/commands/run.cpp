@@ -8,7 +8,7 @@
 #include <sstream>
 #include <thread>
 
-#include "experiments/commands/command.h"
+#include "experiments/program/commands/command.h"
 #include "harness/base/errors.h"
 #include "harness/processes/interrupt.h"
 #include "harness/study/run_experiment.h"

@@ -10,7 +10,7 @@
 
 namespace cutbench {
 
-enum class Quantity { gape, deflection };  ///< the largest at the end, m: experiments/scene_run.h
+enum class Quantity { gape, deflection };  ///< the largest at the end, m: experiments/advice/scene_run.h
 
 /// How a scene may be simulated.
 struct Choice {

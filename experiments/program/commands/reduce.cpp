@@ -3,8 +3,8 @@
 #include <iostream>
 #include <memory>
 
-#include "experiments/commands/command.h"
-#include "experiments/commands/method_options.h"
+#include "experiments/program/commands/command.h"
+#include "experiments/program/commands/method_options.h"
 #include "harness/base/errors.h"
 #include "harness/files/whole_file.h"
 #include "harness/judge/result_svg.h"

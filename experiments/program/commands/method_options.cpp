@@ -1,4 +1,4 @@
-#include "experiments/commands/method_options.h"
+#include "experiments/program/commands/method_options.h"
 
 #include <cmath>
 #include <iostream>

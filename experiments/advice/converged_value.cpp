@@ -1,9 +1,9 @@
-#include "experiments/converged_value.h"
+#include "experiments/advice/converged_value.h"
 
 #include <cmath>
 #include <utility>
 
-#include "experiments/scene_run.h"
+#include "experiments/advice/scene_run.h"
 #include "harness/mesh/families.h"
 
 namespace cutbench {

@@ -1,10 +1,10 @@
-// The options of `cutbench ablate`, whose work is in experiments/ablate.cpp.
-#include "experiments/ablate.h"
+// The options of `cutbench ablate`, whose work is in experiments/advice/ablate.cpp.
+#include "experiments/advice/ablate.h"
 
 #include <memory>
 
-#include "experiments/commands/command.h"
-#include "experiments/commands/method_options.h"
+#include "experiments/program/commands/command.h"
+#include "experiments/program/commands/method_options.h"
 #include "harness/files/whole_file.h"
 
 namespace cutbench {

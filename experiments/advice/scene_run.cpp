@@ -1,4 +1,4 @@
-#include "experiments/scene_run.h"
+#include "experiments/advice/scene_run.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <iostream>
 #include <memory>
 
-#include "experiments/commands/command.h"
+#include "experiments/program/commands/command.h"
 #include "harness/base/errors.h"
 #include "harness/files/whole_file.h"
 #include "harness/records/compare_runs.h"

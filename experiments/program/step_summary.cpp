@@ -1,4 +1,4 @@
-#include "experiments/step_summary.h"
+#include "experiments/program/step_summary.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "experiments/ablate.h"
+#include "experiments/advice/ablate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/scene_run.h"
+#include "experiments/advice/scene_run.h"
 #include "harness/cases/cut_families.h"
 #include "harness/mesh/families.h"
 

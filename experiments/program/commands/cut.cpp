@@ -5,9 +5,9 @@
 #include <memory>
 #include <optional>
 
-#include "experiments/commands/command.h"
-#include "experiments/commands/method_options.h"
-#include "experiments/commands/misses.h"
+#include "experiments/program/commands/command.h"
+#include "experiments/program/commands/method_options.h"
+#include "experiments/program/commands/misses.h"
 #include "harness/base/errors.h"
 #include "harness/base/stop_watch.h"
 #include "harness/cut/cut_all.h"

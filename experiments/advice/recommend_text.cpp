@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "experiments/recommend.h"
+#include "experiments/advice/recommend.h"
 
 namespace cutbench {
 

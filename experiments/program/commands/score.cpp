@@ -1,10 +1,10 @@
-// The options of `cutbench score`, whose work is in experiments/score.cpp.
-#include "experiments/score.h"
+// The options of `cutbench score`, whose work is in experiments/program/score.cpp.
+#include "experiments/program/score.h"
 
 #include <memory>
 
-#include "experiments/commands/command.h"
-#include "experiments/commands/method_options.h"
+#include "experiments/program/commands/command.h"
+#include "experiments/program/commands/method_options.h"
 #include "harness/files/whole_file.h"
 
 namespace cutbench {

@@ -1,4 +1,4 @@
-#include "experiments/simulate.h"
+#include "experiments/program/simulate.h"
 
 #include <sys/resource.h>
 
@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "experiments/step_summary.h"
+#include "experiments/program/step_summary.h"
 #include "harness/cut/cut_all.h"
 #include "harness/mesh/mesh_io.h"
 #include "harness/records/context.h"

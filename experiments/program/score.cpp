@@ -1,4 +1,4 @@
-#include "experiments/score.h"
+#include "experiments/program/score.h"
 
 #include <cstdio>
 #include <iostream>

@@ -1,4 +1,4 @@
-#include "experiments/command_line.h"
+#include "experiments/program/command_line.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "experiments/commands/command.h"
+#include "experiments/program/commands/command.h"
 #include "harness/base/errors.h"
 #include "harness/base/names.h"
 #include "harness/records/context.h"

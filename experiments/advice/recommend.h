@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/converged_value.h"
-#include "experiments/scene_trial.h"
+#include "experiments/advice/converged_value.h"
+#include "experiments/advice/scene_trial.h"
 
 namespace cutbench {
 

@@ -15,7 +15,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 COMPILED = ["CMakeLists.txt", "harness", "methods", "experiments"]  # what the counted programs are made of
 CACHE = ["--I1=32768,8,64", "--D1=32768,8,64", "--LL=8388608,16,64"]  # fixed: the machine's own would vary
 ENVIRONMENT = []  # NAME=VALUE of the programs that are counted, which have no other: variables would move the stack
@@ -86,6 +86,11 @@ def worktree(reference):
         finally:
             subprocess.run(["git", "-C", ROOT, "worktree", "remove", "--force", tree], check=False,
                            stdout=subprocess.DEVNULL)
+
+
+def has_phases(tree):
+    """Whether this commit counts phases; older ones have the file elsewhere, the first none."""
+    return any((tree / "experiments" / file).exists() for file in ("benchmarks/track.cpp", "track.cpp"))
 
 
 def commit_of(reference):

@@ -1,12 +1,12 @@
-// The options of `cutbench simulate`, whose work is in experiments/simulate.cpp.
-#include "experiments/simulate.h"
+// The options of `cutbench simulate`, whose work is in experiments/program/simulate.cpp.
+#include "experiments/program/simulate.h"
 
 #include <cstdio>
 #include <memory>
 
-#include "experiments/commands/command.h"
-#include "experiments/commands/method_options.h"
-#include "experiments/commands/misses.h"
+#include "experiments/program/commands/command.h"
+#include "experiments/program/commands/method_options.h"
+#include "experiments/program/commands/misses.h"
 #include "harness/base/errors.h"
 #include "harness/base/toml_reader.h"
 #include "harness/mesh/families.h"

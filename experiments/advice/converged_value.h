@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/scene_trial.h"
+#include "experiments/advice/scene_trial.h"
 
 namespace cutbench {
 

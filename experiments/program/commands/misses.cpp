@@ -1,4 +1,4 @@
-#include "experiments/commands/misses.h"
+#include "experiments/program/commands/misses.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -2,7 +2,7 @@
 #include <iostream>
 #include <memory>
 
-#include "experiments/commands/command.h"
+#include "experiments/program/commands/command.h"
 #include "harness/records/metrics.h"
 
 namespace cutbench {

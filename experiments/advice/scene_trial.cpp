@@ -1,8 +1,8 @@
-#include "experiments/scene_trial.h"
+#include "experiments/advice/scene_trial.h"
 
 #include <cmath>
 
-#include "experiments/scene_run.h"
+#include "experiments/advice/scene_run.h"
 #include "methods/registry.h"
 
 namespace cutbench {

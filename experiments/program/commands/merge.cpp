@@ -4,7 +4,7 @@
 #include <iostream>
 #include <memory>
 
-#include "experiments/commands/command.h"
+#include "experiments/program/commands/command.h"
 
 namespace cutbench {
 

@@ -1,10 +1,10 @@
-// The options of `cutbench recommend`, whose work is in experiments/recommend.cpp.
-#include "experiments/recommend.h"
+// The options of `cutbench recommend`, whose work is in experiments/advice/recommend.cpp.
+#include "experiments/advice/recommend.h"
 
 #include <memory>
 
-#include "experiments/commands/command.h"
-#include "experiments/commands/method_options.h"
+#include "experiments/program/commands/command.h"
+#include "experiments/program/commands/method_options.h"
 #include "harness/base/errors.h"
 #include "harness/base/toml_reader.h"
 #include "harness/files/whole_file.h"

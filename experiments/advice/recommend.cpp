@@ -1,11 +1,11 @@
-#include "experiments/recommend.h"
+#include "experiments/advice/recommend.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
 
-#include "experiments/scene_run.h"
+#include "experiments/advice/scene_run.h"
 #include "harness/base/toml_reader.h"
 #include "harness/mesh/families.h"
 
