@@ -22,7 +22,7 @@ def robustness(folder):
     print("Half a million adversarial cuts")
     context = load.read_context(folder / "robustness.context.json")
     say("commit and seed", context["commit"][:7], str(context["seed"]))
-    rows = pd.read_csv(folder / "robustness.records.csv.gz")
+    rows = load.read_counts(folder / "robustness.records.csv.gz")
     by_cross_check = rows["method"] == CROSS_CHECK
     own, cross_check = rows[~by_cross_check], rows[by_cross_check]
     say("methods; sheets", *map(str, (own["method"].nunique(), len(own[["sheet", "resolution"]].drop_duplicates()))))
@@ -43,6 +43,7 @@ def near_coincident(folder):
     words = [line.split() for line in lines(folder / "near_coincident.txt") if line[:1].isdigit()]
     rows = pd.DataFrame([[*line, "nan"][:len(names)] for line in words], columns=names)
     rows[["eps", *names[2:]]] = rows[["eps", *names[2:]]].astype(float)
+    rows["method"] = rows["method"].replace(load.OLD_METHODS)
     own, cross_check = rows[rows["method"] != "cross_check"], rows[rows["method"] == "cross_check"]
     say("methods; cuts of each at each eps; refused, failed, wrong of all", str(own["method"].nunique()), span(own["tried"]),
         *(f"{own[c].sum():.0f}" for c in ("refused", "failed", "wrong")))

@@ -21,6 +21,7 @@ SUITE_VERSIONS = ["2", "3", "4", "5"]  # that can be read; older column names ar
 TEXT = ["suite_version", "sheet", "method", "parameter", "seed", "cache", "status", "verdict", "reason"]
 TEXT_OF_SOME = ["cut_family", "problem", "solver", "primary",  # text in the records that have them
                 "sweep", "cut", "pose", "integrator", "stress_stiffness", "mass", "bending"]
+OLD_METHODS = {"cgal_whole_sheet (peer)": "cgal_whole_sheet (cross-check)", "peer": "cross_check"}
 OPTIONAL = ["process_us"]  # read wherever it is: which methods are programs
 COUNTS = ["resolution", "case", "repetition"]
 VARIANT = ["method", "parameter"]
@@ -133,10 +134,17 @@ def read_records(path, columns, all_columns=False):
     return table
 
 
+def read_counts(path, **options):
+    """A table of counts as it is, but for names of older versions, which are replaced by those of today."""
+    table = pd.read_csv(path, comment="#", keep_default_na=False, **options)
+    table = table.rename(columns=new_names(table.columns))
+    return table.assign(method=table["method"].replace(OLD_METHODS))
+
+
 def new_names(columns):
-    """The names that the columns of a record have today, by the name in the file: versions before 4 had others."""
+    """The names that the columns of a record have today, by the name in the file: older versions had others."""
     old = {"scene": "problem" if "solver" in columns else "cut_family", "wedge_area": "wedge_area_rest2",
-           "incision_error": "incision_error_rest"}
+           "incision_error": "incision_error_rest", "knob": "parameter"}
     return {c: old.get(c, c) for c in columns}
 
 

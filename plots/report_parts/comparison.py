@@ -169,7 +169,7 @@ class Comparison:
                                       for key, values in found.items()})
 
     def _robustness(self, files):
-        table = pd.read_csv(files[0], usecols=[*load.VARIANT, "sheet", *ROBUSTNESS], keep_default_na=False, comment="#")
+        table = load.read_counts(files[0])
         for sheet in [ALL, *self.sheets]:
             self._put((sheet,), of_robustness(chosen(table, sheet=sheet)))
 
