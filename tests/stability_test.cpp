@@ -153,7 +153,7 @@ newton = 20)",
   const std::string table = read(folder_ / "r/stability/stability.md");
   for (const char* line : {"| conventional split | - | 1e-06 | 0.1 | ", "| snap or split | - | 0.1 | - | - |",
                            "| snap or split | cg | 2000 | 2 | solver stalled |",
-                           "| split and constraint | backward_euler, 1 | 1.05 | -1 | inverted |"})
+                           "| split and tie | backward_euler, 1 | 1.05 | -1 | inverted |"})
     EXPECT_NE(table.find(line), std::string::npos) << line << "\n" << table;
 
   // Shares of the work make the same rows; a run that is there is not made again.
