@@ -15,6 +15,7 @@
 #include "harness/cases/cut_families.h"
 #include "harness/cut/cut.h"
 #include "harness/cut/open.h"
+#include "harness/fem/solvers/solver_table.h"
 #include "harness/fem/time/stepper.h"
 #include "harness/judge/oracle_request.h"
 #include "harness/mesh/families.h"

@@ -10,6 +10,7 @@
 
 #include "experiments/program/step_summary.h"
 #include "harness/cut/cut_all.h"
+#include "harness/fem/elements/bending_kinds.h"
 #include "harness/mesh/mesh_io.h"
 #include "harness/records/context.h"
 #include "harness/simulation/frame_writer.h"
@@ -79,7 +80,7 @@ std::string description(const Scene& scene, const Simulation& motion, const Simu
       {"unknowns", scene.physics.dimension * static_cast<int>(motion.sheet().deformed_count())},
       {"size_m", scene.size},
       {"step_s", scene.step},
-      {"bending", name_of(bending_names, scene.physics.bending)},
+      {"bending", name_of(scene.physics.bending)},
       {"solver", scene.solver.name},
       {"solver_tolerance", scene.solver.tolerance},
       {"newton", scene.newton},

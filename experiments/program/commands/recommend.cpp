@@ -7,6 +7,7 @@
 #include "experiments/program/commands/method_options.h"
 #include "harness/base/errors.h"
 #include "harness/base/toml_reader.h"
+#include "harness/fem/solvers/solver_table.h"
 #include "harness/files/whole_file.h"
 
 namespace cutbench {
@@ -32,7 +33,7 @@ Exit run_recommendation(RecommendArguments& arguments) {
     throw InputError(
         "this scene's sheet is read from a file, and has no other resolutions; give a sheet with \"family\"");
   for (const std::string& method : options.methods) find_method(method);
-  check_names(options.solvers, solver_names(), "--solvers");
+  check_solver_names(options.solvers, "--solvers");
   options.cut = arguments.chord_tolerance.cut_options();
   options.quantity = (arguments.quantity.empty() ? scene.cuts.empty() : arguments.quantity == "deflection")
                          ? Quantity::deflection

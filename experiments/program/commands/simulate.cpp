@@ -8,7 +8,9 @@
 #include "experiments/program/commands/method_options.h"
 #include "experiments/program/commands/misses.h"
 #include "harness/base/errors.h"
+#include "harness/base/names.h"
 #include "harness/base/toml_reader.h"
+#include "harness/fem/solvers/solver_table.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/mesh_io.h"
 
@@ -34,7 +36,7 @@ Exit run_scene(const SimulateArguments& arguments, const std::string& command_li
   const auto method = row.make(parameter);
   set_resolution(scene, arguments.resolution);
   if (!arguments.solver.empty()) {
-    check_names({arguments.solver}, solver_names(), "--solver");
+    check_solver_names({arguments.solver}, "--solver");
     scene.solver.name = arguments.solver;
   }
   const MeshData mesh = mesh_of(scene);
@@ -75,9 +77,7 @@ Command add_simulate(CLI::App& app) {
       ->capture_default_str()
       ->check(CLI::PositiveNumber)
       ->needs(frames);
-  std::string solvers = "instead of the scene's:";
-  for (const auto& name : solver_names()) solvers += (name == solver_names().front() ? " " : ", ") + name;
-  command->add_option("--solver", arguments->solver, solvers);
+  command->add_option("--solver", arguments->solver, "instead of the scene's: " + listed(solver_names()));
   command->add_option("--report", arguments->report, "what the steps cost, as JSON; none where it is not given");
   command->add_option("--steps", arguments->steps, "what each step cost, as CSV; none where it is not given");
   command
@@ -85,6 +85,7 @@ Command add_simulate(CLI::App& app) {
                    "seconds of processor time, then the steps end; none otherwise")
       ->check(CLI::PositiveNumber);
   command->footer(
+      "solvers:\n" + solver_help() +
       "example:\n"
       "  cutbench simulate experiments/scenes/falling_piece.toml --resolution 800 --frames frames\n"
       "exit codes:\n"

@@ -1,17 +1,17 @@
-#include "harness/fem/solvers/cholmod_solver.h"
+#include "harness/fem/solvers/factor_solver.h"
 
 #include "harness/fem/linear/direct_solve.h"
 
 namespace cutbench {
 
 template <int D>
-void CholmodSolver<D>::setup(const SystemMatrix<D>& a) {
+void FactorSolver<D>::setup(const SystemMatrix<D>& a) {
   matrix_ = &a;
-  factored_ = factor_.factor(a);
+  factored_ = factor_->factor(a);
 }
 
 template <int D>
-SolveReport CholmodSolver<D>::solve(const Field& b, Field& x, const Field& /*start*/) {
+SolveReport FactorSolver<D>::solve(const Field& b, Field& x, const Field& /*start*/) {
   project(*matrix_->held, b, b_);
   x.setZero(b.size());
   const double norm = b_.norm();
@@ -22,16 +22,16 @@ SolveReport CholmodSolver<D>::solve(const Field& b, Field& x, const Field& /*sta
   // No iterative refinement: on slivers, where the residual is not at rounding level, it gains a factor of 1.5.
   if (!nothing) {
     right_ = b_;
-    if (!factor_.solve(right_, solution_)) return report;
+    if (!factor_->solve(right_, solution_)) return report;
     x = solution_;
     matrix_->multiply(x, r_);
     report.residual = (b_ - r_).norm() / norm;
   }
-  report.converged = is_direct_solution(report.residual, norm, factor_.largest_entry(), x.norm());
+  report.converged = is_direct_solution(report.residual, norm, factor_->largest_entry(), x.norm());
   return report;
 }
 
-template class CholmodSolver<2>;
-template class CholmodSolver<3>;
+template class FactorSolver<2>;
+template class FactorSolver<3>;
 
 }  // namespace cutbench

@@ -1,11 +1,9 @@
-#include "harness/fem/solvers/eigen_solvers.h"
+#include "harness/fem/solvers/eigen_cg.h"
 
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/LU>
-#include <Eigen/SparseCholesky>
 
 #include "harness/fem/linear/compressed_columns.h"
-#include "harness/fem/linear/direct_solve.h"
 
 namespace cutbench {
 
@@ -13,16 +11,6 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 constexpr int most_rounds = 5;
-
-template <int D>
-Eigen::Map<const Sparse> lower_triangle(const CompressedColumns<D>& a) {
-  const auto n = static_cast<Eigen::Index>(a.unknowns());
-  return {n, n, static_cast<Eigen::Index>(a.rows().size()), a.begin().data(), a.rows().data(), a.values().data()};
-}
-
-bool all_finite(const std::vector<double>& values) {
-  return Eigen::Map<const Field>(values.data(), static_cast<Eigen::Index>(values.size())).allFinite();
-}
 
 template <int D, class Method>
 class EigenIterative final : public LinearSolver<D> {
@@ -33,14 +21,14 @@ class EigenIterative final : public LinearSolver<D> {
     matrix_ = &a;
     columns_.set_pattern(a);
     columns_.set_values(a);
-    usable_ = all_finite(columns_.values());
+    usable_ = columns_.all_finite();
     for (std::size_t i = 0; usable_ && i < a.vertices(); ++i) {
       const auto block = a.diagonal(i);
       usable_ = block(0, 0) > 0 && block.determinant() > 0;
     }
     if (!usable_) return;
-    full_ =
-        lower_triangle(columns_).template selfadjointView<Eigen::Lower>();  // its products are the fastest of Eigen's
+    // Its products are the fastest of Eigen's.
+    full_ = columns_.lower_triangle().template selfadjointView<Eigen::Lower>();
     method_.compute(full_);
     usable_ = method_.info() == Eigen::Success;
   }
@@ -95,46 +83,6 @@ class EigenIterative final : public LinearSolver<D> {
   Field b_, r_;
 };
 
-template <int D>
-class EigenDirect final : public LinearSolver<D> {
- public:
-  void setup(const SystemMatrix<D>& a) override {
-    matrix_ = &a;
-    const bool is_new = columns_.set_pattern(a);
-    columns_.set_values(a);
-    const auto lower = lower_triangle(columns_);
-    factored_ = all_finite(columns_.values());
-    if (is_new) ldlt_.analyzePattern(lower);
-    if (!factored_) return;
-    ldlt_.factorize(lower);
-    factored_ = ldlt_.info() == Eigen::Success && ldlt_.vectorD().minCoeff() > 0;
-  }
-
-  SolveReport solve(const Field& b, Field& x, const Field& /*start*/) override {
-    project(*matrix_->held, b, b_);
-    x.setZero(b.size());
-    SolveReport report;
-    const bool nothing = b_.isZero(0);
-    report.residual = nothing ? 0 : 1;
-    if (!factored_) return report;
-    const double norm = b_.norm();
-    if (!nothing) {
-      x = ldlt_.solve(b_);
-      matrix_->multiply(x, r_);
-      report.residual = (b_ - r_).norm() / norm;
-    }
-    report.converged = is_direct_solution(report.residual, norm, columns_.largest(), x.norm());
-    return report;
-  }
-
- private:
-  CompressedColumns<D> columns_;
-  Eigen::SimplicialLDLT<Sparse, Eigen::Lower> ldlt_;
-  const SystemMatrix<D>* matrix_ = nullptr;
-  bool factored_ = false;
-  Field b_, r_;
-};
-
 }  // namespace
 
 template <int D>
@@ -146,14 +94,7 @@ std::unique_ptr<LinearSolver<D>> make_eigen_cg(const SolverOptions& options, Eig
   return std::make_unique<EigenIterative<D, Eigen::ConjugateGradient<Sparse, both, Incomplete>>>(options);
 }
 
-template <int D>
-std::unique_ptr<LinearSolver<D>> make_eigen_ldlt() {
-  return std::make_unique<EigenDirect<D>>();
-}
-
 template std::unique_ptr<LinearSolver<2>> make_eigen_cg(const SolverOptions&, EigenPreconditioner);
 template std::unique_ptr<LinearSolver<3>> make_eigen_cg(const SolverOptions&, EigenPreconditioner);
-template std::unique_ptr<LinearSolver<2>> make_eigen_ldlt();
-template std::unique_ptr<LinearSolver<3>> make_eigen_ldlt();
 
 }  // namespace cutbench

@@ -1,21 +1,20 @@
-// Direct solution by the factor of cholmod_factor.h.
+// Direct solution by a factor (harness/fem/linear/factor.h).
 #pragma once
 
-#include "harness/fem/linear/cholmod_factor.h"
 #include "harness/fem/linear/linear_solver.h"
 
 namespace cutbench {
 
 /// A matrix that is not positive definite is reported by solve(): not converged, x = 0.
 template <int D>
-class CholmodSolver final : public LinearSolver<D> {
+class FactorSolver final : public LinearSolver<D> {
  public:
-  explicit CholmodSolver(FactorOrder order) : factor_(order) {}
+  explicit FactorSolver(std::unique_ptr<Factor<D>> factor) : factor_(std::move(factor)) {}
   void setup(const SystemMatrix<D>& a) override;
   SolveReport solve(const Field& b, Field& x, const Field& start) override;
 
  private:
-  CholmodFactor<D> factor_;
+  std::unique_ptr<Factor<D>> factor_;
   const SystemMatrix<D>* matrix_ = nullptr;
   bool factored_ = false;
   Field b_, r_;  ///< right-hand side, A x
