@@ -3,13 +3,13 @@
 // is the mesh's.
 #include <malloc.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <limits>
 #include <span>
 
+#include "experiments/program/options.h"
 #include "harness/cases/cut_families.h"
 #include "harness/judge/oracle_request.h"
 #include "harness/mesh/families.h"
@@ -149,13 +149,12 @@ int main(int argc, char** argv) {
     std::size_t cuts = 1000;
     std::vector<std::string> methods;
     std::string folder;
-    CLI::App app("A thousand small cuts in a row on one sheet, by every method");
-    app.add_option("triangles", triangles, "of the uncut grid, 2 n^2")->capture_default_str();
-    app.add_option("cuts", cuts)->capture_default_str()->check(CLI::PositiveNumber);
-    app.add_option("--methods", methods, "these alone, comma-separated")->delimiter(',');
-    app.add_option("--save", folder, "failing cuts in this folder, with the sheet before them")
-        ->check(CLI::ExistingDirectory);
-    CLI11_PARSE(app, argc, argv);
+    Options app("A thousand small cuts in a row on one sheet, by every method");
+    app.add_option("triangles", triangles, "of the uncut grid, 2 n^2").shows_default();
+    app.add_option("cuts", cuts).shows_default().positive();
+    app.add_option("--methods", methods, "these alone, comma-separated").comma_separated();
+    app.add_option("--save", folder, "failing cuts in this folder, with the sheet before them").existing_folder();
+    if (const auto exit = app.parse(argc, argv)) return *exit;
     const int n = squares_per_side(triangles);
     std::vector<MethodRow> rows;
     for (const std::string& name : methods) rows.push_back(find_method(name));

@@ -1,11 +1,11 @@
 // What binds the phases of an implicit step: bytes and operations that each needs at least, the time it takes in a
 // step, and the share of what this machine can read in that time.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <numeric>
 
+#include "experiments/program/options.h"
 #include "harness/base/stop_watch.h"
 #include "harness/cut/cut.h"
 #include "harness/fem/elements/membrane.h"
@@ -147,10 +147,10 @@ int main(int argc, char** argv) {
   try {
     std::vector<int> sizes{12800, 204800};
     std::string method = "warp_and_refine";
-    CLI::App app("Bytes, operations and times of the phases of a step, and what this machine can read");
-    app.add_option("triangles", sizes, "of the sheets, 2 n^2 each")->capture_default_str();
-    app.add_option("--method", method, "of the cut")->capture_default_str();
-    CLI11_PARSE(app, argc, argv);
+    Options app("Bytes, operations and times of the phases of a step, and what this machine can read");
+    app.add_option("triangles", sizes, "of the sheets, 2 n^2 each").shows_default();
+    app.add_option("--method", method, "of the cut").shows_default();
+    if (const auto exit = app.parse(argc, argv)) return *exit;
     print_rates();
     for (const int triangles : sizes) print_phases(triangles, find_method(method));
     return 0;

@@ -4,12 +4,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
 
+#include "experiments/program/options.h"
 #include "harness/base/stop_watch.h"
 #include "harness/cut/cut.h"
 #include "harness/fem/model/state.h"
@@ -147,11 +147,10 @@ int main(int argc, char** argv) {
   try {
     std::int64_t largest = 3276800;
     std::vector<std::string> methods{"conventional_split", "cgal_cdt", "warp_and_refine"};
-    CLI::App app("One cut of about 200 triangles on larger and larger sheets");
-    app.add_option("largest", largest, "triangles of the largest sheet, from 12800 on four times each")
-        ->capture_default_str();
-    app.add_option("--methods", methods, "comma-separated")->delimiter(',')->capture_default_str();
-    CLI11_PARSE(app, argc, argv);
+    Options app("One cut of about 200 triangles on larger and larger sheets");
+    app.add_option("largest", largest, "triangles of the largest sheet, from 12800 on four times each").shows_default();
+    app.add_option("--methods", methods, "comma-separated").comma_separated().shows_default();
+    if (const auto exit = app.parse(argc, argv)) return *exit;
     std::vector<MethodRow> rows;
     for (const std::string& name : methods) rows.push_back(find_method(name));
     std::printf("us per crossed triangle, medians of %d cuts of a grid; bytes per triangle of the sheet in motion\n",

@@ -3,7 +3,6 @@
 #include <benchmark/benchmark.h>
 #include <valgrind/callgrind.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <cstring>
 #include <functional>

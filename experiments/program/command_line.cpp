@@ -1,6 +1,5 @@
 #include "experiments/program/command_line.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
@@ -57,10 +56,10 @@ int list_methods(bool as_json) {
   return done;
 }
 
-Command add_method_list(CLI::App& app, bool& as_json) {
-  auto* command = app.add_subcommand("methods", "the methods, with what each promises");
-  command->add_flag("--json", as_json, "as JSON");
-  command->footer(
+Command add_method_list(Options& app, bool& as_json) {
+  auto command = app.add_subcommand("methods", "the methods, with what each promises");
+  command.add_flag("--json", as_json, "as JSON");
+  command.footer(
       "example:\n"
       "  cutbench methods --json\n"
       "exit codes:\n"
@@ -79,10 +78,9 @@ std::string version() {
   return text + "\ncompiled by " + context.compiler + ", " + context.build_type + ", " + context.flags;
 }
 
-/// CLI11 does not say which word it took for a subcommand, nor which there are.
-void check_subcommand(const CLI::App& app, int argc, char** argv) {
-  std::vector<std::string> known;
-  for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+/// The parser does not say which word it took for a subcommand, nor which there are.
+void check_subcommand(const Options& app, int argc, char** argv) {
+  const std::vector<std::string> known = app.subcommands();
   if (argc < 2) throw InputError("no subcommand given; known are " + listed(known) + "; see cutbench --help");
   const std::string first = argv[1];
   if (first.starts_with('-') || std::find(known.begin(), known.end(), first) != known.end()) return;
@@ -94,7 +92,7 @@ int run_subcommand(const std::vector<Command>& commands, int argc, char** argv) 
   std::string line = "cutbench";
   for (int i = 1; i < argc; ++i) line += std::string(" ") + argv[i];
   const auto chosen =
-      std::find_if(commands.begin(), commands.end(), [](const Command& c) { return c.options->parsed(); });
+      std::find_if(commands.begin(), commands.end(), [](const Command& c) { return c.options.parsed(); });
   const int code = chosen->run(line);
   if (std::fflush(stdout) != 0 || !std::cout.flush())
     throw OutputError("standard output: can't be written; check where it goes");
@@ -107,9 +105,9 @@ namespace cutbench {
 
 int command_line(int argc, char** argv, const std::vector<MethodRow>& more_methods) {
   std::signal(SIGXFSZ, SIG_IGN);  // a limit of the file size is then an error of the write, like a full disk
-  CLI::App app{"cutbench: which way of cutting a deformable sheet to use"};
-  app.require_subcommand(1);
-  app.set_version_flag("--version", version);
+  Options app("cutbench: which way of cutting a deformable sheet to use");
+  app.require_subcommand();
+  app.set_version(version);
   app.footer(
       "example:\n"
       "  cutbench methods\n"
@@ -134,14 +132,8 @@ int command_line(int argc, char** argv, const std::vector<MethodRow>& more_metho
   try {
     add_methods(more_methods);
     check_subcommand(app, argc, argv);
-    app.parse(argc, argv);
+    if (const auto exit = app.parse(argc, argv)) return *exit;
     return run_subcommand(commands, argc, argv);
-  } catch (const CLI::Success& asked) {  // --help, --version
-    return app.exit(asked);
-  } catch (const CLI::ParseError& error) {
-    const auto parsed = app.get_subcommands();
-    std::cerr << error.what() << "; see cutbench " << (parsed.empty() ? "" : parsed.front()->get_name() + " ")
-              << "--help\n";
   } catch (const InputError& error) {
     std::cerr << error.what() << '\n';
   } catch (const OutputError& error) {

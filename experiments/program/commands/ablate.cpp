@@ -31,19 +31,19 @@ Exit run_ablation(const AblateArguments& arguments) {
 
 }  // namespace
 
-Command add_ablate(CLI::App& app) {
+Command add_ablate(Options& app) {
   auto arguments = std::make_shared<AblateArguments>();
-  auto* command =
+  auto command =
       app.add_subcommand("ablate", "leave out one part of a scene's model at a time: what changes, what it saves");
-  command->add_option("scene", arguments->scene, "scene file (TOML)")->required();
-  arguments->method.add_to(*command);
-  command->add_option("--resolution", arguments->resolution, "triangles of the sheet; otherwise those of the scene")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--time-limit", arguments->time_limit, "seconds of processor time for each run")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  command->add_option("--report", arguments->report, "the table as JSON; none where it is not given");
-  command->footer(
+  command.add_option("scene", arguments->scene, "scene file (TOML)").required();
+  arguments->method.add_to(command);
+  command.add_option("--resolution", arguments->resolution, "triangles of the sheet; otherwise those of the scene")
+      .positive();
+  command.add_option("--time-limit", arguments->time_limit, "seconds of processor time for each run")
+      .shows_default()
+      .positive();
+  command.add_option("--report", arguments->report, "the table as JSON; none where it is not given");
+  command.footer(
       "example:\n"
       "  cutbench ablate experiments/scenes/fig8_edge_quality_patches.toml\n"
       "exit codes:\n"

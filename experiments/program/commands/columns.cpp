@@ -7,11 +7,11 @@
 
 namespace cutbench {
 
-Command add_columns(CLI::App& app) {
+Command add_columns(Options& app) {
   auto as_json = std::make_shared<bool>(false);
-  auto* command = app.add_subcommand("columns", "the columns of records and reports, with what each means");
-  command->add_flag("--json", *as_json, "as JSON (results/columns.json)");
-  command->footer(
+  auto command = app.add_subcommand("columns", "the columns of records and reports, with what each means");
+  command.add_flag("--json", *as_json, "as JSON (results/columns.json)");
+  command.footer(
       "example:\n"
       "  cutbench columns --json\n"
       "exit codes:\n"

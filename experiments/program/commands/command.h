@@ -1,9 +1,10 @@
 // The subcommands of the program, each in a file of its own.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
+
+#include "experiments/program/options.h"
 
 namespace cutbench {
 
@@ -11,22 +12,22 @@ namespace cutbench {
 enum Exit { done = 0, fell_short = 1, bad_input = 2 };
 
 struct Command {
-  CLI::App* options;  ///< of the subcommand; owned by the app
+  Options options;  ///< of the subcommand
   /// Does the work once the options are parsed. `command_line`: the whole of it, for records.
   std::function<Exit(const std::string& command_line)> run;
 };
 
 /// Each adds its subcommand to `app`.
-Command add_cut(CLI::App& app);
-Command add_score(CLI::App& app);
-Command add_simulate(CLI::App& app);
-Command add_ablate(CLI::App& app);
-Command add_recommend(CLI::App& app);
-Command add_run(CLI::App& app);
-Command add_reduce(CLI::App& app);
-Command add_merge(CLI::App& app);
-Command add_missing(CLI::App& app);
-Command add_columns(CLI::App& app);
-Command add_compare(CLI::App& app);
+Command add_cut(Options& app);
+Command add_score(Options& app);
+Command add_simulate(Options& app);
+Command add_ablate(Options& app);
+Command add_recommend(Options& app);
+Command add_run(Options& app);
+Command add_reduce(Options& app);
+Command add_merge(Options& app);
+Command add_missing(Options& app);
+Command add_columns(Options& app);
+Command add_compare(Options& app);
 
 }  // namespace cutbench

@@ -51,19 +51,19 @@ Exit run_compare(const CompareArguments& arguments) {
 
 }  // namespace
 
-Command add_compare(CLI::App& app) {
+Command add_compare(Options& app) {
   auto arguments = std::make_shared<CompareArguments>();
-  auto* command =
+  auto command =
       app.add_subcommand("compare", "what became slower between two files of experiments/track, or two folders of run");
-  command->add_option("base", arguments->base, "before: JSON of experiments/track, or a folder of cutbench run")
-      ->required();
-  command->add_option("head", arguments->head, "after: likewise")->required();
-  command->add_option("--markdown", arguments->markdown, "the report as Markdown; none where it is not given");
-  command->add_option("--json", arguments->json, "the report as JSON; none where it is not given");
-  command->add_option("--thresholds", arguments->thresholds, "TOML, such as experiments/track.toml");
-  command->add_option("--accepted", arguments->accepted,
-                      "a commit message: a line \"slower: ROW, REASON\" accepts that row");
-  command->footer(
+  command.add_option("base", arguments->base, "before: JSON of experiments/track, or a folder of cutbench run")
+      .required();
+  command.add_option("head", arguments->head, "after: likewise").required();
+  command.add_option("--markdown", arguments->markdown, "the report as Markdown; none where it is not given");
+  command.add_option("--json", arguments->json, "the report as JSON; none where it is not given");
+  command.add_option("--thresholds", arguments->thresholds, "TOML, such as experiments/track.toml");
+  command.add_option("--accepted", arguments->accepted,
+                     "a commit message: a line \"slower: ROW, REASON\" accepts that row");
+  command.footer(
       "example:\n"
       "  cutbench compare base.json head.json --thresholds experiments/track.toml\n"
       "  cutbench compare results/before results/table1_timing\n"

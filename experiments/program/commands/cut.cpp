@@ -100,16 +100,16 @@ Exit cut_sheet(const CutArguments& arguments) {
 
 }  // namespace
 
-Command add_cut(CLI::App& app) {
+Command add_cut(Options& app) {
   auto arguments = std::make_shared<CutArguments>();
-  auto* command = app.add_subcommand("cut", "cut a sheet along a path");
-  command->add_option("--mesh", arguments->mesh, "the sheet: OBJ, OFF or PLY")->required();
-  command->add_option("--path", arguments->path, "the path: JSON")->required();
-  arguments->method.add_to(*command);
-  arguments->misses.add_to(*command);
-  command->add_option("--out", arguments->out, "the sheet after the cut: OBJ, OFF or VTU")->required();
-  command->add_option("--report", arguments->report, "what was measured, as JSON; none where it is not given");
-  command->footer(
+  auto command = app.add_subcommand("cut", "cut a sheet along a path");
+  command.add_option("--mesh", arguments->mesh, "the sheet: OBJ, OFF or PLY").required();
+  command.add_option("--path", arguments->path, "the path: JSON").required();
+  arguments->method.add_to(command);
+  arguments->misses.add_to(command);
+  command.add_option("--out", arguments->out, "the sheet after the cut: OBJ, OFF or VTU").required();
+  command.add_option("--report", arguments->report, "what was measured, as JSON; none where it is not given");
+  command.footer(
       "example:\n"
       "  cutbench cut --mesh experiments/examples/sheet.obj --path experiments/examples/path.json \\\n"
       "    --method warp_and_refine --out cut.obj --report report.json\n"

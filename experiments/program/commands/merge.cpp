@@ -20,12 +20,12 @@ struct MergeArguments {
 
 }  // namespace
 
-Command add_merge(CLI::App& app) {
+Command add_merge(Options& app) {
   auto arguments = std::make_shared<MergeArguments>();
-  auto* command = app.add_subcommand("merge", "put the shards of a run together");
-  command->add_option("shards", arguments->shards, "folders with records.csv and context.json")->required();
-  command->add_option("--out", arguments->out, "the folder for the whole")->required();
-  command->footer(
+  auto command = app.add_subcommand("merge", "put the shards of a run together");
+  command.add_option("shards", arguments->shards, "folders with records.csv and context.json").required();
+  command.add_option("--out", arguments->out, "the folder for the whole").required();
+  command.footer(
       "example:\n"
       "  cutbench merge shards/*/robustness --out results/robustness\n"
       "exit codes:\n"
@@ -38,12 +38,12 @@ Command add_merge(CLI::App& app) {
           }};
 }
 
-Command add_missing(CLI::App& app) {
+Command add_missing(Options& app) {
   auto arguments = std::make_shared<MergeArguments>();
-  auto* command = app.add_subcommand("missing", "the numbers of the shards that are still to be run");
-  command->add_option("shards", arguments->shards, "folders of shards, finished or not")->required();
-  command->add_option("--of", arguments->of, "number of shards")->required()->check(CLI::PositiveNumber);
-  command->footer(
+  auto command = app.add_subcommand("missing", "the numbers of the shards that are still to be run");
+  command.add_option("shards", arguments->shards, "folders of shards, finished or not").required();
+  command.add_option("--of", arguments->of, "number of shards").required().positive();
+  command.footer(
       "example:\n"
       "  cutbench missing --of 64 shards/*/robustness\n"
       "exit codes:\n"

@@ -24,8 +24,8 @@ double number(const std::string& text, const std::string& what) {
 
 }  // namespace
 
-void ChordTolerance::add_to(CLI::App& command, const char* meaning) {
-  command.add_option("--chord-tolerance", text, meaning)->capture_default_str();
+void ChordTolerance::add_to(Options& command, const char* meaning) {
+  command.add_option("--chord-tolerance", text, meaning).shows_default();
 }
 
 CutOptions ChordTolerance::cut_options() const {
@@ -35,18 +35,16 @@ CutOptions ChordTolerance::cut_options() const {
   return options;
 }
 
-void MethodOptions::add_to(CLI::App& app) {
+void MethodOptions::add_to(Options& app) {
   by_name = app.add_option("--method", method, "one of those that `cutbench methods` lists");
-  if (!method.empty()) by_name->capture_default_str();
+  if (!method.empty()) by_name.shows_default();
   app.add_option("--command", command,
                  "a program that cuts instead of a method, such as: python3 mine.py {mesh} {path} {out}")
-      ->excludes(by_name);
+      .excludes(by_name);
   app.add_option("--command-time-limit", limits.time_s, "of each cut by the program, in seconds")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  app.add_option("--command-memory-limit", limits.memory_mb, "of the program, in MB")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      .shows_default()
+      .positive();
+  app.add_option("--command-memory-limit", limits.memory_mb, "of the program, in MB").shows_default().positive();
   app.add_option("--set", settings,
                  "PARAMETER=VALUE of the method; see `cutbench methods` for parameters and defaults");
   chord_tolerance.add_to(
@@ -57,7 +55,7 @@ void MethodOptions::add_to(CLI::App& app) {
 
 MethodRow MethodOptions::row() const {
   if (!command.empty()) return method_of_program({"program", command, ".", limits});
-  if (method.empty() && by_name->count() == 0)
+  if (method.empty() && !by_name.given())
     throw InputError("give --method NAME, or --command for a program of your own");
   return find_method(method);
 }

@@ -1,10 +1,10 @@
 // Options that several subcommands share: the method, its parameter and the chord tolerance.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
+#include "experiments/program/options.h"
 #include "harness/cut/cut.h"
 #include "harness/programs/program.h"
 #include "harness/simulation/scene.h"
@@ -15,7 +15,7 @@ namespace cutbench {
 struct ChordTolerance {
   std::string text = "0.05";
 
-  void add_to(CLI::App& command, const char* meaning);
+  void add_to(Options& command, const char* meaning);
   /// Throws InputError: not a positive number.
   CutOptions cut_options() const;
 };
@@ -24,11 +24,11 @@ struct MethodOptions {
   std::string method;
   std::string command = {};  ///< of a program that cuts instead
   ProgramLimits limits = {};
-  CLI::Option* by_name = nullptr;          ///< --method; owned by the app
+  Option by_name;                          ///< --method; owned by the app
   std::vector<std::string> settings = {};  ///< of --set
   ChordTolerance chord_tolerance;
 
-  void add_to(CLI::App& app);
+  void add_to(Options& app);
   /// Throws InputError: no method of that name, none at all, or a command that lacks a file.
   MethodRow row() const;
   /// Throws InputError: not the parameter of the method, or not a number. The method checks the range.

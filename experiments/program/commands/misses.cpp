@@ -61,7 +61,7 @@ bool meets(const Sheet& sheet, const Curve& curve) {
   return false;
 }
 
-void Misses::add_to(CLI::App& command) {
+void Misses::add_to(Options& command) {
   command.add_flag("--allow-miss", allowed, "a path that misses the sheet cuts nothing, instead of being refused");
 }
 

@@ -58,42 +58,42 @@ Exit run_recommendation(RecommendArguments& arguments) {
 
 }  // namespace
 
-Command add_recommend(CLI::App& app) {
+Command add_recommend(Options& app) {
   auto arguments = std::make_shared<RecommendArguments>();
-  auto* command = app.add_subcommand(
+  auto command = app.add_subcommand(
       "recommend", "the cheapest method, solver, resolution and step for a scene whose error is small enough");
-  command->add_option("scene", arguments->scene, "scene file (TOML)")->required();
+  command.add_option("scene", arguments->scene, "scene file (TOML)").required();
   command
-      ->add_option("--max-error", arguments->options.max_error,
-                   "relative error of the quantity at the end, against its converged value, such as 0.05")
-      ->check(CLI::PositiveNumber);
+      .add_option("--max-error", arguments->options.max_error,
+                  "relative error of the quantity at the end, against its converged value, such as 0.05")
+      .positive();
   command
-      ->add_option("--max-ms", arguments->options.max_ms,
-                   "milliseconds of processor time for a simulated second; otherwise any")
-      ->check(CLI::PositiveNumber);
+      .add_option("--max-ms", arguments->options.max_ms,
+                  "milliseconds of processor time for a simulated second; otherwise any")
+      .positive();
   command
-      ->add_option("--quantity", arguments->quantity,
-                   "gape or deflection, the largest; otherwise gape if there are cuts")
-      ->check(CLI::IsMember({"gape", "deflection"}));
-  command->add_option("--methods", arguments->options.methods, "to choose from; the first makes the converged value")
-      ->delimiter(',')
-      ->capture_default_str();
+      .add_option("--quantity", arguments->quantity,
+                  "gape or deflection, the largest; otherwise gape if there are cuts")
+      .one_of({"gape", "deflection"});
+  command.add_option("--methods", arguments->options.methods, "to choose from; the first makes the converged value")
+      .comma_separated()
+      .shows_default();
   command
-      ->add_option("--solvers", arguments->options.solvers,
-                   "to choose from; where a run by the first errs too much, the others are not tried")
-      ->delimiter(',')
-      ->capture_default_str();
-  arguments->chord_tolerance.add_to(*command, "as of `cutbench simulate`");
-  command->add_option("--calibration", arguments->calibration, "how well extrapolated values are known (TOML)")
-      ->capture_default_str();
-  command->add_flag("--reference", arguments->reference, "the converged value alone");
-  command->add_flag("--exhaustive", arguments->options.everything,
-                    "runs and times all, also what can't be the cheapest");
-  command->add_option("--time-limit", arguments->options.time_limit, "seconds of processor time for each run")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  command->add_option("--report", arguments->report, "all runs as JSON; none where it is not given");
-  command->footer(
+      .add_option("--solvers", arguments->options.solvers,
+                  "to choose from; where a run by the first errs too much, the others are not tried")
+      .comma_separated()
+      .shows_default();
+  arguments->chord_tolerance.add_to(command, "as of `cutbench simulate`");
+  command.add_option("--calibration", arguments->calibration, "how well extrapolated values are known (TOML)")
+      .shows_default();
+  command.add_flag("--reference", arguments->reference, "the converged value alone");
+  command.add_flag("--exhaustive", arguments->options.everything,
+                   "runs and times all, also what can't be the cheapest");
+  command.add_option("--time-limit", arguments->options.time_limit, "seconds of processor time for each run")
+      .shows_default()
+      .positive();
+  command.add_option("--report", arguments->report, "all runs as JSON; none where it is not given");
+  command.footer(
       "example:\n"
       "  cutbench recommend experiments/scenes/fig8_edge_quality_patches.toml --max-error 0.1\n"
       "exit codes:\n"

@@ -47,20 +47,20 @@ Exit reduce(const ReduceArguments& arguments) {
 
 }  // namespace
 
-Command add_reduce(CLI::App& app) {
+Command add_reduce(Options& app) {
   auto arguments = std::make_shared<ReduceArguments>();
-  auto* command = app.add_subcommand("reduce", "make a cut that goes wrong small, for a report of the fault");
-  command->add_option("--mesh", arguments->mesh, "the sheet: OBJ, OFF or PLY")->required();
-  command->add_option("--path", arguments->path, "the path: JSON, in rest space")->required();
-  arguments->method.add_to(*command);
+  auto command = app.add_subcommand("reduce", "make a cut that goes wrong small, for a report of the fault");
+  command.add_option("--mesh", arguments->mesh, "the sheet: OBJ, OFF or PLY").required();
+  command.add_option("--path", arguments->path, "the path: JSON, in rest space").required();
+  arguments->method.add_to(command);
   command
-      ->add_option("--out", arguments->out,
-                   "where to write NAME.obj, .json and .txt, and the smaller NAME.small.obj, .json and .svg")
-      ->required();
-  command->add_option("--seconds", arguments->seconds, "about so long smaller ones are tried")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  command->footer(
+      .add_option("--out", arguments->out,
+                  "where to write NAME.obj, .json and .txt, and the smaller NAME.small.obj, .json and .svg")
+      .required();
+  command.add_option("--seconds", arguments->seconds, "about so long smaller ones are tried")
+      .shows_default()
+      .positive();
+  command.footer(
       "example:\n"
       "  cutbench reduce --mesh sheet.obj --path path.json --command 'python3 mine.py {mesh} {path} {out}' --out "
       "fault\n"

@@ -154,35 +154,34 @@ Exit run_all(const RunArguments& arguments, const std::string& command_line) {
 
 }  // namespace
 
-Command add_run(CLI::App& app) {
+Command add_run(Options& app) {
   auto arguments = std::make_shared<RunArguments>();
-  auto* command = app.add_subcommand("run", "run experiments; what was interrupted goes on where it stopped");
-  command->add_option("experiments", arguments->experiments, "experiment files (TOML)")->required();
+  auto command = app.add_subcommand("run", "run experiments; what was interrupted goes on where it stopped");
+  command.add_option("experiments", arguments->experiments, "experiment files (TOML)").required();
   command
-      ->add_option("--methods", arguments->methods,
-                   "only these of the experiment, and names of --command, comma-separated")
-      ->delimiter(',');
-  command->add_option("--command", arguments->commands,
-                      "NAME=COMMAND: a program as one more method, such as: mine=python3 mine.py {mesh} {path} {out}");
-  command->add_option("--resolutions", arguments->resolutions, "only these of the experiment (triangles)")
-      ->delimiter(',');
-  command->add_option("--sweeps", arguments->sweeps, "only these [[sweeps]] of the experiment")->delimiter(',');
+      .add_option("--methods", arguments->methods,
+                  "only these of the experiment, and names of --command, comma-separated")
+      .comma_separated();
+  command.add_option("--command", arguments->commands,
+                     "NAME=COMMAND: a program as one more method, such as: mine=python3 mine.py {mesh} {path} {out}");
+  command.add_option("--resolutions", arguments->resolutions, "only these of the experiment (triangles)")
+      .comma_separated();
+  command.add_option("--sweeps", arguments->sweeps, "only these [[sweeps]] of the experiment").comma_separated();
   command
-      ->add_option("--cases", arguments->cases,
-                   "number of cases, or of members of an accuracy run, instead of the experiment's")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--repetitions", arguments->repetitions, "of each cut, instead of the experiment's")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--seed", arguments->seed,
-                      "a number, or `commit`: from the commit's hash; otherwise the experiment's");
-  command->add_option("--out", arguments->out, "results folder")->capture_default_str();
+      .add_option("--cases", arguments->cases,
+                  "number of cases, or of members of an accuracy run, instead of the experiment's")
+      .positive();
+  command.add_option("--repetitions", arguments->repetitions, "of each cut, instead of the experiment's").positive();
+  command.add_option("--seed", arguments->seed,
+                     "a number, or `commit`: from the commit's hash; otherwise the experiment's");
+  command.add_option("--out", arguments->out, "results folder").shows_default();
   command
-      ->add_option("--jobs", arguments->jobs,
-                   "processes of a robustness run, or of an experiment with `times = false`; all cores where it is not "
-                   "given. Other experiments stay on one core")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--shard", arguments->shard, "i/N: only one N-th of the cases, the i-th")->capture_default_str();
-  command->footer(
+      .add_option("--jobs", arguments->jobs,
+                  "processes of a robustness run, or of an experiment with `times = false`; all cores where it is not "
+                  "given. Other experiments stay on one core")
+      .positive();
+  command.add_option("--shard", arguments->shard, "i/N: only one N-th of the cases, the i-th").shows_default();
+  command.footer(
       "example, which takes less than a minute:\n"
       "  cutbench run experiments/method_comparison.toml --resolutions 800 --cases 2 --out results/small\n"
       "exit codes:\n"

@@ -9,26 +9,26 @@
 
 namespace cutbench {
 
-Command add_score(CLI::App& app) {
+Command add_score(Options& app) {
   struct Options {
     ScoreArguments arguments;
     ChordTolerance tolerance;
   };
   auto options = std::make_shared<Options>();
-  auto* command = app.add_subcommand("score", "judge a cut that any program made");
-  command->add_option("--mesh", options->arguments.mesh, "the sheet before: OBJ, OFF or PLY")->required();
-  command->add_option("--path", options->arguments.path, "the path: JSON")->required();
-  command->add_option("--result", options->arguments.result, "the sheet after: OBJ, OFF or PLY")->required();
-  command->add_option("--report", options->arguments.report, "what was measured, as JSON; none where it is not given");
-  command->add_option("--svg", options->arguments.svg,
-                      "a drawing of the place where something is wrong, or of the whole sheet");
-  command->add_flag("--json", options->arguments.json, "print JSON, the same as in the report");
-  options->tolerance.add_to(*command, "allowed incision error in mean rest edges, or inf: the longest edge");
-  command->add_flag("--keeps-vertices", options->arguments.keeps_vertices,
-                    "the sheet's vertices must be there with the same numbers and rest positions");
-  command->add_flag("--deletes", options->arguments.deletes,
-                    "the triangles that the path crosses are to be taken out, instead of divided");
-  command->footer(
+  auto command = app.add_subcommand("score", "judge a cut that any program made");
+  command.add_option("--mesh", options->arguments.mesh, "the sheet before: OBJ, OFF or PLY").required();
+  command.add_option("--path", options->arguments.path, "the path: JSON").required();
+  command.add_option("--result", options->arguments.result, "the sheet after: OBJ, OFF or PLY").required();
+  command.add_option("--report", options->arguments.report, "what was measured, as JSON; none where it is not given");
+  command.add_option("--svg", options->arguments.svg,
+                     "a drawing of the place where something is wrong, or of the whole sheet");
+  command.add_flag("--json", options->arguments.json, "print JSON, the same as in the report");
+  options->tolerance.add_to(command, "allowed incision error in mean rest edges, or inf: the longest edge");
+  command.add_flag("--keeps-vertices", options->arguments.keeps_vertices,
+                   "the sheet's vertices must be there with the same numbers and rest positions");
+  command.add_flag("--deletes", options->arguments.deletes,
+                   "the triangles that the path crosses are to be taken out, instead of divided");
+  command.footer(
       "example:\n"
       "  cutbench score --mesh experiments/examples/sheet.obj --path experiments/examples/path.json --result cut.obj\n"
       "exit codes:\n"

@@ -62,29 +62,26 @@ Exit run_scene(const SimulateArguments& arguments, const std::string& command_li
 
 }  // namespace
 
-Command add_simulate(CLI::App& app) {
+Command add_simulate(Options& app) {
   auto arguments = std::make_shared<SimulateArguments>();
-  auto* command = app.add_subcommand("simulate", "run a scene with its cuts");
-  command->add_option("scene", arguments->scene, "scene file (TOML)")->required();
-  arguments->method.add_to(*command);
-  arguments->misses.add_to(*command);
-  command->add_option("--resolution", arguments->resolution, "triangles of the sheet; otherwise those of the scene")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--out", arguments->out, "the sheet in the end: OBJ, OFF or VTU; not written otherwise");
-  auto* frames = command->add_option("--frames", arguments->frames,
-                                     "folder for a time series: VTU files, their PVD, and an OBJ in the end");
-  command->add_option("--every", arguments->every, "steps from frame to frame")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber)
-      ->needs(frames);
-  command->add_option("--solver", arguments->solver, "instead of the scene's: " + listed(solver_names()));
-  command->add_option("--report", arguments->report, "what the steps cost, as JSON; none where it is not given");
-  command->add_option("--steps", arguments->steps, "what each step cost, as CSV; none where it is not given");
+  auto command = app.add_subcommand("simulate", "run a scene with its cuts");
+  command.add_option("scene", arguments->scene, "scene file (TOML)").required();
+  arguments->method.add_to(command);
+  arguments->misses.add_to(command);
+  command.add_option("--resolution", arguments->resolution, "triangles of the sheet; otherwise those of the scene")
+      .positive();
+  command.add_option("--out", arguments->out, "the sheet in the end: OBJ, OFF or VTU; not written otherwise");
+  const Option frames = command.add_option("--frames", arguments->frames,
+                                           "folder for a time series: VTU files, their PVD, and an OBJ in the end");
+  command.add_option("--every", arguments->every, "steps from frame to frame").shows_default().positive().needs(frames);
+  command.add_option("--solver", arguments->solver, "instead of the scene's: " + listed(solver_names()));
+  command.add_option("--report", arguments->report, "what the steps cost, as JSON; none where it is not given");
+  command.add_option("--steps", arguments->steps, "what each step cost, as CSV; none where it is not given");
   command
-      ->add_option("--time-limit", arguments->time_limit,
-                   "seconds of processor time, then the steps end; none otherwise")
-      ->check(CLI::PositiveNumber);
-  command->footer(
+      .add_option("--time-limit", arguments->time_limit,
+                  "seconds of processor time, then the steps end; none otherwise")
+      .positive();
+  command.footer(
       "solvers:\n" + solver_help() +
       "example:\n"
       "  cutbench simulate experiments/scenes/falling_piece.toml --resolution 800 --frames frames\n"
