@@ -163,5 +163,17 @@ TEST(Bending, NothingHoldsAcrossAnIncision) {
   }
 }
 
+TEST(BendingKinds, NamesAndRowsAreThoseOfTheirPlace) {
+  EXPECT_STREQ(name_of(BendingKind::none), "none");
+  EXPECT_STREQ(name_of(BendingKind::patches), "patches");
+  EXPECT_STREQ(name_of(BendingKind::hinges), "hinges");
+  EXPECT_TRUE(row_of(BendingKind::patches).has_slopes);
+  EXPECT_FALSE(row_of(BendingKind::hinges).has_slopes);
+  for (const auto& [kind, name] : bending_names()) {
+    EXPECT_STREQ(name_of(kind), name);
+    EXPECT_EQ(row_of(kind).add_rows == nullptr, kind == BendingKind::none) << name;
+  }
+}
+
 }  // namespace
 }  // namespace cutbench

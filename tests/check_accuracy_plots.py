@@ -48,7 +48,7 @@ def of(row, method, parameter):
 
 def check_all_there(results):
     folder = results / "accuracy"
-    done = run("accuracy.py", "--results", folder)
+    done = run("figures/accuracy/accuracy.py", "--results", folder)
     expect(f"accuracy.py: {done.returncode} {done.stderr}", done.returncode == 0 and not done.stderr)
     for stem in ("", "_unknowns", "_problems", "_budgets", "_shape", "_profile"):
         for suffix in ("png", "pdf"):
@@ -61,19 +61,19 @@ def check_all_there(results):
     kept = folder / "accuracy.txt"
     expect("accuracy.txt is not what was printed",
            kept.is_file() and kept.read_text(encoding="utf-8").strip() in done.stdout)
-    done = run("verification.py", "--results", folder)
+    done = run("figures/accuracy/verification.py", "--results", folder)
     expect(f"verification.py: {done.returncode} {done.stderr}", done.returncode == 0 and not done.stderr)
     for label in LABELS:
         expect(f"the verification lacks {label}", label in done.stdout)
     expect("the fitted mesh, no method, is verified", FITTED not in done.stdout)
     expect("verification.png is not there", (folder / "verification.png").is_file())
-    done = run("pareto.py", "--x", "total_us", "--y", "error", "--problem", "centre_crack", "--records",
+    done = run("figures/methods/pareto.py", "--x", "total_us", "--y", "error", "--problem", "centre_crack", "--records",
                folder / "records.csv")
     expect(f"pareto.py: {done.returncode} {done.stderr}", done.returncode == 0 and not done.stderr)
     expect("no Pareto figure", (folder / "pareto_centre_crack_total_us_error.png").is_file())
     for label in [*LABELS, FITTED]:
         expect(f"pareto.py's table lacks {label}", label in done.stdout)
-    done = run("claims.py", "--results", results)
+    done = run("pages/claims.py", "--results", results)
     expect(f"claims.py: {done.returncode} {done.stderr}", done.returncode == 0 and not done.stderr)
     claims = (results / "claims.md").read_text(encoding="utf-8") if done.returncode == 0 else ""
     lines = [line for line in claims.splitlines() if line.startswith("| ")]
@@ -86,8 +86,8 @@ def check_all_there(results):
 def check_equal_unknowns(folder):
     """Worked out anew for one case: by the power law through the two sizes' fitted meshes."""
     sys.path.insert(0, str(PLOTS))
-    from accuracy_parts import ranking
-    from accuracy_parts.records import REFERENCE, Records
+    from analysis.accuracy import ranking
+    from analysis.accuracy.records import REFERENCE, Records
     records = Records(folder)
     rows = ranking.at_equal_unknowns(records).rows(direct=True)
     fitted = rows[(rows["method"] == REFERENCE[0])]
@@ -117,9 +117,9 @@ def check_failures(results):
                 if column.startswith(("error", "value_", "excess")) or column in ("total_us", "unknowns"):
                     row[column] = ""
     write(folder / "records.csv", rows)
-    import accuracy
-    from accuracy_parts.ranking import at_equal_unknowns, print_ranking
-    from accuracy_parts.records import Records
+    from figures.accuracy import accuracy
+    from analysis.accuracy.ranking import at_equal_unknowns, print_ranking
+    from analysis.accuracy.records import Records
     records = at_equal_unknowns(Records(folder))
     for x in ("ms", "unknowns"):
         figure = accuracy.error_figure(records, x, x)
@@ -135,7 +135,7 @@ def check_failures(results):
 
 def check_ranked_cases(records):
     """Who failed the hardest cases is not the better for it: means are over the cases that all made."""
-    from accuracy_parts.ranking import made_by_all
+    from analysis.accuracy.ranking import made_by_all
     made = made_by_all(records.rows(direct=True))
     expect(f"cases that somebody failed are ranked: {set(made['case'])}", set(made["case"]) == {1, 2})
     sizes = made.groupby(["method", "parameter"]).size()
@@ -144,8 +144,8 @@ def check_ranked_cases(records):
 
 def check_errors(folder):
     """Of errors that are known: every method's 3 times the fitted mesh's, whatever the problem; and x is the median."""
-    from accuracy_parts import errors
-    from accuracy_parts.records import REFERENCE, Records
+    from analysis.accuracy import errors
+    from analysis.accuracy.records import REFERENCE, Records
     records = Records(folder)
     table = records.table.copy()
     levels = {"centre_crack": 0.02, "arc_crack_45": 0.08}
@@ -160,8 +160,8 @@ def check_factor(folder):
     """Errors that follow a power of the aspect ratio, with levels of their own for every sheet and for even members; a
     case that is alone on its level says nothing."""
     import numpy as np
-    from accuracy_parts.records import Records
-    from accuracy_parts.shape import factor_per_decade
+    from analysis.accuracy.records import Records
+    from analysis.accuracy.shape import factor_per_decade
     table = Records(folder).rows(direct=True)
     table = table[table["method"] == "conventional_split"].copy()
     level = (1 + table["resolution"] / 1000) * table["problem"].map(len) * np.where(table["case"] % 2 == 0, 1, 3)
@@ -177,7 +177,7 @@ def check_factor(folder):
 def check_commands():
     """A shell makes of a caption's command the words that were given, though the context has only their text."""
     sys.path.insert(0, str(PLOTS))
-    from common import load
+    from analysis import load
     for words in (["--out", "r", "--command", "mine=python3 mine.py {mesh} {path} {out}"],
                   ["--command", "a=node --flag x {mesh}", "--command", "b=python3 it's.py {out}", "--seed", "3"],
                   ["--command", "plain", "--cases", "1"], ["--cases", "1"]):
@@ -187,7 +187,7 @@ def check_commands():
 
 
 def check_quantiles():
-    from common import load
+    from analysis import load
     inf = float("inf")
     for values, median in (([4, 1, 3, 2], 2.5), ([2, inf, 1], 2), ([1, inf], inf), ([float("nan"), 3], 3)):
         expect(f"the median of {values} is {load.median(values)}", load.median(values) == median)
@@ -207,13 +207,13 @@ def check_program(results):
     context = json.loads((folder / "context.json").read_text(encoding="utf-8"))
     context["command"] += " --command my_own=python3 my_own.py {mesh} {path} {out}"
     (folder / "context.json").write_text(json.dumps(context), encoding="utf-8")
-    import accuracy
-    from accuracy_parts import budgets, shape
-    from accuracy_parts.ranking import at_equal_unknowns
-    from accuracy_parts.records import Records
-    from method_parts import accuracy as method_accuracy
-    from method_parts import kinds
-    from method_comparison import as_text
+    from analysis.accuracy import shape
+    from figures.accuracy import accuracy, budgets
+    from analysis.accuracy.ranking import at_equal_unknowns
+    from analysis.accuracy.records import Records
+    from analysis.methods import errors, kinds
+    from analysis.methods.comparison import as_text
+    from figures.methods import error_dots
     records = at_equal_unknowns(Records(folder))
     expect(f"not the one program: {records.programs}", records.programs == {"my_own"})
     expect("errors at equal unknowns, of one size", records.table["ratio_equal"].isna().all())
@@ -237,8 +237,8 @@ def check_program(results):
     text = io.StringIO()
     with contextlib.redirect_stdout(text):
         accuracy.write_text(folder, records)
-        table = method_accuracy.draw(folder, folder)
-    text = text.getvalue() + as_text(method_accuracy.STEM, table) + as_text(kinds.STEM, kinds.table_of(records.ranked()))
+        table = error_dots.draw(folder, folder)
+    text = text.getvalue() + as_text(errors.STEM, table) + as_text(kinds.STEM, kinds.table_of(records.ranked()))
     expect("a table has nan", "nan" not in text.lower())
     expect("the program is in no table", "my own (program)" in text and "my_own" in text)
     order = table["excess_percent_all"]
@@ -251,11 +251,11 @@ def check_missing_columns(results):
     shutil.copytree(results / "accuracy", folder / "accuracy")
     rows = read(folder / "accuracy/records.csv")
     write(folder / "accuracy/records.csv", [{k: v for k, v in row.items() if k != "unknowns"} for row in rows])
-    for script, arguments in (("accuracy.py", ["--results", folder / "accuracy"]),
-                              ("verification.py", ["--results", folder / "accuracy"]),
-                              ("claims.py", ["--results", folder]),
-                              ("pareto.py", ["--x", "unknowns", "--y", "error", "--problem", "centre_crack", "--records",
-                                             folder / "accuracy/records.csv"])):
+    for script, arguments in (("figures/accuracy/accuracy.py", ["--results", folder / "accuracy"]),
+                              ("figures/accuracy/verification.py", ["--results", folder / "accuracy"]),
+                              ("pages/claims.py", ["--results", folder]),
+                              ("figures/methods/pareto.py", ["--x", "unknowns", "--y", "error", "--problem", "centre_crack",
+                                                             "--records", folder / "accuracy/records.csv"])):
         done = run(script, *arguments)
         expect(f"{script} without a column: {done.returncode} {done.stderr}",
                done.returncode == 2 and len(done.stderr.splitlines()) == 1 and "unknowns" in done.stderr)

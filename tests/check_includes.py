@@ -12,7 +12,15 @@ ROOMS = {  # from the ground up: a room and the rooms below it that it may use
     "harness/mesh": ["base"],
     "harness/path": ["base", "mesh"],
     "harness/cut": ["base", "mesh", "path"],
-    "harness/fem": ["base", "mesh"],
+    "harness/fem/algebra": ["base"],
+    "harness/fem/elements": ["base", "mesh", "fem/algebra"],
+    "harness/fem/linear": ["base", "mesh", "fem/algebra"],  # it knows of no element
+    "harness/fem/multigrid": ["base", "mesh", "fem/algebra", "fem/linear"],
+    "harness/fem/solvers": ["base", "fem/algebra", "fem/linear", "fem/multigrid"],
+    "harness/fem/constraints": ["base", "mesh", "fem/algebra", "fem/linear"],
+    "harness/fem/tips": ["base", "mesh", "fem/elements", "fem/linear"],
+    "harness/fem/model": ["base", "mesh", "fem/algebra", "fem/elements", "fem/linear", "fem/constraints"],
+    "harness/fem/time": ["base", "mesh", "fem/algebra", "fem/elements", "fem/linear", "fem/solvers", "fem/model"],
     "harness/oracle": [],  # the oracle shares no code with what it judges
     "harness/judge": ["base", "mesh", "path", "cut", "measure"],
     "harness/cases": ["base", "mesh", "path"],

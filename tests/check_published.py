@@ -69,11 +69,11 @@ def git(folder, *words):
 
 
 def make_project(folder):
-    for part in ("harness", "methods", "experiments", "plots", "results/reference", "results/a"):
+    for part in ("harness", "methods", "experiments", "plots", "plots/pages", "results/reference", "results/a"):
         (folder / part).mkdir(parents=True)
         (folder / part / "keep").write_text("", encoding="utf-8")
     (folder / "CMakeLists.txt").write_text("", encoding="utf-8")
-    (folder / "plots/readme.py").write_text("", encoding="utf-8")
+    (folder / "plots/pages/readme.py").write_text("", encoding="utf-8")
     (folder / ".gitignore").write_text("/results/*\n!/results/reference/\n", encoding="utf-8")
     git(folder, "init", "-q")
     git(folder, "add", "-A")

@@ -54,14 +54,15 @@ class Page(HTMLParser):
 
 
 def check_page(results):
-    done = subprocess.run([sys.executable, PLOTS / "report.py", "--results", results], capture_output=True, text=True)
+    done = subprocess.run([sys.executable, PLOTS / "pages/report/report.py", "--results", results],
+                          capture_output=True, text=True)
     expect(f"report.py: {done.returncode} {done.stderr}", done.returncode == 0 and not done.stderr)
     page = Page()
     page.feed((results / "report.html").read_text(encoding="utf-8"))
     expect(f"left open: {page.open}", not page.open)
     for source in page.sources:
         expect(f"needs {source[:60]}", source.startswith("data:") or (source[0] == "#" and source[1:] in page.names))
-    from report_parts.sections import SECTIONS
+    from pages.report.sections import SECTIONS
     for section in SECTIONS:
         expect(f"no section {section.title}", section.title in page.headings)
     scene = page.text["Cut picked on the deformed sheet"]
@@ -72,7 +73,7 @@ def check_page(results):
 
 
 def check_lips():
-    from common import lips
+    from analysis import lips
     along = np.linspace(0, 2, 60)
     truth = np.stack([along, 0.1 * np.sin(3 * along), 0 * along], axis=1)
     length = along[-1]
@@ -93,7 +94,8 @@ def check_lips():
 def check_close_ups():
     """Two flat pieces of a sheet beside an incision, each turned its own way: the camera of a place looks at the piece that was
     asked for, along its normal, its rest x to the right."""
-    from common import close_ups, render
+    from analysis.frame_files import Frame
+    from figures.common import close_ups
     n = 20
     x, y = np.meshgrid(np.linspace(0, 0.5, n + 1), np.linspace(0, 1, 2 * n + 1))
     half = np.stack([x.ravel(), y.ravel()], axis=1)
@@ -107,7 +109,7 @@ def check_close_ups():
     rest = np.concatenate([half, half + [0.5, 0]])
     flat = np.hstack([rest, np.zeros((len(rest), 1))])
     deformed = np.concatenate([flat[:len(half)] @ turns[0].T, flat[len(half):] @ turns[1].T + [0, 0, 3]])
-    frame = render.Frame(0, deformed, rest, np.concatenate([triangles, triangles + len(half)]))
+    frame = Frame(0, deformed, rest, np.concatenate([triangles, triangles + len(half)]))
     place = np.array([0.5, 0.5])  # on the incision
     for turn, shift in zip(turns, (0, 3)):
         target = turn @ [*place, 0] + [0, 0, shift]
@@ -119,7 +121,7 @@ def check_close_ups():
 
 def check_captions():
     """Whole sentences, as many as two lines hold; the whole caption is kept for the file beside the figure."""
-    from common import style
+    from figures.common import style
     figure = style.plt.figure(figsize=(style.WIDTH, 1))
     caption = "A short one. " + "Words that fill more than a line, and a little bit of the next one, as sentences do. " * 2
     lines = style.two_lines(figure, caption.strip(), style.WIDTH - 0.1)
@@ -133,7 +135,7 @@ def check_captions():
 def check_swirl():
     """Angles twice those of the conventional split in one cut, half in another: the materials of a cut count once."""
     import pandas as pd
-    import swirl
+    from analysis.scenes import swirl
     rows = pd.DataFrame([(cut, material, method, angle * (1 if method == swirl.CONVENTIONAL else factor))
                          for cut, factor, materials in ((0, 2, "abc"), (1, 0.5, "a"))
                          for material, angle in zip(materials, (1, 3, 7)) for method in (swirl.CONVENTIONAL, "cgal_cdt")],

@@ -336,7 +336,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
         (folder / "reference").symlink_to(REFERENCE)
-        made = subprocess.run([sys.executable, PROJECT / "plots/report.py", "--results", folder], capture_output=True, text=True)
+        made = subprocess.run([sys.executable, PROJECT / "plots/pages/report/report.py", "--results", folder],
+                              capture_output=True, text=True)
         expect(f"report.py: {made.returncode} {made.stderr}", made.returncode == 0 and not made.stderr)
         page = folder / "report.html"
         expect(f"{page.stat().st_size} bytes", page.stat().st_size < 6e6)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Do plots/history.py and experiments/track_wall find the changes that were put into numbers, and no others? Prints every
-disagreement; exit code 1 if there is any. usage: check_tracking.py FOLDER to write into"""
+"""Do plots/pages/history.py and experiments/track_wall find the changes that were put into numbers, and no others? Prints
+every disagreement; exit code 1 if there is any. usage: check_tracking.py FOLDER to write into"""
 
 import importlib.machinery
 import importlib.util
@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 
 ROOT = Path(__file__).resolve().parent.parent
-PLOTS = ROOT / "plots"
-sys.path[:0] = [str(PLOTS), str(ROOT / "experiments")]
+PAGES = ROOT / "plots/pages"
+sys.path.insert(0, str(PAGES))
 import history  # noqa: E402
 
 loader = importlib.machinery.SourceFileLoader("track_wall", str(ROOT / "experiments/track_wall"))
@@ -78,7 +78,7 @@ def check_page(folder):
     counts = [1000, 1000, 2500, 2500, 500]
     lines = [line(i, n) for i, n in enumerate(counts)]
     file.write_text("".join(json.dumps(one) + "\n" for one in reversed(lines)), encoding="utf-8")  # sorted by date
-    done = subprocess.run([sys.executable, PLOTS / "history.py", "--file", file, "--out", out, "--url", "https://x.org/y/"],
+    done = subprocess.run([sys.executable, PAGES / "history.py", "--file", file, "--out", out, "--url", "https://x.org/y/"],
                           capture_output=True, text=True, check=False)
     expect(f"history.py: {done.returncode} {done.stderr}", done.returncode == 0)
     page = out.read_text(encoding="utf-8")

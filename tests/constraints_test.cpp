@@ -13,6 +13,7 @@
 #include "harness/fem/linear/linear_solver.h"
 #include "harness/fem/model/largest_eigenvalue.h"
 #include "harness/fem/model/model.h"
+#include "harness/fem/solvers/solver_table.h"
 #include "harness/mesh/families.h"
 #include "tests/constrained_cut.h"
 #include "tests/helpers.h"

@@ -1,18 +1,16 @@
 // Every solver against dense matrices: what it reaches, that it says when it did not, and that it follows the matrix.
 
-#include "harness/fem/linear/linear_solver.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <iterator>
 #include <limits>
 #include <string>
 #include <type_traits>
 
 #include "harness/base/errors.h"
+#include "harness/base/names.h"
 #include "harness/base/random.h"
+#include "harness/fem/solvers/solver_table.h"
 #include "tests/linear_systems.h"
 #include "tests/random_field.h"
 
@@ -51,18 +49,19 @@ TYPED_TEST_SUITE(LinearSolvers, Dimensions, );
 
 TYPED_TEST(LinearSolvers, AgreeWithDenseCholesky) {
   constexpr int dimension = TypeParam::value;
-  for (const auto& name : solver_names())
+  for (SolverOptions options : all_solvers())
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-      SCOPED_TRACE(name + ", seed " + std::to_string(seed));
+      SCOPED_TRACE(options.name + ", seed " + std::to_string(seed));
+      options.tolerance = 1e-11, options.max_iterations = 1000;
       const System<dimension> system = random_system<dimension>(seed);
       const Field b = 1e3 * random_field(seed + 100, system.blocks.rows());  // held entries too, which must not matter
-      const auto s = solved<dimension>({.name = name, .tolerance = 1e-11, .max_iterations = 1000}, system, b);
+      const auto s = solved<dimension>(options, system, b);
       const Field exact = system.oracle(b);
       EXPECT_TRUE(s.report.converged);
       EXPECT_LT((s.x - exact).norm(), 1e-9 * exact.norm());
       EXPECT_NEAR(s.report.residual, system.residual(b, s.x), 1e-14);
       EXPECT_LE(s.report.residual, 1e-11);
-      EXPECT_EQ(s.report.iterations == 0, is_direct(name));
+      EXPECT_EQ(s.report.iterations == 0, is_direct(options.name));
       for (Eigen::Index u = 0; u < s.x.size(); ++u) EXPECT_TRUE(!system.is_held(u) || s.x[u] == 0);
     }
 }
@@ -88,12 +87,12 @@ TYPED_TEST(LinearSolvers, NothingToSolve) {
   const System<dimension> system = random_system<dimension>(9);
   Field b(system.blocks.rows());
   for (Eigen::Index u = 0; u < b.size(); ++u) b[u] = system.is_held(u) ? 17 : 0;
-  for (const auto& name : solver_names())
+  for (const SolverOptions& options : all_solvers())
     for (const Field& right : {b, Field(Field::Zero(b.size()))}) {
-      const auto s = solved<dimension>({.name = name}, system, right);
-      EXPECT_TRUE(s.report.converged) << name;
-      EXPECT_EQ(s.report.residual, 0) << name;
-      EXPECT_EQ(s.x, Field::Zero(b.size())) << name;
+      const auto s = solved<dimension>(options, system, right);
+      EXPECT_TRUE(s.report.converged) << options.name;
+      EXPECT_EQ(s.report.residual, 0) << options.name;
+      EXPECT_EQ(s.x, Field::Zero(b.size())) << options.name;
     }
 }
 
@@ -104,9 +103,11 @@ TYPED_TEST(LinearSolvers, SayWhenTheyDidNotConverge) {
   std::fill(good.held.begin() + free, good.held.begin() + free + 2 * dimension, std::uint8_t{0});
   const Field b = random_field(12, good.blocks.rows());
   const auto expect_failure = [&](const std::string& what, const System<dimension>& system, const Field& right) {
-    for (const auto& name : solver_names()) {
+    for (SolverOptions options : all_solvers()) {
+      const std::string& name = options.name;
+      options.tolerance = 1e-8, options.max_iterations = 1000;
       if (name == "eigen_cg" && what == "indefinite beside the diagonal") continue;  // it does not look, and solves it
-      const auto s = solved<dimension>({.name = name, .tolerance = 1e-8, .max_iterations = 1000}, system, right);
+      const auto s = solved<dimension>(options, system, right);
       EXPECT_FALSE(s.report.converged) << name << ", " << what;
       EXPECT_FALSE(s.report.residual <= 1e-8) << name << ", " << what;
       EXPECT_EQ(s.x.size(), right.size());
@@ -142,9 +143,9 @@ TYPED_TEST(LinearSolvers, SayWhenTheyDidNotConverge) {
 
 TYPED_TEST(LinearSolvers, FollowTheMatrix) {
   constexpr int dimension = TypeParam::value;
-  for (const auto& name : solver_names()) {
-    SCOPED_TRACE(name);
-    const SolverOptions options{.name = name, .tolerance = 1e-11, .max_iterations = 1000};
+  for (SolverOptions options : all_solvers()) {
+    SCOPED_TRACE(options.name);
+    options.tolerance = 1e-11, options.max_iterations = 1000;
     const auto solver = make_solver<dimension>(options);
     System<dimension> system = random_system<dimension>(21);
     Sparse<dimension> sparse(system);
@@ -154,7 +155,7 @@ TYPED_TEST(LinearSolvers, FollowTheMatrix) {
       const Field exact = system.oracle(b);
       EXPECT_TRUE(s.report.converged) << what;
       EXPECT_LT((s.x - exact).norm(), 1e-9 * exact.norm()) << what;
-      if (!keeps_old_factors(name)) {
+      if (!keeps_old_factors(options.name)) {
         EXPECT_EQ(s.x, fresh.x) << what;  // bit by bit
       }
     };
@@ -192,8 +193,10 @@ TYPED_TEST(LinearSolvers, AreDeterministic) {
   const System<dimension> system = random_system<dimension>(31, 9);
   Sparse<dimension> sparse(system);
   const Field b = random_field(32, system.blocks.rows()), other = random_field(33, b.size());
-  for (const auto& name : solver_names()) {
-    const auto solver = make_solver<dimension>({.name = name, .tolerance = 1e-6});
+  for (SolverOptions options : all_solvers()) {
+    const std::string& name = options.name;
+    options.tolerance = 1e-6;
+    const auto solver = make_solver<dimension>(options);
     const auto first = solved(*solver, sparse.matrix(), b);
     solved(*solver, sparse.matrix(), other);
     Field x = Field::Constant(3, nan);  // what x holds before must not matter
@@ -204,19 +207,45 @@ TYPED_TEST(LinearSolvers, AreDeterministic) {
   }
 }
 
-TEST(LinearSolver, CholmodStartsNoThreads) {
-  const auto threads = [] {
-    const auto tasks = std::filesystem::directory_iterator("/proc/self/task");
-    return std::distance(begin(tasks), end(tasks));
-  };
-  const auto before = threads();
-  Random random(4);
-  System<3> system;
-  system.blocks = random_matrix(random, 14, 7, 3);  // large dense fronts, which it splits among threads
-  system.held.resize(static_cast<std::size_t>(system.blocks.rows()));
-  const Field b = random_field(5, system.blocks.rows());
-  EXPECT_TRUE(solved<3>({.name = "cholmod"}, system, b).report.converged);
-  EXPECT_EQ(threads(), before);
+/// Both factors, kept through a change of values and of the pattern, against each other.
+TYPED_TEST(LinearSolvers, FactorsAgree) {
+  constexpr int dimension = TypeParam::value;
+  const auto factor = make_factor<dimension>(FactorBy::fastest), plain = make_factor<dimension>(FactorBy::eigen);
+  for (const std::uint64_t seed : {41, 42}) {
+    System<dimension> system = random_system<dimension>(seed, 6 + static_cast<int>(seed % 2));
+    Sparse<dimension> sparse(system);
+    sparse.matrix().pattern = seed;
+    for (const double times : {1.0, 3.0}) {
+      system.blocks *= times;
+      sparse.assign(system);
+      for (Factor<dimension>* each : {factor.get(), plain.get()}) {
+        EXPECT_EQ(each->is_new(sparse.matrix()), times == 1);
+        ASSERT_TRUE(each->factor(sparse.matrix()));
+        EXPECT_EQ(each->largest_entry(), system.dense().cwiseAbs().maxCoeff());
+      }
+      const Eigen::MatrixXd b = random_field(seed, 2 * system.blocks.rows()).reshaped(system.blocks.rows(), 2);
+      Eigen::MatrixXd x, y;
+      ASSERT_TRUE(factor->solve(b, x) && plain->solve(b, y));
+      EXPECT_LT((x - y).norm(), 1e-11 * x.norm());
+      for (Eigen::Index u = 0; u < y.rows(); ++u) EXPECT_TRUE(!system.is_held(u) || y.row(u).isZero(0));
+    }
+  }
+}
+
+/// A build without CHOLMOD says so where one of its solvers is named.
+TEST(LinearSolver, CholmodIsNamedWhereItIsThere) {
+  for (const std::string name : {"cholmod", "cholmod_same_order", "cholmod_stale"}) {
+    const auto& names = solver_names();
+    EXPECT_EQ(std::find(names.begin(), names.end(), name) != names.end(), has_cholmod());
+    EXPECT_EQ(solver_help().find("  " + name + " ") != std::string::npos, has_cholmod());
+    std::string refusal;
+    try {
+      make_solver<2>({.name = name});
+    } catch (const InputError& error) {
+      refusal = error.what();
+    }
+    EXPECT_EQ(refusal.find("needs CHOLMOD") != std::string::npos, !has_cholmod()) << refusal;
+  }
 }
 
 TEST(LinearSolver, UnknownName) {
@@ -225,8 +254,7 @@ TEST(LinearSolver, UnknownName) {
     FAIL();
   } catch (const InputError& error) {
     EXPECT_EQ(std::string(error.what()),
-              "unknown solver \"gmres\"; known are cg, cg_sliver_blocks, multigrid, cholmod, cholmod_same_order, "
-              "cholmod_stale, local_global, eigen_cg, eigen_cg_ichol, eigen_ldlt");
+              "solver \"gmres\" is not known; known are " + listed(nearest_first("gmres", solver_names())));
   }
 }
 

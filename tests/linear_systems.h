@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "harness/base/random.h"
-#include "harness/fem/linear/linear_solver.h"
+#include "harness/fem/elements/element_table.h"
+#include "harness/fem/solvers/solver_table.h"
 
 namespace cutbench {
 
@@ -103,6 +104,17 @@ inline Eigen::MatrixXd random_matrix(Random& random, int side, int reach, int b)
     }
   for (Eigen::Index u = 0; u < b * n; ++u) a(u, u) = a.row(u).cwiseAbs().sum() + random.between(0.05, 0.15);
   return a;
+}
+
+/// Every solver; those whose preconditioner is a factor with Eigen's as well.
+inline std::vector<SolverOptions> all_solvers() {
+  std::vector<SolverOptions> all;
+  for (const std::string& name : solver_names()) {
+    all.push_back({.name = name});
+    if (name == "multigrid" || name == "cholmod_stale" || name == "local_global")
+      all.push_back({.name = name, .factor = FactorBy::eigen});
+  }
+  return all;
 }
 
 template <int D>

@@ -12,6 +12,7 @@
 
 #include "harness/cases/adversarial.h"
 #include "harness/fem/linear/linear_solver.h"
+#include "harness/fem/solvers/solver_table.h"
 #include "tests/helpers.h"
 #include "tests/multigrid_helpers.h"
 #include "tests/random_field.h"

@@ -147,13 +147,13 @@ newton = 20)",
   is("explicit split_and_tie 0.1", "refused");
 
   const Result drawn = run("methods >/dev/null; /usr/bin/python3 '" CUTBENCH_TEST_CASES
-                           "/../../plots/stability.py' --results r/stability");
+                           "/../../plots/figures/stability/stability.py' --results r/stability");
   EXPECT_EQ(drawn.code, 0) << drawn.error;
   EXPECT_GT(fs::file_size(folder_ / "r/stability/stability.png"), 10000u);
   const std::string table = read(folder_ / "r/stability/stability.md");
   for (const char* line : {"| conventional split | - | 1e-06 | 0.1 | ", "| snap or split | - | 0.1 | - | - |",
                            "| snap or split | cg | 2000 | 2 | solver stalled |",
-                           "| split and constraint | backward_euler, 1 | 1.05 | -1 | inverted |"})
+                           "| split and tie | backward_euler, 1 | 1.05 | -1 | inverted |"})
     EXPECT_NE(table.find(line), std::string::npos) << line << "\n" << table;
 
   // Shares of the work make the same rows; a run that is there is not made again.
@@ -168,8 +168,8 @@ newton = 20)",
   EXPECT_EQ(whole, parts);
 }
 
-/// Each time in the table of plots/whole_step.py is the cut's share of the cuts and the update, the first step after them
-/// and as many more as 0.25 s have; and on a front what takes longer errs less.
+/// Each time in the table of plots/figures/methods/whole_step.py is the cut's share of the cuts and the update, the first
+/// step after them and as many more as 0.25 s have; and on a front what takes longer errs less.
 TEST_F(Stability, WholeStepsAgainstErrors) {
   write(folder_ / "stability.toml", R"(claim = "c"
 sheets = ["delaunay"]
@@ -192,7 +192,7 @@ solver = ["multigrid", "cholmod"])"));
         (number("cut_update_us") / number("place") + number("first_step_us") + 14 * number("step_us")) / 1000;
   }
   const Result drawn = run("methods >/dev/null; /usr/bin/python3 '" CUTBENCH_TEST_CASES
-                           "/../../plots/whole_step.py' --results r/stability");
+                           "/../../plots/figures/methods/whole_step.py' --results r/stability");
   ASSERT_EQ(drawn.code, 0) << drawn.error;
   for (const char* picture : {"whole_step.png", "whole_step_same_solver.png", "readme_chart.png"})
     EXPECT_GT(fs::file_size(folder_ / "r/stability" / picture), 10000u) << picture;

@@ -39,8 +39,8 @@ import tracking
 row = tracking.count_phase(sys.argv[2], "trace/800", int(sys.argv[3]))
 print(json.dumps({"format": 1, "commit": "", "tools": {"of": "this test"}, "rows": [row]})))");
   const auto count = [&](const std::string& turns, const std::string& name) {
-    const auto result =
-        run_program("/usr/bin/python3", "count.py '" CUTBENCH_EXPERIMENTS "' '" CUTBENCH_TRACK_PROGRAM "' " + turns);
+    const auto result = run_program(
+        "/usr/bin/python3", "count.py '" CUTBENCH_EXPERIMENTS "/scripts' '" CUTBENCH_TRACK_PROGRAM "' " + turns);
     EXPECT_EQ(result.code, 0) << result.error;
     write(folder_ / name, result.out);
   };
@@ -60,7 +60,8 @@ sys.path.insert(0, sys.argv[1])
 import tracking
 with tracking.timer(pathlib.Path(sys.argv[2]).parent, "trace/800") as run:
     print("time" if run() > 0 else "no time"))");
-  const auto timed = run_program("/usr/bin/python3", "time.py '" CUTBENCH_EXPERIMENTS "' '" CUTBENCH_TRACK_PROGRAM "'");
+  const auto timed =
+      run_program("/usr/bin/python3", "time.py '" CUTBENCH_EXPERIMENTS "/scripts' '" CUTBENCH_TRACK_PROGRAM "'");
   EXPECT_EQ(timed.code, 0) << timed.error;
   EXPECT_EQ(timed.out, "time\n");
 }

@@ -10,6 +10,7 @@
 
 #include "harness/base/random.h"
 #include "harness/cases/cut_families.h"
+#include "harness/mesh/predicates.h"
 
 namespace cutbench {
 
@@ -269,8 +270,10 @@ class AdversarialCuts {
       points.push_back(centre + r * random_.direction());
     }
     if (random_.coin(0.7)) {  // in order round the centre, so that it does not cross itself
-      const auto angle = [&](Point2 p) { return std::atan2(p.y - centre.y, p.x - centre.x); };
-      std::sort(points.begin(), points.end(), [&](Point2 a, Point2 b) { return angle(a) < angle(b); });
+      const auto is_upper = [&](Point2 p) { return p.y >= centre.y; };
+      std::sort(points.begin(), points.end(), [&](Point2 a, Point2 b) {
+        return is_upper(a) != is_upper(b) ? is_upper(b) : orientation(centre, a, b) > 0;
+      });
     }
     if (random_.coin(0.3) && points.size() >= 3) {
       points.resize(3);

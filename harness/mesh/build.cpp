@@ -88,7 +88,7 @@ Sheet::Sheet(const MeshData& data) {
     }
   position_ = data.deformed;
 
-  double length = 0, count = 0, largest = 0;
+  double total = 0, count = 0, largest = 0;
   Point2 low{1e300, 1e300}, high{-1e300, -1e300};
   for (const Triangle& t : triangles_)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -96,10 +96,11 @@ Sheet::Sheet(const MeshData& data) {
       low = {std::min(low.x, a.x), std::min(low.y, a.y)}, high = {std::max(high.x, a.x), std::max(high.y, a.y)};
       largest = std::max({largest, std::abs(a.x), std::abs(a.y)});
       const double share = t.opposite[k].valid() ? 0.5 : 1;  // an inner edge is met twice
-      length += share * std::hypot(b.x - a.x, b.y - a.y), count += share;
+      total += share * length(b - a);
+      count += share;
     }
-  mean_edge_ = length / count;
-  size_ = std::hypot(high.x - low.x, high.y - low.y);
+  mean_edge_ = total / count;
+  size_ = length(high - low);
   snap_ = snap_distance(size_, ulp(largest));
 }
 

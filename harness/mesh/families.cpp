@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <tuple>
 
 #include "harness/mesh/predicates.h"
 
@@ -137,7 +138,7 @@ std::vector<Point2> poisson_disc_points(int n) {
   std::vector<Point2> points = spaced.points();
   std::sort(points.begin() + 4 * n, points.end(), [n](Point2 p, Point2 q) {
     const double row_p = std::floor(p.y * n), row_q = std::floor(q.y * n);
-    return row_p != row_q ? row_p < row_q : p.x < q.x;
+    return std::tuple(row_p, p.x, p.y) < std::tuple(row_q, q.x, q.y);
   });
   return points;
 }

@@ -26,9 +26,15 @@ std::array<double, 3> angles_deg(Point2 a, Point2 b, Point2 c) {
   return {angle_deg(a, b, c), angle_deg(b, c, a), angle_deg(c, a, b)};
 }
 
-double smallest_angle_deg(Point2 a, Point2 b, Point2 c) { return std::ranges::min(angles_deg(a, b, c)); }
+double smallest_angle_deg(Point2 a, Point2 b, Point2 c) {
+  const auto angles = angles_deg(a, b, c);
+  return *std::min_element(angles.begin(), angles.end());
+}
 
-double largest_angle_deg(Point2 a, Point2 b, Point2 c) { return std::ranges::max(angles_deg(a, b, c)); }
+double largest_angle_deg(Point2 a, Point2 b, Point2 c) {
+  const auto angles = angles_deg(a, b, c);
+  return *std::max_element(angles.begin(), angles.end());
+}
 
 double smallest_altitude(Point2 a, Point2 b, Point2 c) {
   return twice_area(a, b, c) / std::sqrt(longest_squared(a, b, c));

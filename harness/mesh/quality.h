@@ -47,9 +47,8 @@ inline Quality quality(std::span<const std::array<Point2, 3>> triangles) {
     sum += ratios.back();
     q.ar_max = std::max(q.ar_max, ratios.back());
     q.over_3 += ratios.back() > 3;
-    const auto [smallest, largest] = std::ranges::minmax(angles_deg(a, b, c));
-    q.angle_min_deg = std::min(q.angle_min_deg, smallest);
-    q.angle_max_deg = std::max(q.angle_max_deg, largest);
+    q.angle_min_deg = std::min(q.angle_min_deg, smallest_angle_deg(a, b, c));
+    q.angle_max_deg = std::max(q.angle_max_deg, largest_angle_deg(a, b, c));
     q.altitude_min = std::min(q.altitude_min, smallest_altitude(a, b, c));
   }
   q.ar_mean = sum / static_cast<double>(q.triangles);

@@ -6,6 +6,8 @@
 #include <map>
 #include <tuple>
 
+#include "harness/base/number_from_chars.h"
+
 namespace cutbench {
 
 namespace {
@@ -85,7 +87,7 @@ class ObjReader {
     const std::string shown(token);
     if (token.front() == '+') token.remove_prefix(1);
     double value = 0;
-    const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
+    const auto [end, error] = number_from_chars(token.data(), token.data() + token.size(), value);
     if (error != std::errc() || end != token.data() + token.size() || !(as_is_ || std::isfinite(value)))
       fail(line_, "'" + shown + "' is not a finite number; correct it");
     return value;

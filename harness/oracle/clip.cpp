@@ -1,6 +1,8 @@
 #include "harness/oracle/clip.h"
 
-#include <gmpxx.h>
+#include <utility>
+
+#include "harness/oracle/numbers.h"
 
 namespace cutbench::oracle {
 namespace {
@@ -14,11 +16,11 @@ bool holds(const Box& box, const Point& p) {
 }
 
 /// Exact, then rounded once.
-Point at(const Segment& s, const mpq_class& t) {
+Point at(const Segment& s, const Rational& t) {
   Point p;
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    const mpq_class a = s[0][axis], b = s[1][axis], c = a + t * (b - a);
-    p[axis] = c.get_d();
+    const Rational a = as_rational(s[0][axis]), b = as_rational(s[1][axis]);
+    p[axis] = toward_zero(a + t * (b - a));
   }
   return p;
 }
@@ -28,15 +30,15 @@ Point at(const Segment& s, const mpq_class& t) {
 std::optional<Segment> clip(const Segment& s, const Point& low, const Point& high) {
   const Box box{low, high};
   if (holds(box, s[0]) && holds(box, s[1])) return s;
-  mpq_class first = 0, last = 1;  // Liang and Barsky, 1984
+  Rational first = 0, last = 1;  // Liang and Barsky, 1984
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    const mpq_class from = s[0][axis], along = mpq_class(s[1][axis]) - from;
+    const Rational from = as_rational(s[0][axis]), along = as_rational(s[1][axis]) - from;
     if (along == 0) {
       if (s[0][axis] < low[axis] || s[0][axis] > high[axis]) return {};
       continue;
     }
-    mpq_class in = (mpq_class(low[axis]) - from) / along, out = (mpq_class(high[axis]) - from) / along;
-    if (in > out) swap(in, out);
+    Rational in = (as_rational(low[axis]) - from) / along, out = (as_rational(high[axis]) - from) / along;
+    if (in > out) std::swap(in, out);
     if (in > first) first = in;
     if (out < last) last = out;
   }

@@ -1,8 +1,8 @@
 #include "harness/oracle/exact.h"
 
-#include <bit>
-#include <cstdint>
 #include <limits>
+
+#include "harness/oracle/numbers.h"
 
 namespace cutbench::oracle {
 namespace {
@@ -17,10 +17,9 @@ int exact_turn(const Segment& s, const Segment& t) {
     for (const Point& p : u)
       for (const double x : p) exponent = std::min(exponent, lowest_bit(x));
   const auto along = [exponent](const Segment& u, std::size_t axis) {
-    return mpz_class(as_integer(u[1][axis], exponent) - as_integer(u[0][axis], exponent));
+    return Integer(as_integer(u[1][axis], exponent) - as_integer(u[0][axis], exponent));
   };
-  const int order = cmp(mpz_class(along(s, 0) * along(t, 1)), mpz_class(along(s, 1) * along(t, 0)));
-  return (order > 0) - (order < 0);
+  return order(Integer(along(s, 0) * along(t, 1)), Integer(along(s, 1) * along(t, 0)));
 }
 
 /// Whether `difference` is a - b, not only next to it (Knuth's TwoSum).
@@ -30,21 +29,6 @@ bool is_exact(double difference, double a, double b) {
 }
 
 }  // namespace
-
-int lowest_bit(double x) {
-  if (x == 0) return std::numeric_limits<int>::max();
-  int exponent = 0;
-  const auto digits = static_cast<std::int64_t>(std::ldexp(std::frexp(std::abs(x), &exponent), 53));
-  return exponent - 53 + std::countr_zero(static_cast<std::uint64_t>(digits));
-}
-
-mpz_class as_integer(double x, int exponent) {
-  if (x == 0) return 0;
-  const int low = lowest_bit(x);
-  mpz_class result(std::ldexp(x, -low));
-  result <<= static_cast<mp_bitcnt_t>(low - exponent);
-  return result;
-}
 
 int turn(const Segment& s, const Segment& t) {
   const double sx = s[1][0] - s[0][0], sy = s[1][1] - s[0][1];

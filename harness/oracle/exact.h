@@ -4,8 +4,6 @@
 // what it checks shares its mistakes.
 #pragma once
 
-#include <gmpxx.h>
-
 #include "harness/oracle/plane.h"
 
 namespace cutbench::oracle {
@@ -23,12 +21,6 @@ inline bool meet(const Segment& s, const Segment& t) {
 /// The same for two directions, each from the segment's start to its end: +1 where the second points to the left of the
 /// first, 0 where they are parallel.
 int turn(const Segment& first, const Segment& second);
-
-/// The exponent of the lowest bit of a number that is set; 0 has none: the largest int.
-int lowest_bit(double x);
-
-/// x 2^-exponent. Precondition: that is an integer, `exponent` being at most lowest_bit(x).
-mpz_class as_integer(double x, int exponent);
 
 /// Sum of the signed areas of all triangles. Error at most (#T + 8) 2^-64 times the sum over the triangles of the
 /// product of two edge lengths (x87 long double; its exponents can't overflow here).

@@ -1,18 +1,17 @@
 #include "harness/oracle/planar_map.h"
 
-#include <gmpxx.h>
-
 #include <map>
 #include <numeric>
 #include <optional>
 
 #include "harness/oracle/exact.h"
+#include "harness/oracle/numbers.h"
 #include "harness/oracle/search.h"
 
 namespace cutbench::oracle {
 namespace {
 
-using ExactPoint = std::array<mpq_class, 2>;
+using ExactPoint = std::array<Rational, 2>;
 
 /// A point of the map: a double, or an intersection with the double next to it on the side of zero. Rounding keeps the
 /// order of numbers, so where doubles differ, they tell it.
@@ -22,13 +21,13 @@ struct Node {
   std::vector<int> outgoing;        ///< half-edges, counter-clockwise from straight down, which is not included
 };
 
-mpq_class coordinate(const Node& v, std::size_t axis) {
-  return v.exact ? (*v.exact)[axis] : mpq_class(v.rounded[axis]);
+Rational coordinate(const Node& v, std::size_t axis) {
+  return v.exact ? (*v.exact)[axis] : as_rational(v.rounded[axis]);
 }
 
 int compare(const Node& a, const Node& b, std::size_t axis) {
   if (a.rounded[axis] != b.rounded[axis]) return a.rounded[axis] < b.rounded[axis] ? -1 : 1;
-  return a.exact || b.exact ? cmp(coordinate(a, axis), coordinate(b, axis)) : 0;
+  return a.exact || b.exact ? order(coordinate(a, axis), coordinate(b, axis)) : 0;
 }
 
 /// From left to right, and upwards.
@@ -53,7 +52,7 @@ bool boxes_meet(const Segment& s, const Segment& t) {
 
 /// A segment, scaled to integers.
 struct Line {
-  mpz_class ax, ay, ux, uy;  // from a along u
+  Integer ax, ay, ux, uy;  // from a along u
   Line(const Segment& s, int exponent)
       : ax(as_integer(s[0][0], exponent)),
         ay(as_integer(s[0][1], exponent)),
@@ -61,28 +60,17 @@ struct Line {
         uy(as_integer(s[1][1], exponent) - ay) {}
 };
 
-/// numerator / denominator 2^exponent
-mpq_class fraction(const mpz_class& numerator, const mpz_class& denominator, int exponent) {
-  mpq_class q(numerator, denominator);
-  q.canonicalize();
-  if (exponent < 0)
-    q >>= static_cast<mp_bitcnt_t>(-exponent);
-  else
-    q <<= static_cast<mp_bitcnt_t>(exponent);
-  return q;
-}
-
 /// Precondition: the lines aren't parallel. `exponent`: of the scaling.
 ExactPoint intersection(const Line& s, const Line& t, int exponent) {
-  const mpz_class across = s.ux * t.uy - s.uy * t.ux;
-  const mpz_class along = (t.ax - s.ax) * t.uy - (t.ay - s.ay) * t.ux;
-  const mpz_class x = s.ax * across + along * s.ux, y = s.ay * across + along * s.uy;
+  const Integer across = s.ux * t.uy - s.uy * t.ux;
+  const Integer along = (t.ax - s.ax) * t.uy - (t.ay - s.ay) * t.ux;
+  const Integer x = s.ax * across + along * s.ux, y = s.ay * across + along * s.uy;
   return {fraction(x, across, exponent), fraction(y, across, exponent)};
 }
 
 /// Of a line, in the integers. Precondition: it isn't upright.
-mpq_class height_at(const Line& s, const mpz_class& x) {
-  const mpz_class above = (x - s.ax) * s.uy;
+Rational height_at(const Line& s, const Integer& x) {
+  const Integer above = (x - s.ax) * s.uy;
   return s.ay + fraction(above, s.ux, 0);
 }
 
@@ -121,7 +109,7 @@ class Builder {
   }
 
   int vertex(ExactPoint p) {
-    const Point rounded{p[0].get_d(), p[1].get_d()};
+    const Point rounded{toward_zero(p[0]), toward_zero(p[1])};
     for (int v : known_[rounded])
       if (coordinate(vertices_[v], 0) == p[0] && coordinate(vertices_[v], 1) == p[1]) return v;
     return add_vertex({rounded, std::move(p), {}});
@@ -266,16 +254,16 @@ class Builder {
   /// The face that has a component in it: what is above the edge that one comes upon straight down from a point just
   /// left of the component's first vertex. Precondition: known for all components that begin before.
   int face_round(int v) const {
-    const mpz_class x = as_integer(vertices_[v].rounded[0], exponent_);
+    const Integer x = as_integer(vertices_[v].rounded[0], exponent_);
     int best = -1;
-    mpq_class highest;
+    Rational highest;
     for (int e = 0; e < static_cast<int>(ends_.size()); ++e) {
       const auto& [from, to] = ends_[e];
       if (component_[from] == component_[v]) continue;
       if (compare(vertices_[from], vertices_[v], 0) >= 0 || compare(vertices_[v], vertices_[to], 0) > 0) continue;
       const Segment& s = line(2 * e);
       if (orientation(s[0], s[1], vertices_[v].rounded) < 0) continue;
-      const mpq_class height = height_at({s, exponent_}, x);
+      const Rational height = height_at({s, exponent_}, x);
       if (best < 0 || height > highest || (height == highest && turn(s, line(2 * best)) > 0))
         best = e, highest = height;
     }

@@ -176,7 +176,11 @@ void Tracer::close_loop() {
 
 /// The path runs along an edge; where that is open already there is nothing to do.
 void Tracer::run_along(const Place& from, const Place& to, HalfEdge edge) {
-  if (!sheet_->separates(edge)) trace_.add_along(trace_.node_of(from), trace_.node_of(to), edge);
+  if (sheet_->separates(edge)) return;
+  const int first =
+      trace_.node_of(from);  // not within the call: compilers differ in which argument they evaluate first
+  const int second = trace_.node_of(to);
+  trace_.add_along(first, second, edge);
 }
 
 /// With what is chosen of the passage under way.

@@ -10,7 +10,7 @@ void add_accuracy_run(std::vector<Metric>& t) {
       {{"problem", "", "problem", none, group,
         "Problem with a known answer, harness/problems/common/problem.h; takes the place of cut_family. `case` is the "
         "member of its ensemble."},
-       {"solver", "", "solver", none, group, "Linear solver: harness/fem/linear/linear_solver.h."},
+       {"solver", "", "solver", none, group, "Linear solver: harness/fem/solvers/solver_table.cpp."},
        {"budget", "", "iterations allowed", none, group,
         "Iterations from zero, whatever is reached by then; 0: until solved."},
        {"tip_functions", "", "tip functions", none, group,

@@ -1,7 +1,6 @@
 #include "harness/records/context.h"
 
 #include <CGAL/version.h>
-#include <cholmod.h>
 #include <dlfcn.h>
 #include <gmp.h>
 #include <mpfr.h>
@@ -16,6 +15,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "harness/fem/linear/factor.h"
 #include "harness/mesh/mesh_data.h"
 
 namespace cutbench {
@@ -83,12 +83,9 @@ Context gather_context() {
   context.compiler = CUTBENCH_COMPILER, context.flags = CUTBENCH_FLAGS, context.build_type = CUTBENCH_BUILD_TYPE;
   context.cpu = cpu_model();
   context.versions = {
-      {"CGAL", CGAL_VERSION_STR},
-      {"GMP", gmp_version},
-      {"MPFR", mpfr_get_version()},
-      {"Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
-      {"CHOLMOD", dotted(CHOLMOD_MAIN_VERSION, CHOLMOD_SUB_VERSION, CHOLMOD_SUBSUB_VERSION)},
-      {"BLAS", blas_in_use()},
+      {"CGAL", CGAL_VERSION_STR},     {"GMP", gmp_version},
+      {"MPFR", mpfr_get_version()},   {"Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+      {"CHOLMOD", cholmod_version()}, {"BLAS", blas_in_use()},
   };
   std::array<char, 32> date{};
   const std::time_t now = std::time(nullptr);

@@ -8,6 +8,8 @@
 
 #include "harness/base/toml_reader.h"
 #include "harness/cases/cut_families.h"
+#include "harness/fem/elements/bending_kinds.h"
+#include "harness/fem/solvers/solver_table.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/mesh_io.h"
 #include "harness/path/blade.h"
@@ -76,7 +78,7 @@ void read_physics(const TomlReader& file, Scene& scene) {
   p.stress_stiffness = reader.choice<StressStiffness>("stress_stiffness", p.stress_stiffness, stress_stiffness_names);
   if (p.strain == Strain::linear && reader.has("stress_stiffness"))
     reader.refuse("linear strain has no stiffness from stress; leave \"stress_stiffness\" out");
-  p.bending = reader.choice<BendingKind>("bending", p.bending, bending_names);
+  p.bending = reader.choice<BendingKind>("bending", p.bending, bending_names());
   p.mass = reader.choice<Mass>("mass", p.mass, mass_names);
   p.mass_limit = reader.positive("mass_limit", p.mass_limit);
   if (reader.has("mass_limit") && !adds_mass(p.mass))
@@ -226,7 +228,7 @@ SolverOptions read_solver(const TomlReader& file) {
   const TomlReader reader = file.section("solver", {"name", "tolerance", "max_iterations"});
   SolverOptions s;
   s.name = reader.value<std::string>("name", s.name);
-  check_names({s.name}, solver_names(), reader.where + ": solver");
+  check_solver_names({s.name}, reader.where + ": solver");
   s.tolerance = reader.positive("tolerance", s.tolerance);
   if (s.tolerance >= 1) reader.refuse("\"tolerance\" must be below 1: at 1, x = 0 solves everything");
   s.max_iterations = reader.count("max_iterations", s.max_iterations);

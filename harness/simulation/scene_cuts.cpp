@@ -8,6 +8,7 @@
 
 #include "harness/base/stop_watch.h"
 #include "harness/cut/constraint_source.h"
+#include "harness/fem/elements/bending_kinds.h"
 #include "harness/mesh/one_ring.h"
 #include "harness/simulation/active_region.h"
 
@@ -212,7 +213,7 @@ std::string SceneCuts<D>::why_not(const ConstraintSource* source) const {
   if (scene_.integrator == Integrator::xpbd)
     return "the method constraints vertices or makes polygons, which xpbd does not take; choose another integrator";
   if (constraint_kind == ConstraintKind::polygons)
-    return scene_.physics.bending == BendingKind::hinges
+    return scene_.physics.bending != BendingKind::none && !row_of(scene_.physics.bending).has_slopes
                ? "the method's polygons have no hinges; set bending to patches, or to none"
                : "";
   if (scene_.integrator == Integrator::symplectic_euler)

@@ -8,6 +8,7 @@
 
 #include "harness/base/toml_reader.h"
 #include "harness/cases/cut_families.h"
+#include "harness/fem/solvers/solver_table.h"
 #include "harness/mesh/families.h"
 #include "harness/problems/common/problem.h"
 
@@ -69,7 +70,7 @@ Experiment::Accuracy read_accuracy(const TomlReader& reader, const std::vector<i
   accuracy.direct = reader.list<std::string>("direct");
   if (reader.has("preconditioners")) accuracy.preconditioners = reader.list<std::string>("preconditioners");
   for (const auto* list : {&accuracy.direct, &accuracy.preconditioners})
-    check_names(*list, solver_names(), reader.where + ": solver");
+    check_solver_names(*list, reader.where + ": solver");
   if (!accuracy.preconditioners.empty())
     for (const auto n : reader.list<std::int64_t>("iterations")) {
       if (n < 1 || n > 1000000) reader.refuse("\"iterations\" are whole numbers from 1 to 1000000");

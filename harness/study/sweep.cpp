@@ -5,6 +5,9 @@
 #include <cmath>
 #include <tuple>
 
+#include "harness/fem/elements/bending_kinds.h"
+#include "harness/fem/solvers/solver_table.h"
+
 namespace cutbench {
 
 namespace {
@@ -58,7 +61,7 @@ constexpr SweepSetting settings[] = {
     {"solver", [](const SweepPoint& p) { return p.scene.solver.name; },
      [](const TomlReader& r, SweepPoint& p) {
        p.scene.solver.name = r.value<std::string>("solver");
-       check_names({p.scene.solver.name}, solver_names(), r.where + ": solver");
+       check_solver_names({p.scene.solver.name}, r.where + ": solver");
      }},
     {"tolerance", [](const SweepPoint& p) { return text_of(p.scene.solver.tolerance); },
      [](const TomlReader& r, SweepPoint& p) { p.scene.solver.tolerance = r.positive("tolerance", 0); }},
@@ -92,9 +95,9 @@ constexpr SweepSetting settings[] = {
      [](const TomlReader& r, SweepPoint& p) {
        p.scene.physics.mass = r.choice<Mass>("mass", p.scene.physics.mass, mass_names);
      }},
-    {"bending", [](const SweepPoint& p) -> std::string { return name_of(bending_names, p.scene.physics.bending); },
+    {"bending", [](const SweepPoint& p) -> std::string { return name_of(p.scene.physics.bending); },
      [](const TomlReader& r, SweepPoint& p) {
-       p.scene.physics.bending = r.choice<BendingKind>("bending", p.scene.physics.bending, bending_names);
+       p.scene.physics.bending = r.choice<BendingKind>("bending", p.scene.physics.bending, bending_names());
      }},
 };
 

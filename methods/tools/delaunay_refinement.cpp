@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "harness/mesh/one_ring.h"
 #include "harness/mesh/predicates.h"
@@ -121,6 +122,14 @@ bool DelaunayRefinement::find_encroached(const Sheet& sheet, TriangleIndex t, Po
   return !encroached_.empty();
 }
 
+/// The power of two next to x > 0, its logarithm rounded: without the C library's logarithm, which differs from one to the
+/// next.
+double nearest_power_of_two(double x) {
+  int exponent = 0;
+  const double fraction = std::frexp(x, &exponent);  // at least 1/2
+  return std::ldexp(1, fraction < std::numbers::sqrt2 / 2 ? exponent - 1 : exponent);
+}
+
 /// Divides a piece of path, incision or border; false where it is too short, or doubles too coarse.
 bool DelaunayRefinement::split_segment(Sheet& sheet, HalfEdge h) {
   const double length = std::sqrt(squared_length(sheet, h));
@@ -129,7 +138,7 @@ bool DelaunayRefinement::split_segment(Sheet& sheet, HalfEdge h) {
   const bool from_target = is_leg(sheet, sheet.target(h), sheet.origin(h));
   double fraction = 0.5;
   if (from_origin != from_target) {
-    const double shell = std::exp2(std::round(std::log2(0.5 * length / sheet.mean_edge()))) * sheet.mean_edge();
+    const double shell = nearest_power_of_two(0.5 * length / sheet.mean_edge()) * sheet.mean_edge();
     fraction = from_origin ? shell / length : 1 - shell / length;
   }
   const Point2 a = sheet.rest(sheet.origin(h)), p = a + fraction * (sheet.rest(sheet.target(h)) - a);

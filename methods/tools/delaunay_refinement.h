@@ -57,11 +57,14 @@ class DelaunayRefinement {
   void flip_round(Sheet& sheet, VertexIndex v);
   void note_changed(const Sheet& sheet);
 
-  /// A triangle by its shortest edge.
+  /// A triangle by its shortest edge; of equals the one that was made first, so that every library's heap agrees.
   struct Entry {
     double squared_edge;
     TriangleIndex triangle;
-    bool operator<(const Entry& other) const { return squared_edge > other.squared_edge; }
+    bool operator<(const Entry& other) const {
+      if (squared_edge != other.squared_edge) return squared_edge > other.squared_edge;
+      return triangle > other.triangle;
+    }
   };
 
   Options options_;

@@ -25,7 +25,9 @@ VertexIndex Reshape::split_at(HalfEdge h, Point2 p) {
 /// Turns the first piece of the path, from the apex to v or to a new vertex before v, about the apex, until it encloses
 /// a large enough angle with the other leg. False where that is not allowed.
 bool Reshape::turn_away(VertexIndex v, VertexIndex apex, VertexIndex other) {
-  constexpr double enough = 0.37;    // radians; a triangle with two sides this far apart has an aspect ratio of 2.8
+  // Of 0.37 radians: a triangle with two sides this far apart has an aspect ratio of 2.8. Written out, since the C
+  // libraries round them differently.
+  constexpr double cosine = 0.9323273456060345, sine = 0.361615431964962;
   constexpr double sharpest = 0.17;  // a sine; below it the curves themselves enclose too little
   Neighbours n;
   if (freedom(v, n) != Freedom::along || (n.before != apex && n.after != apex)) return false;
@@ -34,8 +36,8 @@ bool Reshape::turn_away(VertexIndex v, VertexIndex apex, VertexIndex other) {
   if (!curve_->is_piece(from, end)) return false;
   const Point2 at = sheet_->rest(apex), along = sheet_->rest(other) - at;
   const double side = cross(along, sheet_->rest(v) - at) > 0 ? 1 : -1;
-  const double c = std::cos(enough) / std::sqrt(squared_length(along)),
-               s = side * std::sin(enough) / std::sqrt(squared_length(along));
+  const double c = cosine / std::sqrt(squared_length(along));
+  const double s = side * sine / std::sqrt(squared_length(along));
   const Point2 direction{c * along.x - s * along.y, s * along.x + c * along.y};
   for (const double share : {1.0, 0.5, 0.25}) {
     const double here = from + share * (end - from);

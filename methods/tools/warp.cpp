@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "harness/mesh/one_ring.h"
 #include "harness/mesh/quality.h"
@@ -52,9 +53,8 @@ int Warp::move_to_path(Sheet& sheet, const PathCurve& curve) {
     if (on_border == sheet.on_border(path_.place(n).edge)) targets_.push_back(n);
   }
   const Point2 from = sheet.rest(v);
-  std::sort(targets_.begin(), targets_.end(), [&](int a, int b) {
-    return squared_length(path_.point(a) - from) < squared_length(path_.point(b) - from);
-  });
+  const auto key = [&](int n) { return std::pair(squared_length(path_.point(n) - from), n); };
+  std::sort(targets_.begin(), targets_.end(), [&](int a, int b) { return key(a) < key(b); });
   for (const int target : targets_) {
     const Point2 to = path_.point(target);
     if (stays_near(target, curve) && worst_aspect(sheet, v, to) <= options_.max_aspect && sheet.move(v, to))

@@ -1,5 +1,5 @@
 // `cutbench` with one method more: the Delaunay split, whose largest angles are then flipped away once.
-#include "experiments/command_line.h"
+#include "experiments/program/command_line.h"
 #include "harness/cut/delaunay_split.h"
 #include "harness/mesh/one_ring.h"
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "harness/fem/linear/linear_solver.h"
-
 namespace cutbench {
 
 void ConstraintMatrix::set(const Constraints& constraints, std::size_t vertices) {

@@ -5,7 +5,7 @@
 namespace cutbench {
 
 Bending::Bending(const Sheet& sheet, BendingKind kind, double rigidity, double poisson, const ElementTable* elements)
-    : kind_(kind), rigidity_(rigidity), poisson_(poisson) {
+    : kind_(&row_of(kind)), rigidity_(rigidity), poisson_(poisson) {
   resize(sheet);
   work_.elements = elements;
   ++work_.call;
@@ -51,9 +51,7 @@ void Bending::resize(const Sheet& sheet) {
 // --- what a cut makes stale ------------------------------------------------------------------------------------------
 
 /// The triangles of the element that t belongs to.
-std::span<const TriangleIndex> Bending::members(const TriangleIndex& t) const {
-  return work_.elements ? work_.elements->members(t) : std::span<const TriangleIndex>(&t, 1);
-}
+std::span<const TriangleIndex> Bending::members(const TriangleIndex& t) const { return members_of(work_.elements, t); }
 
 void Bending::mark_stale(TriangleIndex t, int distance) {
   if (work_.stale_in[t()] == work_.call) return;
@@ -93,29 +91,19 @@ void Bending::rebuild(const Sheet& sheet) {
   for (const auto& [t, distance] : work_.stale)
     if (t == members(t).front() && distance <= reach_[t()]) fit_patch(sheet, t);
   work_.rows.clear();
+  BendingStencil stencil{sheet, rigidity_, poisson_, work_.elements, slopes_, work_.place, work_.terms};
   for (const auto& [t, distance] : work_.stale) {
     if (!stencil_is_stale(sheet, t)) continue;
     work_.terms.clear();
-    if (sheet.triangle(t).alive() && t == members(t).front()) add_rows(sheet, t);
+    if (sheet.triangle(t).alive() && t == members(t).front()) kind_->add_rows(stencil, t);
     replace_stencil(t());
   }
   for (const std::int32_t vertex : work_.rows) write_row(static_cast<std::size_t>(vertex));
 }
 
-void Bending::add_rows(const Sheet& sheet, TriangleIndex t) {
-  switch (kind_) {
-    case BendingKind::none:
-      return;
-    case BendingKind::patches:
-      return patch_rows(sheet, t);
-    case BendingKind::hinges:
-      return hinge_rows(sheet, t);
-  }
-}
-
 void Bending::fit_patch(const Sheet& sheet, TriangleIndex t) {
   for (const TriangleIndex member : members(t)) work_.refitted_in[member()] = work_.call;
-  if (kind_ != BendingKind::patches) return;
+  if (!kind_->has_slopes) return;
   if (!sheet.triangle(t).alive()) return slopes_.set(t(), {});
   const int reach = work_.patch.fit(sheet, work_.elements, t);
   longest_reach_ = std::max(longest_reach_, reach);

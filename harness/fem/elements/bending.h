@@ -1,12 +1,6 @@
 // Bending of a sheet that is flat at rest: one constant, positive semi-definite scalar matrix for x, y and z, whose
-// null space is what is linear in rest coordinates, so rigid motions of any size cost nothing and nothing is rotated.
-//
-//   patches  The enhanced rotation-free shell triangle (Flores and Onate, CMAME 194, 2005, EBST), for a flat rest
-//            sheet: slopes from the quadratic through a triangle and its three neighbours, averaged on the sides;
-//            Hessian from them by the divergence theorem. Does not depend on the mesh: passes the bending patch test on
-//            any.
-//   hinges   The quadratic hinge (Bergou et al. 2006, A quadratic bending model for inextensible surfaces), as the row
-//            that shows how an energy depends on the mesh.
+// null space is what is linear in rest coordinates, so rigid motions of any size cost nothing and nothing is rotated. Its
+// kinds are in bending_kinds.h.
 //
 // Each triangle's energy is half the sum of the squares of three linear rows over the vertices near it. What lies
 // across an incision is not near. A polygon (polygon_element.h) has the rows of one element: one quadratic, and one
@@ -19,6 +13,7 @@
 #include "harness/fem/algebra/block_matrix.h"
 #include "harness/fem/algebra/growing_rows.h"
 #include "harness/fem/algebra/row_sum.h"
+#include "harness/fem/elements/bending_kinds.h"
 #include "harness/fem/elements/element_table.h"
 #include "harness/fem/elements/physics.h"
 #include "harness/fem/elements/slope_patch.h"
@@ -35,7 +30,7 @@ class Bending {
     bool operator<(const Holder& other) const { return triangle < other.triangle; }
   };
   Bending() = default;
-  /// \pre kind is not `none`, and `patches` where there are polygons; rigidity D in N m.
+  /// \pre kind is not `none`, and has slopes where elements have several triangles; rigidity D in N m.
   /// \param elements  of the sheet, whose polygons count; null: no polygons
   Bending(const Sheet& sheet, BendingKind kind, double rigidity, double poisson,
           const ElementTable* elements = nullptr);
@@ -63,7 +58,6 @@ class Bending {
   void mark_stale(TriangleIndex t, int distance);
   void find_stale(const Sheet& sheet, std::span<const TriangleIndex> regrouped);
   std::span<const TriangleIndex> members(const TriangleIndex& t) const;
-  double twice_area(const Sheet& sheet, TriangleIndex t) const;
   void rebuild(const Sheet& sheet);
   void fit_patch(const Sheet& sheet, TriangleIndex t);
   bool stencil_is_stale(const Sheet& sheet, TriangleIndex t) const;
@@ -71,24 +65,10 @@ class Bending {
   void put_on_list(std::int32_t vertex);
   void write_row(std::size_t vertex);
 
-  // Terms of t's stencil, summed up in work_.
-  /// The sum that begins at zero, for this vertex.
-  std::array<double, 3>& term_of(std::int32_t vertex) {
-    std::int32_t& place = work_.place[static_cast<std::size_t>(vertex)];
-    if (place < 0) {
-      place = static_cast<std::int32_t>(work_.terms.size());
-      work_.terms.push_back({vertex, {}});
-    }
-    return work_.terms[static_cast<std::size_t>(place)].factor;
-  }
-  void add_rows(const Sheet& sheet, TriangleIndex t);
-  void patch_rows(const Sheet& sheet, TriangleIndex t);
-  void hinge_rows(const Sheet& sheet, TriangleIndex t);
-
-  BendingKind kind_ = BendingKind::none;
+  const BendingRow* kind_ = &row_of(BendingKind::none);
   double rigidity_ = 0, poisson_ = 0;
-  GrowingRows<StencilTerm> slopes_;  ///< per triangle slot: SlopePatch::terms(); unused by hinges
-  std::vector<int> reach_;           ///< per triangle slot: of its patch; 0 for hinges
+  GrowingRows<StencilTerm> slopes_;  ///< per triangle slot: SlopePatch::terms(), of a kind with slopes
+  std::vector<int> reach_;           ///< per triangle slot: of its patch; 0 where there is none
   int longest_reach_ = 0;
   GrowingRows<StencilTerm> stencils_;  ///< per triangle slot: its three rows, in sqrt(N/m)
   GrowingRows<Holder> stencils_of_;    ///< per deformed vertex: the stencils that hold it, in order

@@ -1,6 +1,7 @@
 #include "harness/fem/elements/element_table.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cutbench {
 
@@ -32,6 +33,21 @@ void ElementTable::update(const Sheet& sheet) {
   rows_.resize(sheet.triangle_slots());
   for (const auto& touched : log.touched) rows_[touched.slot()] = element_of(sheet, touched.slot);
   for (std::size_t t = log.triangles_before; t < rows_.size(); ++t) rows_[t] = element_of(sheet, TriangleIndex(t));
+}
+
+void ElementTable::add_strong_couplings(double aspect_ratio, std::vector<StrongCoupling>& all) const {
+  for (const Element& e : rows_) {
+    if (!e.is_triangle()) continue;
+    // |gradient| = opposite edge / (2 area), so AR = longest edge^2 / (2 area) = 2 area (largest |gradient|)^2.
+    const std::array<double, 3> squared{squared_length(e.gradient[0]), squared_length(e.gradient[1]),
+                                        squared_length(e.gradient[2])};
+    if (!(2 * e.area * *std::max_element(squared.begin(), squared.end()) > aspect_ratio)) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t l = (k + 1) % 3;
+      const auto [low, high] = std::minmax({e.vertex[k].value, e.vertex[l].value});
+      all.push_back({2 * e.area * std::sqrt(squared[k] * squared[l]), low, high});
+    }
+  }
 }
 
 std::size_t ElementTable::add_polygon(const Sheet& sheet, const Polygon& polygon) {

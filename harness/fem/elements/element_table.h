@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "harness/fem/algebra/growing_rows.h"
+#include "harness/fem/algebra/strong_couplings.h"
 #include "harness/fem/elements/polygon_element.h"
 #include "harness/mesh/sheet.h"
 
@@ -24,7 +25,7 @@ struct Element {
   double material_area() const { return area * fraction; }
 };
 
-class ElementTable {
+class ElementTable final : public CoupledElements {
  public:
   ElementTable() = default;
   explicit ElementTable(const Sheet& sheet);
@@ -32,6 +33,7 @@ class ElementTable {
   /// polygon.
   void update(const Sheet& sheet);
   void reserve_spare() { cutbench::reserve_spare(rows_); }
+  void add_strong_couplings(double aspect_ratio, std::vector<StrongCoupling>& all) const override;
 
   std::size_t size() const { return rows_.size(); }
   const Element& operator[](std::size_t i) const { return rows_[i]; }
@@ -57,5 +59,10 @@ class ElementTable {
   std::vector<PolygonElement> polygons_;
   std::vector<std::size_t> free_polygons_;
 };
+
+/// As ElementTable::members(); null: each triangle is an element.
+inline std::span<const TriangleIndex> members_of(const ElementTable* elements, const TriangleIndex& t) {
+  return elements ? elements->members(t) : std::span<const TriangleIndex>(&t, 1);
+}
 
 }  // namespace cutbench

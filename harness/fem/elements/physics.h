@@ -40,10 +40,8 @@ enum class StressStiffness : std::uint8_t { none, positive, full };
 constexpr EnumNames<StressStiffness, 3> stress_stiffness_names{
     {{StressStiffness::none, "none"}, {StressStiffness::positive, "positive"}, {StressStiffness::full, "full"}}};
 
-/// A new kind: its three rows of a triangle go to harness/fem/elements/bending_rows.cpp, its case to Bending::add_rows().
+/// A place in the table of kinds (bending_kinds.h), which has the names and may have more kinds than these.
 enum class BendingKind : std::uint8_t { none, patches, hinges };
-constexpr EnumNames<BendingKind, 3> bending_names{
-    {{BendingKind::none, "none"}, {BendingKind::patches, "patches"}, {BendingKind::hinges, "hinges"}}};
 
 /// `stabilised` and `scaled`: lumped, and more for thin elements (added_mass.h).
 enum class Mass : std::uint8_t { lumped, consistent, stabilised, scaled };

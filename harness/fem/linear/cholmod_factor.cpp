@@ -184,6 +184,21 @@ std::size_t CholmodFactor<D>::new_orders() const {
   return parts_->new_orders;
 }
 
+bool has_cholmod() { return true; }
+
+std::string cholmod_version() {
+  const auto part = [](int number) { return std::to_string(number); };
+  return part(CHOLMOD_MAIN_VERSION) + "." + part(CHOLMOD_SUB_VERSION) + "." + part(CHOLMOD_SUBSUB_VERSION);
+}
+
+template <int D>
+std::unique_ptr<Factor<D>> make_cholmod_factor(FactorOrder order) {
+  return std::make_unique<CholmodFactor<D>>(order);
+}
+
+template std::unique_ptr<Factor<1>> make_cholmod_factor(FactorOrder);
+template std::unique_ptr<Factor<2>> make_cholmod_factor(FactorOrder);
+template std::unique_ptr<Factor<3>> make_cholmod_factor(FactorOrder);
 template class CholmodFactor<1>;
 template class CholmodFactor<2>;
 template class CholmodFactor<3>;

@@ -1,6 +1,7 @@
 // The matrix of a linear solve in the form that sparse libraries take.
 #pragma once
 
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -22,7 +23,14 @@ class CompressedColumns {
     for (const double v : values_) all = std::max(all, std::abs(v));
     return all;
   }
+  bool all_finite() const {
+    return Eigen::Map<const Field>(values_.data(), static_cast<Eigen::Index>(values_.size())).allFinite();
+  }
   std::size_t unknowns() const { return begin_.size() - 1; }
+  Eigen::Map<const Eigen::SparseMatrix<double>> lower_triangle() const {  ///< refers to this
+    const auto n = static_cast<Eigen::Index>(unknowns());
+    return {n, n, static_cast<Eigen::Index>(rows_.size()), begin_.data(), rows_.data(), values_.data()};
+  }
   /// Where each column begins, and its end; the row of each entry, rising in a column; the entries.
   const std::vector<std::int32_t>& begin() const { return begin_; }
   const std::vector<std::int32_t>& rows() const { return rows_; }

@@ -5,14 +5,15 @@
 #include <memory>
 #include <string>
 
-#include "harness/fem/linear/system_matrix.h"
+#include "harness/fem/linear/factor.h"
 
 namespace cutbench {
 
 struct SolverOptions {
-  std::string name = "cg";  ///< of solver_names()
+  std::string name = "cg";  ///< of harness/fem/solvers/solver_table.h
   double tolerance = 1e-2;  ///< of |b - A x| / |b|; a direct solver ignores it
   int max_iterations = 10000;
+  FactorBy factor = FactorBy::fastest;  ///< of preconditioners that factor a matrix
 };
 
 struct SolveReport {
@@ -35,19 +36,5 @@ class LinearSolver {
   ///               is no better than zero, they start from zero
   virtual SolveReport solve(const Field& b, Field& x, const Field& start = {}) = 0;
 };
-
-/// Iterative: "cg", conjugate gradients with the inverse diagonal blocks; "cg_sliver_blocks", the vertices joined by
-/// slivers share a block; "multigrid", a V-cycle that knows the cuts (multigrid.h), and "local_global" where that
-/// takes more than 100 iterations; "cholmod_stale", the factor of an
-/// older matrix; "local_global", a factor that no rotation changes (factor_preconditioners.h); "eigen_cg" and
-/// "eigen_cg_ichol" (eigen_solvers.h). Direct: "cholmod"; "cholmod_same_order", which keeps the order of elimination
-/// after a cut (cholmod_factor.h); "eigen_ldlt".
-const std::vector<std::string>& solver_names();
-/// Throws InputError for an unknown name.
-template <int D>
-std::unique_ptr<LinearSolver<D>> make_solver(const SolverOptions& options);
-
-/// For solvers: b with zeros where unknowns are held.
-void project(const std::vector<std::uint8_t>& held, const Eigen::Ref<const Field>& b, Field& projected);
 
 }  // namespace cutbench

@@ -62,6 +62,11 @@ void SystemMatrix<D>::diagonals(std::vector<typename BlockMatrix<D>::Block>& all
   }
 }
 
+void project(const std::vector<std::uint8_t>& held, const Eigen::Ref<const Field>& b, Field& projected) {
+  projected.resize(b.size());
+  for (Eigen::Index u = 0; u < b.size(); ++u) projected[u] = held[static_cast<std::size_t>(u)] ? 0 : b[u];
+}
+
 template struct SystemMatrix<2>;
 template struct SystemMatrix<3>;
 

@@ -7,7 +7,8 @@
 
 #include "harness/fem/algebra/block_matrix.h"
 #include "harness/fem/algebra/pattern_history.h"
-#include "harness/fem/elements/element_table.h"
+#include "harness/fem/algebra/strong_couplings.h"
+#include "harness/mesh/types.h"
 
 namespace cutbench {
 
@@ -20,7 +21,7 @@ struct SystemMatrix {
   const BlockMatrix<D>* blocks = nullptr;
   std::vector<ScalarTerm> scalar;                   ///< none where a scene has no bending
   const std::vector<std::uint8_t>* held = nullptr;  ///< per unknown: 1 where its value is given, or its vertex is freed
-  const ElementTable* elements = nullptr;           ///< for preconditioners that look at shapes
+  const CoupledElements* elements = nullptr;        ///< for preconditioners that look at shapes
   const std::vector<Point2>* places = nullptr;      ///< of the vertices in rest space; NaN where that is not known
   /// Changes whenever the pattern of a part or the values of a scalar matrix changed; unique in the program.
   std::uint64_t pattern = 0;
@@ -40,5 +41,8 @@ struct SystemMatrix {
   void for_each_product(const Field& x, const Take& take) const;
   mutable std::vector<Lanes> x_;  // working storage of the products, so they are not for two threads at a time
 };
+
+/// For solvers: b with zeros where unknowns are held.
+void project(const std::vector<std::uint8_t>& held, const Eigen::Ref<const Field>& b, Field& projected);
 
 }  // namespace cutbench

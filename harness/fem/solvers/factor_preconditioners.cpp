@@ -17,7 +17,7 @@ void refuse(Field& z) { z.setConstant(std::numeric_limits<double>::quiet_NaN());
 
 template <int D>
 void StaleFactor<D>::setup(const SystemMatrix<D>& a) {
-  if (!factored_ || uses_ > most_uses || factor_.is_new(a)) factored_ = factor_.factor(a);
+  if (!factored_ || uses_ > most_uses || factor_->is_new(a)) factored_ = factor_->factor(a);
   uses_ = 0;
 }
 
@@ -25,7 +25,7 @@ template <int D>
 void StaleFactor<D>::apply(const Field& r, Field& z) {
   ++uses_;
   right_ = r;
-  if (!factored_ || !factor_.solve(right_, solution_)) return refuse(z);
+  if (!factored_ || !factor_->solve(right_, solution_)) return refuse(z);
   z = solution_;
 }
 
@@ -63,14 +63,14 @@ void ConstantFactor<D>::setup(const SystemMatrix<D>& a) {
   matrix_.blocks = &traces_, matrix_.held = &held_, matrix_.pattern = a.pattern;
   matrix_.scalar.clear();
   for (const auto& term : a.scalar) matrix_.scalar.push_back({term.factor, term.matrix});
-  if (is_new) factored_ = factor_.factor(matrix_);
+  if (is_new) factored_ = factor_->factor(matrix_);
 }
 
 template <int D>
 void ConstantFactor<D>::apply(const Field& r, Field& z) {
   const Eigen::Index n = r.size() / D;
   right_ = Eigen::Map<const Eigen::MatrixXd>(r.data(), D, n).transpose();  // a column per coordinate
-  if (!factored_ || !factor_.solve(right_, solution_)) return refuse(z);
+  if (!factored_ || !factor_->solve(right_, solution_)) return refuse(z);
   for (Eigen::Index u = 0; u < r.size(); ++u)
     z[u] = (*held_unknowns_)[static_cast<std::size_t>(u)] ? 0 : solution_(u / D, u % D);
 }

@@ -1,7 +1,7 @@
 // Preconditioners of conjugate gradients that factor a matrix seldom, and use the factor for many steps.
 #pragma once
 
-#include "harness/fem/linear/cholmod_factor.h"
+#include "harness/fem/linear/factor.h"
 #include "harness/fem/linear/preconditioner.h"
 
 namespace cutbench {
@@ -12,11 +12,12 @@ namespace cutbench {
 template <int D>
 class StaleFactor final : public Preconditioner<D> {
  public:
+  explicit StaleFactor(FactorBy by = FactorBy::fastest) : factor_(make_factor<D>(by)) {}
   void setup(const SystemMatrix<D>& a) override;
   void apply(const Field& r, Field& z) override;
 
  private:
-  CholmodFactor<D> factor_;
+  std::unique_ptr<Factor<D>> factor_;
   bool factored_ = false;
   int uses_ = 0;  // since the last setup()
   Eigen::MatrixXd right_, solution_;
@@ -31,6 +32,7 @@ class StaleFactor final : public Preconditioner<D> {
 template <int D>
 class ConstantFactor final : public Preconditioner<D> {
  public:
+  explicit ConstantFactor(FactorBy by = FactorBy::fastest) : factor_(make_factor<1>(by)) {}
   void setup(const SystemMatrix<D>& a) override;
   void apply(const Field& r, Field& z) override;
 
@@ -42,7 +44,7 @@ class ConstantFactor final : public Preconditioner<D> {
   std::vector<std::uint8_t> held_;  // per vertex: all its unknowns are held
   std::vector<double> factors_;     // of the scalar matrices
   const std::vector<std::uint8_t>* held_unknowns_ = nullptr;
-  CholmodFactor<1> factor_;
+  std::unique_ptr<Factor<1>> factor_;
   bool factored_ = false;
   Eigen::MatrixXd right_, solution_;
 };

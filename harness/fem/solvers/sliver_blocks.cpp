@@ -1,31 +1,18 @@
 #include "harness/fem/solvers/sliver_blocks.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <tuple>
 
 namespace cutbench {
 
 template <int D>
-void SliverBlocks<D>::find_groups(const ElementTable& elements) {
+void SliverBlocks<D>::find_groups(const CoupledElements& elements) {
   joins_.clear();
-  for (const Element& e : elements) {
-    if (!e.is_triangle()) continue;
-    // |gradient| = opposite edge / (2 area), so AR = longest edge^2 / (2 area) = 2 area (largest |gradient|)^2.
-    const std::array<double, 3> squared{squared_length(e.gradient[0]), squared_length(e.gradient[1]),
-                                        squared_length(e.gradient[2])};
-    if (!(2 * e.area * *std::max_element(squared.begin(), squared.end()) > good_aspect_ratio)) continue;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t l = (k + 1) % 3;
-      const auto [low, high] = std::minmax({e.vertex[k].value, e.vertex[l].value});
-      joins_.push_back({2 * e.area * std::sqrt(squared[k] * squared[l]), low, high});
-    }
-  }
-  std::sort(joins_.begin(), joins_.end(), [](const Join& one, const Join& other) {
+  elements.add_strong_couplings(good_aspect_ratio, joins_);
+  std::sort(joins_.begin(), joins_.end(), [](const StrongCoupling& one, const StrongCoupling& other) {
     return std::tuple(-one.weight, one.a, one.b) < std::tuple(-other.weight, other.a, other.b);
   });
-  for (const Join& join : joins_) {
+  for (const StrongCoupling& join : joins_) {
     if (joined_.find(join.a) != joined_.find(join.b) &&
         joined_.size(join.a) + joined_.size(join.b) <= static_cast<std::size_t>(largest_group))
       joined_.join(join.a, join.b);
@@ -39,7 +26,7 @@ void SliverBlocks<D>::setup(const SystemMatrix<D>& a) {
   if (!a.elements) return;
   joined_.reset(a.vertices()), group_.assign(a.vertices(), -1), place_.resize(a.vertices());
   find_groups(*a.elements);
-  for (const Join& join : joins_)
+  for (const StrongCoupling& join : joins_)
     for (const std::int32_t v : {join.a, join.b}) {
       const std::size_t top = joined_.find(v);
       if (joined_.size(v) == 1) continue;  // every join was left out

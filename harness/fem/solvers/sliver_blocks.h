@@ -2,9 +2,9 @@
 // times more strongly than in a good one; blocks of single vertices don't see that, and the iterations grow with r.
 //
 // Each pair of vertices of an element with AR > 10 is a join, weighted by 2 area |gradient| |gradient| of the two: how
-// strongly the element couples them, at most its AR. Joins are made strongest first (constraints: lower vertices first); one
-// that would make a group of more than 32 vertices is left out. So all vertices of a sliver are in one group unless the
-// limit forbids it, and what is too long, such as a row of slivers along a line, is parted at its weakest joins.
+// strongly the element couples them, at most its AR. Joins are made strongest first (of equal ones, lower vertices
+// first); one that would make a group of more than 32 vertices is left out. So all vertices of a sliver are in one group
+// unless the limit forbids it, and what is too long, such as a row of slivers along a line, is parted at its weakest joins.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -27,7 +27,7 @@ class SliverBlocks final : public Preconditioner<D> {
     Eigen::LLT<Eigen::MatrixXd> factor;  ///< of the block of A; identity for held unknowns
   };
 
-  /// Finds the groups from a.elements (none where there is no table) and factors their blocks. A group whose block is
+  /// Finds the groups from a.elements (none where they are not known) and factors their blocks. A group whose block is
   /// not positive definite is dropped.
   void setup(const SystemMatrix<D>& a) override;
   /// Changes z at the vertices in groups, to block^-1 r.
@@ -35,19 +35,15 @@ class SliverBlocks final : public Preconditioner<D> {
   const std::vector<Group>& groups() const { return groups_; }
 
  private:
-  void find_groups(const ElementTable& elements);
+  void find_groups(const CoupledElements& elements);
   void factor(const SystemMatrix<D>& a, Group& group);
 
-  struct Join {
-    double weight;
-    std::int32_t a, b;  ///< a < b
-  };
   std::vector<Group> groups_;
   // Working storage. Per vertex:
   UnionFind joined_;                 ///< the groups
   std::vector<std::int32_t> group_;  ///< -1: in none
   std::vector<std::int32_t> place_;  ///< in its group
-  std::vector<Join> joins_;
+  std::vector<StrongCoupling> joins_;
   Eigen::MatrixXd block_;
   Eigen::VectorXd gathered_;
 };

@@ -1,60 +1,99 @@
+#include "harness/fem/solvers/solver_table.h"
+
+#include <algorithm>
+
+#include "harness/base/errors.h"
+#include "harness/base/names.h"
 #include "harness/fem/linear/conjugate_gradients.h"
-#include "harness/fem/linear/linear_solver.h"
 #include "harness/fem/multigrid/multigrid.h"
-#include "harness/fem/solvers/cholmod_solver.h"
-#include "harness/fem/solvers/eigen_solvers.h"
+#include "harness/fem/solvers/eigen_cg.h"
 #include "harness/fem/solvers/factor_preconditioners.h"
+#include "harness/fem/solvers/factor_solver.h"
 #include "harness/fem/solvers/sliver_blocks.h"
-#include "harness/mesh/mesh_data.h"
 
 namespace cutbench {
 
 namespace {
 
 template <int D>
-struct SolverRow {
-  const char* name;
-  std::unique_ptr<LinearSolver<D>> (*make)(const SolverOptions&);
-};
+using Solver = std::unique_ptr<LinearSolver<D>>;
+template <int D>
+using Trials = std::vector<typename ConjugateGradients<D>::Trial>;
 
-template <int D, class... Preconditioners>
-std::unique_ptr<LinearSolver<D>> conjugate_gradients(const SolverOptions& options) {
-  std::vector<typename ConjugateGradients<D>::Trial> trials;
-  (trials.push_back({.preconditioner = std::make_unique<Preconditioners>()}), ...);
+template <int D>
+Solver<D> conjugate_gradients(const SolverOptions& options, std::unique_ptr<Preconditioner<D>> preconditioner) {
+  Trials<D> trials;
+  trials.push_back({.preconditioner = std::move(preconditioner)});
   return std::make_unique<ConjugateGradients<D>>(options, std::move(trials));
+}
+
+template <int D>
+Solver<D> plain(const SolverOptions& options) {
+  return std::make_unique<ConjugateGradients<D>>(options, Trials<D>{});
+}
+
+template <int D>
+Solver<D> sliver_blocks(const SolverOptions& options) {
+  return conjugate_gradients<D>(options, std::make_unique<SliverBlocks<D>>());
+}
+
+template <int D>
+Solver<D> stale_factor(const SolverOptions& options) {
+  return conjugate_gradients<D>(options, std::make_unique<StaleFactor<D>>(options.factor));
+}
+
+template <int D>
+Solver<D> constant_factor(const SolverOptions& options) {
+  return conjugate_gradients<D>(options, std::make_unique<ConstantFactor<D>>(options.factor));
 }
 
 /// Where a sheet is cut to pieces the V-cycle stalls; the constant factor does not, but costs more where the cycle works.
 template <int D>
-std::unique_ptr<LinearSolver<D>> multigrid(const SolverOptions& options) {
-  std::vector<typename ConjugateGradients<D>::Trial> trials;
+Solver<D> multigrid(const SolverOptions& options) {
+  Trials<D> trials;
   trials.push_back({.preconditioner = std::make_unique<Multigrid<D>>(), .most_iterations = 100});
-  trials.push_back({.preconditioner = std::make_unique<ConstantFactor<D>>()});
+  trials.push_back({.preconditioner = std::make_unique<ConstantFactor<D>>(options.factor)});
   return std::make_unique<ConjugateGradients<D>>(options, std::move(trials));
 }
 
 template <int D, FactorOrder order>
-std::unique_ptr<LinearSolver<D>> cholmod(const SolverOptions&) {
-  return std::make_unique<CholmodSolver<D>>(order);
+Solver<D> cholmod(const SolverOptions&) {
+  return std::make_unique<FactorSolver<D>>(make_cholmod_factor<D>(order));
+}
+
+template <int D>
+Solver<D> eigen_ldlt(const SolverOptions&) {
+  return std::make_unique<FactorSolver<D>>(make_eigen_factor<D>());
 }
 
 template <int D, EigenPreconditioner preconditioner>
-std::unique_ptr<LinearSolver<D>> eigen_cg(const SolverOptions& options) {
+Solver<D> eigen_cg(const SolverOptions& options) {
   return make_eigen_cg<D>(options, preconditioner);
 }
 
 template <int D>
+struct SolverRow {
+  const char* name;
+  const char* help;
+  Solver<D> (*make)(const SolverOptions&);
+  bool by_cholmod = false;
+  bool is_there() const { return !by_cholmod || has_cholmod(); }
+};
+
+template <int D>
 constexpr SolverRow<D> rows[] = {
-    {"cg", conjugate_gradients<D>},
-    {"cg_sliver_blocks", conjugate_gradients<D, SliverBlocks<D>>},
-    {"multigrid", multigrid<D>},
-    {"cholmod", cholmod<D, FactorOrder::anew>},
-    {"cholmod_same_order", cholmod<D, FactorOrder::extended>},
-    {"cholmod_stale", conjugate_gradients<D, StaleFactor<D>>},
-    {"local_global", conjugate_gradients<D, ConstantFactor<D>>},
-    {"eigen_cg", eigen_cg<D, EigenPreconditioner::diagonal>},
-    {"eigen_cg_ichol", eigen_cg<D, EigenPreconditioner::incomplete_cholesky>},
-    {"eigen_ldlt", [](const SolverOptions&) { return make_eigen_ldlt<D>(); }},
+    {"cg", "conjugate gradients with the inverse diagonal blocks", plain<D>},
+    {"cg_sliver_blocks", "the same; the vertices that slivers join share a block", sliver_blocks<D>},
+    {"multigrid", "a V-cycle that knows the cuts; local_global where that takes over 100 iterations", multigrid<D>},
+    {"cholmod", "direct", cholmod<D, FactorOrder::anew>, true},
+    {"cholmod_same_order", "direct, keeps the order of elimination after a cut", cholmod<D, FactorOrder::extended>,
+     true},
+    {"cholmod_stale", "conjugate gradients with the factor of an older matrix", stale_factor<D>, true},
+    {"local_global", "conjugate gradients with a factor that no rotation changes", constant_factor<D>},
+    {"eigen_cg", "Eigen's conjugate gradients with the inverse diagonal", eigen_cg<D, EigenPreconditioner::diagonal>},
+    {"eigen_cg_ichol", "the same with an incomplete Cholesky factor",
+     eigen_cg<D, EigenPreconditioner::incomplete_cholesky>},
+    {"eigen_ldlt", "direct, without supernodes", eigen_ldlt<D>},
 };
 
 }  // namespace
@@ -62,28 +101,45 @@ constexpr SolverRow<D> rows[] = {
 const std::vector<std::string>& solver_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
-    for (const auto& row : rows<2>) all.emplace_back(row.name);
+    for (const auto& row : rows<2>)
+      if (row.is_there()) all.emplace_back(row.name);
     return all;
   }();
   return names;
 }
 
+std::string solver_help() {
+  constexpr std::size_t column = 20;
+  std::string all;
+  for (const auto& row : rows<2>) {
+    if (!row.is_there()) continue;
+    std::string name = row.name;
+    name.resize(column, ' ');
+    all += "  " + name + row.help + "\n";
+  }
+  return all;
+}
+
+void check_solver_names(const std::vector<std::string>& names, const std::string& where) {
+  for (const auto& name : names) {
+    const auto row = std::find_if(std::begin(rows<2>), std::end(rows<2>), [&](auto& r) { return name == r.name; });
+    const std::string which = where + " \"" + name + "\"";
+    if (row == std::end(rows<2>))
+      throw InputError(which + " is not known; known are " + listed(nearest_first(name, solver_names())));
+    if (!row->is_there())
+      throw InputError(which + " needs CHOLMOD, which this build was made without (CUTBENCH_CHOLMOD)");
+  }
+}
+
 template <int D>
 std::unique_ptr<LinearSolver<D>> make_solver(const SolverOptions& options) {
-  std::string known;
-  for (const auto& row : rows<D>) {
-    if (options.name == row.name) return row.make(options);
-    known += (known.empty() ? "" : ", ") + std::string(row.name);
-  }
-  throw InputError("unknown solver \"" + options.name + "\"; known are " + known);
+  check_solver_names({options.name}, "solver");
+  const auto row =
+      std::find_if(std::begin(rows<D>), std::end(rows<D>), [&](auto& r) { return options.name == r.name; });
+  return row->make(options);
 }
 
 template std::unique_ptr<LinearSolver<2>> make_solver(const SolverOptions&);
 template std::unique_ptr<LinearSolver<3>> make_solver(const SolverOptions&);
-
-void project(const std::vector<std::uint8_t>& held, const Eigen::Ref<const Field>& b, Field& projected) {
-  projected.resize(b.size());
-  for (Eigen::Index u = 0; u < b.size(); ++u) projected[u] = held[static_cast<std::size_t>(u)] ? 0 : b[u];
-}
 
 }  // namespace cutbench

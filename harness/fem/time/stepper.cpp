@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "harness/fem/solvers/solver_table.h"
 #include "harness/mesh/mesh_data.h"
 
 namespace cutbench {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "harness/base/stop_watch.h"
+#include "harness/fem/solvers/solver_table.h"
 #include "harness/problems/common/border_edges.h"
 
 namespace cutbench {

@@ -1,0 +1,88 @@
+#include "experiments/advice/scene_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <vector>
+
+#include "harness/base/errors.h"
+
+namespace cutbench {
+
+double distance(Point3 a, Point3 b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
+
+bool in_use(const Sheet& sheet, std::size_t d) { return sheet.rest_vertex(DeformedIndex(d)).valid(); }
+
+namespace {
+
+double largest_deflection(const Sheet& end) {
+  double largest = 0;
+  for (std::size_t d = 0; d < end.deformed_slots(); ++d)
+    if (in_use(end, d)) {
+      const Point2 rest = end.rest(end.rest_vertex(DeformedIndex(d)));
+      largest = std::max(largest, distance(end.position(DeformedIndex(d)), {rest.x, rest.y, 0}));
+    }
+  return largest;
+}
+
+double largest_gape(const Sheet& end) {
+  std::vector<std::vector<Point3>> copies(end.vertex_slots());
+  double largest = 0;
+  for (std::size_t d = 0; d < end.deformed_slots(); ++d)
+    if (in_use(end, d)) {
+      auto& others = copies[end.rest_vertex(DeformedIndex(d))()];
+      const Point3 here = end.position(DeformedIndex(d));
+      for (const Point3 other : others) largest = std::max(largest, distance(here, other));
+      others.push_back(here);
+    }
+  return largest;
+}
+
+double seconds_of(std::clock_t ticks) { return static_cast<double>(ticks) / CLOCKS_PER_SEC; }
+
+}  // namespace
+
+bool at_rest(const Scene& scene) { return scene.integrator == Integrator::equilibrium; }
+double steps_of(const Scene& scene) { return at_rest(scene) ? 1 : std::ceil(scene.duration / scene.step - 1e-9); }
+double end_of(const Scene& scene) { return steps_of(scene) * scene.step; }
+
+void set_steps(Scene& scene, double steps) {
+  scene.duration = end_of(scene), scene.step = scene.duration / std::ceil(steps);
+}
+
+SceneRun run_to_end(const Scene& scene, CuttingMethod& method, const CutOptions& options, double time_limit) {
+  SceneRun run;
+  try {
+    run.motion = Simulation::start(scene);
+    const std::clock_t start = std::clock();
+    run.motion->watch();
+    run.motion->limit_time(time_limit);
+    run.motion->advance(end_of(scene), method, options);
+    run.processor_s = seconds_of(std::clock() - start);
+    const std::string verdict = run.motion->verdict().name;
+    run.verdict = verdict, run.reason = run.motion->verdict().reason;
+    for (const MotionCut& cut : run.motion->made_cuts())
+      if (cut.cut.status != Status::ok && cut.cut.status != Status::noop && run.verdict == "ok")
+        run.verdict = name_of(cut.cut.status), run.reason = cut.reason;
+    double us = 0;
+    for (const LoggedStep& step : run.motion->steps()) us += step.total_us();
+    run.steps = static_cast<int>(run.motion->steps().size());
+    run.ms_per_second = us / 1000 / (at_rest(scene) ? 1 : run.motion->time());
+    if (verdict == "ok" || verdict == "inverted" || verdict == "energy_growth") {  // others end it early
+      const Sheet end = run.motion->posed_sheet();
+      run.deflection = largest_deflection(end), run.gape = largest_gape(end);
+    }
+  } catch (const InputError& error) {
+    run.verdict = "refused", run.reason = error.what();
+  }
+  return run;
+}
+
+double processor_ms_per_second(const Scene& scene, CuttingMethod& method, const CutOptions& options) {
+  const auto motion = Simulation::start(scene);
+  const std::clock_t start = std::clock();
+  motion->advance(end_of(scene), method, options);
+  return 1000 * seconds_of(std::clock() - start) / (at_rest(scene) ? 1 : motion->time());
+}
+
+}  // namespace cutbench

@@ -1,3 +1,0 @@
-#include "experiments/command_line.h"
-
-int main(int argc, char** argv) { return cutbench::command_line(argc, argv); }

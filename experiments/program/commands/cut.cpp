@@ -1,0 +1,124 @@
+// `cutbench cut`: cuts a sheet along a path, judges the result and writes it.
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "experiments/program/commands/command.h"
+#include "experiments/program/commands/method_options.h"
+#include "experiments/program/commands/misses.h"
+#include "harness/base/errors.h"
+#include "harness/base/stop_watch.h"
+#include "harness/cut/cut_all.h"
+#include "harness/judge/assessment.h"
+#include "harness/judge/judged_sheet.h"
+#include "harness/mesh/mesh_io.h"
+#include "harness/path/pick.h"
+#include "harness/records/report_json.h"
+
+namespace cutbench {
+
+namespace {
+
+struct CutArguments {
+  std::string mesh, path, out, report;
+  MethodOptions method;
+  Misses misses;
+};
+
+/// --out may be the mesh that was read: it is written over. A report in place of a mesh or path is a mistake.
+void check_report_place(const CutArguments& arguments) {
+  check_writable(arguments.report, "--report");
+  const auto place = [](const std::string& file) { return std::filesystem::weakly_canonical(file); };
+  for (const std::string& other : {arguments.mesh, arguments.path, arguments.out})
+    if (place(other) == place(arguments.report))
+      throw InputError("--report " + arguments.report + ": would take the place of " + other + "; give another name");
+}
+
+/// The path in rest space. Nothing moves between the cuts of a file, so all picks can be made on the sheet as it is
+/// read.
+std::vector<Curve> in_rest_space(const std::vector<std::variant<Curve, PickedCurve>>& path, const Sheet& sheet,
+                                 const std::string& name, double& pick_us) {
+  std::vector<Curve> cuts;
+  std::optional<Picker> picker;
+  StopWatch watch;
+  for (const auto& cut : path) {
+    if (const auto* curve = std::get_if<Curve>(&cut)) {
+      cuts.push_back(*curve);
+      continue;
+    }
+    if (!picker) picker.emplace(sheet);
+    cuts.push_back(picker->rest_curve(std::get<PickedCurve>(cut), name + ", cut " + std::to_string(cuts.size())));
+  }
+  pick_us = picker ? watch.lap() : 0;
+  return cuts;
+}
+
+Exit cut_sheet(const CutArguments& arguments) {
+  const MethodRow row = arguments.method.row();
+  const double parameter = arguments.method.parameter();
+  const auto method = row.make(parameter);
+  const CutOptions options = arguments.method.chord_tolerance.cut_options();
+  check_mesh_place(arguments.out, "--out");
+  if (!arguments.report.empty()) check_report_place(arguments);
+  const auto path = read_path_with_picks(arguments.path);
+  const MeshData data = read_mesh(arguments.mesh);
+  print_notes(data);
+
+  const Sheet before(data);
+  double pick_us = 0;
+  const std::vector<Curve> cuts = in_rest_space(path, before, arguments.path, pick_us);
+  for (std::size_t i = 0; i < cuts.size(); ++i)
+    arguments.misses.check(before, cuts[i], arguments.path + ", cut " + std::to_string(i));
+  Sheet sheet = before;
+  Locator locator(sheet);
+  Cutter cutter;
+  const CutRun run = cut_all(sheet, locator, cutter, cuts, *method, options);
+  if (run.status == Status::refused) throw InputError(row.name + " refuses this cut: " + run.reason);
+  if (run.status == Status::failed) {
+    std::cerr << "failed (" << run.verdict << "): " << run.reason << '\n';
+    return fell_short;
+  }
+  const Assessment a =
+      assess(before, sheet, judge_one_by_one(before, sheet, cuts, row.promises, row.make(parameter), options),
+             forced_corners_of(before, cuts));
+  WholeFile out = mesh_file(sheet.to_mesh_data(), arguments.out);
+  if (!arguments.report.empty())
+    report_file(arguments.report, row.name, run, pick_us, a, before.mean_edge()).place();  // both, or neither
+  out.place();
+  char worst[32] = "-";  // where no triangle was changed
+  if (a.cut.triangles > 0) std::snprintf(worst, sizeof worst, "%.3g", a.cut.ar_max);
+  std::printf("%s: %zu triangles crossed, %td added, %d pieces, max aspect ratio of changed triangles %s, %.1f us\n",
+              name_of(run.status), run.crossed_triangles, a.triangles_added, a.judgement.pieces, worst,
+              run.time_us.total());
+  if (a.judgement.ok) return done;
+  for (const auto& problem : a.judgement.problems)
+    std::cerr << "failed (" << a.judgement.verdict << "): " << problem << '\n';
+  return fell_short;
+}
+
+}  // namespace
+
+Command add_cut(Options& app) {
+  auto arguments = std::make_shared<CutArguments>();
+  auto command = app.add_subcommand("cut", "cut a sheet along a path");
+  command.add_option("--mesh", arguments->mesh, "the sheet: OBJ, OFF or PLY").required();
+  command.add_option("--path", arguments->path, "the path: JSON").required();
+  arguments->method.add_to(command);
+  arguments->misses.add_to(command);
+  command.add_option("--out", arguments->out, "the sheet after the cut: OBJ, OFF or VTU").required();
+  command.add_option("--report", arguments->report, "what was measured, as JSON; none where it is not given");
+  command.footer(
+      "example:\n"
+      "  cutbench cut --mesh experiments/examples/sheet.obj --path experiments/examples/path.json \\\n"
+      "    --method warp_and_refine --out cut.obj --report report.json\n"
+      "  cutbench cut --mesh sheet.obj --path path.json --command 'python3 mine.py {mesh} {path} {out}' --out cut.obj\n"
+      "exit codes:\n"
+      "  0  the result was judged correct and written\n"
+      "  1  the cut failed, the result was judged wrong, or a file can't be written\n"
+      "  2  bad input: an option or a file, a path that misses the sheet, or a cut that the method refuses");
+  return {command, [arguments](const std::string&) { return cut_sheet(*arguments); }};
+}
+
+}  // namespace cutbench

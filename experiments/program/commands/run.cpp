@@ -1,0 +1,194 @@
+// `cutbench run`: runs experiments, or a part of them.
+#include <sched.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <memory>
+#include <sstream>
+#include <thread>
+
+#include "experiments/program/commands/command.h"
+#include "harness/base/errors.h"
+#include "harness/processes/interrupt.h"
+#include "harness/study/run_experiment.h"
+#include "methods/registry.h"
+
+namespace cutbench {
+
+namespace {
+
+struct RunArguments {
+  std::vector<std::string> experiments, methods, commands, sweeps;
+  std::vector<int> resolutions;
+  int cases = 0, repetitions = 0, jobs = 0;
+  std::string seed, out = "results", shard = "1/1";
+};
+
+/// Keeps the entries of `all` that are named in `wanted`, unless that is empty.
+template <class Entry, class Wanted, class Name>
+void restrict_to(std::vector<Entry>& all, const std::vector<Wanted>& wanted, const std::string& option, Name name) {
+  for (const Wanted& w : wanted)
+    if (std::none_of(all.begin(), all.end(), [&](const Entry& e) { return name(e) == w; })) {
+      std::ostringstream what;
+      what << option << ' ' << w << " is not in the experiment; it has";
+      const char* comma = " ";
+      for (const Entry& e : all) what << std::exchange(comma, ", ") << name(e);
+      throw InputError(what.str());
+    }
+  if (!wanted.empty())
+    std::erase_if(all,
+                  [&](const Entry& e) { return std::find(wanted.begin(), wanted.end(), name(e)) == wanted.end(); });
+}
+
+std::uint64_t seed_in(const std::string& text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && end == text.data() + text.size() && value <= INT64_MAX) return value;
+  throw InputError("--seed " + text + ": give a whole number from 0, or `commit`");
+}
+
+RunOptions run_options(const RunArguments& arguments, const std::string& command_line) {
+  RunOptions options;
+  options.out = arguments.out, options.command = command_line, options.workers = arguments.jobs;
+  char more = 0;
+  if (std::sscanf(arguments.shard.c_str(), "%d/%d%c", &options.shard, &options.shards, &more) != 2 ||
+      options.shard < 1 || options.shard > options.shards)
+    throw InputError("--shard " + arguments.shard + ": give i/N with 1 <= i <= N");
+  return options;
+}
+
+/// NAME=COMMAND, run in the current folder.
+ProgramSettings program_in(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos)
+    throw InputError("--command " + text + ": give NAME=COMMAND, such as: mine=python3 mine.py {mesh} {path} {out}");
+  return {text.substr(0, equals), text.substr(equals + 1), ".", {}};
+}
+
+Experiment read_part(const std::string& file, const RunArguments& arguments, const Context& context) {
+  Experiment e = read_experiment(file);
+  if (e.methods.empty())
+    for (const MethodRow& row : all_methods()) e.methods.push_back({row.name, {}});
+  std::vector<std::string> methods = arguments.methods;
+  const bool with_cross_check = e.robustness && std::erase(methods, "cross_check") > 0;
+  std::vector<Experiment::Entry> programs;  // they run whether --methods names them or not
+  for (const std::string& command : arguments.commands) {
+    e.programs.push_back(program_in(command));
+    programs.push_back({e.programs.back().name, {}});
+    std::erase(methods, programs.back().method);
+  }
+  restrict_to(e.methods, methods, "--methods", [](const auto& m) { return m.method; });
+  if (methods.empty() && !arguments.methods.empty()) e.methods.clear();
+  e.methods.insert(e.methods.end(), programs.begin(), programs.end());
+  restrict_to(e.resolutions, arguments.resolutions, "--resolutions", [](int r) { return r; });
+  if (e.stability)
+    restrict_to(e.stability->sweeps, arguments.sweeps, "--sweeps", [](const Sweep& s) { return s.name; });
+  else if (!arguments.sweeps.empty())
+    throw InputError(file + ": --sweeps is for an experiment that has [[sweeps]]");
+  if (e.robustness && !arguments.methods.empty()) e.robustness->cross_check = with_cross_check;
+  if (e.robustness && !arguments.resolutions.empty()) e.robustness->mesh_files.clear();
+  if (arguments.cases > 0) e.cases = arguments.cases;
+  if (arguments.cases > 0 && e.accuracy)
+    for (auto* members : {&e.accuracy->members, &e.accuracy->members_nonlinear})
+      for (auto& [resolution, number] : *members)
+        if (number > 0) number = arguments.cases;
+  if (arguments.repetitions > 0) e.repetitions = arguments.repetitions;
+  if (arguments.seed == "commit")
+    e.seed = seed_of_commit(context);
+  else if (!arguments.seed.empty())
+    e.seed = seed_in(arguments.seed);
+  variants_of(e, nameable_methods());  // throws where a method or its parameter is wrong
+  return e;
+}
+
+/// While it lives, this process and those it starts stay on one core: the i-th for shard i, so that shards that run side
+/// by side do not meet on one.
+class OneCore {
+ public:
+  explicit OneCore(int shard) {
+    if (sched_getaffinity(0, sizeof before_, &before_) != 0) return;
+    std::vector<int> allowed;
+    for (int core = 0; core < CPU_SETSIZE; ++core)
+      if (CPU_ISSET(static_cast<std::size_t>(core), &before_)) allowed.push_back(core);
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(static_cast<std::size_t>(allowed.at(static_cast<std::size_t>(shard - 1) % allowed.size())), &one);
+    sched_setaffinity(0, sizeof one, &one);
+  }
+  ~OneCore() { sched_setaffinity(0, sizeof before_, &before_); }
+  OneCore(const OneCore&) = delete;
+  OneCore& operator=(const OneCore&) = delete;
+
+ private:
+  cpu_set_t before_{};
+};
+
+bool records_times(const Experiment& e) { return !e.robustness && e.times; }
+
+bool run_measured(const Experiment& e, const Context& context, const RunOptions& options) {
+  const OneCore pinned(options.shard);
+  const bool ok = run_experiment(e, nameable_methods(), context, options);
+  const auto cores = static_cast<double>(std::thread::hardware_concurrency());
+  if (context.load > 0.75 * cores)
+    std::fprintf(stderr, "%s: note: the machine was busy at the start (load %.1f on %.0f cores): times came out long\n",
+                 e.stem.c_str(), context.load, cores);
+  return ok;
+}
+
+Exit run_all(const RunArguments& arguments, const std::string& command_line) {
+  explain_interruption();
+  const RunOptions options = run_options(arguments, command_line);
+  const Context context = gather_context();
+  std::vector<Experiment> experiments;  // all are read before any is run
+  for (const auto& file : arguments.experiments) experiments.push_back(read_part(file, arguments, context));
+  for (const Experiment& e : experiments)
+    if (arguments.jobs > 1 && records_times(e))
+      throw InputError(e.stem + ": records times, which other processes would disturb; leave --jobs out");
+  bool ok = true;
+  for (const Experiment& e : experiments)
+    ok &=
+        records_times(e) ? run_measured(e, context, options) : run_experiment(e, nameable_methods(), context, options);
+  return ok ? done : fell_short;
+}
+
+}  // namespace
+
+Command add_run(Options& app) {
+  auto arguments = std::make_shared<RunArguments>();
+  auto command = app.add_subcommand("run", "run experiments; what was interrupted goes on where it stopped");
+  command.add_option("experiments", arguments->experiments, "experiment files (TOML)").required();
+  command
+      .add_option("--methods", arguments->methods,
+                  "only these of the experiment, and names of --command, comma-separated")
+      .comma_separated();
+  command.add_option("--command", arguments->commands,
+                     "NAME=COMMAND: a program as one more method, such as: mine=python3 mine.py {mesh} {path} {out}");
+  command.add_option("--resolutions", arguments->resolutions, "only these of the experiment (triangles)")
+      .comma_separated();
+  command.add_option("--sweeps", arguments->sweeps, "only these [[sweeps]] of the experiment").comma_separated();
+  command
+      .add_option("--cases", arguments->cases,
+                  "number of cases, or of members of an accuracy run, instead of the experiment's")
+      .positive();
+  command.add_option("--repetitions", arguments->repetitions, "of each cut, instead of the experiment's").positive();
+  command.add_option("--seed", arguments->seed,
+                     "a number, or `commit`: from the commit's hash; otherwise the experiment's");
+  command.add_option("--out", arguments->out, "results folder").shows_default();
+  command
+      .add_option("--jobs", arguments->jobs,
+                  "processes of a robustness run, or of an experiment with `times = false`; all cores where it is not "
+                  "given. Other experiments stay on one core")
+      .positive();
+  command.add_option("--shard", arguments->shard, "i/N: only one N-th of the cases, the i-th").shows_default();
+  command.footer(
+      "example, which takes less than a minute:\n"
+      "  cutbench run experiments/method_comparison.toml --resolutions 800 --cases 2 --out results/small\n"
+      "exit codes:\n"
+      "  0  all cuts were judged correct\n"
+      "  1  a method failed, a result is wrong, a --command made no cut, or a file can't be written\n"
+      "  2  bad input: an option or a file");
+  return {command, [arguments](const std::string& line) { return run_all(*arguments, line); }};
+}
+
+}  // namespace cutbench

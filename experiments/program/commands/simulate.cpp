@@ -1,0 +1,95 @@
+// The options of `cutbench simulate`, whose work is in experiments/program/simulate.cpp.
+#include "experiments/program/simulate.h"
+
+#include <cstdio>
+#include <memory>
+
+#include "experiments/program/commands/command.h"
+#include "experiments/program/commands/method_options.h"
+#include "experiments/program/commands/misses.h"
+#include "harness/base/errors.h"
+#include "harness/base/names.h"
+#include "harness/base/toml_reader.h"
+#include "harness/fem/solvers/solver_table.h"
+#include "harness/mesh/families.h"
+#include "harness/mesh/mesh_io.h"
+
+namespace cutbench {
+
+namespace {
+
+struct SimulateArguments {
+  std::string scene, out, frames, solver, report, steps;
+  MethodOptions method{.method = "conventional_split", .settings = {}, .chord_tolerance = {}};
+  Misses misses;
+  int resolution = 0, every = 8;
+  double time_limit = 0;
+};
+
+Exit run_scene(const SimulateArguments& arguments, const std::string& command_line) {
+  if (!arguments.out.empty()) check_mesh_place(arguments.out, "--out");
+  if (!arguments.report.empty()) check_writable(arguments.report, "--report");
+  if (!arguments.steps.empty()) check_writable(arguments.steps, "--steps");
+  Scene scene = read_scene(arguments.scene);
+  const MethodRow row = arguments.method.row();
+  const double parameter = arguments.method.parameter();
+  const auto method = row.make(parameter);
+  set_resolution(scene, arguments.resolution);
+  if (!arguments.solver.empty()) {
+    check_solver_names({arguments.solver}, "--solver");
+    scene.solver.name = arguments.solver;
+  }
+  const MeshData mesh = mesh_of(scene);
+  print_notes(mesh);
+  const Sheet sheet(mesh);
+  for (std::size_t i = 0; i < scene.cuts.size(); ++i)
+    if (!scene.cuts[i].curve.points.empty())
+      arguments.misses.check(sheet, scene.cuts[i].curve, arguments.scene + ", cut " + std::to_string(i));
+  char parameter_text[64] = "";
+  if (!row.parameter.name.empty())
+    std::snprintf(parameter_text, sizeof parameter_text, " %s=%g", row.parameter.name.c_str(), parameter);
+  const SimulateOptions options{.method = row.name + parameter_text,
+                                .command = command_line,
+                                .out = arguments.out,
+                                .frames = arguments.frames,
+                                .every = arguments.every,
+                                .report = arguments.report,
+                                .steps = arguments.steps,
+                                .time_limit = arguments.time_limit,
+                                .cut = arguments.method.chord_tolerance.cut_options()};
+  return simulate(scene, *method, options) ? done : fell_short;
+}
+
+}  // namespace
+
+Command add_simulate(Options& app) {
+  auto arguments = std::make_shared<SimulateArguments>();
+  auto command = app.add_subcommand("simulate", "run a scene with its cuts");
+  command.add_option("scene", arguments->scene, "scene file (TOML)").required();
+  arguments->method.add_to(command);
+  arguments->misses.add_to(command);
+  command.add_option("--resolution", arguments->resolution, "triangles of the sheet; otherwise those of the scene")
+      .positive();
+  command.add_option("--out", arguments->out, "the sheet in the end: OBJ, OFF or VTU; not written otherwise");
+  const Option frames = command.add_option("--frames", arguments->frames,
+                                           "folder for a time series: VTU files, their PVD, and an OBJ in the end");
+  command.add_option("--every", arguments->every, "steps from frame to frame").shows_default().positive().needs(frames);
+  command.add_option("--solver", arguments->solver, "instead of the scene's: " + listed(solver_names()));
+  command.add_option("--report", arguments->report, "what the steps cost, as JSON; none where it is not given");
+  command.add_option("--steps", arguments->steps, "what each step cost, as CSV; none where it is not given");
+  command
+      .add_option("--time-limit", arguments->time_limit,
+                  "seconds of processor time, then the steps end; none otherwise")
+      .positive();
+  command.footer(
+      "solvers:\n" + solver_help() +
+      "example:\n"
+      "  cutbench simulate experiments/scenes/falling_piece.toml --resolution 800 --frames frames\n"
+      "exit codes:\n"
+      "  0  all steps and cuts were made\n"
+      "  1  a step or a cut failed, the result is not sound, a method refused a cut, or a file can't be written\n"
+      "  2  bad input: an option or a file");
+  return {command, [arguments](const std::string& line) { return run_scene(*arguments, line); }};
+}
+
+}  // namespace cutbench

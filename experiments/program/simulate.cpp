@@ -1,0 +1,190 @@
+#include "experiments/program/simulate.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "experiments/program/step_summary.h"
+#include "harness/cut/cut_all.h"
+#include "harness/fem/elements/bending_kinds.h"
+#include "harness/mesh/mesh_io.h"
+#include "harness/records/context.h"
+#include "harness/simulation/frame_writer.h"
+#include "harness/simulation/simulation.h"
+
+namespace cutbench {
+
+namespace {
+
+void print_head(const Scene& scene) {
+  std::printf("%s\n  effect: %s\n  truth:  %s\n", scene.stem.c_str(), scene.effect.c_str(), scene.truth.c_str());
+  std::printf("%9s %12s %12s %12s %12s %12s %12s\n", "time s", "membrane J", "bending J", "kinetic J", "potential J",
+              "total J", "residual N");
+}
+
+void print_balance(Simulation& motion) {
+  const Balance b = motion.balance();
+  std::printf("%9.4f %12.5g %12.5g %12.5g %12.5g %12.5g %12.5g\n", motion.time(), b.energy.membrane, b.energy.bending,
+              b.energy.kinetic, b.energy.potential, b.energy.total(), b.residual);
+}
+
+void print_cuts(const Simulation& motion) {
+  for (const MotionCut& cut : motion.made_cuts()) {
+    const Energy &a = cut.before.energy, &b = cut.after.energy;
+    const std::string parts = cut.parts <= 1 ? "" : ", in " + std::to_string(cut.parts) + " parts";
+    std::printf(
+        "cut: %s%s, %zu triangles crossed; jumps: membrane %.3g J, bending %.3g J, kinetic %.3g J, residual %.3g N\n",
+        name_of(cut.cut.status), parts.c_str(), cut.cut.crossed_triangles, b.membrane - a.membrane,
+        b.bending - a.bending, b.kinetic - a.kinetic, cut.after.residual - cut.before.residual);
+    if (cut.cut.status == Status::refused) std::printf("     %s\n", cut.reason.c_str());
+  }
+}
+
+void print_budget(const EnergyBudget& budget) {
+  const BudgetRow& end = budget.rows().back();
+  const EnergyBudget::Gains gains = budget.gains();
+  std::printf("budget: damping %.4g J, numerical loss %.4g J, work of pins %.4g J, jumps %.3g J, remainder %.3g J\n",
+              -end.damping, -end.numerical_loss, end.pin_work, end.jumps, end.remainder);
+  std::printf("gains of kinetic and elastic energy: remainder %.2g %%, jumps %.2g %%\n", 100 * gains.remainder,
+              100 * gains.jumps);
+}
+
+/// What to compare an explicit step with; null where the method constraints vertices.
+nlohmann::ordered_json limits_of(Simulation& motion) {
+  const StepLimits limits = motion.step_limits();
+  if (!std::isfinite(limits.membrane)) return nullptr;
+  return {{"membrane", limits.membrane}, {"with_bending", limits.with_bending}};
+}
+
+void print_limits(const nlohmann::ordered_json& limits, double step) {
+  if (limits.is_null()) return;
+  std::printf("largest explicit step: %.3g s by the membrane, %.3g s with bending (the step is %.3g s)\n",
+              limits["membrane"].get<double>(), limits["with_bending"].get<double>(), step);
+}
+
+/// What a caption needs to say of the frames beside it.
+std::string description(const Scene& scene, const Simulation& motion, const SimulateOptions& options,
+                        std::size_t triangles_before) {
+  const Context context = gather_context();
+  nlohmann::ordered_json document{
+      {"scene", scene.stem},
+      {"effect", scene.effect},
+      {"method", options.method},
+      {"sheet", scene.family.empty() ? scene.mesh_file.string() : scene.family},
+      {"triangles_before", triangles_before},
+      {"triangles_after", motion.sheet().triangle_count()},
+      {"unknowns", scene.physics.dimension * static_cast<int>(motion.sheet().deformed_count())},
+      {"size_m", scene.size},
+      {"step_s", scene.step},
+      {"bending", name_of(scene.physics.bending)},
+      {"solver", scene.solver.name},
+      {"solver_tolerance", scene.solver.tolerance},
+      {"newton", scene.newton},
+      {"verdict", motion.verdict().name},
+      {"reason", motion.verdict().reason}};
+  if (std::isfinite(options.cut.chord_tolerance)) document["chord_tolerance"] = options.cut.chord_tolerance;
+  document["cuts"] = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < motion.made_cuts().size(); ++i) {
+    const CutRun& made = motion.made_cuts()[i].cut;
+    nlohmann::ordered_json cut{{"time_s", scene.cuts[i].time},
+                               {"status", name_of(made.status)},
+                               {"crossed_triangles", made.crossed_triangles}};
+    if (scene.cuts[i].speed > 0) cut["speed_m_s"] = scene.cuts[i].speed, cut["parts"] = motion.made_cuts()[i].parts;
+    if (!scene.cuts[i].family.empty()) cut["seed"] = scene.cuts[i].seed;
+    document["cuts"].push_back(cut);
+  }
+  document["commit"] = context.commit ? nlohmann::ordered_json(*context.commit) : nullptr;
+  document["dirty"] = context.dirty ? nlohmann::ordered_json(*context.dirty) : nullptr;
+  document["command"] = options.command;
+  return document.dump(2) + "\n";
+}
+
+void write_report(const Scene& scene, const SimulateOptions& options, const Simulation& motion,
+                  const nlohmann::ordered_json& limits, const nlohmann::ordered_json& summary) {
+  const SimulationVerdict& verdict = motion.verdict();
+  nlohmann::ordered_json document{{"scene", scene.stem},
+                                  {"method", options.method},
+                                  {"integrator", name_of(integrator_names, scene.integrator)},
+                                  {"solver", scene.solver.name},
+                                  {"solver_tolerance", scene.solver.tolerance},
+                                  {"step_s", scene.step},
+                                  {"verdict", verdict.name},
+                                  {"reason", verdict.reason}};
+  document["verdict_time_s"] = verdict.name == "ok" ? nlohmann::ordered_json() : nlohmann::ordered_json(verdict.time);
+  document["explicit_step_limit_s"] = limits;
+  document["gains"] = nullptr;
+  if (motion.budget()) {
+    const EnergyBudget::Gains gains = motion.budget()->gains();
+    document["gains"] = {{"remainder", gains.remainder}, {"jumps", gains.jumps}, {"unexplained", gains.unexplained}};
+  }
+  document["cost"] = summary;  // null where no step was made, and at rest
+  WholeFile(options.report, document.dump(2) + "\n").place();
+}
+
+/// Steps until the end or a verdict that ends them, with a line of energies ten times.
+void make_steps(const Scene& scene, Simulation& motion, CuttingMethod& method, const SimulateOptions& options,
+                FrameWriter* frames) {
+  const int steps =
+      scene.integrator == Integrator::equilibrium ? 1 : static_cast<int>(std::ceil(scene.duration / scene.step - 1e-9));
+  print_head(scene);
+  print_balance(motion);
+  if (frames) frames->add(motion.posed_sheet(), motion.time());
+  bool goes_on = true;
+  for (int step = 1, part = 1; step <= steps && goes_on; ++step) {
+    goes_on = motion.advance(step * scene.step, method, options.cut).verdict == "ok";
+    const bool last = step == steps || !goes_on;
+    if (frames && goes_on && (last || step % options.every == 0)) frames->add(motion.posed_sheet(), motion.time());
+    if (last || std::int64_t{step} * 10 >= std::int64_t{part} * steps)
+      print_balance(motion), part = static_cast<int>(std::int64_t{step} * 10 / steps) + 1;
+  }
+}
+
+void print_verdict(const SimulationVerdict& verdict, const Sheet& sheet) {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  std::printf("%s", verdict.name.c_str());
+  if (verdict.name != "ok") std::printf(" at %.4g s: %s", verdict.time, verdict.reason.c_str());
+  std::printf("; %zu triangles, %zu pieces; peak memory %.0f MB\n", sheet.triangle_count(), count_pieces(sheet),
+              static_cast<double>(usage.ru_maxrss) / 1024);
+}
+
+}  // namespace
+
+bool simulate(const Scene& scene, CuttingMethod& method, const SimulateOptions& options) {
+  const auto motion = Simulation::start(scene);
+  std::optional<FrameWriter> frames;
+  if (!options.frames.empty()) frames.emplace(options.frames);
+  motion->watch();
+  if (options.time_limit > 0) motion->limit_time(options.time_limit);
+  const std::size_t triangles_before = motion->sheet().triangle_count();
+  make_steps(scene, *motion, method, options, frames ? &*frames : nullptr);
+  print_cuts(*motion);
+  if (motion->budget()) print_budget(*motion->budget());
+  const bool static_solve = scene.integrator == Integrator::equilibrium;
+  nlohmann::ordered_json summary, limits;
+  if (!motion->steps().empty() && !static_solve) summary = summary_of(motion->steps(), motion->time());
+  if (!summary.is_null()) print_summary(summary);
+  if (scene.integrator == Integrator::symplectic_euler || !options.report.empty()) limits = limits_of(*motion);
+  print_limits(limits, scene.step);
+  const SimulationVerdict& verdict = motion->verdict();
+  const Sheet sheet = motion->posed_sheet();
+  print_verdict(verdict, sheet);
+  if (frames) {
+    frames->finish(sheet);
+    const std::filesystem::path folder = options.frames;
+    if (motion->budget()) motion->budget()->write(folder / "energy.csv");
+    WholeFile(folder / "simulation.json", description(scene, *motion, options, triangles_before)).place();
+  }
+  if (!options.out.empty()) write_mesh(sheet.to_mesh_data(), options.out);
+  if (!options.steps.empty()) WholeFile(options.steps, table_of(motion->steps(), scene.step)).place();
+  if (!options.report.empty()) write_report(scene, options, *motion, limits, summary);
+  const auto refused = [](const MotionCut& cut) { return cut.cut.status == Status::refused; };
+  const auto& cuts = motion->made_cuts();
+  return verdict.name == "ok" && std::none_of(cuts.begin(), cuts.end(), refused);
+}
+
+}  // namespace cutbench

@@ -1,0 +1,23 @@
+// The solvers by name. A new one is a file that makes it and a row in solver_table.cpp, whose text is its help.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "harness/fem/linear/linear_solver.h"
+
+namespace cutbench {
+
+/// Of the solvers that this build has: those by CHOLMOD only where it is there.
+const std::vector<std::string>& solver_names();
+/// Throws InputError where this build has no solver of one of these names; `where` says who named it.
+void check_solver_names(const std::vector<std::string>& names, const std::string& where);
+/// A line for each solver: its name and what it is.
+std::string solver_help();
+
+/// Throws InputError as check_solver_names() does.
+template <int D>
+std::unique_ptr<LinearSolver<D>> make_solver(const SolverOptions& options);
+
+}  // namespace cutbench

@@ -1,0 +1,170 @@
+"""All methods on the same cuts: measures, ranks and tables."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from analysis import load
+from analysis.load import of
+from analysis.methods import details, distribution, errors, kinds
+from analysis.methods.distribution import spread
+
+STEM = "method_comparison"
+MEASURES = ["crossed_triangles", "vertices_added", "angle_max_deg_cut", "altitude_min_h_cut", "ar_max_cut", "ar_p99_cut",
+            "ar_max_cut_strict", "ar_p99_cut_strict", "ar_max_cut_outside_wedges", "ar_max_cut_away_from_wedges",
+            "ar_p99_cut_outside_wedges",
+            "wedge_area_rest2", "forced_corners", "eigenvalue_ratio", "bending_eigenvalue_ratio",
+            "stabilised_eigenvalue_ratio", "incision_error_h", "area_change", "geometry_us"]
+JUMPS = ["membrane_j", "membrane_jump_j", "bending_j", "bending_jump_j", "residual_n", "residual_jump_n", "kinetic_j",
+         "kinetic_jump_j", "momentum_jump_kg_m_s"]
+
+
+@dataclass(frozen=True)
+class Measure:
+    """A column, its label on the axis, and whether large or small values are bad."""
+    column: str
+    label: str
+    worst: float = np.inf  # what a failed cut counts as
+    linear: bool = False
+    limits: tuple = ()  # of the axis; empty: what the values need
+    written: Callable = distribution.two_digits  # a median as text
+
+
+SHAPES = [Measure("eigenvalue_ratio", "largest eigenvalue / uncut"),
+          Measure("altitude_min_h_cut", "smallest altitude, h", -np.inf),
+          Measure("angle_max_deg_cut", "largest angle, °", linear=True, limits=(88, 183), written="{:.0f}".format)]
+PRICE = [Measure("us_per_crossed", "µs per crossed triangle"),
+         Measure("incision_error_h", "incision error, h", limits=(0.004, 2)),
+         Measure("vertices_per_crossed", "vertices added per crossed tri.", linear=True)]
+ROUNDING = 1e-12  # relative jumps below it are rounding errors
+
+
+def written_jump(value):
+    return "none" if value <= ROUNDING else distribution.two_digits(value)
+
+
+JUMP = [Measure("membrane_jump", "membrane energy", written=written_jump), Measure("bending_jump", "bending energy"),
+        Measure("residual_jump", "residual force")]
+OURS = "warp_and_refine"  # the project's own method
+BY_SHEET, AGAINST, ALTITUDE = f"{STEM}_by_sheet", f"{STEM}_pairs", f"{STEM}_altitude"
+TITLES = {  # of the tables that are not medians over all cuts
+    errors.STEM: errors.WHAT,
+    kinds.STEM: kinds.WHAT,
+    BY_SHEET: "cuts with every AR < 3 outside forced wedges, and farther than 0.02 h from them; median largest eigenvalues",
+    f"{STEM}_jumps": "jumps at a cut in a moving sheet, over the value before the cut; 1e-12 stands for no jump",
+    ALTITUDE: "largest eigenvalue against the square of the smallest altitude (h), of cuts with an eigenvalue over 100, on even sheets",
+    AGAINST: f"the cuts of {OURS} and the same cuts by each other method",
+    f"{AGAINST}_fine": f"the cuts of {OURS} and the same cuts by each other method, chord tolerance 0.01",
+}
+DERIVED = {  # groups of the columns that are computed from those of the records
+    "vertices_per_crossed": "size", "us_per_crossed": "time", "ar_below_3": "forced", "excess_percent": "accuracy_run",
+    "more_unknowns_percent": "accuracy_run", **{f"{name}_jump": "jump" for name in ("membrane", "bending", "residual")},
+    **details.GROUPS,
+}
+BLOCKS = [["accuracy_run"], ["stability", "shape"], ["forced"], ["size", "accuracy", "time", "outcome"], ["jump"], ["pairs"]]
+
+
+def measured(run):
+    """Each cut once, with the columns that are computed from others. A failed cut gets the worst value of each measure."""
+    rows = run.rows[run.rows["status"] != "noop"].copy()
+    rows["vertices_per_crossed"] = rows["vertices_added"] / rows["crossed_triangles"]
+    shapes = [c for c in MEASURES if c.startswith(("ar_", "angle_", "altitude_"))]
+    rows.loc[rows["ar_max_cut"] == 0, shapes] = np.nan  # edges were released and no triangle was changed
+    rows.loc[rows["area_change"].abs() > 1e-6, "incision_error_h"] = np.nan  # removed triangles: no incision
+    rows["us_per_crossed"] = rows["geometry_us"] / rows["crossed_triangles"]
+    failed = run.failed.copy()
+    for m in SHAPES + PRICE:
+        failed[m.column] = m.worst
+    failed["eigenvalue_ratio"] = np.nan  # computed for some cuts only
+    return pd.concat([rows, failed], ignore_index=True)
+
+
+def jumped(run):
+    rows = run.rows[(run.rows["cache"] == "simulation") & run.rows["membrane_j"].notna()].copy()
+    for name, unit in (("membrane", "j"), ("bending", "j"), ("residual", "n")):
+        rows[f"{name}_jump"] = (rows[f"{name}_jump_{unit}"].abs() / rows[f"{name}_{unit}"]).clip(lower=ROUNDING)
+    return rows
+
+
+def ranking(table, sheets):
+    """The variants, best first: by the sum of their ranks in the three measures of shape, each the mean over the sheets
+    of the rank of the median there. Also the ranks."""
+    variants = sorted(set(zip(table["method"], table["parameter"])))
+    ranks = pd.DataFrame(index=variants, columns=[m.column for m in SHAPES], dtype=float)
+    for m in SHAPES:
+        per_sheet = pd.DataFrame({s: {v: np.sign(m.worst) * spread(of(table, v, s)[m.column], m.worst)[0][2] for v in variants}
+                                  for s in sheets})
+        per_sheet = per_sheet.rank(na_option="bottom")
+        there = pd.DataFrame({s: {v: len(of(table, v, s)) > 0 for v in variants} for s in sheets})
+        ranks[m.column] = per_sheet.where(there).mean(axis=1).reindex(ranks.index)
+    ranks["sum"] = ranks.sum(axis=1)
+    return ranks.sort_values("sum", kind="stable")
+
+
+def summary(table, jumps, order, ranks):
+    """The table: a row per method over all sheets, families and resolutions."""
+    rows = []
+    for variant in order:
+        cuts = of(table, variant)
+        row = {"method": variant[0], "parameter": variant[1], "cuts": len(cuts), "failed": int(cuts["failed"].sum()),
+               "rank": ranks.loc[[variant], "sum"].iloc[0] / len(SHAPES)}
+        for m in SHAPES + PRICE:
+            quantiles, worst = spread(cuts[m.column], m.worst)
+            row |= {f"{m.column}_median": quantiles[2], f"{m.column}_worst": worst}
+        for kind in ("strict", "outside_wedges"):
+            for which in ("max", "p99"):
+                row[f"ar_{which}_cut_{kind}_median"] = spread(cuts[f"ar_{which}_cut_{kind}"])[0][2]
+            of_cuts = cuts[f"ar_max_cut_{kind}"].notna() | cuts["failed"]  # else no triangle was changed
+            below = (cuts[f"ar_max_cut_{kind}"] < 3) & ~cuts["failed"]
+            row[f"ar_below_3_{kind}"] = f"{int(below.sum())}/{int(of_cuts.sum())}"
+        row["wedge_area_rest2_mean"] = cuts["wedge_area_rest2"].mean()
+        if jumps is not None:
+            for m in JUMP:
+                row[f"{m.column}_median"] = of(jumps, variant)[m.column].median()
+        rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def blocks(table):
+    """The columns of a table, in blocks that fit beside the method's name: one for each of BLOCKS."""
+    groups = {column: load.group(column, DERIVED) for column in table.columns}
+    return [found for block in BLOCKS if (found := [c for c, group in groups.items() if group in block])]
+
+
+def as_text(name, table):
+    """The title of the table and its blocks, numbers with three digits."""
+    shown = table.copy()
+    for column in shown.columns[shown.dtypes == float]:
+        shown[column] = [f"{x:.3g}" if np.isfinite(x) else "-" for x in shown[column]]
+    of_all = [c for c in ("method", "parameter", "cuts", "failed", "rank") if c in shown]
+    what = TITLES.get(name, "medians over the cuts of all families, sheets and sizes; the best shapes first")
+    if table.attrs.get("note"):
+        what += f". {table.attrs['note']}"
+    return "\n".join([f"{name}: {what}\n"] + [shown[of_all + block].to_string(index=False) + "\n"
+                                               for block in blocks(shown[shown.columns.difference(of_all, sort=False)])])
+
+
+def write_tables(folder, stem, tables):
+    """A CSV of each table of {name: table}, and one text of all, STEM.txt."""
+    for name, table in tables.items():
+        table.to_csv(folder / f"{name}.csv", index=False, float_format="%.6g")
+        print(folder / f"{name}.csv")
+    text = "\n".join(as_text(name, table) for name, table in tables.items())
+    (folder / f"{stem}.txt").write_text(text, encoding="utf-8")
+    print(folder / f"{stem}.txt", text, sep="\n\n")
+
+
+def read_cuts(folder):
+    return cuts_of(load.read(folder, MEASURES))
+
+
+def cuts_of(run):
+    """Each cut of a run once, as measured(), but for the kinds of sheets that a method refuses altogether."""
+    run = run.first_repetition()
+    table = measured(run)
+    table["failed"] = (table["verdict"] != "ok") | table["status"].isin(["failed", "refused"])
+    # A kind of sheet that a method is not made for says nothing about it.
+    refused = (table["status"] == "refused").groupby([table[c] for c in ("method", "parameter", "sheet")]).transform("all")
+    return run, table[~refused]

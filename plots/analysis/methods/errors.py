@@ -1,0 +1,47 @@
+"""The error of every method's cut sheet, after a direct solve and after a fixed number of iterations of conjugate gradients."""
+
+import pandas as pd
+
+from analysis.accuracy.ranking import at_equal_unknowns, made_by_all, mean_excess, ranked_by
+from analysis.accuracy.records import Records
+from analysis.load import of
+
+STEM = "method_comparison_accuracy"
+WHAT = ("error over that of a body-fitted mesh, minus one: of a mesh with as many triangles as the uncut sheet, or with as "
+        "many unknowns as the cut sheet; geometric means over the cases that no method failed; the most accurate first")
+BUDGET = 100  # iterations of conjugate gradients
+
+
+def summary(folder):
+    """The records, and a row per method, most accurate first: geometric means over problems, sheets, sizes and members,
+    of the cases that no method failed; by ranked_by()."""
+    records = at_equal_unknowns(Records(folder)).ranked()
+    measure = ranked_by(records)
+    kept = {"all": records.table} | {sheet: records.rows(sheet=sheet) for sheet in records.sheets}
+    common = {sheet: made_by_all(of_methods_there(table)) for sheet, table in kept.items()}
+    rows = []
+    for variant in records.methods:
+        row = {"method": variant[0], "parameter": variant[1]}
+        for sheet, table in kept.items():
+            made = of(common[sheet], variant)
+            direct = made[made["direct"]]
+            stopped = made[~made["direct"] & (made["budget"] == BUDGET)]
+            row[f"excess_percent_{sheet}"] = mean_excess(direct, measure.column)
+            row[f"us_per_crossed_{sheet}"] = (direct["cut_us"] / direct["crossed_triangles"]).median()
+            if sheet == "all":
+                everything = of(table, variant)
+                row |= {"cuts": len(everything[everything["direct"]]),
+                        "failed": int(everything.loc[everything["direct"], "failed"].sum()),
+                        "excess_percent_as_many_triangles": mean_excess(direct, "ratio"),
+                        "more_unknowns_percent": 100 * (direct["more"].median() - 1),
+                        f"excess_percent_cg_{BUDGET}": mean_excess(stopped, measure.column)}
+        rows.append(row)
+    table = pd.DataFrame(rows).sort_values("excess_percent_all", kind="stable")
+    table.attrs["note"] = measure.note
+    return records, table
+
+
+def of_methods_there(table):
+    """Without the methods that refuse a kind of sheet altogether, which would leave no case that all made."""
+    key = [table[c] for c in ("method", "parameter", "sheet")]
+    return table[~table["failed"].groupby(key).transform("all")]

@@ -1,0 +1,71 @@
+"""The error of every method by kind of problem and by measure: what a mean over all problems hides."""
+
+import numpy as np
+import pandas as pd
+
+from analysis.accuracy.ranking import made_by_all, mean_excess, ranked_by
+from analysis.accuracy.records import CASE, REFERENCE
+from analysis.load import drawn_means, of
+
+STEM = "method_comparison_accuracy_kinds"
+KINDS = {"crack": ("centre_crack", "inclined_crack"), "arc": ("arc_crack",), "edge crack": ("edge_crack",),
+         "hole": ("kirsch_hole",), "tip field": ("williams",)}  # by the beginnings of their names
+TWICE = "two_cuts_one_geometry"  # has the exact answer of centre_crack
+MEASURES = ["energy_norm", "displacement_l2", "opening", "k1"]
+WHAT = ("error over that of a body-fitted mesh with as many unknowns, minus one, %: mean over kinds of problems (geometric), its 95 % "
+        "interval by drawing the kinds anew, and by kind; then errors by measure, over those of a mesh with as many triangles as "
+        "the uncut sheet")
+
+
+def kind_of(problem):
+    return next((kind for kind, names in KINDS.items() if problem.startswith(names)), None)
+
+
+def mean_over(kinds):
+    """\\param kinds  {kind: excess in percent}. The geometric mean of the ratios, in percent."""
+    return 100 * (np.exp(np.log1p(np.array(list(kinds.values())) / 100).mean()) - 1)
+
+
+def interval(kinds):
+    """The ends of that of mean_over(), 95 %, of all draws of kinds with replacement (bootstrap)."""
+    means = drawn_means(np.log1p(np.array(list(kinds.values())) / 100))
+    return 100 * (np.exp(np.quantile(means, [0.025, 0.975])) - 1)
+
+
+def in_words(ends):
+    return " to ".join(f"{end:+.0f}" for end in ends) if np.isfinite(ends).all() else "-"
+
+
+def by_measure(direct, fitted, measure):
+    """The absolute error of one measure over the fitted mesh's of the same case: geometric mean minus one, %."""
+    column = f"error_{measure}"
+    pairs = direct.merge(fitted[CASE + [column]], on=CASE, suffixes=("", "_fitted"))
+    ratio = pairs[column].abs() / pairs[f"{column}_fitted"].abs()
+    return mean_excess(pairs.assign(ratio=ratio), "ratio")
+
+
+def table_of(records):
+    """A row per method, most accurate first, by ranked_by(). \\param records  ranked, at_equal_unknowns()"""
+    measure = ranked_by(records)
+    table = records.table[records.table["direct"] & (records.table["problem"] != TWICE)]
+    table = table.assign(kind=table["problem"].map(kind_of))
+    table = table[table["kind"].notna()]
+    fitted = of(table, REFERENCE)
+    structured = table.groupby([table[c] for c in ("method", "parameter", "sheet")])["failed"].transform("all")
+    common = made_by_all(table[~structured])
+    rows = []
+    for variant in records.methods:
+        made = of(common, variant)
+        kinds = {kind: mean_excess(made[made["kind"] == kind], measure.column) for kind in KINDS if (made["kind"] == kind).any()}
+        if not kinds:
+            continue
+        rows.append({"method": variant[0], "parameter": variant[1], "error, kinds": mean_over(kinds),
+                     "error, its 95 %": in_words(interval(kinds)),
+                     **{f"error, {kind}": value for kind, value in kinds.items()},
+                     **{f"error, by {m}": by_measure(made, fitted, m) for m in MEASURES
+                        if f"error_{m}" in made}})
+    if not rows:
+        return pd.DataFrame(columns=["method", "parameter", "error, kinds"])
+    result = pd.DataFrame(rows).sort_values("error, kinds", kind="stable")
+    result.attrs["note"] = measure.note and f"{measure.note} All here are over {measure.fitted}."
+    return result

@@ -1,0 +1,62 @@
+"""Remedies for thin triangles: the largest eigenvalue that each leaves, and the error of its solutions."""
+
+import numpy as np
+
+from analysis import load
+from analysis.accuracy.ranking import at_equal_unknowns, made_by_all, mean_excess
+from analysis.accuracy.records import Records
+from analysis.load import of
+from analysis.methods import kinds
+
+STEM = "remedies"
+ADDED_MASS = {  # columns of the records, and the methods that are shown with such a mass
+    "stabilised": ["conventional_split", "delaunay_refine", "warp_and_refine"],
+    "scaled": ["conventional_split"],
+}
+NAMES = {"ablation:warp+thin:tie": "warp + thin + tie", "phantom_node:lumped_mass": "phantom node, lumped mass"}
+
+
+def label(method, parameter, mass=""):
+    several = method == "phantom_node"
+    return NAMES.get(method, method.replace("_", " ")) + (f", {parameter}" if several else "") + (f", {mass} mass" if mass else "")
+
+
+def errors(folder):
+    """Excess error in percent, by (method, parameter): over a fitted mesh of as many unknowns, of the cases that no method
+    failed, solved directly, with its 95 % interval; and after 100 iterations over one of as many triangles. Also how many
+    cases of how many problems these are."""
+    records = at_equal_unknowns(Records(folder)).ranked()
+    common = made_by_all(records.table)
+    found = {}
+    for variant in records.methods:
+        made = of(common, variant)
+        direct = made[made["direct"] & (made["ratio_equal"] > 0)]
+        found[variant] = [mean_excess(direct, "ratio_equal"), interval(direct), mean_excess(made[~made["direct"]], "ratio")]
+        used = len(direct), direct["problem"].nunique()
+    return found, *used
+
+
+def interval(direct):
+    """The ends of that of the mean excess at equal unknowns in percent, 95 %: problems drawn anew (bootstrap)."""
+    if direct.empty:  # one size of sheets alone
+        return np.full(2, np.nan)
+    return 100 * np.expm1(np.quantile(load.drawn_group_means(np.log(direct["ratio_equal"]), direct["problem"]), [0.025, 0.975]))
+
+
+def in_words(ends):
+    return "-" if np.isnan(ends).any() else kinds.in_words(np.round(ends) + 0.0)  # no -0
+
+
+def rows_of(run, excess):
+    """Of each method, and of some with an added mass: it leaves the errors at rest and the time of the cut as they are."""
+    cuts = run.rows[run.rows["eigenvalue_ratio"].notna()]
+    rows = []
+    for (method, parameter), here in cuts.groupby(["method", "parameter"], sort=False):
+        single = here["cut_family"] != "several"
+        per_crossed = (here["geometry_us"] / here["crossed_triangles"]).median()
+        for mass in ["", *(m for m, methods in ADDED_MASS.items() if method in methods)]:
+            prefix = f"{mass}_" if mass else ""
+            ratio, bends = here[f"{prefix}eigenvalue_ratio"], here[f"{prefix}bending_eigenvalue_ratio"]
+            rows.append([method, parameter, *np.quantile(ratio, [0.5, 0.95, 1]), *np.quantile(ratio[single], [0.95, 1]),
+                         bends.median(), bends.quantile(0.95), *excess[method, parameter], per_crossed, mass])
+    return sorted(rows, key=lambda r: r[2])
