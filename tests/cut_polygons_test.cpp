@@ -26,8 +26,8 @@ const std::vector<std::string> cuts_to_make{"straight",      "curved",          
 constexpr Material leather{.density = 2, .stiffness = 1000, .poisson = 0.3, .bending = 0.02};
 
 void merge_as_after_a_cut(Body<3>& body, const Sheet& before, const CuttingMethod& method) {
-  body.model.constraint(body.sheet,
-                        method.constraint_source()->next_constraints(before, body.sheet, body.model.polygons_left()));
+  body.model.constraint(body.sheet, method.constraint_source()->next_constraints(
+                                        before, body.sheet, body.model.elements().polygons_left()));
 }
 
 // --- the model -------------------------------------------------------------------------------------------------------
@@ -45,11 +45,11 @@ TEST(PolygonModel, FollowsCutsAsOneMadeAnew) {
       for (std::size_t number = 0; number < 3; ++number)
         for (const Curve& curve : make_case(cuts, 877, number, before)) {
           if (body.cut(curve, "cut_polygons", 0.7) != Status::ok) continue;
-          kept += body.model.polygons().size();
+          kept += body.model.elements().polygons().size();
           merge_as_after_a_cut(body, before, *method);
-          expect_sound(body.sheet, body.model.polygons());
+          expect_sound(body.sheet, body.model.elements().polygons());
           Model<3> fresh = body.fresh_model();
-          fresh.constraint(body.sheet, {.polygons = body.model.polygons()});
+          fresh.constraint(body.sheet, {.polygons = body.model.elements().polygons()});
           const Field x = bent(fresh, body.sheet);
           for (Model<3>* const model : {&body.model, &fresh}) model->rotate(x), model->assemble(1.2, 0.1);
           EXPECT_EQ(body.model.held(), fresh.held());
@@ -115,13 +115,13 @@ TEST(CutPolygons, FollowTheLastCut) {
     const double y = 0.05 + 0.09 * i;
     ASSERT_EQ(body.cut(line({-0.1, y}, {1.1, y + 0.01}), "cut_polygons", 0.7), Status::ok);
     asked.push_back(0);
-    const PolygonsLeft left = body.model.polygons_left();
+    const PolygonsLeft left = body.model.elements().polygons_left();
     const auto counted = [&](TriangleIndex t) { return ++asked.back(), left.of(t); };
     const Constraints constraints =
         method->constraint_source()->next_constraints(before, body.sheet, {counted, left.freed});
-    const std::size_t old = body.model.polygons().size();
+    const std::size_t old = body.model.elements().polygons().size();
     body.model.constraint(body.sheet, constraints);
-    EXPECT_EQ(body.model.polygons().size(), old + constraints.polygons.size());
+    EXPECT_EQ(body.model.elements().polygons().size(), old + constraints.polygons.size());
   }
   EXPECT_GT(asked.front(), 40u);
   EXPECT_LT(*std::max_element(asked.begin(), asked.end()), 2 * asked.front());
@@ -138,7 +138,7 @@ TEST(CutPolygons, AreAsGoodCutByCutAsAtOnce) {
       for (const Curve& curve : make_case("several", 877, i, before))
         if (body.cut(curve, "cut_polygons", 0.7) == Status::ok) merge_as_after_a_cut(body, before, *method);
       const double whole = largest_eigenvalue(before),
-                   value = largest_eigenvalue(body.sheet, {.polygons = body.model.polygons()}) / whole,
+                   value = largest_eigenvalue(body.sheet, {.polygons = body.model.elements().polygons()}) / whole,
                    at_once = largest_eigenvalue(body.sheet, constraints_of(*method, before, body.sheet)) / whole;
       worst = std::max(worst, value), worst_at_once = std::max(worst_at_once, at_once);
       logs += std::log(value / at_once), ++cases;

@@ -56,6 +56,40 @@ TEST(Polygons, AreSoundAfterAdversarialCuts) {
     }
 }
 
+/// To others a polygon is an element as a triangle is: with corners, gradients that add up to nothing, and its share of area.
+TEST(Polygons, AreElementsOfTheTable) {
+  for_each_constrained_cut({cut_polygons}, 9, 3, 877, [&](const ConstrainedCut& cut) {
+    const Sheet& sheet = cut.sheet();
+    ElementTable elements(sheet);
+    const double area = elements.areas(sheet.deformed_slots()).sum();
+    Regrouped regrouped;
+    for (const Polygon& polygon : cut.constraints.polygons) {
+      ASSERT_TRUE(elements.merge(sheet, polygon, regrouped));
+      EXPECT_FALSE(elements.merge(sheet, polygon, regrouped)) << "it is there already";
+      for (const TriangleIndex t : polygon.triangles) {
+        const ElementShape shape = elements.shape(t);
+        EXPECT_TRUE(std::ranges::equal(shape.corners, polygon.corners));
+        Point2 sum{};
+        for (const Point2 g : shape.gradient) sum = sum + g;
+        EXPECT_LT(squared_length(sum), 1e-18 * squared_length(shape.gradient[0]));
+      }
+    }
+    EXPECT_EQ(elements.polygons(), cut.constraints.polygons);
+    EXPECT_NEAR(elements.areas(sheet.deformed_slots()).sum(), area, 1e-12 * area);
+    elements.begin_change();
+    for (const Polygon& polygon : cut.constraints.polygons) {
+      EXPECT_EQ(elements.polygons_left().of(polygon.triangles[0]).size(), polygon.triangles.size());
+      elements.release(polygon.triangles[1], regrouped);
+      EXPECT_EQ(elements.shape(polygon.triangles[0]).corners.size(), 3u);
+      EXPECT_TRUE(elements.polygons_left().of(polygon.triangles[0]).empty());
+      EXPECT_TRUE(std::ranges::equal(elements.polygons_left().freed.last(polygon.triangles.size()), polygon.triangles));
+    }
+    EXPECT_TRUE(elements.polygons().empty());
+    EXPECT_EQ(regrouped.triangles.size(), 2 * elements.polygons_left().freed.size());
+    EXPECT_EQ(elements.areas(sheet.deformed_slots()).sum(), area);
+  });
+}
+
 /// Against a look at every triangle of the sheet before.
 TEST(Polygons, DividedTrianglesLieInTheirParents) {
   for_each_constrained_cut({cut_polygons}, 7, 1, 877, [&](const ConstrainedCut& cut) {

@@ -192,7 +192,8 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, const std::vector<Curve>& cu
     moving.model.update_bending(moving.sheet);
     result.bending_us += watch.lap();
     if (!source) continue;
-    const Constraints constraints = source->next_constraints(before_cuts_, moving.sheet, moving.model.polygons_left());
+    const Constraints constraints =
+        source->next_constraints(before_cuts_, moving.sheet, moving.model.elements().polygons_left());
     result.cut.time_us.constrain += watch.lap();
     moving.model.constraint(moving.sheet, constraints);
     for (Field* const field : {&moving.state.x, &moving.state.v}) {  // the state of before the cut need not

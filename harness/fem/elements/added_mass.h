@@ -19,8 +19,8 @@
 //   a stencil of bending (bending.h), R its three rows, M_e the mass of each vertex over the number of stencils that hold
 //   it. All that is linear in rest coordinates, turning too, keeps its inertia.
 //
-// Membrane and bending are each at most l, both together at most 2 l. Polygons (polygon_element.h) get no mass for their
-// membrane. The added mass has no weight: equilibria stay as they are.
+// Membrane and bending are each at most l, both together at most 2 l. Elements of several triangles get no mass for
+// their membrane. The added mass has no weight: equilibria stay as they are.
 #pragma once
 
 #include <Eigen/Core>

@@ -3,8 +3,8 @@
 // kinds are in bending_kinds.h.
 //
 // Each triangle's energy is half the sum of the squares of three linear rows over the vertices near it. What lies
-// across an incision is not near. A polygon (polygon_element.h) has the rows of one element: one quadratic, and one
-// Hessian from the slopes at its sides. Patches only; they pass the bending patch test with polygons, too.
+// across an incision is not near. An element of several triangles has the rows of one: one quadratic, and one Hessian
+// from the slopes at its sides. Only kinds with slopes take such elements.
 #pragma once
 
 #include <cstdint>
@@ -31,12 +31,12 @@ class Bending {
   };
   Bending() = default;
   /// \pre kind is not `none`, and has slopes where elements have several triangles; rigidity D in N m.
-  /// \param elements  of the sheet, whose polygons count; null: no polygons
+  /// \param elements  of the sheet; null: each triangle is one
   Bending(const Sheet& sheet, BendingKind kind, double rigidity, double poisson,
           const ElementTable* elements = nullptr);
   /// After a cut: rebuilds the stencils near the slots in the sheet's log and the rows of the vertices in them. Equal
   /// to a new one but for the order of the columns within a row.
-  /// \param regrouped  the triangles that joined or left a polygon since the last call
+  /// \param regrouped  the triangles that joined or left an element of several since the last call
   void update(const Sheet& sheet, const ElementTable* elements = nullptr,
               std::span<const TriangleIndex> regrouped = {});
 
@@ -44,7 +44,7 @@ class Bending {
   const BlockMatrix<1>& matrix() const { return matrix_; }
   const std::vector<std::int32_t>& written_rows() const { return work_.rows; }  ///< by the last update()
   double energy(const Field& x, int dimension) const;
-  /// The three rows of a triangle's energy, in sqrt(N/m); none where it is free, or not the first of its polygon.
+  /// The three rows of a triangle's energy, in sqrt(N/m); none where it is free, or not the first of its element.
   std::span<const StencilTerm> stencil(std::size_t triangle) const { return stencils_[triangle]; }
   std::span<const Holder> stencils_of(std::size_t vertex) const { return stencils_of_[vertex]; }
   void reserve_spare();  ///< room to grow by half, before anything has to be copied

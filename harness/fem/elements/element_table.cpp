@@ -26,11 +26,13 @@ Element element_of(const Sheet& sheet, TriangleIndex t) {
 
 ElementTable::ElementTable(const Sheet& sheet) : rows_(sheet.triangle_slots()) {
   for (std::size_t t = 0; t < rows_.size(); ++t) rows_[t] = element_of(sheet, TriangleIndex(t));
+  polygons_of_.resize(sheet.deformed_slots());
 }
 
 void ElementTable::update(const Sheet& sheet) {
   const EditLog& log = sheet.log();
   rows_.resize(sheet.triangle_slots());
+  polygons_of_.resize(sheet.deformed_slots());
   for (const auto& touched : log.touched) rows_[touched.slot()] = element_of(sheet, touched.slot);
   for (std::size_t t = log.triangles_before; t < rows_.size(); ++t) rows_[t] = element_of(sheet, TriangleIndex(t));
 }
@@ -50,17 +52,6 @@ void ElementTable::add_strong_couplings(double aspect_ratio, std::vector<StrongC
   }
 }
 
-std::size_t ElementTable::add_polygon(const Sheet& sheet, const Polygon& polygon) {
-  std::size_t slot = polygons_.size();
-  if (free_polygons_.empty())
-    polygons_.emplace_back();
-  else
-    slot = free_polygons_.back(), free_polygons_.pop_back();
-  polygons_[slot] = PolygonElement(sheet, polygon);
-  for (const TriangleIndex t : polygon.triangles) rows_[t()].polygon = static_cast<std::int32_t>(slot);
-  return slot;
-}
-
 bool ElementTable::is_inside(TriangleIndex t, DeformedIndex vertex) const {
   const std::int32_t polygon = rows_[t()].polygon;
   if (polygon < 0) return false;
@@ -68,10 +59,110 @@ bool ElementTable::is_inside(TriangleIndex t, DeformedIndex vertex) const {
   return std::find(inside.begin(), inside.end(), vertex) != inside.end();
 }
 
-void ElementTable::dissolve(std::size_t polygon) {
-  for (const TriangleIndex t : polygons_[polygon].polygon.triangles) rows_[t()].polygon = -1;
+ElementShape ElementTable::shape(TriangleIndex t) const {
+  const Element& e = rows_[t()];
+  if (e.is_triangle()) return {e.vertex, e.gradient};
+  const PolygonElement& polygon = polygons_[static_cast<std::size_t>(e.polygon)];
+  return {polygon.polygon.corners, polygon.gradient};
+}
+
+double ElementTable::polygon_area_round(std::size_t vertex) const {
+  double area = 0;
+  for (const std::int32_t p : polygons_of_[vertex]) area += polygons_[static_cast<std::size_t>(p)].corner_area();
+  return area;
+}
+
+double ElementTable::area_round(std::size_t vertex, std::span<const HalfEdge> triangles) const {
+  double of_triangles = 0;
+  for (const HalfEdge c : triangles)
+    if (const Element& e = rows_[triangle_of(c)()]; e.is_triangle()) of_triangles += e.material_area();
+  return of_triangles / 3 + polygon_area_round(vertex);
+}
+
+Field ElementTable::areas(std::size_t vertices) const {
+  Field all = Field::Zero(static_cast<Eigen::Index>(vertices));
+  for (const Element& e : rows_)
+    if (e.is_triangle())
+      for (const auto d : e.vertex) all[d.value] += e.area / 3;
+  for (const PolygonElement& polygon : polygons_)
+    for (const auto d : polygon.polygon.corners) all[d.value] += polygon.corner_area();
+  return all;
+}
+
+// --- elements of several triangles -----------------------------------------------------------------------------------
+
+std::size_t ElementTable::add_polygon(const Sheet& sheet, const Polygon& polygon) {
+  std::size_t slot = polygons_.size();
+  if (free_polygons_.empty()) {
+    polygons_.emplace_back();
+  } else {
+    slot = free_polygons_.back();
+    free_polygons_.pop_back();
+  }
+  polygons_[slot] = PolygonElement(sheet, polygon);
+  for (const TriangleIndex t : polygon.triangles) rows_[t()].polygon = static_cast<std::int32_t>(slot);
+  for (const DeformedIndex d : polygon.corners) polygons_of_.append(d(), static_cast<std::int32_t>(slot));
+  return slot;
+}
+
+std::optional<std::size_t> ElementTable::merge(const Sheet& sheet, const Polygon& polygon, Regrouped& regrouped) {
+  const auto now = members(polygon.triangles.front());
+  if (std::equal(now.begin(), now.end(), polygon.triangles.begin(), polygon.triangles.end())) return {};
+  for (const TriangleIndex t : polygon.triangles)
+    if (const auto old = rows_[t()].polygon; old >= 0) dissolve(static_cast<std::size_t>(old), regrouped);
+  const std::size_t slot = add_polygon(sheet, polygon);
+  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  append(regrouped.triangles, polygon.triangles);
+  append(regrouped.vertices, polygon.corners);
+  append(regrouped.vertices, polygon.inside);
+  return slot;
+}
+
+void ElementTable::release(TriangleIndex t, Regrouped& regrouped) {
+  const std::int32_t polygon = rows_[t()].polygon;
+  if (polygon < 0) return;
+  const auto now = members(t);
+  freed_.insert(freed_.end(), now.begin(), now.end());
+  dissolve(static_cast<std::size_t>(polygon), regrouped);
+}
+
+void ElementTable::dissolve(std::size_t polygon, Regrouped& regrouped) {
+  const Polygon& gone = polygons_[polygon].polygon;
+  for (const DeformedIndex d : gone.corners) polygons_of_.erase(d(), static_cast<std::int32_t>(polygon));
+  for (const TriangleIndex t : gone.triangles) rows_[t()].polygon = -1;
+  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  append(regrouped.triangles, gone.triangles);
+  append(regrouped.vertices, gone.corners);
+  append(regrouped.vertices, gone.inside);
   polygons_[polygon] = {};
   free_polygons_.push_back(polygon);
 }
+
+std::vector<Polygon> ElementTable::polygons() const {
+  std::vector<Polygon> all;
+  for (const PolygonElement& element : polygons_)
+    if (element.alive()) all.push_back(element.polygon);
+  return all;
+}
+
+PolygonsLeft ElementTable::polygons_left() const {
+  const auto of = [this](TriangleIndex t) {
+    return rows_[t()].polygon < 0 ? std::span<const TriangleIndex>{} : members(t);
+  };
+  return {of, freed_};
+}
+
+template <int D>
+void ElementTable::follow(Field& x) const {
+  for (const PolygonElement& element : polygons_) {
+    if (element.inside.empty()) continue;
+    const LinearMap<D> map = element.map<D>(x);
+    for (std::size_t i = 0; i < element.inside.size(); ++i)
+      x.segment<D>(D * element.polygon.inside[i].value) = map.at(element.inside[i]);
+  }
+}
+
+template void ElementTable::follow<2>(Field&) const;
+template void ElementTable::follow<3>(Field&) const;
 
 }  // namespace cutbench

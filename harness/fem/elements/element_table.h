@@ -1,8 +1,10 @@
-// What the physics knows of the mesh: one row per triangle slot, and the polygons that some triangles are members of.
+// What the physics knows of the mesh: one row per triangle slot, and the polygons that some triangles are members of. To
+// what lies above this room an element is an element: it has corners, gradients and areas, be it a triangle or a polygon.
 // The elements of methods that don't re-mesh may overlap in rest space and be made of material in part only.
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,6 +27,18 @@ struct Element {
   double material_area() const { return area * fraction; }
 };
 
+/// An element as its shape functions have it.
+struct ElementShape {
+  std::span<const DeformedIndex> corners;
+  std::span<const Point2> gradient;  ///< per corner: of its shape function, in the mean over the element, 1/length
+};
+
+/// What became another element, or a part of one.
+struct Regrouped {
+  std::vector<TriangleIndex> triangles;
+  std::vector<DeformedIndex> vertices;  ///< theirs
+};
+
 class ElementTable final : public CoupledElements {
  public:
   ElementTable() = default;
@@ -32,7 +46,10 @@ class ElementTable final : public CoupledElements {
   /// Rewrites the rows of the slots that the sheet's log names. The same as a new table. \pre these are members of no
   /// polygon.
   void update(const Sheet& sheet);
-  void reserve_spare() { cutbench::reserve_spare(rows_); }
+  void reserve_spare() {
+    cutbench::reserve_spare(rows_);
+    polygons_of_.reserve_spare();
+  }
   void add_strong_couplings(double aspect_ratio, std::vector<StrongCoupling>& all) const override;
 
   std::size_t size() const { return rows_.size(); }
@@ -48,16 +65,60 @@ class ElementTable final : public CoupledElements {
   auto begin() const { return rows_.begin(); }
   auto end() const { return rows_.end(); }
 
+  // --- elements, of whatever kind ------------------------------------------------------------------------------------
+  ElementShape shape(TriangleIndex t) const;  ///< of the element that t is, or is a member of
+  /// Calls visit(corners) for the elements that have this corner. \param triangles  Incidence::at(vertex)
+  template <class Visit>
+  void for_each_round(std::size_t vertex, std::span<const HalfEdge> triangles, const Visit& visit) const {
+    for (const HalfEdge c : triangles)
+      if (const Element& e = rows_[triangle_of(c)()]; e.is_triangle()) visit(std::span<const DeformedIndex>(e.vertex));
+    for (const std::int32_t p : polygons_of_[vertex])
+      visit(std::span<const DeformedIndex>(polygons_[static_cast<std::size_t>(p)].polygon.corners));
+  }
+  /// The area of material that stands for a vertex's mass.
+  double area_round(std::size_t vertex, std::span<const HalfEdge> triangles) const;
+  /// Row `vertex` of the consistent mass, whose entries are sums of areas over a number of parts: add(column, area, parts).
+  /// Polygons are lumped.
+  template <class Add>
+  void for_each_share(std::size_t vertex, std::span<const HalfEdge> triangles, const Add& add) const {
+    if (const double area = polygon_area_round(vertex); area > 0) add(DeformedIndex(vertex), area, 1);
+    for (const HalfEdge c : triangles) {
+      const Element& e = rows_[triangle_of(c)()];
+      if (!e.is_triangle()) continue;
+      for (const DeformedIndex d : e.vertex) add(d, e.material_area(), d() == vertex ? 6 : 12);
+    }
+  }
+  /// Of all vertices: the rest areas that stand for them, all of it material.
+  Field areas(std::size_t vertices) const;
+
+  // --- elements of several triangles ---------------------------------------------------------------------------------
+  /// Makes an element of the polygon, after dissolving those that it shares triangles with.
+  /// \return its slot; nothing where it is there already
+  std::optional<std::size_t> merge(const Sheet& sheet, const Polygon& polygon, Regrouped& regrouped);
+  /// Dissolves the polygon that t is a member of, if any.
+  void release(TriangleIndex t, Regrouped& regrouped);
+  void begin_change() { freed_.clear(); }
+  std::vector<Polygon> polygons() const;
+  PolygonsLeft polygons_left() const;  ///< freed: by release() since begin_change(). Refers to this.
+  /// Gives the vertices inside polygons their values, D per vertex.
+  template <int D>
+  void follow(Field& x) const;
+
   /// Polygons have slots, which are used again. \pre its triangles are alive, and members of none.
   std::size_t add_polygon(const Sheet& sheet, const Polygon& polygon);
-  void dissolve(std::size_t polygon);  ///< its triangles are elements again
+  std::span<const std::int32_t> polygons_of(std::size_t vertex) const { return polygons_of_[vertex]; }  ///< their slots
   std::size_t polygon_slots() const { return polygons_.size(); }
   const PolygonElement& polygon(std::size_t slot) const { return polygons_[slot]; }
 
  private:
+  void dissolve(std::size_t polygon, Regrouped& regrouped);
+  double polygon_area_round(std::size_t vertex) const;
+
   std::vector<Element> rows_;
   std::vector<PolygonElement> polygons_;
   std::vector<std::size_t> free_polygons_;
+  GrowingRows<std::int32_t> polygons_of_;  // per vertex: those of which it is a corner
+  std::vector<TriangleIndex> freed_;
 };
 
 /// As ElementTable::members(); null: each triangle is an element.

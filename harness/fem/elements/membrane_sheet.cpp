@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "harness/base/errors.h"
 #include "harness/fem/algebra/growing_rows.h"
 #include "harness/fem/elements/springs.h"
 
@@ -142,9 +143,33 @@ void MembraneSheet<D>::reserve_spare() {
 }
 
 template <int D>
-void MembraneSheet<D>::clear_slots(std::size_t element) {
+void MembraneSheet<D>::clear_slots(std::size_t triangle) {
   for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) set_slot(element, i, j, -1);
+    for (std::size_t j = 0; j < 3; ++j) set_slot(triangle, i, j, -1);
+}
+
+template <int D>
+void MembraneSheet<D>::find_slots(const ElementTable& elements, std::size_t vertex, std::span<const HalfEdge> triangles,
+                                  const BlockMatrix<D>& blocks) {
+  polygons_.find_slots(elements, vertex, blocks);
+  for (const HalfEdge c : triangles) {
+    const std::size_t t = triangle_of(c)();
+    if (!elements[t].is_triangle()) continue;
+    for (std::size_t j = 0; j < 3; ++j)
+      set_slot(t, static_cast<std::size_t>(corner_of(c)), j, blocks.find(vertex, elements[t].vertex[j].value));
+  }
+}
+
+template <int D>
+void MembraneSheet<D>::join(const ElementTable& elements, std::size_t polygon) {
+  polygons_.reset(polygon, elements.polygon(polygon));
+  for (const TriangleIndex t : elements.polygon(polygon).polygon.triangles) clear_slots(t());
+}
+
+template <int D>
+void MembraneSheet<D>::check_takes(std::span<const Polygon> polygons) const {
+  if (law_.strain == Strain::springs && !polygons.empty())
+    throw InputError("a polygon has no springs: take another method than cut_polygons, or another \"strain\"");
 }
 
 template <int D>

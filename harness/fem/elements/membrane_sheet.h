@@ -18,12 +18,14 @@ class MembraneSheet {
   void resize(std::size_t elements);
   void reserve_spare();
 
-  /// Where block (i, j) of an element is in the matrix; all nine are -1 where the slot of the table is free.
-  void set_slot(std::size_t element, std::size_t i, std::size_t j, std::int32_t slot) {
-    slots_[element / lane_count][i][j][element % lane_count] = slot;
-  }
-  void clear_slots(std::size_t element);
-  PolygonSheet<D>& polygons() { return polygons_; }
+  /// Where the blocks of the elements round a vertex are in its row of the matrix. \param triangles  Incidence::at(vertex)
+  void find_slots(const ElementTable& elements, std::size_t vertex, std::span<const HalfEdge> triangles,
+                  const BlockMatrix<D>& blocks);
+  void clear_slots(std::size_t triangle);  ///< its slot in the table is free
+  /// Takes over an element of several triangles that is new (ElementTable::merge()).
+  void join(const ElementTable& elements, std::size_t polygon);
+  /// Throws InputError where such elements have no answer to the strain.
+  void check_takes(std::span<const Polygon> polygons) const;
 
   /// Deformations of all elements at x, and the forces they exert; the functions below refer to this x.
   void rotate(const ElementTable& elements, const Field& x);
@@ -35,6 +37,10 @@ class MembraneSheet {
 
  private:
   using FourSlots = std::array<std::int32_t, lane_count>;
+  /// Where block (i, j) of a triangle is in the matrix; all nine are -1 where it is no element.
+  void set_slot(std::size_t triangle, std::size_t i, std::size_t j, std::int32_t slot) {
+    slots_[triangle / lane_count][i][j][triangle % lane_count] = slot;
+  }
   struct Four;
   void recompute_collapsed(const ElementTable& elements, std::size_t i, Lanes determined, const Field& x);
   void add_forces(const Four& four, const StrainInFrame<D, Lanes>& strained);

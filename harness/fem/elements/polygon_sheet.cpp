@@ -1,6 +1,7 @@
 #include "harness/fem/elements/polygon_sheet.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 
 #include "harness/fem/elements/element_stiffness.h"
 
@@ -39,9 +40,14 @@ void PolygonSheet<D>::reset(std::size_t slot, const PolygonElement& polygon) {
 }
 
 template <int D>
-void PolygonSheet<D>::set_slots(std::size_t slot, std::size_t i, std::span<const std::int32_t> blocks) {
-  auto& slots = states_[slot].slots;
-  std::copy(blocks.begin(), blocks.end(), slots.begin() + static_cast<std::ptrdiff_t>(i * blocks.size()));
+void PolygonSheet<D>::find_slots(const ElementTable& elements, std::size_t vertex, const BlockMatrix<D>& blocks) {
+  for (const std::int32_t p : elements.polygons_of(vertex)) {
+    const auto slot = static_cast<std::size_t>(p);
+    const auto& corners = elements.polygon(slot).polygon.corners;
+    const auto own = std::find(corners.begin(), corners.end(), DeformedIndex(vertex)) - corners.begin();
+    auto to = states_[slot].slots.begin() + own * static_cast<std::ptrdiff_t>(corners.size());
+    for (const DeformedIndex d : corners) *to++ = blocks.find(vertex, d.value);
+  }
 }
 
 template <int D>
@@ -122,24 +128,6 @@ void PolygonSheet<D>::add_stiffness(const ElementTable& elements, double factor,
             Eigen::Map<const Block>(block.data()) + factor * stabilisation;
       }
   }
-}
-
-Eigen::MatrixXd rest_stiffness(const PolygonElement& polygon, const Lame& lame) {
-  const auto k = static_cast<Eigen::Index>(polygon.size());
-  StrainInFrame<2, double> at_rest{};
-  at_rest.frame[0][0] = at_rest.frame[1][1] = 1;
-  const ElementStiffness<2> stiffness({}, polygon.area, at_rest, {Strain::linear, StressStiffness::none, lame});
-  const Eigen::MatrixXd stabilisation =
-      stabilisation_of(lame, false).in_plane * polygon.departure.transpose() * polygon.departure;
-  Eigen::MatrixXd matrix(2 * k, 2 * k);
-  for (Eigen::Index i = 0; i < k; ++i)
-    for (Eigen::Index j = 0; j < k; ++j) {
-      const auto block = stiffness.block(vector(polygon.gradient[static_cast<std::size_t>(i)]),
-                                         vector(polygon.gradient[static_cast<std::size_t>(j)]));
-      matrix.block<2, 2>(2 * i, 2 * j) =
-          Eigen::Map<const Eigen::Matrix2d>(block.data()) + stabilisation(i, j) * Eigen::Matrix2d::Identity();
-    }
-  return matrix;
 }
 
 template class PolygonSheet<2>;

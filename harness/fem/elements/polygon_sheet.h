@@ -33,8 +33,8 @@ class PolygonSheet {
 
   /// For polygon `slot`, new or of another shape.
   void reset(std::size_t slot, const PolygonElement& polygon);
-  /// Where the blocks of corner i and all corners are in the matrix.
-  void set_slots(std::size_t slot, std::size_t i, std::span<const std::int32_t> blocks);
+  /// Where the blocks of the polygons that have this corner are in its row of the matrix.
+  void find_slots(const ElementTable& elements, std::size_t vertex, const BlockMatrix<D>& blocks);
 
   /// Deformations of all polygons at x; adds the forces they exert. The functions below refer to this x.
   void rotate(const ElementTable& elements, const Field& x, Field& force);
@@ -58,8 +58,5 @@ class PolygonSheet {
   Stabilisation stabilisation_;
   std::vector<State> states_;  // per polygon slot
 };
-
-/// The stiffness of a polygon at rest in its plane, 2 k x 2 k, N/m.
-Eigen::MatrixXd rest_stiffness(const PolygonElement& polygon, const Lame& lame);
 
 }  // namespace cutbench

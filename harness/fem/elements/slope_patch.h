@@ -4,7 +4,7 @@
 // near a conic, so that several quadratics fit them, the patch grows ring by ring and the quadratic is the best fit
 // (weighted least squares).
 //
-// A polygon (polygon_element.h) has one patch, which begins with all its corners; vertices inside a polygon are in none.
+// An element of several triangles has one patch, which begins with all its corners; vertices inside it are in none.
 // The patch does not contain vertices behind an incision, or out of sight of the triangle's centroid, for example
 // behind a tip.
 #pragma once
@@ -27,7 +27,7 @@ class SlopePatch {
  public:
   /// Fits the patch of the element that has triangle t. Returns its reach: the number of unseparated edges from the
   /// element to the farthest triangle that it depends on.
-  /// \param elements  null: no polygons
+  /// \param elements  null: each triangle is one
   int fit(const Sheet& sheet, const ElementTable* elements, TriangleIndex t);
   /// Of a triangle of the element with these corners. Row k: derivative into the triangle, at right angles to side k,
   /// at the side's midpoint; factors in 1/length. Exact for quadratics where the patch determines one, else for linear

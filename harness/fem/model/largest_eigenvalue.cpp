@@ -13,7 +13,7 @@
 #include "harness/fem/elements/added_mass.h"
 #include "harness/fem/elements/element_table.h"
 #include "harness/fem/elements/membrane.h"
-#include "harness/fem/elements/polygon_sheet.h"
+#include "harness/fem/elements/rest_stiffness.h"
 
 namespace cutbench {
 
@@ -24,21 +24,16 @@ using Eigen::VectorXd;
 /// y = L^-1 C^T K C L^-T x, element by element, with L L^T = C^T M C.
 class ScaledStiffness {
  public:
+  ScaledStiffness(const ScaledStiffness&) = delete;
+  ScaledStiffness& operator=(const ScaledStiffness&) = delete;
   ScaledStiffness(const Sheet& sheet, const Constraints& constraints, const Elasticity& elasticity)
       : lame_(lame_of({.stiffness = 1, .poisson = elasticity.poisson}, elasticity.plane)),
         elements_(sheet),
         constraint_matrix_(constraints, sheet.deformed_slots()),
         ghosts_(constraints.ghosts) {
-    for (const Polygon& polygon : constraints.polygons) {
-      const std::size_t slot = elements_.add_polygon(sheet, polygon);
-      polygons_.push_back(rest_stiffness(elements_.polygon(slot), lame_));
-    }
-    lumped_ = VectorXd::Zero(static_cast<Eigen::Index>(constraint_matrix_.vertices()));
-    for (const Element& element : elements_)
-      if (element.is_triangle())
-        for (const auto d : element.vertex) lumped_[d.value] += element.area / 3;
-    for (std::size_t p = 0; p < polygons_.size(); ++p)
-      for (const auto d : elements_.polygon(p).polygon.corners) lumped_[d.value] += elements_.polygon(p).corner_area();
+    for (const Polygon& polygon : constraints.polygons) elements_.add_polygon(sheet, polygon);
+    membrane_.emplace(elements_, lame_);
+    lumped_ = elements_.areas(constraint_matrix_.vertices());
     if (elasticity.bending != BendingKind::none)
       bending_.emplace(sheet, elasticity.bending, elasticity.bending_length2, elasticity.poisson, &elements_);
     if (adds_mass(elasticity.mass)) add_mass(elasticity);
@@ -60,9 +55,7 @@ class ScaledStiffness {
     scaled_ = mass_.permutationPinv() * scaled_;
     constraint_matrix_.expand(2, Eigen::Map<const VectorXd>(scaled_.data(), size()), moved_);
     force_.setZero(moved_.size());
-    for (const Element& element : elements_)
-      if (element.is_triangle()) add_force(element);
-    for (std::size_t p = 0; p < polygons_.size(); ++p) add_force(elements_.polygon(p), polygons_[p]);
+    membrane_->add_force(moved_, force_);
     // Bending acts on each coordinate alike, so that membrane and bending together are stiffest in the plane.
     if (bending_) add_product_per_coordinate(bending_->matrix(), 2, 1, moved_, force_);
     constraint_matrix_.reduce(2, force_, y);
@@ -135,35 +128,9 @@ class ScaledStiffness {
       y.segment<2>(2 * ghost.unknown[k].value) += ghost.stiffness * ghost.jump[k] * jump.transpose();
   }
 
-  void add_force(const PolygonElement& polygon, const Eigen::MatrixXd& stiffness) {
-    VectorXd moved(stiffness.rows());
-    Eigen::Index next = 0;
-    for (const auto d : polygon.polygon.corners) moved.segment<2>(2 * next++) = moved_.segment<2>(2 * d.value);
-    const VectorXd force = stiffness * moved;
-    next = 0;
-    for (const auto d : polygon.polygon.corners) force_.segment<2>(2 * d.value) += force.segment<2>(2 * next++);
-  }
-
-  void add_force(const Element& element) {
-    double xx = 0, yy = 0, xy = 0;  // strain
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [gx, gy] = element.gradient[k];
-      const double u = moved_[2 * element.vertex[k].value], v = moved_[2 * element.vertex[k].value + 1];
-      xx += u * gx, yy += v * gy, xy += (u * gy + v * gx) / 2;
-    }
-    const double pressure = lame_.lambda * (xx + yy), a = element.area;
-    const double sx = a * (2 * lame_.mu * xx + pressure), sy = a * (2 * lame_.mu * yy + pressure);
-    const double shear = a * 2 * lame_.mu * xy;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [gx, gy] = element.gradient[k];
-      force_[2 * element.vertex[k].value] += sx * gx + shear * gy;
-      force_[2 * element.vertex[k].value + 1] += shear * gx + sy * gy;
-    }
-  }
-
   Lame lame_;
   ElementTable elements_;
-  std::vector<Eigen::MatrixXd> polygons_;  // their stiffness
+  std::optional<RestStiffness> membrane_;
   ConstraintMatrix constraint_matrix_;
   std::vector<GhostEdge> ghosts_;
   VectorXd lumped_;

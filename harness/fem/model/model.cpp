@@ -31,7 +31,6 @@ Model<D>::Model(const Sheet& sheet, const Material& material, const Physics& phy
 template <int D>
 void Model<D>::reserve_spare() {
   elements_.reserve_spare(), blocks_.reserve_spare(), incidence_.reserve_spare(), membrane_.reserve_spare();
-  polygons_of_.reserve_spare();
   cutbench::reserve_spare(mass_, external_, held_, pin_of_, places_, marked_in_);
   if (consistent_mass_) consistent_mass_->reserve_spare();
   if (bending_) bending_->reserve_spare();
@@ -40,7 +39,7 @@ void Model<D>::reserve_spare() {
 template <int D>
 void Model<D>::resize(const Sheet& sheet) {
   const std::size_t n = sheet.deformed_slots();
-  incidence_.resize(n), polygons_of_.resize(n), blocks_.resize(n), marked_in_.resize(std::max(n, marked_in_.size()));
+  incidence_.resize(n), blocks_.resize(n), marked_in_.resize(std::max(n, marked_in_.size()));
   if (consistent_mass_) consistent_mass_->resize(n);
   held_.resize(D * n, 1), pin_of_.resize(D * n, -1), places_.resize(n);
   membrane_.resize(elements_.size());

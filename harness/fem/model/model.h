@@ -36,14 +36,14 @@ class Model {
   /// replace indices and add elements (Xin et al. 2018, 4.2) where the sheet's log says so.
   void update(const Sheet& sheet);
   void update_bending(const Sheet& sheet);  ///< nothing without bending
-  /// Constrains vertices and makes polygons of triangles; call it after update() and update_bending(). Constraints of
-  /// before are removed. Polygons of before stay, unless the cut touched their triangles or they share one with a new
-  /// polygon. Forces, energies and the matrix remain those of all vertices; a solver solves for the unknowns of constrained().
-  /// Vertices inside polygons are no unknowns: they have no mass and are held, and follow() moves them.
+  /// Constrains vertices and makes elements of several triangles; call it after update() and update_bending(). Constraints
+  /// of before are removed. Such elements of before stay, unless the cut touched their triangles or they share one with a
+  /// new one. Forces, energies and the matrix remain those of all vertices; a solver solves for the unknowns of
+  /// constrained(). Vertices inside such elements are no unknowns: they have no mass and are held, and follow() moves them.
   /// \pre `sheet` is that of the last update().
   void constraint(const Sheet& sheet, const Constraints& constraints);
-  /// Gives the vertices inside polygons their values, positions or velocities.
-  void follow(Field& x) const;
+  /// Gives the vertices inside elements their values, positions or velocities.
+  void follow(Field& x) const { elements_.template follow<D>(x); }
 
   std::size_t vertices() const { return static_cast<std::size_t>(mass_.size()); }  ///< slots of the opened sheet
   /// Positions of the sheet's vertices, m.
@@ -74,8 +74,6 @@ class Model {
   const BlockMatrix<D>& blocks() const { return blocks_; }
   const Bending* bending() const { return bending_ ? &*bending_ : nullptr; }
   Deformation<D> deformation(std::size_t element) const { return membrane_.deformation(elements_, element); }
-  std::vector<Polygon> polygons() const;
-  PolygonsLeft polygons_left() const;                       ///< by the last update(); refers to this
   FieldView lumped_mass() const { return view_of(mass_); }  ///< kg, per vertex, without what is added
   const AddedMass* added_mass() const { return added_mass_ ? &*added_mass_ : nullptr; }
   FieldView external_force() const { return view_of(external_); }  ///< N
@@ -97,7 +95,6 @@ class Model {
   void resize(const Sheet& sheet);
   void refresh_vertices(const Sheet& sheet);
   void refresh_row(std::size_t v);
-  void set_polygon_slots(std::size_t v);
   void refresh_mass(std::size_t v);
   ElementModes element_modes() const;
   void refresh_added_mass();
@@ -105,8 +102,7 @@ class Model {
   void refresh_loads(const Sheet& sheet, std::size_t v);
   void begin_marking();
   void mark(std::span<const DeformedIndex> vertices);
-  void merge(const Sheet& sheet, std::span<const Polygon> polygons);
-  void dissolve(std::size_t polygon);
+  void mark_regrouped();
 
   Material material_;
   Physics physics_;
@@ -114,8 +110,7 @@ class Model {
   std::vector<Traction> tractions_;
 
   ElementTable elements_;
-  Incidence incidence_;                    // of all triangles
-  GrowingRows<std::int32_t> polygons_of_;  // per vertex: those of which it is a corner
+  Incidence incidence_;  // of all triangles
   BlockMatrix<D> blocks_;
   MembraneSheet<D> membrane_;
   std::optional<Bending> bending_;
@@ -133,10 +128,9 @@ class Model {
   std::vector<std::uint32_t> marked_in_;
   std::uint32_t round_ = 0;
   std::vector<std::size_t> marked_;  // vertices whose rows change
-  std::vector<std::int32_t> columns_, polygon_slots_;
-  std::vector<TriangleIndex> freed_;      // left a polygon in the last update()
-  std::vector<TriangleIndex> regrouped_;  // joined or left one, and bending does not know it yet
-  std::vector<Lanes> velocity_, bent_;    // of add_impulse(), per vertex
+  std::vector<std::int32_t> columns_;
+  Regrouped regrouped_;                 // its triangles: those that bending does not know of yet
+  std::vector<Lanes> velocity_, bent_;  // of add_impulse(), per vertex
 };
 
 }  // namespace cutbench

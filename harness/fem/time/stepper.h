@@ -62,7 +62,7 @@ template <int D>
 class Stepper {
  public:
   /// Throws InputError for an unknown solver. Symplectic Euler and XPBD take no consistent mass (scenes refuse it), and no
-  /// constrained vertices; XPBD no polygons and no added mass either.
+  /// constrained vertices; XPBD no elements of several triangles and no added mass either.
   explicit Stepper(const StepOptions& options);
   StepReport step(Model<D>& model, State& state);
 

@@ -27,7 +27,7 @@ class Xpbd {
  public:
   /// \param x0  m: at the begin of a step of h seconds
   /// \param x   m: where the step leads without inner forces; then where it leads
-  /// \pre no constrained vertices, no polygons, lumped mass
+  /// \pre no constrained vertices, each triangle an element, lumped mass
   void solve(const Model<D>& model, double h, int sweeps, const Field& x0, Field& x);
 
  private:

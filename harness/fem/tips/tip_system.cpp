@@ -17,18 +17,6 @@ Eigen::Vector3d strain(const Eigen::Vector2d& gradient, int axis) {
   return {0, gradient.y(), gradient.x()};
 }
 
-/// The shape functions of the element that a triangle is, or is a member of: where it is linear, their gradients there.
-template <class Visit>
-void for_each_gradient(const ElementTable& elements, TriangleIndex t, Visit visit) {
-  const Element& element = elements[t()];
-  if (element.is_triangle()) {
-    for (std::size_t k = 0; k < 3; ++k) visit(element.vertex[k], element.gradient[k]);
-    return;
-  }
-  const PolygonElement& polygon = elements.polygon(static_cast<std::size_t>(element.polygon));
-  for (std::size_t k = 0; k < polygon.size(); ++k) visit(polygon.polygon.corners[k], polygon.gradient[k]);
-}
-
 Eigen::Matrix3d hooke(const Lame& lame) {
   Eigen::Matrix3d d;
   d << 2 * lame.mu + lame.lambda, lame.lambda, 0, lame.lambda, 2 * lame.mu + lame.lambda, 0, 0, 0, lame.mu;
@@ -67,12 +55,14 @@ TipSystem::TipSystem(const Sheet& sheet, const ElementTable& elements, const Tip
           corner_.block<of_tip, of_tip>(first(l), first(k)).noalias() += here[l].transpose() * stress;
       }
     });
-    for_each_gradient(elements, t, [&](DeformedIndex v, Point2 g) {
+    const ElementShape shape = elements.shape(t);
+    for (std::size_t corner = 0; corner < shape.corners.size(); ++corner) {
+      const auto [gx, gy] = shape.gradient[corner];
       for (int a = 0; a < 2; ++a)
         for (std::size_t k = 0; k < reaching.size(); ++k)
-          border_.block<1, of_tip>(2 * v.value + a, first(k)) +=
-              strain({g.x, g.y}, a).transpose() * moduli * integral[k];
-    });
+          border_.block<1, of_tip>(2 * shape.corners[corner].value + a, first(k)) +=
+              strain({gx, gy}, a).transpose() * moduli * integral[k];
+    }
   }
   corner_.triangularView<Eigen::StrictlyLower>() = corner_.transpose();
 }

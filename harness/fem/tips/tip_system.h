@@ -15,7 +15,7 @@ namespace cutbench {
 
 class TipSystem {
  public:
-  /// In a polygon K_uc is of its linear map. \param lame  of the sheet, per thickness
+  /// In an element of several triangles K_uc is of its linear map. \param lame  of the sheet, per thickness
   TipSystem(const Sheet& sheet, const ElementTable& elements, const TipFunctions& functions, const Lame& lame);
 
   /// J: the part of the energy that is not of u alone, u' K_uc c + c' K_cc c / 2.

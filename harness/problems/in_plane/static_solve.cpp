@@ -79,7 +79,7 @@ void StaticSolve::hold_loose_pieces() {
     if (held) continue;
     for (const std::size_t v : piece) loose_[v] = held_[2 * v] = held_[2 * v + 1] = 1;
   }
-  for (const Polygon& polygon : model_.polygons())
+  for (const Polygon& polygon : model_.elements().polygons())
     for (const DeformedIndex d : polygon.inside) loose_[d()] = loose_[polygon.corners.front()()];
 }
 

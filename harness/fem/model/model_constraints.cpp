@@ -1,0 +1,28 @@
+// Constrained vertices of the model, and triangles that become one element.
+#include "harness/fem/model/model.h"
+
+namespace cutbench {
+
+template <int D>
+void Model<D>::constraint(const Sheet& sheet, const Constraints& constraints) {
+  membrane_.check_takes(constraints.polygons);
+  begin_marking();
+  for (const Polygon& polygon : constraints.polygons) {
+    if (const auto slot = elements_.merge(sheet, polygon, regrouped_)) membrane_.join(elements_, *slot);
+    mark_regrouped();
+  }
+  refresh_vertices(sheet);
+  if (!bending_) refresh_added_mass();
+  if (!regrouped_.triangles.empty()) update_bending(sheet);
+  is_constrained_ = !constraints.constraints.empty();
+  if (is_constrained_ && constrained_)
+    constrained_->change(constraints, vertices());
+  else if (is_constrained_)
+    constrained_.emplace(constraints, vertices());
+}
+
+// What the other files call; model.cpp instantiates the rest of the class.
+template void Model<2>::constraint(const Sheet&, const Constraints&);
+template void Model<3>::constraint(const Sheet&, const Constraints&);
+
+}  // namespace cutbench
