@@ -61,7 +61,7 @@ template <int D>
 SceneCuts<D>::SceneCuts(const Scene& scene, MovingSheet<D>& now) : scene_(scene), now_(now), before_cuts_(now.sheet) {
   check_radius_spans_edges(now.sheet, scene.active_radius, scene.stem);
   for (const auto& cut : scene.cuts)
-    cuts_.push_back({cut.time, cut.speed, curves_of(cut, now.sheet), cut.picked, {}, 0});
+    cuts_.push_back({.time = cut.time, .speed = cut.speed, .curves = curves_of(cut, now.sheet), .picked = cut.picked});
 }
 
 /// Before the step that is next.
@@ -72,12 +72,25 @@ bool SceneCuts<D>::is_due(const DueCut& cut) const {
 
 template <int D>
 const MotionCut* SceneCuts<D>::make_due(CuttingMethod& method, const CutOptions& options, EnergyBudget* budget) {
-  for (std::size_t i = 0; i < cuts_.size() && is_due(cuts_[i]); ++i) {
-    if (i == made_.size()) begin(i, method, options, budget);
-    if (cuts_[i].blade) advance_blade(i, method, options, budget);
-    if (made_[i].verdict != "ok") return &made_[i];
+  for (DueCut& due : cuts_) {
+    if (!is_due(due)) break;
+    if (!due.made) begin(due, method, options, budget);
+    if (due.blade) advance_blade(due, method, options, budget);
+    if (made_[*due.made].verdict != "ok") return &made_[*due.made];
   }
   return nullptr;
+}
+
+template <int D>
+const MotionCut& SceneCuts<D>::make_now(std::span<const Curve> curves, CuttingMethod& method, const CutOptions& options,
+                                        EnergyBudget* budget) {
+  const std::string where = scene_.stem + ", a cut at " + std::to_string(now_.state.time) + " s";
+  if (curves.empty()) throw InputError(where + ": no curve; give at least one");
+  if (std::isfinite(scene_.active_radius))
+    throw InputError(where + ": an active radius needs to know all cuts from the start; leave it out");
+  for (const Curve& curve : curves) check_curve(curve, where);
+  made_.push_back(cut_with_balances(curves, method, options, budget));
+  return made_.back();
 }
 
 template <int D>
@@ -111,17 +124,18 @@ bool SceneCuts<D>::leave_out_far_parts() {
 
 /// Makes a cut that is due, or lets its blade enter.
 template <int D>
-void SceneCuts<D>::begin(std::size_t number, CuttingMethod& method, const CutOptions& options, EnergyBudget* budget) {
-  DueCut& due = cuts_[number];
+void SceneCuts<D>::begin(DueCut& due, CuttingMethod& method, const CutOptions& options, EnergyBudget* budget) {
   std::vector<Curve> curves = due.curves;
   double pick_us = 0;
   if (!due.picked.picks.empty()) {
     const Sheet posed = now_.posed();
     StopWatch watch;
+    const auto number = static_cast<std::size_t>(&due - cuts_.data());
     curves.push_back(Picker(posed).rest_curve(due.picked, scene_.stem + ", cut " + std::to_string(number)));
     pick_us = watch.lap();
   }
   if (due.speed > 0) due.blade.emplace(curves.front());
+  due.made = made_.size();
   made_.push_back(due.blade ? MotionCut() : cut_with_balances(curves, method, options, budget));
   made_.back().pick_us = pick_us;
   log_.geometry_us += pick_us;
@@ -130,17 +144,15 @@ void SceneCuts<D>::begin(std::size_t number, CuttingMethod& method, const CutOpt
 /// Up to where the blade is at the end of this step, or where it waits. A part that can't be cut by itself goes with
 /// the next one, too.
 template <int D>
-void SceneCuts<D>::advance_blade(std::size_t number, CuttingMethod& method, const CutOptions& options,
-                                 EnergyBudget* budget) {
-  DueCut& due = cuts_[number];
-  MotionCut& made = made_[number];
+void SceneCuts<D>::advance_blade(DueCut& due, CuttingMethod& method, const CutOptions& options, EnergyBudget* budget) {
+  MotionCut& made = made_[*due.made];
   const double h = now_.sheet.mean_edge(), end = due.blade->length();
   const double to = std::min(end, due.speed * std::max(0.0, now_.state.time + scene_.step - due.time));
   if (to <= due.reached) return;
   const Curve curve = due.blade->part(due.reached, to);
   if (to < end && to < due.reached + h && distance_to_edges(now_.sheet, curve.points.back()) < clear_of_edges * h)
     return;
-  const MotionCut part = cut_with_balances({curve}, method, options, budget);
+  const MotionCut part = cut_with_balances({&curve, 1}, method, options, budget);
   const bool cut = part.cut.status == Status::ok || part.cut.status == Status::deviated;
   if (cut) due.reached = to;
   if (cut || part.verdict != "ok") add(part, made);
@@ -151,7 +163,7 @@ void SceneCuts<D>::advance_blade(std::size_t number, CuttingMethod& method, cons
 }
 
 template <int D>
-MotionCut SceneCuts<D>::cut_with_balances(const std::vector<Curve>& curves, CuttingMethod& method,
+MotionCut SceneCuts<D>::cut_with_balances(std::span<const Curve> curves, CuttingMethod& method,
                                           const CutOptions& options, EnergyBudget* budget) {
   const Balance before = now_.balance();
   MotionCut made = cut(now_, curves, cutter_, method, options);
@@ -164,7 +176,7 @@ MotionCut SceneCuts<D>::cut_with_balances(const std::vector<Curve>& curves, Cutt
 }
 
 template <int D>
-MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, const std::vector<Curve>& curves, Cutter& cutter,
+MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, std::span<const Curve> curves, Cutter& cutter,
                             CuttingMethod& method, const CutOptions& options) const {
   MotionCut result;
   result.parts = 1;

@@ -101,8 +101,23 @@ class SceneInMotion : public Simulation {
         report.verdict = "timed_out", report.reason = text;
       }
     }
-    if (report.verdict != "ok") verdict_ = {report.verdict, report.reason, now_.state.time};
+    end_where_bad(report);
     return report;
+  }
+
+  StepReport step() override {
+    if (budget_) before_ = now_.state;
+    StepReport report = stepper_.step(now_.model, now_.state);
+    if (budget_ && report.verdict == "ok") budget_->add_step(now_.model, before_, now_.state, scene_.step);
+    if (watched_ && report.verdict == "ok") judge_state(report);
+    steps_.push_back(cuts_.take_log());
+    steps_.back().step = report;
+    end_where_bad(report);
+    return report;
+  }
+
+  MotionCut cut_now(std::span<const Curve> curves, CuttingMethod& method, const CutOptions& options) override {
+    return cuts_.make_now(curves, method, options, budget_ ? &*budget_ : nullptr);
   }
 
   MotionCut try_cut(const std::vector<Curve>& cuts, Cutter& cutter, CuttingMethod& method,
@@ -137,14 +152,8 @@ class SceneInMotion : public Simulation {
     return {scene.integrator, scene.step, scene.newton, scene.sweeps, scene.solver};
   }
 
-  StepReport step() {
-    if (budget_) before_ = now_.state;
-    StepReport report = stepper_.step(now_.model, now_.state);
-    if (budget_ && report.verdict == "ok") budget_->add_step(now_.model, before_, now_.state, scene_.step);
-    if (watched_ && report.verdict == "ok") judge_state(report);
-    steps_.push_back(cuts_.take_log());
-    steps_.back().step = report;
-    return report;
+  void end_where_bad(const StepReport& report) {
+    if (report.verdict != "ok") verdict_ = {report.verdict, report.reason, now_.state.time};
   }
 
   /// \pre the step is in the budget, where one is kept.

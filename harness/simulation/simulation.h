@@ -1,8 +1,11 @@
 // A running simulation and the cuts made in it. A cut comes right after a step; then the state of new vertices is
-// transferred, the model is updated, and the next step follows.
+// transferred, the model is updated, and the next step follows. A scene's own cuts are made by advance() when they are
+// due; in a loop of one's own, step() and cut_now() do the same, bit for bit.
 #pragma once
 
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "harness/cut/cut_all.h"
 #include "harness/fem/time/stepper.h"
@@ -42,17 +45,27 @@ class Simulation {
   /// Steps, with the scene's own cuts made by `method` when they are due. Returns the first report that is not ok, or
   /// the last one. Throws InputError where a pick misses the sheet.
   virtual StepReport advance(double time, CuttingMethod& method, const CutOptions& options) = 0;
+  /// Makes one step; the scene's own cuts wait for advance(). A report that is not ok ends the simulation: verdict().
+  virtual StepReport step() = 0;
+  /// Makes a cut right now, before the step that is next: the curves one after the other, as a cut of the scene with
+  /// these curves would be made. \return  what came of it. A curve that is refused, or fails (`verdict`), or has nothing
+  /// to cut leaves sheet, state and model bit-unchanged; after a failure the curves behind it are not tried.
+  /// \param curves  rest space, m; for points in world space see Picker, with posed_sheet()
+  /// \param method  the same in all cuts of a simulation, where it constrains vertices or makes polygons
+  /// \throw InputError  before anything is changed: no curve, one that check_curve() refuses, or a scene with an active
+  ///                    radius, which has to know all cuts from the start
+  virtual MotionCut cut_now(std::span<const Curve> curves, CuttingMethod& method, const CutOptions& options = {}) = 0;
   /// Makes one step, the cuts, and one more step, and then restores the state before.
   virtual MotionCut try_cut(const std::vector<Curve>& cuts, Cutter& cutter, CuttingMethod& method,
                             const CutOptions& options) = 0;
   virtual Balance balance() = 0;
-  virtual const std::vector<MotionCut>& made_cuts() const = 0;  ///< by advance(), with what jumped
-  virtual const std::vector<LoggedStep>& steps() const = 0;     ///< made by advance()
+  virtual const std::vector<MotionCut>& made_cuts() const = 0;  ///< by advance() and cut_now(), with what jumped
+  virtual const std::vector<LoggedStep>& steps() const = 0;     ///< made by advance() and step()
   virtual double time() const = 0;
   /// From now on every step is judged by its energies and shapes, outside the step's clock: a quarter of a step more.
   virtual void watch() = 0;
   virtual const EnergyBudget* budget() const = 0;  ///< none where it isn't watched, and in equilibrium
-  /// Of the steps so far; energies and shapes only where it is watched.
+  /// Of the steps so far, and of cuts that advance() made; energies and shapes only where it is watched.
   virtual const SimulationVerdict& verdict() const = 0;
   /// advance() makes no more steps once the process has taken so long from now on. \param seconds  of processor time
   virtual void limit_time(double seconds) = 0;
