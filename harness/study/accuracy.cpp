@@ -30,6 +30,18 @@ constexpr double exact_to_rounding = 1e-9;
 /// Solver, budget and tip functions, too, say what was measured.
 constexpr std::size_t accuracy_key_columns = key_columns + 3;
 
+/// Columns that accuracy runs share with measured cuts, and the column of their own that these stand behind.
+struct Borrowed {
+  const char* after;
+  std::vector<const char*> names;
+};
+const std::vector<Borrowed> borrowed_columns{
+    {"tip_functions", {"status", "verdict", "reason"}},
+    {"cut_us", {"assemble_us", "setup_us", "solve_us"}},
+    {"triangles", {"vertices_added"}},
+    {"residual",
+     {"crossed_triangles", "incision_error_h", "ar_max_cut", "ar_max_all", "angle_max_deg_cut", "altitude_min_h_cut"}}};
+
 using Clock = std::chrono::steady_clock;
 
 double us_since(Clock::time_point start) {
@@ -257,33 +269,12 @@ class AccuracyRun : public Study {
 const std::vector<std::string>& accuracy_columns() {
   static const std::vector<std::string> columns = [] {
     std::vector<std::string> names = key_column_names("problem"), measures;
-    for (const char* name : {"solver",
-                             "budget",
-                             "tip_functions",
-                             "status",
-                             "verdict",
-                             "reason",
-                             "exact_incision",
-                             "cut_us",
-                             "assemble_us",
-                             "setup_us",
-                             "solve_us",
-                             "total_us",
-                             "unknowns",
-                             "triangles",
-                             "vertices_added",
-                             "iterations",
-                             "residual",
-                             "crossed_triangles",
-                             "incision_error_h",
-                             "ar_max_cut",
-                             "ar_max_all",
-                             "angle_max_deg_cut",
-                             "altitude_min_h_cut",
-                             "primary",
-                             "error",
-                             "excess_error"})
-      names.emplace_back(name);
+    for (const std::string& name : columns_of({Group::accuracy_run})) {
+      if (name == "problem" || name.ends_with('*')) continue;  // among the keys; by measure
+      names.push_back(name);
+      for (const Borrowed& borrowed : borrowed_columns)
+        if (name == borrowed.after) names.insert(names.end(), borrowed.names.begin(), borrowed.names.end());
+    }
     for (const auto& problem : all_problems())
       for (const std::string& measure : problem->measures())
         if (std::find(measures.begin(), measures.end(), measure) == measures.end()) measures.push_back(measure);
