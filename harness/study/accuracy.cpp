@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 
@@ -18,8 +17,7 @@
 #include "harness/problems/common/problem.h"
 #include "harness/records/metrics.h"
 #include "harness/study/accuracy_summary.h"
-#include "harness/study/progress.h"
-#include "harness/study/right_results.h"
+#include "harness/study/study.h"
 #include "harness/study/worker.h"
 
 namespace cutbench {
@@ -32,6 +30,18 @@ constexpr double exact_to_rounding = 1e-9;
 /// Solver, budget and tip functions, too, say what was measured.
 constexpr std::size_t accuracy_key_columns = key_columns + 3;
 
+/// Columns that accuracy runs share with measured cuts, and the column of their own that these stand behind.
+struct Borrowed {
+  const char* after;
+  std::vector<const char*> names;
+};
+const std::vector<Borrowed> borrowed_columns{
+    {"tip_functions", {"status", "verdict", "reason"}},
+    {"cut_us", {"assemble_us", "setup_us", "solve_us"}},
+    {"triangles", {"vertices_added"}},
+    {"residual",
+     {"crossed_triangles", "incision_error_h", "ar_max_cut", "ar_max_all", "angle_max_deg_cut", "altitude_min_h_cut"}}};
+
 using Clock = std::chrono::steady_clock;
 
 double us_since(Clock::time_point start) {
@@ -41,15 +51,12 @@ double us_since(Clock::time_point start) {
 /// The errors of the reference, solved directly, by the name of the measure.
 using Yardstick = std::map<std::string, double>;
 
-class AccuracyRun {
+class AccuracyRun : public Study {
  public:
   AccuracyRun(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
               const RunOptions& options)
-      : experiment_(experiment),
-        plan_(*experiment.accuracy),
-        options_(options),
-        file_(std::filesystem::path(options.out) / experiment.stem, identity(experiment, context, options),
-              accuracy_columns(), accuracy_key_columns) {
+      : Study(experiment, context, options, {.columns = accuracy_columns(), .keys = accuracy_key_columns}),
+        plan_(*experiment.accuracy) {
     for (const Variant& v : variants_of(experiment, methods)) workers_.emplace_back(v);
     for (const auto& solver : plan_.direct) direct_.push_back({.solver = {.name = solver}});
     budgets_ = direct_;
@@ -60,13 +67,15 @@ class AccuracyRun {
     cut_options_.chord_tolerance = experiment.chord_tolerance;
   }
 
-  void run() {
-    if (!file_.note().empty() && !options_.quiet)
-      std::fprintf(stderr, "%s: %s\n", experiment_.stem.c_str(), file_.note().c_str());
+ private:
+  std::size_t case_count() override {
     std::size_t total = 0;
     for (const auto& name : plan_.problems)
       for (int resolution : experiment_.resolutions) total += members(find_problem(name), resolution);
-    Progress progress(experiment_.stem, total * experiment_.sheets.size(), options_.quiet);
+    return total * experiment_.sheets.size();
+  }
+
+  void run_cases(Progress& progress) override {
     std::size_t number = 0;
     for (const auto& name : plan_.problems) {
       const Problem& problem = find_problem(name);
@@ -77,36 +86,12 @@ class AccuracyRun {
     }
   }
 
-  RecordFile& file() { return file_; }
-  const std::map<std::string, double>& minutes() const { return minutes_; }
-
-  /// Of the rows, those of before a resumption too.
-  AccuracySummary summary() const {
-    AccuracySummary summary;
-    for (const std::string& line : file_.lines()) summary.add(Record(accuracy_columns(), line));
-    return summary;
+  void add_row(const Record& row, RightResults& results) override {
+    results.add(row);
+    summary_.add(row);
   }
-
- private:
-  static std::string identity(const Experiment& e, const Context& context, const RunOptions& options) {
-    return nlohmann::json{context.identity(),
-                          e.stem,
-                          e.sheets,
-                          e.resolutions,
-                          identity_of_methods(e),
-                          e.seed,
-                          e.chord_tolerance,
-                          e.accuracy->problems,
-                          e.accuracy->direct,
-                          e.accuracy->preconditioners,
-                          e.accuracy->members,
-                          e.accuracy->members_nonlinear,
-                          e.accuracy->iterations,
-                          e.accuracy->tip_functions,
-                          e.accuracy->reference}
-               .dump() +
-           shard_line(options);
-  }
+  void print_summary() const override { summary_.print(experiment_.stem, minutes_); }
+  bool all_ok() const override { return summary_.all_ok(); }
 
   std::size_t members(const Problem& problem, int resolution) const {
     const auto& plan = problem.takes_budgets() ? plan_.members : plan_.members_nonlinear;
@@ -271,10 +256,8 @@ class AccuracyRun {
     }
   }
 
-  const Experiment& experiment_;
   const Experiment::Accuracy& plan_;
-  const RunOptions& options_;
-  RecordFile file_;
+  AccuracySummary summary_;
   CutOptions cut_options_;
   std::vector<Worker> workers_;
   std::vector<Budget> direct_, budgets_;  // budgets_: the direct ones first
@@ -286,33 +269,12 @@ class AccuracyRun {
 const std::vector<std::string>& accuracy_columns() {
   static const std::vector<std::string> columns = [] {
     std::vector<std::string> names = key_column_names("problem"), measures;
-    for (const char* name : {"solver",
-                             "budget",
-                             "tip_functions",
-                             "status",
-                             "verdict",
-                             "reason",
-                             "exact_incision",
-                             "cut_us",
-                             "assemble_us",
-                             "setup_us",
-                             "solve_us",
-                             "total_us",
-                             "unknowns",
-                             "triangles",
-                             "vertices_added",
-                             "iterations",
-                             "residual",
-                             "crossed_triangles",
-                             "incision_error_h",
-                             "ar_max_cut",
-                             "ar_max_all",
-                             "angle_max_deg_cut",
-                             "altitude_min_h_cut",
-                             "primary",
-                             "error",
-                             "excess_error"})
-      names.emplace_back(name);
+    for (const std::string& name : columns_of({Group::accuracy_run})) {
+      if (name == "problem" || name.ends_with('*')) continue;  // among the keys; by measure
+      names.push_back(name);
+      for (const Borrowed& borrowed : borrowed_columns)
+        if (name == borrowed.after) names.insert(names.end(), borrowed.names.begin(), borrowed.names.end());
+    }
     for (const auto& problem : all_problems())
       for (const std::string& measure : problem->measures())
         if (std::find(measures.begin(), measures.end(), measure) == measures.end()) measures.push_back(measure);
@@ -326,14 +288,7 @@ const std::vector<std::string>& accuracy_columns() {
 
 bool run_accuracy(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
                   const RunOptions& options) {
-  AccuracyRun run(experiment, methods, context, options);
-  run.run();
-  run.file().finish(context, experiment.stem, experiment.claim, options.command, experiment.seed);
-  const AccuracySummary summary = run.summary();
-  if (!options.quiet) summary.print(experiment.stem, run.minutes());
-  RightResults results;
-  for (const std::string& line : run.file().lines()) results.add(Record(accuracy_columns(), line));
-  return results.report(experiment, options.quiet) && summary.all_ok();
+  return AccuracyRun(experiment, methods, context, options).run();
 }
 
 }  // namespace cutbench

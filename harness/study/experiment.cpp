@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "harness/base/toml_reader.h"
 #include "harness/cases/cut_families.h"
@@ -113,7 +114,6 @@ Experiment::Stability read_stability(const TomlReader& reader, const std::filesy
   Experiment::Stability stability;
   stability.time_limit_s = reader.positive("time_limit_s", stability.time_limit_s);
   stability.sweeps = read_sweeps(reader, file.parent_path());
-  stability.text = text_of_file(file);
   std::vector<std::string> names, sheets;
   for (const Sweep& sweep : stability.sweeps) {
     names.push_back(sweep.name);
@@ -122,12 +122,22 @@ Experiment::Stability read_stability(const TomlReader& reader, const std::filesy
       if (std::find(e.resolutions.begin(), e.resolutions.end(), resolution) == e.resolutions.end())
         reader.refuse("sweep \"" + sweep.name + "\": " + std::to_string(resolution) +
                       " is not one of the experiment's \"resolutions\"");
-    if (const auto& scene = sweep.scene_file; stability.text.find(scene.string()) == std::string::npos)
-      stability.text += scene.string() + text_of_file(scene);
   }
   check_names(sheets, e.sheets, reader.where + ": a sweep's sheet");
   refuse_repeated(names, reader.where + ": the names of \"sweeps\"");
   return stability;
+}
+
+/// The file's keys in alphabetic order with their values, and the texts of the files that it names.
+std::string text_of_what_was_asked(const toml::table& table, const std::filesystem::path& folder, const Experiment& e) {
+  std::ostringstream text;
+  text << toml::json_formatter{table};
+  if (e.scene) text << text_of_file(folder / *table["scene"].value<std::string>());
+  if (e.robustness)
+    for (const auto& mesh : e.robustness->mesh_files) text << text_of_file(mesh);
+  if (e.stability)
+    for (const Sweep& sweep : e.stability->sweeps) text << text_of_file(sweep.scene_file);
+  return text.str();
 }
 
 }  // namespace
@@ -188,7 +198,10 @@ Experiment read_experiment(const std::filesystem::path& file) {
   if (table["methods"].value<std::string>() != "all")
     for (const auto& node : reader.array("methods")) read_entry(node, file, e);
   e.seed = static_cast<std::uint64_t>(reader.value<std::int64_t>("seed", 1));
-  e.cases = reader.count("cases", is_stability ? 1000000 : 1), e.repetitions = reader.count("repetitions", 1);
+  // Cuts: of each sheet, resolution and family. Robustness: of each sheet and resolution. Stability: the most seeded
+  // places of a point, whose sweep says how many. Accuracy has `members` instead.
+  e.cases = reader.count("cases", is_stability ? 1000000 : 1);
+  e.repetitions = reader.count("repetitions", 1);
   e.cold = reader.value<bool>("cold", false), e.quality = reader.value<bool>("quality", true);
   e.own_cuts = reader.value<bool>("own_cuts", false);
   e.eigenvalue_cases = reader.count("eigenvalue_cases", 0, 0);
@@ -204,12 +217,12 @@ Experiment read_experiment(const std::filesystem::path& file) {
     e.scene = read_scene_for_experiment(scene_file);
     if (!e.scene->mesh_file.empty())
       throw InputError(name + ": \"scene\" has a sheet from a file, but the sheets are the experiment's; use a family");
-    e.scene_text = text_of_file(scene_file);
     e.scene_cases = reader.count("scene_cases", e.cases);
     e.cut_time = reader.value<double>("cut_time");
     if (!(e.cut_time >= 0 && e.cut_time < e.scene->duration))
       throw InputError(name + ": \"cut_time\" must lie within the scene's duration");
   }
+  e.asked = text_of_what_was_asked(table, file.parent_path(), e);
   return e;
 }
 

@@ -44,11 +44,13 @@ struct Experiment {
   /// Sweeps to where the methods fail (harness/study/sweep.h) instead of cut families.
   struct Stability {
     std::vector<Sweep> sweeps;
-    std::string text;          ///< of the files that the points depend on
     double time_limit_s = 20;  ///< processor time of a point
   };
 
-  std::string stem;   ///< of the file: names the results folder and the plot
+  std::string stem;  ///< of the file: names the results folder and the plot
+  /// What was asked for, as a text that differs where rows could: the file without its comments and spaces, the files
+  /// that it names (those of programs apart), and the options of the command line.
+  std::string asked;
   std::string claim;  ///< that the experiment tests
   std::vector<std::string> sheets, cut_families;
   std::vector<int> resolutions;           ///< triangles of the uncut sheet, 2 n^2
@@ -68,9 +70,8 @@ struct Experiment {
   /// Each cut is made once more inside this running scene, after its first step that ends at `cut_time` or later. Sheet
   /// and resolution are the experiment's.
   std::optional<Scene> scene;
-  std::string scene_text;  ///< of its file
-  double cut_time = 0;     ///< s
-  int scene_cases = 0;     ///< only so many of the cases are cut in the scene
+  double cut_time = 0;  ///< s
+  int scene_cases = 0;  ///< only so many of the cases are cut in the scene
   std::optional<Robustness> robustness;
   std::optional<Accuracy> accuracy;
   std::optional<Stability> stability;

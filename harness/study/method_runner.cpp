@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "harness/base/own_seed.h"
 #include "harness/cases/cut_families.h"
@@ -19,8 +18,7 @@
 #include "harness/simulation/simulation.h"
 #include "harness/study/chill_caches.h"
 #include "harness/study/every_edge.h"
-#include "harness/study/progress.h"
-#include "harness/study/right_results.h"
+#include "harness/study/study.h"
 #include "harness/study/summary.h"
 #include "harness/study/worker.h"
 
@@ -43,24 +41,23 @@ struct Case {
   std::vector<oracle::ForcedCorner> forced;
 };
 
-class Runner {
+class Runner : public Study {
  public:
   Runner(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
          const RunOptions& options)
-      : experiment_(experiment),
-        options_(options),
-        file_(std::filesystem::path(options.out) / experiment.stem, identity(experiment, context, options)) {
+      : Study(experiment, context, options, {.columns = column_names(), .with_times = experiment.times}) {
     for (const Variant& v : variants_of(experiment, methods)) workers_.emplace_back(v);
     cut_options_.chord_tolerance = experiment.chord_tolerance;
   }
 
-  void run() {
+ private:
+  std::size_t case_count() override {
+    return experiment_.sheets.size() * experiment_.resolutions.size() * experiment_.cut_families.size() *
+           static_cast<std::size_t>(experiment_.cases);
+  }
+
+  void run_cases(Progress& progress) override {
     const auto cases = static_cast<std::size_t>(experiment_.cases);
-    const std::size_t groups =
-        experiment_.sheets.size() * experiment_.resolutions.size() * experiment_.cut_families.size();
-    Progress progress(experiment_.stem, groups * cases, options_.quiet);
-    if (!file_.note().empty() && !options_.quiet)
-      std::fprintf(stderr, "%s: %s\n", experiment_.stem.c_str(), file_.note().c_str());
     std::size_t item = 0;
     for (const auto& sheet : experiment_.sheets)
       for (int resolution : experiment_.resolutions) {
@@ -78,34 +75,8 @@ class Runner {
       }
   }
 
-  RecordFile& file() { return file_; }
-  const Summary& summary() const { return summary_; }
-
- private:
-  /// All that rows depend on, and which rows there are.
-  static std::string identity(const Experiment& e, const Context& context, const RunOptions& options) {
-    return nlohmann::json{context.identity(e.times),
-                          e.stem,
-                          e.sheets,
-                          e.cut_families,
-                          e.resolutions,
-                          identity_of_methods(e),
-                          e.seed,
-                          e.cases,
-                          e.repetitions,
-                          e.times,
-                          e.cold,
-                          e.quality,
-                          e.every_edge,
-                          e.chord_tolerance,
-                          e.scene_text,
-                          e.cut_time,
-                          e.scene_cases,
-                          e.eigenvalue_cases,
-                          e.own_cuts}
-               .dump() +
-           shard_line(options);
-  }
+  void print_summary() const override { summary_.print(experiment_.stem); }
+  bool all_ok() const override { return summary_.all_ok(); }
 
   void make_base(const std::string& sheet, int resolution) {
     start_scene(sheet, resolution);
@@ -305,9 +276,6 @@ class Runner {
     if (!cold) summary_.add(resolution, "every_edge", "", summary);
   }
 
-  const Experiment& experiment_;
-  const RunOptions& options_;
-  RecordFile file_;
   std::vector<Worker> workers_;
   CutOptions cut_options_;
   BaseSheet base_;
@@ -320,13 +288,7 @@ class Runner {
 
 bool run_methods(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
                  const RunOptions& options) {
-  Runner runner(experiment, methods, context, options);
-  runner.run();
-  runner.file().finish(context, experiment.stem, experiment.claim, options.command, experiment.seed);
-  if (!options.quiet) runner.summary().print(experiment.stem);
-  RightResults results;
-  for (const std::string& line : runner.file().lines()) results.add(Record(column_names(), line));
-  return results.report(experiment, options.quiet) && runner.summary().all_ok();
+  return Runner(experiment, methods, context, options).run();
 }
 
 }  // namespace cutbench

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
@@ -66,8 +67,16 @@ ProgramSettings program_in(const std::string& text) {
   return {text.substr(0, equals), text.substr(equals + 1), ".", {}};
 }
 
+/// The options that rows depend on. All are named here, so that a new one can't be forgotten.
+std::string text_of_options(const RunArguments& arguments) {
+  const auto& [experiments, methods, commands, sweeps, resolutions, cases, repetitions, jobs, seed, out, shard] =
+      arguments;
+  return nlohmann::json{methods, commands, sweeps, resolutions, cases, repetitions, seed}.dump();
+}
+
 Experiment read_part(const std::string& file, const RunArguments& arguments, const Context& context) {
   Experiment e = read_experiment(file);
+  e.asked += text_of_options(arguments);
   if (e.methods.empty())
     for (const MethodRow& row : all_methods()) e.methods.push_back({row.name, {}});
   std::vector<std::string> methods = arguments.methods;

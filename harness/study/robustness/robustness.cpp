@@ -2,20 +2,17 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <map>
 
 #include "harness/cases/adversarial.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/mesh_io.h"
 #include "harness/processes/isolated.h"
-#include "harness/records/record.h"
-#include "harness/study/progress.h"
-#include "harness/study/right_results.h"
+#include "harness/records/metrics.h"
 #include "harness/study/robustness/failing_case.h"
 #include "harness/study/robustness/robustness_case.h"
 #include "harness/study/robustness/robustness_summary.h"
+#include "harness/study/study.h"
 
 namespace cutbench {
 
@@ -31,20 +28,13 @@ struct Drawn {
   bool near_event = false;
 };
 
-std::string text_of_mesh(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-class Robustness {
+class Robustness : public Study {
  public:
   Robustness(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
              const RunOptions& options)
-      : experiment_(experiment),
+      : Study(experiment, context, options, {.columns = robustness_columns(), .with_times = false}),
         plan_(*experiment.robustness),
-        options_(options),
         folder_(std::filesystem::path(options.out) / experiment.stem),
-        file_(folder_, identity(experiment, context, options), robustness_columns()),
         isolation_{options.workers, plan_.time_limit_s} {
     for (const Variant& v : variants_of(experiment, methods)) contenders_.push_back(contender_of(v));
     if (plan_.cross_check) contenders_.push_back(cgal_check());
@@ -53,57 +43,35 @@ class Robustness {
     for (const char* family : adversarial_families()) families_.emplace_back(family);
   }
 
-  void run() {
-    if (!file_.note().empty() && !options_.quiet)
-      std::fprintf(stderr, "%s: %s\n", experiment_.stem.c_str(), file_.note().c_str());
+ private:
+  std::size_t case_count() override {
     const std::size_t sheets = experiment_.sheets.size() * experiment_.resolutions.size() + plan_.mesh_files.size();
     const std::size_t ours = options_.ours(0, sheets * static_cast<std::size_t>(experiment_.cases)).size();
-    Progress progress(experiment_.stem, ours * contenders_.size(), options_.quiet);
+    return ours * contenders_.size();
+  }
+
+  void run_cases(Progress& progress) override {
     for (const auto& sheet : experiment_.sheets)
       for (int resolution : experiment_.resolutions)
         run_sheet(sheet, make_sheet(sheet, squares_per_side(resolution)), progress);
     for (const auto& file : plan_.mesh_files) run_sheet(file.stem().string(), read_mesh(file), progress);
   }
 
-  RecordFile& file() { return file_; }
-
-  /// Why cuts of each method went wrong or were refused, as far as this process knows.
-  RightResults results() const {
-    RightResults results;
-    for (const std::string& line : file_.lines()) {
-      const Record row(robustness_columns(), line);
-      const auto count = [&row](Count::Kind kind) { return std::stoll(row.get(count_names[kind])); };
-      const std::int64_t right = count(Count::ok) + count(Count::deviated);
-      const auto why = last_reason_.find(row.get("method"));
-      results.add(row.get("method"), right, count(Count::tried) - count(Count::noop) - right,
-                  why == last_reason_.end() ? "" : why->second);
-    }
-    return results;
+  void add_row(const Record& row, RightResults& results) override {
+    RobustnessSummary::Row& sum = summary_.add();
+    sum.family = row.get("cut_family");
+    sum.sheet = row.get("sheet") + " " + row.get("resolution");
+    sum.method = row.get("method") + (row.get("parameter").empty() ? "" : " " + row.get("parameter"));
+    sum.ours = std::any_of(contenders_.begin(), contenders_.end(),
+                           [&](const Contender& c) { return c.variant && c.method == row.get("method"); });
+    for (std::size_t c = 0; c < count_names.size(); ++c) sum.count[c] = std::stoll(row.get(count_names[c]));
+    const std::int64_t right = sum.count[Count::ok] + sum.count[Count::deviated];
+    const auto why = last_reason_.find(row.get("method"));  // as far as this process knows
+    results.add(row.get("method"), right, sum.count[Count::tried] - sum.count[Count::noop] - right,
+                why == last_reason_.end() ? "" : why->second);
   }
-
-  /// Of all rows, also those that an interrupted run had written.
-  RobustnessSummary summary() const {
-    RobustnessSummary summary;
-    for (const std::string& line : file_.lines()) {
-      const Record row(robustness_columns(), line);
-      RobustnessSummary::Row& sum = summary.add();
-      sum.family = row.get("cut_family"), sum.sheet = row.get("sheet") + " " + row.get("resolution");
-      sum.method = row.get("method") + (row.get("parameter").empty() ? "" : " " + row.get("parameter"));
-      sum.ours = std::any_of(contenders_.begin(), contenders_.end(),
-                             [&](const Contender& c) { return c.variant && c.method == row.get("method"); });
-      for (std::size_t c = 0; c < count_names.size(); ++c) sum.count[c] = std::stoll(row.get(count_names[c]));
-    }
-    return summary;
-  }
-
- private:
-  static std::string identity(const Experiment& e, const Context& context, const RunOptions& options) {
-    std::string text = context.identity(false) + e.stem + std::to_string(e.seed) + "," + std::to_string(e.cases) + "," +
-                       std::to_string(e.chord_tolerance) + "," + std::to_string(e.robustness->time_limit_s);
-    for (const auto& program : e.programs) text += fingerprint_of_program(program);
-    for (const auto& file : e.robustness->mesh_files) text += text_of_mesh(file);
-    return text + shard_line(options);
-  }
+  void print_summary() const override { summary_.print(experiment_.stem, experiment_.seed); }
+  bool all_ok() const override { return summary_.all_ok(); }
 
   void run_sheet(const std::string& name, const MeshData& mesh, Progress& progress) {
     sheet_name_ = name, mesh_ = mesh, sheet_ = Sheet(mesh);
@@ -217,11 +185,9 @@ class Robustness {
       throw InputError(folder.string() + ": failing cases can't be written; check that it may be written and has room");
   }
 
-  const Experiment& experiment_;
   const Experiment::Robustness& plan_;
-  const RunOptions& options_;
   std::filesystem::path folder_;
-  RecordFile file_;
+  RobustnessSummary summary_;
   Isolation isolation_;
   CutOptions cut_options_;
   std::vector<Contender> contenders_;
@@ -241,8 +207,8 @@ class Robustness {
 const std::vector<std::string>& robustness_columns() {
   static const std::vector<std::string> columns = [] {
     std::vector<std::string> names = key_column_names();
-    names.insert(names.end(), count_names.begin(), count_names.end());
-    names.emplace_back("slowest_us");
+    const std::vector<std::string> counts = columns_of({Group::robustness});
+    names.insert(names.end(), counts.begin(), counts.end());
     return names;
   }();
   return columns;
@@ -250,12 +216,7 @@ const std::vector<std::string>& robustness_columns() {
 
 bool run_robustness(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
                     const RunOptions& options) {
-  Robustness robustness(experiment, methods, context, options);
-  robustness.run();
-  robustness.file().finish(context, experiment.stem, experiment.claim, options.command, experiment.seed);
-  const RobustnessSummary summary = robustness.summary();
-  if (!options.quiet) summary.print(experiment.stem, experiment.seed);
-  return robustness.results().report(experiment, options.quiet) && summary.all_ok();
+  return Robustness(experiment, methods, context, options).run();
 }
 
 }  // namespace cutbench

@@ -6,10 +6,9 @@
 
 #include "harness/cases/cut_families.h"
 #include "harness/processes/isolated.h"
-#include "harness/records/record.h"
-#include "harness/study/progress.h"
 #include "harness/study/stability/placed_cuts.h"
 #include "harness/study/stability/try_point.h"
+#include "harness/study/study.h"
 
 namespace cutbench {
 
@@ -23,15 +22,12 @@ bool wants(const std::vector<T>& some, const T& one) {
   return some.empty() || std::find(some.begin(), some.end(), one) != some.end();
 }
 
-class StabilityRun {
+class StabilityRun : public Study {
  public:
   StabilityRun(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
                const RunOptions& options)
-      : experiment_(experiment),
-        options_(options),
-        variants_(variants_of(experiment, methods)),
-        file_(std::filesystem::path(options.out) / experiment.stem, identity(experiment, context, options),
-              stability_columns(), stability_key_columns()) {
+      : Study(experiment, context, options, {.columns = stability_columns(), .keys = stability_key_columns()}),
+        variants_(variants_of(experiment, methods)) {
     std::vector<std::string> cuts(placed_cuts().begin(), placed_cuts().end());
     cuts.insert(cuts.end(), cut_families().begin(), cut_families().end());
     for (const Sweep& sweep : experiment.stability->sweeps)
@@ -39,51 +35,39 @@ class StabilityRun {
         check_names({point.cut}, cuts, experiment.stem + ", sweep \"" + sweep.name + "\": cut");
   }
 
-  void run() {
-    if (!file_.note().empty() && !options_.quiet)
-      std::fprintf(stderr, "%s: %s\n", experiment_.stem.c_str(), file_.note().c_str());
-    const std::vector<Trial> trials = missing_trials();
-    Progress progress(experiment_.stem, trials.size(), options_.quiet);
-    for (std::size_t begin = 0; begin < trials.size(); begin += batch) {
-      const std::size_t n = std::min(batch, trials.size() - begin);
+ private:
+  std::size_t case_count() override {
+    trials_ = missing_trials();
+    return trials_.size();
+  }
+
+  void run_cases(Progress& progress) override {
+    for (std::size_t begin = 0; begin < trials_.size(); begin += batch) {
+      const std::size_t n = std::min(batch, trials_.size() - begin);
       const SharedArray<TrialResult> results(n);
       const auto fates = run_isolated(
           n, {options_.workers, experiment_.stability->time_limit_s},
-          [&](std::size_t i) { try_point(trials[begin + i], results[i]); },
+          [&](std::size_t i) { try_point(trials_[begin + i], results[i]); },
           [&](std::size_t begun) { progress.show(begun); });
-      for (std::size_t i = 0; i < n; ++i) append(trials[begin + i], results[i], fates[i]);
+      for (std::size_t i = 0; i < n; ++i) append(trials_[begin + i], results[i], fates[i]);
       progress.step(n);
     }
   }
 
-  RecordFile& file() { return file_; }
-
-  /// Of all rows, also those that an interrupted run had written.
-  bool print_summary() const {
-    std::map<std::string, std::map<std::string, std::size_t>> counts;
-    bool ok = true;
-    for (const std::string& line : file_.lines()) {
-      const Record row(stability_columns(), line);
-      ++counts[row.get("sweep")][row.get("verdict")];
-      ok &= row.get("verdict") != "crashed" && row.get("verdict") != "failed" && row.get("verdict") != "timed_out";
-    }
+  void add_row(const Record& row, RightResults&) override {
+    const std::string& verdict = row.get("verdict");
+    ++counts_[row.get("sweep")][verdict];
+    all_ok_ &= verdict != "crashed" && verdict != "failed" && verdict != "timed_out";
+  }
+  void print_summary() const override {
     for (const Sweep& sweep : experiment_.stability->sweeps) {
-      if (options_.quiet) break;
       std::printf("%-24s", sweep.name.c_str());
-      for (const auto& [verdict, n] : counts[sweep.name]) std::printf(" %zu %s", n, verdict.c_str());
+      if (const auto counts = counts_.find(sweep.name); counts != counts_.end())
+        for (const auto& [verdict, n] : counts->second) std::printf(" %zu %s", n, verdict.c_str());
       std::printf("\n");
     }
-    return ok;
   }
-
- private:
-  static std::string identity(const Experiment& e, const Context& context, const RunOptions& options) {
-    std::string text = context.identity() + e.stem + e.stability->text + std::to_string(e.seed) + "," +
-                       std::to_string(e.cases) + "," + std::to_string(e.chord_tolerance);
-    for (const int resolution : e.resolutions) text += "," + std::to_string(resolution);
-    for (const auto& entry : e.methods) text += "," + entry.method;
-    return text + shard_line(options);
-  }
+  bool all_ok() const override { return all_ok_; }
 
   /// Those of the shard that are not in the file yet. The points of a sweep stay together, methods in turn.
   std::vector<Trial> missing_trials() {
@@ -151,10 +135,10 @@ class StabilityRun {
     file_.append(row);
   }
 
-  const Experiment& experiment_;
-  const RunOptions& options_;
   std::vector<Variant> variants_;
-  RecordFile file_;
+  std::vector<Trial> trials_;  // those to run, which point into the experiment and the variants
+  std::map<std::string, std::map<std::string, std::size_t>> counts_;  // by sweep and verdict
+  bool all_ok_ = true;
   std::map<std::tuple<std::string, int, std::string, double, double, double, double, BendingKind>, double> uncut_steps_;
 };
 
@@ -175,10 +159,7 @@ const std::vector<std::string>& stability_columns() {
 
 bool run_stability(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
                    const RunOptions& options) {
-  StabilityRun run(experiment, methods, context, options);
-  run.run();
-  run.file().finish(context, experiment.stem, experiment.claim, options.command, experiment.seed);
-  return run.print_summary();
+  return StabilityRun(experiment, methods, context, options).run();
 }
 
 }  // namespace cutbench
