@@ -5,6 +5,7 @@
 
 #include "experiments/commands/command.h"
 #include "experiments/commands/method_options.h"
+#include "harness/files/scene_file.h"
 #include "harness/files/whole_file.h"
 
 namespace cutbench {

@@ -6,7 +6,8 @@
 #include "experiments/commands/command.h"
 #include "experiments/commands/method_options.h"
 #include "harness/base/errors.h"
-#include "harness/base/toml_reader.h"
+#include "harness/files/scene_file.h"
+#include "harness/files/toml_reader.h"
 #include "harness/files/whole_file.h"
 
 namespace cutbench {

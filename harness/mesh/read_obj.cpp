@@ -1,10 +1,10 @@
-#include "harness/mesh/read_obj.h"
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <map>
 #include <tuple>
+
+#include "harness/mesh/mesh_text.h"
 
 namespace cutbench {
 

@@ -6,8 +6,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "harness/base/toml_reader.h"
 #include "harness/cases/cut_families.h"
+#include "harness/files/toml_reader.h"
 #include "harness/mesh/families.h"
 #include "harness/problems/common/problem.h"
 

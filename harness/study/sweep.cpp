@@ -5,6 +5,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "harness/files/scene_file.h"
+
 namespace cutbench {
 
 namespace {

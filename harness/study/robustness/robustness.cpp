@@ -7,8 +7,8 @@
 #include <map>
 
 #include "harness/cases/adversarial.h"
+#include "harness/files/mesh_file.h"
 #include "harness/mesh/families.h"
-#include "harness/mesh/mesh_io.h"
 #include "harness/processes/isolated.h"
 #include "harness/records/record.h"
 #include "harness/study/progress.h"
