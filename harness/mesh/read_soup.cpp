@@ -12,7 +12,7 @@ namespace cutbench {
 
 namespace {
 
-using Points = std::vector<Kernel::Point_3>;
+using SpacePoints = std::vector<Kernel::Point_3>;
 
 /// CGAL gives a face the size the file announces before it reads it: a nonsensical size must not ask for the memory.
 struct Face : std::vector<std::size_t> {
@@ -23,7 +23,7 @@ struct Face : std::vector<std::size_t> {
 };
 using Faces = std::vector<Face>;
 
-MeshData from_soup(const Points& points, const Faces& faces, const std::string& name) {
+MeshData from_soup(const SpacePoints& points, const Faces& faces, const std::string& name) {
   MeshData mesh;
   for (const Kernel::Point_3& p : points) mesh.deformed.push_back({p.x(), p.y(), p.z()});
   for (const Face& face : faces) {
@@ -69,7 +69,7 @@ bool has_ply_header(std::istream& in) {
 
 template <class Reader>
 MeshData read_soup(std::istream& in, const std::string& name, const char* format, Reader read) {
-  Points points;
+  SpacePoints points;
   Faces faces;
   bool complete = false;
   try {
@@ -86,7 +86,7 @@ MeshData read_soup(std::istream& in, const std::string& name, const char* format
 
 MeshData read_off(const std::string& text, const std::string& name) {
   std::istringstream in(text);
-  return read_soup(in, name, "OFF", [&](std::istream& s, Points& points, Faces& faces) {
+  return read_soup(in, name, "OFF", [&](std::istream& s, SpacePoints& points, Faces& faces) {
     if (announces_more_than_it_holds(s, text.size())) return false;
     return CGAL::IO::read_OFF(s, points, faces, CGAL::parameters::verbose(false));
   });
@@ -94,7 +94,7 @@ MeshData read_off(const std::string& text, const std::string& name) {
 
 MeshData read_ply(const std::string& text, const std::string& name) {
   std::istringstream in(text);
-  return read_soup(in, name, "PLY", [](std::istream& s, Points& points, Faces& faces) {
+  return read_soup(in, name, "PLY", [](std::istream& s, SpacePoints& points, Faces& faces) {
     return has_ply_header(s) && CGAL::IO::read_PLY(s, points, faces, CGAL::parameters::verbose(false));
   });
 }
