@@ -2,8 +2,8 @@
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
 
+#include "harness/files/mesh_file.h"
 #include "harness/mesh/families.h"
-#include "harness/mesh/mesh_io.h"
 #include "tests/bad_input.h"
 
 namespace cutbench {

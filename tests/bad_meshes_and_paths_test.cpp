@@ -2,6 +2,8 @@
 #include <cmath>
 #include <random>
 
+#include "harness/files/mesh_file.h"
+#include "harness/files/path_file.h"
 #include "harness/mesh/families.h"
 #include "harness/path/curve.h"
 #include "tests/bad_input.h"

@@ -1,4 +1,5 @@
 // Bad input in files of scenes and experiments, and what only the cut or the run finds out.
+#include "harness/files/mesh_file.h"
 #include "harness/mesh/families.h"
 #include "harness/records/context.h"
 #include "harness/study/experiment.h"

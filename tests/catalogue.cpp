@@ -6,8 +6,10 @@
 #include <fstream>
 #include <limits>
 
+#include "harness/files/mesh_file.h"
+#include "harness/files/path_file.h"
+#include "harness/mesh/check_and_repair.h"
 #include "harness/mesh/families.h"
-#include "harness/mesh/mesh_io.h"
 
 namespace cutbench {
 

@@ -1,3 +1,5 @@
+#include "harness/mesh/check_and_repair.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <vector>
 
 #include "harness/mesh/families.h"
-#include "harness/mesh/mesh_io.h"
 #include "tests/mesh_checks.h"
 
 namespace cutbench {

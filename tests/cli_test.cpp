@@ -53,7 +53,7 @@ TEST_F(Cli, HelpAndVersion) {
   const auto version = run("--version");
   EXPECT_EQ(version.code, 0) << version.error;
   for (const std::string& part :
-       {std::string("cutbench, suite version ") + suite_version + "\ncommit ", std::string("\ncompiled by ")})
+       {std::string(", suite version ") + suite_version + "\ncommit ", std::string("\ncompiled by ")})
     EXPECT_NE(version.out.find(part), std::string::npos) << version.out;
 }
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "harness/mesh/mesh_io.h"
+#include "harness/mesh/check_and_repair.h"
 #include "harness/mesh/quality.h"
 
 namespace cutbench {

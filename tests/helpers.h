@@ -16,11 +16,12 @@
 
 #include "harness/base/random.h"
 #include "harness/cut/cut.h"
+#include "harness/files/mesh_file.h"
+#include "harness/files/whole_file.h"
 #include "harness/judge/judged_sheet.h"
 #include "harness/judge/oracle_request.h"
 #include "harness/judge/same_sheet.h"
 #include "harness/mesh/families.h"
-#include "harness/mesh/mesh_io.h"
 #include "harness/mesh/sheet.h"
 #include "methods/registry.h"
 

@@ -6,8 +6,8 @@
 #include <regex>
 #include <thread>
 
+#include "harness/files/mesh_file.h"
 #include "harness/mesh/families.h"
-#include "harness/mesh/mesh_io.h"
 #include "tests/mesh_checks.h"
 #include "tests/program.h"
 

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/study/shard_of.h"
+#include "harness/records/shard_of.h"
 #include "tests/helpers.h"
 #include "tests/program.h"
 

@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-#include "harness/mesh/mesh_io.h"
+#include "harness/mesh/check_and_repair.h"
 #include "harness/mesh/predicates.h"
 
 namespace cutbench {

@@ -1,4 +1,3 @@
-#include "harness/mesh/mesh_io.h"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/files/mesh_file.h"
 #include "harness/mesh/families.h"
 #include "tests/mesh_checks.h"
 

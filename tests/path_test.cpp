@@ -6,6 +6,7 @@
 #include <fstream>
 #include <limits>
 
+#include "harness/files/path_file.h"
 #include "harness/path/curve.h"
 #include "tests/helpers.h"
 #include "tests/mesh_checks.h"

@@ -2,6 +2,8 @@
 // deformed corners are known is somewhere in space, and picked there it must come back.
 #include "harness/path/pick.h"
 
+#include "harness/files/mesh_file.h"
+#include "harness/files/scene_file.h"
 #include "harness/mesh/families.h"
 #include "harness/simulation/simulation.h"
 #include "methods/registry.h"

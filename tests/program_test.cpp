@@ -5,6 +5,7 @@
 
 #include "harness/base/errors.h"
 #include "harness/cases/cut_families.h"
+#include "harness/files/path_file.h"
 #include "tests/helpers.h"
 #include "tests/program.h"
 

@@ -14,6 +14,7 @@
 #include <set>
 
 #include "harness/cases/adversarial.h"
+#include "harness/files/path_file.h"
 #include "harness/mesh/families.h"
 #include "harness/processes/isolated.h"
 #include "harness/records/record.h"

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "harness/cases/cut_families.h"
+#include "harness/files/path_file.h"
 #include "harness/mesh/families.h"
 #include "harness/path/curve.h"
 #include "methods/registry.h"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "experiments/advice/scene_run.h"
-#include "harness/base/toml_reader.h"
+#include "harness/files/toml_reader.h"
 #include "harness/mesh/families.h"
 
 namespace cutbench {

@@ -11,9 +11,10 @@
 
 #include "experiments/program/options.h"
 #include "harness/cases/cut_families.h"
+#include "harness/files/mesh_file.h"
+#include "harness/files/path_file.h"
 #include "harness/judge/oracle_request.h"
 #include "harness/mesh/families.h"
-#include "harness/mesh/mesh_io.h"
 #include "harness/study/experiment.h"
 #include "methods/registry.h"
 

@@ -4,8 +4,9 @@
 #include <cstdio>
 #include <exception>
 
+#include "harness/files/mesh_file.h"
+#include "harness/files/path_file.h"
 #include "harness/judge/oracle_request.h"
-#include "harness/mesh/mesh_io.h"
 #include "harness/mesh/tolerances.h"
 #include "harness/study/robustness/cgal_check.h"
 

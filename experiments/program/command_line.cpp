@@ -80,7 +80,7 @@ Command add_method_list(Options& app, bool& as_json) {
 
 std::string version() {
   const Context context = gather_context();
-  std::string text = std::string("cutbench, suite version ") + suite_version + "\ncommit " +
+  std::string text = std::string("cutbench " CUTBENCH_VERSION ", suite version ") + suite_version + "\ncommit " +
                      context.commit.value_or("unknown") + (context.dirty.value_or(false) ? ", with changes" : "");
   return text + "\ncompiled by " + context.compiler + ", " + context.build_type + ", " + context.flags;
 }

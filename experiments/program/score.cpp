@@ -3,9 +3,11 @@
 #include <cstdio>
 #include <iostream>
 
+#include "harness/files/mesh_file.h"
+#include "harness/files/path_file.h"
+#include "harness/files/whole_file.h"
 #include "harness/judge/assessment.h"
 #include "harness/judge/result_svg.h"
-#include "harness/mesh/mesh_io.h"
 #include "harness/records/report_json.h"
 #include "methods/registry.h"
 

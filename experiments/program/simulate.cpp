@@ -11,9 +11,10 @@
 #include "experiments/program/step_summary.h"
 #include "harness/cut/cut_all.h"
 #include "harness/fem/elements/bending_kinds.h"
-#include "harness/mesh/mesh_io.h"
+#include "harness/files/frame_writer.h"
+#include "harness/files/mesh_file.h"
+#include "harness/files/whole_file.h"
 #include "harness/records/context.h"
-#include "harness/simulation/frame_writer.h"
 #include "harness/simulation/simulation.h"
 
 namespace cutbench {
@@ -74,7 +75,7 @@ std::string description(const Scene& scene, const Simulation& motion, const Simu
       {"scene", scene.stem},
       {"effect", scene.effect},
       {"method", options.method},
-      {"sheet", scene.family.empty() ? scene.mesh_file.string() : scene.family},
+      {"sheet", scene.family.empty() ? scene.mesh_file : scene.family},
       {"triangles_before", triangles_before},
       {"triangles_after", motion.sheet().triangle_count()},
       {"unknowns", scene.physics.dimension * static_cast<int>(motion.sheet().deformed_count())},
@@ -176,7 +177,7 @@ bool simulate(const Scene& scene, CuttingMethod& method, const SimulateOptions& 
   if (frames) {
     frames->finish(sheet);
     const std::filesystem::path folder = options.frames;
-    if (motion->budget()) motion->budget()->write(folder / "energy.csv");
+    if (motion->budget()) WholeFile(folder / "energy.csv", motion->budget()->csv()).place();
     WholeFile(folder / "simulation.json", description(scene, *motion, options, triangles_before)).place();
   }
   if (!options.out.empty()) write_mesh(sheet.to_mesh_data(), options.out);

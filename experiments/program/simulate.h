@@ -12,7 +12,7 @@ struct SimulateOptions {
   std::string method;     ///< as a caption names it: with its parameter
   std::string command;    ///< as given
   std::string out;        ///< the sheet as it ends up; empty: not written
-  std::string frames;     ///< folder of the time series (harness/simulation/frame_writer.h), with simulation.json and
+  std::string frames;     ///< folder of the time series (harness/files/frame_writer.h), with simulation.json and
                           ///< energy.csv (harness/simulation/energy_budget.h); empty: none
   int every = 8;          ///< steps from frame to frame
   std::string report;     ///< JSON file of what the steps cost; empty: not written

@@ -10,9 +10,10 @@
 #include "harness/base/errors.h"
 #include "harness/cases/adversarial.h"
 #include "harness/cut/cut_all.h"
+#include "harness/files/mesh_file.h"
+#include "harness/files/path_file.h"
 #include "harness/judge/assessment.h"
 #include "harness/mesh/families.h"
-#include "harness/mesh/mesh_io.h"
 #include "methods/registry.h"
 #include "tests/catalogue.h"
 

@@ -1,3 +1,5 @@
+#include "harness/mesh/check_and_repair.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -5,7 +7,6 @@
 #include <sstream>
 
 #include "harness/base/union_find.h"
-#include "harness/mesh/mesh_io.h"
 #include "harness/mesh/predicates.h"
 
 namespace cutbench {

@@ -1,5 +1,3 @@
-#include "harness/mesh/read_obj.h"
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <tuple>
 
 #include "harness/base/number_from_chars.h"
+#include "harness/mesh/mesh_text.h"
 
 namespace cutbench {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "harness/base/union_find.h"
-#include "harness/mesh/mesh_io.h"
+#include "harness/mesh/mesh_text.h"
 #include "harness/mesh/quality.h"
 
 namespace cutbench {
@@ -36,26 +36,6 @@ class Text {
  private:
   std::string text_;
 };
-
-std::string obj(const MeshData& mesh) {
-  Text text;
-  for (const Point3& p : mesh.deformed) text << "v " << p << '\n';
-  for (const Point2& p : mesh.rest) text << "vt " << p << '\n';
-  for (const auto& triangle : mesh.triangles) {
-    text << 'f';
-    for (std::int32_t v : triangle) text << ' ' << v + 1 << '/' << v + 1;
-    text << '\n';
-  }
-  return text.str();
-}
-
-std::string off(const MeshData& mesh) {
-  Text text;
-  text << "OFF\n" << mesh.deformed.size() << ' ' << mesh.triangles.size() << " 0\n";
-  for (const Point3& p : mesh.deformed) text << p << '\n';
-  for (const auto& [a, b, c] : mesh.triangles) text << "3 " << a << ' ' << b << ' ' << c << '\n';
-  return text.str();
-}
 
 /// Per triangle, the number of its piece: triangles that share a vertex are of one piece.
 std::vector<std::int32_t> pieces(const MeshData& mesh) {
@@ -90,7 +70,29 @@ double largest_strain(const MeshData& mesh, const std::array<std::int32_t, 3>& t
   return std::max(std::abs(std::sqrt(mean + spread) - 1), std::abs(std::sqrt(std::max(0.0, mean - spread)) - 1));
 }
 
-std::string vtu(const MeshData& mesh) {
+}  // namespace
+
+std::string obj_text(const MeshData& mesh) {
+  Text text;
+  for (const Point3& p : mesh.deformed) text << "v " << p << '\n';
+  for (const Point2& p : mesh.rest) text << "vt " << p << '\n';
+  for (const auto& triangle : mesh.triangles) {
+    text << 'f';
+    for (std::int32_t v : triangle) text << ' ' << v + 1 << '/' << v + 1;
+    text << '\n';
+  }
+  return text.str();
+}
+
+std::string off_text(const MeshData& mesh) {
+  Text text;
+  text << "OFF\n" << mesh.deformed.size() << ' ' << mesh.triangles.size() << " 0\n";
+  for (const Point3& p : mesh.deformed) text << p << '\n';
+  for (const auto& [a, b, c] : mesh.triangles) text << "3 " << a << ' ' << b << ' ' << c << '\n';
+  return text.str();
+}
+
+std::string vtu_text(const MeshData& mesh) {
   Text text;
   auto array = [&text](std::string_view type, std::string_view name, int components, const auto& values, auto put) {
     text << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\"" << components
@@ -118,26 +120,5 @@ std::string vtu(const MeshData& mesh) {
   text << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
   return text.str();
 }
-
-using Format = std::string (*)(const MeshData&);
-
-Format format_of(const std::filesystem::path& path) {
-  const std::string extension = path.extension().string();
-  if (extension == ".obj") return obj;
-  if (extension == ".off") return off;
-  if (extension == ".vtu") return vtu;
-  throw InputError(path.string() + ": unknown mesh format; use .obj, .off or .vtu");
-}
-
-}  // namespace
-
-void check_mesh_place(const std::filesystem::path& path, const std::string& what) {
-  format_of(path);
-  check_writable(path, what);
-}
-
-WholeFile mesh_file(const MeshData& mesh, const std::filesystem::path& path) { return {path, format_of(path)(mesh)}; }
-
-void write_mesh(const MeshData& mesh, const std::filesystem::path& path) { mesh_file(mesh, path).place(); }
 
 }  // namespace cutbench

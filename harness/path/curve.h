@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
+#include <string>
 #include <vector>
 
 #include "harness/mesh/types.h"
@@ -38,10 +38,5 @@ void flatten(const Curve& curve, double tolerance, double snap, Polyline& out);
 /// Throws InputError: too few points for the kind, a closed Bezier that doesn't end where it began, NaN or infinity,
 /// or a coordinate beyond 1e60 (the exact predicates multiply four of them). `name` says where the curve comes from.
 void check_curve(const Curve& curve, const std::string& name);
-
-/// Reads `{"cuts": [{"bezier": [[x,y], ...]}, {"polyline": [[x,y], ...], "closed": true}]}`. Throws InputError.
-std::vector<Curve> read_path(const std::filesystem::path& file);
-/// Whole or not at all. Throws OutputError.
-void write_path(const std::vector<Curve>& cuts, const std::filesystem::path& file);
 
 }  // namespace cutbench

@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "harness/mesh/sheet.h"
@@ -53,9 +52,5 @@ class Picker {
 /// Throws InputError: too few points for the kind, a closed Bezier that doesn't end where it began, no direction, or a
 /// number that is not finite or beyond 1e60. `name` says where the curve comes from.
 void check_picks(const PickedCurve& curve, const std::string& name);
-
-/// Reads a path file like read_path(), in which cuts may have "space": "world"; their points are [x, y, z] or
-/// {"origin": [x, y, z], "direction": [x, y, z]}. Throws InputError.
-std::vector<std::variant<Curve, PickedCurve>> read_path_with_picks(const std::filesystem::path& file);
 
 }  // namespace cutbench

@@ -9,8 +9,9 @@
 
 #include "harness/base/errors.h"
 #include "harness/cut/cut_program.h"
+#include "harness/files/mesh_file.h"
+#include "harness/files/path_file.h"
 #include "harness/judge/assessment.h"
-#include "harness/mesh/mesh_io.h"
 #include "harness/path/cut_failed.h"
 #include "harness/programs/adopt.h"
 

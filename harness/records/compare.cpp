@@ -10,7 +10,7 @@
 
 #include "harness/base/errors.h"
 #include "harness/base/json_reader.h"
-#include "harness/base/toml_reader.h"
+#include "harness/files/toml_reader.h"
 #include "harness/files/whole_file.h"
 
 namespace cutbench {

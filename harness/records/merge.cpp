@@ -11,7 +11,7 @@
 #include "harness/base/errors.h"
 #include "harness/files/whole_file.h"
 #include "harness/records/record.h"
-#include "harness/study/shard_of.h"
+#include "harness/records/shard_of.h"
 
 namespace cutbench {
 
@@ -117,7 +117,7 @@ class Table {
     return result;
   }
 
-  /// Of work items, each of which is in one shard (harness/study/shard_of.h).
+  /// Of work items, each of which is in one shard (harness/records/shard_of.h).
   std::vector<Fields> dealt(const std::vector<Shard>& shards) const {
     std::vector<std::vector<std::span<const Fields>>> hands;
     for (const Shard& shard : shards) hands.push_back(items(shard.rows));

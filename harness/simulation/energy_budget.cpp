@@ -5,8 +5,6 @@
 #include <cstdio>
 #include <string>
 
-#include "harness/files/whole_file.h"
-
 namespace cutbench {
 
 namespace {
@@ -122,7 +120,7 @@ std::string EnergyBudget::fault() const {
   return {};
 }
 
-void EnergyBudget::write(const std::filesystem::path& file) const {
+std::string EnergyBudget::csv() const {
   std::string text =
       "time_s,membrane_j,bending_j,kinetic_j,potential_j,pin_work_j,damping_j,numerical_loss_j,jumps_j,remainder_j\n";
   for (const BudgetRow& r : rows_) {
@@ -132,7 +130,7 @@ void EnergyBudget::write(const std::filesystem::path& file) const {
                   r.numerical_loss, r.jumps, r.remainder);
     text += line;
   }
-  WholeFile(file, text).place();
+  return text;
 }
 
 template void EnergyBudget::add_step(Model<2>&, const State&, const State&, double);

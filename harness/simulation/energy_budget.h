@@ -19,7 +19,6 @@
 #pragma once
 
 #include <algorithm>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -72,8 +71,7 @@ class EnergyBudget {
   Gains gains() const;
   /// What exceeds its bound, in words; empty: nothing.
   std::string fault() const;
-  /// CSV. Throws OutputError.
-  void write(const std::filesystem::path& file) const;
+  std::string csv() const;  ///< a row for each moment, under a head
 
  private:
   /// The largest rise over any span.

@@ -1,30 +1,8 @@
 // A scene: a sheet, what it is made of, what holds it and pulls at it, how it is stepped and solved, and the cuts it
 // gets. SI units; a file names the one effect it shows and its truth.
-//
-//   effect = "..."     truth = "..."     duration = 1.0
-//   [sheet]       family, size, resolution | file
-//   [material]    density, stiffness, poisson, bending, mass_damping, stiffness_damping
-//   [physics]     dimension = 2|3, plane = "stress"|"strain", strain = "corotational"|"linear"|"green"|"springs",
-//                 stress_stiffness = "none"|"positive"|"full" (default: positive), bending = of bending_names,
-//                 mass = "lumped"|"consistent"|"stabilised"|"scaled", mass_limit = 1 (of the last two: harness/fem/
-//                 physics.h), gravity = [x, y, z],
-//                 active_radius (m: from the first cut on, what is farther from all cuts in rest space stays where it is,
-//                 and all but two rings of vertices of it are left out; pins there go on; what a method makes between
-//                 vertices that stay is free)
-//   [[pins]]      near = [x, y] | box = [[x0, y0], [x1, y1]]; axes = "xyz", displacement, velocity = [x, y, z]
-//   [[tractions]] box, force = [x, y, z]
-//   [integrator]  name = "backward_euler"|"midpoint"|"symplectic_euler"|"xpbd"|"equilibrium", step, newton,
-//                 sweeps = 1 (of xpbd, per step; it uses no [solver] and no stress_stiffness)
-//   [solver]      name, tolerance, max_iterations
-//   [[cuts]]      time; bezier | polyline = [[x, y], ...], closed = true, speed | family, seed, case
-//                 space = "world": the points are picked on the sheet as it is at that time (harness/path/pick.h), each
-//                 [x, y, z], or a ray {origin = [x, y, z], direction = [x, y, z]}
-//
-// Omitted keys have the defaults below. In a 2D scene vectors may omit z. Boxes may be infinite.
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <limits>
 #include <optional>
 #include <string>
@@ -59,11 +37,11 @@ struct Scene {
   std::string effect;  ///< the one effect it shows
   std::string truth;   ///< what it is measured against
 
-  std::string family = "grid";      ///< of sheet_families(), scaled to `size`; empty, and instead:
-  std::filesystem::path mesh_file;  ///< a sheet read from a file, resolved against the scene's folder
-  std::optional<MeshData> mesh;     ///< instead of both, given by the program
-  double size = 1;                  ///< m: side of the square
-  int resolution = 800;             ///< triangles; an experiment may ask for others
+  std::string family = "grid";   ///< of sheet_families(), scaled to `size`
+  std::string mesh_file;         ///< where `mesh` was read from a file: its name, resolved against the scene's folder
+  std::optional<MeshData> mesh;  ///< instead of the family
+  double size = 1;               ///< m: side of the square
+  int resolution = 800;          ///< triangles; an experiment may ask for others
 
   Material material;
   Physics physics;
@@ -81,11 +59,7 @@ struct Scene {
   std::vector<Cut> cuts;
 };
 
-/// Throws InputError: unreadable, not TOML, unknown keys (with the nearest known one), values out of range,
-/// contradictions.
-Scene read_scene(const std::filesystem::path& file);
-
-/// The sheet before any cut. Throws InputError where its file is not one.
+/// The sheet before any cut.
 MeshData mesh_of(const Scene& scene);
 
 /// The pins, those near a point as boxes without extent round the vertex nearest to it in rest space, and so round all

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "harness/base/toml_reader.h"
 #include "harness/cases/cut_families.h"
 #include "harness/fem/solvers/solver_table.h"
+#include "harness/files/toml_reader.h"
 #include "harness/mesh/families.h"
 #include "harness/problems/common/problem.h"
 

@@ -7,6 +7,7 @@
 
 #include "harness/fem/elements/bending_kinds.h"
 #include "harness/fem/solvers/solver_table.h"
+#include "harness/files/scene_file.h"
 
 namespace cutbench {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/base/toml_reader.h"
+#include "harness/files/toml_reader.h"
 #include "harness/simulation/scene.h"
 
 namespace cutbench {

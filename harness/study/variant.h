@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "harness/cut/method_row.h"
+#include "harness/records/shard_of.h"
 #include "harness/study/experiment.h"
-#include "harness/study/shard_of.h"
 
 namespace cutbench {
 

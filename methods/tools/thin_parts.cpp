@@ -55,9 +55,7 @@ class Merging {
   struct Thin {
     double ratio;
     std::size_t cell;
-    bool operator<(const Thin& other) const {
-      return std::tie(other.ratio, other.cell) < std::tie(ratio, cell);
-    }
+    bool operator<(const Thin& other) const { return std::tie(other.ratio, other.cell) < std::tie(ratio, cell); }
   };
 
   void take(const std::vector<TriangleIndex>& parts) {

@@ -1,7 +1,7 @@
 // `cutbench` with one method more: the Delaunay split, whose largest angles are then flipped away once.
-#include "experiments/program/command_line.h"
-#include "harness/cut/delaunay_split.h"
-#include "harness/mesh/one_ring.h"
+#include <cutbench/command_line.h>
+#include <cutbench/cut/delaunay_split.h>
+#include <cutbench/mesh/one_ring.h>
 
 namespace {
 

@@ -11,8 +11,9 @@
 #include <fstream>
 #include <iostream>
 
+#include "harness/files/mesh_file.h"
+#include "harness/files/path_file.h"
 #include "harness/judge/judged_sheet.h"
-#include "harness/mesh/mesh_io.h"
 #include "harness/mesh/predicates.h"
 #include "methods/registry.h"
 

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "harness/mesh/mesh_io.h"
+#include "harness/files/mesh_file.h"
 #include "tests/catalogue.h"
 
 namespace {

@@ -5,6 +5,7 @@
 
 #include "experiments/program/commands/command.h"
 #include "experiments/program/commands/method_options.h"
+#include "harness/files/scene_file.h"
 #include "harness/files/whole_file.h"
 
 namespace cutbench {

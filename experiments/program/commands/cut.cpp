@@ -11,9 +11,11 @@
 #include "harness/base/errors.h"
 #include "harness/base/stop_watch.h"
 #include "harness/cut/cut_all.h"
+#include "harness/files/mesh_file.h"
+#include "harness/files/path_file.h"
+#include "harness/files/whole_file.h"
 #include "harness/judge/assessment.h"
 #include "harness/judge/judged_sheet.h"
-#include "harness/mesh/mesh_io.h"
 #include "harness/path/pick.h"
 #include "harness/records/report_json.h"
 

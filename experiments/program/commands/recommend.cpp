@@ -6,8 +6,9 @@
 #include "experiments/program/commands/command.h"
 #include "experiments/program/commands/method_options.h"
 #include "harness/base/errors.h"
-#include "harness/base/toml_reader.h"
 #include "harness/fem/solvers/solver_table.h"
+#include "harness/files/scene_file.h"
+#include "harness/files/toml_reader.h"
 #include "harness/files/whole_file.h"
 
 namespace cutbench {

@@ -6,9 +6,10 @@
 #include "experiments/program/commands/command.h"
 #include "experiments/program/commands/method_options.h"
 #include "harness/base/errors.h"
+#include "harness/files/mesh_file.h"
+#include "harness/files/path_file.h"
 #include "harness/files/whole_file.h"
 #include "harness/judge/result_svg.h"
-#include "harness/mesh/mesh_io.h"
 #include "harness/study/robustness/failing_case.h"
 
 namespace cutbench {

@@ -9,10 +9,12 @@
 #include "experiments/program/commands/misses.h"
 #include "harness/base/errors.h"
 #include "harness/base/names.h"
-#include "harness/base/toml_reader.h"
 #include "harness/fem/solvers/solver_table.h"
+#include "harness/files/mesh_file.h"
+#include "harness/files/scene_file.h"
+#include "harness/files/toml_reader.h"
+#include "harness/files/whole_file.h"
 #include "harness/mesh/families.h"
-#include "harness/mesh/mesh_io.h"
 
 namespace cutbench {
 

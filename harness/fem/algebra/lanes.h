@@ -10,6 +10,9 @@
 #include <immintrin.h>
 #endif
 
+// Lanes passed by value are a matter between functions of one build. Who includes this without -mavx is not warned.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 namespace cutbench {
 
 /// A vector type of g++ and clang: all operators act lane by lane, comparisons give masks.

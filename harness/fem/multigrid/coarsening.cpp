@@ -164,9 +164,8 @@ void Coarsening::find_members() {
       for (std::int32_t part = first->second; part >= 0; part = next_part_[static_cast<std::size_t>(part)])
         for (const Weight& member : members(static_cast<std::size_t>(part)))
           if (!is_placed_.holds(member.other)) entries_.push_back({node, member.other, member.weight});
-  std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-    return std::tie(a.node, a.fine) < std::tie(b.node, b.fine);
-  });
+  std::sort(entries_.begin(), entries_.end(),
+            [](const Entry& a, const Entry& b) { return std::tie(a.node, a.fine) < std::tie(b.node, b.fine); });
 }
 
 /// Makes a coarse unknown of each linked part of a node's members.

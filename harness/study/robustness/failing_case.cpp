@@ -7,8 +7,9 @@
 
 #include "harness/cut/cut_all.h"
 #include "harness/cut/cut_program.h"
+#include "harness/files/mesh_file.h"
+#include "harness/files/path_file.h"
 #include "harness/judge/judged_sheet.h"
-#include "harness/mesh/mesh_io.h"
 #include "harness/processes/subprocess.h"
 
 namespace cutbench {

@@ -5,8 +5,8 @@
 #include <map>
 
 #include "harness/cases/adversarial.h"
+#include "harness/files/mesh_file.h"
 #include "harness/mesh/families.h"
-#include "harness/mesh/mesh_io.h"
 #include "harness/processes/isolated.h"
 #include "harness/records/metrics.h"
 #include "harness/study/robustness/failing_case.h"

@@ -1,6 +1,6 @@
 #include "harness/study/robustness/shrink.h"
 
-#include "harness/mesh/mesh_io.h"
+#include "harness/mesh/check_and_repair.h"
 
 namespace cutbench {
 

@@ -1,8 +1,7 @@
-#include "harness/problems/common/problem.h"
-
 #include <algorithm>
 
 #include "harness/base/errors.h"
+#include "harness/problems/common/problem.h"
 #include "harness/problems/in_motion/hanging_sheet.h"
 #include "harness/problems/in_motion/severed_strip.h"
 #include "harness/problems/in_plane/edge_crack.h"

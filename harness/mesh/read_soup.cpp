@@ -1,23 +1,18 @@
-#include "harness/mesh/mesh_io.h"
-
 #include <CGAL/IO/OFF.h>
 #include <CGAL/IO/PLY.h>
 
 #include <algorithm>
-#include <cctype>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
+#include "harness/mesh/mesh_text.h"
 #include "harness/mesh/predicates.h"
-#include "harness/mesh/read_obj.h"
 
 namespace cutbench {
 
 namespace {
 
-using Points = std::vector<Kernel::Point_3>;
+using SpacePoints = std::vector<Kernel::Point_3>;
 
 /// CGAL gives a face the size the file announces before it reads it: a nonsensical size must not ask for the memory.
 struct Face : std::vector<std::size_t> {
@@ -28,7 +23,7 @@ struct Face : std::vector<std::size_t> {
 };
 using Faces = std::vector<Face>;
 
-MeshData from_soup(const Points& points, const Faces& faces, const std::string& name) {
+MeshData from_soup(const SpacePoints& points, const Faces& faces, const std::string& name) {
   MeshData mesh;
   for (const Kernel::Point_3& p : points) mesh.deformed.push_back({p.x(), p.y(), p.z()});
   for (const Face& face : faces) {
@@ -74,7 +69,7 @@ bool has_ply_header(std::istream& in) {
 
 template <class Reader>
 MeshData read_soup(std::istream& in, const std::string& name, const char* format, Reader read) {
-  Points points;
+  SpacePoints points;
   Faces faces;
   bool complete = false;
   try {
@@ -87,54 +82,21 @@ MeshData read_soup(std::istream& in, const std::string& name, const char* format
   return from_soup(points, faces, name);
 }
 
-MeshData read_off(std::istream& in, const std::string& name, std::uintmax_t bytes) {
-  return read_soup(in, name, "OFF", [bytes](std::istream& s, Points& points, Faces& faces) {
-    if (announces_more_than_it_holds(s, bytes)) return false;
+}  // namespace
+
+MeshData read_off(const std::string& text, const std::string& name) {
+  std::istringstream in(text);
+  return read_soup(in, name, "OFF", [&](std::istream& s, SpacePoints& points, Faces& faces) {
+    if (announces_more_than_it_holds(s, text.size())) return false;
     return CGAL::IO::read_OFF(s, points, faces, CGAL::parameters::verbose(false));
   });
 }
 
-MeshData read_ply(std::istream& in, const std::string& name) {
-  return read_soup(in, name, "PLY", [](std::istream& s, Points& points, Faces& faces) {
+MeshData read_ply(const std::string& text, const std::string& name) {
+  std::istringstream in(text);
+  return read_soup(in, name, "PLY", [](std::istream& s, SpacePoints& points, Faces& faces) {
     return has_ply_header(s) && CGAL::IO::read_PLY(s, points, faces, CGAL::parameters::verbose(false));
   });
-}
-
-std::string lower_case_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
-}
-
-MeshData read_unchecked(const std::filesystem::path& path, bool as_is) {
-  const std::string name = path.filename().string();
-  const std::string extension = lower_case_extension(path);
-  if (extension != ".obj" && extension != ".off" && extension != ".ply")
-    throw InputError(name + ": unknown mesh format; use .obj, .off or .ply");
-
-  std::error_code error;
-  const bool is_file = std::filesystem::is_regular_file(path, error);
-  std::ifstream in(path, std::ios::binary);
-  if (!in || !is_file) throw InputError(path.string() + ": no such file, or it can't be read; check the path");
-  if (extension == ".off") return read_off(in, name, std::filesystem::file_size(path));
-  if (extension == ".ply") return read_ply(in, name);
-  return read_obj(std::string(std::istreambuf_iterator<char>(in), {}), name, as_is);
-}
-
-}  // namespace
-
-MeshData read_mesh(const std::filesystem::path& path) {
-  MeshData mesh = read_unchecked(path, false);
-  check_and_repair(mesh, path.filename().string());
-  return mesh;
-}
-
-MeshData read_mesh_as_is(const std::filesystem::path& path) {
-  const std::string name = path.filename().string();
-  MeshData mesh = read_unchecked(path, true);
-  if (mesh.triangles.empty()) throw InputError(name + ": no triangles; the file is empty, cut short or holds no mesh");
-  if (mesh.rest.empty()) take_rest_from_plane(mesh, name);
-  return mesh;
 }
 
 }  // namespace cutbench

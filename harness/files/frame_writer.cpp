@@ -1,8 +1,8 @@
-#include "harness/simulation/frame_writer.h"
+#include "harness/files/frame_writer.h"
 
 #include <cstdio>
 
-#include "harness/mesh/mesh_io.h"
+#include "harness/files/mesh_file.h"
 
 namespace cutbench {
 

@@ -1,4 +1,4 @@
-#include "harness/base/toml_reader.h"
+#include "harness/files/toml_reader.h"
 
 #include <cmath>
 #include <fstream>

@@ -1,0 +1,15 @@
+# Copies `headers`, folders and files of the folder `source`, into `folder`. Within the tree a header is
+# "harness/mesh/sheet.h"; installed it is <cutbench/mesh/sheet.h>.
+foreach(entry IN LISTS headers)
+  if(IS_DIRECTORY ${source}/${entry})
+    file(GLOB_RECURSE found RELATIVE ${source} ${source}/${entry}/*.h)
+  else()
+    set(found ${entry})
+  endif()
+  foreach(header IN LISTS found)
+    file(READ ${source}/${header} text)
+    string(REGEX REPLACE "#include \"(harness/|experiments/)?([^\"]+)\"" "#include <cutbench/\\2>" text "${text}")
+    string(REGEX REPLACE "^(harness|experiments)/" "" place ${header})
+    file(WRITE ${folder}/${place} "${text}")
+  endforeach()
+endforeach()

@@ -1,0 +1,70 @@
+#include "harness/files/mesh_file.h"
+
+#include <unistd.h>
+
+#include <cctype>
+#include <string>
+
+#include "harness/mesh/mesh_text.h"
+
+namespace cutbench {
+
+namespace {
+
+std::string lower_case_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+MeshData read_unchecked(const std::filesystem::path& path, bool as_is) {
+  const std::string name = path.filename().string();
+  const std::string extension = lower_case_extension(path);
+  if (extension != ".obj" && extension != ".off" && extension != ".ply")
+    throw InputError(name + ": unknown mesh format; use .obj, .off or .ply");
+
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error) || access(path.c_str(), R_OK) != 0)
+    throw InputError(path.string() + ": no such file, or it can't be read; check the path");
+  const std::string text = text_of(path);
+  if (extension == ".off") return read_off(text, name);
+  if (extension == ".ply") return read_ply(text, name);
+  return read_obj(text, name, as_is);
+}
+
+using Format = std::string (*)(const MeshData&);
+
+Format format_of(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  if (extension == ".obj") return obj_text;
+  if (extension == ".off") return off_text;
+  if (extension == ".vtu") return vtu_text;
+  throw InputError(path.string() + ": unknown mesh format; use .obj, .off or .vtu");
+}
+
+}  // namespace
+
+MeshData read_mesh(const std::filesystem::path& path) {
+  MeshData mesh = read_unchecked(path, false);
+  check_and_repair(mesh, path.filename().string());
+  return mesh;
+}
+
+MeshData read_mesh_as_is(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  MeshData mesh = read_unchecked(path, true);
+  if (mesh.triangles.empty()) throw InputError(name + ": no triangles; the file is empty, cut short or holds no mesh");
+  if (mesh.rest.empty()) take_rest_from_plane(mesh, name);
+  return mesh;
+}
+
+void check_mesh_place(const std::filesystem::path& path, const std::string& what) {
+  format_of(path);
+  check_writable(path, what);
+}
+
+WholeFile mesh_file(const MeshData& mesh, const std::filesystem::path& path) { return {path, format_of(path)(mesh)}; }
+
+void write_mesh(const MeshData& mesh, const std::filesystem::path& path) { mesh_file(mesh, path).place(); }
+
+}  // namespace cutbench
