@@ -10,12 +10,16 @@
 
 namespace cutbench {
 
+/// The table: a problem, or a family of them, is its own file and a row here.
 const std::vector<std::unique_ptr<const Problem>>& all_problems() {
   static const auto problems = [] {
     std::vector<std::unique_ptr<const Problem>> all;
     append_window_problems(all);
     append_edge_cracks(all);
-    append_out_of_plane(all);
+    all.push_back(bending_patch_slit());
+    all.push_back(slit_strip());
+    all.push_back(flap());
+    all.push_back(trouser_tear());
     all.push_back(severed_strip(Integrator::midpoint));
     all.push_back(severed_strip(Integrator::backward_euler));
     all.push_back(hanging_sheet(Integrator::midpoint));

@@ -17,6 +17,4 @@ std::unique_ptr<const Problem> slit_strip(BendingKind bending = BendingKind::pat
 std::unique_ptr<const Problem> flap(BendingKind bending = BendingKind::patches);
 std::unique_ptr<const Problem> trouser_tear(BendingKind bending = BendingKind::patches);
 
-void append_out_of_plane(std::vector<std::unique_ptr<const Problem>>& problems);
-
 }  // namespace cutbench
