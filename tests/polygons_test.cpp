@@ -56,7 +56,8 @@ TEST(Polygons, AreSoundAfterAdversarialCuts) {
     }
 }
 
-/// To others a polygon is an element as a triangle is: with corners, gradients that add up to nothing, and its share of area.
+/// To others a polygon is an element as a triangle is: with corners, gradients that add up to nothing, and its share
+/// of area.
 TEST(Polygons, AreElementsOfTheTable) {
   for_each_constrained_cut({cut_polygons}, 9, 3, 877, [&](const ConstrainedCut& cut) {
     const Sheet& sheet = cut.sheet();

@@ -1,6 +1,6 @@
 // Bending of a sheet that is flat at rest: one constant, positive semi-definite scalar matrix for x, y and z, whose
-// null space is what is linear in rest coordinates, so rigid motions of any size cost nothing and nothing is rotated. Its
-// kinds are in bending_kinds.h.
+// null space is what is linear in rest coordinates, so rigid motions of any size cost nothing and nothing is rotated.
+// Its kinds are in bending_kinds.h.
 //
 // Each triangle's energy is half the sum of the squares of three linear rows over the vertices near it. What lies
 // across an incision is not near. An element of several triangles has the rows of one: one quadratic, and one Hessian

@@ -1,5 +1,5 @@
-// The quadratic hinge (Bergou et al. 2006, A quadratic bending model for inextensible surfaces), as the kind that shows how
-// an energy depends on the mesh.
+// The quadratic hinge (Bergou et al. 2006, A quadratic bending model for inextensible surfaces), as the kind that
+// shows how an energy depends on the mesh.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// The kinds of bending, a row each. A new one is a header with a function that adds up the three rows of a triangle, next to
-// bending_hinges.h, and a row at the end of the table in bending_kinds.cpp.
+// The kinds of bending, a row each. A new one is a header with a function that adds up the three rows of a triangle,
+// next to bending_hinges.h, and a row at the end of the table in bending_kinds.cpp.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace cutbench {
 
-/// The three linear rows of one triangle under way, in sqrt(N/m): what each vertex near it counts in them. The energy is
-/// half the sum of their squares. And what they are made from.
+/// The three linear rows of one triangle under way, in sqrt(N/m): what each vertex near it counts in them. The energy
+/// is half the sum of their squares. And what they are made from.
 struct BendingStencil {
   const Sheet& sheet;
   double rigidity, poisson;                ///< D in N m

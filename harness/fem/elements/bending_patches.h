@@ -1,6 +1,7 @@
-// The enhanced rotation-free shell triangle (Flores and Onate, CMAME 194, 2005, EBST), for a flat rest sheet: slopes from
-// the quadratic through a triangle and its three neighbours, averaged on the sides; Hessian from them by the divergence
-// theorem. Does not depend on the mesh: passes the bending patch test on any, elements of several triangles too.
+// The enhanced rotation-free shell triangle (Flores and Onate, CMAME 194, 2005, EBST), for a flat rest sheet: slopes
+// from the quadratic through a triangle and its three neighbours, averaged on the sides; Hessian from them by the
+// divergence theorem. Does not depend on the mesh: passes the bending patch test on any, elements of several triangles
+// too.
 #pragma once
 
 #include <algorithm>

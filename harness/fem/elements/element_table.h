@@ -1,6 +1,6 @@
-// What the physics knows of the mesh: one row per triangle slot, and the polygons that some triangles are members of. To
-// what lies above this room an element is an element: it has corners, gradients and areas, be it a triangle or a polygon.
-// The elements of methods that don't re-mesh may overlap in rest space and be made of material in part only.
+// What the physics knows of the mesh: one row per triangle slot, and the polygons that some triangles are members of.
+// To what lies above this room an element is an element: it has corners, gradients and areas, be it a triangle or a
+// polygon. The elements of methods that don't re-mesh may overlap in rest space and be made of material in part only.
 #pragma once
 
 #include <array>
@@ -77,8 +77,8 @@ class ElementTable final : public CoupledElements {
   }
   /// The area of material that stands for a vertex's mass.
   double area_round(std::size_t vertex, std::span<const HalfEdge> triangles) const;
-  /// Row `vertex` of the consistent mass, whose entries are sums of areas over a number of parts: add(column, area, parts).
-  /// Polygons are lumped.
+  /// Row `vertex` of the consistent mass, whose entries are sums of areas over a number of parts: add(column, area,
+  /// parts). Polygons are lumped.
   template <class Add>
   void for_each_share(std::size_t vertex, std::span<const HalfEdge> triangles, const Add& add) const {
     if (const double area = polygon_area_round(vertex); area > 0) add(DeformedIndex(vertex), area, 1);

@@ -18,7 +18,8 @@ class MembraneSheet {
   void resize(std::size_t elements);
   void reserve_spare();
 
-  /// Where the blocks of the elements round a vertex are in its row of the matrix. \param triangles  Incidence::at(vertex)
+  /// Where the blocks of the elements round a vertex are in its row of the matrix.
+  /// \param triangles  Incidence::at(vertex)
   void find_slots(const ElementTable& elements, std::size_t vertex, std::span<const HalfEdge> triangles,
                   const BlockMatrix<D>& blocks);
   void clear_slots(std::size_t triangle);  ///< its slot in the table is free

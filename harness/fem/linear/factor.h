@@ -1,4 +1,5 @@
-// Factors of a symmetric positive definite matrix, behind one interface: CHOLMOD's where SuiteSparse is there, and Eigen's.
+// Factors of a symmetric positive definite matrix, behind one interface: CHOLMOD's where SuiteSparse is there, and
+// Eigen's.
 #pragma once
 
 #include <memory>

@@ -25,7 +25,8 @@ struct Energy {
 template <int D>
 class Model {
  public:
-  /// The limit of an added mass is that of this sheet's elements: \pre `sheet` is not cut yet, where there is such a mass.
+  /// The limit of an added mass is that of this sheet's elements: \pre `sheet` is not cut yet, where there is such a
+  /// mass.
   Model(const Sheet& sheet, const Material& material, const Physics& physics, std::vector<Pin> pins,
         std::vector<Traction> tractions);
 
@@ -36,10 +37,11 @@ class Model {
   /// replace indices and add elements (Xin et al. 2018, 4.2) where the sheet's log says so.
   void update(const Sheet& sheet);
   void update_bending(const Sheet& sheet);  ///< nothing without bending
-  /// Constrains vertices and makes elements of several triangles; call it after update() and update_bending(). Constraints
-  /// of before are removed. Such elements of before stay, unless the cut touched their triangles or they share one with a
-  /// new one. Forces, energies and the matrix remain those of all vertices; a solver solves for the unknowns of
-  /// constrained(). Vertices inside such elements are no unknowns: they have no mass and are held, and follow() moves them.
+  /// Constrains vertices and makes elements of several triangles; call it after update() and update_bending().
+  /// Constraints of before are removed. Such elements of before stay, unless the cut touched their triangles or they
+  /// share one with a new one. Forces, energies and the matrix remain those of all vertices; a solver solves for the
+  /// unknowns of constrained(). Vertices inside such elements are no unknowns: they have no mass and are held, and
+  /// follow() moves them.
   /// \pre `sheet` is that of the last update().
   void constraint(const Sheet& sheet, const Constraints& constraints);
   /// Gives the vertices inside elements their values, positions or velocities.

@@ -3,8 +3,9 @@
 //
 // Each pair of vertices of an element with AR > 10 is a join, weighted by 2 area |gradient| |gradient| of the two: how
 // strongly the element couples them, at most its AR. Joins are made strongest first (of equal ones, lower vertices
-// first); one that would make a group of more than 32 vertices is left out. So all vertices of a sliver are in one group
-// unless the limit forbids it, and what is too long, such as a row of slivers along a line, is parted at its weakest joins.
+// first); one that would make a group of more than 32 vertices is left out. So all vertices of a sliver are in one
+// group unless the limit forbids it, and what is too long, such as a row of slivers along a line, is parted at its
+// weakest joins.
 #pragma once
 
 #include <Eigen/Cholesky>
