@@ -13,6 +13,7 @@
 
 #include "harness/cases/cut_families.h"
 #include "harness/cut/cut.h"
+#include "harness/cut/cut_phases.h"
 #include "harness/cut/open.h"
 #include "harness/fem/solvers/solver_table.h"
 #include "harness/fem/time/stepper.h"
@@ -113,50 +114,37 @@ void count_edits(const Sheet& sheet, Counted& all, const std::function<void()>& 
   for (const auto& [name, value] : edits()) all.counters[name] += value - before.at(name);
 }
 
-/// The phases of Cutter::cut(), one of which is counted.
-enum class Phase { locate, trace, embed, improve, open };
-constexpr EnumName<Phase> phases[] = {{Phase::locate, "locate"},
-                                      {Phase::trace, "trace"},
-                                      {Phase::embed, "embed"},
-                                      {Phase::improve, "improve"},
-                                      {Phase::open, "open"}};
+/// The phases of a cut that have rows of their own.
+const char* const tracked_phases[] = {"locate", "trace", "embed", "improve", "open"};
 
-Counted run_phase(Phase counted, const MethodRow& row, int triangles, const Region& region) {
+/// One phase is counted, in the course of a cut as Cutter::cut() makes it.
+Counted run_phase(const std::string& counted, const MethodRow& row, int triangles, const Region& region) {
   Bench bench(triangles);
   const auto method = row.make(row.parameter.value);
   const CutOptions options;
   Counted all;
   Tracer tracer;
   Polyline polyline;
-  const auto phase = [&](Phase which, bool counts, const std::function<void()>& work) {
-    if (!counts || which != counted) return work();
-    count_edits(bench.sheet, all, [&] { region(work); });
-  };
   for (const Curve& curve : bench.curves)
     for (const bool counts : {false, true}) {
-      Sheet& sheet = bench.sheet;
-      sheet.begin_cut();
-      flatten(curve, options.flatten_tolerance * sheet.mean_edge(), sheet.snap(), polyline);
-      Walk walk(sheet, bench.locator);
-      phase(Phase::locate, counts, [&] {
-        for (int k = 0; k < 100; ++k) walk.locate(polyline.points.front());  // once is too little to compare
-      });
-      Subdivision* trace = nullptr;
-      phase(Phase::trace, counts,
-            [&] { trace = &tracer.trace(sheet, polyline, walk, options.chord_tolerance * sheet.mean_edge()); });
-      const auto crossed = static_cast<double>(trace->crossed_triangles());
-      MethodNotes notes;
-      phase(Phase::embed, counts, [&] {
-        method->adapt(sheet, *trace, polyline);
-        method->embed(sheet, *trace, notes);
-        mark_along(sheet, *trace);
-      });
-      phase(Phase::improve, counts, [&] { method->improve(sheet, notes); });
-      phase(Phase::open, counts, [&] { open_path(sheet); });
+      CutUnderWay cut(tracer, polyline, bench.sheet, bench.locator, curve, *method, options);
+      for (const CutPhase& phase : cut_phases) {
+        const int times = phase.run == &CutUnderWay::locate ? 100 : 1;  // once is too little to compare
+        bool goes_on = true;
+        const auto work = [&] {
+          for (int k = 0; k < times; ++k) goes_on = (cut.*phase.run)();
+        };
+        if (counts && phase.name == counted)
+          count_edits(bench.sheet, all, [&] { region(work); });
+        else
+          work();
+        if (!goes_on) throw std::runtime_error(row.name + ": " + cut.outcome.reason);
+      }
       if (counts) {
+        const auto crossed = static_cast<double>(cut.outcome.crossed_triangles);
         all.units += crossed;
         all.counters["triangles_met"] += crossed;
-        all.add(sheet.to_mesh_data());
+        all.add(bench.sheet.to_mesh_data());
       }
       bench.undo();
     }
@@ -318,12 +306,11 @@ std::vector<Row> all_rows() {
     rows.push_back({phase + (of.empty() ? "" : "/" + of) + "/" + std::to_string(n), phase, unit, n, std::move(run)});
   };
   for (const int n : {800, 12800}) {
-    for (const EnumName<Phase>& of : phases) {  // no structured binding: clang 14 can't capture one
-      const Phase phase = of.value;
-      const bool of_method = phase == Phase::embed || phase == Phase::improve;
+    for (const std::string phase : tracked_phases) {
+      const bool of_method = phase == "embed" || phase == "improve";
       for (const std::string method : tracked_methods) {
         if (!of_method && method != tracked_methods[0]) continue;
-        add(of.name, of_method ? method : "", "crossed triangles", n,
+        add(phase, of_method ? method : "", "crossed triangles", n,
             [phase, method, n](const Region& r) { return run_phase(phase, find_method(method), n, r); });
       }
     }
