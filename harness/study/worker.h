@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "harness/cut/cut_all.h"
+#include "harness/mesh/constraints.h"
 #include "harness/study/variant.h"
 
 namespace cutbench {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "harness/cut/cut.h"
+#include "harness/mesh/constraints.h"
 #include "harness/study/sweep.h"
 #include "harness/study/variant.h"
 
