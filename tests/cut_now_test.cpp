@@ -6,6 +6,7 @@
 #include "harness/cases/cut_families.h"
 #include "harness/simulation/simulation.h"
 #include "methods/registry.h"
+#include "tests/helpers.h"
 #include "tests/mesh_checks.h"
 
 namespace cutbench {
