@@ -114,7 +114,7 @@ TEST_P(CutNow, IsTheScenesOwnCutAtThatMoment) {
 
 TEST_P(CutNow, RefusedFailedOrBesideLeavesEveryBit) {
   class Fails : public CuttingMethod {
-    void improve(Sheet&, MethodNotes&) override { throw CutFailed("not_terminated", "made to fail"); }
+    void improve(Sheet&, MethodNotes&) override { throw CutFailed(Verdict::not_terminated, "made to fail"); }
   } fails;
   const Scene scene = falling(GetParam());
   const auto method = method_of(GetParam());

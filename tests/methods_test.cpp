@@ -135,7 +135,9 @@ TEST(Parameter, IsTakenWithinItsRangeAlone) {
     const double below = std::nextafter(range.least, -infinite), above = std::nextafter(range.most, infinite);
     for (const double bad : {below, above, -1.0, -infinite, infinite, std::nan("")}) expect_refused(row, bad);
     if (range.whole) expect_refused(row, range.least + 0.5);
-    if (range.or_zero) EXPECT_TRUE(row.make(0));
+    if (range.or_zero) {
+      EXPECT_TRUE(row.make(0));
+    }
     if (range.or_zero) expect_refused(row, range.least / 2);
   }
   EXPECT_EQ(parameters, 12u);

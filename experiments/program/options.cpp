@@ -29,6 +29,7 @@ Option Options::add_option(const std::string& name, Value& variable, const std::
 template Option Options::add_option(const std::string&, std::string&, const std::string&);
 template Option Options::add_option(const std::string&, int&, const std::string&);
 template Option Options::add_option(const std::string&, double&, const std::string&);
+template Option Options::add_option(const std::string&, std::int64_t&, const std::string&);
 template Option Options::add_option(const std::string&, std::uint64_t&, const std::string&);
 template Option Options::add_option(const std::string&, std::vector<std::string>&, const std::string&);
 template Option Options::add_option(const std::string&, std::vector<int>&, const std::string&);

@@ -24,7 +24,7 @@ struct MethodOptions {
   std::string method;
   std::string command = {};  ///< of a program that cuts instead
   ProgramLimits limits = {};
-  Option by_name;                          ///< --method; owned by the app
+  Option by_name = {};                     ///< --method; owned by the app
   std::vector<std::string> settings = {};  ///< of --set
   ChordTolerance chord_tolerance;
 

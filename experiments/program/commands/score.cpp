@@ -10,11 +10,11 @@
 namespace cutbench {
 
 Command add_score(Options& app) {
-  struct Options {
+  struct ScoreOptions {
     ScoreArguments arguments;
     ChordTolerance tolerance;
   };
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ScoreOptions>();
   auto command = app.add_subcommand("score", "judge a cut that any program made");
   command.add_option("--mesh", options->arguments.mesh, "the sheet before: OBJ, OFF or PLY").required();
   command.add_option("--path", options->arguments.path, "the path: JSON").required();
