@@ -9,12 +9,12 @@ namespace cutbench {
 
 const std::vector<MethodRow>& all_methods();
 
-/// Adds rows of methods that are not in this tree. To be called before anything asks for the table. Throws InputError: a
-/// name that is there.
+/// Adds rows of methods that are not in this tree. To be called before anything asks for the table. Throws InputError:
+/// a name that is there.
 void add_methods(const std::vector<MethodRow>& more);
 
-/// The steps of warp_and_refine in every constraint_matrix, named "ablation:BEFORE:AFTER". BEFORE is the step before the
-/// split: nothing, snap, warp, thin or warp+thin. AFTER is the last step after it: nothing, flips, smoothing (with
+/// The steps of warp_and_refine in every constraint_matrix, named "ablation:BEFORE:AFTER". BEFORE is the step before
+/// the split: nothing, snap, warp, thin or warp+thin. AFTER is the last step after it: nothing, flips, smoothing (with
 /// flips), refine (with both) or constraint. For experiments that name them; not in all_methods().
 const std::vector<MethodRow>& ablation_methods();
 

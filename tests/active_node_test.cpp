@@ -23,8 +23,8 @@ std::vector<double> incision_edges(const Sheet& sheet) {
   return lengths;
 }
 
-/// A straight cut has ends that must stay and nothing else. Pieces are equal in length there, so each is from 2/3 to 3/2
-/// of the spacing long, the 5 % apart that a vertex may be from its place.
+/// A straight cut has ends that must stay and nothing else. Pieces are equal in length there, so each is from 2/3 to
+/// 3/2 of the spacing long, the 5 % apart that a vertex may be from its place.
 TEST(ActiveNode, LeavesAVertexAtTheSpacing) {
   const MethodRow& row = find_method("active_node");
   std::size_t edges = 0, short_edges = 0;

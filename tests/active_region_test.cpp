@@ -192,8 +192,8 @@ void PrintTo(const Kind& kind, std::ostream* out) {
 
 class LocalDynamicsOf : public testing::TestWithParam<Kind> {};
 
-/// What is left out and what is held are alike: the same motion as of the whole sheet with a pin at each vertex that is far.
-/// Hinges, not patches: these look farther than two rings.
+/// What is left out and what is held are alike: the same motion as of the whole sheet with a pin at each vertex that is
+/// far. Hinges, not patches: these look farther than two rings.
 TEST_P(LocalDynamicsOf, IsTheWholeSheetHeldFarAway) {
   constexpr double radius = 0.22;
   const Kind kind = GetParam();

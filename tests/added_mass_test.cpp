@@ -1,5 +1,5 @@
-// Mass for thin elements: the bound holds, inertia is as promised, cuts update it, energies close, and explicit steps run
-// that blow up without it.
+// Mass for thin elements: the bound holds, inertia is as promised, cuts update it, energies close, and explicit steps
+// run that blow up without it.
 #include "harness/fem/elements/added_mass.h"
 
 #include <gtest/gtest.h>
@@ -61,8 +61,8 @@ double dense_eigenvalue(Body<D>& body) {
   return largest_mode(dense(body.model), dense_mass(body.model));
 }
 
-/// The largest eigenvalue of a triangle's 2 (mu + lambda) A G G^T and its lumped mass, from the lengths of its edges: the
-/// cotangents are the entries of A G G^T.
+/// The largest eigenvalue of a triangle's 2 (mu + lambda) A G G^T and its lumped mass, from the lengths of its edges:
+/// the cotangents are the entries of A G G^T.
 double largest_of_triangles(const MeshData& mesh, const Material& material) {
   double largest = 0;
   for (const auto& t : mesh.triangles) {

@@ -12,8 +12,8 @@
 namespace cutbench {
 namespace {
 
-/// Fails where a cut family was added to the adversarial cuts, removed from it or moved: that changes the cases of every seed.
-/// A new family belongs into cut_families() alone.
+/// Fails where a cut family was added to the adversarial cuts, removed from it or moved: that changes the cases of
+/// every seed. A new family belongs into cut_families() alone.
 TEST(Adversarial, DrawsFromItsOwnListOfCutFamilies) {
   const std::vector<std::string> published{
       "straight",      "curved",    "partial",   "border_inward", "cut_out",          "recut",      "several",

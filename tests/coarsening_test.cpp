@@ -159,8 +159,8 @@ std::map<Part, std::map<Part, double>> product_of(const Coarsening& coarsening, 
   return all;
 }
 
-/// Two coarsenings in a row follow a sheet through cuts, and are what new ones are. All links have the value of one more
-/// than the number of the cut after which they came, so that old ones would be noticed.
+/// Two coarsenings in a row follow a sheet through cuts, and are what new ones are. All links have the value of one
+/// more than the number of the cut after which they came, so that old ones would be noticed.
 TEST(Coarsening, FollowsTheCuts) {
   for (const std::string method : {"conventional_split", "warp_and_refine", "bowyer_watson", "element_deletion"}) {
     SCOPED_TRACE(method);

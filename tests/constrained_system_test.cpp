@@ -116,7 +116,7 @@ TEST(Constraints, SystemFollowsCutsAsOneMadeAnew) {
                              line({0.7, 0.5}, {0.9, 0.1}), line({-0.1, 0.9}, {1.1, 0.85})}) {
       ASSERT_EQ(body.cut(cut, method.name, method.parameter), Status::ok);
       const Constraints constraints = constraints_of(*method.make(), before, body.sheet);
-      body.model.constraint(body.sheet, constraints);
+      body.model.constrain(body.sheet, constraints);
       ASSERT_TRUE(body.model.constrained());
       Model<3> fresh = body.fresh_model();
       fresh.constraint(body.sheet, constraints);
@@ -161,7 +161,7 @@ TEST(Constraints, HoldInMotion) {
       const Constraints constraints =
           constraints_of(*find_method(name).make(find_method(name).parameter.value), before, body.sheet);
       ASSERT_FALSE(constraints.empty());
-      body.model.constraint(body.sheet, constraints);
+      body.model.constrain(body.sheet, constraints);
       const Eigen::MatrixXd c = dense_constraint_matrix(constraints, body.model.vertices(), 3);
       if (shaken) body.state.v = c * (0.1 * Field::Random(c.cols()));
       const Balance start = balance_of(body.model, body.state);

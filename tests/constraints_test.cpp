@@ -1,5 +1,6 @@
-// Constrained vertices: that affine fields come through, that the cut stays open and nothing else comes apart, and that the
-// stiffness of slivers is gone. Their system is in constrained_system_test, more of phantom nodes in phantom_node_test.
+// Constrained vertices: that affine fields come through, that the cut stays open and nothing else comes apart, and that
+// the stiffness of slivers is gone. Their system is in constrained_system_test, more of phantom nodes in
+// phantom_node_test.
 
 #include "harness/mesh/constraints.h"
 

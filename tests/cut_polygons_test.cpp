@@ -26,7 +26,7 @@ const std::vector<std::string> cuts_to_make{"straight",      "curved",          
 constexpr Material leather{.density = 2, .stiffness = 1000, .poisson = 0.3, .bending = 0.02};
 
 void merge_as_after_a_cut(Body<3>& body, const Sheet& before, const CuttingMethod& method) {
-  body.model.constraint(body.sheet, method.constraint_source()->next_constraints(
+  body.model.constrain(body.sheet, method.constraint_source()->next_constraints(
                                         before, body.sheet, body.model.elements().polygons_left()));
 }
 
@@ -120,7 +120,7 @@ TEST(CutPolygons, FollowTheLastCut) {
     const Constraints constraints =
         method->constraint_source()->next_constraints(before, body.sheet, {counted, left.freed});
     const std::size_t old = body.model.elements().polygons().size();
-    body.model.constraint(body.sheet, constraints);
+    body.model.constrain(body.sheet, constraints);
     EXPECT_EQ(body.model.elements().polygons().size(), old + constraints.polygons.size());
   }
   EXPECT_GT(asked.front(), 40u);

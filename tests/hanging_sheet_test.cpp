@@ -52,8 +52,8 @@ TEST(HangingSheet, TheTruthHasConverged) {
   }
 }
 
-/// How far the truth of the published sizes is from that of meshes with nine quarters of the triangles: not run by default, for
-/// it takes minutes.
+/// How far the truth of the published sizes is from that of meshes with nine quarters of the triangles: not run by
+/// default, for it takes minutes.
 TEST(HangingSheet, DISABLED_TheTruthOfThePublishedSizes) {
   for (const Integrator integrator : {Integrator::midpoint, Integrator::backward_euler}) {
     const auto problem = hanging_sheet(integrator), finer = hanging_sheet(integrator, 4, 192);

@@ -14,9 +14,10 @@ namespace {
 
 const Material skin{.density = 2.2, .stiffness = 1000, .poisson = 0.45};
 
-/// The second derivative of the energy per area along two changes of F, mode by mode (membrane.h): in the frame B, linear
-/// elasticity; of corotational the twist and, out of the plane, tension over stretch along the principal directions; of
-/// green, tension along the principal directions. Of springs: along each edge, and tension over length in all directions.
+/// The second derivative of the energy per area along two changes of F, mode by mode (membrane.h): in the frame B,
+/// linear elasticity; of corotational the twist and, out of the plane, tension over stretch along the principal
+/// directions; of green, tension along the principal directions. Of springs: along each edge, and tension over length
+/// in all directions.
 template <int D>
 double second_derivative(const Element& element, const Deformation<D>& d, Strain strain, StressStiffness of_stress,
                          const Lame& lame, const Eigen::Matrix<double, D, 2>& one,

@@ -51,8 +51,8 @@ inline std::string text_of(const TestCase& c) {
 }
 
 /// Calls visit(TestCase) for `n` cases of every family on every test mesh.
-/// \param adversarial  and as many of the adversarial. It lies at the very limits of snapping, where a change of direction or
-/// of
+/// \param adversarial  and as many of the adversarial. It lies at the very limits of snapping, where a change of
+/// direction or of
 ///                 rounding may decide the other way.
 template <class Visit>
 void for_each_case(std::size_t n, std::uint64_t seed, Visit visit, bool adversarial = false) {

@@ -135,11 +135,11 @@ double largest_coordinate(const Shape& shape) {
 /// Turned by a right angle, mirrored or renumbered, a cut opens the same edges and leaves the same triangles.
 ///
 /// "The same" is up to three things. Crossings are reckoned from the end of the edge that lies to the path's right, so
-/// mirroring moves them by an ulp, and with them exact constraints between diagonals. Where a segment had to be recovered by
-/// flips, the triangles round it depend on the order of the flips. And the local split goes from triangle to triangle
-/// by their numbers and changes its neighbours as it goes. In these two the incision of a first cut is compared; the
-/// next one meets other triangles. Of methods that choose where the incision goes, and may have to choose between two
-/// vertices equally near, the pieces after a first cut are.
+/// mirroring moves them by an ulp, and with them exact constraints between diagonals. Where a segment had to be
+/// recovered by flips, the triangles round it depend on the order of the flips. And the local split goes from triangle
+/// to triangle by their numbers and changes its neighbours as it goes. In these two the incision of a first cut is
+/// compared; the next one meets other triangles. Of methods that choose where the incision goes, and may have to choose
+/// between two vertices equally near, the pieces after a first cut are.
 TEST_P(EveryVariant, MovesWithTheSheet) {
   const bool is_exact = GetParam().row->promises.exact_incision;
   const bool splits_locally = GetParam().parameter > 0 || !is_exact || !GetParam().row->promises.keeps_vertices;

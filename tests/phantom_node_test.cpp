@@ -120,8 +120,8 @@ TEST(PhantomNode, OpensUpToTheTip) {
   EXPECT_GE(open, 10u);
 }
 
-/// However little material a part has. (A slit part may be stiffer, as far as most_stiffness lets it; pieces smaller than
-/// a triangle have no neighbour for a penalty.)
+/// However little material a part has. (A slit part may be stiffer, as far as most_stiffness lets it; pieces smaller
+/// than a triangle have no neighbour for a penalty.)
 TEST(PhantomNode, VariantsBoundTheEigenvalue) {
   double worst = 0;
   for (const std::string family : sheet_families())

@@ -197,7 +197,7 @@ void forces_are_the_slope_of_the_energy(Strain strain, BendingKind bending) {
   const ConstrainedCut cut("alternating", 6, cut_polygons, "curved", 877, 1);
   ASSERT_FALSE(cut.constraints.polygons.empty());
   Model<D> model(cut.sheet(), skin, {.dimension = D, .strain = strain, .bending = bending}, {}, {});
-  model.constraint(cut.sheet(), cut.constraints);
+  model.constrain(cut.sheet(), cut.constraints);
   Random random(5);
   Field x = bent(model, cut.sheet());
   for (auto& value : x) value += random.between(-0.01, 0.01);
@@ -232,14 +232,14 @@ TEST(PolygonSheet, ForcesAreTheSlopeOfTheEnergy) {
 TEST(PolygonSheet, ASpringSheetRefusesThem) {
   const ConstrainedCut cut("alternating", 6, cut_polygons, "curved", 877, 1);
   Model<3> model(cut.sheet(), skin, {.strain = Strain::springs}, {}, {});
-  EXPECT_THROW(model.constraint(cut.sheet(), cut.constraints), InputError);
+  EXPECT_THROW(model.constrain(cut.sheet(), cut.constraints), InputError);
 }
 
 TEST(PolygonSheet, TurningCostsNothing) {
   for_each_constrained_cut({cut_polygons}, 6, 1, 877, [&](const ConstrainedCut& cut) {
     for (const Strain strain : {Strain::corotational, Strain::green}) {
       Model<3> model(cut.sheet(), skin, {.strain = strain, .bending = BendingKind::patches}, {}, {});
-      model.constraint(cut.sheet(), cut.constraints);
+      model.constrain(cut.sheet(), cut.constraints);
       const Eigen::AngleAxisd turn(2.1, Eigen::Vector3d(1, 2, -1).normalized());
       Field x = model.positions(cut.sheet()), force = Field::Zero(x.size());
       for (Eigen::Index v = 0; v < x.size(); v += 3) x.segment<3>(v) = (turn * Eigen::Vector3d(x.segment<3>(v))).eval();
@@ -258,7 +258,7 @@ TEST(PolygonSheet, StiffnessIsThatOfTheForcesAndHasThreeNullModesPerPiece) {
   for_each_constrained_cut({cut_polygons}, 4, 1, 877, [&](const ConstrainedCut& cut) {
     Model<2> model(cut.sheet(), {.density = 1, .stiffness = 1, .poisson = 0.3},
                    {.dimension = 2, .strain = Strain::linear, .bending = BendingKind::none}, {}, {});
-    model.constraint(cut.sheet(), cut.constraints);
+    model.constrain(cut.sheet(), cut.constraints);
     const Field rest = model.positions(cut.sheet());
     model.rotate(rest);
     model.assemble(0, 1);

@@ -128,7 +128,8 @@ TEST_F(Recommend, TheConvergedValueIsRefinedWhileCheaperCandidatesAreUndecided) 
   EXPECT_LE(chosen["steps"], 20) << "of 10 steps the error is 0.09";
 }
 
-/// Of three scores and half of the scenes, the second; and an error's interval holds it for every value within the margin.
+/// Of three scores and half of the scenes, the second; and an error's interval holds it for every value within the
+/// margin.
 TEST_F(Recommend, IntervalsFollowFromTheMargin) {
   ASSERT_EQ(run(command("--max-error 0.2 --exhaustive")).code, 0);
   const auto r = report();

@@ -1,5 +1,5 @@
-// The robustness run counts, saves and makes small what goes wrong, and a crash or a hang costs one case: tried on methods
-// that do wrong on purpose.
+// The robustness run counts, saves and makes small what goes wrong, and a crash or a hang costs one case: tried on
+// methods that do wrong on purpose.
 
 #include "harness/study/robustness/robustness.h"
 

@@ -58,8 +58,8 @@ TEST(SeveredStrip, ErrorsOfTheFittedMeshFallAtTheRateOfTheIntegrator) {
   }
 }
 
-/// Backward Euler takes the energy of a mode with angular frequency w to 1 / (1 + w^2 h^2) of it in each step; mode m of
-/// the stretched bar has 8 / (pi (2 m + 1))^2 of its energy, and a bar energy as its length.
+/// Backward Euler takes the energy of a mode with angular frequency w to 1 / (1 + w^2 h^2) of it in each step; mode m
+/// of the stretched bar has 8 / (pi (2 m + 1))^2 of its energy, and a bar energy as its length.
 TEST(SeveredStrip, BackwardEulerDampsTheModesOfABar) {
   constexpr int n = 24;
   for (const double step : {1.0, 0.5, 0.25}) {

@@ -82,8 +82,8 @@ TYPED_TEST(Sweeps, AreTriangularSolves) {
   EXPECT_LT((values(z) - second).norm(), close * second.norm());
 }
 
-/// Small scalars go to the diagonals of both rows or of none, also where one of them has changed since. The dense matrix
-/// has them all where they were.
+/// Small scalars go to the diagonals of both rows or of none, also where one of them has changed since. The dense
+/// matrix has them all where they were.
 TEST(LevelMatrix, LeavesSmallScalarsOut) {
   constexpr std::int32_t n = 30;
   Random random(8);
@@ -136,7 +136,8 @@ TEST(LevelMatrix, LeavesSmallScalarsOut) {
 
 // --- stiff clusters --------------------------------------------------------------------------------------------------
 
-/// The corrections are those of dense solves, one cluster after the other, and the residual that is kept is the true one.
+/// The corrections are those of dense solves, one cluster after the other, and the residual that is kept is the true
+/// one.
 TEST(StiffClusters, AreSolvedExactly) {
   const Body<2> body = cut_body<2>("delaunay", 20, BendingKind::none, "conventional_split");
   const SystemMatrix<2> a = body.model.system();

@@ -27,7 +27,8 @@ inline std::multimap<DeformedIndex, DeformedIndex> border_of(const Sheet& sheet,
   return border;
 }
 
-/// No triangle is in two; the corners of each go round its one border, which meets none twice; what is inside is inside.
+/// No triangle is in two; the corners of each go round its one border, which meets none twice; what is inside is
+/// inside.
 inline void expect_sound(const Sheet& sheet, const std::vector<Polygon>& polygons) {
   std::set<TriangleIndex> all;
   for (const Polygon& polygon : polygons) {
@@ -44,7 +45,8 @@ inline void expect_sound(const Sheet& sheet, const std::vector<Polygon>& polygon
       EXPECT_EQ(border.find(from)->second, to);
       EXPECT_TRUE(used.insert(from).second);
     }
-    // By Euler's formula a disc of T triangles, B of whose sides are on its border, has (T - B + 2) / 2 vertices inside.
+    // By Euler's formula a disc of T triangles, B of whose sides are on its border, has (T - B + 2) / 2 vertices
+    // inside.
     EXPECT_EQ(2 * inside.size(), triangles.size() + 2 - border.size());
     for (const DeformedIndex d : inside) EXPECT_FALSE(used.contains(d));
     for (std::size_t t = 0; t < sheet.triangle_slots(); ++t)

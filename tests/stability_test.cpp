@@ -1,5 +1,5 @@
-// the stability sweeps on a small sheet, with the verdicts that it must find; its cuts, which must come as near as they say; and
-// methods that crash or hang on purpose, which may cost one row each.
+// the stability sweeps on a small sheet, with the verdicts that it must find; its cuts, which must come as near as they
+// say; and methods that crash or hang on purpose, which may cost one row each.
 
 #include "harness/study/stability/stability.h"
 
@@ -168,8 +168,8 @@ newton = 20)",
   EXPECT_EQ(whole, parts);
 }
 
-/// Each time in the table of plots/figures/methods/whole_step.py is the cut's share of the cuts and the update, the first
-/// step after them and as many more as 0.25 s have; and on a front what takes longer errs less.
+/// Each time in the table of plots/figures/methods/whole_step.py is the cut's share of the cuts and the update, the
+/// first step after them and as many more as 0.25 s have; and on a front what takes longer errs less.
 TEST_F(Stability, WholeStepsAgainstErrors) {
   write(folder_ / "stability.toml", R"(claim = "c"
 sheets = ["delaunay"]

@@ -61,8 +61,9 @@ TEST(Stepper, FreeFallIsExact) {
   }
 }
 
-/// A sheet slit along the load, and pulled at one side by a force T per width that keeps its direction: every part of it
-/// is stretched alike, to the length L of E L (L^2 - 1) / 2 = T (green; Saint Venant-Kirchhoff), 1 + T / E otherwise.
+/// A sheet slit along the load, and pulled at one side by a force T per width that keeps its direction: every part of
+/// it is stretched alike, to the length L of E L (L^2 - 1) / 2 = T (green; Saint Venant-Kirchhoff), 1 + T / E
+/// otherwise.
 TEST(Stepper, AStretchedSheetIsAsLongAsTheClosedFormSays) {
   const double pull = 600, young = skin.stiffness;
   double longer = 1;

@@ -200,7 +200,7 @@ TEST(TipFunctions, AreRootsWithTheRightDerivatives) {
 Model<2> model_of(const Sheet& sheet, const Constraints& constraints) {
   Model<2> model(sheet, {.stiffness = sheet_material.young, .poisson = sheet_material.poisson},
                  {.dimension = 2, .strain = Strain::linear}, {}, {});
-  model.constraint(sheet, constraints);
+  model.constrain(sheet, constraints);
   return model;
 }
 

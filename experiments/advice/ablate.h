@@ -1,4 +1,5 @@
-// `cutbench ablate`: what each part of a scene's model is worth: the change of the result without it, and the time saved.
+// `cutbench ablate`: what each part of a scene's model is worth: the change of the result without it, and the time
+// saved.
 #pragma once
 
 #include <limits>
@@ -42,9 +43,9 @@ struct Ablation {
   int steps = 0;
 };
 
-/// Runs them one after the other, the whole model first. What can't be started has the verdict `refused`. A run that takes
-/// more than `time_limit` seconds of processor time, or ten times as long as the whole model, is `timed_out`.
-/// The last row is explicit: symplectic Euler at 0.9 of the largest step that the whole model's cut sheet allows, unless
+/// Runs them one after the other, the whole model first. What can't be started has the verdict `refused`. A run that
+/// takes more than `time_limit` seconds of processor time, or ten times as long as the whole model, is `timed_out`. The
+/// last row is explicit: symplectic Euler at 0.9 of the largest step that the whole model's cut sheet allows, unless
 /// there is none (vertices are constrained) or the scene is in equilibrium or explicit already.
 std::vector<Ablation> ablate(const Scene& scene, CuttingMethod& method, const CutOptions& options, double time_limit);
 

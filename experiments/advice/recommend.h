@@ -1,13 +1,13 @@
 // `cutbench recommend`: the cheapest way to simulate a scene whose error is small enough.
 //
 // The error is that of one number, the largest gape or deflection at the end, against its converged value
-// (converged_value.h). That value is known up to a margin: its spread times a quantile that was measured on scenes whose
-// converged value is known better (split conformal prediction with a normalised score: Papadopoulos, Gammerman, Vovk
-// 2008; Lei et al. 2018, J. Am. Stat. Assoc. 113). Each candidate is then run whole. Its error lies in an interval that
-// follows from the margin alone, so where the margin holds, all intervals hold: to choose the best of many does no harm.
-// Candidates whose interval holds the error asked for are undecided. While one of them is much cheaper than the best, the
-// converged value is refined. The quantile is that of values that were not refined so; that it holds for those that
-// were is what experiments/recommend_validation tests.
+// (converged_value.h). That value is known up to a margin: its spread times a quantile that was measured on scenes
+// whose converged value is known better (split conformal prediction with a normalised score: Papadopoulos, Gammerman,
+// Vovk 2008; Lei et al. 2018, J. Am. Stat. Assoc. 113). Each candidate is then run whole. Its error lies in an interval
+// that follows from the margin alone, so where the margin holds, all intervals hold: to choose the best of many does no
+// harm. Candidates whose interval holds the error asked for are undecided. While one of them is much cheaper than the
+// best, the converged value is refined. The quantile is that of values that were not refined so; that it holds for
+// those that were is what experiments/recommend_validation tests.
 #pragma once
 
 #include <filesystem>

@@ -76,7 +76,7 @@ double out_of_balance(const Sheet& sheet, const Field& u, const Constraints& con
       x.segment<2>(2 * static_cast<Eigen::Index>(d)) += rest_of(sheet, d);
   const Field load_on_it = load(sheet, constraints).force();
   Field force = load_on_it;
-  model.constraint(sheet, constraints);
+  model.constrain(sheet, constraints);
   if (model.constrained()) model.constrained()->satisfy(model.held(), x);
   model.rotate(x);
   model.add_internal_force(x, force);

@@ -1,5 +1,5 @@
-// The rows of performance tracking: one phase of a cut or of a step each, on a fixed sheet with fixed cuts. `count` runs
-// one row under callgrind, which counts the row's region alone; `experiments/track` calls it for every row.
+// The rows of performance tracking: one phase of a cut or of a step each, on a fixed sheet with fixed cuts. `count`
+// runs one row under callgrind, which counts the row's region alone; `experiments/track` calls it for every row.
 #include <benchmark/benchmark.h>
 #include <valgrind/callgrind.h>
 

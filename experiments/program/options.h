@@ -41,7 +41,8 @@ class Options {
   explicit Options(const std::string& description);
 
   /// `variable` must live until parse(); it keeps its value where the option is not given. A name without dashes is a
-  /// positional one. Value: std::string, int, double, std::int64_t, std::uint64_t, or a std::vector or std::optional of one.
+  /// positional one. Value: std::string, int, double, std::int64_t, std::uint64_t, or a std::vector or std::optional of
+  /// one.
   template <class Value>
   Option add_option(const std::string& name, Value& variable, const std::string& help = "");
   Option add_flag(const std::string& name, bool& variable, const std::string& help);

@@ -1,5 +1,5 @@
-// Memory that is asked for before it is needed. A processor reads ahead by itself, but not past a branch that it foresees
-// wrongly, and loops over short rows of different lengths are full of these.
+// Memory that is asked for before it is needed. A processor reads ahead by itself, but not past a branch that it
+// foresees wrongly, and loops over short rows of different lengths are full of these.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The constraints that a method may give, beside the triangles that it makes: for methods that keep badly shaped triangles
-// and take the unknowns from them.
+// The constraints that a method may give, beside the triangles that it makes: for methods that keep badly shaped
+// triangles and take the unknowns from them.
 #pragma once
 
 #include <cstdint>

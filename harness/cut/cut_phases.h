@@ -6,9 +6,9 @@
 
 namespace cutbench {
 
-/// One cut. The phases are to be called in the order of `cut_phases`. Each returns whether the cut goes on: where it does
-/// not, `outcome` says why, and the sheet is as it was. They throw TooClose, CutRefused and CutFailed; then the sheet is
-/// to be rolled back.
+/// One cut. The phases are to be called in the order of `cut_phases`. Each returns whether the cut goes on: where it
+/// does not, `outcome` says why, and the sheet is as it was. They throw TooClose, CutRefused and CutFailed; then the
+/// sheet is to be rolled back.
 class CutUnderWay {
  public:
   /// Keeps references to all of them. \param tracer, polyline  working storage

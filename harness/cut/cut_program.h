@@ -14,9 +14,9 @@ struct CutOptions;  // harness/cut/cut.h
 
 class CutProgram {
  public:
-  /// Makes the whole cut, in the place of adapt(), embed() and improve(): from the curve as it was asked for, not from its
-  /// trace. Marks what has to be opened as they do, and leaves nothing in the trace that runs along edges. Returns the
-  /// microseconds that the program took, above 0. Throws CutFailed, or CutRefused.
+  /// Makes the whole cut, in the place of adapt(), embed() and improve(): from the curve as it was asked for, not from
+  /// its trace. Marks what has to be opened as they do, and leaves nothing in the trace that runs along edges. Returns
+  /// the microseconds that the program took, above 0. Throws CutFailed, or CutRefused.
   virtual double run(Sheet& sheet, Subdivision& trace, const Curve& curve, const CutOptions& options) = 0;
 
   /// As it was given, for /bin/sh: with {mesh}, {path} and {out}.

@@ -7,9 +7,9 @@
 //                 stress_stiffness = "none"|"positive"|"full" (default: positive), bending = of bending_names,
 //                 mass = "lumped"|"consistent"|"stabilised"|"scaled", mass_limit = 1 (of the last two: harness/fem/
 //                 physics.h), gravity = [x, y, z],
-//                 active_radius (m: from the first cut on, what is farther from all cuts in rest space stays where it is,
-//                 and all but two rings of vertices of it are left out; pins there go on; what a method makes between
-//                 vertices that stay is free)
+//                 active_radius (m: from the first cut on, what is farther from all cuts in rest space stays where it
+//                 is, and all but two rings of vertices of it are left out; pins there go on; what a method makes
+//                 between vertices that stay is free)
 //   [[pins]]      near = [x, y] | box = [[x0, y0], [x1, y1]]; axes = "xyz", displacement, velocity = [x, y, z]
 //   [[tractions]] box, force = [x, y, z]
 //   [integrator]  name = "backward_euler"|"midpoint"|"symplectic_euler"|"xpbd"|"equilibrium", step, newton,

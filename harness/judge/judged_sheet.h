@@ -1,4 +1,5 @@
-// A sheet that one method cuts, with a judgement of every cut. Tests, the robustness run and all records are made with it.
+// A sheet that one method cuts, with a judgement of every cut. Tests, the robustness run and all records are made with
+// it.
 #pragma once
 
 #include <memory>

@@ -94,7 +94,7 @@ class Repair {
     double sum = 0, largest = 0;
     for (std::size_t h = 0; h < corners(); ++h) {
       const Point2 a = mesh_.rest[at(vertex(h))], b = mesh_.rest[at(vertex(next_half_edge(h)))];
-      sum += length(b - a);
+      sum += std::hypot(b.x - a.x, b.y - a.y);  // sides whose squares are zero count, too
       largest = std::max({largest, std::abs(a.x), std::abs(a.y)});
     }
     const double mean = sum / static_cast<double>(corners());

@@ -1,6 +1,7 @@
 // Constraints on the vertices of an opened sheet: how a method can improve the finite elements without changing the
 // geometry. x = C q has a row of C for each vertex; the unknowns q have the system C^T K C, C^T M C, C^T f
-// (harness/fem/constraints/constraint_matrix.h). Or triangles that are one element together, a polygon (harness/fem/elements/polygon_element.h).
+// (harness/fem/constraints/constraint_matrix.h). Or triangles that are one element together, a polygon
+// (harness/fem/elements/polygon_element.h).
 #pragma once
 
 #include <array>

@@ -2,11 +2,11 @@
 // round the vertices that the cut made or moved.
 //
 // An edge is flipped where the far corner of one of its triangles lies strictly inside the circumcircle of the other
-// (exact; constraints stay as they are), and the four edges round the two triangles are looked at next (Lawson, Software for
-// C1 surface interpolation, 1977). Each flip lowers the triangulation lifted onto the paraboloid, so that it ends.
-// Border and marked edges stay: what comes of it is constrained Delaunay where the input was Delaunay. Edges between
-// four vertices of the sheet before the cut stay, too: without that rule, a cut of a sheet that is not Delaunay would
-// flip its way through all of it.
+// (exact; constraints stay as they are), and the four edges round the two triangles are looked at next (Lawson,
+// Software for C1 surface interpolation, 1977). Each flip lowers the triangulation lifted onto the paraboloid, so that
+// it ends. Border and marked edges stay: what comes of it is constrained Delaunay where the input was Delaunay. Edges
+// between four vertices of the sheet before the cut stay, too: without that rule, a cut of a sheet that is not Delaunay
+// would flip its way through all of it.
 #pragma once
 
 #include <vector>

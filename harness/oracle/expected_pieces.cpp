@@ -108,8 +108,8 @@ int count_grazes(const std::vector<Segment>& path, const std::vector<Segment>& o
   return count;
 }
 
-/// How often the path passes a corner of the older lines within `tolerance`, all lines of the corner on the same side of
-/// it: it may as well leave the corner on that side.
+/// How often the path passes a corner of the older lines within `tolerance`, all lines of the corner on the same side
+/// of it: it may as well leave the corner on that side.
 int count_corners_passed(const std::vector<Segment>& path, const std::vector<Segment>& older,
                          const SegmentSearch& search, double tolerance) {
   std::map<Point, std::set<int>> passed;  // the corners, and the path's segments near each

@@ -1,7 +1,7 @@
 // The oracle: judges a cut from the sheet before, the requested curves and the sheet after, and nothing else.
 //
-// It shares no code with what it judges: no header of harness/mesh or harness/cut, its own exact predicate (numbers.h), its
-// own flattening, its own exact arrangement for the number of pieces.
+// It shares no code with what it judges: no header of harness/mesh or harness/cut, its own exact predicate (numbers.h),
+// its own flattening, its own exact arrangement for the number of pieces.
 #pragma once
 
 #include <cstdint>

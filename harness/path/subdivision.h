@@ -64,7 +64,8 @@ class Subdivision {
   /// The node at a place; one that lies within the snap distance on the same edge or in the same triangle is taken for
   /// it.
   int node_of(const Place& place) { return node_of(place, sheet_->snap()); }
-  /// A node of its own at a place inside an edge or a triangle, however near the others are. \pre none is at that point.
+  /// A node of its own at a place inside an edge or a triangle, however near the others are. \pre none is at that
+  /// point.
   int add_node(const Place& place) { return node_of(place, -1); }
   void add_segment(int face, int from, int to);
   void add_along(int from, int to, HalfEdge edge);

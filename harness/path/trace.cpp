@@ -102,8 +102,8 @@ bool Tracer::is_free(const Place& place) const {
   return true;
 }
 
-/// One edge between two tips has nothing to open, since tips stay whole: it gets a node in between, on the path. Between
-/// tips less than two snap distances apart, too.
+/// One edge between two tips has nothing to open, since tips stay whole: it gets a node in between, on the path.
+/// Between tips less than two snap distances apart, too.
 void Tracer::split_lone_piece() {
   const Place a = trace_.node(0).place, b = trace_.node(1).place;
   if (!is_free(a) || !is_free(b)) return;

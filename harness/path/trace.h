@@ -24,7 +24,8 @@ class Tracer {
   /// 1. The walk goes from event to event. Each passage through a triangle gets its start, its end and the points
   ///    between.
   /// 2. A point inside a triangle becomes a node where it is farther than `chord_tolerance` (rest units; infinity:
-  ///    none) from the chord. Tips, kept points, and points that keep a loop or a U-turn from collapsing always become nodes.
+  ///    none) from the chord. Tips, kept points, and points that keep a loop or a U-turn from collapsing always become
+  ///    nodes.
   /// 3. A curved path that leaves an older incision and comes back to it, never farther from it than `chord_tolerance`,
   ///    runs along it: there is nothing to cut (along_incision.cpp).
   /// 4. In triangles with several passages, crossings of the path with itself become nodes (self_crossings.cpp).

@@ -27,7 +27,8 @@ constexpr Promises promises_of_programs{.keeps_area = true, .conforming = true};
 /// it. Else the cut has failed, with the oracle's verdict, or `crashed` (it ended by a signal or with another exit code
 /// than 0 and 3), `timed_out`, or `no_result` (there is no file, or one that can't be read). Exit code 3 refuses the
 /// cut. The last line that the program wrote to standard error is the reason.
-/// Throws InputError: a name with other letters, a command without one of the three files, or a folder that is not there.
+/// Throws InputError: a name with other letters, a command without one of the three files, or a folder that is not
+/// there.
 MethodRow method_of_program(const ProgramSettings& settings);
 
 /// By this exit code a program refuses a cut. Not 2, by which interpreters say that they can't open a script.

@@ -12,7 +12,7 @@
 namespace cutbench {
 
 /// The version of meshes, cuts and definitions that records bear.
-constexpr const char* suite_version = "5";
+constexpr const char* suite_version = "6";
 
 /// So many of the first columns say what was measured, in every record: up to `cache`.
 constexpr std::size_t key_columns = 10;

@@ -21,9 +21,8 @@ struct ActiveRegion {
 };
 
 /// Vertices move that are no farther than `radius` (rest units) from a curve, or between it and its chord: what a cut
-/// parts from the sheet moves. Round them two rings of vertices are kept and held, so that slopes are held, too. Nothing
-/// is left out, and nothing held, where no vertex is near. Looks at everything.
-/// \pre check_radius_spans_edges()
+/// parts from the sheet moves. Round them two rings of vertices are kept and held, so that slopes are held, too.
+/// Nothing is left out, and nothing held, where no vertex is near. Looks at everything. \pre check_radius_spans_edges()
 ActiveRegion active_region(const Sheet& sheet, std::span<const Curve> curves, double radius);
 
 }  // namespace cutbench

@@ -1,5 +1,5 @@
-// Where the energy of a moving sheet goes, step by step. Each integrator's step moves the sheet by dx = h u, with forces
-// f at a place x* of the step and damping of a velocity w; the pins supply what is missing:
+// Where the energy of a moving sheet goes, step by step. Each integrator's step moves the sheet by dx = h u, with
+// forces f at a place x* of the step and damping of a velocity w; the pins supply what is missing:
 //
 //   M dv = h (f(x*) + f_ext - alpha M w - beta K w + f_pins)
 //
@@ -37,17 +37,17 @@ struct BudgetRow {
   double remainder = 0;       ///< gained, and not explained by the above
 };
 
-/// Of these the energy of each step can be accounted for. At rest there is no step; the forces that sweeps of xpbd leave
-/// over are not known.
+/// Of these the energy of each step can be accounted for. At rest there is no step; the forces that sweeps of xpbd
+/// leave over are not known.
 constexpr bool keeps_budget(Integrator integrator) {
   return integrator != Integrator::equilibrium && integrator != Integrator::xpbd;
 }
 
 class EnergyBudget {
  public:
-  /// The largest rises over any span of time, relative to the largest kinetic + elastic energy so far: of the remainder,
-  /// which only an error can raise and no damping or loss can hide; of the sum of the jumps, which are errors of the
-  /// mesh, for a cut does not move the sheet; and of the total, less work of pins and jumps.
+  /// The largest rises over any span of time, relative to the largest kinetic + elastic energy so far: of the
+  /// remainder, which only an error can raise and no damping or loss can hide; of the sum of the jumps, which are
+  /// errors of the mesh, for a cut does not move the sheet; and of the total, less work of pins and jumps.
   struct Gains {
     double remainder = 0, jumps = 0, unexplained = 0;
   };

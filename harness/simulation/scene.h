@@ -45,7 +45,8 @@ struct Scene {
 
   Material material;
   Physics physics;
-  /// m, rest space: from the first cut on, what is farther from all cuts stays where it is (harness/simulation/active_region.h).
+  /// m, rest space: from the first cut on, what is farther from all cuts stays where it is
+  /// (harness/simulation/active_region.h).
   double active_radius = std::numeric_limits<double>::infinity();
   std::vector<ScenePin> pins;
   std::vector<Traction> tractions;

@@ -207,7 +207,7 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, std::span<const Curve> curve
     const Constraints constraints =
         source->next_constraints(before_cuts_, moving.sheet, moving.model.elements().polygons_left());
     result.cut.time_us.constrain += watch.lap();
-    moving.model.constraint(moving.sheet, constraints);
+    moving.model.constrain(moving.sheet, constraints);
     for (Field* const field : {&moving.state.x, &moving.state.v}) {  // the state of before the cut need not
       if (moving.model.constrained()) moving.model.constrained()->satisfy(moving.model.held(), *field);
       moving.model.follow(*field);

@@ -1,5 +1,6 @@
 // The cuts of a scene in motion, made when they are due: all at once, or part by part where a blade advances with the
-// steps; and cuts between two steps that no scene knows of. Before the first one, what is far from all of them may be left out (harness/simulation/active_region.h).
+// steps; and cuts between two steps that no scene knows of. Before the first one, what is far from all of them may be
+// left out (harness/simulation/active_region.h).
 #pragma once
 
 #include <optional>
@@ -26,11 +27,12 @@ class SceneCuts {
   /// In their order, those of make_now() among them.
   const std::vector<MotionCut>& made() const { return made_; }
 
-  /// To be called before each step. Does nothing but where the first cut is due and the scene has an active radius. True:
-  /// it left something out, so an energy budget has to begin anew.
+  /// To be called before each step. Does nothing but where the first cut is due and the scene has an active radius.
+  /// True: it left something out, so an energy budget has to begin anew.
   bool leave_out_far_parts();
-  /// Makes the cuts, and parts of cuts, that are due before the step that is next. Returns the first one whose verdict is
-  /// not ok, or null. Throws InputError where a pick misses the sheet. \param budget  the cuts' jumps go there; may be null
+  /// Makes the cuts, and parts of cuts, that are due before the step that is next. Returns the first one whose verdict
+  /// is not ok, or null. Throws InputError where a pick misses the sheet. \param budget  the cuts' jumps go there; may
+  /// be null
   const MotionCut* make_due(CuttingMethod& method, const CutOptions& options, EnergyBudget* budget);
   /// Makes a cut that is not the scene's, before the step that is next: see Simulation::cut_now().
   const MotionCut& make_now(std::span<const Curve> curves, CuttingMethod& method, const CutOptions& options,

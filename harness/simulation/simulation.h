@@ -48,8 +48,8 @@ class Simulation {
   /// Makes one step; the scene's own cuts wait for advance(). A report that is not ok ends the simulation: verdict().
   virtual StepReport step() = 0;
   /// Makes a cut right now, before the step that is next: the curves one after the other, as a cut of the scene with
-  /// these curves would be made. \return  what came of it. A curve that is refused, or fails (`verdict`), or has nothing
-  /// to cut leaves sheet, state and model bit-unchanged; after a failure the curves behind it are not tried.
+  /// these curves would be made. \return  what came of it. A curve that is refused, or fails (`verdict`), or has
+  /// nothing to cut leaves sheet, state and model bit-unchanged; after a failure the curves behind it are not tried.
   /// \param curves  rest space, m; for points in world space see Picker, with posed_sheet()
   /// \param method  the same in all cuts of a simulation, where it constrains vertices or makes polygons
   /// \throw InputError  before anything is changed: no curve, one that check_curve() refuses, or a scene with an active

@@ -28,8 +28,8 @@ struct Experiment {
     bool cross_check = false;                       ///< CGAL's triangulation of the whole sheet cuts, too
   };
 
-  /// Problems with a known solution (harness/problems/common/problem.h) instead of cut families: every cut sheet is loaded,
-  /// solved and compared with it.
+  /// Problems with a known solution (harness/problems/common/problem.h) instead of cut families: every cut sheet is
+  /// loaded, solved and compared with it.
   struct Accuracy {
     std::vector<std::string> problems;
     std::vector<std::string> direct;           ///< solvers that run until they converge

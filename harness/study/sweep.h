@@ -1,5 +1,6 @@
 // A sweep of the stability sweeps: points that differ in a few settings, such as how far a cut passes a vertex, or the
-// step and the solver of the motion after it. A setting with several values is an axis; every constraint_matrix is a point.
+// step and the solver of the motion after it. A setting with several values is an axis; every constraint_matrix is a
+// point.
 #pragma once
 
 #include <filesystem>

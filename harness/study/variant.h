@@ -42,7 +42,8 @@ struct Variant {
   double parameter;
   std::string parameter_text() const;  ///< "rounds=1", or empty
 };
-/// The experiment's methods and programs. Throws InputError for unknown methods, values of a parameter out of range, and anything named twice.
+/// The experiment's methods and programs. Throws InputError for unknown methods, values of a parameter out of range,
+/// and anything named twice.
 std::vector<Variant> variants_of(const Experiment& experiment, const std::vector<MethodRow>& methods);
 
 }  // namespace cutbench

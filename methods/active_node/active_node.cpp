@@ -77,8 +77,8 @@ double ActiveNode::next_target(std::size_t i, double from) const {
   return from + rest / std::max(1.0, std::round(rest / spacing_));
 }
 
-/// Flips edges at v that keep it from `to` without turning a triangle over, where that can be done; `onto` is the vertex
-/// at `to` that v is to be merged with, or invalid.
+/// Flips edges at v that keep it from `to` without turning a triangle over, where that can be done; `onto` is the
+/// vertex at `to` that v is to be merged with, or invalid.
 void ActiveNode::make_room(Sheet& sheet, VertexIndex v, Point2 to, VertexIndex onto) {
   for (bool flipped = true; flipped;) {
     flipped = false;

@@ -2,24 +2,25 @@
 //
 // How it works. embed: the Delaunay split. improve: in a zone round the path, edges are split, flipped and collapsed in
 // turn, until every edge fits the field (methods/adaptive_remesh/size_field.h), or for ten rounds:
-//  - an edge longer than sqrt(2) times the field at its middle is divided there, also one of the path, an incision or the
+//  - an edge longer than sqrt(2) times the field at its middle is divided there, also one of the path, an incision or
+//  the
 //    border;
 //  - an edge that separates nothing is flipped where it is not Delaunay (exact in_circle);
 //  - an edge shorter than 1 / sqrt(2) of it is collapsed, where no new edge becomes too long, and no triangle gets an
 //    aspect ratio beyond 3 and beyond those that were there.
 // The zone is what the split changed, and the triangles in the reach of the path's tips, and of tips of earlier cuts at
-// which the path goes on: behind the blade, where these are tips no more, collapses make the mesh coarse again. The zone
-// does not grow, so that the cost follows the triangles near the cut.
+// which the path goes on: behind the blade, where these are tips no more, collapses make the mesh coarse again. The
+// zone does not grow, so that the cost follows the triangles near the cut.
 //
 // Frozen: border, older incisions and the path stay where they are, with their vertices, and so do held vertices
 // (Sheet::hold). The one exception is a vertex inside a straight piece of the path, where the path crossed an edge: it
 // may go, since without it the path is the same to rounding. Sheet::flip and Sheet::collapse refuse by exact predicates
 // what would turn a triangle over, so the area stays.
 //
-// Source, cited from memory: Narain, Samii and O'Brien, Adaptive anisotropic remeshing for cloth simulation, ACM TOG 31(6), 2012 (split,
-// flip, collapse); Pfaff, Narain, de Joya and O'Brien, Adaptive tearing and cracking of thin sheets, ACM TOG
-// 33(4), 2014 (fine at tips, coarse behind). The bounds sqrt(2) and 1 / sqrt(2), a quasi-unit mesh: Frey and George, Mesh
-// Generation, 2000. Narain's field is a tensor; here it is a number, and nothing is moved.
+// Source, cited from memory: Narain, Samii and O'Brien, Adaptive anisotropic remeshing for cloth simulation, ACM TOG
+// 31(6), 2012 (split, flip, collapse); Pfaff, Narain, de Joya and O'Brien, Adaptive tearing and cracking of thin
+// sheets, ACM TOG 33(4), 2014 (fine at tips, coarse behind). The bounds sqrt(2) and 1 / sqrt(2), a quasi-unit mesh:
+// Frey and George, Mesh Generation, 2000. Narain's field is a tensor; here it is a number, and nothing is moved.
 // Promises: the exact path, area, conforming; not that vertices stay: those too close together are removed, and what
 // they carried is lost.
 // Where it fails: no aspect ratio is promised. Vertices of curved paths and of older incisions stay, however close

@@ -8,9 +8,9 @@ namespace cutbench {
 
 namespace {
 
-/// A tip whose lips would be stiffer stays closed: of the shape function of a lip's vertex on the edge at which it enters,
-/// the integral of the squared gradient over a triangle, times the squared weight of the phantom node there. It grows
-/// without bound as the tip comes near the edge, or near the line through a bend of the path and the edge.
+/// A tip whose lips would be stiffer stays closed: of the shape function of a lip's vertex on the edge at which it
+/// enters, the integral of the squared gradient over a triangle, times the squared weight of the phantom node there. It
+/// grows without bound as the tip comes near the edge, or near the line through a bend of the path and the edge.
 constexpr double most_stiffness = 3;
 
 }  // namespace
@@ -57,8 +57,8 @@ bool OpenTips::are_apart(HalfEdge h, VertexIndex end) const {
   return std::binary_search(apart_.begin(), apart_.end(), std::pair(h, end));
 }
 
-/// The pieces on the two sides of an incision that enters here have nothing in common. A copy of an end of the edge goes
-/// along with the pieces next to it.
+/// The pieces on the two sides of an incision that enters here have nothing in common. A copy of an end of the edge
+/// goes along with the pieces next to it.
 void OpenTips::open_edge(std::span<Piece> pieces) {
   for (std::size_t n = 0; n < pieces.size(); ++n)
     for (Piece& a : pieces)

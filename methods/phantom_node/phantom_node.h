@@ -5,15 +5,16 @@
 // first cut. A part has its own copy of its parent's three corners as its unknowns: a corner that belongs to the part
 // is that vertex of the sheet, any other is a phantom node. Parts on the two sides of an edge of the sheet that are
 // joined along it, or along a piece of it, share the copies of its two ends. All vertices that cuts made are
-// constrained to the corners of their part by their barycentric coordinates (Constraints, harness/mesh/constraints.h). So sums over
-// the triangles of a part are exact integrals over it, for any number of cuts, junctions and loops.
-//  - Tip rule: a part that lies on both sides of an incision, because that ends inside, is slit. It has one copy of each
-//    corner, but its field is linear in each of its triangles only: where the incision enters, the two lips go along with
-//    the copies beyond the edge, and all other vertices, the tip among them, with the part's own. So the jump goes
+// constrained to the corners of their part by their barycentric coordinates (Constraints, harness/mesh/constraints.h).
+// So sums over the triangles of a part are exact integrals over it, for any number of cuts, junctions and loops.
+//  - Tip rule: a part that lies on both sides of an incision, because that ends inside, is slit. It has one copy of
+//  each
+//    corner, but its field is linear in each of its triangles only: where the incision enters, the two lips go along
+//    with the copies beyond the edge, and all other vertices, the tip among them, with the part's own. So the jump goes
 //    linearly to zero from the edge to the tip, and ahead of the tip the field is continuous.
-//    Where that cannot be, the incision ends for the unknowns where it enters the part (the lips reach up to the tip, but
-//    coincide): where it enters at a corner, or from another slit part, or where the lips would be too stiff because the
-//    tip is close to the edge at which it enters. At a bend inside the part it ends at the bend.
+//    Where that cannot be, the incision ends for the unknowns where it enters the part (the lips reach up to the tip,
+//    but coincide): where it enters at a corner, or from another slit part, or where the lips would be too stiff
+//    because the tip is close to the edge at which it enters. At a bend inside the part it ends at the bend.
 //  - Copies of a vertex of the sheet that belong to the same part are one unknown.
 //  - Supports (pins, border displacements) act on the sheet's own vertices and on crossings of the border.
 //

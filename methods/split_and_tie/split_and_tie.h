@@ -3,8 +3,8 @@
 //
 // How it works: the cut is that of conventional_split, incision and triangles alike. Vertices of slivers that it made
 // are then constrained: each is extrapolated from a well-shaped master triangle on its own side of the cut, by the
-// linear field of that triangle. Which vertices, and which masters: methods/tools/constrain_slivers.h, with rules for tips,
-// junctions and the border.
+// linear field of that triangle. Which vertices, and which masters: methods/tools/constrain_slivers.h, with rules for
+// tips, junctions and the border.
 //
 // Source: aggregated finite elements (Badia, Verdugo and Martin, The aggregated unfitted finite element method for
 // elliptic problems, CMAME 336, 2018); there the cut cells are integrated and not split.

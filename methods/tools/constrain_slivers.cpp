@@ -171,8 +171,8 @@ class SliverConstraints {
     return altitude(corners, k) < thinness_ * scale(t);
   }
 
-  /// Constraints a free vertex that is too near to an edge, as it is when corners constrained to a near one are drawn to it, unless
-  /// a corner there has been constrained for that vertex's sake.
+  /// Constraints a free vertex that is too near to an edge, as it is when corners constrained to a near one are drawn
+  /// to it, unless a corner there has been constrained for that vertex's sake.
   void flatten(New& v) {
     double thinnest = thinness_;
     DeformedIndex nearer;

@@ -122,8 +122,8 @@ bool DelaunayRefinement::find_encroached(const Sheet& sheet, TriangleIndex t, Po
   return !encroached_.empty();
 }
 
-/// The power of two next to x > 0, its logarithm rounded: without the C library's logarithm, which differs from one to the
-/// next.
+/// The power of two next to x > 0, its logarithm rounded: without the C library's logarithm, which differs from one to
+/// the next.
 double nearest_power_of_two(double x) {
   int exponent = 0;
   const double fraction = std::frexp(x, &exponent);  // at least 1/2

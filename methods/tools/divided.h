@@ -20,13 +20,14 @@ TriangleIndex triangle_at(const Sheet& sheet, TriangleIndex start, Point2 p);
 /// A triangle that cuts made: one with a vertex that `before` has not. \pre it is alive
 bool is_part(const Sheet& before, const Sheet& cut, TriangleIndex t);
 
-/// The triangle of `before` that a part, of a sheet that was only divided, lies in. A part keeps its parent's slot, and slots
-/// follow the path: from the last part's parent, `start`, the walk is short.
+/// The triangle of `before` that a part, of a sheet that was only divided, lies in. A part keeps its parent's slot, and
+/// slots follow the path: from the last part's parent, `start`, the walk is short.
 TriangleIndex parent_of(const Sheet& before, const Sheet& cut, TriangleIndex part, TriangleIndex start);
 
 /// The triangles of `cut` that are new, in the order of their slots: those with a vertex that `before` has not.
 /// \param before  the sheet before its first cut
-/// \param only_divided  `cut` is a copy of it that was divided, but not changed otherwise. Then it looks at new slots alone,
+/// \param only_divided  `cut` is a copy of it that was divided, but not changed otherwise. Then it looks at new slots
+/// alone,
 ///                      if `before` has no free ones, else at all vertices.
 std::vector<TriangleIndex> new_triangles(const Sheet& before, const Sheet& cut, bool only_divided);
 

@@ -32,9 +32,9 @@ class PathCurve {
   }
   void set_parameter(VertexIndex v, double s) { parameter_of_.at(v) = s; }
   Point2 at(double s) const;
-  /// Whether the path's edge between vertices of these parameters stands for the piece between them. It does not where a
-  /// parameter is unknown, or where the edge closes a closed path, from its last node to its first: then all of the path
-  /// lies between them.
+  /// Whether the path's edge between vertices of these parameters stands for the piece between them. It does not where
+  /// a parameter is unknown, or where the edge closes a closed path, from its last node to its first: then all of the
+  /// path lies between them.
   bool is_piece(double from, double to) const {
     return from >= 0 && to >= 0 && !(closed_ && 2 * std::abs(to - from) > static_cast<double>(points_.size()));
   }

@@ -39,8 +39,8 @@ class VertexLink {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double good = 0.9;  // times the largest aspect ratio allowed: the search stops below it
 
-/// The vertex has over 64 edges. It may have thousands, and what looks at all of them for each of its triangles takes time
-/// that grows with the square of their number: it stays where it is, and so do its neighbours as such.
+/// The vertex has over 64 edges. It may have thousands, and what looks at all of them for each of its triangles takes
+/// time that grows with the square of their number: it stays where it is, and so do its neighbours as such.
 bool is_wide(const Sheet& sheet, VertexIndex v) {
   constexpr int widest = 64;
   const TriangleIndex t = sheet.triangle_of_vertex(v);

@@ -65,8 +65,8 @@ class Reshape {
   bool is_near_curve(double from, double to, Point2 a, Point2 b) const {
     return curve_->stays_near(from, to, a, b, tolerance_);
   }
-  /// Splits an edge with a new vertex at p, which may lie beside it; invalid, unchanged, where a triangle would not stay
-  /// positive.
+  /// Splits an edge with a new vertex at p, which may lie beside it; invalid, unchanged, where a triangle would not
+  /// stay positive.
   VertexIndex split_at(HalfEdge h, Point2 p);
 
  private:

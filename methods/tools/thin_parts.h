@@ -6,13 +6,13 @@
 //  - The thinnest first, in relation, until none is thin or can be merged: it joins the neighbour across its longest
 //    edge that no cut separates. That may be a triangle that no cut met.
 //  - Where the result would have a hole, meet a vertex twice, hold a vertex inside that something is attached to
-//    (Sheet::is_held()), or be thicker than the thin one by less than a tenth, the neighbour across the next longest edge
-//    is taken. Where there is none, it stays thin until a neighbour has grown: at last strips between two cuts, and pieces
-//    smaller than a triangle.
+//    (Sheet::is_held()), or be thicker than the thin one by less than a tenth, the neighbour across the next longest
+//    edge is taken. Where there is none, it stays thin until a neighbour has grown: at last strips between two cuts,
+//    and pieces smaller than a triangle.
 //  - A polygon never reaches across an incision, but it may reach round a tip; the incision is then a slit in it.
 //
-// Source: the merging of cut cells in CutVEM (Rangarajan and Sukumar, arXiv 2508.10570, 2025); there a cell is merged for
-// the ratio of the extreme eigenvalues of its matrix.
+// Source: the merging of cut cells in CutVEM (Rangarajan and Sukumar, arXiv 2508.10570, 2025); there a cell is merged
+// for the ratio of the extreme eigenvalues of its matrix.
 #pragma once
 
 #include "harness/mesh/constraints.h"

@@ -44,9 +44,9 @@ namespace cutbench {
 
 class WarpAndRefine : public CuttingMethod, private ConstraintSource {
  public:
-  /// The step before the split and the last step after it. A later step of After includes the earlier ones, except constraint
-  /// (methods/tools/constrain_slivers.h), which does not change the mesh. The method is warp_and_thin with refine; the other
-  /// combinations are rows of the ablation.
+  /// The step before the split and the last step after it. A later step of After includes the earlier ones, except
+  /// constraint (methods/tools/constrain_slivers.h), which does not change the mesh. The method is warp_and_thin with
+  /// refine; the other combinations are rows of the ablation.
   enum class Before : std::uint8_t { nothing, snap, warp, thin, warp_and_thin };
   enum class After : std::uint8_t { nothing, flips, smoothing, refine, constraint };
   struct Options {

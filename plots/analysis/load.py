@@ -17,7 +17,7 @@ import numpy as np
 import pandas as pd
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-SUITE_VERSIONS = ["2", "3", "4", "5"]  # that can be read; older column names are renamed on reading
+SUITE_VERSIONS = ["2", "3", "4", "5", "6"]  # that can be read; older column names are renamed on reading
 TEXT = ["suite_version", "sheet", "method", "parameter", "seed", "cache", "status", "verdict", "reason"]
 TEXT_OF_SOME = ["cut_family", "problem", "solver", "primary",  # text in the records that have them
                 "sweep", "cut", "pose", "integrator", "stress_stiffness", "mass", "bending"]

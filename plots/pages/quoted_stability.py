@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The numbers that docs/stability.md quotes of the stage `stability` of experiments/publish and that are no cell the stability sweeps.md, a line
+"""The numbers that docs/stability.md quotes of the stage `stability` of experiments/publish and that are no cell of stability.md, a line
 each, in the order of the page, labelled by their words. Reads the published records; those of a run by --results results/stability."""
 
 import argparse

@@ -111,8 +111,8 @@ Experiment read_part(const std::string& file, const RunArguments& arguments, con
   return e;
 }
 
-/// While it lives, this process and those it starts stay on one core: the i-th for shard i, so that shards that run side
-/// by side do not meet on one.
+/// While it lives, this process and those it starts stay on one core: the i-th for shard i, so that shards that run
+/// side by side do not meet on one.
 class OneCore {
  public:
   explicit OneCore(int shard) {

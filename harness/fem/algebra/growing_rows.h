@@ -9,8 +9,8 @@
 
 namespace cutbench {
 
-/// Room for half as many items again, before they have to be copied. It is written to: a page that nobody has touched yet
-/// costs more than the rows of a cut that go there.
+/// Room for half as many items again, before they have to be copied. It is written to: a page that nobody has touched
+/// yet costs more than the rows of a cut that go there.
 template <class... Vectors>
 void reserve_spare(Vectors&... vectors) {
   const auto reserve = [](auto& vector) {

@@ -14,7 +14,8 @@ namespace cutbench {
 class PatternHistory {
  public:
   void begin_change() { numbers_.push_back(next()), first_.push_back(rows_.size()); }
-  /// The row changes: its pattern, its values that are not assembled anew each time, its place or which unknowns are held.
+  /// The row changes: its pattern, its values that are not assembled anew each time, its place or which unknowns are
+  /// held.
   void mark(std::size_t row) { rows_.push_back(static_cast<std::int32_t>(row)); }
 
   std::uint64_t now() const { return numbers_.empty() ? 0 : numbers_.back(); }

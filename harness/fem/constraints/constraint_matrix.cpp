@@ -44,7 +44,8 @@ void ConstrainedSystem<D>::change(const Constraints& constraints, std::size_t ve
   is_changed_ = true;
 }
 
-/// Rows that constraints change: of what is constrained, of its masters and neighbours, of phantom nodes and ghost penalties.
+/// Rows that constraints change: of what is constrained, of its masters and neighbours, of phantom nodes and ghost
+/// penalties.
 template <int D>
 void ConstrainedSystem<D>::find_near(const SystemMatrix<D>& a) {
   for (const std::size_t u : near_rows_) near_[u] = 0;

@@ -1,6 +1,6 @@
 // x = C q: the positions of the sheet's vertices as affine combinations of the unknowns q, where some vertices are
-// constrained (harness/mesh/constraints.h), and the linear system of q. A constrained vertex is no unknown: it is extrapolated
-// from its masters, three unconstrained vertices or phantom nodes.
+// constrained (harness/mesh/constraints.h), and the linear system of q. A constrained vertex is no unknown: it is
+// extrapolated from its masters, three unconstrained vertices or phantom nodes.
 #pragma once
 
 #include <algorithm>
@@ -49,13 +49,14 @@ class ConstraintMatrix {
 
 /// The system C^T A C with ghost penalties, for a system A of all vertices. Held unknowns of A are data: their rows of
 /// C are zero, or left to the solver's projection. An unknown of q is held where its vertex is held, and where nothing
-/// depends on it. Assemble it whenever A changes. Only rows near constrained vertices are computed; all others are those
-/// of A, copied, and scalar matrices, which are constant between cuts, are computed once. After a cut, change it.
+/// depends on it. Assemble it whenever A changes. Only rows near constrained vertices are computed; all others are
+/// those of A, copied, and scalar matrices, which are constant between cuts, are computed once. After a cut, change it.
 template <int D>
 class ConstrainedSystem {
  public:
   ConstrainedSystem(const Constraints& constraints, std::size_t vertices) { change(constraints, vertices); }
-  /// The constraints after one more cut. Of all other rows only those follow that the history of A names, where it has one.
+  /// The constraints after one more cut. Of all other rows only those follow that the history of A names, where it has
+  /// one.
   void change(const Constraints& constraints, std::size_t vertices);
 
   const ConstraintMatrix& constraint_matrix() const { return constraint_matrix_; }

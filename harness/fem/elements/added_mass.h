@@ -1,8 +1,8 @@
 // Mass that thin elements get beside the lumped one, so that no element is stiffer for its mass than a limit. Explicit
 // steps then need not shrink where a cut passes close to a vertex.
 //
-// Theory. Let K = sum K_e and M = sum M_e. Where K_e <= l M_e for every element, K <= l M: the largest eigenvalue of the
-// sheet is at most that of an element (Irons and Treharne, A bound theorem in eigenvalues and its practical
+// Theory. Let K = sum K_e and M = sum M_e. Where K_e <= l M_e for every element, K <= l M: the largest eigenvalue of
+// the sheet is at most that of an element (Irons and Treharne, A bound theorem in eigenvalues and its practical
 // applications, 1971). With K_e = R^T R, the eigenvalues of (K_e, M_e) are those of T = R M_e^-1 R^T, and
 //
 //   stabilised   M_e += R^T (1/l - T^-1)_+ R, which is the sum of (l_k / l - 1) M_e p_k p_k^T M_e over the modes (l_k,
@@ -13,11 +13,11 @@
 // Elements are
 //
 //   a triangle of the membrane, M_e = density A / 3 at each corner. Its K_e turns with it. So that the mass does not,
-//   which would change the energy of motion, it is bounded by what acts on each coordinate alike: K_e <= s A G G^T, with
-//   the gradients G of the shape functions and s = 2 (mu + lambda), the largest stiffness of the material. Translation
-//   keeps its inertia. That of a turning sliver grows, as if it were about as wide as the elements that l comes from.
-//   a stencil of bending (bending.h), R its three rows, M_e the mass of each vertex over the number of stencils that hold
-//   it. All that is linear in rest coordinates, turning too, keeps its inertia.
+//   which would change the energy of motion, it is bounded by what acts on each coordinate alike: K_e <= s A G G^T,
+//   with the gradients G of the shape functions and s = 2 (mu + lambda), the largest stiffness of the material.
+//   Translation keeps its inertia. That of a turning sliver grows, as if it were about as wide as the elements that l
+//   comes from. a stencil of bending (bending.h), R its three rows, M_e the mass of each vertex over the number of
+//   stencils that hold it. All that is linear in rest coordinates, turning too, keeps its inertia.
 //
 // Membrane and bending are each at most l, both together at most 2 l. Elements of several triangles get no mass for
 // their membrane. The added mass has no weight: equilibria stay as they are.
@@ -79,8 +79,8 @@ class AddedMass {
 
   Mass kind_;
   double density_, limit_;
-  // Per triangle slot, (1/l - T^-1)_+ of the membrane and of the stencil, zero for most; where the mass is scaled, l_max /
-  // l - 1 in their first entries.
+  // Per triangle slot, (1/l - T^-1)_+ of the membrane and of the stencil, zero for most; where the mass is scaled,
+  // l_max / l - 1 in their first entries.
   std::vector<Eigen::Matrix2d> in_plane_;
   std::vector<Eigen::Matrix3d> bent_;
   BlockMatrix<1> matrix_;

@@ -67,8 +67,8 @@ class ElementStiffness {
   /// Of the modes whose stiffness depends on the stress.
   struct Moduli {
     Number twist{};  ///< in the plane
-    /// Of a corner's motion out of the plane, tension over stretch; of green in every direction, tension. On the principal
-    /// axes of the strain.
+    /// Of a corner's motion out of the plane, tension over stretch; of green in every direction, tension. On the
+    /// principal axes of the strain.
     Number xx{}, xy{}, yy{};
 
     /// `modulus` of each principal strain.

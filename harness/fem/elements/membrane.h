@@ -8,15 +8,17 @@
 // The energy per rest area is mu e:e + lambda/2 (tr e)^2, the stress s = 2 mu e + lambda (tr e) I, and the first Piola
 // stress P = B s, exactly: the change of R does no work.
 //
-// green is the Saint Venant-Kirchhoff material (Sifakis and Barbic, FEM Simulation of 3D Deformable Solids, SIGGRAPH 2012
-// courses, part 1, chapter 3), the nonlinear reference. With the moduli of plane stress it is the solid sheet's at any
-// strain: without stress across the sheet E33 = -lambda / (lambda + 2 mu) (E11 + E22) of the solid, as in linear theory.
-// It is smooth at every F, collapsed ones too, so that no step needs a barrier. Its limits: a strip stretched to L times
-// its length pulls with E L (L^2 - 1) / 2, and is sqrt(1 - nu (L^2 - 1)) as wide; it gives way below L = 1/sqrt(3). Rubber
-// (neo-Hookean) is softer than linear elasticity under tension, this is stiffer: no one law is right at large strains.
+// green is the Saint Venant-Kirchhoff material (Sifakis and Barbic, FEM Simulation of 3D Deformable Solids, SIGGRAPH
+// 2012 courses, part 1, chapter 3), the nonlinear reference. With the moduli of plane stress it is the solid sheet's at
+// any strain: without stress across the sheet E33 = -lambda / (lambda + 2 mu) (E11 + E22) of the solid, as in linear
+// theory. It is smooth at every F, collapsed ones too, so that no step needs a barrier. Its limits: a strip stretched
+// to L times its length pulls with E L (L^2 - 1) / 2, and is sqrt(1 - nu (L^2 - 1)) as wide; it gives way below L =
+// 1/sqrt(3). Rubber (neo-Hookean) is softer than linear elasticity under tension, this is stiffer: no one law is right
+// at large strains.
 //
 // The second derivative of the energy is that of linear elasticity turned by B, and what the stress adds to it:
-// - of corotational (Smith, de Goes and Kim, Analytic eigensystems for isotropic distortion energies, TOG 38, 2019): the
+// - of corotational (Smith, de Goes and Kim, Analytic eigensystems for isotropic distortion energies, TOG 38, 2019):
+// the
 //   in-plane twist, with (s1 + s2) / (S1 + S2); and, in space, tilting out of the plane, with s_k / S_k along each
 //   principal direction (Baraff and Witkin's geometric stiffness);
 // - of green: g s h I, for corners with the gradients g and h (Bonet and Wood, Nonlinear Continuum Mechanics for Finite

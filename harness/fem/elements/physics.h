@@ -34,8 +34,8 @@ constexpr EnumNames<Strain, 4> strain_names{{{Strain::linear, "linear"},
                                              {Strain::springs, "springs"}}};
 
 /// The stiffness that stress gives to a membrane (membrane.h): `positive` leaves out what is negative, so
-/// that the matrix is positive semi-definite; `full` is the exact second derivative, which has no bound where a triangle
-/// collapses; `none` leaves all of it out.
+/// that the matrix is positive semi-definite; `full` is the exact second derivative, which has no bound where a
+/// triangle collapses; `none` leaves all of it out.
 enum class StressStiffness : std::uint8_t { none, positive, full };
 constexpr EnumNames<StressStiffness, 3> stress_stiffness_names{
     {{StressStiffness::none, "none"}, {StressStiffness::positive, "positive"}, {StressStiffness::full, "full"}}};
@@ -71,7 +71,8 @@ struct Physics {
   StressStiffness stress_stiffness = StressStiffness::positive;  ///< linear strain has none
   BendingKind bending = BendingKind::none;                       ///< none in 2D
   Mass mass = Mass::lumped;
-  /// Of a mass that is stabilised or scaled: the largest eigenvalue of an element, over that of the sheet before any cut.
+  /// Of a mass that is stabilised or scaled: the largest eigenvalue of an element, over that of the sheet before any
+  /// cut.
   double mass_limit = 1;
   Point3 gravity{};  ///< m/s2
 

@@ -8,7 +8,8 @@
 // stabilisation resists (polygon_sheet.h).
 //
 // All of it holds for a polygon that is not convex, and for a slit one: G_i is then the same for the whole boundary,
-// both lips of the slit included, and F the mean gradient of the material. How the slit gapes is in the departure alone.
+// both lips of the slit included, and F the mean gradient of the material. How the slit gapes is in the departure
+// alone.
 #pragma once
 
 #include <Eigen/Core>

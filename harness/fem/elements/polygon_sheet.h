@@ -8,8 +8,8 @@
 // In space with bending only the departure in the polygon's plane counts, d - (n d) n with the normal n of F, for what
 // departs from the plane bends (bending.h). n turns with F: with g = sum (n d_i) d_i and the dual basis F^a of F's
 // columns that adds tau E (g F^a) n to column a of the stress. The stiffness is that of Gauss and Newton, tau E J^T J
-// with the derivative J of the departure in the plane, positive semi-definite; without the share of n in it a bent sheet
-// gained energy. Without bending nothing else keeps the corners of a polygon in its plane, and all of d counts.
+// with the derivative J of the departure in the plane, positive semi-definite; without the share of n in it a bent
+// sheet gained energy. Without bending nothing else keeps the corners of a polygon in its plane, and all of d counts.
 #pragma once
 
 #include <span>

@@ -2,16 +2,16 @@
 // simulation, SIGGRAPH 1998, give the implicit step).
 //
 // Their constants come from the material: k = E A / L^2 of each triangle at an edge of rest length L (van Gelder,
-// Approximate simulation of elastic membranes by triangulated spring meshes, J. Graphics Tools 3(2), 1998), so the energy
-// per rest area is E / 2 sum (l_i - 1)^2, with the stretch l_i = |F t_i| of edge i, whose direction at rest is t_i. The
-// stress is s = E sum (1 - 1 / l_i) t_i t_i^T, and P = F s. The second derivative has E (t_i g)(t_i h) for corners with
-// gradients g and h, times u u^T + (1 - 1 / l_i) (I - u u^T) where the edge points to u = F t_i / l_i: the second term is
-// the stiffness from stress.
+// Approximate simulation of elastic membranes by triangulated spring meshes, J. Graphics Tools 3(2), 1998), so the
+// energy per rest area is E / 2 sum (l_i - 1)^2, with the stretch l_i = |F t_i| of edge i, whose direction at rest is
+// t_i. The stress is s = E sum (1 - 1 / l_i) t_i t_i^T, and P = F s. The second derivative has E (t_i g)(t_i h) for
+// corners with gradients g and h, times u u^T + (1 - 1 / l_i) (I - u u^T) where the edge points to u = F t_i / l_i: the
+// second term is the stiffness from stress.
 //
-// Springs along edges have one Poisson's ratio, 1/3, where the edges point into all directions alike (Lloyd, Szekely and
-// Harders, Identification of spring parameters for deformable object simulation, TVCG 13(5), 2007), and they are isotropic
-// only where all triangles are equilateral. No spring keeps a triangle from being turned over. An edge between two
-// triangles is two springs side by side here, so that cuts are followed as those of any other element.
+// Springs along edges have one Poisson's ratio, 1/3, where the edges point into all directions alike (Lloyd, Szekely
+// and Harders, Identification of spring parameters for deformable object simulation, TVCG 13(5), 2007), and they are
+// isotropic only where all triangles are equilateral. No spring keeps a triangle from being turned over. An edge
+// between two triangles is two springs side by side here, so that cuts are followed as those of any other element.
 #pragma once
 
 #include "harness/fem/algebra/lanes.h"

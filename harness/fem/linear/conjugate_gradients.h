@@ -10,9 +10,9 @@
 
 namespace cutbench {
 
-/// Convergence is judged alike for every preconditioner: by the residual, and by the residual in the norm of the inverse
-/// diagonal blocks. The second is needed where |b| is all a sliver's huge forces: the rest of the sheet could be
-/// anything.
+/// Convergence is judged alike for every preconditioner: by the residual, and by the residual in the norm of the
+/// inverse diagonal blocks. The second is needed where |b| is all a sliver's huge forces: the rest of the sheet could
+/// be anything.
 ///
 /// Preconditioners are tried in order; the diagonal blocks, which cannot fail, come last. One that was not positive
 /// definite, or took too many iterations, is left out for 16 set-ups, and for twice as many each time it fails again:

@@ -32,7 +32,8 @@ class LinearSolver {
   /// Preconditioner or factorisation. `a` must outlive the solves.
   virtual void setup(const SystemMatrix<D>& a) = 0;
   /// Solves A x = b. Held unknowns of x come out zero, whatever b says of them.
-  /// \param start  an estimate of x, zero where unknowns are held, for solvers that iterate; where it has another size or
+  /// \param start  an estimate of x, zero where unknowns are held, for solvers that iterate; where it has another size
+  /// or
   ///               is no better than zero, they start from zero
   virtual SolveReport solve(const Field& b, Field& x, const Field& start = {}) = 0;
 };

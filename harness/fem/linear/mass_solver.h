@@ -1,5 +1,5 @@
-// M^-1 for explicit steps where mass was added to thin elements (added_mass.h): only the vertices near them are coupled,
-// in groups along the cuts, so that they are factored once after a cut, and the rest is divided.
+// M^-1 for explicit steps where mass was added to thin elements (added_mass.h): only the vertices near them are
+// coupled, in groups along the cuts, so that they are factored once after a cut, and the rest is divided.
 #pragma once
 
 #include <Eigen/SparseCholesky>

@@ -43,7 +43,7 @@ class Model {
   /// unknowns of constrained(). Vertices inside such elements are no unknowns: they have no mass and are held, and
   /// follow() moves them.
   /// \pre `sheet` is that of the last update().
-  void constraint(const Sheet& sheet, const Constraints& constraints);
+  void constrain(const Sheet& sheet, const Constraints& constraints);
   /// Gives the vertices inside elements their values, positions or velocities.
   void follow(Field& x) const { elements_.template follow<D>(x); }
 

@@ -4,7 +4,7 @@
 namespace cutbench {
 
 template <int D>
-void Model<D>::constraint(const Sheet& sheet, const Constraints& constraints) {
+void Model<D>::constrain(const Sheet& sheet, const Constraints& constraints) {
   membrane_.check_takes(constraints.polygons);
   begin_marking();
   for (const Polygon& polygon : constraints.polygons) {
@@ -22,7 +22,7 @@ void Model<D>::constraint(const Sheet& sheet, const Constraints& constraints) {
 }
 
 // What the other files call; model.cpp instantiates the rest of the class.
-template void Model<2>::constraint(const Sheet&, const Constraints&);
-template void Model<3>::constraint(const Sheet&, const Constraints&);
+template void Model<2>::constrain(const Sheet&, const Constraints&);
+template void Model<3>::constrain(const Sheet&, const Constraints&);
 
 }  // namespace cutbench

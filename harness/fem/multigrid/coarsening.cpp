@@ -118,8 +118,8 @@ void Coarsening::regroup(const Regrouping& regrouping) {
   }
 }
 
-/// The unknown's nodes are to be divided again. Where its hats are others, it leaves its nodes and enters theirs: of its
-/// parents, only its group is left.
+/// The unknown's nodes are to be divided again. Where its hats are others, it leaves its nodes and enters theirs: of
+/// its parents, only its group is left.
 void Coarsening::place(std::int32_t fine, std::span<const Entry> hats) {
   const auto v = static_cast<std::size_t>(fine);
   const std::int32_t group = part_of(fine, group_node);
@@ -235,8 +235,8 @@ void Coarsening::free_parts(Node node) {
   first_part_.erase(first);
 }
 
-/// A row of P^T A P depends on its members, on their rows of A, and on the parents of the columns of these. Scalars reach
-/// farther than blocks, so most rows that a cut touches have the blocks that they had.
+/// A row of P^T A P depends on its members, on their rows of A, and on the parents of the columns of these. Scalars
+/// reach farther than blocks, so most rows that a cut touches have the blocks that they had.
 void Coarsening::find_touched(const LevelRows& fine, const RowChanges& changes) {
   for (const std::int32_t v : changes.links) touch_blocks_of_parents(v);
   for (const std::int32_t v : changes.rows) touch_parents(v);

@@ -25,8 +25,8 @@ void LevelMatrix<D, S>::follow(const LevelRows& rows, std::span<const std::int32
 }
 
 /// A row keeps its scale as long as it is there, so that both rows of an entry leave it out or none does. That of a
-/// sliver is no larger than the median: two vertices that a sliver constraints move together, and what is small beside that constraint
-/// is not small beside what holds them both.
+/// sliver is no larger than the median: two vertices that a sliver constraints move together, and what is small beside
+/// that constraint is not small beside what holds them both.
 template <int D, class S>
 void LevelMatrix<D, S>::find_scales(std::span<const std::int32_t> changed) {
   const bool is_first = scale_.empty();

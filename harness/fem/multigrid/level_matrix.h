@@ -23,8 +23,8 @@ class LevelMatrix {
   static constexpr std::size_t padding = 4;
   using Vector = std::vector<S>;
 
-  /// Takes the scalars of these rows that are not small, and has room for the blocks of all. `rows` must outlive it, and
-  /// stay where it is.
+  /// Takes the scalars of these rows that are not small, and has room for the blocks of all. `rows` must outlive it,
+  /// and stay where it is.
   void follow(const LevelRows& rows, std::span<const std::int32_t> changed);
   void follow(const LevelRows& rows);  ///< all rows, with room to grow by half
   std::size_t size() const { return rows_->size(); }

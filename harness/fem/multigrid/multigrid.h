@@ -1,8 +1,8 @@
 // Multigrid for a sheet that is cut: one V-cycle as a preconditioner of conjugate gradients (Trottenberg, Oosterlee and
 // Schueller, Multigrid, 2001, 7.8). The levels are those of Coarsening, with lattices of twice the median edge, four
-// times, and so on; their matrices are the Galerkin products P^T A P, so each is symmetric and positive definite where A
-// is. Vertices that slivers constraint together are one more unknown of the first coarse level, and clusters of stiff vertices
-// are solved exactly (StiffClusters). On the coarsest level a Cholesky factorisation solves.
+// times, and so on; their matrices are the Galerkin products P^T A P, so each is symmetric and positive definite where
+// A is. Vertices that slivers constraint together are one more unknown of the first coarse level, and clusters of stiff
+// vertices are solved exactly (StiffClusters). On the coarsest level a Cholesky factorisation solves.
 //
 // Levels are in floats: a preconditioner need not be accurate, and the time is that of reading the matrix. Where the
 // diagonal blocks of A differ too much for floats (slivers), the finest level is in doubles. Without places of the

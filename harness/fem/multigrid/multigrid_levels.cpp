@@ -27,8 +27,8 @@ double median_edge(const SweepRows& links, const std::vector<Point2>& places) {
 
 }  // namespace
 
-/// Vertices that slivers constraint together: one has more than `strong` of its stiffness from the other. Neither the hats nor
-/// the sweeps move them together against their neighbours. Looks at what has changed, and at all groups there.
+/// Vertices that slivers constraint together: one has more than `strong` of its stiffness from the other. Neither the
+/// hats nor the sweeps move them together against their neighbours. Looks at what has changed, and at all groups there.
 template <int D>
 Coarsening::Regrouping Multigrid<D>::regroup(const SystemMatrix<D>& a) {
   const auto stiffness = [&](std::size_t i) { return a.blocks->block(a.blocks->first_slot(i)).trace(); };

@@ -23,12 +23,12 @@ class StaleFactor final : public Preconditioner<D> {
   Eigen::MatrixXd right_, solution_;
 };
 
-/// One factor that no rotation changes, as in the global step of local/global schemes: quasi-Newton methods (Liu, Bouaziz
-/// and Kavan, Quasi-Newton methods for real-time simulation of hyperelastic materials, ACM TOG 36(3), 2017) with the
-/// matrix of mass, Laplacian and bending. A co-rotational block R K R^T has the trace of K, and the traces of a
-/// membrane's blocks are those of its Laplacian; so the matrix is that of the traces over D. It acts on each coordinate
-/// alike: one factor of a D-th of the size, D right sides. It is made anew where the pattern, or the traces by
-/// more than 1 %, have changed: another step, another material.
+/// One factor that no rotation changes, as in the global step of local/global schemes: quasi-Newton methods (Liu,
+/// Bouaziz and Kavan, Quasi-Newton methods for real-time simulation of hyperelastic materials, ACM TOG 36(3), 2017)
+/// with the matrix of mass, Laplacian and bending. A co-rotational block R K R^T has the trace of K, and the traces of
+/// a membrane's blocks are those of its Laplacian; so the matrix is that of the traces over D. It acts on each
+/// coordinate alike: one factor of a D-th of the size, D right sides. It is made anew where the pattern, or the traces
+/// by more than 1 %, have changed: another step, another material.
 template <int D>
 class ConstantFactor final : public Preconditioner<D> {
  public:

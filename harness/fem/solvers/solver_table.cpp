@@ -47,7 +47,8 @@ Solver<D> constant_factor(const SolverOptions& options) {
   return conjugate_gradients<D>(options, std::make_unique<ConstantFactor<D>>(options.factor));
 }
 
-/// Where a sheet is cut to pieces the V-cycle stalls; the constant factor does not, but costs more where the cycle works.
+/// Where a sheet is cut to pieces the V-cycle stalls; the constant factor does not, but costs more where the cycle
+/// works.
 template <int D>
 Solver<D> multigrid(const SolverOptions& options) {
   Trials<D> trials;

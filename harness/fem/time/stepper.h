@@ -51,9 +51,9 @@ struct StepReport {
   int iterations = 0;                  ///< of the linear solver, summed; of xpbd the sweeps
   double residual = 0;                 ///< the largest that a linear solve left
   int fallbacks = 0;                   ///< solves that another preconditioner ended (SolveReport::fell_back)
-  /// Equilibrium: |f| over the scale of the forces. A step of three solves or more: the size of the last Newton step over
-  /// that of the one before, in the norm of A; newton_failed where it is not smaller, and no rounding error. The first
-  /// one is linearised elsewhere than the others and does not compare.
+  /// Equilibrium: |f| over the scale of the forces. A step of three solves or more: the size of the last Newton step
+  /// over that of the one before, in the norm of A; newton_failed where it is not smaller, and no rounding error. The
+  /// first one is linearised elsewhere than the others and does not compare.
   double newton_residual = 0;
   StepTimes time_us;
 };
@@ -61,8 +61,8 @@ struct StepReport {
 template <int D>
 class Stepper {
  public:
-  /// Throws InputError for an unknown solver. Symplectic Euler and XPBD take no consistent mass (scenes refuse it), and no
-  /// constrained vertices; XPBD no elements of several triangles and no added mass either.
+  /// Throws InputError for an unknown solver. Symplectic Euler and XPBD take no consistent mass (scenes refuse it), and
+  /// no constrained vertices; XPBD no elements of several triangles and no added mass either.
   explicit Stepper(const StepOptions& options);
   StepReport step(Model<D>& model, State& state);
 

@@ -8,11 +8,12 @@
 // A sweep takes the elements one by one and moves their vertices by W G^T dl, with the inverse masses W, the gradient G
 // of C, and
 //   ((1 + beta / h) h^2 S G W G^T + I) dl = -(h^2 S (C + beta / h G (x - x0)) + l),   l += dl,
-// from l = 0 and x0 at the begin of a step, with Rayleigh's stiffness damping beta; his mass damping alpha makes W smaller by
-// 1 + h alpha. Where sweeps change nothing any more, l has the forces of backward Euler, though each part of it moved the
-// vertices along the gradient of its time. Few sweeps leave the sheet too soft, the more so the finer or stiffer it is:
-// small steps of one sweep are better than long ones of many (Macklin et al., Small steps in physics simulation, SCA 2019).
-// The gradient of the co-rotational strain is taken as sym(R^T dF), which gives the forces of membrane.h.
+// from l = 0 and x0 at the begin of a step, with Rayleigh's stiffness damping beta; his mass damping alpha makes W
+// smaller by 1 + h alpha. Where sweeps change nothing any more, l has the forces of backward Euler, though each part of
+// it moved the vertices along the gradient of its time. Few sweeps leave the sheet too soft, the more so the finer or
+// stiffer it is: small steps of one sweep are better than long ones of many (Macklin et al., Small steps in physics
+// simulation, SCA 2019). The gradient of the co-rotational strain is taken as sym(R^T dF), which gives the forces of
+// membrane.h.
 #pragma once
 
 #include <array>

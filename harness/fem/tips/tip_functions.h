@@ -1,19 +1,19 @@
 // Functions for the tips of incisions, beside the linear shape functions of a sheet at rest: displacements grow like
-// sqrt(r) from a tip, which no linear function follows. Source: Chahine, Laborde and Renard, Crack tip enrichment in the
-// XFEM using a cutoff function, Int. J. Numer. Meth. Engng 75 (2008). Per tip
+// sqrt(r) from a tip, which no linear function follows. Source: Chahine, Laborde and Renard, Crack tip enrichment in
+// the XFEM using a cutoff function, Int. J. Numer. Meth. Engng 75 (2008). Per tip
 //   u(p) += chi(r) sum_j F_j(r, theta) c_j,  j = 0 to 3, c_j a vector,
 //   F = sqrt(r) {sin(theta/2), cos(theta/2), sin(theta/2) sin(theta), cos(theta/2) sin(theta)},
 // which span the displacements of K1 and K2 (Williams 1957), and their rotations; chi = (1 - s)^2 up to the radius,
 // s = r / radius. The linear functions have to follow the rest, (1 - chi) F, and their error goes with its second
-// derivatives. Those of (1 - chi) sqrt(r) exp(i theta / 2) and (1 - chi) sqrt(r) exp(3 i theta / 2) together, squared and
-// times r, integrate over r to 53/6 / radius; with the usual quintic, 1 - 10 s^3 + 15 s^4 - 6 s^5, to 257/14.
+// derivatives. Those of (1 - chi) sqrt(r) exp(i theta / 2) and (1 - chi) sqrt(r) exp(3 i theta / 2) together, squared
+// and times r, integrate over r to 53/6 / radius; with the usual quintic, 1 - 10 s^3 + 15 s^4 - 6 s^5, to 257/14.
 //
-// A tip is a vertex inside the sheet at which one incision ends. theta is pi and -pi on the lips there, and is continued
-// from triangle to triangle across edges that are not opened. So its branch cut is the incision itself, whatever its
-// shape, across which all F change sign; beside an arc theta passes pi on one side of the tangent, as in the root of the
-// exact field. The radius ends just short of the border and of any other end or branching of incisions, so that the
-// tip's incision leaves the disc, and theta has one value everywhere. Other incisions that cross the disc end the
-// functions.
+// A tip is a vertex inside the sheet at which one incision ends. theta is pi and -pi on the lips there, and is
+// continued from triangle to triangle across edges that are not opened. So its branch cut is the incision itself,
+// whatever its shape, across which all F change sign; beside an arc theta passes pi on one side of the tangent, as in
+// the root of the exact field. The radius ends just short of the border and of any other end or branching of incisions,
+// so that the tip's incision leaves the disc, and theta has one value everywhere. Other incisions that cross the disc
+// end the functions.
 #pragma once
 
 #include <Eigen/Core>

@@ -43,7 +43,8 @@ struct Answer {
 struct Budget {
   SolverOptions solver{.name = "cholmod"};
   int iterations = 0;  ///< 0: until solved
-  /// Beside the linear shape functions (harness/fem/tips/tip_functions.h). \pre the problem takes budgets; iterations is 0.
+  /// Beside the linear shape functions (harness/fem/tips/tip_functions.h). \pre the problem takes budgets; iterations
+  /// is 0.
   bool tip_functions = false;
 };
 
@@ -76,8 +77,9 @@ class Problem {
   /// Member `index` on a sheet of `family` (sheet_families()) with 2 n^2 triangles; depends on the arguments alone.
   virtual Specimen specimen(const std::string& family, int n, std::uint64_t seed, std::size_t index) const = 0;
   /// Loads the opened sheet, solves it once per budget, and compares. One assembly serves all budgets.
-  /// \pre `sheet` is that of `specimen` with its cuts made, by whatever method, or body_fitted() to them; `constraints` are
-  /// those of the method: no vertex is constrained unless takes_constraints(), and no polygon in them unless takes_polygons().
+  /// \pre `sheet` is that of `specimen` with its cuts made, by whatever method, or body_fitted() to them; `constraints`
+  /// are those of the method: no vertex is constrained unless takes_constraints(), and no polygon in them unless
+  /// takes_polygons().
   virtual std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
                                      const Constraints& constraints) const = 0;
   std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets) const {

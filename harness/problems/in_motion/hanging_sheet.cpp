@@ -36,8 +36,8 @@ double relative_error(const std::vector<double>& values, const std::vector<doubl
   return (a - b).norm() / b.norm();
 }
 
-/// The displacement before the cut, as the finite elements of the uncut sheet have it: a cut carries over no more. The exact
-/// one at the vertices of a sliver would be a stress that nothing made.
+/// The displacement before the cut, as the finite elements of the uncut sheet have it: a cut carries over no more. The
+/// exact one at the vertices of a sliver would be a stress that nothing made.
 class UncutDisplacement {
  public:
   explicit UncutDisplacement(const Specimen& specimen) : sheet_(specimen.mesh) {}
@@ -58,7 +58,8 @@ class UncutDisplacement {
   Sheet sheet_;
 };
 
-/// From meshes of which the second has half the size: all that is read has, for the tip, an error in proportion to the size.
+/// From meshes of which the second has half the size: all that is read has, for the tip, an error in proportion to the
+/// size.
 Motion extrapolated(const Motion& coarse, const Motion& fine) {
   Motion result = fine;
   result.is_whole = coarse.is_whole && fine.is_whole;
@@ -151,7 +152,7 @@ class HangingSheet : public Problem {
     Model<2> model(sheet, {.density = 1, .stiffness = 1, .poisson = 0},
                    {.dimension = 2, .strain = Strain::linear, .gravity = {0, -gravity, 0}},
                    {{.where = {{-infinity, 1}, {infinity, infinity}}}}, {});
-    if (!constraints.empty()) model.constraint(sheet, constraints);
+    if (!constraints.empty()) model.constrain(sheet, constraints);
     State state = initial_state(model, sheet);
     DeformedIndex corner;
     for (const DeformedIndex d : vertices_in_use(sheet)) {

@@ -137,7 +137,7 @@ class SeveredStrip : public Problem {
                    {{.where = {{-infinity, -infinity}, {0, infinity}}},
                     {.where = {{1, -infinity}, {infinity, infinity}}, .displacement = {strain, 0, 0}}},
                    {});
-    if (!constraints.empty()) model.constraint(sheet, constraints);
+    if (!constraints.empty()) model.constrain(sheet, constraints);
     State state = initial_state(model, sheet);
     for (const DeformedIndex d : vertices_in_use(sheet)) {
       const Point2 p = sheet.rest(sheet.rest_vertex(d));

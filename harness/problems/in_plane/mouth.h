@@ -1,6 +1,6 @@
 // Where a cut comes in through the border, the displacements that a field prescribes there jump. A method may open the
-// border beside the place that was asked for. The jump must be where the border is open: otherwise an edge of it is torn,
-// and no mesh converges.
+// border beside the place that was asked for. The jump must be where the border is open: otherwise an edge of it is
+// torn, and no mesh converges.
 #pragma once
 
 #include "harness/fem/constraints/constraint_matrix.h"

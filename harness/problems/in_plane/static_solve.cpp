@@ -18,7 +18,7 @@ const Physics in_the_plane{.dimension = 2, .strain = Strain::linear, .bending = 
 
 StaticSolve::StaticSolve(const Sheet& sheet, const Elastic& elastic, const Constraints& constraints)
     : sheet_(sheet), model_(sheet, {.stiffness = elastic.young, .poisson = elastic.poisson}, in_the_plane, {}, {}) {
-  if (!constraints.polygons.empty()) model_.constraint(sheet, {.polygons = constraints.polygons});
+  if (!constraints.polygons.empty()) model_.constrain(sheet, {.polygons = constraints.polygons});
   if (!constraints.constraints.empty()) constrained_.emplace(constraints, model_.vertices());
   held_ = model_.held();
   given_ = force_ = Field::Zero(static_cast<Eigen::Index>(held_.size()));

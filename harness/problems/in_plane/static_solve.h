@@ -31,8 +31,8 @@ class StaticSolve {
   /// equilibrium.
   void hold_loose_pieces();
 
-  /// Makes the functions that budgets with `tip_functions` add, if one of these has them. Such budgets are refused where
-  /// a vertex is constrained, and where no tip has functions.
+  /// Makes the functions that budgets with `tip_functions` add, if one of these has them. Such budgets are refused
+  /// where a vertex is constrained, and where no tip has functions.
   void make_tip_functions(std::span<const Budget> budgets);
 
   struct Solution {

@@ -1,4 +1,5 @@
-// The cross-check: a cut as a careful user of CGAL makes it who has no cutting method, by triangulating the whole sheet anew.
+// The cross-check: a cut as a careful user of CGAL makes it who has no cutting method, by triangulating the whole sheet
+// anew.
 //
 // It stands beside the methods where results are judged, so it shares no code with them: nothing of harness/mesh or
 // harness/cut.
@@ -34,7 +35,8 @@ struct CrossCheckResult {
 /// - the path: CGAL merges what it can't tell apart in doubles, and moves constraints for it, without a word; an input
 ///   vertex or a triangle may then fall outside the border. Let the oracle judge; `moved` tells how far;
 /// - snapping of any kind, nor quality: points a few ulps apart become edges of a few ulps;
-/// - an end: CGAL's recursion over intersections is not bounded. Isolate a robustness run from its stack and from its time.
+/// - an end: CGAL's recursion over intersections is not bounded. Isolate a robustness run from its stack and from its
+/// time.
 ///
 /// Bezier curves are flattened to `flatten_tolerance` (rest units, > 0). Time about n log n of the whole sheet.
 /// Precondition: what judge() asks of an input. Throws what flatten() throws.

@@ -1,4 +1,5 @@
-// A case of the robustness run that failed, saved so that a command reproduces it, and a smaller part of it that still fails.
+// A case of the robustness run that failed, saved so that a command reproduces it, and a smaller part of it that still
+// fails.
 #pragma once
 
 #include <filesystem>
@@ -32,8 +33,8 @@ struct FailingCase {
 };
 /// Writes <name>.obj, .json and .txt, and <name>.small.obj and .small.json, the smallest part that was found in about
 /// `shrinking_s` to have the same fault. The text says what is wrong, which command shows it and what that prints. The
-/// command judges all cuts of the path at once, the robustness run each of them. Throws InputError: a place that can't be
-/// written.
+/// command judges all cuts of the path at once, the robustness run each of them. Throws InputError: a place that can't
+/// be written.
 void save(const FailingCase& failing, const std::filesystem::path& folder, const Contender& contender,
           const CutOptions& options, double time_limit_s, double shrinking_s);
 

@@ -11,8 +11,8 @@
 namespace cutbench {
 
 /// Runs the sweeps and writes <out>/<stem>/records.csv, with a row per point, method, sheet and case, and context.json.
-/// A point that crashes or hangs has the verdict `crashed` or `timed_out`. A killed run goes on where it was. Prints how
-/// many points of each sweep had which verdict. Failures are what it is for: returns false only where a cut itself
+/// A point that crashes or hangs has the verdict `crashed` or `timed_out`. A killed run goes on where it was. Prints
+/// how many points of each sweep had which verdict. Failures are what it is for: returns false only where a cut itself
 /// failed, was wrong, crashed or was timed out.
 /// \pre experiment.stability
 bool run_stability(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,

@@ -1,4 +1,5 @@
-// One point of the stability sweeps: the cut by itself, judged and measured, and then the motion of a scene that begins with it.
+// One point of the stability sweeps: the cut by itself, judged and measured, and then the motion of a scene that begins
+// with it.
 #pragma once
 
 #include <array>
