@@ -119,7 +119,7 @@ TEST(Constraints, SystemFollowsCutsAsOneMadeAnew) {
       body.model.constrain(body.sheet, constraints);
       ASSERT_TRUE(body.model.constrained());
       Model<3> fresh = body.fresh_model();
-      fresh.constraint(body.sheet, constraints);
+      fresh.constrain(body.sheet, constraints);
       const Field x = bent(fresh, body.sheet);
       for (Model<3>* const model : {&body.model, &fresh}) {
         model->rotate(x), model->assemble(1.2, 0.1);

@@ -49,7 +49,7 @@ TEST(PolygonModel, FollowsCutsAsOneMadeAnew) {
           merge_as_after_a_cut(body, before, *method);
           expect_sound(body.sheet, body.model.elements().polygons());
           Model<3> fresh = body.fresh_model();
-          fresh.constraint(body.sheet, {.polygons = body.model.elements().polygons()});
+          fresh.constrain(body.sheet, {.polygons = body.model.elements().polygons()});
           const Field x = bent(fresh, body.sheet);
           for (Model<3>* const model : {&body.model, &fresh}) model->rotate(x), model->assemble(1.2, 0.1);
           EXPECT_EQ(body.model.held(), fresh.held());
