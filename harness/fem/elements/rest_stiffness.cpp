@@ -7,7 +7,7 @@ namespace cutbench {
 
 namespace {
 
-Vector2<double> vector(Point2 p) { return {p.x, p.y}; }
+Vector2<double> gradient_vector(Point2 p) { return {p.x, p.y}; }
 
 /// 2 k x 2 k, N/m.
 Eigen::MatrixXd stiffness_of(const PolygonElement& polygon, const Lame& lame) {
@@ -20,8 +20,8 @@ Eigen::MatrixXd stiffness_of(const PolygonElement& polygon, const Lame& lame) {
   Eigen::MatrixXd matrix(2 * k, 2 * k);
   for (Eigen::Index i = 0; i < k; ++i)
     for (Eigen::Index j = 0; j < k; ++j) {
-      const auto block = stiffness.block(vector(polygon.gradient[static_cast<std::size_t>(i)]),
-                                         vector(polygon.gradient[static_cast<std::size_t>(j)]));
+      const auto block = stiffness.block(gradient_vector(polygon.gradient[static_cast<std::size_t>(i)]),
+                                         gradient_vector(polygon.gradient[static_cast<std::size_t>(j)]));
       matrix.block<2, 2>(2 * i, 2 * j) =
           Eigen::Map<const Eigen::Matrix2d>(block.data()) + stabilisation(i, j) * Eigen::Matrix2d::Identity();
     }
