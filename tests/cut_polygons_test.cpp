@@ -26,8 +26,8 @@ const std::vector<std::string> cuts_to_make{"straight",      "curved",          
 constexpr Material leather{.density = 2, .stiffness = 1000, .poisson = 0.3, .bending = 0.02};
 
 void merge_as_after_a_cut(Body<3>& body, const Sheet& before, const CuttingMethod& method) {
-  body.model.constrain(body.sheet, method.constraint_source()->next_constraints(
-                                        before, body.sheet, body.model.elements().polygons_left()));
+  body.model.constrain(body.sheet, method.constraint_source()->next_constraints(before, body.sheet,
+                                                                                body.model.elements().polygons_left()));
 }
 
 // --- the model -------------------------------------------------------------------------------------------------------
