@@ -1,4 +1,4 @@
-// the stability sweeps on a small sheet, with the verdicts that it must find; its cuts, which must come as near as they
+// The stability sweeps on a small sheet, with the verdicts that it must find; its cuts, which must come as near as they
 // say; and methods that crash or hang on purpose, which may cost one row each.
 
 #include "harness/study/stability/stability.h"

@@ -36,7 +36,7 @@ void add_stability(std::vector<Metric>& t) {
   add("explicit_step_ratio", "", "explicit step, cut / uncut", Direction::higher,
       "Largest stable step of symplectic Euler after the cut over that of the uncut sheet, from the largest "
       "eigenvalues "
-      "with bending and the scene's material; of phantom nodes without bending. A method that constraints vertices has "
+      "with bending and the scene's material; of phantom nodes without bending. A method that constrains vertices has "
       "the "
       "value that an explicit step with its constraints would have; the program makes none.");
   add("steps", "", "steps made", Direction::higher,
