@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "harness/base/conversions.h"
 #include "harness/base/names.h"
 #include "harness/mesh/mesh_data.h"
 #include "methods/active_node/active_node.h"
@@ -68,9 +69,7 @@ std::vector<MethodRow>& table() {
         "rounds of the local split; 0: the best diagonal alone",
         {.least = 0, .most = 6, .whole = true}},  // ill-shaped triangles multiply by 3.8 in each round
        exact_split,
-       [](double rounds) {
-         return std::make_unique<BowyerWatson>(BowyerWatson::Options{.rounds = static_cast<int>(rounds)});
-       }},
+       [](double rounds) { return std::make_unique<BowyerWatson>(BowyerWatson::Options{.rounds = to_int(rounds)}); }},
       {"cgal_cdt",
        "CGAL's constrained Delaunay triangulation of the strip of crossed triangles",
        {},
@@ -229,7 +228,8 @@ const std::vector<MethodRow>& ablation_methods() {
     for (const auto& [before, first] : befores)
       for (const auto& [after, then] : afters) {
         WarpAndRefine::Options options;
-        options.before = before, options.after = after;
+        options.before = before;
+        options.after = after;
         const Promises promises{
             .keeps_area = true,
             .conforming = true,

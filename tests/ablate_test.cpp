@@ -24,7 +24,10 @@ const std::string scenes = CUTBENCH_TEST_CASES "/../../experiments/scenes/";
 double fall(int steps, double seconds) {
   const double h = seconds / steps;
   double v = 0, fallen = 0;
-  for (int i = 0; i < steps; ++i) v = (v + 9.81 * h) / (1 + 0.5 * h), fallen += h * v;
+  for (int i = 0; i < steps; ++i) {
+    v = (v + 9.81 * h) / (1 + 0.5 * h);
+    fallen += h * v;
+  }
   return fallen;
 }
 

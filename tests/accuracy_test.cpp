@@ -261,11 +261,15 @@ TEST_F(Accuracy, AFailureIsARow) {
     contenders.back().factory = [refuses](double) { return std::make_unique<Saboteur>(refuses); };
   }
   Experiment e;
-  e.stem = "e", e.claim = "c", e.sheets = {"grid"}, e.resolutions = {72};
+  e.stem = "e";
+  e.claim = "c";
+  e.sheets = {"grid"};
+  e.resolutions = {72};
   for (const MethodRow& row : contenders) e.methods.push_back({row.name, {}});
   e.accuracy = Experiment::Accuracy{{"centre_crack"}, {"cholmod"}, {"cg"}, {5}, {{72, 2}}, {{72, 2}}};
   RunOptions options;
-  options.out = folder_, options.quiet = true;
+  options.out = folder_;
+  options.quiet = true;
   EXPECT_FALSE(run_accuracy(e, contenders, gather_context(), options));
   const auto rows = rows_of(folder_ / "e/records.csv");
   ASSERT_EQ(rows.size(), 4u * 2 * 2);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "tests/helpers.h"
 
@@ -38,7 +39,8 @@ TEST(ActiveNode, LeavesAVertexAtTheSpacing) {
         for (const double length : incision_edges(sheet)) {
           const double pieces = length / (spacing * sheet.mean_edge());
           EXPECT_LT(pieces, 1.5 + 2 * 0.05) << family << " " << i << ", spacing " << spacing;
-          ++edges, short_edges += pieces < 2.0 / 3 - 2 * 0.05;
+          ++edges;
+          short_edges += pieces < 2.0 / 3 - 2 * 0.05;
         }
       }
   EXPECT_GT(edges, scaled(1000));
@@ -70,15 +72,14 @@ TEST(ActiveNode, TurnsNoTriangleOver) {
         const auto method = row.make(row.parameter.value);
         for (const Curve& curve : make_case(cuts, 11, i, sheet)) {
           EXPECT_EQ(Cutter().cut(sheet, locator, curve, *method, {}).status, Status::ok);
-          EXPECT_NEAR(static_cast<double>(total(sheet) / total(before)), 1, 1e-12)
-              << family << ", " << cuts << " " << i;
+          EXPECT_NEAR(to_double(total(sheet) / total(before)), 1, 1e-12) << family << ", " << cuts << " " << i;
         }
         for (std::size_t v = 0; v < before.vertex_slots(); ++v) {
           const VertexIndex old(v);
           removed += !sheet.triangle_of_vertex(old).valid() || sheet.is_newer(old, before);
         }
       }
-  EXPECT_GT(removed, static_cast<std::ptrdiff_t>(scaled(100))) << "vertices in the node's way are taken in";
+  EXPECT_GT(removed, to_index(scaled(100))) << "vertices in the node's way are taken in";
 }
 
 }  // namespace

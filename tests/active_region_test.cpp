@@ -8,6 +8,7 @@
 #include <map>
 #include <ostream>
 
+#include "harness/base/conversions.h"
 #include "harness/cut/cut.h"
 #include "harness/mesh/families.h"
 #include "harness/simulation/simulation.h"
@@ -20,24 +21,28 @@ namespace {
 
 Scene::Cut cut_at(double time, std::vector<Point2> points) {
   Scene::Cut cut;
-  cut.time = time, cut.curve.points = std::move(points);
+  cut.time = time;
+  cut.curve.points = std::move(points);
   return cut;
 }
 
 /// Hangs by two corners and swings, and is slit when it has fallen.
 Scene hanging(double radius) {
   Scene scene;
-  scene.family = "delaunay", scene.resolution = 800;
+  scene.family = "delaunay";
+  scene.resolution = 800;
   scene.material = {.density = 2.2,
                     .stiffness = 1000,
                     .poisson = 0.45,
                     .bending = 4.2e-4,
                     .mass_damping = 0.5,
                     .stiffness_damping = 1e-3};
-  scene.physics.bending = BendingKind::patches, scene.physics.gravity = {0, 0, -9.81};
+  scene.physics.bending = BendingKind::patches;
+  scene.physics.gravity = {0, 0, -9.81};
   scene.active_radius = radius;
   for (const Point2 corner : {Point2{0, 1}, Point2{1, 1}}) scene.pins.push_back({.near = corner, .pin = {}});
-  scene.step = 1.0 / 240, scene.duration = 0.3;
+  scene.step = 1.0 / 240;
+  scene.duration = 0.3;
   scene.cuts.push_back(cut_at(0.1, {{0.35, 0.42}, {0.65, 0.47}}));
   return scene;
 }
@@ -45,12 +50,15 @@ Scene hanging(double radius) {
 /// In the plane, drawn apart by what holds it below and above.
 Scene drawn(double radius) {
   Scene scene;
-  scene.family = "delaunay", scene.resolution = 800;
+  scene.family = "delaunay";
+  scene.resolution = 800;
   scene.material = {.density = 1, .stiffness = 1000, .poisson = 0.3, .mass_damping = 20};
-  scene.physics.dimension = 2, scene.active_radius = radius;
+  scene.physics.dimension = 2;
+  scene.active_radius = radius;
   scene.pins.push_back({.near = {}, .pin = {.where = {{-infinite, -infinite}, {infinite, 0}}}});
   scene.pins.push_back({.near = {}, .pin = {.where = {{-infinite, 1}, {infinite, infinite}}, .velocity = {0, 0.1, 0}}});
-  scene.step = 1.0 / 120, scene.duration = 1;
+  scene.step = 1.0 / 120;
+  scene.duration = 1;
   scene.solver = {.name = "cholmod"};
   scene.cuts.push_back(cut_at(0.9, {{0.4, 0.5}, {0.6, 0.52}}));
   return scene;
@@ -198,18 +206,23 @@ TEST_P(LocalDynamicsOf, IsTheWholeSheetHeldFarAway) {
   constexpr double radius = 0.22;
   const Kind kind = GetParam();
   Scene local;
-  local.family = kind.sheet, local.resolution = 800;
+  local.family = kind.sheet;
+  local.resolution = 800;
   local.material = {.density = 2.2,
                     .stiffness = 100,
                     .poisson = 0.3,
                     .bending = 1e-3,
                     .mass_damping = 0.5,
                     .stiffness_damping = 1e-3};
-  local.physics.dimension = kind.dimension, local.physics.bending = kind.bending, local.physics.mass = kind.mass;
+  local.physics.dimension = kind.dimension;
+  local.physics.bending = kind.bending;
+  local.physics.mass = kind.mass;
   local.physics.gravity = {1, 3, kind.dimension == 3 ? -9.81 : 0};
   local.active_radius = radius;
-  local.integrator = kind.integrator, local.solver = {.name = kind.solver, .tolerance = 1e-11};
-  local.step = kind.integrator == Integrator::symplectic_euler ? 2e-4 : 1.0 / 240, local.duration = 0.05;
+  local.integrator = kind.integrator;
+  local.solver = {.name = kind.solver, .tolerance = 1e-11};
+  local.step = kind.integrator == Integrator::symplectic_euler ? 2e-4 : 1.0 / 240;
+  local.duration = 0.05;
   local.pins.push_back({.near = {}, .pin = {.where = {{-infinite, -infinite}, {0, infinite}}}});
   local.cuts.push_back(cut_at(0, {{0.42, 0.47}, {0.58, 0.52}}));
   local.cuts.push_back(cut_at(0.01, {{0.45, 0.58}, {0.56, 0.61}}));
@@ -238,7 +251,7 @@ TEST_P(LocalDynamicsOf, IsTheWholeSheetHeldFarAway) {
     return motion->posed_sheet();
   };
   const Sheet here = end_of(local), there = end_of(held);
-  EXPECT_LT(here.triangle_slots(), 0.7 * static_cast<double>(there.triangle_slots()));
+  EXPECT_LT(here.triangle_slots(), 0.7 * to_double(there.triangle_slots()));
   const auto expected = places_of(there);
   double moved = 0;
   for (const auto& [rest, copies] : places_of(here)) {

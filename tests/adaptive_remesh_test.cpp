@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/one_ring.h"
@@ -95,8 +96,10 @@ TEST(AdaptiveRemesh, CollapsesMostShortEdges) {
   };
   for (const std::string family : {"grid", "alternating", "delaunay"}) {  // in a graded sheet h says little
     std::size_t before = 0, after = 0;
-    for (std::size_t i = 0; i < scaled(20); ++i)
-      before += short_edges(family, i, 0), after += short_edges(family, i, 1);
+    for (std::size_t i = 0; i < scaled(20); ++i) {
+      before += short_edges(family, i, 0);
+      after += short_edges(family, i, 1);
+    }
     EXPECT_LT(after, before / 2) << family;
   }
 }
@@ -136,7 +139,7 @@ TEST(AdaptiveRemesh, CoarsensBehindTheBlade) {
     const double radius = 2 * body.sheet.mean_edge();
     const std::size_t at_tip = body.vertices_near(stop, radius);
     ASSERT_EQ(body.cut(line({stop, {0.83, 0.58}})).status, Status::ok);
-    EXPECT_LT(body.vertices_near(stop, radius), 0.8 * static_cast<double>(at_tip)) << family;
+    EXPECT_LT(body.vertices_near(stop, radius), 0.8 * to_double(at_tip)) << family;
   }
 }
 
@@ -152,7 +155,7 @@ TEST(AdaptiveRemesh, WorkFollowsTheCutAndNotTheSheet) {
   }
   const auto [least, most] = std::ranges::minmax(touched);
   EXPECT_GT(least, 10U);
-  EXPECT_LT(most, 1.3 * static_cast<double>(least));
+  EXPECT_LT(most, 1.3 * to_double(least));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "harness/fem/model/largest_eigenvalue.h"
 #include "harness/fem/time/stepper.h"
@@ -44,7 +45,7 @@ std::vector<Point2> nearest_to_cut(const Sheet& sheet, std::size_t count) {
 /// M, by products with unit vectors; 1 on the diagonal of freed slots, which have no stiffness.
 template <int D>
 Eigen::MatrixXd dense_mass(const Model<D>& model) {
-  const auto n = static_cast<Eigen::Index>(D * model.vertices());
+  const auto n = to_index(D * model.vertices());
   Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     Field column = Field::Zero(n);
@@ -57,7 +58,8 @@ Eigen::MatrixXd dense_mass(const Model<D>& model) {
 
 template <int D>
 double dense_eigenvalue(Body<D>& body) {
-  body.model.rotate(body.model.positions(body.sheet)), body.model.assemble(0, 1);
+  body.model.rotate(body.model.positions(body.sheet));
+  body.model.assemble(0, 1);
   return largest_mode(dense(body.model), dense_mass(body.model));
 }
 
@@ -68,14 +70,16 @@ double largest_of_triangles(const MeshData& mesh, const Material& material) {
   for (const auto& t : mesh.triangles) {
     Eigen::Matrix3d laplacian = Eigen::Matrix3d::Zero();
     std::array<Point2, 3> p;
-    for (std::size_t k = 0; k < 3; ++k) p[k] = mesh.rest[static_cast<std::size_t>(t[k])];
+    for (std::size_t k = 0; k < 3; ++k) p[k] = mesh.rest[to_size(t[k])];
     const double twice = cross(p[1] - p[0], p[2] - p[0]);
     for (int k = 0; k < 3; ++k) {
       const int a = (k + 1) % 3, b = (k + 2) % 3;
-      const auto at = [&](int i) { return p[static_cast<std::size_t>(i)]; };
+      const auto at = [&](int i) { return p[to_size(i)]; };
       const double cotangent = dot(at(a) - at(k), at(b) - at(k)) / twice;
-      laplacian(a, b) -= cotangent / 2, laplacian(b, a) -= cotangent / 2;
-      laplacian(a, a) += cotangent / 2, laplacian(b, b) += cotangent / 2;
+      laplacian(a, b) -= cotangent / 2;
+      laplacian(b, a) -= cotangent / 2;
+      laplacian(a, a) += cotangent / 2;
+      laplacian(b, b) += cotangent / 2;
     }
     largest = std::max(largest, 6 / twice * eigenvalues(laplacian)[2]);
   }
@@ -88,7 +92,8 @@ TEST(AddedMass, BoundsTheMembraneByTheElementsOfTheUncutSheet) {
       for (const double limit : {1.0, 4.0}) {
         SCOPED_TRACE(family + ", " + name_of(mass_names, kind));
         Physics physics = physics_with(kind);
-        physics.dimension = 2, physics.mass_limit = limit;
+        physics.dimension = 2;
+        physics.mass_limit = limit;
         Body<2> body(make_sheet(family, 6), skin, physics),
             lumped(make_sheet(family, 6), skin, physics_with(Mass::lumped));
         const double most = largest_of_triangles(body.sheet.to_mesh_data(), skin);
@@ -133,7 +138,7 @@ TEST(AddedMass, KeepsTheInertiaOfTranslation) {
   for (const Mass kind : kinds) {
     Body<3> body(make_sheet("graded", 8), skin, physics_with(kind, BendingKind::patches));
     ASSERT_EQ(body.cut(near_vertices), Status::ok);
-    const auto n = static_cast<Eigen::Index>(body.model.vertices());
+    const auto n = to_index(body.model.vertices());
     Field shift = Field::Zero(3 * n), momentum = shift;
     for (Eigen::Index v = 0; v < n; ++v) shift[3 * v + 1] = 1;
     body.model.add_mass_product(1, shift, momentum);
@@ -209,8 +214,7 @@ TEST(AddedMass, LetsExplicitStepsRunAndTheirEnergyClose) {
         .poisson = skin.poisson, .bending = BendingKind::patches, .bending_length2 = skin.bending / skin.stiffness};
     const double step = 0.5 * explicit_step_limit(largest_eigenvalue(body.sheet, {}, elasticity), skin);
     Stepper<3> stepper({.integrator = Integrator::symplectic_euler, .step = step, .solver = {}});
-    for (Eigen::Index i = 0; i < body.state.v.size(); ++i)
-      body.state.v[i] = 0.3 * std::sin(static_cast<double>(37 * i * i));
+    for (Eigen::Index i = 0; i < body.state.v.size(); ++i) body.state.v[i] = 0.3 * std::sin(to_double(37 * i * i));
     EnergyBudget budget(balance_of(body.model, body.state), Integrator::symplectic_euler);
     std::string verdict = "ok";
     for (int n = 0; n < 400 && verdict == "ok"; ++n) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "harness/cut/cut_all.h"
 #include "tests/helpers.h"
@@ -35,11 +36,12 @@ MeshData in_disorder(const MeshData& mesh, Random& random) {
   MeshData other;
   for (std::size_t i = 0; i < order.size(); ++i) {
     number[order[i]] = i;
-    other.rest.push_back(mesh.rest[order[i]]), other.deformed.push_back({});
+    other.rest.push_back(mesh.rest[order[i]]);
+    other.deformed.push_back({});
   }
   for (auto triangle : mesh.triangles) {
-    for (auto& v : triangle) v = static_cast<std::int32_t>(number[static_cast<std::size_t>(v)]);
-    std::rotate(triangle.begin(), triangle.begin() + static_cast<std::ptrdiff_t>(random.below(3)), triangle.end());
+    for (auto& v : triangle) v = to_int32(number[to_size(v)]);
+    std::rotate(triangle.begin(), triangle.begin() + to_index(random.below(3)), triangle.end());
     other.triangles.push_back(triangle);
   }
   for (std::size_t i = other.triangles.size(); i > 1; --i)
@@ -61,7 +63,8 @@ std::map<std::array<double, 6>, std::array<Point3, 3>> corners_in_space(const Sh
     std::array<Point3, 3> places;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t from = (first + k) % 3;
-      key[2 * k] = c[from].x, key[2 * k + 1] = c[from].y;
+      key[2 * k] = c[from].x;
+      key[2 * k + 1] = c[from].y;
       places[k] = sheet.position(triangle.deformed[from]);
     }
     all[key] = places;
@@ -85,7 +88,7 @@ Sheet parted_sheet(const std::string& family) {
       if (const HalfEdge h = half_edge(TriangleIndex(t), k); sheet.mark(h) == EdgeMark::incision)
         if (sheet.rest(sheet.target(h)).x > sheet.rest(sheet.origin(h)).x)
           for (const int corner : {k, next_corner(k)})
-            left[sheet.triangle(TriangleIndex(t)).deformed[static_cast<std::size_t>(corner)]()] = 1;
+            left[sheet.triangle(TriangleIndex(t)).deformed[to_size(corner)]()] = 1;
   for (std::size_t d = 0; d < left.size(); ++d)
     if (left[d]) sheet.set_position(DeformedIndex(d), sheet.position(DeformedIndex(d)) + Point3{0, 0.01, 0.05});
   return Sheet(sheet.to_mesh_data());

@@ -50,7 +50,9 @@ TEST_F(BadInput, Options) {
 
 TEST_F(BadInput, PlacesToReadFrom) {
   fs::create_directory(folder_ / "folder.obj");
-  write(folder_ / "empty.off", ""), write(folder_ / "empty.json", ""), write(folder_ / "empty.toml", "");
+  write(folder_ / "empty.off", "");
+  write(folder_ / "empty.json", "");
+  write(folder_ / "empty.toml", "");
   expect_all({{cut_with("none.obj"), 2, "none.obj: no such file"},
               {cut_with("folder.obj"), 2, "folder.obj: no such file, or it can't be read"},
               {cut_with("empty.off"), 2, "empty.off: not a complete OFF file"},
@@ -74,7 +76,8 @@ TEST_F(BadInput, PlacesToReadFrom) {
 
 /// Where the result can't go is known before the work.
 TEST_F(BadInput, PlacesToWriteTo) {
-  fs::create_directories(folder_ / "folder.obj"), fs::create_directory(folder_ / "r");
+  fs::create_directories(folder_ / "folder.obj");
+  fs::create_directory(folder_ / "r");
   write(folder_ / "e.toml", small_experiment());
   expect_all(
       {{cut_with("sheet.off", "path.json", "out.ply"), 2, "out.ply: unknown mesh format; use .obj, .off or .vtu"},

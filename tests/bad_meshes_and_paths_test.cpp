@@ -2,6 +2,7 @@
 #include <cmath>
 #include <random>
 
+#include "harness/base/conversions.h"
 #include "harness/files/mesh_file.h"
 #include "harness/files/path_file.h"
 #include "harness/mesh/families.h"
@@ -115,8 +116,8 @@ TEST_F(BadInput, MeshesCutShortOrSpoilt) {
 /// An announced size asks for no memory: the program may take 1 GB here, and the file announces ten times as much.
 TEST_F(BadInput, AnnouncedSizesAskForNoMemory) {
   const std::string ply = "ply\nformat ascii 1.0\n";
-  write(folder_ / "vertices.off", "OFF\n1000000000 1 0\n0 0 0\n"),
-      write(folder_ / "faces.off", "OFF\n3 1000000000 0\n0 0 0\n");
+  write(folder_ / "vertices.off", "OFF\n1000000000 1 0\n0 0 0\n");
+  write(folder_ / "faces.off", "OFF\n3 1000000000 0\n0 0 0\n");
   write(folder_ / "corners.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n1000000000 0 1 2\n");
   write(folder_ / "vertices.ply",
         ply +
@@ -197,8 +198,8 @@ TEST_F(BadInput, DoubledVerticesAreIncisions) {
   MeshData soup;
   for (const auto& triangle : sheet.triangles)
     for (std::int32_t v : triangle) {
-      soup.rest.push_back(sheet.rest[static_cast<std::size_t>(v)]);
-      soup.deformed.push_back(sheet.deformed[static_cast<std::size_t>(v)]);
+      soup.rest.push_back(sheet.rest[to_size(v)]);
+      soup.deformed.push_back(sheet.deformed[to_size(v)]);
     }
   for (std::int32_t t = 0; t < 18; ++t) soup.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
   const MeshData before = soup;

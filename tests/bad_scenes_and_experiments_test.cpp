@@ -136,8 +136,8 @@ TEST_F(BadInput, Experiments) {
 
   // What only the program knows: methods, their parameters, and the command line.
   write(folder_ / "e.toml", text);
-  write(folder_ / "twice.toml", with("[0, 1]", "[0, 0]")),
-      write(folder_ / "parameter.toml", with("[0, 1]", "[0, 0.5]"));
+  write(folder_ / "twice.toml", with("[0, 1]", "[0, 0]"));
+  write(folder_ / "parameter.toml", with("[0, 1]", "[0, 0.5]"));
   write(folder_ / "parameterless.toml",
         with("\"conventional_split\"", "{name = \"conventional_split\", parameter = [1]}"));
   expect_all({{"run twice.toml --out r", 2, "method \"bowyer_watson\" is there twice with rounds=0"},

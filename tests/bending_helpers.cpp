@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "harness/mesh/families.h"
 #include "methods/registry.h"
@@ -18,10 +19,9 @@ Bending patches(const Sheet& sheet) { return {sheet, BendingKind::patches, rigid
 Bending hinges(const Sheet& sheet) { return {sheet, BendingKind::hinges, rigidity, poisson}; }
 
 Field sampled(const Sheet& sheet, const std::function<double(Point2)>& f) {
-  Field values = Field::Zero(static_cast<Eigen::Index>(sheet.deformed_slots()));
+  Field values = Field::Zero(to_index(sheet.deformed_slots()));
   for (std::size_t d = 0; d < sheet.deformed_slots(); ++d)
-    if (const VertexIndex v = sheet.rest_vertex(DeformedIndex(d)); v.valid())
-      values[static_cast<Eigen::Index>(d)] = f(sheet.rest(v));
+    if (const VertexIndex v = sheet.rest_vertex(DeformedIndex(d)); v.valid()) values[to_index(d)] = f(sheet.rest(v));
   return values;
 }
 
@@ -44,15 +44,15 @@ Field equilibrium(const Sheet& sheet, const BlockMatrix<1>& k, const std::vector
     if (!held[d] && sheet.rest_vertex(DeformedIndex(d)).valid()) unknown[d] = n++;
   Field x = held_at;
   for (std::size_t d = 0; d < held.size(); ++d)
-    if (unknown[d] >= 0) x[static_cast<Eigen::Index>(d)] = 0;
+    if (unknown[d] >= 0) x[to_index(d)] = 0;
   k.add_product(-1, x, load);
   std::vector<Eigen::Triplet<double>> entries;
   Field right = Field::Zero(n);
   for (std::size_t i = 0; i < k.rows(); ++i) {
     if (unknown[i] < 0) continue;
-    right[unknown[i]] = load[static_cast<Eigen::Index>(i)];
+    right[unknown[i]] = load[to_index(i)];
     for (const std::int32_t j : k.columns(i))
-      if (const int column = unknown[static_cast<std::size_t>(j)]; column >= 0)
+      if (const int column = unknown[to_size(j)]; column >= 0)
         entries.emplace_back(unknown[i], column, k.block(k.find(i, j))(0));
   }
   Eigen::SparseMatrix<double> reduced(n, n);
@@ -61,7 +61,7 @@ Field equilibrium(const Sheet& sheet, const BlockMatrix<1>& k, const std::vector
   EXPECT_EQ(factor.info(), Eigen::Success);
   const Field solution = factor.solve(right);
   for (std::size_t d = 0; d < held.size(); ++d)
-    if (unknown[d] >= 0) x[static_cast<Eigen::Index>(d)] = solution[unknown[d]];
+    if (unknown[d] >= 0) x[to_index(d)] = solution[unknown[d]];
   return x;
 }
 

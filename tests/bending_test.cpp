@@ -12,6 +12,7 @@
 #include <map>
 #include <numeric>
 
+#include "harness/base/conversions.h"
 #include "harness/base/random.h"
 #include "harness/mesh/families.h"
 #include "methods/registry.h"
@@ -25,8 +26,8 @@ namespace {
 Eigen::SparseMatrix<double> sparse(const BlockMatrix<1>& k) {
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t i = 0; i < k.rows(); ++i)
-    for (const std::int32_t j : k.columns(i)) entries.emplace_back(static_cast<int>(i), j, k.block(k.find(i, j))(0));
-  const auto n = static_cast<Eigen::Index>(k.rows());
+    for (const std::int32_t j : k.columns(i)) entries.emplace_back(to_int(i), j, k.block(k.find(i, j))(0));
+  const auto n = to_index(k.rows());
   Eigen::SparseMatrix<double> result(n, n);
   result.setFromTriplets(entries.begin(), entries.end());
   return result;
@@ -45,7 +46,7 @@ Field rigid(const Sheet& sheet, Random& random) {
     piece[root(t.deformed[1]())] = root(t.deformed[2]());
   });
   std::map<std::size_t, std::array<double, 3>> slopes;
-  Field x = Field::Zero(static_cast<Eigen::Index>(sheet.deformed_slots()));
+  Field x = Field::Zero(to_index(sheet.deformed_slots()));
   for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) {
     const VertexIndex v = sheet.rest_vertex(DeformedIndex(d));
     if (!v.valid()) continue;
@@ -53,7 +54,7 @@ Field rigid(const Sheet& sheet, Random& random) {
     if (is_new)
       for (double& s : at->second) s = random.between(-1, 1);
     const auto& [a, b, c] = at->second;
-    x[static_cast<Eigen::Index>(d)] = a + b * sheet.rest(v).x + c * sheet.rest(v).y;
+    x[to_index(d)] = a + b * sheet.rest(v).x + c * sheet.rest(v).y;
   }
   return x;
 }
@@ -67,7 +68,7 @@ void expect_symmetric_and_rigid(const Sheet& sheet, const Bending& bending) {
   for (std::size_t i = 0; i < k.rows(); ++i) {
     EXPECT_TRUE(k.columns(i).empty() || sheet.rest_vertex(DeformedIndex(i)).valid());
     for (const std::int32_t j : k.columns(i)) {
-      const std::int32_t mirrored = k.find(static_cast<std::size_t>(j), static_cast<std::int32_t>(i));
+      const std::int32_t mirrored = k.find(to_size(j), to_int32(i));
       ASSERT_GE(mirrored, 0);
       asymmetry = std::max(asymmetry, std::abs(k.block(k.find(i, j))(0) - k.block(mirrored)(0)));
     }
@@ -158,7 +159,7 @@ TEST(Bending, NothingHoldsAcrossAnIncision) {
         for (const DeformedIndex d : t.deformed) side[d()] = s;
       });
       for (std::size_t i = 0; i < side.size(); ++i)
-        for (const std::int32_t j : bending.matrix().columns(i)) EXPECT_EQ(side[i], side[static_cast<std::size_t>(j)]);
+        for (const std::int32_t j : bending.matrix().columns(i)) EXPECT_EQ(side[i], side[to_size(j)]);
     }
   }
 }

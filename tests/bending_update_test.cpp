@@ -5,6 +5,7 @@
 #include <Eigen/SVD>
 #include <cmath>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "harness/cut/open.h"
 #include "harness/fem/elements/bending.h"
@@ -106,14 +107,15 @@ TEST(BendingUpdate, RowsAreTheSecondDerivativeOfTheEnergy) {
     const auto method = find_method("conventional_split").make(0);
     Cutter().cut(sheet, locator, {Curve::Kind::polyline, false, {{0.2, 0.3}, {0.7, 0.61}}}, *method, {});
     bending.update(sheet);
-    const auto n = static_cast<Eigen::Index>(sheet.deformed_slots());
+    const auto n = to_index(sheet.deformed_slots());
     Eigen::MatrixXd k = Eigen::MatrixXd::Zero(n, n), expected = k;
     for (std::size_t i = 0; i < sheet.deformed_slots(); ++i)
       for (const auto j : bending.matrix().columns(i))
-        k(static_cast<Eigen::Index>(i), j) = bending.matrix().block(bending.matrix().find(i, j))(0);
+        k(to_index(i), j) = bending.matrix().block(bending.matrix().find(i, j))(0);
     Field x = Field::Zero(n);
     const auto energy = [&](Eigen::Index i, Eigen::Index j) {
-      x[i] += 1, x[j] += 1;
+      x[i] += 1;
+      x[j] += 1;
       const double e = bending.energy(x, 1);
       x[i] = x[j] = 0;
       return e;
@@ -142,11 +144,11 @@ TEST(SlopePatch, IsALeastSquaresFit) {
       const double unit = std::sqrt(squared_length(c[1] - c[0]));
       double corners = 0;
       for (const Point2 p : c) corners += squared_length(p - centre) / 3;
-      const auto n = static_cast<Eigen::Index>(patch.terms(c).size());
+      const auto n = to_index(patch.terms(c).size());
       Eigen::MatrixXd a(n, 6);
       Eigen::VectorXd weight(n);
       for (Eigen::Index i = 0; i < n; ++i) {
-        const DeformedIndex d(static_cast<std::size_t>(patch.terms(c)[static_cast<std::size_t>(i)].vertex));
+        const DeformedIndex d(to_size(patch.terms(c)[to_size(i)].vertex));
         const Point2 offset = sheet.rest(sheet.rest_vertex(d)) - centre, p = 1 / unit * offset;
         weight[i] = unit * unit / (squared_length(offset) + corners);
         a.row(i) << 1, p.x, p.y, p.x * p.x, p.x * p.y, p.y * p.y;
@@ -165,7 +167,7 @@ TEST(SlopePatch, IsALeastSquaresFit) {
                                 (svd.matrixV().transpose() * slope)) /
             unit;
         for (Eigen::Index i = 0; i < n; ++i)
-          EXPECT_NEAR(patch.terms(c)[static_cast<std::size_t>(i)].factor[k], expected[i], 1e-12 * expected.norm());
+          EXPECT_NEAR(patch.terms(c)[to_size(i)].factor[k], expected[i], 1e-12 * expected.norm());
       }
     }
   }

@@ -161,7 +161,8 @@ TEST(Bending, HingesDependOnTheMesh) {
     auto& [low, high] = extremes[family] = {infinite, 0};
     for (double degrees : directions) {
       const double ratio = bending.energy(cylinder(sheet, degrees, 2), 1) / exact;
-      low = std::min(low, ratio), high = std::max(high, ratio);
+      low = std::min(low, ratio);
+      high = std::max(high, ratio);
       std::printf("hinges, %s, axis at %g degrees: %.3f of the plate's energy\n", family.c_str(), degrees, ratio);
     }
   }

@@ -151,13 +151,16 @@ TEST(Blade, InTheEndTheIncisionIsThatOfTheCutAtOnce) {
 TEST(Blade, AdvancesWithTheTime) {
   Scene scene;
   scene.resolution = 200;
-  scene.duration = 0.5, scene.step = 0.01;
+  scene.duration = 0.5;
+  scene.step = 0.01;
   scene.pins.push_back({{}, {.where = {{0, 0}, {0, 1}}}});
   scene.physics.gravity = {0, 0, -9.81};
   const Point2 from{0.2, 0.23}, to{0.83, 0.71};
   const double length = std::sqrt(squared_length(to - from)), speed = 2, start = 0.044;
   Scene::Cut& cut = scene.cuts.emplace_back();
-  cut.time = start, cut.speed = speed, cut.curve = {Curve::Kind::polyline, false, {from, to}};
+  cut.time = start;
+  cut.speed = speed;
+  cut.curve = {Curve::Kind::polyline, false, {from, to}};
   const auto method = find_method("bowyer_watson").make(0);
   const auto motion = Simulation::start(scene);
   const double h = motion->sheet().mean_edge();
@@ -193,7 +196,8 @@ TEST(Blade, SaysThatItsEndWasRefused) {
   scene.step = 0.01;
   scene.pins.push_back({{}, {.where = {{0, 0}, {0, 1}}}});
   Scene::Cut& cut = scene.cuts.emplace_back();
-  cut.speed = 2, cut.curve = {Curve::Kind::polyline, false, {{0.2, 0.23}, {0.83, 0.71}}};
+  cut.speed = 2;
+  cut.curve = {Curve::Kind::polyline, false, {{0.2, 0.23}, {0.83, 0.71}}};
   GivesUp method;
   const auto motion = Simulation::start(scene);
   EXPECT_EQ(motion->advance(0.5, method, {}).verdict, "ok");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "harness/base/conversions.h"
 #include "tests/truth_helpers.h"
 
 namespace cutbench {
@@ -18,8 +19,8 @@ TEST(BodyFitted, IsACutSheetOfTheSameSize) {
     const Sheet sheet = body_fitted(specimen), cut = cut_by(specimen, "conventional_split");
     EXPECT_TRUE(check(sheet).empty());
     EXPECT_EQ(count_pieces(sheet), count_pieces(cut));
-    const auto wanted = static_cast<double>(specimen.mesh.triangles.size());
-    EXPECT_NEAR(static_cast<double>(sheet.triangle_count()), wanted, 0.03 * wanted);
+    const auto wanted = to_double(specimen.mesh.triangles.size());
+    EXPECT_NEAR(to_double(sheet.triangle_count()), wanted, 0.03 * wanted);
     double length = 0, length_cut = 0, area = 0, area_cut = 0, longest = 0;
     const auto measure = [&](const Sheet& of, double& edges, double& total) {
       for (std::size_t t = 0; t < of.triangle_slots(); ++t) {
@@ -28,12 +29,13 @@ TEST(BodyFitted, IsACutSheetOfTheSameSize) {
         total += cross(c[1] - c[0], c[2] - c[0]) / 2;
         for (std::size_t k = 0; k < 3; ++k) {
           const double edge = std::sqrt(squared_length(c[(k + 1) % 3] - c[k]));
-          if (of.mark(half_edge(TriangleIndex(t), static_cast<int>(k))) == EdgeMark::incision) edges += edge / 2;
+          if (of.mark(half_edge(TriangleIndex(t), to_int(k))) == EdgeMark::incision) edges += edge / 2;
           if (&of == &sheet) longest = std::max(longest, edge);
         }
       }
     };
-    measure(sheet, length, area), measure(cut, length_cut, area_cut);
+    measure(sheet, length, area);
+    measure(cut, length_cut, area_cut);
     EXPECT_NEAR(length, length_cut, 2e-3 * length_cut);
     EXPECT_NEAR(area, area_cut, 1e-10);
     EXPECT_LE(longest, 2 * sheet.mean_edge());  // an even size

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <limits>
 
+#include "harness/base/conversions.h"
 #include "harness/files/mesh_file.h"
 #include "harness/files/path_file.h"
 #include "harness/mesh/check_and_repair.h"
@@ -66,7 +67,7 @@ std::string path_text_of(const json& cuts, const Change& change) {
           double c = cut[kind][i][axis];
           if (i < nudge.size()) {
             const double n = nudge[i][axis];
-            c = step(c + change.by * n, change.ulps * static_cast<int>(n));
+            c = step(c + change.by * n, change.ulps * to_int(n));
           }
           cut[kind][i][axis] = change.scale * c + change.offset;
         }
@@ -88,7 +89,8 @@ CatalogueCase read_case(const fs::path& file) {
              "expect");
   CatalogueCase result;
   result.name = file.stem().string();
-  result.about = document.at("about"), result.source = document.at("source");
+  result.about = document.at("about");
+  result.source = document.at("source");
   result.chord_tolerance = document.value("chord_tolerance", std::numeric_limits<double>::quiet_NaN());
   result.rounds = document.value("rounds", std::vector<int>{0, 1, 3});
   result.expect = document.at("expect");
@@ -104,8 +106,8 @@ CatalogueCase read_case(const fs::path& file) {
 MeshData repeated(const MeshData& one, std::size_t copies, double apart) {
   MeshData all;
   for (std::size_t copy = 0; copy < copies; ++copy) {
-    const auto first = static_cast<std::int32_t>(all.rest.size());
-    for (Point2 p : one.rest) all.rest.push_back({p.x + static_cast<double>(copy) * apart, p.y});
+    const auto first = to_int32(all.rest.size());
+    for (Point2 p : one.rest) all.rest.push_back({p.x + to_double(copy) * apart, p.y});
     for (const auto& [a, b, c] : one.triangles) all.triangles.push_back({first + a, first + b, first + c});
   }
   return all;

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "harness/base/conversions.h"
 #include "harness/judge/assessment.h"
 #include "harness/mesh/tolerances.h"
 #include "methods/registry.h"
@@ -34,7 +35,7 @@ struct Trial {
 std::vector<Trial> trials_of(const CatalogueCase& file, const MethodRow& row) {
   if (row.parameter.name != "rounds") return {{file, row, row.parameter.value, row.name}};
   std::vector<Trial> trials;
-  for (int k : file.rounds) trials.push_back({file, row, static_cast<double>(k), row.name + "_" + std::to_string(k)});
+  for (int k : file.rounds) trials.push_back({file, row, to_double(k), row.name + "_" + std::to_string(k)});
   return trials;
 }
 

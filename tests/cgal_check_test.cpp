@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "harness/judge/oracle_request.h"
 #include "harness/mesh/families.h"
@@ -43,7 +44,7 @@ TEST_P(CgalCheck, IsRightInEveryFamilyOfCuts) {
         ++k;
       }
     }
-  RecordProperty("cuts", static_cast<int>(cuts));
+  RecordProperty("cuts", to_int(cuts));
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, CgalCheck, testing::ValuesIn(cut_families().begin(), cut_families().end()),
@@ -65,8 +66,10 @@ TEST(CgalCheckTest, CrossingCutsAndLoops) {
 TEST(CgalCheckTest, HolesStayHoles) {
   oracle::Mesh mesh = for_oracle(read_mesh(CUTBENCH_TEST_CASES "/meshes/mfem_square-disc.off"));
   oracle::Point middle{0, 0};
-  for (const auto& [x, y] : mesh.rest)
-    middle[0] += x / static_cast<double>(mesh.rest.size()), middle[1] += y / static_cast<double>(mesh.rest.size());
+  for (const auto& [x, y] : mesh.rest) {
+    middle[0] += x / to_double(mesh.rest.size());
+    middle[1] += y / to_double(mesh.rest.size());
+  }
   int pieces = 0;
   EXPECT_EQ(
       cut(mesh, {false, false, {{middle[0] - 0.8, middle[1] - 0.1}, {middle[0] + 0.8, middle[1] + 0.1}}}, &pieces), "");

@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/families.h"
 #include "tests/mesh_checks.h"
 
@@ -76,8 +77,8 @@ TEST(CheckAndRepair, RepairsInMemory) {
             "m: vertices added where triangles met in a point only: 1|"
             "m: vertices without triangles dropped: 2|");
   ASSERT_EQ(mesh.rest.size(), 6u);
-  EXPECT_EQ(mesh.rest[static_cast<std::size_t>(mesh.triangles[0][0])], (Point2{0, 0}));
-  EXPECT_EQ(mesh.rest[static_cast<std::size_t>(mesh.triangles[1][0])], (Point2{0, 0}));
+  EXPECT_EQ(mesh.rest[to_size(mesh.triangles[0][0])], (Point2{0, 0}));
+  EXPECT_EQ(mesh.rest[to_size(mesh.triangles[1][0])], (Point2{0, 0}));
   EXPECT_NE(mesh.triangles[0][0], mesh.triangles[1][0]);
   expect_sound(mesh);
 

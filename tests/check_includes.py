@@ -37,7 +37,7 @@ ROOMS = {  # from the ground up: a room (a folder, or one file), its library, an
                            "fem/time"]),
     "files": ("files", ["base", "mesh", "path", "cases", "fem/elements", "fem/solvers", "simulation"]),
     "judge": ("bench", ["base", "mesh", "path", "cut", "oracle"]),
-    "processes": ("bench", []),
+    "processes": ("bench", ["base"]),
     "programs": ("bench", ["base", "mesh", "path", "cut", "files", "judge", "processes"]),
     "problems/common": ("bench", ["base", "mesh", "path", "cut", "fem"]),
     "problems/in_plane": ("bench", ["base", "mesh", "fem", "problems/common"]),

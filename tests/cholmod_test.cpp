@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iterator>
 
+#include "harness/base/conversions.h"
 #include "harness/base/random.h"
 #include "harness/fem/linear/cholmod_factor.h"
 #include "tests/fem_helpers.h"
@@ -22,7 +23,7 @@ TEST(Cholmod, StartsNoThreads) {
   Random random(4);
   System<3> system;
   system.blocks = random_matrix(random, 14, 7, 3);  // large dense fronts, which it splits among threads
-  system.held.resize(static_cast<std::size_t>(system.blocks.rows()));
+  system.held.resize(to_size(system.blocks.rows()));
   const Field b = random_field(5, system.blocks.rows());
   EXPECT_TRUE(solved<3>({.name = "cholmod"}, system, b).report.converged);
   EXPECT_EQ(threads(), before);

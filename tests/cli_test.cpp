@@ -5,6 +5,7 @@
 #include <set>
 #include <sstream>
 
+#include "harness/base/conversions.h"
 #include "harness/records/record.h"
 #include "tests/helpers.h"
 #include "tests/program.h"
@@ -158,7 +159,7 @@ TEST_F(Cli, RunWritesOneRowPerRepetition) {
   ASSERT_EQ(result.code, 0) << result.error;
   const auto lines = lines_of(read(folder_ / "r/e/records.csv"));
   EXPECT_EQ(lines.size(), 1u + 2 * 2 * 3 * (3 + 1) * (2 + 1));  // sheets x families x cases x methods x (warm + cold)
-  EXPECT_EQ(static_cast<std::size_t>(std::count(lines[0].begin(), lines[0].end(), ',') + 1), column_names().size());
+  EXPECT_EQ(to_size(std::count(lines[0].begin(), lines[0].end(), ',') + 1), column_names().size());
   for (const auto& line : lines)
     EXPECT_EQ(std::count(line.begin(), line.end(), ','), std::count(lines[0].begin(), lines[0].end(), ','));
   EXPECT_FALSE(fs::exists(folder_ / "r/e/records.csv.part"));
@@ -184,7 +185,10 @@ TEST_F(Cli, EachSheetAndSizeDrawsItsOwnCuts) {
       const Record row(column_names(), line);
       if (row.get("resolution") != resolution || row.get("repetition") != "0") continue;
       std::string key;
-      for (const char* column : {"sheet", "cut_family", "case", "incision_error_h"}) key += row.get(column), key += ' ';
+      for (const char* column : {"sheet", "cut_family", "case", "incision_error_h"}) {
+        key += row.get(column);
+        key += ' ';
+      }
       found.insert(key);
     }
     return found;
@@ -259,7 +263,7 @@ TEST_F(Cli, SimulateSaysWhatStepsCost) {
       std::vector<double> values;
       for (std::string value; std::getline(row, value, ',');) values.push_back(std::stod(value));
       ASSERT_EQ(values.size(), 12u) << rows[i];
-      EXPECT_NEAR(values[0], static_cast<double>(i) * report["step_s"].get<double>(), 1e-5);
+      EXPECT_NEAR(values[0], to_double(i) * report["step_s"].get<double>(), 1e-5);
       EXPECT_NEAR(values[9], std::accumulate(values.begin() + 2, values.begin() + 9, 0.0), 1e-2);
       computed_ms += values[9];
     }

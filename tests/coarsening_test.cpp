@@ -14,6 +14,7 @@
 #include <set>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/base/random.h"
 #include "tests/multigrid_helpers.h"
 
@@ -54,16 +55,16 @@ TEST(Coarsening, PartsOfHatsAsAFloodFillFindsThem) {
       divided += ++parts_at[{std::lround(1e6 * node.x), std::lround(1e6 * node.y)}] == 2;
       std::set<std::int32_t> members;
       for (const auto& [v, weight] : coarsening.members(k)) {
-        EXPECT_NEAR(weight, hat((*a.places)[static_cast<std::size_t>(v)], node, spacing), 1e-6);
+        EXPECT_NEAR(weight, hat((*a.places)[to_size(v)], node, spacing), 1e-6);
         members.insert(v);
       }
       std::vector<std::int32_t> front{*members.begin()};
       std::set<std::int32_t> reached(front.begin(), front.end());
       while (!front.empty()) {
-        const auto v = static_cast<std::size_t>(front.back());
+        const auto v = to_size(front.back());
         front.pop_back();
         for (const std::int32_t other : links[v])
-          if (hat((*a.places)[static_cast<std::size_t>(other)], node, spacing) > 2e-5 && reached.insert(other).second)
+          if (hat((*a.places)[to_size(other)], node, spacing) > 2e-5 && reached.insert(other).second)
             front.push_back(other);
       }
       EXPECT_EQ(reached, members);
@@ -75,7 +76,7 @@ TEST(Coarsening, PartsOfHatsAsAFloodFillFindsThem) {
       Point2 mean;
       for (const auto& [k, weight] : coarsening.parents(v)) {
         sum += weight;
-        mean = mean + double(weight) * coarsening.coarse_places()[static_cast<std::size_t>(k)];
+        mean = mean + double(weight) * coarsening.coarse_places()[to_size(k)];
       }
       EXPECT_NEAR(sum, 1, 1e-4);
       EXPECT_LT(length(mean - (*a.places)[v]), 1e-4 * spacing) << "linear functions are interpolated exactly";
@@ -88,47 +89,45 @@ TEST(Coarsening, PatternIsThatOfTheProduct) {
   const SystemMatrix<2> a = body.model.system();
   LevelRows fine = rows_of(*a.blocks);
   const SweepRows& links = fine.blocks;
-  const auto n = static_cast<Eigen::Index>(links.size());
+  const auto n = to_index(links.size());
   Random random(2);
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     std::vector<double> values;
-    for (const std::int32_t j : a.blocks->columns(static_cast<std::size_t>(i)))
-      values.push_back(matrix(i, j) = random.between(-1, 1));
-    fine.set_scalars(static_cast<std::size_t>(i), a.blocks->columns(static_cast<std::size_t>(i)), values);
+    for (const std::int32_t j : a.blocks->columns(to_size(i))) values.push_back(matrix(i, j) = random.between(-1, 1));
+    fine.set_scalars(to_size(i), a.blocks->columns(to_size(i)), values);
   }
   Coarsening coarsening(2.0 / 12);
   coarsening.update(fine, *a.places, all_of(fine), {{}, {{0, 1, 2}}});
   const Eigen::Index group = coarsening.group_of(1);
   ASSERT_GE(group, 0);
   EXPECT_EQ(coarsening.group_of(3), -1);
-  const auto m = static_cast<Eigen::Index>(coarsening.coarse_size());
+  const auto m = to_index(coarsening.coarse_size());
   Eigen::MatrixXd p = Eigen::MatrixXd::Zero(n, m), graph = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    for (const auto& [k, weight] : coarsening.parents(static_cast<std::size_t>(i))) p(i, k) = 1;
-    for (const std::int32_t j : links[static_cast<std::size_t>(i)]) graph(i, j) = 1;
+    for (const auto& [k, weight] : coarsening.parents(to_size(i))) p(i, k) = 1;
+    for (const std::int32_t j : links[to_size(i)]) graph(i, j) = 1;
   }
   for (const Eigen::Index v : {0, 1, 2}) EXPECT_EQ(p(v, group), 1);
   EXPECT_EQ(p.col(group).sum(), 3);
   const Eigen::MatrixXd product = p.transpose() * graph * p;
   Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(n, m);
   for (Eigen::Index i = 0; i < n; ++i)
-    for (const auto& [k, weight] : coarsening.parents(static_cast<std::size_t>(i))) weights(i, k) = double(weight);
+    for (const auto& [k, weight] : coarsening.parents(to_size(i))) weights(i, k) = double(weight);
   LevelRows coarse;
   coarsening.multiply(fine, coarse);
   const Eigen::MatrixXd exact = weights.transpose() * matrix * weights;
   for (std::size_t i = 0; i < coarse.size(); ++i)
     for (std::size_t k = 0; k < coarse.scalars[i].size(); ++k)
-      EXPECT_NEAR(coarse.scalar[coarse.scalars.first_slot(i) + k],
-                  exact(static_cast<Eigen::Index>(i), coarse.scalars[i][k]), 1e-12);
+      EXPECT_NEAR(coarse.scalar[coarse.scalars.first_slot(i) + k], exact(to_index(i), coarse.scalars[i][k]), 1e-12);
   for (Eigen::Index i = 0; i < m; ++i) {
-    const auto row = coarse.blocks[static_cast<std::size_t>(i)];
-    const auto scalars = coarse.scalars[static_cast<std::size_t>(i)];
+    const auto row = coarse.blocks[to_size(i)];
+    const auto scalars = coarse.scalars[to_size(i)];
     EXPECT_TRUE(std::is_permutation(row.begin(), row.end(), scalars.begin(), scalars.end()));
     const auto side = [i](std::int32_t j) { return (j > i) - (j < i); };
     EXPECT_TRUE(std::is_sorted(row.begin(), row.end(), [&](auto one, auto other) { return side(one) < side(other); }));
     for (Eigen::Index j = 0; j < m; ++j)
-      EXPECT_EQ(std::count(row.begin(), row.end(), static_cast<std::int32_t>(j)), product(i, j) > 0 ? 1 : 0);
+      EXPECT_EQ(std::count(row.begin(), row.end(), to_int32(j)), product(i, j) > 0 ? 1 : 0);
   }
 }
 
@@ -152,8 +151,7 @@ std::map<Part, std::map<Part, double>> product_of(const Coarsening& coarsening, 
     }
     auto& row = all[part_of(coarsening, i)];
     for (std::size_t k = 0; k < coarse.scalars[i].size(); ++k)
-      row[part_of(coarsening, static_cast<std::size_t>(coarse.scalars[i][k]))] =
-          coarse.scalar[coarse.scalars.first_slot(i) + k];
+      row[part_of(coarsening, to_size(coarse.scalars[i][k]))] = coarse.scalar[coarse.scalars.first_slot(i) + k];
     EXPECT_EQ(coarse.blocks[i].size(), coarse.scalars[i].size());
   }
   return all;
@@ -185,32 +183,36 @@ TEST(Coarsening, FollowsTheCuts) {
         marked.insert(since.begin(), since.end());
       }
       for (std::size_t i = 0; i < a.vertices(); ++i) {
-        if (i < n && !marked.contains(static_cast<std::int32_t>(i))) continue;
-        changed.push_back(static_cast<std::int32_t>(i));
+        if (i < n && !marked.contains(to_int32(i))) continue;
+        changed.push_back(to_int32(i));
         const bool moves = i < n && length((*a.places)[i] - places[i]) > 0;
-        if (fine.blocks.set(i, a.blocks->columns(i)).is_new || moves)
-          changes.links.push_back(static_cast<std::int32_t>(i));
+        if (fine.blocks.set(i, a.blocks->columns(i)).is_new || moves) changes.links.push_back(to_int32(i));
         if (fine.set_scalars(i, a.blocks->columns(i), std::vector<double>(a.blocks->columns(i).size(), value)))
-          changes.rows.push_back(static_cast<std::int32_t>(i));
+          changes.rows.push_back(to_int32(i));
       }
       EXPECT_TRUE(n == 0 || 2 * changed.size() < n);
-      ++value, n = a.vertices(), seen = a.pattern, places = *a.places;
+      ++value;
+      n = a.vertices();
+      seen = a.pattern;
+      places = *a.places;
       // Groups that come and go.
       Coarsening::Regrouping regrouping{changed, {}};
       for (std::size_t k = 2; k < changed.size(); k += 17) regrouping.groups.push_back({changed[k - 2], changed[k]});
-      first.update(fine, *a.places, changes, regrouping), first.multiply(fine, coarse);
-      second.update(coarse, first.coarse_places(), first.changes()), second.multiply(coarse, coarsest);
+      first.update(fine, *a.places, changes, regrouping);
+      first.multiply(fine, coarse);
+      second.update(coarse, first.coarse_places(), first.changes());
+      second.multiply(coarse, coarsest);
       EXPECT_TRUE(changed.size() == n || 2 * first.changes().rows.size() < first.coarse_size());
 
       Coarsening::Regrouping groups;
       for (std::size_t k = 0; k < first.coarse_size(); ++k)
         if (const auto members = first.members(k);
-            !members.empty() &&
-            first.group_of(static_cast<std::size_t>(members[0].other)) == static_cast<std::int32_t>(k))
+            !members.empty() && first.group_of(to_size(members[0].other)) == to_int32(k))
           groups.groups.push_back({members[0].other, members[1].other});
       Coarsening first_anew(spacing), second_anew(2 * spacing);
       LevelRows coarse_anew, coarsest_anew;
-      first_anew.update(fine, *a.places, all_of(fine), groups), first_anew.multiply(fine, coarse_anew);
+      first_anew.update(fine, *a.places, all_of(fine), groups);
+      first_anew.multiply(fine, coarse_anew);
       second_anew.update(coarse_anew, first_anew.coarse_places(), all_of(coarse_anew));
       second_anew.multiply(coarse_anew, coarsest_anew);
       const auto all = product_of(first, coarse), anew = product_of(first_anew, coarse_anew);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "harness/base/conversions.h"
 #include "harness/base/errors.h"
 
 namespace cutbench {
@@ -58,9 +59,9 @@ TEST_F(CompareRuns, SlowerWhereTheWholeIntervalIs) {
   std::normal_distribution<double> noise(0, 0.02);
   std::vector<Row> base(60), same(60), slower(60);
   for (std::size_t i = 0; i < base.size(); ++i) {
-    base[i].us = std::exp(0.1 * static_cast<double>(i) + noise(random));  // cases differ far more than the change
-    same[i].us = std::exp(0.1 * static_cast<double>(i) + noise(random));
-    slower[i].us = 1.05 * std::exp(0.1 * static_cast<double>(i) + noise(random));
+    base[i].us = std::exp(0.1 * to_double(i) + noise(random));  // cases differ far more than the change
+    same[i].us = std::exp(0.1 * to_double(i) + noise(random));
+    slower[i].us = 1.05 * std::exp(0.1 * to_double(i) + noise(random));
   }
   const auto a = write("a", base);
   EXPECT_FALSE(compare_runs(a, write("b", same)).is_slower());
@@ -79,7 +80,10 @@ TEST_F(CompareRuns, FewCasesAreNoFinding) {
 
 TEST_F(CompareRuns, WorseVerdictsAndShapes) {
   std::vector<Row> head(20);
-  head[3].status = "wrong", head[4].aspect = "4", head[5].aspect = "3", head[6].aspect = "";
+  head[3].status = "wrong";
+  head[4].aspect = "4";
+  head[5].aspect = "3";
+  head[6].aspect = "";
   const RunComparison c = compare_runs(write("a", std::vector<Row>(20)), write("b", head));
   EXPECT_TRUE(c.is_slower());
   EXPECT_EQ(c.worse.size(), 2u);  // its status and its verdict
@@ -107,7 +111,7 @@ TEST(MedianRanks, CoverTheMedian) {
   EXPECT_EQ(median_ranks(10), std::pair(std::size_t{1}, std::size_t{8}));   // 97.9 %
   EXPECT_EQ(median_ranks(20), std::pair(std::size_t{5}, std::size_t{14}));  // 95.9 %
   const auto [low, high] = median_ranks(2000);
-  EXPECT_NEAR(static_cast<double>(low), 1000 - 0.98 * std::sqrt(2000.0), 2);
+  EXPECT_NEAR(to_double(low), 1000 - 0.98 * std::sqrt(2000.0), 2);
   EXPECT_EQ(high, 1999 - low);
 }
 

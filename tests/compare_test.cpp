@@ -14,7 +14,8 @@ namespace {
 
 TrackFile two_rows() {
   TrackFile file;
-  file.name = "base.json", file.tools = {{"compiler", "g++ 12"}, {"valgrind", "3.19"}};
+  file.name = "base.json";
+  file.tools = {{"compiler", "g++ 12"}, {"valgrind", "3.19"}};
   file.rows = {{.id = "trace/800",
                 .phase = "trace",
                 .unit = "crossed triangles",
@@ -116,11 +117,15 @@ TEST(Compare, OtherToolsOrMissingRows) {
   TrackFile head = two_rows();
   head.tools["compiler"] = "clang 14";
   EXPECT_NE(compared(head).not_comparable.find("compiler"), std::string::npos);
-  head = two_rows(), head.tools.erase("valgrind");
+  head = two_rows();
+  head.tools.erase("valgrind");
   EXPECT_NE(compared(head).not_comparable.find("valgrind"), std::string::npos);
-  head = two_rows(), head.rows.pop_back();
+  head = two_rows();
+  head.rows.pop_back();
   EXPECT_NE(compared(head).not_comparable.find("step/cg/800"), std::string::npos);
-  head = two_rows(), head.rows.push_back(head.rows[0]), head.rows.back().id = "new/800";
+  head = two_rows();
+  head.rows.push_back(head.rows[0]);
+  head.rows.back().id = "new/800";
   EXPECT_TRUE(compared(head).not_comparable.empty());
   EXPECT_EQ(compared(head).added, std::vector<std::string>{"new/800"});
 }

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "harness/base/conversions.h"
 #include "harness/base/random.h"
 #include "harness/fem/solvers/factor_preconditioners.h"
 #include "tests/fem_helpers.h"
@@ -34,7 +35,7 @@ class GivesUp : public testing::Test {
     body_.model.assemble(1, 1e-3);
     matrix_ = body_.model.system();
     Random random(3);
-    right_.resize(static_cast<Eigen::Index>(3 * matrix_.vertices()));
+    right_.resize(to_index(3 * matrix_.vertices()));
     for (double& value : right_) value = random.between(-1, 1);
   }
   static std::vector<Pin> held_left() {

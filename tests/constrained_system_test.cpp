@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "harness/base/conversions.h"
 #include "harness/cut/constraint_source.h"
 #include "harness/fem/constraints/constraint_matrix.h"
 #include "harness/fem/model/largest_eigenvalue.h"
@@ -53,31 +54,31 @@ TEST(Constraints, SystemIsTheDenseProduct) {
     Eigen::MatrixXd c = dense_constraint_matrix(cut.constraints, model.vertices(), 3);
     const auto unknowns = c.cols();
     for (Eigen::Index u = 0; u < n; ++u)
-      if (model.held()[static_cast<std::size_t>(u)]) c.row(u).setZero();
+      if (model.held()[to_size(u)]) c.row(u).setZero();
     Eigen::MatrixXd expected = c.transpose() * a * c;
     expected += 7 * dense_ghosts(cut.constraints, model.vertices(), expected, 3, &GhostEdge::stiffness);
     ConstrainedSystem<3> constraint_kind(cut.constraints, model.vertices());
     constraint_kind.assemble(model.system(), 7);
     const SystemMatrix<3> small = constraint_kind.system();
-    ASSERT_EQ(static_cast<Eigen::Index>(3 * small.vertices()), unknowns);
+    ASSERT_EQ(to_index(3 * small.vertices()), unknowns);
     Field some = Field::Random(unknowns);
     const Field force = Field::Random(n);
     for (Eigen::Index u = 0; u < unknowns; ++u)
-      if ((*small.held)[static_cast<std::size_t>(u)]) some[u] = 0;
+      if ((*small.held)[to_size(u)]) some[u] = 0;
     Field all, moved, pulled, expected_all = expected * some;
     small.multiply(some, all);
     for (Eigen::Index u = 0; u < unknowns; ++u)
-      if ((*small.held)[static_cast<std::size_t>(u)]) expected_all[u] = 0;
+      if ((*small.held)[to_size(u)]) expected_all[u] = 0;
     EXPECT_LE((all - expected_all).norm(), 1e-11 * a.norm());  // slivers, whose entries cancel out
-    constraint_kind.expand(some, moved), constraint_kind.reduce(model.held(), force, pulled);
+    constraint_kind.expand(some, moved);
+    constraint_kind.reduce(model.held(), force, pulled);
     EXPECT_LE((moved - c * some).norm(), 1e-12 * moved.norm());
     Field expected_pull = c.transpose() * force;
     for (Eigen::Index u = 0; u < n; ++u)
-      if (model.held()[static_cast<std::size_t>(u)]) expected_pull[u] = 0;
+      if (model.held()[to_size(u)]) expected_pull[u] = 0;
     EXPECT_LE((pulled - expected_pull).norm(), 1e-12 * pulled.norm());
     for (Eigen::Index u = 0; u < unknowns; ++u)
-      EXPECT_EQ((*small.held)[static_cast<std::size_t>(u)] != 0,
-                expected(u, u) == 0 || (u < n && model.held()[static_cast<std::size_t>(u)]));
+      EXPECT_EQ((*small.held)[to_size(u)] != 0, expected(u, u) == 0 || (u < n && model.held()[to_size(u)]));
   });
 }
 
@@ -86,7 +87,7 @@ TEST(Constraints, LargestEigenvalueIsThatOfADenseSolve) {
     const Sheet& sheet = cut.sheet();
     Model<2> model(sheet, {.density = 1, .stiffness = 1, .poisson = 0.3},
                    {.dimension = 2, .strain = Strain::linear, .bending = BendingKind::none}, {}, {});
-    model.rotate(Field::Zero(static_cast<Eigen::Index>(2 * model.vertices())));
+    model.rotate(Field::Zero(to_index(2 * model.vertices())));
     model.assemble(0, 1);
     const Eigen::MatrixXd k = dense(model);
     const auto n = k.rows();
@@ -122,7 +123,8 @@ TEST(Constraints, SystemFollowsCutsAsOneMadeAnew) {
       fresh.constrain(body.sheet, constraints);
       const Field x = bent(fresh, body.sheet);
       for (Model<3>* const model : {&body.model, &fresh}) {
-        model->rotate(x), model->assemble(1.2, 0.1);
+        model->rotate(x);
+        model->assemble(1.2, 0.1);
         model->constrained()->assemble(model->system(), 7);
       }
       const SystemMatrix<3> a = body.model.constrained()->system(), b = fresh.constrained()->system();
@@ -172,7 +174,7 @@ TEST(Constraints, HoldInMotion) {
       EXPECT_NEAR(end.momentum.x, start.momentum.x, 1e-9);
       if (!shaken)
         for (Eigen::Index v = 2; v < body.state.v.size(); v += 3) {
-          const auto d = DeformedIndex(static_cast<std::size_t>(v / 3));
+          const auto d = DeformedIndex(to_size(v / 3));
           if (body.sheet.rest_vertex(d).valid()) {
             EXPECT_NEAR(body.state.v[v], -0.5, 1e-8);
           }

@@ -8,6 +8,7 @@
 
 #include <set>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "harness/cut/constraint_source.h"
 #include "harness/fem/constraints/constraint_matrix.h"
@@ -36,17 +37,17 @@ struct Pieces {
       if (root[d] >= 0 && on_border(sheet.rest(sheet.rest_vertex(DeformedIndex(d))))) held[find(d)] = 1;
   }
   std::size_t find(std::size_t i) const {
-    while (root[i] != static_cast<int>(i)) i = static_cast<std::size_t>(root[i]);
+    while (root[i] != to_int(i)) i = to_size(root[i]);
     return i;
   }
   void join(int a, int b) {
     for (const int i : {a, b})
-      if (root[static_cast<std::size_t>(i)] < 0) root[static_cast<std::size_t>(i)] = i;
-    root[find(static_cast<std::size_t>(a))] = static_cast<int>(find(static_cast<std::size_t>(b)));
+      if (root[to_size(i)] < 0) root[to_size(i)] = i;
+    root[find(to_size(a))] = to_int(find(to_size(b)));
   }
   std::size_t count() const {
     std::size_t roots = 0;
-    for (std::size_t i = 0; i < root.size(); ++i) roots += root[i] == static_cast<int>(i);
+    for (std::size_t i = 0; i < root.size(); ++i) roots += root[i] == to_int(i);
     return roots;
   }
   std::vector<int> root;
@@ -62,12 +63,12 @@ TEST(Constraints, PatchTest) {
     Model<2> model(sheet, {.stiffness = 1000, .poisson = 0.3},
                    {.dimension = 2, .strain = Strain::linear, .bending = BendingKind::none}, {}, {});
     const Pieces pieces(sheet);
-    Field affine = Field::Zero(static_cast<Eigen::Index>(2 * model.vertices())), given = affine, force = affine;
+    Field affine = Field::Zero(to_index(2 * model.vertices())), given = affine, force = affine;
     std::vector<std::uint8_t> held = model.held();
     for (std::size_t d = 0; d < model.vertices(); ++d) {
       if (pieces.root[d] < 0) continue;
       const Point2 p = sheet.rest(sheet.rest_vertex(DeformedIndex(d)));
-      const auto at = static_cast<Eigen::Index>(2 * d);
+      const auto at = to_index(2 * d);
       affine.segment<2>(at) << 0.3 + 0.02 * p.x - 0.05 * p.y, -0.1 + 0.04 * p.x + 0.01 * p.y;
       if (!on_border(p) && pieces.held[pieces.find(d)]) continue;
       held[2 * d] = held[2 * d + 1] = 1;
@@ -103,8 +104,8 @@ TEST(Constraints, CutsStayOpen) {
   for_each_constrained_cut(constraining_methods, 9, 3, 641, [&](const ConstrainedCut& cut) {
     Pieces pieces(cut.sheet());
     EXPECT_EQ(pieces.count(), count_pieces(cut.sheet()));
-    const auto first = static_cast<std::int32_t>(cut.sheet().deformed_slots());
-    pieces.root.resize(static_cast<std::size_t>(first) + cut.constraints.phantoms, -1);
+    const auto first = to_int32(cut.sheet().deformed_slots());
+    pieces.root.resize(to_size(first) + cut.constraints.phantoms, -1);
     std::vector<std::uint8_t> is_constrained(pieces.root.size());
     for (const Constraint& constraint : cut.constraints.constraints) is_constrained[constraint.vertex()] = 1;
     for (const Constraint& constraint : cut.constraints.constraints)
@@ -160,9 +161,10 @@ TEST(Constraints, CracksOpenAsTheyDoByTheSplitAlone) {
         const double less = (energy(split).value - energy(constrained).value) / energy(split).exact;
         // Phantom nodes lose up to a triangle at a tip whose lips would be too stiff, of a crack of twelve.
         EXPECT_LE(less, name == "phantom_node" ? 0.25 : 0.1);
-        lost += less, ++cases;
+        lost += less;
+        ++cases;
       }
-    EXPECT_LE(lost, 0.08 * static_cast<double>(cases));  // the sanitizers' six cases of phantom_node: 0.071
+    EXPECT_LE(lost, 0.08 * to_double(cases));  // the sanitizers' six cases of phantom_node: 0.071
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/mesh_data.h"
 #include "methods/registry.h"
@@ -127,7 +128,7 @@ TEST_P(CornerCases, SheetWithAHole) {
   const MeshData mesh = read_mesh(CUTBENCH_TEST_CASES "/meshes/skfem_annulus.off");
   const Sheet sheet(mesh);
   Point2 middle;
-  for (Point2 p : mesh.rest) middle = middle + 1.0 / static_cast<double>(mesh.rest.size()) * p;
+  for (Point2 p : mesh.rest) middle = middle + 1.0 / to_double(mesh.rest.size()) * p;
   const double size = sheet.size();
   const Point2 along{size, 0.1 * size}, aside{-0.1 * size, size};
   Table table(mesh, row, row.parameter.value);
@@ -156,7 +157,7 @@ MeshData fan(Random& random, std::vector<double>& angles) {
   } while (!is_good());
   MeshData mesh;
   mesh.rest = {random.coin() ? Point2{} : Point2{0.5, 0.3}};
-  const auto n = static_cast<std::int32_t>(angles.size());
+  const auto n = to_int32(angles.size());
   for (const double a : angles)
     mesh.rest.push_back(mesh.rest[0] + random.between(0.8, 1.2) * Point2{std::cos(a), std::sin(a)});
   for (std::int32_t i = 0; i < n; ++i) mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % n});

@@ -32,12 +32,15 @@ void PrintTo(const Kind& kind, std::ostream* out) {
 /// Held at its left side, it falls.
 Scene falling(const Kind& kind) {
   Scene scene;
-  scene.family = "delaunay", scene.resolution = 200;
+  scene.family = "delaunay";
+  scene.resolution = 200;
   scene.material = {.density = 2.2, .stiffness = 1000, .poisson = 0.3, .bending = 1e-3, .mass_damping = 0.5};
-  scene.physics.dimension = kind.dimension, scene.physics.bending = kind.bending;
+  scene.physics.dimension = kind.dimension;
+  scene.physics.bending = kind.bending;
   scene.physics.gravity = {0, -9.81, kind.dimension == 3 ? -3.0 : 0.0};
   scene.pins.push_back({.near = {}, .pin = {.where = {{-infinite, -infinite}, {0, infinite}}}});
-  scene.integrator = kind.integrator, scene.solver.name = kind.solver;
+  scene.integrator = kind.integrator;
+  scene.solver.name = kind.solver;
   scene.step = kind.integrator == Integrator::symplectic_euler ? 1e-4 : 1.0 / 240;
   scene.duration = 1;
   return scene;
@@ -45,7 +48,8 @@ Scene falling(const Kind& kind) {
 
 void add_cut(Scene& scene, double steps, const Curve& curve) {
   Scene::Cut& cut = scene.cuts.emplace_back();
-  cut.time = steps * scene.step, cut.curve = curve;
+  cut.time = steps * scene.step;
+  cut.curve = curve;
 }
 
 std::unique_ptr<CuttingMethod> method_of(const Kind& kind) { return find_method(kind.method).make(kind.parameter); }
@@ -120,7 +124,8 @@ TEST_P(CutNow, RefusedFailedOrBesideLeavesEveryBit) {
   const auto method = method_of(GetParam());
   const auto tried = start(scene), left_alone = start(scene);
   for (int round = 0; round < 2; ++round) {
-    step(*tried, 5), step(*left_alone, 5);
+    step(*tried, 5);
+    step(*left_alone, 5);
     EXPECT_EQ(tried->cut_now({&far_too_long, 1}, *method).cut.status, Status::refused);
     EXPECT_EQ(tried->cut_now({&beside, 1}, *method).cut.status, Status::noop);
     const MotionCut failed = tried->cut_now({&second, 1}, fails);
@@ -131,7 +136,8 @@ TEST_P(CutNow, RefusedFailedOrBesideLeavesEveryBit) {
     for (const auto& motion : {tried.get(), left_alone.get()})
       EXPECT_EQ(motion->cut_now({&slit, 1}, *method).cut.status, Status::ok);
   }
-  step(*tried, 5), step(*left_alone, 5);
+  step(*tried, 5);
+  step(*left_alone, 5);
   expect_same_bits(*tried, *left_alone);
   EXPECT_EQ(tried->verdict().name, "ok");
 }
@@ -152,7 +158,9 @@ TEST(CutNowOf, SeveralCurvesIsASceneCutOfThem) {
   Scene scene = falling(plain);
   const auto live = start(scene);
   Scene::Cut& cut = scene.cuts.emplace_back();
-  cut.time = 3.5 * scene.step, cut.family = "several", cut.seed = 3;
+  cut.time = 3.5 * scene.step;
+  cut.family = "several";
+  cut.seed = 3;
   const std::vector<Curve> curves = make_case("several", 3, 0, live->sheet());
   ASSERT_EQ(curves.size(), 4u);
   const auto told = start(scene);

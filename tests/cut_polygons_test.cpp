@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "harness/cut/constraint_source.h"
 #include "harness/fem/model/largest_eigenvalue.h"
@@ -51,7 +52,10 @@ TEST(PolygonModel, FollowsCutsAsOneMadeAnew) {
           Model<3> fresh = body.fresh_model();
           fresh.constrain(body.sheet, {.polygons = body.model.elements().polygons()});
           const Field x = bent(fresh, body.sheet);
-          for (Model<3>* const model : {&body.model, &fresh}) model->rotate(x), model->assemble(1.2, 0.1);
+          for (Model<3>* const model : {&body.model, &fresh}) {
+            model->rotate(x);
+            model->assemble(1.2, 0.1);
+          }
           EXPECT_EQ(body.model.held(), fresh.held());
           EXPECT_LE((body.model.lumped_mass() - fresh.lumped_mass()).cwiseAbs().maxCoeff(), 1e-15);
           EXPECT_LE((body.model.external_force() - fresh.external_force()).cwiseAbs().maxCoeff(), 1e-13);
@@ -74,11 +78,11 @@ TEST(PolygonBending, PassesThePatchTest) {
     const double rigidity = 0.7, poisson = 0.3, xx = 0.4, yy = -0.3, xy = 0.5;
     const Bending plain(sheet, BendingKind::patches, rigidity, poisson),
         merged(sheet, BendingKind::patches, rigidity, poisson, &elements);
-    Field w = Field::Zero(static_cast<Eigen::Index>(sheet.deformed_slots()));
+    Field w = Field::Zero(to_index(sheet.deformed_slots()));
     for (std::size_t d = 0; d < sheet.deformed_slots(); ++d)
       if (const VertexIndex v = sheet.rest_vertex(DeformedIndex(d)); v.valid()) {
         const auto [x, y] = sheet.rest(v);
-        w[static_cast<Eigen::Index>(d)] = xx * x * x / 2 + xy * x * y + yy * y * y / 2 + 0.2 * x - y;
+        w[to_index(d)] = xx * x * x / 2 + xy * x * y + yy * y * y / 2 + 0.2 * x - y;
       }
     const double exact =
         rigidity / 2 * ((1 - poisson) * (xx * xx + yy * yy + 2 * xy * xy) + poisson * (xx + yy) * (xx + yy));
@@ -140,8 +144,10 @@ TEST(CutPolygons, AreAsGoodCutByCutAsAtOnce) {
       const double whole = largest_eigenvalue(before),
                    value = largest_eigenvalue(body.sheet, {.polygons = body.model.elements().polygons()}) / whole,
                    at_once = largest_eigenvalue(body.sheet, constraints_of(*method, before, body.sheet)) / whole;
-      worst = std::max(worst, value), worst_at_once = std::max(worst_at_once, at_once);
-      logs += std::log(value / at_once), ++cases;
+      worst = std::max(worst, value);
+      worst_at_once = std::max(worst_at_once, at_once);
+      logs += std::log(value / at_once);
+      ++cases;
     }
   std::cout << "largest eigenvalue after four cuts: cut by cut at worst " << worst << ", at once " << worst_at_once
             << ", mean ratio " << std::exp(logs / cases) << "\n";
@@ -181,7 +187,7 @@ TEST(CutPolygons, FallFreely) {
     for (int i = 0; i < 20; ++i) ASSERT_EQ(stepper.step(body.model, body.state).verdict, "ok");
     for (std::size_t d = 0; d < body.sheet.deformed_slots(); ++d)
       if (body.sheet.rest_vertex(DeformedIndex(d)).valid()) {
-        EXPECT_NEAR(body.state.v[static_cast<Eigen::Index>(3 * d + 2)], -0.2, 1e-8);
+        EXPECT_NEAR(body.state.v[to_index(3 * d + 2)], -0.2, 1e-8);
       }
     Field followed = body.state.x;
     body.model.follow(followed);

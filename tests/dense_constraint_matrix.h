@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/constraints.h"
 
 namespace cutbench {
@@ -11,8 +12,8 @@ namespace cutbench {
 /// C, dense, for `dimension` values per vertex and unknown.
 inline Eigen::MatrixXd dense_constraint_matrix(const Constraints& constraints, std::size_t vertices,
                                                Eigen::Index dimension) {
-  const auto n = dimension * static_cast<Eigen::Index>(vertices);
-  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(n, n + dimension * static_cast<Eigen::Index>(constraints.phantoms));
+  const auto n = dimension * to_index(vertices);
+  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(n, n + dimension * to_index(constraints.phantoms));
   c.leftCols(n).setIdentity();
   for (const Constraint& constraint : constraints.constraints)
     for (Eigen::Index k = 0; k < dimension; ++k) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "harness/base/conversions.h"
 #include "harness/cut/open.h"
 #include "harness/mesh/predicates.h"
 #include "tests/helpers.h"
@@ -166,9 +167,13 @@ TEST(EditStorm, GoesTheSameWayAgainAfterRollback) {
     Sheet other = sheet;
     for (int k = 0; k < 20; ++k) edit(sheet, random);
     sheet.rollback();
-    sheet.begin_cut(), other.begin_cut();
+    sheet.begin_cut();
+    other.begin_cut();
     Random again = random, once_more = random;
-    for (int k = 0; k < 20; ++k) edit(sheet, again), edit(other, once_more);
+    for (int k = 0; k < 20; ++k) {
+      edit(sheet, again);
+      edit(other, once_more);
+    }
     ASSERT_EQ(difference(sheet, other), "");
   }
 }
@@ -212,14 +217,14 @@ TEST(EditStorm, SurvivesCompactionAndTheWayThroughPlainArrays) {
     for (std::size_t t = 0; t < sheet.triangle_slots(); ++t)
       for (int k = 0; k < 3; ++k) {
         const HalfEdge h = half_edge(TriangleIndex(t), k);
-        const auto here = static_cast<std::size_t>(k), end = static_cast<std::size_t>(next_corner(k));
+        const auto here = to_size(k), end = to_size(next_corner(k));
         const Triangle& triangle = sheet.triangle(TriangleIndex(t));
         ASSERT_EQ(again.triangle(TriangleIndex(t)).deformed, triangle.deformed);
         if (sheet.mark(h) == again.mark(h)) continue;
         const HalfEdge o = sheet.opposite(h);
         const Triangle& beyond = sheet.triangle(triangle_of(o));
-        ASSERT_EQ(triangle.deformed[here], beyond.deformed[static_cast<std::size_t>(next_corner(corner_of(o)))]);
-        ASSERT_EQ(triangle.deformed[end], beyond.deformed[static_cast<std::size_t>(corner_of(o))]);
+        ASSERT_EQ(triangle.deformed[here], beyond.deformed[to_size(next_corner(corner_of(o)))]);
+        ASSERT_EQ(triangle.deformed[end], beyond.deformed[to_size(corner_of(o))]);
       }
   }
 }

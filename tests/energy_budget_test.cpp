@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/time/stepper.h"
 #include "harness/mesh/families.h"
 #include "tests/fem_helpers.h"
@@ -84,7 +85,7 @@ TEST(EnergyBudget, TheRemainderIsTheErrorOfTheLinearisation) {
   for (const auto& [step, newton] : {std::pair{1.0 / 60, 1}, {1.0 / 240, 1}, {1.0 / 60, 3}}) {
     Body<3> body(make_sheet("alternating", 8), skin, {.bending = BendingKind::patches, .gravity = {0, 0, -9.81}},
                  {{.where = {{0, 0}, {0, 1}}}});
-    remainder.push_back(std::abs(run(body, step, static_cast<int>(0.4 / step + 0.5), newton).rows().back().remainder));
+    remainder.push_back(std::abs(run(body, step, to_int(0.4 / step + 0.5), newton).rows().back().remainder));
   }
   EXPECT_GT(remainder[0], 1e-6);
   EXPECT_LT(remainder[1], remainder[0] / 2);
@@ -92,7 +93,9 @@ TEST(EnergyBudget, TheRemainderIsTheErrorOfTheLinearisation) {
 
 TEST(EnergyBudget, JumpsAreJudgedByThemselves) {
   Balance first, more, less;
-  first.energy.membrane = 10, more.energy.membrane = 13, less.energy.membrane = 6;
+  first.energy.membrane = 10;
+  more.energy.membrane = 13;
+  less.energy.membrane = 6;
   EnergyBudget budget(first);
   EXPECT_EQ(budget.fault(), "");
   budget.add_cut(first, less);  // energy lost at a cut is no growth

@@ -38,8 +38,10 @@ std::vector<LipSample> arc_lips(double radius, double half_angle) {
 
 std::vector<NamedField> fields() {
   std::vector<LipSample> straight, behind;
-  for (double x = -0.45; x < 0.5; x += 0.1)
-    straight.push_back({{x, 0}, {0, 1}, 1}), behind.push_back({{x - 0.5, 0}, {0, 1}, 1});
+  for (double x = -0.45; x < 0.5; x += 0.1) {
+    straight.push_back({{x, 0}, {0, 1}, 1});
+    behind.push_back({{x - 0.5, 0}, {0, 1}, 1});
+  }
   std::vector<NamedField> all;
   all.push_back({"uniform", uniform_field(rubber, turned, {1, 2, 0.5}), {}});
   all.push_back({"williams", williams_field(rubber, turned, {1.3, 0.8}), behind});

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/check_and_repair.h"
 #include "harness/mesh/quality.h"
 
@@ -16,8 +17,7 @@ namespace {
 std::vector<std::array<Point2, 3>> rest_triangles(const MeshData& mesh) {
   std::vector<std::array<Point2, 3>> result;
   for (const auto& [a, b, c] : mesh.triangles)
-    result.push_back({mesh.rest[static_cast<std::size_t>(a)], mesh.rest[static_cast<std::size_t>(b)],
-                      mesh.rest[static_cast<std::size_t>(c)]});
+    result.push_back({mesh.rest[to_size(a)], mesh.rest[to_size(b)], mesh.rest[to_size(c)]});
   return result;
 }
 
@@ -26,8 +26,8 @@ TEST(Families, CountsAreaAndSoundness) {
     for (int n : {1, 2, 3, 4, 5, 7, 10, 20, 30, 40, 50, 60, 70, 80}) {
       SCOPED_TRACE(family + " " + std::to_string(n));
       MeshData mesh = make_sheet(family, n);
-      EXPECT_EQ(mesh.triangles.size(), static_cast<std::size_t>(2 * n * n));
-      EXPECT_EQ(mesh.rest.size(), static_cast<std::size_t>((n + 1) * (n + 1)));
+      EXPECT_EQ(mesh.triangles.size(), to_size(2 * n * n));
+      EXPECT_EQ(mesh.rest.size(), to_size((n + 1) * (n + 1)));
       double area = 0;
       for (const auto& [a, b, c] : rest_triangles(mesh)) area += cross(b - a, c - a) / 2;
       EXPECT_NEAR(area, 1, 1e-12);
@@ -62,7 +62,8 @@ TEST(Families, GradedIsFineAtTheCorner) {
   for (const auto& t : rest_triangles(make_sheet("graded", 40)))
     for (std::size_t k = 0; k < 3; ++k) {
       const double length = std::sqrt(squared_length(t[(k + 1) % 3] - t[k]));
-      shortest = std::min(shortest, length), longest = std::max(longest, length);
+      shortest = std::min(shortest, length);
+      longest = std::max(longest, length);
       if (t[k] == Point2{}) nearest_to_corner = std::min(nearest_to_corner, length);
     }
   EXPECT_EQ(shortest, nearest_to_corner);

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "harness/base/conversions.h"
 #include "harness/cut/cut.h"
 #include "harness/fem/model/state.h"
 #include "harness/mesh/families.h"
@@ -50,12 +51,13 @@ inline Curve polygon(std::vector<Point2> points) { return {Curve::Kind::polyline
 /// A smooth field that bends, stretches and turns the sheet.
 template <int D>
 Field bent(const Model<D>& model, const Sheet& sheet) {
-  Field x = Field::Zero(static_cast<Eigen::Index>(D * model.vertices()));
+  Field x = Field::Zero(to_index(D * model.vertices()));
   for (std::size_t v = 0; v < model.vertices(); ++v) {
     if (!sheet.rest_vertex(DeformedIndex(v)).valid()) continue;
     const auto [a, b] = sheet.rest(sheet.rest_vertex(DeformedIndex(v)));
-    const auto i = static_cast<Eigen::Index>(D * v);
-    x[i] = 1.1 * a + 0.1 * std::sin(2 * b), x[i + 1] = b - 0.05 * a * b;
+    const auto i = to_index(D * v);
+    x[i] = 1.1 * a + 0.1 * std::sin(2 * b);
+    x[i + 1] = b - 0.05 * a * b;
     if constexpr (D == 3) x[i + 2] = 0.3 * std::sin(3 * a) * std::cos(2 * b);
   }
   return x;
@@ -64,11 +66,11 @@ Field bent(const Model<D>& model, const Sheet& sheet) {
 /// The matrix of the last assemble(), scalar parts included, held unknowns as they are.
 template <int D>
 Eigen::MatrixXd dense(const Model<D>& model) {
-  const auto n = static_cast<Eigen::Index>(D * model.vertices());
+  const auto n = to_index(D * model.vertices());
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
   const auto system = model.system();
   for (std::size_t i = 0; i < model.vertices(); ++i) {
-    const auto row = static_cast<Eigen::Index>(D * i);
+    const auto row = to_index(D * i);
     for (const auto j : system.blocks->columns(i))
       a.template block<D, D>(row, D * j) += system.blocks->block(system.blocks->find(i, j));
     for (const auto& term : system.scalar)

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "harness/cut/cut_all.h"
 #include "harness/judge/assessment.h"
@@ -40,7 +41,7 @@ Made random_cut(Random& random) {
   constexpr const char* families[] = {"straight", "curved", "partial", "cut_out", "several", "self_crossing"};
   constexpr const char* methods[] = {"conventional_split", "bowyer_watson", "delaunay_refine"};
   for (;;) {
-    const Sheet sheet(lifted(make_sheet(sheet_families()[random.below(4)], 9 + static_cast<int>(random.below(5)))));
+    const Sheet sheet(lifted(make_sheet(sheet_families()[random.below(4)], 9 + to_int(random.below(5)))));
     const auto cuts = make_case(families[random.below(6)], random.below(1000000), random.below(100), sheet);
     if (auto made = make(sheet, cuts, methods[random.below(3)])) return std::move(*made);
   }
@@ -51,12 +52,11 @@ using Places = std::map<std::pair<double, double>, Vertices>;
 
 Places vertices_by_place(const MeshData& mesh) {
   Places places;
-  for (std::size_t v = 0; v < mesh.rest.size(); ++v)
-    places[{mesh.rest[v].x, mesh.rest[v].y}].push_back(static_cast<std::int32_t>(v));
+  for (std::size_t v = 0; v < mesh.rest.size(); ++v) places[{mesh.rest[v].x, mesh.rest[v].y}].push_back(to_int32(v));
   return places;
 }
 
-Point2 rest(const MeshData& mesh, std::int32_t v) { return mesh.rest[static_cast<std::size_t>(v)]; }
+Point2 rest(const MeshData& mesh, std::int32_t v) { return mesh.rest[to_size(v)]; }
 
 Point2 centre(const MeshData& mesh, std::size_t t) {
   const auto& [a, b, c] = mesh.triangles[t];
@@ -112,10 +112,11 @@ void drop_unused(MeshData& mesh) {
   MeshData kept;
   for (auto t : mesh.triangles) {
     for (auto& v : t) {
-      auto& n = number[static_cast<std::size_t>(v)];
+      auto& n = number[to_size(v)];
       if (n < 0) {
-        n = static_cast<std::int32_t>(kept.rest.size());
-        kept.rest.push_back(rest(mesh, v)), kept.deformed.push_back(mesh.deformed[static_cast<std::size_t>(v)]);
+        n = to_int32(kept.rest.size());
+        kept.rest.push_back(rest(mesh, v));
+        kept.deformed.push_back(mesh.deformed[to_size(v)]);
       }
       v = n;
     }
@@ -147,23 +148,23 @@ std::optional<Point2> divide_one_side(Made& m, Random& random) {
   const double share = random.between(0.3, 0.7);
   const Point2 p = (1 - share) * rest(m.result, a) + share * rest(m.result, b);
   if (!inner) return {};
-  const auto v = static_cast<std::int32_t>(m.result.rest.size());
-  m.result.rest.push_back(p), m.result.deformed.push_back({});
+  const auto v = to_int32(m.result.rest.size());
+  m.result.rest.push_back(p);
+  m.result.deformed.push_back({});
   m.result.triangles[t] = {a, v, c};
   m.result.triangles.push_back({v, b, c});
   return p;
 }
 
 std::optional<Point2> round_to_float(Made& m, Random&) {
-  for (Point2& p : m.result.rest)
-    p = {static_cast<double>(static_cast<float>(p.x)), static_cast<double>(static_cast<float>(p.y))};
+  for (Point2& p : m.result.rest) p = {to_double(static_cast<float>(p.x)), to_double(static_cast<float>(p.y))};
   return Point2{};
 }
 
 std::optional<Point2> lose_triangle(Made& m, Random& random) {
   const std::size_t t = random.below(m.result.triangles.size());
   const Point2 place = centre(m.result, t);
-  m.result.triangles.erase(m.result.triangles.begin() + static_cast<std::ptrdiff_t>(t));
+  m.result.triangles.erase(m.result.triangles.begin() + to_index(t));
   drop_unused(m.result);
   return place;
 }
@@ -173,7 +174,7 @@ std::optional<Point2> part_lips(Made& m, Random& random) {
   for (const auto& [place, vertices] : vertices_by_place(m.result))
     if (vertices.size() > 1) shared.push_back(vertices);
   const Vertices& vertices = shared[random.below(shared.size())];
-  Point2& p = m.result.rest[static_cast<std::size_t>(vertices[random.below(vertices.size())])];
+  Point2& p = m.result.rest[to_size(vertices[random.below(vertices.size())])];
   const Point2 was = p;
   if (random.below(2) == 0)
     p.x = std::nextafter(p.x, 9);
@@ -229,7 +230,7 @@ TEST_P(Wrong, IsRejectedForTheRightReason) {
       EXPECT_LT(length(p - *place), 0.75 * h) << found.text;
     }
     EXPECT_GE(found.cut, 1);
-    EXPECT_LE(found.cut, static_cast<int>(made.cuts.size()));
+    EXPECT_LE(found.cut, to_int(made.cuts.size()));
   }
 }
 
@@ -248,7 +249,7 @@ TEST(Findings, TheNumberOfTheCutIsThatOfTheShiftedOne) {
     const Assessment a = assess_result(sheet, made->result, asked, promises_of_everybody, {});
     ASSERT_EQ(a.findings.size(), 1u);
     EXPECT_EQ(a.findings.front().cause, "shifted");
-    EXPECT_EQ(a.findings.front().cut, static_cast<int>(i) + 1);
+    EXPECT_EQ(a.findings.front().cut, to_int(i) + 1);
   }
 }
 
@@ -293,12 +294,16 @@ TEST(Findings, TheSmallestOfTooManyPiecesIsNamed) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       const auto p = mesh.triangles[t][k], q = mesh.triangles[t][(k + 1) % 3];
-      if (on_path(place_of(p)) && on_path(place_of(q)) && place_of(p).x > 0.4) torn = t, corner = k;
+      if (on_path(place_of(p)) && on_path(place_of(q)) && place_of(p).x > 0.4) {
+        torn = t;
+        corner = k;
+      }
     }
   ASSERT_LT(torn, mesh.triangles.size());
   const auto add = [&](Point2 p) {
-    mesh.rest.push_back(p), mesh.deformed.push_back({p.x, p.y, 0});
-    return static_cast<std::int32_t>(mesh.rest.size() - 1);
+    mesh.rest.push_back(p);
+    mesh.deformed.push_back({p.x, p.y, 0});
+    return to_int32(mesh.rest.size() - 1);
   };
   const auto was = mesh.triangles[torn];
   const auto p = was[corner], q = was[(corner + 1) % 3], apex = was[(corner + 2) % 3];
@@ -342,7 +347,7 @@ TEST(Findings, LostDigitsAreSeenAndShortNumbersAreNot) {
   for (int i = 0; i < 20; ++i) {
     const double x = random.between(0, 1), y = random.between(0, 1);
     doubles.push_back({x, y});
-    floats.push_back({static_cast<double>(static_cast<float>(x)), static_cast<double>(static_cast<float>(y))});
+    floats.push_back({to_double(static_cast<float>(x)), to_double(static_cast<float>(y))});
     decimals.push_back({std::round(1e6 * x) / 1e6, std::round(1e6 * y) / 1e6});
   }
   EXPECT_EQ(lost_digits(doubles), "");

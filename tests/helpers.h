@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/base/random.h"
 #include "harness/cut/cut.h"
 #include "harness/files/mesh_file.h"
@@ -101,7 +102,7 @@ inline TriangleIndex any_triangle(const Sheet& sheet, Random& random) {
 
 inline HalfEdge any_half_edge(const Sheet& sheet, Random& random) {
   const TriangleIndex t = any_triangle(sheet, random);
-  return half_edge(t, static_cast<int>(random.below(3)));
+  return half_edge(t, to_int(random.below(3)));
 }
 
 // --- comparison ------------------------------------------------------------------------------------------------------

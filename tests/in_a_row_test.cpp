@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <malloc.h>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "harness/judge/oracle_request.h"
 #include "harness/mesh/families.h"
@@ -74,13 +75,13 @@ TEST_P(InARow, HoldsNoMemoryButTheMeshs) {
       cutter.cut(sheet, locator, make_small_cut(11, i, sheet), *method, CutOptions());
     const std::size_t held = heap_bytes() - before;
     end = sheet.to_mesh_data();
-    return static_cast<double>(held);
+    return to_double(held);
   };
   if (heap_bytes() == 0) GTEST_SKIP() << "the heap can't be asked";
   MeshData end, ignored;
   const double after_all = hold(make_sheet("grid", 10), 0, cuts(), end);
   const double after_one = hold(end, cuts(), cuts() + 1, ignored);
-  RecordProperty("ratio_percent", static_cast<int>(100 * after_all / after_one));
+  RecordProperty("ratio_percent", to_int(100 * after_all / after_one));
   // Vectors that grew may hold twice what they need.
   EXPECT_LT(after_all, 2 * after_one) << end.triangles.size() << " triangles";
 }
@@ -106,7 +107,8 @@ TEST_P(InARow, CutsWithoutEffectTakeNoMemory) {
   for (std::size_t i = 0; i < 200; ++i) {
     const Curve curve = make_case("recut", 3, i % 5, sheet).front();
     ASSERT_EQ(cutter.cut(sheet, locator, curve, *method, CutOptions()).status, Status::ok);
-    sheet.rollback(), locator = kept;
+    sheet.rollback();
+    locator = kept;
     if (i == 10) held = heap_bytes();
   }
   EXPECT_LE(heap_bytes(), held);

@@ -27,7 +27,10 @@ class Interrupt : public Program {
     const pid_t child = fork();
     if (child != 0) return child;
     const auto redirect = [](const char* file, int to) { dup2(open(file, O_WRONLY | O_CREAT | O_TRUNC, 0644), to); };
-    if (chdir(folder_.c_str()) == 0) redirect("stdout", STDOUT_FILENO), redirect("stderr", STDERR_FILENO);
+    if (chdir(folder_.c_str()) == 0) {
+      redirect("stdout", STDOUT_FILENO);
+      redirect("stderr", STDERR_FILENO);
+    }
     execv(argv[0], argv.data());
     _exit(127);
   }
@@ -66,7 +69,10 @@ TEST_F(Interrupt, SweepGoesOnWhereItStopped) {
   for (int signal : {SIGINT, SIGTERM, SIGKILL}) {
     SCOPED_TRACE(signal);
     bool hit = false;
-    for (int attempt = 0; attempt < 10 && !hit; ++attempt) fs::remove_all(folder_ / "r"), hit = sweep_hit_by(signal);
+    for (int attempt = 0; attempt < 10 && !hit; ++attempt) {
+      fs::remove_all(folder_ / "r");
+      hit = sweep_hit_by(signal);
+    }
     ASSERT_TRUE(hit);
     const std::string error = read(folder_ / "stderr"), message = "interrupted; run the same command again to go on\n";
     EXPECT_EQ(error.ends_with(message), signal != SIGKILL) << error;
@@ -109,7 +115,8 @@ TEST_F(Interrupt, RowsOfAnotherRunAreNotMixedIn) {
 TEST_F(Interrupt, RecordsAreReadBackAsFarAsTheyAreWhole) {
   const auto row = [](std::int64_t index) {
     Record record;
-    record.set("case", index), record.set("geometry_us", 1.5);
+    record.set("case", index);
+    record.set("geometry_us", 1.5);
     return record;
   };
   const auto rows_left = [&](const std::string& identity) {

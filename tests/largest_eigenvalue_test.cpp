@@ -7,6 +7,7 @@
 
 #include <Eigen/LU>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "harness/fem/time/stepper.h"
 #include "harness/mesh/families.h"
@@ -19,7 +20,7 @@ namespace cutbench {
 namespace {
 
 double by_dense_solve(const MeshData& mesh) {
-  const auto n = static_cast<Eigen::Index>(2 * mesh.rest.size());
+  const auto n = to_index(2 * mesh.rest.size());
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(n, n), mass = stiffness;
   Eigen::Matrix3d law;  // plane stress, E h = 1, nu = 0.3
   law << 1, 0.3, 0, 0.3, 1, 0, 0, 0, 0.35;
@@ -27,7 +28,7 @@ double by_dense_solve(const MeshData& mesh) {
   for (const auto& t : mesh.triangles) {
     Eigen::Matrix3d corners;
     for (int k = 0; k < 3; ++k) {
-      const Point2 p = mesh.rest[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])];
+      const Point2 p = mesh.rest[to_size(t[to_size(k)])];
       corners.row(k) << 1, p.x, p.y;
     }
     const double area = corners.determinant() / 2;
@@ -38,7 +39,7 @@ double by_dense_solve(const MeshData& mesh) {
       strain.col(2 * k + 1) << 0, shape(2, k), shape(1, k);
     }
     const Eigen::Matrix<double, 6, 6> element = area * strain.transpose() * law * strain;
-    const auto unknown = [&](int i) { return 2 * t[static_cast<std::size_t>(i / 2)] + i % 2; };
+    const auto unknown = [&](int i) { return 2 * t[to_size(i / 2)] + i % 2; };
     for (int i = 0; i < 6; ++i) {
       mass(unknown(i), unknown(i)) += area / 3;
       for (int j = 0; j < 6; ++j) stiffness(unknown(i), unknown(j)) += element(i, j);
@@ -79,8 +80,9 @@ TEST(LargestEigenvalue, WithBendingIsThatOfADenseSolveInSpace) {
     for (const std::string method : {"conventional_split", "warp_and_refine"}) {
       Body<3> body(make_sheet("grid", 6), skin, {.bending = kind});
       ASSERT_EQ(body.cut(line({0.21, 0.27}, {0.83, 0.71}), method, find_method(method).parameter.value), Status::ok);
-      const auto n = static_cast<Eigen::Index>(3 * body.sheet.deformed_slots());
-      body.model.rotate(body.model.positions(body.sheet)), body.model.assemble(0, 1);
+      const auto n = to_index(3 * body.sheet.deformed_slots());
+      body.model.rotate(body.model.positions(body.sheet));
+      body.model.assemble(0, 1);
       const Eigen::MatrixXd stiffness = dense(body.model);
       Eigen::MatrixXd mass = Eigen::MatrixXd::Identity(n, n);  // freed slots have no stiffness
       for (Eigen::Index i = 0; i < n; ++i)
@@ -96,7 +98,8 @@ TEST(LargestEigenvalue, IsWhereExplicitStepsBreakDown) {
     for (const double damping : {0.0, 1e-5}) {
       Material material = skin;
       material.bending = 1;
-      material.mass_damping = 1e4 * damping, material.stiffness_damping = damping;
+      material.mass_damping = 1e4 * damping;
+      material.stiffness_damping = damping;
       const auto grows = [&](double factor) {
         Body<3> body(make_sheet("grid", 8), material, {.strain = Strain::linear, .bending = BendingKind::patches});
         EXPECT_EQ(body.cut(line({0.21, 0.27}, {0.83, 0.71}), method, find_method(method).parameter.value), Status::ok);
@@ -104,8 +107,7 @@ TEST(LargestEigenvalue, IsWhereExplicitStepsBreakDown) {
         EXPECT_GT(with, 1.5 * largest_eigenvalue(body.sheet, {}, elasticity_of(material, BendingKind::none)));
         const double step = factor * explicit_step_limit(with, material);
         Stepper<3> stepper({.integrator = Integrator::symplectic_euler, .step = step, .solver = {}});
-        for (Eigen::Index i = 0; i < body.state.v.size(); ++i)
-          body.state.v[i] = 1e-3 * std::sin(static_cast<double>(37 * i * i));
+        for (Eigen::Index i = 0; i < body.state.v.size(); ++i) body.state.v[i] = 1e-3 * std::sin(to_double(37 * i * i));
         const double initial = balance_of(body.model, body.state).energy.total();
         for (int n = 0; n < 400; ++n) EXPECT_EQ(stepper.step(body.model, body.state).verdict, "ok");
         return balance_of(body.model, body.state).energy.total() > 100 * initial;

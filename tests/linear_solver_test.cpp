@@ -7,6 +7,7 @@
 #include <string>
 #include <type_traits>
 
+#include "harness/base/conversions.h"
 #include "harness/base/errors.h"
 #include "harness/base/names.h"
 #include "harness/base/random.h"
@@ -27,12 +28,16 @@ System<D> random_system(std::uint64_t seed, int side = 6) {
   s.blocks = random_matrix(random, side, 1, D);
   s.scalar.push_back({0.3, random_matrix(random, side, 2, 1)});
   s.scalar.push_back({2, random_matrix(random, side, 1, 1)});
-  s.held.resize(static_cast<std::size_t>(s.blocks.rows()));
+  s.held.resize(to_size(s.blocks.rows()));
   for (auto& held : s.held) held = random.coin(0.1);
   const Eigen::Index freed = s.vertices() / 2;
-  s.blocks.middleRows(D * freed, D).setZero(), s.blocks.middleCols(D * freed, D).setZero();
-  for (auto& term : s.scalar) term.matrix.row(freed).setZero(), term.matrix.col(freed).setZero();
-  for (Eigen::Index k = 0; k < D; ++k) s.held[static_cast<std::size_t>(D * freed + k)] = 1;
+  s.blocks.middleRows(D * freed, D).setZero();
+  s.blocks.middleCols(D * freed, D).setZero();
+  for (auto& term : s.scalar) {
+    term.matrix.row(freed).setZero();
+    term.matrix.col(freed).setZero();
+  }
+  for (Eigen::Index k = 0; k < D; ++k) s.held[to_size(D * freed + k)] = 1;
   return s;
 }
 
@@ -52,7 +57,8 @@ TYPED_TEST(LinearSolvers, AgreeWithDenseCholesky) {
   for (SolverOptions options : all_solvers())
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
       SCOPED_TRACE(options.name + ", seed " + std::to_string(seed));
-      options.tolerance = 1e-11, options.max_iterations = 1000;
+      options.tolerance = 1e-11;
+      options.max_iterations = 1000;
       const System<dimension> system = random_system<dimension>(seed);
       const Field b = 1e3 * random_field(seed + 100, system.blocks.rows());  // held entries too, which must not matter
       const auto s = solved<dimension>(options, system, b);
@@ -105,7 +111,8 @@ TYPED_TEST(LinearSolvers, SayWhenTheyDidNotConverge) {
   const auto expect_failure = [&](const std::string& what, const System<dimension>& system, const Field& right) {
     for (SolverOptions options : all_solvers()) {
       const std::string& name = options.name;
-      options.tolerance = 1e-8, options.max_iterations = 1000;
+      options.tolerance = 1e-8;
+      options.max_iterations = 1000;
       if (name == "eigen_cg" && what == "indefinite beside the diagonal") continue;  // it does not look, and solves it
       const auto s = solved<dimension>(options, system, right);
       EXPECT_FALSE(s.report.converged) << name << ", " << what;
@@ -126,11 +133,13 @@ TYPED_TEST(LinearSolvers, SayWhenTheyDidNotConverge) {
     bad.blocks(free, other) = bad.blocks(other, free) = 1000;
     expect_failure("indefinite beside the diagonal", bad, b);
   }
-  bad = good, bad.blocks *= -1;
+  bad = good;
+  bad.blocks *= -1;
   for (auto& term : bad.scalar) term.factor *= -1;
   expect_failure("negative definite", bad, b);
   bad = good;
-  bad.blocks.setZero(), bad.scalar.clear();
+  bad.blocks.setZero();
+  bad.scalar.clear();
   expect_failure("zero", bad, b);
   // A vertex that nothing holds and nothing is said of, though its row is empty.
   bad = good;
@@ -145,7 +154,8 @@ TYPED_TEST(LinearSolvers, FollowTheMatrix) {
   constexpr int dimension = TypeParam::value;
   for (SolverOptions options : all_solvers()) {
     SCOPED_TRACE(options.name);
-    options.tolerance = 1e-11, options.max_iterations = 1000;
+    options.tolerance = 1e-11;
+    options.max_iterations = 1000;
     const auto solver = make_solver<dimension>(options);
     System<dimension> system = random_system<dimension>(21);
     Sparse<dimension> sparse(system);
@@ -160,7 +170,8 @@ TYPED_TEST(LinearSolvers, FollowTheMatrix) {
       }
     };
     expect_same_as_new("first");
-    system.blocks *= 3, system.scalar[0].factor = 0.7;
+    system.blocks *= 3;
+    system.scalar[0].factor = 0.7;
     sparse.assign(system);
     expect_same_as_new("other values");
     std::fill(system.held.begin(), system.held.begin() + dimension, std::uint8_t{1});
@@ -171,10 +182,12 @@ TYPED_TEST(LinearSolvers, FollowTheMatrix) {
     const Eigen::Index last = a.rows() - 1, before = last - 2 * dimension;
     a(2 * dimension, last) = a(last, 2 * dimension) = 0.05;
     a(3 * dimension, before) = a(before, 3 * dimension) = -0.05;
-    sparse.assign(system), ++sparse.matrix().pattern;
+    sparse.assign(system);
+    ++sparse.matrix().pattern;
     expect_same_as_new("another pattern");
     system = random_system<dimension>(23, 7);
-    sparse.assign(system), ++sparse.matrix().pattern;
+    sparse.assign(system);
+    ++sparse.matrix().pattern;
     expect_same_as_new("another size");
 
     // A matrix that can't be solved leaves nothing behind.
@@ -212,7 +225,7 @@ TYPED_TEST(LinearSolvers, FactorsAgree) {
   constexpr int dimension = TypeParam::value;
   const auto factor = make_factor<dimension>(FactorBy::fastest), plain = make_factor<dimension>(FactorBy::eigen);
   for (const std::uint64_t seed : {41, 42}) {
-    System<dimension> system = random_system<dimension>(seed, 6 + static_cast<int>(seed % 2));
+    System<dimension> system = random_system<dimension>(seed, 6 + to_int(seed % 2));
     Sparse<dimension> sparse(system);
     sparse.matrix().pattern = seed;
     for (const double times : {1.0, 3.0}) {

@@ -8,6 +8,7 @@
 #include <deque>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/base/random.h"
 #include "harness/fem/elements/element_table.h"
 #include "harness/fem/solvers/solver_table.h"
@@ -27,7 +28,7 @@ struct System {
   ElementTable elements;
 
   Eigen::Index vertices() const { return blocks.rows() / D; }
-  bool is_held(Eigen::Index u) const { return held[static_cast<std::size_t>(u)] != 0; }
+  bool is_held(Eigen::Index u) const { return held[to_size(u)] != 0; }
   /// Everything added up; held unknowns have rows and columns of the identity.
   Eigen::MatrixXd dense() const {
     Eigen::MatrixXd all = blocks;
@@ -36,7 +37,11 @@ struct System {
         for (Eigen::Index j = 0; j < vertices(); ++j)
           all.block<D, D>(D * i, D * j).diagonal().array() += factor * matrix(i, j);
     for (Eigen::Index u = 0; u < all.rows(); ++u)
-      if (is_held(u)) all.row(u).setZero(), all.col(u).setZero(), all(u, u) = 1;
+      if (is_held(u)) {
+        all.row(u).setZero();
+        all.col(u).setZero();
+        all(u, u) = 1;
+      }
     return all;
   }
   Field projected(Field b) const {
@@ -60,8 +65,11 @@ class Sparse {
   void assign(const System<D>& system) {
     fill(system.blocks, blocks_);
     for (std::size_t k = 0; k < scalar_.size(); ++k) fill(system.scalar[k].matrix, scalar_[k]);
-    held_ = system.held, elements_ = system.elements;
-    matrix_.blocks = &blocks_, matrix_.held = &held_, matrix_.elements = &elements_;
+    held_ = system.held;
+    elements_ = system.elements;
+    matrix_.blocks = &blocks_;
+    matrix_.held = &held_;
+    matrix_.elements = &elements_;
     matrix_.scalar.clear();
     for (std::size_t k = 0; k < scalar_.size(); ++k) matrix_.scalar.push_back({system.scalar[k].factor, &scalar_[k]});
   }
@@ -71,14 +79,14 @@ class Sparse {
   template <int B>
   static void fill(const Eigen::MatrixXd& from, BlockMatrix<B>& to) {
     const Eigen::Index n = from.rows() / B;
-    to.resize(static_cast<std::size_t>(n));
+    to.resize(to_size(n));
     for (Eigen::Index i = 0; i < n; ++i) {
       std::vector<std::int32_t> columns;
       for (Eigen::Index j = n - 1; j >= 0; --j)
-        if (!from.template block<B, B>(B * i, B * j).isZero(0)) columns.push_back(static_cast<std::int32_t>(j));
-      const auto diagonal = std::find(columns.begin(), columns.end(), static_cast<std::int32_t>(i));
+        if (!from.template block<B, B>(B * i, B * j).isZero(0)) columns.push_back(to_int32(j));
+      const auto diagonal = std::find(columns.begin(), columns.end(), to_int32(i));
       if (diagonal != columns.end()) std::iter_swap(columns.begin(), diagonal);
-      const auto row = static_cast<std::size_t>(i);
+      const auto row = to_size(i);
       to.set_row(row, columns);
       for (std::int32_t j : columns) to.block(to.find(row, j)) = from.template block<B, B>(B * i, B * j);
     }

@@ -6,6 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "harness/base/conversions.h"
 #include "harness/base/random.h"
 #include "tests/fem_helpers.h"
 
@@ -79,12 +80,12 @@ struct Reference {
       const auto d = deformation_of<D>(e, x, physics.strain, lame);
       energy += e.area * d.energy;
       const auto change = [&](int i) {  // of F, where unknown i of the element grows by one
-        const Point2 g = e.gradient[static_cast<std::size_t>(i / D)];
+        const Point2 g = e.gradient[to_size(i / D)];
         Eigen::Matrix<double, D, 2> f = Eigen::Matrix<double, D, 2>::Zero();
         f.row(i % D) << g.x, g.y;
         return f;
       };
-      const auto unknown = [&](int i) { return D * e.vertex[static_cast<std::size_t>(i / D)].value + i % D; };
+      const auto unknown = [&](int i) { return D * e.vertex[to_size(i / D)].value + i % D; };
       for (int i = 0; i < 3 * D; ++i) {
         force[unknown(i)] += membrane_force<D>(e, d, i / D)[i % D];
         for (int j = 0; j < 3 * D; ++j)
@@ -120,7 +121,8 @@ void compare(Strain strain, StressStiffness of_stress = StressStiffness::none) {
     ASSERT_TRUE(std::any_of(model.elements().begin(), model.elements().end(), [](auto& e) { return !e.alive(); }));
     const Field x = random_places<D>(body, random, of_stress != StressStiffness::full);
     const Reference<D> plain(model.elements(), x, physics);
-    model.rotate(x), model.assemble(0, 2);
+    model.rotate(x);
+    model.assemble(0, 2);
     Field force = Field::Zero(x.size());
     model.add_internal_force(x, force);
     EXPECT_LE((force - plain.force).cwiseAbs().maxCoeff(), 1e-12 * plain.force.cwiseAbs().maxCoeff());

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include "harness/base/conversions.h"
 #include "harness/base/random.h"
 #include "harness/fem/elements/element_stiffness.h"
 #include "tests/dense_solves.h"
@@ -36,8 +37,10 @@ std::array<Point2, 3> random_triangle(Random& random) {
 template <int D>
 Field place(const std::array<Point2, 3>& c) {
   Field x = Field::Zero(3 * D);
-  for (int k = 0; k < 3; ++k)
-    x[D * k] = c[static_cast<std::size_t>(k)].x, x[D * k + 1] = c[static_cast<std::size_t>(k)].y;
+  for (int k = 0; k < 3; ++k) {
+    x[D * k] = c[to_size(k)].x;
+    x[D * k + 1] = c[to_size(k)].y;
+  }
   return x;
 }
 
@@ -67,7 +70,7 @@ Eigen::MatrixXd stiffness(const Element& e, const Field& x, Strain strain, const
   Eigen::MatrixXd k(3 * D, 3 * D);
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
-      k.block<D, D>(D * static_cast<int>(i), D * static_cast<int>(j)) =
+      k.block<D, D>(D * to_int(i), D * to_int(j)) =
           Eigen::Map<const Eigen::Matrix<double, D, D>>(stiffness.block(i, j).data());
   return k;
 }
@@ -78,7 +81,8 @@ void expect_derivative_of_the_force(const Element& e, const Field& x, Strain str
   for (Eigen::Index j = 0; j < x.size(); ++j) {
     const double h = 1e-6;
     Field right = x, left = x;
-    right[j] += h, left[j] -= h;
+    right[j] += h;
+    left[j] -= h;
     const Field column = -(forces<D>(e, right, strain, lame) - forces<D>(e, left, strain, lame)) / (2 * h);
     EXPECT_LT((column - k.col(j)).norm(), 1e-6 * k.norm());
   }
@@ -222,7 +226,7 @@ double energy_of_springs(const std::array<Point2, 3>& c, const Field& x, double 
   double energy = 0;
   for (int k = 0; k < 3; ++k) {
     const int next = (k + 1) % 3;
-    const double rest = std::sqrt(squared_length(c[static_cast<std::size_t>(next)] - c[static_cast<std::size_t>(k)]));
+    const double rest = std::sqrt(squared_length(c[to_size(next)] - c[to_size(k)]));
     const double length = (x.segment<D>(D * next) - x.segment<D>(D * k)).norm(),
                  constant = young * area / (rest * rest);
     energy += constant / 2 * (length - rest) * (length - rest);
@@ -254,7 +258,7 @@ TYPED_TEST(Membrane, SpringsAreElasticityOnEquilateralTrianglesWithOneThirdOnly)
     const double angle = random.between(0, 6);
     std::array<Point2, 3> c;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double at = angle + (equilateral ? 2.0943951023931953 : 1.8) * static_cast<double>(k);
+      const double at = angle + (equilateral ? 2.0943951023931953 : 1.8) * to_double(k);
       c[k] = {0.4 * std::cos(at), 0.4 * std::sin(at)};
     }
     const Element e = element_with(c);
@@ -279,7 +283,8 @@ TYPED_TEST(Membrane, AStretchedStripPullsAsTheSolidDoes) {
   for (const double length : {0.7, 0.9, 1.1, 1.25, 1.4}) {
     Eigen::Matrix<double, D, 2> f = Eigen::Matrix<double, D, 2>::Zero();
     const double green = (length * length - 1) / 2, nu = skin.poisson;
-    f(0, 0) = length, f(1, 1) = std::sqrt(1 - 2 * nu * green);
+    f(0, 0) = length;
+    f(1, 1) = std::sqrt(1 - 2 * nu * green);
     const auto nonlinear = deformation_of<D>(f, Strain::green, lame);
     const Eigen::Matrix<double, D, 2> stress = nonlinear.frame * nonlinear.stress;
     EXPECT_NEAR(stress(0, 0), skin.stiffness * length * green, 1e-9 * skin.stiffness);
@@ -302,13 +307,16 @@ TYPED_TEST(Membrane, P6CollapsedTrianglesHaveAProperRotation) {
   Field x = place<D>(c);
   x.segment<D>(2 * D) = x.segment<D>(0);  // onto an edge
   collapsed.push_back(x);
-  x = place<D>(c), x.segment<D>(2 * D) = (x.segment<D>(0) + x.segment<D>(D)) / 2;  // a vertex on the opposite edge
+  x = place<D>(c);
+  x.segment<D>(2 * D) = (x.segment<D>(0) + x.segment<D>(D)) / 2;  // a vertex on the opposite edge
   collapsed.push_back(x);
   if (D == 2) {  // inverted; in space it would be turned over
-    x = place<D>(c), x[2 * D + 1] = -1;
+    x = place<D>(c);
+    x[2 * D + 1] = -1;
     collapsed.push_back(x);
   }
-  x = place<D>(c), x[2 * D + 1] = 1e-300;
+  x = place<D>(c);
+  x[2 * D + 1] = 1e-300;
   collapsed.push_back(x);
   for (const Field& place : collapsed) {
     const auto d = deformation_of<D>(e, place, Strain::corotational, lame);
@@ -329,8 +337,9 @@ TEST(Membrane2, StressOfTheStandardPatch) {
   const std::array<Point2, 3> c{{{0.1, 0.2}, {0.9, 0.3}, {0.4, 0.8}}};
   Field x = place<2>(c);
   for (int k = 0; k < 3; ++k) {
-    const auto p = c[static_cast<std::size_t>(k)];
-    x[2 * k] += 1e-3 * (p.x + p.y / 2), x[2 * k + 1] += 1e-3 * (p.y + p.x / 2);
+    const auto p = c[to_size(k)];
+    x[2 * k] += 1e-3 * (p.x + p.y / 2);
+    x[2 * k + 1] += 1e-3 * (p.y + p.x / 2);
   }
   const auto d = deformation_of<2>(element_with(c), x, Strain::linear, lame);
   EXPECT_NEAR(d.stress(0, 0), 4000.0 / 3, 1e-8);

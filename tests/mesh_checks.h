@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/check_and_repair.h"
 #include "harness/mesh/predicates.h"
 
@@ -58,12 +59,12 @@ inline void expect_sound(MeshData mesh) {
   std::vector<std::vector<std::size_t>> triangles_at(mesh.rest.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
-    auto rest = [&](int v) { return mesh.rest.at(static_cast<std::size_t>(v)); };
+    auto rest = [&](int v) { return mesh.rest.at(to_size(v)); };
     EXPECT_EQ(orientation(rest(a), rest(b), rest(c)), 1) << "triangle " << t;
     EXPECT_EQ((++directed[{a, b}]), 1);
     EXPECT_EQ((++directed[{b, c}]), 1);
     EXPECT_EQ((++directed[{c, a}]), 1);
-    for (int v : {a, b, c}) triangles_at[static_cast<std::size_t>(v)].push_back(t);
+    for (int v : {a, b, c}) triangles_at[to_size(v)].push_back(t);
   }
   // One fan: all triangles at a vertex but one have their predecessor there, or all have one.
   for (std::size_t v = 0; v < triangles_at.size(); ++v) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/adversarial.h"
 #include "harness/cases/cut_families.h"
 #include "harness/oracle/search.h"
@@ -29,7 +30,7 @@ inline std::vector<MethodVariant> all_variants() {
     if (row.name != "bowyer_watson") variants.push_back({&row, row.parameter.value, row.name});
   for (int rounds : {0, 1, 3})
     variants.push_back(
-        {&find_method("bowyer_watson"), static_cast<double>(rounds), "bowyer_watson_rounds_" + std::to_string(rounds)});
+        {&find_method("bowyer_watson"), to_double(rounds), "bowyer_watson_rounds_" + std::to_string(rounds)});
   return variants;
 }
 
@@ -118,16 +119,16 @@ inline MeshData moved(MeshData mesh, const Motion& motion, std::uint64_t seed) {
     for (std::size_t i = items.size(); i > 1; --i) std::swap(items[i - 1], items[random.below(i)]);
   };
   std::vector<std::int32_t> number(mesh.rest.size());
-  for (std::size_t v = 0; v < number.size(); ++v) number[v] = static_cast<std::int32_t>(v);
+  for (std::size_t v = 0; v < number.size(); ++v) number[v] = to_int32(v);
   shuffle(number);
   MeshData result = mesh;
   for (std::size_t v = 0; v < number.size(); ++v) {
-    result.rest[static_cast<std::size_t>(number[v])] = mesh.rest[v];
-    result.deformed[static_cast<std::size_t>(number[v])] = mesh.deformed[v];
+    result.rest[to_size(number[v])] = mesh.rest[v];
+    result.deformed[to_size(number[v])] = mesh.deformed[v];
   }
   for (auto& t : result.triangles) {
-    for (auto& v : t) v = number[static_cast<std::size_t>(v)];
-    std::rotate(t.begin(), t.begin() + static_cast<std::ptrdiff_t>(random.below(3)), t.end());
+    for (auto& v : t) v = number[to_size(v)];
+    std::rotate(t.begin(), t.begin() + to_index(random.below(3)), t.end());
   }
   shuffle(result.triangles);
   return result;
@@ -148,7 +149,7 @@ inline Shape shape_of(
   std::vector<int> number(sheet.vertex_slots(), -1);
   for (std::size_t v = 0; v < number.size(); ++v)
     if (sheet.triangle_of_vertex(VertexIndex(v)).valid()) {
-      number[v] = static_cast<int>(shape.points.size());
+      number[v] = to_int(shape.points.size());
       shape.points.push_back(back(sheet.rest(VertexIndex(v))));
     }
   for (std::size_t i = 0; i < sheet.triangle_slots(); ++i) {
@@ -170,7 +171,7 @@ inline Shape shape_of(
 
 inline std::vector<oracle::Segment> segments(const Shape& shape, const std::set<Shape::Edge>& edges) {
   const auto point = [&](int i) {
-    const Point2 p = shape.points[static_cast<std::size_t>(i)];
+    const Point2 p = shape.points[to_size(i)];
     return oracle::Point{p.x, p.y};
   };
   std::vector<oracle::Segment> result;

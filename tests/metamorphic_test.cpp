@@ -2,6 +2,8 @@
 
 #include "tests/metamorphic.h"
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 namespace {
 
@@ -67,7 +69,7 @@ double off_circle(Point2 p, Point2 q, Point2 r, Point2 s) {
 /// Empty where each edge of `a` that `b` lacks is the diagonal of four points on one circle, up to `tolerance` in their
 /// coordinates. A polygon with all its corners on one circle has only such edges inside.
 std::string unconstrained_edge(const Shape& a, const Shape& b, double tolerance) {
-  const auto at = [&](int i) { return a.points[static_cast<std::size_t>(i)]; };
+  const auto at = [&](int i) { return a.points[to_size(i)]; };
   for (const auto& [edge, apexes] : a.apexes) {
     if (b.apexes.contains(edge)) continue;
     const Point2 p = at(edge[0]), q = at(edge[1]);
@@ -90,13 +92,13 @@ std::string unconstrained_edge(const Shape& a, const Shape& b, double tolerance)
 std::string renumber(Shape& b, const Shape& a, double tolerance) {
   if (a.points.size() != b.points.size()) return "number of vertices";
   std::vector<std::pair<double, int>> by_x;
-  for (std::size_t i = 0; i < a.points.size(); ++i) by_x.emplace_back(a.points[i].x, static_cast<int>(i));
+  for (std::size_t i = 0; i < a.points.size(); ++i) by_x.emplace_back(a.points[i].x, to_int(i));
   std::sort(by_x.begin(), by_x.end());
   std::vector<int> number;
   std::set<int> taken;
   for (Point2 p : b.points) {
     auto it = std::lower_bound(by_x.begin(), by_x.end(), std::pair{p.x - tolerance, 0});
-    while (it != by_x.end() && std::abs(a.points[static_cast<std::size_t>(it->second)].y - p.y) > tolerance) ++it;
+    while (it != by_x.end() && std::abs(a.points[to_size(it->second)].y - p.y) > tolerance) ++it;
     if (it == by_x.end() || it->first > p.x + tolerance || !taken.insert(it->second).second) {
       char text[100];
       std::snprintf(text, sizeof text, "no partner for vertex {%.17g, %.17g}", p.x, p.y);
@@ -105,9 +107,11 @@ std::string renumber(Shape& b, const Shape& a, double tolerance) {
     number.push_back(it->second);
   }
   Shape result;
-  result.points = a.points, result.pieces = b.pieces, result.deformed = b.deformed;
+  result.points = a.points;
+  result.pieces = b.pieces;
+  result.deformed = b.deformed;
   const auto map = [&](auto corners) {
-    for (int& i : corners) i = number[static_cast<std::size_t>(i)];
+    for (int& i : corners) i = number[to_size(i)];
     std::sort(corners.begin(), corners.end());
     return corners;
   };

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "harness/cut/constraint_source.h"
 #include "harness/judge/oracle_request.h"
@@ -59,7 +60,8 @@ TEST_P(EveryMethod, CutsWithoutFault) {
       std::size_t k = 0;
       for (const Curve& curve : make_case(family, case_seed, i, table.sheet)) {
         const std::string what = table.cut(curve, chord);
-        ++cuts, noops += table.outcome.status == Status::noop;
+        ++cuts;
+        noops += table.outcome.status == Status::noop;
         if (!what.empty()) {
           ADD_FAILURE() << what << "\nfamily " << family << ", seed " << case_seed << ", case " << i << ", cut " << k
                         << ", sheet " << name << ", method " << name_of_variant(variant) << ", chord tolerance "
@@ -71,8 +73,8 @@ TEST_P(EveryMethod, CutsWithoutFault) {
         ++k;
       }
     }
-  RecordProperty("cuts", static_cast<int>(cuts));
-  RecordProperty("noops", static_cast<int>(noops));
+  RecordProperty("cuts", to_int(cuts));
+  RecordProperty("noops", to_int(noops));
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod,

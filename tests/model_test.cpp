@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <map>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "harness/mesh/families.h"
 #include "tests/dense_solves.h"
@@ -23,7 +24,8 @@ const std::vector<Traction> pull{{{{1, 0}, {1, 1}}, {3, 1, 0}}};
 
 Physics physics_with(int dimension, Mass mass) {
   Physics physics;
-  physics.dimension = dimension, physics.mass = mass;
+  physics.dimension = dimension;
+  physics.mass = mass;
   physics.bending = dimension == 3 ? BendingKind::patches : BendingKind::none;
   physics.gravity = dimension == 3 ? Point3{0, 0, -9.81} : Point3{0, -9.81, 0};
   return physics;
@@ -35,7 +37,10 @@ void expect_fresh(Body<D>& body) {
   Model<D>& kept = body.model;
   const Field x = bent(kept, body.sheet);
   ASSERT_EQ(kept.vertices(), fresh.vertices());
-  for (Model<D>* model : {&kept, &fresh}) model->rotate(x), model->assemble(1.1, 0.01);
+  for (Model<D>* model : {&kept, &fresh}) {
+    model->rotate(x);
+    model->assemble(1.1, 0.01);
+  }
   EXPECT_LE(max_difference(kept.blocks(), fresh.blocks()), 1e-12 * max_entry(fresh.blocks()));
   if (kept.bending()) {
     EXPECT_LE(max_difference(kept.bending()->matrix(), fresh.bending()->matrix()),
@@ -45,9 +50,11 @@ void expect_fresh(Body<D>& body) {
   EXPECT_LE((kept.lumped_mass() - fresh.lumped_mass()).cwiseAbs().maxCoeff(), 1e-14);
   EXPECT_LE((kept.external_force() - fresh.external_force()).cwiseAbs().maxCoeff(), 1e-13);
   Field a = Field::Zero(x.size()), b = a, c = a, d = a;
-  kept.add_internal_force(x, a), fresh.add_internal_force(x, b);
+  kept.add_internal_force(x, a);
+  fresh.add_internal_force(x, b);
   EXPECT_LE((a - b).norm(), 1e-12 * b.norm());
-  kept.add_mass_product(1, x, c), fresh.add_mass_product(1, x, d);
+  kept.add_mass_product(1, x, c);
+  fresh.add_mass_product(1, x, d);
   EXPECT_LE((c - d).norm(), 1e-12 * d.norm());
 }
 
@@ -60,7 +67,7 @@ void cut_and_compare(const std::string& method, double parameter, Mass mass) {
         SCOPED_TRACE(sheet + ", " + family + " " + std::to_string(i));
         Body<D> body(make_sheet(sheet, 8), skin, physics_with(D, mass), corner_pins, pull);
         for (int again = 0; again < 3; ++again)  // the whole history of cuts
-          for (const Curve& curve : make_case(family, 20, i + static_cast<std::size_t>(again), body.sheet)) {
+          for (const Curve& curve : make_case(family, 20, i + to_size(again), body.sheet)) {
             if (body.cut(curve, method, parameter) != Status::ok) continue;
             ++made;
             expect_fresh(body);
@@ -87,7 +94,7 @@ TEST(Model, P2P4EveryVertexHasMassAndPinsStay) {
     EXPECT_NEAR(body.model.lumped_mass().sum(), before, 1e-12 * before);
     for (std::size_t v = 0; v < body.model.vertices(); ++v) {
       const bool used = body.sheet.rest_vertex(DeformedIndex(v)).valid();
-      EXPECT_EQ(body.model.lumped_mass()[static_cast<Eigen::Index>(v)] > 0, used);
+      EXPECT_EQ(body.model.lumped_mass()[to_index(v)] > 0, used);
     }
     // A cut through the pinned corner: every copy of it is held.
     ASSERT_EQ(body.cut(line({0, 0}, {0.4, 0.5})), Status::ok);
@@ -186,10 +193,11 @@ TEST(Model, PatchTestOnCutSheets) {
           const VertexIndex rest = body.sheet.rest_vertex(DeformedIndex(v));
           if (!rest.valid()) continue;
           const Point2 p = body.sheet.rest(rest);
-          u[2 * static_cast<Eigen::Index>(v)] = 1e-3 * (p.x + p.y / 2);
-          u[2 * static_cast<Eigen::Index>(v) + 1] = 1e-3 * (p.y + p.x / 2);
+          u[2 * to_index(v)] = 1e-3 * (p.x + p.y / 2);
+          u[2 * to_index(v) + 1] = 1e-3 * (p.y + p.x / 2);
         }
-        model.rotate(model.positions(body.sheet) + u), model.assemble(0, 1);
+        model.rotate(model.positions(body.sheet) + u);
+        model.assemble(0, 1);
         Field residual = Field::Zero(u.size());
         model.blocks().add_product(1, u, residual);
         const double scale = max_entry(model.blocks()) * u.cwiseAbs().maxCoeff();
@@ -201,7 +209,7 @@ TEST(Model, PatchTestOnCutSheets) {
               inner &= !body.sheet.on_border(h) && body.sheet.mark(h) == EdgeMark::none;
           if (!inner) continue;
           for (int k = 0; k < 2; ++k)
-            worst_ratio = std::max(worst_ratio, std::abs(residual[2 * static_cast<Eigen::Index>(v) + k]) / scale);
+            worst_ratio = std::max(worst_ratio, std::abs(residual[2 * to_index(v) + k]) / scale);
         }
       }
   EXPECT_LE(worst_ratio, 1e-12);
@@ -218,11 +226,11 @@ TEST(Model, NullModesArePiecesTimesThree) {
       body.cut(line({-0.1, 0.43}, {1.1, 0.57}), row.name, row.parameter.value);
       body.cut(polygon({{0.22, 0.71}, {0.55, 0.73}, {0.41, 0.93}}), row.name, row.parameter.value);
       ASSERT_EQ(count_pieces(body.sheet), 3u);
-      body.model.rotate(body.state.x), body.model.assemble(0, 1);
+      body.model.rotate(body.state.x);
+      body.model.assemble(0, 1);
       const Eigen::VectorXd modes = eigenvalues(dense(body.model));
       const double zero = 1e-12 * modes[modes.size() - 1];
-      const auto expected =
-          static_cast<Eigen::Index>(9 + 2 * (body.sheet.deformed_slots() - body.sheet.deformed_count()));
+      const auto expected = to_index(9 + 2 * (body.sheet.deformed_slots() - body.sheet.deformed_count()));
       EXPECT_EQ((modes.array() < zero).count(), expected);
       EXPECT_GT(modes[expected], 1e3 * zero) << "a gap";
     }
@@ -236,7 +244,8 @@ void expect_plain_impulse(const Physics& physics) {
   Model<D>& model = body.model;
   const Field x = bent(model, body.sheet), v = (3 * x.array()).sin();
   const double h = 0.01, factor = 0.7;
-  model.rotate(x), model.assemble(1.1, 0.02);
+  model.rotate(x);
+  model.assemble(1.1, 0.02);
   Field force = Field::Zero(x.size()), impulse = v;
   model.add_internal_force(x, force);
   model.add_impulse(h, x, factor, v, impulse);
@@ -262,11 +271,13 @@ TEST(Model, P8NumberingDoesNotMatter) {
   std::vector<std::size_t> to(mesh.rest.size());
   for (std::size_t i = 0; i < to.size(); ++i) to[i] = i;
   for (std::size_t i = to.size(); i > 1; --i) std::swap(to[i - 1], to[random.below(i)]);
-  for (std::size_t i = 0; i < to.size(); ++i)
-    shuffled.rest[to[i]] = mesh.rest[i], shuffled.deformed[to[i]] = mesh.deformed[i];
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    shuffled.rest[to[i]] = mesh.rest[i];
+    shuffled.deformed[to[i]] = mesh.deformed[i];
+  }
   for (auto& t : shuffled.triangles) {
-    for (auto& v : t) v = static_cast<int>(to[static_cast<std::size_t>(v)]);
-    std::rotate(t.begin(), t.begin() + static_cast<std::ptrdiff_t>(random.below(3)), t.end());
+    for (auto& v : t) v = to_int(to[to_size(v)]);
+    std::rotate(t.begin(), t.begin() + to_index(random.below(3)), t.end());
   }
   for (std::size_t i = shuffled.triangles.size(); i > 1; --i)
     std::swap(shuffled.triangles[i - 1], shuffled.triangles[random.below(i)]);
@@ -275,7 +286,8 @@ TEST(Model, P8NumberingDoesNotMatter) {
     Body<3> body(data, skin, physics_with(3, Mass::consistent));
     body.cut(line({0.2, 0.3}, {0.7, 0.61}));
     const Field x = bent(body.model, body.sheet);
-    body.model.rotate(x), body.model.assemble(1, 1);
+    body.model.rotate(x);
+    body.model.assemble(1, 1);
     Field f = Field::Zero(x.size()), y = f;
     body.model.add_internal_force(x, f);
     body.model.system().add_product(x, y);
@@ -283,7 +295,7 @@ TEST(Model, P8NumberingDoesNotMatter) {
     for (std::size_t v = 0; v < body.model.vertices(); ++v) {
       const Point2 p = body.sheet.rest(body.sheet.rest_vertex(DeformedIndex(v)));
       const auto entry = all.try_emplace({p.x, p.y}, Eigen::Vector3d::Zero()).first;
-      entry->second += (f + y).segment<3>(3 * static_cast<Eigen::Index>(v));  // both lips together
+      entry->second += (f + y).segment<3>(3 * to_index(v));  // both lips together
     }
   }
   ASSERT_EQ(forces[0].size(), forces[1].size());

@@ -10,6 +10,7 @@
 #include <limits>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/adversarial.h"
 #include "harness/fem/linear/linear_solver.h"
 #include "harness/fem/solvers/solver_table.h"
@@ -22,11 +23,11 @@ namespace {
 
 template <int D>
 Eigen::MatrixXd dense(const SystemMatrix<D>& a) {
-  const auto n = static_cast<Eigen::Index>(D * a.vertices());
+  const auto n = to_index(D * a.vertices());
   Eigen::MatrixXd all(n, n);
   for (Eigen::Index k = 0; k < n; ++k) {
     Field column = Field::Zero(n);
-    if (!(*a.held)[static_cast<std::size_t>(k)]) {
+    if (!(*a.held)[to_size(k)]) {
       Field unit = Field::Zero(n);
       unit[k] = 1;
       a.multiply(unit, column);
@@ -38,8 +39,8 @@ Eigen::MatrixXd dense(const SystemMatrix<D>& a) {
 
 template <int D>
 Eigen::DiagonalMatrix<double, Eigen::Dynamic> held_as_identity(const SystemMatrix<D>& a) {
-  Field one(static_cast<Eigen::Index>(a.held->size()));
-  for (Eigen::Index u = 0; u < one.size(); ++u) one[u] = (*a.held)[static_cast<std::size_t>(u)];
+  Field one(to_index(a.held->size()));
+  for (Eigen::Index u = 0; u < one.size(); ++u) one[u] = (*a.held)[to_size(u)];
   return one.asDiagonal();
 }
 
@@ -54,15 +55,17 @@ void expect_good_preconditioner(const SystemMatrix<D>& a) {
   std::vector<Field> residuals;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     const Field any = random_field(seed, matrix.rows());
-    for (const Field& r : {any, Field(matrix * any), Field(factor.solve(any))})
-      residuals.push_back(r.normalized()), project(*a.held, Field(residuals.back()), residuals.back());
+    for (const Field& r : {any, Field(matrix * any), Field(factor.solve(any))}) {
+      residuals.push_back(r.normalized());
+      project(*a.held, Field(residuals.back()), residuals.back());
+    }
   }
   std::vector<Field> corrections;
   for (const Field& r : residuals) {
     corrections.push_back(Field::Zero(r.size()));
     multigrid.apply(r, corrections.back());
     for (Eigen::Index u = 0; u < r.size(); ++u)
-      if ((*a.held)[static_cast<std::size_t>(u)]) {
+      if ((*a.held)[to_size(u)]) {
         ASSERT_EQ(corrections.back()[u], 0);
       }
     // Its energy is at most that of the exact correction: symmetric Gauss-Seidel and exact projections never overshoot,
@@ -123,7 +126,7 @@ TEST(Multigrid, WithoutPlaces) {
   const auto solver = make_solver<2>({.name = "multigrid", .tolerance = 1e-10});
   solver->setup(a);
   Field x;
-  const Field b = random_field(5, static_cast<Eigen::Index>(2 * a.vertices()));
+  const Field b = random_field(5, to_index(2 * a.vertices()));
   EXPECT_TRUE(solver->solve(b, x).converged);
 }
 
@@ -133,7 +136,7 @@ int iterations(const Body<D>& body, const std::string& name, double tolerance) {
   const SystemMatrix<D> a = body.model.system();
   solver->setup(a);
   Field x;
-  const SolveReport report = solver->solve(random_field(6, static_cast<Eigen::Index>(D * body.model.vertices())), x);
+  const SolveReport report = solver->solve(random_field(6, to_index(D * body.model.vertices())), x);
   EXPECT_TRUE(report.converged);
   EXPECT_FALSE(report.fell_back);
   return report.iterations;
@@ -146,7 +149,8 @@ TEST(Multigrid, IterationsDoNotFollowTheResolution) {
     std::vector<int> multigrid, diagonal;
     for (const int n : {10, 40}) {
       const Body<2> body = cut_body<2>(family, n, BendingKind::none, "conventional_split");
-      multigrid.push_back(iterations(body, "multigrid", 1e-6)), diagonal.push_back(iterations(body, "cg", 1e-6));
+      multigrid.push_back(iterations(body, "multigrid", 1e-6));
+      diagonal.push_back(iterations(body, "cg", 1e-6));
     }
     EXPECT_LE(multigrid[1], 30);
     EXPECT_LE(multigrid[1], 2 * multigrid[0]);
@@ -166,7 +170,7 @@ TEST(Multigrid, FollowsTheCuts) {
       ASSERT_EQ(body.cut(curve, method), Status::ok);
       body.model.rotate(bent(body.model, body.sheet));
       body.model.assemble(1, 1e-4);
-      const Field b = random_field(7, static_cast<Eigen::Index>(3 * body.model.vertices()));
+      const Field b = random_field(7, to_index(3 * body.model.vertices()));
       Field x, fresh, exact;
       const SystemMatrix<3> a = body.model.system();
       kept->setup(a);
@@ -198,7 +202,7 @@ TEST(Multigrid, ExtremeSlivers) {
     const SystemMatrix<3> a = body.model.system();
     solver->setup(a);
     Field x;
-    Field b = Field::Zero(static_cast<Eigen::Index>(3 * body.model.vertices()));
+    Field b = Field::Zero(to_index(3 * body.model.vertices()));
     body.model.add_external_force(b);
     b += random_field(8, b.size());
     const SolveReport report = solver->solve(b, x);
@@ -217,8 +221,7 @@ TEST(Multigrid, NotFinite) {
   for (const std::size_t every : {1, 2, 3, 7}) {
     Body<3> body = cut_body<3>("delaunay", 14, BendingKind::patches, "conventional_split");
     Field x = body.model.positions(body.sheet);
-    for (Eigen::Index u = 0; u < x.size(); u += static_cast<Eigen::Index>(3 * every))
-      x[u] = std::numeric_limits<double>::quiet_NaN();
+    for (Eigen::Index u = 0; u < x.size(); u += to_index(3 * every)) x[u] = std::numeric_limits<double>::quiet_NaN();
     body.model.rotate(x);
     body.model.assemble(1, 1e-4);
     const SystemMatrix<3> a = body.model.system();
@@ -262,7 +265,9 @@ TEST(Multigrid, AdversarialCuts) {
             body.model.assemble(1, step * step + 1e-3 * step);
             const SystemMatrix<3> a = body.model.system();
             const SolveReport report = solve(a, b, "multigrid", 20000);
-            ++solves, fallbacks += report.fell_back, iterations += static_cast<std::size_t>(report.iterations);
+            ++solves;
+            fallbacks += report.fell_back;
+            iterations += to_size(report.iterations);
             if (report.converged) continue;
             ++unsolved;
             EXPECT_FALSE(solve(a, b, "cg", 20000).converged);
@@ -270,7 +275,7 @@ TEST(Multigrid, AdversarialCuts) {
         }
     }
   std::printf("%zu solves, %.2f iterations in the mean, %zu fall-backs; %zu not solved, nor by cg\n", solves,
-              static_cast<double>(iterations) / static_cast<double>(solves), fallbacks, unsolved);
+              to_double(iterations) / to_double(solves), fallbacks, unsolved);
   EXPECT_LT(100 * unsolved, solves);
 }
 

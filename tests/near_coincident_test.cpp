@@ -31,7 +31,10 @@ std::array<Curve, 3> cuts_of_case(std::size_t i, double eps) {
   const auto anywhere = [&] { return Point2{random.between(-0.2, 1.2), random.between(-0.2, 1.2)}; };
   const auto inside = [](Point2 p) { return std::min(p.x, p.y) > 0.1 && std::max(p.x, p.y) < 0.9; };
   Point2 a = anywhere(), b = anywhere();
-  while (squared_length(b - a) < 0.1 || !inside(0.5 * a + 0.5 * b)) a = anywhere(), b = anywhere();
+  while (squared_length(b - a) < 0.1 || !inside(0.5 * a + 0.5 * b)) {
+    a = anywhere();
+    b = anywhere();
+  }
   const Point2 along = 1 / std::sqrt(squared_length(b - a)) * (b - a);
   Point2 across = random.direction();
   while (std::abs(dot(across, along)) > 0.9) across = random.direction();
@@ -50,7 +53,8 @@ void cut_by_method(const MeshData& mesh, const MethodRow& method, const std::arr
     const Status status = table.outcome.status;
     const bool changed = status != Status::refused && status != Status::failed;
     const bool wrong = changed && !what.empty();
-    ++row.tried, ++row.outcomes[wrong ? "wrong" : name_of(status)];
+    ++row.tried;
+    ++row.outcomes[wrong ? "wrong" : name_of(status)];
     if (changed) row.incision_error = std::max(row.incision_error, table.judgement.incision_error);
     if (!what.empty() && row.problem.empty()) row.problem = what + "; " + text_of(curve);
     if (wrong) return;
@@ -67,7 +71,8 @@ void cut_by_cross_check(const MeshData& data, const std::array<Curve, 3>& cuts, 
         .before = mesh, .cuts = {for_oracle(curve)}, .tolerance = 2 * snap, .snap = snap, .vertex_tolerance = snap};
     const oracle::Judgement judgement = oracle::judge(request, result.mesh);
     const bool noop = result.mesh.triangles == mesh.triangles;
-    ++row.tried, ++row.outcomes[result.refused ? "refused" : !judgement.ok ? "wrong" : noop ? "noop" : "ok"];
+    ++row.tried;
+    ++row.outcomes[result.refused ? "refused" : !judgement.ok ? "wrong" : noop ? "noop" : "ok"];
     row.moved = std::max(row.moved, result.moved);
     if (!result.refused) row.incision_error = std::max(row.incision_error, judgement.incision_error);
     if (!judgement.ok && row.problem.empty()) row.problem = judgement.problems.front() + "; " + text_of(curve);

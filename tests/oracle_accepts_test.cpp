@@ -204,7 +204,8 @@ TEST(Accepts, BezierWithinTolerance) {
   const std::vector<Point> diamond{{0.75, 0.5},  {0.75, 0.75}, {0.5, 0.75}, {0.25, 0.5},
                                    {0.25, 0.25}, {0.5, 0.25},  {0.75, 0.5}};
   Request r = request(grid(4), {circle});
-  r.tolerance = infinity, r.vertex_tolerance = infinity;
+  r.tolerance = infinity;
+  r.vertex_tolerance = infinity;
   const Mesh after = open(grid(4), on({diamond}));
   const Judgement j = judge(r, after);
   EXPECT_TRUE(j.ok) << explain(j);
@@ -212,7 +213,8 @@ TEST(Accepts, BezierWithinTolerance) {
   EXPECT_NEAR(j.incision_error, 0.25 * (std::numbers::sqrt2 - 1), 2e-4);  // at the corners of the square
   r.tolerance = 0.1;
   EXPECT_EQ(judge(r, after).verdict, Verdict::incision);
-  r.exact_incision = false, r.tolerance = 0.11;  // what the method promises
+  r.exact_incision = false;
+  r.tolerance = 0.11;  // what the method promises
   EXPECT_TRUE(judge(r, after).ok);
   r.tolerance = 0.1;
   EXPECT_EQ(judge(r, after).verdict, Verdict::incision);

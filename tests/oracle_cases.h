@@ -11,6 +11,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "harness/base/conversions.h"
 #include "harness/oracle/exact.h"
 #include "harness/oracle/oracle.h"
 
@@ -38,7 +39,7 @@ inline Mesh split(const Mesh& mesh, const Point& p, const Point& q) {
   std::map<std::pair<int, int>, int> crossing;
   const auto cut = [&](int a, int b) {
     if (a > b) std::swap(a, b);
-    const auto [it, fresh] = crossing.try_emplace({a, b}, static_cast<int>(out.rest.size()));
+    const auto [it, fresh] = crossing.try_emplace({a, b}, to_int(out.rest.size()));
     if (fresh) {
       const Point d = minus(q, p), u = minus(mesh.rest[a], p), v = minus(mesh.rest[b], p);
       out.rest.push_back(between(mesh.rest[a], mesh.rest[b], cross(d, u) / (cross(d, u) - cross(d, v))));
@@ -195,7 +196,8 @@ inline Case along_bezier(int n) {
   for (Mesh* mesh : {&sheet, &after})
     for (Point& p : mesh->rest) p[1] += height(p[0]) - 0.5;
   Case c{request(sheet, {wave}), after};
-  c.request.tolerance = 0.05 / n, c.request.vertex_tolerance = 1e-9;
+  c.request.tolerance = 0.05 / n;
+  c.request.vertex_tolerance = 1e-9;
   return c;
 }
 

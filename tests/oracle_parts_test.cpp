@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "harness/base/conversions.h"
 #include "harness/oracle/exact.h"
 #include "harness/oracle/expected_pieces.h"
 #include "harness/oracle/flatten.h"
@@ -52,7 +53,7 @@ TEST(Exact, OrientationWithDenormalsAndHugeNumbers) {
 TEST(Exact, AreaFarFromTheOrigin) {
   Mesh mesh = grid(20);
   for (Point& p : mesh.rest) p = {p[0] * 1024 + 0x1p40, p[1] * 1024 - 0x1p40};
-  EXPECT_NEAR(static_cast<double>(area(mesh) / (1024.0L * 1024.0L)), 1, 1e-15);
+  EXPECT_NEAR(to_double(area(mesh) / (1024.0L * 1024.0L)), 1, 1e-15);
 }
 
 TEST(Flatten, StaysWithinToleranceAndKeepsEnds) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "harness/base/conversions.h"
 #include "tests/oracle_cases.h"
 
 namespace cutbench::oracle {
@@ -163,7 +164,8 @@ TEST(Rejects, VertexMovedOffTheIncision) {
   EXPECT_NEAR(judge(c.request, c.after).incision_error, 1e-3, 2e-4);
   c.request.vertex_tolerance = 1e-4;
   expect_verdict(Verdict::incision, c);
-  c.request.vertex_tolerance = infinity, c.request.tolerance = 1e-4;
+  c.request.vertex_tolerance = infinity;
+  c.request.tolerance = 1e-4;
   expect_verdict(Verdict::incision, c);
 }
 
@@ -253,11 +255,15 @@ struct Deleted {
     before = grid(8);
     request.before = before;
     request.cuts = {{false, false, {{-0.1, 0.55}, {1.1, 0.55}}}};
-    request.tolerance = 1e-9, request.keeps_area = false, request.keeps_vertices = false;
+    request.tolerance = 1e-9;
+    request.keeps_area = false;
+    request.keeps_vertices = false;
     for (std::size_t t = 0; t < before.triangles.size(); ++t) {
       double low = 1, high = 0;
-      for (int v : before.triangles[t])
-        low = std::min(low, before.rest[v][1]), high = std::max(high, before.rest[v][1]);
+      for (int v : before.triangles[t]) {
+        low = std::min(low, before.rest[v][1]);
+        high = std::max(high, before.rest[v][1]);
+      }
       (low < 0.55 && high > 0.55 ? gone : stays).push_back(before.triangles[t]);
     }
   }
@@ -266,7 +272,7 @@ struct Deleted {
     std::map<int, int> number;
     for (auto& t : triangles)
       for (int& v : t) {
-        const auto [it, fresh] = number.try_emplace(v, static_cast<int>(after.rest.size()));
+        const auto [it, fresh] = number.try_emplace(v, to_int(after.rest.size()));
         if (fresh) after.rest.push_back(before.rest[v]);
         v = it->second;
       }
@@ -292,7 +298,7 @@ TEST(Deletion, OfOneMoreOrOneLessIsNot) {
   const Deleted d;
   for (std::size_t t = 0; t < d.stays.size(); t += 3) {
     auto less = d.stays;
-    less.erase(less.begin() + static_cast<std::ptrdiff_t>(t));
+    less.erase(less.begin() + to_index(t));
     const Verdict verdict = d.judge(less).verdict;
     EXPECT_TRUE(verdict == Verdict::deletion || verdict == Verdict::non_manifold) << t << " " << verdict;
   }
@@ -309,7 +315,8 @@ TEST(Deletion, MakesNoNewTriangles) {
   auto other = d.stays;
   ASSERT_EQ(other[0], (std::array{0, 1, 10}));
   ASSERT_EQ(other[1], (std::array{0, 10, 9}));
-  other[0] = {0, 1, 9}, other[1] = {1, 10, 9};
+  other[0] = {0, 1, 9};
+  other[1] = {1, 10, 9};
   EXPECT_EQ(d.judge(other).verdict, Verdict::deletion);
 }
 

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "harness/base/conversions.h"
 #include "harness/oracle/forced_zones.h"
 #include "harness/oracle/numbers.h"
 #include "harness/oracle/oracle.h"
@@ -74,9 +75,9 @@ std::string report_of_fractions(std::size_t count) {
   std::ostringstream out;
   out << std::hexfloat;
   for (std::size_t i = 0; i < count; ++i) {
-    const auto number = [&] { return std::ldexp(static_cast<double>(static_cast<std::int64_t>(random())), -20); };
+    const auto number = [&] { return std::ldexp(to_double(to_int64(random())), -20); };
     const double a = number(), b = number();
-    const int exponent = static_cast<int>(random() % 1900) - 1150;
+    const int exponent = to_int(random() % 1900) - 1150;
     const Rational quotient = fraction(as_integer(a, -1100), as_integer(b, -1100), exponent);
     const Rational sum = quotient + as_rational(std::ldexp(a, exponent % 500));
     out << toward_zero(quotient) << ' ' << toward_zero(sum) << ' ' << order(quotient, sum) << '\n';

@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "harness/base/conversions.h"
 #include "harness/cut/cut.h"
 #include "harness/mesh/families.h"
 #include "harness/problems/out_of_plane/bent_sheet.h"
@@ -39,7 +40,8 @@ Eigen::Vector2d end_of_chain(double load, int links) {
       if (i == 0) continue;
       torque[i - 1] += spring * (angle[i] - before);
       stiffness(i - 1, i - 1) += spring;
-      stiffness(i, i - 1) -= spring, stiffness(i - 1, i) -= spring;
+      stiffness(i, i - 1) -= spring;
+      stiffness(i - 1, i) -= spring;
     }
     angle += stiffness.ldlt().solve(torque);
   }
@@ -116,7 +118,7 @@ void expect_within(const Problem& problem, int n, const std::vector<double>& bou
       for (const std::size_t i : members) {
         SCOPED_TRACE(family + ", " + method + ", member " + std::to_string(i));
         const Specimen specimen = problem.specimen(family, n, 1, i);
-        EXPECT_EQ(specimen.mesh.triangles.size(), static_cast<std::size_t>(2 * n * n));
+        EXPECT_EQ(specimen.mesh.triangles.size(), to_size(2 * n * n));
         const Answer answer = solved(problem, specimen, cut_open(specimen, specimen.cuts, method));
         for (std::size_t k = 0; k < bounds.size(); ++k) {
           const Measure& m = answer.measures.at(k);
@@ -199,7 +201,8 @@ TEST(OutOfPlane, ATearThatLosesATenthIsNoticed) {
       const Measure m = solved(*problem, specimen, cut_open(specimen, cuts, "bowyer_watson")).measures.at(0);
       return m.value / m.exact;
     };
-    whole += released(specimen.cuts) / 2, rest += released(shorter) / 2;
+    whole += released(specimen.cuts) / 2;
+    rest += released(shorter) / 2;
   }
   std::printf("released of 2 F: %.4f by the whole tear, %.4f by nine tenths of it\n", whole, rest);
   EXPECT_NEAR(whole, 1, 0.03);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <set>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "harness/mesh/predicates.h"
 #include "harness/path/trace.h"
@@ -28,7 +29,7 @@ std::array<VertexIndex, 3> turned(std::array<VertexIndex, 3> t) {
 Triangles triangles_of(const Patch& patch) {
   Triangles all;
   for (const auto& [a, b, c] : patch.triangles) {
-    const auto vertex = [&](int p) { return patch.vertices[static_cast<std::size_t>(p)]; };
+    const auto vertex = [&](int p) { return patch.vertices[to_size(p)]; };
     all.insert(turned({vertex(a), vertex(b), vertex(c)}));
   }
   return all;
@@ -43,7 +44,7 @@ Triangles triangles_after(Sheet& sheet, const Crossing& crossing, bool diagonal_
   return all;
 }
 
-Point2 at(const Patch& patch, int p) { return patch.points[static_cast<std::size_t>(p)]; }
+Point2 at(const Patch& patch, int p) { return patch.points[to_size(p)]; }
 
 /// Positive triangles, as many as it takes to fill the ring, and every segment an edge.
 void expect_answer(const Patch& patch) {
@@ -78,7 +79,7 @@ void for_patches(std::uint64_t seed, Visit visit) {
         sheet.begin_cut();
         make_vertices(sheet, trace);
         Patch patch;
-        for (int f = 0; f < static_cast<int>(trace.faces.size()); ++f) {
+        for (int f = 0; f < to_int(trace.faces.size()); ++f) {
           make_patch(sheet, trace, f, patch);
           visit(sheet, trace, f, patch);
         }
@@ -94,7 +95,7 @@ TEST(Patch, IsWellFormed) {
     ASSERT_EQ(patch.ring.size(), patch.ring_marks.size());
     for (std::size_t i = 0; i < patch.ring.size(); ++i) {
       const int p = patch.ring[i], q = patch.ring[(i + 1) % patch.ring.size()];
-      EXPECT_EQ(patch.ring_position[static_cast<std::size_t>(p)], static_cast<int>(i));
+      EXPECT_EQ(patch.ring_position[to_size(p)], to_int(i));
       const int k = patch.edge_of(p);
       const Point2 along = at(patch, next_corner(k)) - at(patch, k);
       EXPECT_GT(dot(at(patch, q) - at(patch, p), along), 0) << "not in order";
@@ -109,8 +110,10 @@ TEST(Patch, ConventionalShortCutsGiveTheSameTriangles) {
   std::size_t crossings = 0, patches = 0;
   for_patches(22, [&](Sheet& sheet, const Subdivision& trace, int f, Patch& patch) {
     Patch other = patch;
-    split_conventionally(patch), split_step_by_step(other);
-    expect_answer(patch), expect_answer(other);
+    split_conventionally(patch);
+    split_step_by_step(other);
+    expect_answer(patch);
+    expect_answer(other);
     EXPECT_EQ(triangles_of(patch), triangles_of(other));
     ++patches;
     Crossing crossing;
@@ -138,15 +141,16 @@ TEST(Patch, TheDelaunayDiagonalIsThatOfTheGeneralRoutine) {
 Patch random_patch(Sheet& sheet, Subdivision& subdivision, Random& random, std::size_t points) {
   subdivision.reset(sheet);
   while (subdivision.nodes.size() < points) {
-    const double unit = static_cast<double>(1 + random.below((1 << 10) - 1)) * 0x1p-10;
+    const double unit = to_double(1 + random.below((1 << 10) - 1)) * 0x1p-10;
     Place place;
     if (random.coin(0.4)) {
-      place.kind = Place::Kind::edge,
-      place.edge = half_edge(TriangleIndex(std::size_t{0}), static_cast<int>(random.below(3)));
+      place.kind = Place::Kind::edge;
+      place.edge = half_edge(TriangleIndex(std::size_t{0}), to_int(random.below(3)));
       const Point2 a = sheet.rest(sheet.origin(place.edge));
-      place.lambda = unit, place.point = a + unit * (sheet.rest(sheet.target(place.edge)) - a);
+      place.lambda = unit;
+      place.point = a + unit * (sheet.rest(sheet.target(place.edge)) - a);
     } else {
-      place = place_in(TriangleIndex(std::size_t{0}), {unit, static_cast<double>(random.below(1 << 10)) * 0x1p-10});
+      place = place_in(TriangleIndex(std::size_t{0}), {unit, to_double(random.below(1 << 10)) * 0x1p-10});
       if (place.point.x + place.point.y >= 1 || place.point.y == 0) continue;
     }
     subdivision.node_of(place);
@@ -181,9 +185,9 @@ TEST(Patch, RecoversSegmentsAndCountsThem) {
     Subdivision subdivision;
     Patch patch = random_patch(sheet, subdivision, random, 4 + i % 10);
     // Segments that cross no other and pass through no point, as many as are found.
-    const int n = static_cast<int>(patch.points.size());
+    const int n = to_int(patch.points.size());
     for (int tries = 0; tries < 20; ++tries) {
-      const auto any = [&] { return static_cast<int>(random.below(static_cast<std::size_t>(n))); };
+      const auto any = [&] { return to_int(random.below(to_size(n))); };
       const int a = any(), b = any();
       const auto on_one_edge = [&](int p, int q) {
         for (int k = 0; k < 3; ++k)
@@ -214,7 +218,7 @@ TEST(Patch, RecoversSegmentsAndCountsThem) {
     expect_answer(patch);
     EXPECT_EQ(count > 0, missing > 0) << i;
     EXPECT_TRUE(patch.segments.size() != 1 || count == missing) << i;
-    recovered += static_cast<std::size_t>(count);
+    recovered += to_size(count);
     split_step_by_step(step_by_step);
     expect_answer(step_by_step);
   }

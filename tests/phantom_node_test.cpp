@@ -7,6 +7,7 @@
 #include <numeric>
 #include <set>
 
+#include "harness/base/conversions.h"
 #include "harness/cut/constraint_source.h"
 #include "harness/fem/model/largest_eigenvalue.h"
 #include "harness/mesh/families.h"
@@ -47,8 +48,10 @@ std::vector<Part> parts_of(const Sheet& before, const Sheet& cut) {
     for (std::size_t i = 0; i < part.triangles.size(); ++i)
       for (int k = 0; k < 3; ++k)
         if (const TriangleIndex u = other_side(i, k);
-            u.valid() && number[u()] == 0 && !cut.separates(half_edge(part.triangles[i], k)))
-          number[u()] = parts.size(), part.triangles.push_back(u);
+            u.valid() && number[u()] == 0 && !cut.separates(half_edge(part.triangles[i], k))) {
+          number[u()] = parts.size();
+          part.triangles.push_back(u);
+        }
     for (std::size_t i = 0; i < part.triangles.size(); ++i)
       for (int k = 0; k < 3; ++k)
         if (const TriangleIndex u = other_side(i, k); u.valid() && cut.separates(half_edge(part.triangles[i], k)))
@@ -112,7 +115,7 @@ TEST(PhantomNode, OpensUpToTheTip) {
       continue;
     }
     ASSERT_EQ(lips.size(), 2u);
-    const auto a = static_cast<Eigen::Index>(*lips.begin()), b = static_cast<Eigen::Index>(*lips.rbegin());
+    const auto a = to_index(*lips.begin()), b = to_index(*lips.rbegin());
     EXPECT_GT((c.row(a) - c.row(b)).cwiseAbs().maxCoeff(), 0.01) << sheet.rest(vertex).x;
     ++open;
   }

@@ -2,6 +2,7 @@
 // deformed corners are known is somewhere in space, and picked there it must come back.
 #include "harness/path/pick.h"
 
+#include "harness/base/conversions.h"
 #include "harness/files/mesh_file.h"
 #include "harness/files/scene_file.h"
 #include "harness/mesh/families.h"
@@ -31,11 +32,14 @@ struct Place {
 std::vector<Place> places(const Sheet& sheet) {
   std::vector<Place> result;
   std::uint64_t state = 7;
-  const auto random = [&] { return static_cast<double>((state = state * 6364136223846793005u + 1) >> 11) * 0x1p-53; };
+  const auto random = [&] { return to_double((state = state * 6364136223846793005u + 1) >> 11) * 0x1p-53; };
   for (std::size_t i = 0; i < sheet.triangle_slots(); ++i) {
     const TriangleIndex t{i};
     double u = random(), v = random();
-    if (u + v > 1) u = 1 - u, v = 1 - v;
+    if (u + v > 1) {
+      u = 1 - u;
+      v = 1 - v;
+    }
     const auto [a, b, c] = sheet.corners(t);
     const auto x = [&](std::size_t k) { return sheet.position(sheet.triangle(t).deformed[k]); };
     const Point3 p = x(1) + -1.0 * x(0), q = x(2) + -1.0 * x(0);
@@ -126,8 +130,7 @@ TEST(Pick, AMissSaysByHowFar) {
 
 TEST(Pick, ACrumpledSheetIsNotPicked) {
   Sheet sheet(make_sheet("grid", 2));
-  for (std::size_t d = 0; d < sheet.deformed_slots(); ++d)
-    sheet.set_position(DeformedIndex(d), {static_cast<double>(d), 0, 0});
+  for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) sheet.set_position(DeformedIndex(d), {to_double(d), 0, 0});
   EXPECT_EQ(error_of_pick(Picker(sheet), {{0, 0, 0}, {}}), "here: the sheet is crumpled to lines; pick earlier");
 }
 

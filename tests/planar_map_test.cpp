@@ -13,6 +13,7 @@
 #include <tuple>
 #include <utility>
 
+#include "harness/base/conversions.h"
 #include "tests/helpers.h"
 
 namespace cutbench::oracle {
@@ -44,7 +45,7 @@ void add_cycle(Arrangement::Ccb_halfedge_const_circulator start, FaceSize& size)
 Map by_cgal(const std::vector<Segment>& segments) {
   std::vector<Traits::Curve_2> curves;
   for (const auto& [a, b] : segments)
-    curves.emplace_back(SegmentTraits::Curve_2({a[0], a[1]}, {b[0], b[1]}), static_cast<int>(curves.size()));
+    curves.emplace_back(SegmentTraits::Curve_2({a[0], a[1]}, {b[0], b[1]}), to_int(curves.size()));
   Arrangement arrangement;
   CGAL::insert(arrangement, curves.begin(), curves.end());
   Map map{arrangement.number_of_vertices(), {}, {}};
@@ -62,7 +63,7 @@ Map by_cgal(const std::vector<Segment>& segments) {
 
 Map by_us(const std::vector<Segment>& segments) {
   const PlanarMap planar = planar_map(segments);
-  Map map{static_cast<std::size_t>(planar.vertices), {}, {}};
+  Map map{to_size(planar.vertices), {}, {}};
   for (const auto& edge : planar.edges) map.edges.push_back(edge.segments);
   for (const auto& face : planar.faces) map.faces.emplace_back(face.area, face.perimeter);
   return map;
@@ -71,7 +72,8 @@ Map by_us(const std::vector<Segment>& segments) {
 void expect_same(const std::vector<Segment>& segments) {
   Map a = by_us(segments), b = by_cgal(segments);
   EXPECT_EQ(a.vertices, b.vertices);
-  std::sort(a.edges.begin(), a.edges.end()), std::sort(b.edges.begin(), b.edges.end());
+  std::sort(a.edges.begin(), a.edges.end());
+  std::sort(b.edges.begin(), b.edges.end());
   EXPECT_EQ(a.edges, b.edges);
   ASSERT_EQ(a.faces.size(), b.faces.size());
   // Rounded, so that sums in another order sort alike.
@@ -79,7 +81,8 @@ void expect_same(const std::vector<Segment>& segments) {
     return std::pair(std::round(f.first * 1e9), std::round(f.second * 1e9));
   };
   const auto smaller = [&](const FaceSize& f, const FaceSize& g) { return rounded(f) < rounded(g); };
-  std::sort(a.faces.begin(), a.faces.end(), smaller), std::sort(b.faces.begin(), b.faces.end(), smaller);
+  std::sort(a.faces.begin(), a.faces.end(), smaller);
+  std::sort(b.faces.begin(), b.faces.end(), smaller);
   for (std::size_t i = 0; i < a.faces.size(); ++i) {
     EXPECT_NEAR(a.faces[i].first, b.faces[i].first, 2e-9);
     EXPECT_NEAR(a.faces[i].second, b.faces[i].second, 2e-9);
@@ -87,7 +90,7 @@ void expect_same(const std::vector<Segment>& segments) {
 }
 
 Point random_point(Random& random, std::size_t steps) {
-  const auto coordinate = [&] { return static_cast<double>(random.below(steps + 1)) / static_cast<double>(steps); };
+  const auto coordinate = [&] { return to_double(random.below(steps + 1)) / to_double(steps); };
   const double x = coordinate();
   return {x, coordinate()};
 }
@@ -134,7 +137,7 @@ TEST(PlanarMap, OfSquaresWithinAndBesideOneAnotherAsCgals) {
     std::vector<Segment> segments;
     for (std::size_t n = 2 + random.below(12); n > 0; --n) {
       const Point low = random_point(random, 64);
-      add_square(segments, low, static_cast<double>(1 + random.below(32)) / 128);
+      add_square(segments, low, to_double(1 + random.below(32)) / 128);
     }
     expect_same(segments);
   }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/elements/bending.h"
 #include "harness/mesh/families.h"
 #include "methods/registry.h"
@@ -19,9 +20,9 @@ namespace cutbench {
 namespace {
 
 Field uniform_load(const Sheet& sheet) {
-  Field load = Field::Zero(static_cast<Eigen::Index>(sheet.deformed_slots()));
+  Field load = Field::Zero(to_index(sheet.deformed_slots()));
   for_each_triangle(sheet, [&](const Triangle& t, const auto& c) {
-    for (const DeformedIndex d : t.deformed) load[static_cast<Eigen::Index>(d())] += area(c) / 3;
+    for (const DeformedIndex d : t.deformed) load[to_index(d())] += area(c) / 3;
   });
   return load;
 }
@@ -40,8 +41,10 @@ Field bent(const Sheet& sheet, const std::function<bool(Point2)>& holds, const s
 double mean_at(const Sheet& sheet, const Field& z, double x) {
   double sum = 0, n = 0;
   for (std::size_t d = 0; d < sheet.deformed_slots(); ++d)
-    if (const VertexIndex v = sheet.rest_vertex(DeformedIndex(d)); v.valid() && sheet.rest(v).x == x)
-      sum += z[static_cast<Eigen::Index>(d)], ++n;
+    if (const VertexIndex v = sheet.rest_vertex(DeformedIndex(d)); v.valid() && sheet.rest(v).x == x) {
+      sum += z[to_index(d)];
+      ++n;
+    }
   return sum / n;
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/adversarial.h"
 #include "harness/cases/cut_families.h"
 #include "harness/cut/constraint_source.h"
@@ -156,7 +157,7 @@ TEST(PolygonElement, HasTheMeanGradientOfItsBorderAndDepartsFromNoLinearMap) {
         area += cross(c[1] - c[0], c[2] - c[0]) / 2;
       }
       EXPECT_NEAR(element.area, area, 1e-12 * area);
-      Field x = Field::Zero(static_cast<Eigen::Index>(2 * cut.sheet().deformed_slots())), affine = x;
+      Field x = Field::Zero(to_index(2 * cut.sheet().deformed_slots())), affine = x;
       for (auto& value : x) value = random.between(-1, 1);
       Eigen::Matrix2d expected = Eigen::Matrix2d::Zero(), slope;
       slope << 0.3, -0.7, 1.1, 0.2;
@@ -181,8 +182,7 @@ TEST(PolygonElement, HasTheMeanGradientOfItsBorderAndDepartsFromNoLinearMap) {
         for (Eigen::Index axis = 0; axis < 2; ++axis) {
           double departs = 0;
           for (std::size_t j = 0; j < polygon.corners.size(); ++j)
-            departs += element.departure(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) *
-                       affine[2 * polygon.corners[j].value + axis];
+            departs += element.departure(to_index(i), to_index(j)) * affine[2 * polygon.corners[j].value + axis];
           EXPECT_LE(std::abs(departs), 1e-11);
         }
     }
@@ -213,8 +213,7 @@ void forces_are_the_slope_of_the_energy(Strain strain, BendingKind bending) {
     Field way = Field::Zero(x.size());
     for (std::size_t d = 0; d < model.vertices(); ++d)
       for (int axis = 0; axis < D; ++axis)
-        if (!model.held()[D * d + static_cast<std::size_t>(axis)])
-          way[static_cast<Eigen::Index>(D * d) + axis] = random.between(-1, 1);
+        if (!model.held()[D * d + to_size(axis)]) way[to_index(D * d) + axis] = random.between(-1, 1);
     constexpr double h = 1e-6;
     const double slope = (energy(x + h * way) - energy(x - h * way)) / (2 * h);
     EXPECT_NEAR(-force.dot(way), slope, 1e-6 * force.norm() * way.norm());
@@ -267,14 +266,14 @@ TEST(PolygonSheet, StiffnessIsThatOfTheForcesAndHasThreeNullModesPerPiece) {
     std::size_t unknowns = 0;
     for (std::size_t i = 0; i < model.held().size(); ++i)
       if (model.held()[i])
-        u[static_cast<Eigen::Index>(i)] = 0;
+        u[to_index(i)] = 0;
       else
         ++unknowns;
     model.rotate(rest + u);
     model.add_internal_force(rest + u, force);
     EXPECT_LE((k * u + force).norm(), 1e-9 * force.norm());
     const Eigen::VectorXd lambda = eigenvalues(k);
-    const auto nulls = static_cast<std::size_t>((lambda.array() < 1e-9 * lambda.maxCoeff()).count());
+    const auto nulls = to_size((lambda.array() < 1e-9 * lambda.maxCoeff()).count());
     const std::size_t left_out = model.held().size() - unknowns;
     if (lambda.maxCoeff() < 1e5) {  // otherwise a strip or a small piece is as stiff as that
       EXPECT_EQ(nulls, left_out + 3 * count_pieces(cut.sheet()));

@@ -15,7 +15,10 @@ constexpr double gravity = 9.81, damping = 0.5, seconds = 0.25;
 double stepped_fall(int steps) {
   const double h = seconds / steps;
   double v = 0, fallen = 0;
-  for (int i = 0; i < steps; ++i) v = (v + gravity * h) / (1 + damping * h), fallen += h * v;
+  for (int i = 0; i < steps; ++i) {
+    v = (v + gravity * h) / (1 + damping * h);
+    fallen += h * v;
+  }
   return fallen;
 }
 
@@ -141,7 +144,8 @@ TEST_F(Recommend, IntervalsFollowFromTheMargin) {
     double least = 1e300, most = 0;
     for (int i = -500; i <= 500; ++i) {
       const double truth = value + margin * i / 500, error = std::abs(trial["value_m"].get<double>() / truth - 1);
-      least = std::min(least, error), most = std::max(most, error);
+      least = std::min(least, error);
+      most = std::max(most, error);
     }
     const double resolved = 1.01 * margin / 500 / (value - margin);
     EXPECT_NEAR(trial["error_low"], least, resolved);

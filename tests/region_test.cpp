@@ -6,6 +6,7 @@
 
 #include <set>
 
+#include "harness/base/conversions.h"
 #include "harness/cut/cut.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/stamped_table.h"
@@ -45,12 +46,13 @@ TEST(Region, GrowsByRingsAndForgets) {
   const auto square = [&](TriangleIndex t) {
     const auto c = sheet.corners(t);
     const Point2 middle = 1.0 / 3 * (c[0] + c[1] + c[2]);
-    return 10 * static_cast<int>(10 * middle.y) + static_cast<int>(10 * middle.x);
+    return 10 * to_int(10 * middle.y) + to_int(10 * middle.x);
   };
   Region region;
   for (const std::size_t start : {0U, 77U, 199U}) {
     region.clear(sheet);
-    region.add(TriangleIndex(start)), region.add(TriangleIndex(start));
+    region.add(TriangleIndex(start));
+    region.add(TriangleIndex(start));
     ASSERT_EQ(region.triangles().size(), 1U);
     EXPECT_EQ(region.place_of(TriangleIndex(start)), 0);
     region.grow(sheet, 1);
@@ -63,7 +65,7 @@ TEST(Region, GrowsByRingsAndForgets) {
       EXPECT_EQ(region.place_of(i) >= 0, region.holds(i));
     }
     for (std::size_t i = 0; i < region.triangles().size(); ++i)
-      EXPECT_EQ(region.place_of(region.triangles()[i]), static_cast<int>(i));
+      EXPECT_EQ(region.place_of(region.triangles()[i]), to_int(i));
   }
 }
 

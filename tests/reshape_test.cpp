@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "harness/judge/assessment.h"
 #include "harness/judge/judged_sheet.h"
@@ -147,13 +148,14 @@ TEST(WarpAndRefine, NoTriangleIsIllShapedAndFewVerticesAreAdded) {
       const CutOutcome outcome = Cutter().cut(sheet, locator, cuts[0], *row.make(row.parameter.value), {});
       ASSERT_EQ(outcome.status, Status::ok);
       const Assessment a = assess_result(before, sheet.to_mesh_data(), cuts, promises_of_everybody, {});
-      crossed += outcome.crossed_triangles, added += a.vertices_added;
+      crossed += outcome.crossed_triangles;
+      added += a.vertices_added;
       if (a.forced_corners > 0) continue;
       ++judged;
       EXPECT_LT(a.outside_wedges.ar_max, 3) << "curved " << i << " on " << n;
     }
   EXPECT_GT(2 * judged, scaled(20));
-  EXPECT_LT(static_cast<double>(added), 0.4 * static_cast<double>(crossed));
+  EXPECT_LT(to_double(added), 0.4 * to_double(crossed));
 }
 
 }  // namespace

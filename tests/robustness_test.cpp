@@ -13,6 +13,7 @@
 #include <fstream>
 #include <set>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/adversarial.h"
 #include "harness/files/path_file.h"
 #include "harness/mesh/families.h"
@@ -86,8 +87,12 @@ class RobustnessRun : public testing::Test {
 
   static Experiment experiment(const std::vector<std::string>& methods, int cases) {
     Experiment e;
-    e.stem = "small", e.claim = "c", e.seed = 3, e.cases = cases;
-    e.sheets = {"grid", "delaunay"}, e.resolutions = {32};
+    e.stem = "small";
+    e.claim = "c";
+    e.seed = 3;
+    e.cases = cases;
+    e.sheets = {"grid", "delaunay"};
+    e.resolutions = {32};
     for (const auto& method : methods) e.methods.push_back({method, {}});
     e.robustness.emplace();
     e.robustness->mesh_files = {CUTBENCH_TEST_CASES "/meshes/mfem_beam-tri.off"};
@@ -97,8 +102,11 @@ class RobustnessRun : public testing::Test {
   /// Runs, and returns the records without the times.
   std::vector<Record> run(const Experiment& e, const std::string& out, int workers = 2, int shard = 1, int shards = 1) {
     RunOptions options;
-    options.out = folder_ / out, options.quiet = true;
-    options.workers = workers, options.shard = shard, options.shards = shards;
+    options.out = folder_ / out;
+    options.quiet = true;
+    options.workers = workers;
+    options.shard = shard;
+    options.shards = shards;
     all_ok_ = run_robustness(e, rows(), gather_context(), options);
     std::ifstream in(folder_ / out / "small" / "records.csv");
     std::vector<Record> records;
@@ -207,7 +215,7 @@ TEST_F(RobustnessRun, AFaultCostsOneCaseAndIsSavedAndMadeSmall) {
       }
     }
     EXPECT_GT(saved, 0u);
-    EXPECT_LE(saved, static_cast<std::size_t>(sum(records, expected.kind)));
+    EXPECT_LE(saved, to_size(sum(records, expected.kind)));
   }
 }
 
@@ -324,7 +332,7 @@ TEST(Shrink, LeavesOutAllThatIsNotNeeded) {
       return std::count(c.points.begin(), c.points.end(), Point2{0.5, 0.5}) == 1;
     });
     const bool sheet = std::any_of(s.mesh.triangles.begin(), s.mesh.triangles.end(), [&](const auto& t) {
-      return s.mesh.rest[static_cast<std::size_t>(t[0])] == Point2{0.5, 0.5};
+      return s.mesh.rest[to_size(t[0])] == Point2{0.5, 0.5};
     });
     return path && sheet;
   };

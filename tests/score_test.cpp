@@ -8,6 +8,7 @@
 #include <numeric>
 #include <set>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "harness/files/path_file.h"
 #include "harness/mesh/families.h"
@@ -46,7 +47,8 @@ class Score : public testing::Test {
     const std::string command =
         "cd '" + folder_.string() + "' && '" CUTBENCH_PROGRAM "' " + arguments + " >stdout 2>stderr";
     const int status = std::system(command.c_str());
-    out_ = read(folder_ / "stdout"), error_ = read(folder_ / "stderr");
+    out_ = read(folder_ / "stdout");
+    error_ = read(folder_ / "stderr");
     return WEXITSTATUS(status);
   }
   int cut(const std::string& method) {
@@ -98,20 +100,19 @@ const std::vector<Curve> across{{Curve::Kind::bezier, false, {{-0.1, 0.3}, {0.3,
 const std::vector<Curve> inside{{Curve::Kind::polyline, false, {{0.11, 0.34}, {0.52, 0.49}, {0.91, 0.37}}}};
 const std::vector<Curve> outside{{Curve::Kind::polyline, false, {{1.5, 0}, {1.6, 1}}}};
 
-Point2 rest(const MeshData& mesh, std::int32_t v) { return mesh.rest[static_cast<std::size_t>(v)]; }
+Point2 rest(const MeshData& mesh, std::int32_t v) { return mesh.rest[to_size(v)]; }
 
 /// The corners at every place of the rest plane, by the vertices they have there.
 std::map<std::pair<double, double>, std::vector<std::int32_t>> vertices_by_place(const MeshData& mesh) {
   std::map<std::pair<double, double>, std::vector<std::int32_t>> result;
-  for (std::size_t v = 0; v < mesh.rest.size(); ++v)
-    result[{mesh.rest[v].x, mesh.rest[v].y}].push_back(static_cast<std::int32_t>(v));
+  for (std::size_t v = 0; v < mesh.rest.size(); ++v) result[{mesh.rest[v].x, mesh.rest[v].y}].push_back(to_int32(v));
   return result;
 }
 
 std::int32_t copy_vertex(MeshData& mesh, std::int32_t v) {
   mesh.rest.push_back(Point2(rest(mesh, v)));
-  mesh.deformed.push_back(Point3(mesh.deformed[static_cast<std::size_t>(v)]));
-  return static_cast<std::int32_t>(mesh.rest.size() - 1);
+  mesh.deformed.push_back(Point3(mesh.deformed[to_size(v)]));
+  return to_int32(mesh.rest.size() - 1);
 }
 
 /// The mesh with vertex v called number[v]: several may get the same, and those without a triangle go.
@@ -121,10 +122,11 @@ MeshData renumbered(const MeshData& mesh, const std::vector<std::int32_t>& numbe
   for (const auto& triangle : mesh.triangles) {
     auto& made = result.triangles.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto v = static_cast<std::size_t>(number[static_cast<std::size_t>(triangle[k])]);
+      const auto v = to_size(number[to_size(triangle[k])]);
       if (final_number[v] < 0) {
-        final_number[v] = static_cast<std::int32_t>(result.rest.size());
-        result.rest.push_back(mesh.rest[v]), result.deformed.push_back(mesh.deformed[v]);
+        final_number[v] = to_int32(result.rest.size());
+        result.rest.push_back(mesh.rest[v]);
+        result.deformed.push_back(mesh.deformed[v]);
       }
       made[k] = final_number[v];
     }
@@ -138,7 +140,7 @@ MeshData welded(const MeshData& mesh, Wanted wanted) {
   std::vector<std::int32_t> number(mesh.rest.size());
   for (const auto& [place, vertices] : vertices_by_place(mesh))
     for (std::int32_t v : vertices)
-      number[static_cast<std::size_t>(v)] = wanted(Point2{place.first, place.second}) ? vertices.front() : v;
+      number[to_size(v)] = wanted(Point2{place.first, place.second}) ? vertices.front() : v;
   return renumbered(mesh, number);
 }
 
@@ -230,9 +232,11 @@ TEST_F(Score, ReadsRestPositionsFromAPlane) {
     std::ostringstream relative, plain;
     relative << "f " << a - 10 << "//1 " << b - 10 << "//1 " << c - 10 << "//1\r\n";
     plain << "3 " << a << ' ' << b << ' ' << c << '\n';
-    obj += relative.str(), off += plain.str();
+    obj += relative.str();
+    off += plain.str();
   }
-  write(folder_ / "result.obj", obj), write(folder_ / "result.off", off);
+  write(folder_ / "result.obj", obj);
+  write(folder_ / "result.off", off);
   for (const char* result : {"result.obj", "result.off"}) {
     EXPECT_EQ(score(result), 0) << out_ << error_;
     EXPECT_EQ(json::parse(read(folder_ / "score.json"))["pieces"], 2);
@@ -271,11 +275,12 @@ class Fault : public Score, public testing::WithParamInterface<std::size_t> {
     // The path goes right across, so that every fault but the last is in a sheet of two pieces.
     result_ = make_result(across, all_methods()[GetParam()].name);
     expect_ok(result_, "--keeps-vertices");
-    edge_ = level_edge(result_), lip_ = lip_edge(result_);
+    edge_ = level_edge(result_);
+    lip_ = lip_edge(result_);
   }
   std::array<std::int32_t, 3>& triangle(const Edge& e) { return result_.triangles[e.triangle]; }
   std::int32_t& corner(const Edge& e, std::size_t step = 0) { return triangle(e)[(e.k + step) % 3]; }
-  std::size_t vertex(const Edge& e, std::size_t step = 0) { return static_cast<std::size_t>(corner(e, step)); }
+  std::size_t vertex(const Edge& e, std::size_t step = 0) { return to_size(corner(e, step)); }
   std::int32_t other_lip() {
     const Point2 p = rest(result_, corner(lip_));
     const auto both = vertices_by_place(result_).at({p.x, p.y});
@@ -292,7 +297,7 @@ TEST_P(Fault, FlippedTriangle) {
 }
 
 TEST_P(Fault, IndexOutOfRange) {
-  corner(edge_) = static_cast<std::int32_t>(result_.rest.size());
+  corner(edge_) = to_int32(result_.rest.size());
   expect_verdict(result_, "bad_index");
   EXPECT_TRUE(json::parse(read(folder_ / "score.json")).at("ar_max_all").is_null());
   corner(edge_) = -1;  // 0 in the file
@@ -331,7 +336,7 @@ TEST_P(Fault, LipMovedByOneUlp) {
 }
 
 TEST_P(Fault, TriangleMissing) {
-  result_.triangles.erase(result_.triangles.begin() + static_cast<std::ptrdiff_t>(edge_.triangle));
+  result_.triangles.erase(result_.triangles.begin() + to_index(edge_.triangle));
   expect_verdict(result_, "leak");
 }
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "harness/base/conversions.h"
 #include "harness/cut/open.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/predicates.h"
@@ -109,7 +110,7 @@ TEST(Sheet, FlipsInnerUnmarkedConvexEdgesOnly) {
   Sheet sheet(make_sheet("delaunay", 5));
   sheet.begin_cut();
   for (std::size_t i = 0; i < 3 * sheet.triangle_slots(); ++i) {
-    const HalfEdge h = half_edge(TriangleIndex(i / 3), static_cast<int>(i % 3)), o = sheet.opposite(h);
+    const HalfEdge h = half_edge(TriangleIndex(i / 3), to_int(i % 3)), o = sheet.opposite(h);
     const Sheet before = sheet;
     const VertexIndex a = sheet.origin(h), b = sheet.target(h);
     bool convex = o.valid();
@@ -195,14 +196,14 @@ TEST(Sheet, NeverCollapsesMarkedOrBorderVertices) {
   open_two_edges(sheet);
   ASSERT_EQ(faults(sheet), "");
   for (std::size_t i = 0; i < 3 * sheet.triangle_slots(); ++i) {
-    const HalfEdge h = half_edge(TriangleIndex(i / 3), static_cast<int>(i % 3));
+    const HalfEdge h = half_edge(TriangleIndex(i / 3), to_int(i % 3));
     const HalfEdge first = sheet.first_outgoing(sheet.origin(h));
     bool fixed = false;
     HalfEdge outgoing = first;
-    do
-      fixed |= sheet.on_border(outgoing) || sheet.mark(outgoing) != EdgeMark::none,
-          outgoing = sheet.next_outgoing(outgoing);
-    while (outgoing.valid() && outgoing != first);
+    do {
+      fixed |= sheet.on_border(outgoing) || sheet.mark(outgoing) != EdgeMark::none;
+      outgoing = sheet.next_outgoing(outgoing);
+    } while (outgoing.valid() && outgoing != first);
     EXPECT_FALSE((fixed || !outgoing.valid()) && sheet.collapse(h));
   }
   EXPECT_EQ(faults(sheet), "");
@@ -213,7 +214,7 @@ TEST(Sheet, FreedSlotsAreUsedAgainInTheNextCutOnly) {
   sheet.begin_cut();
   HalfEdge h;
   for (std::size_t i = 0; i < 3 * sheet.triangle_slots() && !h.valid(); ++i)
-    if (sheet.collapse(half_edge(TriangleIndex(i / 3), static_cast<int>(i % 3)))) h = HalfEdge(i);
+    if (sheet.collapse(half_edge(TriangleIndex(i / 3), to_int(i % 3)))) h = HalfEdge(i);
   ASSERT_TRUE(h.valid());
   const std::size_t slots = sheet.triangle_slots(), count = sheet.triangle_count(), vertices = sheet.vertex_slots();
   ASSERT_EQ(slots, count + 2);
@@ -223,7 +224,7 @@ TEST(Sheet, FreedSlotsAreUsedAgainInTheNextCutOnly) {
 
   sheet.begin_cut();
   for (std::size_t i = 0; i < 3 * sheet.triangle_slots(); ++i)
-    if (sheet.collapse(half_edge(TriangleIndex(i / 3), static_cast<int>(i % 3)))) break;
+    if (sheet.collapse(half_edge(TriangleIndex(i / 3), to_int(i % 3)))) break;
   Random random(4);
   TriangleIndex t = any_triangle(sheet, random);
   sheet.split_triangle(t, centre(sheet, t));
@@ -245,7 +246,7 @@ TEST(Sheet, SplittingAnIncisionMakesADeformedVertexOnEachSide) {
   open_two_edges(sheet);
   for (std::size_t d = 0; d < sheet.deformed_slots(); d += 2) {  // pull everything apart
     const DeformedIndex i(d);
-    sheet.set_position(i, sheet.position(i) + Point3{0, 0, 0.1 * static_cast<double>(d % 7)});
+    sheet.set_position(i, sheet.position(i) + Point3{0, 0, 0.1 * to_double(d % 7)});
   }
   const double area = surface_area(sheet);
   sheet.begin_cut();
@@ -318,7 +319,7 @@ TEST(Sheet, NewVerticesOnIncisionsFindTheirSide) {
   std::vector<NewTriangle> added;
   std::array<VertexIndex, 3> m;
   for (std::size_t k = 0; k < 3; ++k) {
-    const HalfEdge h = half_edge(free, static_cast<int>(k)), o = sheet.opposite(h);
+    const HalfEdge h = half_edge(free, to_int(k)), o = sheet.opposite(h);
     m[k] = sheet.new_vertex(k == 0 ? h : o, 0.5, on_edge(sheet, h, 0.5));
     const VertexIndex apex = sheet.origin(Sheet::previous(o));
     removed.push_back(triangle_of(o));
@@ -457,7 +458,7 @@ TEST(Sheet, WeldsTheLipsOfIncisions) {
   sheet.begin_cut();
   open_two_edges(sheet);
   for (std::size_t d = 0; d < sheet.deformed_slots(); d += 2)
-    sheet.set_position(DeformedIndex(d), {static_cast<double>(d), 0, 1});
+    sheet.set_position(DeformedIndex(d), {to_double(d), 0, 1});
   MeshData mesh = sheet.to_mesh_data();
   const Sheet again(mesh);
   EXPECT_EQ(faults(again), "");

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/base/random.h"
 #include "harness/fem/multigrid/level_matrix.h"
 #include "harness/fem/multigrid/stiff_clusters.h"
@@ -35,19 +36,24 @@ TYPED_TEST(Sweeps, AreTriangularSolves) {
     std::vector<double> values;
     for (std::int32_t j = n - 1; j >= 0; --j) {
       if (i != 5 && j != 5 && (i == j || (i + j) % 3 == 0)) blocks.push_back(j);
-      if (i != 5 && j != 5 && (i == j || (i * j) % 4 == 1))
-        scalars.push_back(j), values.push_back(random.between(20, 30));
-      if (i != 5 && j != 5 && (i * j) % 4 == 3) scalars.push_back(j), values.push_back(random.between(0.1, 0.15));
+      if (i != 5 && j != 5 && (i == j || (i * j) % 4 == 1)) {
+        scalars.push_back(j);
+        values.push_back(random.between(20, 30));
+      }
+      if (i != 5 && j != 5 && (i * j) % 4 == 3) {
+        scalars.push_back(j);
+        values.push_back(random.between(0.1, 0.15));
+      }
     }
-    rows.blocks.set(static_cast<std::size_t>(i), blocks);
-    rows.set_scalars(static_cast<std::size_t>(i), scalars, values);
+    rows.blocks.set(to_size(i), blocks);
+    rows.set_scalars(to_size(i), scalars, values);
   }
   LevelMatrix<3, S> a;
   a.follow(rows);
   for (std::size_t k = 0; k < 9 * rows.blocks.slots(); ++k) a.block(0)[k] = static_cast<S>(random.between(-1, 1));
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * n, 3 * n);
   for (int i = 0; i < n; ++i) {
-    const auto row = static_cast<std::size_t>(i);
+    const auto row = to_size(i);
     a.for_each_block(row,
                      [&](int j, const auto& block) { all.block<3, 3>(3 * i, 3 * j) += block.template cast<double>(); });
     a.for_each_scalar(row, [&](int j, S value) { all.block<3, 3>(3 * i, 3 * j).diagonal().array() += double(value); });
@@ -70,7 +76,7 @@ TYPED_TEST(Sweeps, AreTriangularSolves) {
   };
   Vector r(3 * n + LevelMatrix<3, S>::padding), z = r, t = r;
   const Field right = random_field(4, size);
-  for (Eigen::Index u = 0; u < size; ++u) r[static_cast<std::size_t>(u)] = u / 3 == 5 ? S(0) : static_cast<S>(right[u]);
+  for (Eigen::Index u = 0; u < size; ++u) r[to_size(u)] = u / 3 == 5 ? S(0) : static_cast<S>(right[u]);
   const double close = std::is_same_v<S, float> ? 1e-5 : 1e-13;
   a.sweep_forwards(r, z, t);
   const Field first = lower.triangularView<Eigen::Lower>().solve(Field::Zero(size)) + lower.lu().solve(values(r));
@@ -98,10 +104,12 @@ TEST(LevelMatrix, LeavesSmallScalarsOut) {
   const auto set = [&](std::int32_t i) {
     std::vector<std::int32_t> columns(n);
     std::vector<double> values(n);
-    for (std::int32_t j = 0; j < n; ++j)
-      columns[static_cast<std::size_t>(j)] = j, values[static_cast<std::size_t>(j)] = scalars(i, j);
-    rows.blocks.set(static_cast<std::size_t>(i), columns);
-    rows.set_scalars(static_cast<std::size_t>(i), columns, values);
+    for (std::int32_t j = 0; j < n; ++j) {
+      columns[to_size(j)] = j;
+      values[to_size(j)] = scalars(i, j);
+    }
+    rows.blocks.set(to_size(i), columns);
+    rows.set_scalars(to_size(i), columns, values);
   };
   for (std::int32_t i = 0; i < n; ++i) set(i);
   LevelMatrix<2, double> a;
@@ -109,7 +117,7 @@ TEST(LevelMatrix, LeavesSmallScalarsOut) {
   const auto taken = [&] {
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n, n);
     for (std::int32_t i = 0; i < n; ++i)
-      a.for_each_scalar(static_cast<std::size_t>(i), [&](std::int32_t j, double value) { all(i, j) = value; });
+      a.for_each_scalar(to_size(i), [&](std::int32_t j, double value) { all(i, j) = value; });
     return all;
   };
   for (std::int32_t i = 0; i < n; ++i) {
@@ -118,12 +126,13 @@ TEST(LevelMatrix, LeavesSmallScalarsOut) {
         EXPECT_EQ(taken()(i, j), (i + j) % 2 ? 0 : scalars(i, j));
       }
     EXPECT_NEAR(taken().row(i).sum(), scalars.row(i).sum(), 1e-14);  // a translation is what it was
-    EXPECT_NEAR(a.left_out(static_cast<std::size_t>(i)), taken()(i, i) - scalars(i, i), 1e-14);
+    EXPECT_NEAR(a.left_out(to_size(i)), taken()(i, i) - scalars(i, i), 1e-14);
   }
-  EXPECT_EQ(a.scalar_count(), static_cast<std::size_t>(n * n / 2));
+  EXPECT_EQ(a.scalar_count(), to_size(n * n / 2));
 
   // A cut makes slivers of one row, and takes most of another.
-  scalars(3, 3) *= 1e4, scalars(8, 8) *= 1e-4;
+  scalars(3, 3) *= 1e4;
+  scalars(8, 8) *= 1e-4;
   std::vector<std::int32_t> changed{3, 8};
   for (const std::int32_t i : changed) set(i);
   a.follow(rows, changed);
@@ -158,11 +167,12 @@ TEST(StiffClusters, AreSolvedExactly) {
   ASSERT_GT(clusters.size(), 2u);
   clusters.factor(matrix, nothing_held);
 
-  const auto n = static_cast<Eigen::Index>(2 * a.vertices());
+  const auto n = to_index(2 * a.vertices());
   const Eigen::MatrixXd all = matrix.dense();
   const Field right = random_field(9, n);
-  std::vector<double> r(static_cast<std::size_t>(n) + 4), z(r.size()), t(r.size());
-  Eigen::Map<Field>(r.data(), n) = right, t = r;
+  std::vector<double> r(to_size(n) + 4), z(r.size()), t(r.size());
+  Eigen::Map<Field>(r.data(), n) = right;
+  t = r;
   clusters.correct_forwards(matrix, z, t);
   const Field forwards = Eigen::Map<const Field>(z.data(), n);
   EXPECT_LT((Eigen::Map<const Field>(t.data(), n) - (right - all * forwards)).norm(), 1e-9 * right.norm());
@@ -172,7 +182,8 @@ TEST(StiffClusters, AreSolvedExactly) {
   // Backwards after forwards is symmetric: B = B^T for the residuals r and q.
   const auto both = [&](const Field& from) {
     std::vector<double> x(r.size()), left(r.size()), start(r.size());
-    Eigen::Map<Field>(left.data(), n) = from, start = left;
+    Eigen::Map<Field>(left.data(), n) = from;
+    start = left;
     clusters.correct_forwards(matrix, x, left);
     clusters.correct_backwards(matrix, start, x);
     return Field(Eigen::Map<const Field>(x.data(), n));

@@ -59,8 +59,10 @@ TEST(SolversAfterCuts, SixtyStepsEndInOnePlace) {
     Body<3> body(make_sheet("delaunay", 8), skin, {.bending = BendingKind::patches, .gravity = {0, 0, -9.81}},
                  held_left());
     StepOptions options;
-    options.integrator = Integrator::backward_euler, options.step = 1.0 / 240;
-    options.solver = solver, options.solver.tolerance = 1e-8;
+    options.integrator = Integrator::backward_euler;
+    options.step = 1.0 / 240;
+    options.solver = solver;
+    options.solver.tolerance = 1e-8;
     Stepper<3> stepper(options);
     for (int n = 0; n < 60; ++n) {
       if (n == 10) body.cut(cuts[0], "conventional_split");

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/base/random.h"
 #include "harness/fem/linear/linear_solver.h"
 #include "harness/fem/solvers/sliver_blocks.h"
@@ -28,10 +29,10 @@ MeshData strip(int n, double distance) {
   MeshData mesh;
   for (const double y : heights)
     for (int i = 0; i <= n; ++i) {
-      mesh.rest.push_back({i / static_cast<double>(n), y / n});
+      mesh.rest.push_back({i / to_double(n), y / n});
       mesh.deformed.push_back({mesh.rest.back().x, mesh.rest.back().y, 0});
     }
-  for (int j = 0; j + 1 < static_cast<int>(heights.size()); ++j)
+  for (int j = 0; j + 1 < to_int(heights.size()); ++j)
     for (int i = 0; i < n; ++i) {
       const int low = j * (n + 1) + i, high = low + n + 1;
       mesh.triangles.push_back({low, low + 1, high + 1});
@@ -43,25 +44,27 @@ MeshData strip(int n, double distance) {
 /// Plane stress (Young's modulus x thickness 1, Poisson's ratio 0.3), the bottom held.
 System<2> plane_stress(const MeshData& mesh) {
   System<2> s;
-  const auto unknowns = static_cast<Eigen::Index>(2 * mesh.rest.size());
+  const auto unknowns = to_index(2 * mesh.rest.size());
   s.blocks = Eigen::MatrixXd::Zero(unknowns, unknowns);
   Eigen::Matrix3d law;
   law << 1, 0.3, 0, 0.3, 1, 0, 0, 0, 0.35;
   law /= 1 - 0.3 * 0.3;
   for (const auto& t : mesh.triangles) {
-    const auto at = [&](std::size_t k) { return mesh.rest[static_cast<std::size_t>(t[k % 3])]; };
+    const auto at = [&](std::size_t k) { return mesh.rest[to_size(t[k % 3])]; };
     const double twice = cross(at(1) - at(0), at(2) - at(0));
     Eigen::Matrix<double, 3, 6> strain = Eigen::Matrix<double, 3, 6>::Zero();
     for (std::size_t k = 0; k < 3; ++k) {
       const double dx = (at(k + 1).y - at(k + 2).y) / twice, dy = (at(k + 2).x - at(k + 1).x) / twice;
-      const auto c = static_cast<Eigen::Index>(2 * k);
-      strain(0, c) = dx, strain(1, c + 1) = dy, strain(2, c) = dy, strain(2, c + 1) = dx;
+      const auto c = to_index(2 * k);
+      strain(0, c) = dx;
+      strain(1, c + 1) = dy;
+      strain(2, c) = dy;
+      strain(2, c + 1) = dx;
     }
     const Eigen::Matrix<double, 6, 6> stiffness = twice / 2 * strain.transpose() * law * strain;
     for (std::size_t k = 0; k < 3; ++k)
       for (std::size_t l = 0; l < 3; ++l)
-        s.blocks.block<2, 2>(2 * t[k], 2 * t[l]) +=
-            stiffness.block<2, 2>(static_cast<Eigen::Index>(2 * k), static_cast<Eigen::Index>(2 * l));
+        s.blocks.block<2, 2>(2 * t[k], 2 * t[l]) += stiffness.block<2, 2>(to_index(2 * k), to_index(2 * l));
   }
   for (const auto& p : mesh.rest) s.held.insert(s.held.end(), 2, p.y == 0);
   s.elements = ElementTable(Sheet(mesh));
@@ -191,13 +194,15 @@ TEST(SliverBlocks, LongRowIsParted) {
   BlockMatrix<2> a;
   a.resize(sheet.deformed_slots());
   for (std::size_t i = 0; i < a.rows(); ++i) {
-    const auto self = static_cast<std::int32_t>(i);
+    const auto self = to_int32(i);
     a.set_row(i, {&self, 1});
     a.block(a.first_slot(i)).setIdentity();
   }
   const std::vector<std::uint8_t> held(2 * a.rows(), 0);
   SystemMatrix<2> matrix;
-  matrix.blocks = &a, matrix.held = &held, matrix.elements = &elements;
+  matrix.blocks = &a;
+  matrix.held = &held;
+  matrix.elements = &elements;
   SliverBlocks<2> blocks;
   blocks.setup(matrix);
   std::vector<int> group(a.rows(), -1);
@@ -207,15 +212,15 @@ TEST(SliverBlocks, LongRowIsParted) {
     EXPECT_LE(g.vertices.size(), 32u);
     EXPECT_TRUE(std::is_sorted(g.vertices.begin(), g.vertices.end()));
     for (const std::int32_t v : g.vertices) {
-      EXPECT_EQ(group[static_cast<std::size_t>(v)], -1);  // groups don't share vertices
-      group[static_cast<std::size_t>(v)] = number;
+      EXPECT_EQ(group[to_size(v)], -1);  // groups don't share vertices
+      group[to_size(v)] = number;
     }
     ++number;
   }
   EXPECT_GE(number, 4);
   EXPECT_LE(number, 8);
   for (int i = 0; i <= n; ++i) {
-    const auto low = static_cast<std::size_t>(n / 2 * (n + 1) + i), high = low + n + 1;
+    const auto low = to_size(n / 2 * (n + 1) + i), high = low + n + 1;
     EXPECT_GE(group[low], 0);
     EXPECT_EQ(group[low], group[high]);
   }

@@ -7,6 +7,7 @@
 #include <set>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/constraints.h"
 #include "harness/mesh/sheet.h"
 
@@ -22,7 +23,7 @@ inline std::multimap<DeformedIndex, DeformedIndex> border_of(const Sheet& sheet,
       const HalfEdge h = half_edge(t, k);
       if (!sheet.separates(h) && triangles.contains(triangle_of(sheet.opposite(h)))) continue;
       const auto& d = sheet.triangle(t).deformed;
-      border.emplace(d[static_cast<std::size_t>(k)], d[static_cast<std::size_t>(next_corner(k))]);
+      border.emplace(d[to_size(k)], d[to_size(next_corner(k))]);
     }
   return border;
 }

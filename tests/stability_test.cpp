@@ -123,7 +123,8 @@ newton = 20)",
                                     : name == "explicit"   ? "step_share"
                                     : name == "iterations" ? "max_iterations"
                                                            : "pose_amount");
-    verdict[key] = row.get("verdict"), reason[key] = row.get("reason");
+    verdict[key] = row.get("verdict");
+    reason[key] = row.get("reason");
     if (name == "vertex") explicit_step[key] = std::stod(row.get("explicit_step_ratio"));
   }
   ASSERT_EQ(verdict.size(), 30u);
@@ -133,8 +134,10 @@ newton = 20)",
   for (const char* method : {"conventional_split", "snap_or_split", "split_and_tie"}) {
     const std::string m = std::string(" ") + method + " ";
     for (const char* place : {"0.2", "1e-06", "1e-12"}) is("vertex" + m + place, "ok");
-    is("iterations" + m + "2", "solver_stalled"), is("iterations" + m + "2000", "ok");
-    is("turned_over" + m + "1.05", "ok"), is("turned_over" + m + "-1", "inverted");
+    is("iterations" + m + "2", "solver_stalled");
+    is("iterations" + m + "2000", "ok");
+    is("turned_over" + m + "1.05", "ok");
+    is("turned_over" + m + "-1", "inverted");
     is("piece_static" + m + "0", "solver_stalled");
     EXPECT_NE(reason["piece_static" + m + "0"].find("held nowhere"), std::string::npos);
   }
@@ -143,7 +146,8 @@ newton = 20)",
   EXPECT_GT(explicit_step["vertex snap_or_split 1e-06"], 0.1);
   EXPECT_GT(explicit_step["vertex split_and_tie 1e-06"], 1e3 * explicit_step["vertex conventional_split 1e-06"]);
   EXPECT_NE(verdict["explicit conventional_split 0.1"], "ok");
-  is("explicit conventional_split 1e-06", "ok"), is("explicit snap_or_split 0.1", "ok");
+  is("explicit conventional_split 1e-06", "ok");
+  is("explicit snap_or_split 0.1", "ok");
   is("explicit split_and_tie 0.1", "refused");
 
   const Result drawn = run("methods >/dev/null; /usr/bin/python3 '" CUTBENCH_TEST_CASES
@@ -163,8 +167,11 @@ newton = 20)",
   const auto keys = [&](const std::string& folder, std::vector<std::string>& to) {
     for (const Record& row : records_of(folder)) to.push_back(row.key(stability_key_columns()) + row.get("verdict"));
   };
-  keys("r", whole), keys("s1", parts), keys("s2", parts);
-  std::sort(whole.begin(), whole.end()), std::sort(parts.begin(), parts.end());
+  keys("r", whole);
+  keys("s1", parts);
+  keys("s2", parts);
+  std::sort(whole.begin(), whole.end());
+  std::sort(parts.begin(), parts.end());
   EXPECT_EQ(whole, parts);
 }
 
@@ -202,7 +209,10 @@ solver = ["multigrid", "cholmod"])"));
   double ms_before = 0, error_before = 0;
   int rows = 0;
   for (const std::string& line : lines_of(read(folder_ / "r/stability/whole_step.txt"))) {
-    if (line.starts_with("Fronts: ")) front = line, setting = "";
+    if (line.starts_with("Fronts: ")) {
+      front = line;
+      setting = "";
+    }
     const std::vector<std::string> cells(std::sregex_token_iterator(line.begin(), line.end(), gap, -1), {});
     if (front.empty() || cells.size() != 13 || cells[0] == "setting") continue;
     const double ms = std::stod(cells[4]), error = std::stod(cells[8]);
@@ -213,7 +223,10 @@ solver = ["multigrid", "cholmod"])"));
       EXPECT_GT(ms, ms_before) << line;
       EXPECT_LT(error, error_before) << line;
     }
-    setting = cells[0], ms_before = ms, error_before = error, ++rows;
+    setting = cells[0];
+    ms_before = ms;
+    error_before = error;
+    ++rows;
   }
   EXPECT_GE(rows, 8);  // two settings, two ways to choose the solver, two measures of the error
 }
@@ -234,12 +247,16 @@ class Saboteur : public CuttingMethod {
 TEST_F(Stability, ACrashOrAHangCostsOneRow) {
   std::vector<MethodRow> rows{find_method("conventional_split"), find_method("conventional_split"),
                               find_method("conventional_split")};
-  rows[1].name = "crashing", rows[1].factory = [](double) { return std::make_unique<Saboteur>(false); };
-  rows[2].name = "hanging", rows[2].factory = [](double) { return std::make_unique<Saboteur>(true); };
+  rows[1].name = "crashing";
+  rows[1].factory = [](double) { return std::make_unique<Saboteur>(false); };
+  rows[2].name = "hanging";
+  rows[2].factory = [](double) { return std::make_unique<Saboteur>(true); };
   write(folder_ / "stability.toml", head(R"("crashing", "hanging", "conventional_split")") + "time_limit_s = 0.5\n" +
                                         sweep("cut", "cut = \"past_vertex\"\nplace = [0.1, 0.2]\n"));
   RunOptions options;
-  options.out = folder_ / "r", options.quiet = true, options.workers = 2;
+  options.out = folder_ / "r";
+  options.quiet = true;
+  options.workers = 2;
   EXPECT_FALSE(run_stability(read_experiment(folder_ / "stability.toml"), rows, gather_context(), options));
   std::map<std::string, int> verdicts;
   for (const Record& row : records_of("r")) {

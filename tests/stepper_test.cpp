@@ -8,6 +8,7 @@
 #include <functional>
 #include <numbers>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "harness/mesh/families.h"
 #include "tests/dense_solves.h"
@@ -43,7 +44,7 @@ TEST(Stepper, FreeFallIsExact) {
     std::vector<Eigen::Index> falling;  // unknowns of vertices well inside the cut-out
     for (std::size_t v = 0; v < body.model.vertices(); ++v) {
       const Point2 p = body.sheet.rest(body.sheet.rest_vertex(DeformedIndex(v)));
-      if (p.x > 0.36 && p.x < 0.64 && p.y > 0.36 && p.y < 0.66) falling.push_back(3 * static_cast<Eigen::Index>(v));
+      if (p.x > 0.36 && p.x < 0.64 && p.y > 0.36 && p.y < 0.66) falling.push_back(3 * to_index(v));
     }
     ASSERT_GT(falling.size(), 4u);
     Stepper<3> stepper(with(Integrator::backward_euler, h));
@@ -84,7 +85,7 @@ TEST(Stepper, AStretchedSheetIsAsLongAsTheClosedFormSays) {
     const double expected = strain == Strain::green ? longer : 1 + pull / young;
     for (std::size_t v = 0; v < body.model.vertices(); ++v) {
       const Point2 rest = body.sheet.rest(body.sheet.rest_vertex(DeformedIndex(v)));
-      EXPECT_NEAR(body.state.x[static_cast<Eigen::Index>(2 * v)], expected * rest.x, 1e-8);
+      EXPECT_NEAR(body.state.x[to_index(2 * v)], expected * rest.x, 1e-8);
     }
   }
 }
@@ -120,7 +121,8 @@ TEST(Stepper, OneModeIsDampedAsTheoryHasIt) {
                {.dimension = 2, .strain = Strain::linear});
   auto& model = body.model;
   const Field rest = body.state.x;
-  model.rotate(rest), model.assemble(0, 1);
+  model.rotate(rest);
+  model.assemble(0, 1);
   const Eigen::MatrixXd k = dense(model);
   model.assemble(1, 0);
   const Eigen::MatrixXd m = dense(model);
@@ -190,7 +192,7 @@ TEST(Equilibrium, ElasticaInThePlane) {
     Stepper<2> stepper(with(Integrator::equilibrium, 1, "cholmod", 200));
     const StepReport report = stepper.step(body.model, body.state);
     ASSERT_EQ(report.verdict, "ok") << report.reason;
-    const auto end = static_cast<Eigen::Index>(2 * ((ny / 2) * (40 * ny + 1) + 40 * ny));
+    const auto end = to_index(2 * ((ny / 2) * (40 * ny + 1) + 40 * ny));
     tip.push_back({length - body.state.x[end], body.state.x[end + 1] - thickness / 2});
   }
   const double u = tip[1][0] + (tip[1][0] - tip[0][0]) / 3, w = tip[1][1] + (tip[1][1] - tip[0][1]) / 3;
@@ -245,7 +247,7 @@ TEST(Equilibrium, NafemsLe1Converges) {
     // 10 MPa outwards on the outer ellipse, edge by edge (per thickness 0.1 m both sides: left out).
     std::vector<Traction> pressure;
     for (int j = 0; j < n; ++j) {
-      const Point2 a = map(1, static_cast<double>(j) / n), b = map(1, (j + 1.0) / n), d = b - a;
+      const Point2 a = map(1, to_double(j) / n), b = map(1, (j + 1.0) / n), d = b - a;
       const double length = std::sqrt(squared_length(d));
       pressure.push_back({{{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}},
                           {10 * d.y / length, -10 * d.x / length, 0}});
@@ -259,7 +261,7 @@ TEST(Equilibrium, NafemsLe1Converges) {
     double sum = 0;
     const auto corners = body.model.incidence().at(0);
     for (const auto c : corners) sum += body.model.deformation(triangle_of(c)()).stress(1, 1);
-    stress.push_back(sum / static_cast<double>(corners.size()));
+    stress.push_back(sum / to_double(corners.size()));
   }
   for (std::size_t i = 0; i + 1 < stress.size(); ++i) {
     const double ratio = (92.7 - stress[i]) / (92.7 - stress[i + 1]);
@@ -301,7 +303,8 @@ TEST(Stepper, P5NothingBlowsUpOnSlivers) {
           if (step > 1 && solver != "cholmod") continue;
           SCOPED_TRACE(solver + ", h " + std::to_string(step) + ", E " + std::to_string(stiffness));
           Material material = skin;
-          material.stiffness = stiffness, material.poisson = poisson;
+          material.stiffness = stiffness;
+          material.poisson = poisson;
           Body<3> body = with_slivers(material, {});
           body.state.v = 1e-3 * (37 * body.state.x.array()).sin();
           Stepper<3> stepper(with(Integrator::backward_euler, step, solver));

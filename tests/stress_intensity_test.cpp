@@ -9,6 +9,7 @@
 #include <iostream>
 #include <numbers>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/families.h"
 #include "harness/problems/common/quadrature.h"
 #include "harness/problems/in_plane/static_solve.h"
@@ -48,7 +49,7 @@ Field at_vertices(const ElasticField& field, const Sheet& sheet, double radius =
     const Complex z = field.frame().to_local(p);
     return std::abs(std::abs(z) - radius) < 1e-4 ? field.frame().to_rest(radius * z / std::abs(z)) : p;
   };
-  Field displacement = Field::Zero(static_cast<Eigen::Index>(2 * sheet.deformed_slots()));
+  Field displacement = Field::Zero(to_index(2 * sheet.deformed_slots()));
   for (std::size_t t = 0; t < sheet.triangle_slots(); ++t) {
     const auto corners = sheet.corners(TriangleIndex(t));
     const Point2 inside = 1.0 / 3 * (corners[0] + corners[1] + corners[2]);
@@ -174,7 +175,8 @@ TEST(StressIntensity, OfAnArcGoesWithTheEnergyOfTwoCuts) {
                          rubber.stress((gradient + gradient.transpose()) / 2).cwiseProduct(gradient).sum();
     }
     Tip tip = arc.tip;
-    tip.at = arc.frame.to_rest(std::polar(arc.radius, arc.half + further * more)), tip.angle += further * more;
+    tip.at = arc.frame.to_rest(std::polar(arc.radius, arc.half + further * more));
+    tip.angle += further * more;
     // Fields of the longer arc for the longer arc: it is symmetric about another axis.
     const double half = arc.half + further * more / 2;
     const Axes axes{arc.frame.origin, arc.frame.angle + further * more / 2};

@@ -10,6 +10,7 @@
 #include <complex>
 #include <numbers>
 
+#include "harness/base/conversions.h"
 #include "harness/base/random.h"
 #include "harness/cut/constraint_source.h"
 #include "harness/fem/tips/tip_quadrature.h"
@@ -82,7 +83,7 @@ Case made(const std::string& problem, const std::string& family, int n, std::siz
 
 Eigen::VectorXd some_coefficients(const TipFunctions& functions, std::uint64_t seed = 3) {
   Random random(seed);
-  Eigen::VectorXd c(static_cast<Eigen::Index>(functions.unknowns()));
+  Eigen::VectorXd c(to_index(functions.unknowns()));
   for (double& x : c) x = 2 * random.unit() - 1;
   return c;
 }
@@ -133,8 +134,8 @@ TEST(TipFunctions, JumpAcrossTheIncisionAlone) {
             const Point2 p = 0.3 * sheet.rest(sheet.origin(h)) + 0.7 * sheet.rest(sheet.target(h));
             for (std::size_t tip = 0; tip < functions.tips().size(); ++tip)
               for (std::size_t j = 0; j < TipFunctions::per_tip; ++j) {
-                Eigen::VectorXd c = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(functions.unknowns()));
-                c[static_cast<Eigen::Index>(8 * tip + 2 * j)] = 1;
+                Eigen::VectorXd c = Eigen::VectorXd::Zero(to_index(functions.unknowns()));
+                c[to_index(8 * tip + 2 * j)] = 1;
                 const double here = functions.displacement(t, p, c).value.x(),
                              across = functions.displacement(o, p, c).value.x();
                 const bool opened = sheet.mark(h) == EdgeMark::incision;
@@ -225,14 +226,14 @@ TEST(TipFunctions, HaveTheEnergyOfTheirFields) {
       for (std::size_t tip = 0; tip < energies.functions.tips().size(); ++tip) {
         Eigen::VectorXd c = some_coefficients(energies.functions);
         for (Eigen::Index i = 0; i < c.size(); ++i)
-          if (i / 8 != static_cast<Eigen::Index>(tip)) c[i] = 0;
+          if (i / 8 != to_index(tip)) c[i] = 0;
         const double radius = energies.functions.tips()[tip].radius;
         // theta is measured from the incision's first edge.
         const auto field = [&](double r, double theta) {
           const double s = r / radius, chi = (1 - s) * (1 - s);
           const double sine = std::sin(theta / 2), cosine = std::cos(theta / 2);
           Eigen::Vector4d f(sine, cosine, sine * std::sin(theta), cosine * std::sin(theta));
-          const auto place = static_cast<Eigen::Index>(8 * tip);
+          const auto place = to_index(8 * tip);
           Eigen::Vector2d u(0, 0);
           for (Eigen::Index j = 0; j < 4; ++j) u += chi * sqrt(r) * f[j] * c.segment<2>(place + 2 * j);
           return u;
@@ -259,8 +260,7 @@ TEST(TipFunctions, HaveTheEnergyOfTheirFields) {
             exact +=
                 sheet_material.stress(strain).cwiseProduct(strain).sum() / 2 * r * (radius / rings) * (2 * pi / spokes);
           }
-        const double energy =
-            energies.system.energy(Field::Zero(static_cast<Eigen::Index>(2 * sheet.deformed_slots())), c);
+        const double energy = energies.system.energy(Field::Zero(to_index(2 * sheet.deformed_slots())), c);
         EXPECT_NEAR(energy, exact, 1e-4 * exact);
       }
     }
@@ -275,10 +275,10 @@ TEST(TipFunctions, RigidMotionsAndStressAlongTheCutDoNothing) {
       const Energies energies(sheet, constraints);
       const Eigen::VectorXd c = some_coefficients(energies.functions);
       const auto moved = [&](const Eigen::Matrix2d& gradient) {
-        Field u = Field::Zero(static_cast<Eigen::Index>(2 * sheet.deformed_slots()));
+        Field u = Field::Zero(to_index(2 * sheet.deformed_slots()));
         for (std::size_t d = 0; d < sheet.deformed_slots(); ++d)
           if (const VertexIndex v = sheet.rest_vertex(DeformedIndex(d)); v.valid())
-            u.segment<2>(static_cast<Eigen::Index>(2 * d)) =
+            u.segment<2>(to_index(2 * d)) =
                 gradient * Eigen::Vector2d(sheet.rest(v).x, sheet.rest(v).y) + Eigen::Vector2d(1, 2);
         return u;
       };
@@ -324,7 +324,8 @@ TEST(TipFunctions, TheSolutionHasTheLeastEnergy) {
           if (const VertexIndex v = sheet.rest_vertex(DeformedIndex(d)); v.valid()) {
             const Point2 p = sheet.rest(v);
             const double bump = 1e-2 * p.x * (1 - p.x) * p.y * (1 - p.y);
-            du.segment<2>(static_cast<Eigen::Index>(2 * d)) << bump * (a + p.x), bump * (b - both * p.y);
+            du.segment<2>(to_index(2 * d)) << bump * (a + p.x);
+            bump*(b - both * p.y);
           }
         const Eigen::VectorXd dc = 1e-2 * some_coefficients(energies.functions, 10 + static_cast<std::uint64_t>(trial));
         const double plus = energy(solution.displacement + du, solution.of_tips + dc),
@@ -348,7 +349,7 @@ TEST(TipFunctions, KFromTheirCoefficients) {
       {{k2 * (kappa + 1), k1 * (kappa + 1)}, {k1 * (kappa - 1), k2 * (1 - kappa)}, {k1, k2}, {k2, -k1}}};
   const Eigen::Rotation2Dd turn(specimen.angle);
   Eigen::VectorXd c(8);
-  for (Eigen::Index j = 0; j < 4; ++j) c.segment<2>(2 * j) = factor * (turn * local[static_cast<std::size_t>(j)]);
+  for (Eigen::Index j = 0; j < 4; ++j) c.segment<2>(2 * j) = factor * (turn * local[to_size(j)]);
   for (std::size_t slot = 0; slot < sheet.triangle_slots(); ++slot)
     for (const auto& reach : functions.reaching(TriangleIndex(slot))) {
       const auto corners = sheet.corners(TriangleIndex(slot));

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/predicates.h"
@@ -38,7 +39,7 @@ struct Bench {
 };
 
 std::size_t count(const Subdivision& trace, Place::Kind kind) {
-  return static_cast<std::size_t>(
+  return to_size(
       std::count_if(trace.nodes.begin(), trace.nodes.end(), [&](const auto& node) { return node.place.kind == kind; }));
 }
 

@@ -44,7 +44,9 @@ print(json.dumps({"format": 1, "commit": "", "tools": {"of": "this test"}, "rows
     EXPECT_EQ(result.code, 0) << result.error;
     write(folder_ / name, result.out);
   };
-  count("0", "base.json"), count("0", "same.json"), count("2500", "slower.json");
+  count("0", "base.json");
+  count("0", "same.json");
+  count("2500", "slower.json");
   const auto same = run("compare base.json same.json");
   EXPECT_EQ(same.code, 0) << same.out << same.error;
   const auto slower = run("compare base.json slower.json");

@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 
+#include "harness/base/conversions.h"
 #include "harness/base/errors.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/quality.h"
@@ -30,8 +31,10 @@ TEST(Problems, KeepTheContract) {
     EXPECT_NE(a.cuts.front().points, other.cuts.front().points);
     const Sheet sheet = cut_by(a, "conventional_split");
     std::vector<Budget> budgets{{}};
-    if (problem->takes_budgets())
-      budgets.push_back({{.name = "cg"}, 5}), budgets.push_back({{.name = "cg_sliver_blocks"}, 400});
+    if (problem->takes_budgets()) {
+      budgets.push_back({{.name = "cg"}, 5});
+      budgets.push_back({{.name = "cg_sliver_blocks"}, 400});
+    }
     const auto answers = problem->answer(a, sheet, budgets);
     ASSERT_EQ(answers.size(), budgets.size());
     for (std::size_t i = 0; i < answers.size(); ++i) {
@@ -96,8 +99,8 @@ std::map<std::string, Series> series_of(const Problem& problem, const std::strin
     for (std::size_t index = 0; index < members; ++index) {
       const Specimen specimen = problem.specimen(family, coarsest << level, 1, index);
       for (const Measure& m : solved(problem, specimen, cut_by(specimen, method)).measures) {
-        all[m.name].error[level] += m.error / static_cast<double>(members);
-        if (m.exact != 0) all[m.name].ratio[level] += m.value / m.exact / static_cast<double>(members);
+        all[m.name].error[level] += m.error / to_double(members);
+        if (m.exact != 0) all[m.name].ratio[level] += m.value / m.exact / to_double(members);
       }
     }
   std::cout << problem.name() << ", " << family << ", " << method << ":";

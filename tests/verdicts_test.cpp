@@ -2,6 +2,7 @@
 // where nothing is wrong.
 #include <gtest/gtest.h>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/families.h"
 #include "harness/simulation/simulation.h"
 #include "harness/simulation/turned_over.h"
@@ -15,13 +16,16 @@ namespace {
 Scene falling(Integrator integrator, double step, int steps) {
   Scene scene;
   scene.resolution = 200;
-  scene.integrator = integrator, scene.step = step, scene.duration = step * steps;
+  scene.integrator = integrator;
+  scene.step = step;
+  scene.duration = step * steps;
   scene.material = {.density = 2.2, .stiffness = 1000, .poisson = 0.45};
   scene.physics.gravity = {0, 0, -9.81};
   scene.solver.name = "cholmod";
   scene.pins.push_back({{}, {.where = {{0, 0}, {0, 1}}}});
   Scene::Cut& cut = scene.cuts.emplace_back();
-  cut.time = scene.duration / 2, cut.curve = line({0.31, 0.2}, {0.48, 0.83});
+  cut.time = scene.duration / 2;
+  cut.curve = line({0.31, 0.2}, {0.48, 0.83});
   return scene;
 }
 
@@ -50,7 +54,8 @@ TEST(Verdict, OkWhereNothingIsWrong) {
 TEST(Verdict, AnExplicitStepBeyondItsLimit) {
   Scene scene = falling(Integrator::symplectic_euler, 1e-4, 4000);
   const double limit = Simulation::start(scene)->step_limits().membrane;
-  scene.step = 1.2 * limit, scene.duration = 4000 * scene.step;
+  scene.step = 1.2 * limit;
+  scene.duration = 4000 * scene.step;
   const auto motion = Simulation::start(scene);
   motion->watch();
   const auto method = find_method("edge_release").make(0);
@@ -68,14 +73,16 @@ TEST(Verdict, AnExplicitStepBeyondItsLimit) {
 TEST(Verdict, AnImplicitStepThatGainsEnergy) {
   for (const Integrator integrator : {Integrator::backward_euler, Integrator::midpoint}) {
     Scene scene = falling(integrator, 0.04, 25);
-    scene.material.stiffness = 1e5, scene.material.density = 0.2;
+    scene.material.stiffness = 1e5;
+    scene.material.density = 0.2;
     EXPECT_EQ(run(scene)->verdict().name, "energy_growth") << name_of(integrator_names, integrator);
   }
 }
 
 TEST(Verdict, InvertedInThePlane) {
   Scene scene = falling(Integrator::backward_euler, 0.01, 10);
-  scene.physics.dimension = 2, scene.physics.gravity = {};
+  scene.physics.dimension = 2;
+  scene.physics.gravity = {};
   scene.pins.push_back({{}, {.where = {{1, 0}, {1, 1}}, .displacement = {-1.5, 0, 0}}});
   const auto motion = run(scene);
   EXPECT_EQ(motion->verdict().name, "inverted") << motion->verdict().reason;
@@ -85,11 +92,11 @@ TEST(Verdict, InvertedInThePlane) {
 /// A crease turns nothing over, a vertex pulled across its ring does, a lip pulled across the other does not.
 TEST(Verdict, InvertedInSpace) {
   Sheet sheet(make_sheet("grid", 8));
-  Field x = Field::Zero(static_cast<Eigen::Index>(3 * sheet.deformed_slots()));
+  Field x = Field::Zero(to_index(3 * sheet.deformed_slots()));
   const auto place = [&](auto where) {
     for (std::size_t v = 0; v < sheet.deformed_slots(); ++v) {
       const Point2 p = sheet.rest(sheet.rest_vertex(DeformedIndex(v)));
-      x.segment<3>(static_cast<Eigen::Index>(3 * v)) = where(p);
+      x.segment<3>(to_index(3 * v)) = where(p);
     }
   };
   place([](Point2 p) { return Eigen::Vector3d(p.x, p.y, 0); });
@@ -115,10 +122,14 @@ TEST(Verdict, SolverStalled) {
 /// Steps of a second of a very stiff sheet that falls: three iterations are not enough.
 TEST(Verdict, NewtonFailed) {
   Scene scene = falling(Integrator::backward_euler, 1, 4);
-  scene.material.stiffness = 1e9, scene.newton = 3;
+  scene.material.stiffness = 1e9;
+  scene.newton = 3;
   EXPECT_EQ(run(scene)->verdict().name, "newton_failed");
   scene = falling(Integrator::equilibrium, 1, 1);
-  scene.newton = 1, scene.physics.dimension = 2, scene.physics.gravity = {0, -9.81, 0}, scene.cuts.clear();
+  scene.newton = 1;
+  scene.physics.dimension = 2;
+  scene.physics.gravity = {0, -9.81, 0};
+  scene.cuts.clear();
   EXPECT_EQ(run(scene)->verdict().name, "newton_failed");
 }
 
@@ -135,7 +146,7 @@ TEST(Verdict, NewtonConverges) {
 
 TEST(Verdict, TimedOut) {
   const std::size_t steps = 100'000'000;  // hours, and the clock of the process may tick in hundredths of a second
-  const Scene scene = falling(Integrator::symplectic_euler, 1e-4, static_cast<int>(steps));
+  const Scene scene = falling(Integrator::symplectic_euler, 1e-4, to_int(steps));
   const auto motion = Simulation::start(scene);
   motion->limit_time(1e-9);
   EXPECT_EQ(motion->advance(scene.duration, *find_method("edge_release").make(0), {}).verdict, "timed_out");
@@ -148,7 +159,9 @@ TEST(Verdict, TimedOut) {
 TEST(Verdict, ASheetAtRestGainsNothing) {
   for (const Integrator integrator : {Integrator::backward_euler, Integrator::midpoint, Integrator::symplectic_euler}) {
     Scene scene = falling(integrator, 1e-4, 50);
-    scene.physics.gravity = {}, scene.physics.bending = BendingKind::patches, scene.material.bending = 4.2e-4;
+    scene.physics.gravity = {};
+    scene.physics.bending = BendingKind::patches;
+    scene.material.bending = 4.2e-4;
     EXPECT_EQ(run(scene, "conventional_split")->verdict().name, "ok") << name_of(integrator_names, integrator);
   }
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <thread>
 
+#include "harness/base/conversions.h"
 #include "harness/cut/constraint_source.h"
 #include "harness/mesh/families.h"
 #include "methods/registry.h"
@@ -54,7 +55,7 @@ class WorkerTest : public testing::Test {
     asked_ = 0;
     return Worker({row, 0}).cut(base_, cuts, {});
   }
-  static double us(std::size_t times) { return 1e3 * static_cast<double>(times) * slowness.count(); }
+  static double us(std::size_t times) { return 1e3 * to_double(times) * slowness.count(); }
 
   const BaseSheet base_{Sheet(make_sheet("grid", 10))};
   const std::vector<Curve> three_cuts_{line({-0.1, 0.22}, {1.1, 0.27}), line({0.31, 0.51}, {0.62, 0.58}),

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "harness/base/conversions.h"
 #include "harness/judge/judged_sheet.h"
 #include "harness/mesh/families.h"
 #include "methods/conventional_split/conventional_split.h"
@@ -28,8 +29,10 @@ class LosesAHundredth final : public CuttingMethod {
     double length = 0;
     for (std::size_t t = 0; t < sheet.triangle_slots(); ++t)
       for (int k = 0; k < 3; ++k)
-        if (const HalfEdge h = half_edge(TriangleIndex(t), k); sheet.mark(h) == EdgeMark::path)
-          outgoing[sheet.origin(h)].push_back(h), length += length_of(sheet, h) / 2;
+        if (const HalfEdge h = half_edge(TriangleIndex(t), k); sheet.mark(h) == EdgeMark::path) {
+          outgoing[sheet.origin(h)].push_back(h);
+          length += length_of(sheet, h) / 2;
+        }
     const auto tip =
         std::find_if(outgoing.begin(), outgoing.end(), [](const auto& at) { return at.second.size() == 1; });
     ASSERT_NE(tip, outgoing.end());
@@ -52,13 +55,13 @@ class LosesAHundredth final : public CuttingMethod {
 TEST(Verdicts, AreReadAsTheyAreWritten) {
   for (const auto& entry : verdict_names) {
     EXPECT_EQ(value_named(verdict_names, name_of(entry.value)), entry.value) << entry.name;
-    EXPECT_EQ(&entry - verdict_names.data(), static_cast<int>(entry.value)) << entry.name;
+    EXPECT_EQ(&entry - verdict_names.data(), to_int(entry.value)) << entry.name;
   }
   EXPECT_FALSE(value_named(verdict_names, "unknown"));
 }
 
 TEST(Verdicts, TheOraclesHaveTheSameNameInTheHarness) {
-  for (auto i = 0; i <= static_cast<int>(oracle::Verdict::incision); ++i) {
+  for (auto i = 0; i <= to_int(oracle::Verdict::incision); ++i) {
     oracle::Judgement given;
     given.verdict = static_cast<oracle::Verdict>(i);
     EXPECT_STREQ(name_of(Judgement(given).verdict), name_of(given.verdict));
@@ -161,7 +164,8 @@ TEST(WrongMethods, MovingVerticesWithoutTheirStateJumps) {
       // Stretched and sheared evenly, so that an interpolated place is where the vertex belongs.
       for (Eigen::Index v = 0; v < state.x.size() / 2; ++v) {
         const double x = state.x[2 * v], y = state.x[2 * v + 1];
-        state.x[2 * v] = 1.05 * x + 0.02 * y, state.x[2 * v + 1] = 0.99 * y;
+        state.x[2 * v] = 1.05 * x + 0.02 * y;
+        state.x[2 * v + 1] = 0.99 * y;
       }
       const Balance before = balance_of(model, state);
       MovesVertices method;

@@ -6,6 +6,7 @@
 
 #include <random>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/time/stepper.h"
 #include "tests/fem_helpers.h"
 
@@ -48,11 +49,13 @@ void advance(Body<D>& body, const StepOptions& options, int steps) {
 TEST(Xpbd, ManySweepsOfALinearSheetAreBackwardEuler) {
   auto swept_sheet = cut_flag<3>(Strain::linear, BendingKind::patches), solved_sheet = swept_sheet;
   const Field start = swept_sheet.state.x;
-  advance(swept_sheet, swept(30000), 5), advance(solved_sheet, solved(1), 5);
+  advance(swept_sheet, swept(30000), 5);
+  advance(solved_sheet, solved(1), 5);
   EXPECT_GT((solved_sheet.state.x - start).cwiseAbs().maxCoeff(), 0.01);
   EXPECT_LT(largest_difference(swept_sheet, solved_sheet), 1e-10);
   auto hinged = cut_flag<3>(Strain::linear, BendingKind::hinges), hinged_solved = hinged;
-  advance(hinged, swept(30000), 5), advance(hinged_solved, solved(1), 5);
+  advance(hinged, swept(30000), 5);
+  advance(hinged_solved, solved(1), 5);
   EXPECT_LT(largest_difference(hinged, hinged_solved), 1e-10);
 }
 
@@ -62,7 +65,8 @@ void expect_close(Strain strain) {
   SCOPED_TRACE(name_of(strain_names, strain));
   auto swept_sheet = cut_flag<D>(strain), solved_sheet = swept_sheet;
   const Field start = swept_sheet.state.x;
-  advance(swept_sheet, swept(300), 10), advance(solved_sheet, solved(12), 10);
+  advance(swept_sheet, swept(300), 10);
+  advance(solved_sheet, solved(12), 10);
   const double moved = (solved_sheet.state.x - start).cwiseAbs().maxCoeff();
   EXPECT_GT(moved, 0.05);
   EXPECT_LT(largest_difference(swept_sheet, solved_sheet), 0.02 * moved);
@@ -78,7 +82,8 @@ TEST(Xpbd, ManySweepsAreCloseToBackwardEuler) {
 TEST(Xpbd, SmallStepsAreBetterThanOneSweep) {
   const auto left_over = [](double step, int steps) {
     auto exact = cut_flag<3>(Strain::corotational), one = exact;
-    advance(exact, swept(300, step), steps), advance(one, swept(1, step), steps);
+    advance(exact, swept(300, step), steps);
+    advance(one, swept(1, step), steps);
     return largest_difference(one, exact);
   };
   const double large = left_over(h, 10), small = left_over(h / 10, 100);
@@ -114,11 +119,14 @@ TEST(Xpbd, PinsDrawASheetApart) {
   double mean = 0, count = 0;
   for (std::size_t v = 0; v < body.model.vertices(); ++v) {
     const Point2 rest = body.sheet.rest(body.sheet.rest_vertex(DeformedIndex(v)));
-    const double x = body.state.x[static_cast<Eigen::Index>(2 * v)];
+    const double x = body.state.x[to_index(2 * v)];
     if (rest.x == 1) {
       EXPECT_NEAR(x, 1.1, 1e-12);
     }
-    if (rest.x == 0.5) mean += x, ++count;
+    if (rest.x == 0.5) {
+      mean += x;
+      ++count;
+    }
   }
   ASSERT_GT(count, 0);
   EXPECT_NEAR(mean / count, 0.55, 0.02);

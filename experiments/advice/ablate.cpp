@@ -131,7 +131,10 @@ std::vector<AblatedScene> ablations_of(const Scene& scene) {
   if (scene.physics.strain != Strain::springs && !adds_mass(scene.physics.mass))
     add("triangles (springs)", [](Scene& s) { s.physics.strain = Strain::springs; });
   if (scene.physics.dimension == 3)
-    add("the third dimension", [](Scene& s) { s.physics.dimension = 2, s.physics.bending = BendingKind::none; });
+    add("the third dimension", [](Scene& s) {
+      s.physics.dimension = 2;
+      s.physics.bending = BendingKind::none;
+    });
   const bool in_motion = !at_rest(scene);
   if (in_motion && knows_cuts(scene) && std::isinf(scene.active_radius))
     add("motion far from the cuts", [](Scene& s) { s.active_radius = active_share * longer_side(s); });
@@ -182,9 +185,12 @@ void print_ablations(const std::vector<Ablation>& rows) {
       else
         std::printf(" %*s", width, "-");
     };
-    number(12, row.deflection), number(9, percent(row.deflection, whole.deflection));
-    number(9, row.gape), number(11, percent(row.gape, whole.gape));
-    number(9, 100 * row.deviation / whole.deflection), number(12, row.ms_per_second);
+    number(12, row.deflection);
+    number(9, percent(row.deflection, whole.deflection));
+    number(9, row.gape);
+    number(11, percent(row.gape, whole.gape));
+    number(9, 100 * row.deviation / whole.deflection);
+    number(12, row.ms_per_second);
     number(9, 100 * (1 - row.ms_per_second / whole.ms_per_second));
     std::printf("\n");
   }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "experiments/advice/scene_run.h"
+#include "harness/base/conversions.h"
 #include "harness/mesh/families.h"
 
 namespace cutbench {
@@ -21,7 +22,7 @@ ConvergedValue::ConvergedValue(const Scene& scene, std::string method, const Sce
       time_limit_(time_limit),
       at_rest_(at_rest(scene)),
       side_(2 * squares_per_side(scene.resolution)),
-      steps_(at_rest_ ? 1 : 2 * static_cast<int>(steps_of(scene))) {
+      steps_(at_rest_ ? 1 : 2 * to_int(steps_of(scene))) {
   if (!extrapolate(side_, steps_)) result_.missing = failed_;
 }
 
@@ -49,12 +50,14 @@ bool ConvergedValue::extrapolate(int side, int steps) {
   // First order in the length of edges: strains grow like one over the root of the distance from a tip. First order in
   // the step, too, but for the midpoint rule.
   const double by_step = scene_.integrator == Integrator::midpoint ? 1.0 / 3 : 1;
-  result_.from_mesh = here - coarser, result_.from_step = at_rest_ ? 0 : by_step * (here - slower);
+  result_.from_mesh = here - coarser;
+  result_.from_step = at_rest_ ? 0 : by_step * (here - slower);
   result_.value = here + result_.from_mesh + result_.from_step;
   result_.spread = std::abs(result_.from_mesh) + std::abs(result_.from_step);
   result_.finest = choice_of(side, steps);
   result_.missing = result_.value > 0 ? "" : "nothing moves, or opens, in the end";
-  side_ = side, steps_ = steps;
+  side_ = side;
+  steps_ = steps;
   return true;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "experiments/advice/scene_run.h"
+#include "harness/base/conversions.h"
 #include "harness/files/toml_reader.h"
 #include "harness/mesh/families.h"
 
@@ -28,7 +29,7 @@ constexpr int more_timings = 3;
 std::set<int> ladder(double value, double span) {
   std::set<int> rungs;
   for (double i = 0; std::exp2(i / 2) <= 1.001 * span; ++i)
-    rungs.insert(std::max(1, static_cast<int>(std::lround(value / std::exp2(i / 2)))));
+    rungs.insert(std::max(1, to_int(std::lround(value / std::exp2(i / 2)))));
   return rungs;
 }
 
@@ -101,7 +102,8 @@ class Candidates {
   const std::vector<SceneTrial>& trials() const { return trials_; }
 
   void judge(double converged, double margin) {
-    converged_ = converged, margin_ = margin;
+    converged_ = converged;
+    margin_ = margin;
     for (SceneTrial& trial : trials_) cutbench::judge(trial, converged, margin);
   }
 
@@ -197,13 +199,13 @@ Calibration read_calibration(const std::filesystem::path& file) {
   const double level = reader.positive("level", 0);
   auto scores = reader.list<double>("scores");
   std::sort(scores.begin(), scores.end());
-  const double rank = std::ceil(level * static_cast<double>(scores.size() + 1) - 1e-9);  // Lei et al. 2018, section 2.2
-  if (rank > static_cast<double>(scores.size()))
+  const double rank = std::ceil(level * to_double(scores.size() + 1) - 1e-9);  // Lei et al. 2018, section 2.2
+  if (rank > to_double(scores.size()))
     reader.refuse("a level of " + std::to_string(level) + " takes more than " + std::to_string(scores.size()) +
                   " scores");
   return {.file = file.string(),
           .level = level,
-          .quantile = scores[static_cast<std::size_t>(rank) - 1],
+          .quantile = scores[to_size(rank) - 1],
           .integrators = reader.list<std::string>("integrators"),
           .least_resolution = resolutions[0],
           .most_resolution = resolutions[1],

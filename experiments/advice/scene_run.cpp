@@ -5,6 +5,7 @@
 #include <ctime>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/base/errors.h"
 
 namespace cutbench {
@@ -38,7 +39,7 @@ double largest_gape(const Sheet& end) {
   return largest;
 }
 
-double seconds_of(std::clock_t ticks) { return static_cast<double>(ticks) / CLOCKS_PER_SEC; }
+double seconds_of(std::clock_t ticks) { return to_double(ticks) / CLOCKS_PER_SEC; }
 
 }  // namespace
 
@@ -47,7 +48,8 @@ double steps_of(const Scene& scene) { return at_rest(scene) ? 1 : std::ceil(scen
 double end_of(const Scene& scene) { return steps_of(scene) * scene.step; }
 
 void set_steps(Scene& scene, double steps) {
-  scene.duration = end_of(scene), scene.step = scene.duration / std::ceil(steps);
+  scene.duration = end_of(scene);
+  scene.step = scene.duration / std::ceil(steps);
 }
 
 SceneRun run_to_end(const Scene& scene, CuttingMethod& method, const CutOptions& options, double time_limit) {
@@ -60,20 +62,25 @@ SceneRun run_to_end(const Scene& scene, CuttingMethod& method, const CutOptions&
     run.motion->advance(end_of(scene), method, options);
     run.processor_s = seconds_of(std::clock() - start);
     const std::string verdict = run.motion->verdict().name;
-    run.verdict = verdict, run.reason = run.motion->verdict().reason;
+    run.verdict = verdict;
+    run.reason = run.motion->verdict().reason;
     for (const MotionCut& cut : run.motion->made_cuts())
-      if (cut.cut.status != Status::ok && cut.cut.status != Status::noop && run.verdict == "ok")
-        run.verdict = name_of(cut.cut.status), run.reason = cut.reason;
+      if (cut.cut.status != Status::ok && cut.cut.status != Status::noop && run.verdict == "ok") {
+        run.verdict = name_of(cut.cut.status);
+        run.reason = cut.reason;
+      }
     double us = 0;
     for (const LoggedStep& step : run.motion->steps()) us += step.total_us();
-    run.steps = static_cast<int>(run.motion->steps().size());
+    run.steps = to_int(run.motion->steps().size());
     run.ms_per_second = us / 1000 / (at_rest(scene) ? 1 : run.motion->time());
     if (verdict == "ok" || verdict == "inverted" || verdict == "energy_growth") {  // others end it early
       const Sheet end = run.motion->posed_sheet();
-      run.deflection = largest_deflection(end), run.gape = largest_gape(end);
+      run.deflection = largest_deflection(end);
+      run.gape = largest_gape(end);
     }
   } catch (const InputError& error) {
-    run.verdict = "refused", run.reason = error.what();
+    run.verdict = "refused";
+    run.reason = error.what();
   }
   return run;
 }

@@ -10,7 +10,8 @@ namespace cutbench {
 namespace {
 
 Scene scene_of(Scene scene, const Choice& choice) {
-  scene.resolution = choice.resolution, scene.solver.name = choice.solver;
+  scene.resolution = choice.resolution;
+  scene.solver.name = choice.solver;
   if (scene.integrator != Integrator::equilibrium) set_steps(scene, choice.steps);
   return scene;
 }

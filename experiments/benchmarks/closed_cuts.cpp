@@ -7,6 +7,7 @@
 #include <iostream>
 #include <numbers>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "harness/cut/constraint_source.h"
 #include "harness/judge/assessment.h"
@@ -72,8 +73,7 @@ double out_of_balance(const Sheet& sheet, const Field& u, const Constraints& con
                  {.dimension = 2, .strain = Strain::linear, .bending = BendingKind::none}, {}, {});
   Field x = u;
   for (std::size_t d = 0; d < sheet.deformed_slots(); ++d)
-    if (sheet.rest_vertex(DeformedIndex(d)).valid())
-      x.segment<2>(2 * static_cast<Eigen::Index>(d)) += rest_of(sheet, d);
+    if (sheet.rest_vertex(DeformedIndex(d)).valid()) x.segment<2>(2 * to_index(d)) += rest_of(sheet, d);
   const Field load_on_it = load(sheet, constraints).force();
   Field force = load_on_it;
   model.constrain(sheet, constraints);
@@ -84,7 +84,7 @@ double out_of_balance(const Sheet& sheet, const Field& u, const Constraints& con
   double sum = 0;
   for (std::size_t d = 0; d < sheet.deformed_slots(); ++d)
     if (const VertexIndex v = sheet.rest_vertex(DeformedIndex(d)); v.valid() && !is_held(sheet.rest(v)))
-      sum += force.segment<2>(2 * static_cast<Eigen::Index>(d)).squaredNorm();
+      sum += force.segment<2>(2 * to_index(d)).squaredNorm();
   return std::sqrt(sum) / load_on_it.norm();
 }
 
@@ -98,18 +98,18 @@ std::optional<Pop> pop_of(const MethodRow& row, int n, std::size_t i) {
   Sheet sheet = uncut;
   const Field before = equilibrium(sheet);
   for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) {
-    const Eigen::Vector2d x = rest_of(sheet, d) + before.segment<2>(2 * static_cast<Eigen::Index>(d));
+    const Eigen::Vector2d x = rest_of(sheet, d) + before.segment<2>(2 * to_index(d));
     sheet.set_position(DeformedIndex(d), {x[0], x[1], 0});
   }
   Locator locator(sheet);
   Closed method(row.make(row.parameter.value));
   const Curve curve = make_case("curved", seed, i, sheet).front();
   if (Cutter().cut(sheet, locator, curve, method, {}).status != Status::ok) return {};
-  Field carried = Field::Zero(2 * static_cast<Eigen::Index>(sheet.deformed_slots()));
+  Field carried = Field::Zero(2 * to_index(sheet.deformed_slots()));
   for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) {
     if (!sheet.rest_vertex(DeformedIndex(d)).valid()) continue;
     const auto [x, y, z] = sheet.position(DeformedIndex(d));
-    carried.segment<2>(2 * static_cast<Eigen::Index>(d)) = Eigen::Vector2d(x, y) - rest_of(sheet, d);
+    carried.segment<2>(2 * to_index(d)) = Eigen::Vector2d(x, y) - rest_of(sheet, d);
   }
   const Constraints constraints = constraints_of(method, uncut, sheet);
   const Field moved = equilibrium(sheet, constraints) - carried;
@@ -117,12 +117,13 @@ std::optional<Pop> pop_of(const MethodRow& row, int n, std::size_t i) {
   double squares = 0;
   for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) {
     if (!sheet.rest_vertex(DeformedIndex(d)).valid()) continue;
-    const double distance2 = moved.segment<2>(2 * static_cast<Eigen::Index>(d)).squaredNorm();
-    pop.largest = std::max(pop.largest, std::sqrt(distance2)), squares += distance2;
+    const double distance2 = moved.segment<2>(2 * to_index(d)).squaredNorm();
+    pop.largest = std::max(pop.largest, std::sqrt(distance2));
+    squares += distance2;
   }
   const double scale = before.cwiseAbs().maxCoeff();
   pop.largest /= scale;
-  pop.rms = std::sqrt(squares / static_cast<double>(sheet.deformed_count())) / scale;
+  pop.rms = std::sqrt(squares / to_double(sheet.deformed_count())) / scale;
   pop.residual = out_of_balance(sheet, carried, constraints);
   return pop;
 }
@@ -189,7 +190,8 @@ Drift drift_of(const MethodRow& row, int n, std::size_t cuts) {
     drift.scalar += a * std::pow(data[t].scalar - there.scalar, 2);
     drift.angle_deg += a * std::pow((data[t].angle - there.angle) * 180 / std::numbers::pi, 2);
   }
-  drift.scalar = std::sqrt(drift.scalar / area), drift.angle_deg = std::sqrt(drift.angle_deg / area);
+  drift.scalar = std::sqrt(drift.scalar / area);
+  drift.angle_deg = std::sqrt(drift.angle_deg / area);
   drift.triangles = sheet.triangle_count();
   return drift;
 }
@@ -197,7 +199,7 @@ Drift drift_of(const MethodRow& row, int n, std::size_t cuts) {
 double quantile_of(std::vector<double> values, double fraction) {
   if (values.empty()) return std::nan("");
   std::sort(values.begin(), values.end());
-  return values[std::min(values.size() - 1, static_cast<std::size_t>(fraction * static_cast<double>(values.size())))];
+  return values[std::min(values.size() - 1, to_size(fraction * to_double(values.size())))];
 }
 double median_of(const std::vector<double>& values) { return quantile_of(values, 0.5); }
 
@@ -205,7 +207,9 @@ void print_row(const MethodRow& row, int n, std::size_t cuts) {
   std::vector<double> largest, rms, residual;
   for (std::size_t i = 0; i < single_cuts; ++i)
     if (const auto pop = pop_of(row, n, i)) {
-      largest.push_back(pop->largest), rms.push_back(pop->rms), residual.push_back(pop->residual);
+      largest.push_back(pop->largest);
+      rms.push_back(pop->rms);
+      residual.push_back(pop->residual);
     }
   const Drift drift = drift_of(row, n, cuts);
   std::printf("%-20s %7zu %10.2e %10.2e %10.2e %10.2e %10.4f %10.2f %10zu %7zu\n", row.name.c_str(),

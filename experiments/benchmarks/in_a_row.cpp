@@ -10,6 +10,7 @@
 #include <span>
 
 #include "experiments/program/options.h"
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "harness/files/mesh_file.h"
 #include "harness/files/path_file.h"
@@ -28,7 +29,7 @@ constexpr CutOptions options;
 /// In use, large blocks included, which the C library maps by themselves.
 double heap_bytes() {
   const auto info = mallinfo2();
-  return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
+  return to_double(info.uordblks) + to_double(info.hblkhd);
 }
 
 /// NaN of nothing.
@@ -55,13 +56,13 @@ class CutSheet {
  public:
   explicit CutSheet(const MeshData& mesh) : sheet(mesh), locator_(sheet) {}
   CutOutcome cut(const Curve& curve, CuttingMethod& method) {
-    const auto before = static_cast<double>(sheet.triangle_count());
+    const auto before = to_double(sheet.triangle_count());
     const CutOutcome outcome = cutter_.cut(sheet, locator_, curve, method, options);
     // A cut that meets next to nothing costs what it costs to be called.
     if (outcome.status != Status::ok || outcome.crossed_triangles < 20) return outcome;
-    const auto units = static_cast<double>(outcome.crossed_triangles);
+    const auto units = to_double(outcome.crossed_triangles);
     cost.push_back(outcome.time_us.total() / units);
-    made.push_back((static_cast<double>(sheet.triangle_count()) - before) / units);
+    made.push_back((to_double(sheet.triangle_count()) - before) / units);
     return outcome;
   }
 
@@ -133,8 +134,8 @@ bool cut_in_a_row(const MethodRow& row, int n, std::size_t cuts, const std::stri
   std::printf("%-20s %7zu %7zu %6zu %6zu %8zu %9zu", row.name.c_str(), failed, refused, judged, wrong, crossed,
               sheet.triangle_count());
   const std::vector<double>& made = in_a_row.made;
-  const auto triangles = static_cast<double>(sheet.triangle_count());
-  const double bytes_anew = (heap_bytes() - heap_after) / static_cast<double>(again.sheet.triangle_count());
+  const auto triangles = to_double(sheet.triangle_count());
+  const double bytes_anew = (heap_bytes() - heap_after) / to_double(again.sheet.triangle_count());
   const double first = first_cost(grid, cuts, *make()), last = from(late_sample, in_a_row.cost);
   std::printf(" %8.3f %8.3f %6.2f %8.3f %6.2f %6.2f %8.0f %8.0f\n", first, last, last / first, from(0, again.cost),
               first_of(made), from(late_sample, made), (heap_after - heap_before - late_bytes) / triangles, bytes_anew);

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "experiments/program/options.h"
+#include "harness/base/conversions.h"
 #include "harness/base/stop_watch.h"
 #include "harness/cut/cut.h"
 #include "harness/fem/elements/membrane.h"
@@ -37,10 +38,10 @@ double read_rate(std::size_t bytes) {
   for (int round = 0; round < 12; ++round) {
     StopWatch watch;
     for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
-      Eigen::Map<const Field> all(data.data(), static_cast<Eigen::Index>(data.size()));
+      Eigen::Map<const Field> all(data.data(), to_index(data.size()));
       sink += all.sum();
     }
-    best = std::max(best, static_cast<double>(repeats * data.size() * sizeof(double)) / watch.lap());
+    best = std::max(best, to_double(repeats * data.size() * sizeof(double)) / watch.lap());
   }
   if (sink < 0) std::puts("");  // so that the sums are needed
   return best;
@@ -48,15 +49,15 @@ double read_rate(std::size_t bytes) {
 
 /// a = b + 2 c: two arrays are read, one is written.
 double triad_rate(std::size_t bytes) {
-  const auto n = static_cast<Eigen::Index>(std::max<std::size_t>(bytes / (3 * sizeof(double)), 64));
+  const auto n = to_index(std::max<std::size_t>(bytes / (3 * sizeof(double)), 64));
   Field a = Field::Zero(n);
   const Field b = Field::Constant(n, 1), c = Field::Constant(n, 2);
   const std::size_t repeats = std::max<std::size_t>(1, (std::size_t{1} << 25) / bytes);
   double best = 0;
   for (int round = 0; round < 12; ++round) {
     StopWatch watch;
-    for (std::size_t repeat = 0; repeat < repeats; ++repeat) a = b + 2 * c + 1e-9 * static_cast<double>(repeat) * b;
-    best = std::max(best, static_cast<double>(repeats * 3 * sizeof(double)) * static_cast<double>(n) / watch.lap());
+    for (std::size_t repeat = 0; repeat < repeats; ++repeat) a = b + 2 * c + 1e-9 * to_double(repeat) * b;
+    best = std::max(best, to_double(repeats * 3 * sizeof(double)) * to_double(n) / watch.lap());
   }
   if (a[0] < 0) std::puts("");
   return best;
@@ -85,10 +86,10 @@ std::vector<Phase> phases_of(int n, const MethodRow& row, double& working_set) {
   model.assemble(1, step * step);
   SystemMatrix<3> a = model.system();
   Multigrid<3> multigrid;
-  const auto blocks = static_cast<double>(a.blocks->block_count()), vertices = static_cast<double>(a.vertices());
+  const auto blocks = to_double(a.blocks->block_count()), vertices = to_double(a.vertices());
   double scalars = 0;
-  for (std::size_t i = 0; i < a.vertices(); ++i) scalars += static_cast<double>(a.scalar[0].matrix->columns(i).size());
-  const auto elements = static_cast<double>(model.elements().size());
+  for (std::size_t i = 0; i < a.vertices(); ++i) scalars += to_double(a.scalar[0].matrix->columns(i).size());
+  const auto elements = to_double(model.elements().size());
   const double per_element = sizeof(Element) + sizeof(StrainInFrame<3, double>), vector = 3 * sizeof(double) * vertices;
   const double matrix = blocks * (9 * sizeof(double) + 4) + scalars * (sizeof(double) + 4);
   multigrid.setup(a);
@@ -108,13 +109,20 @@ std::vector<Phase> phases_of(int n, const MethodRow& row, double& working_set) {
   for (int round = 0; round < 2 * rounds; ++round) {
     StopWatch watch;
     const auto took = [&](std::size_t phase) { phases[phase].us.push_back(watch.lap()); };
-    model.rotate(state.x), took(0);
-    model.assemble(1, step * step), took(1);
+    model.rotate(state.x);
+    took(0);
+    model.assemble(1, step * step);
+    took(1);
     a = model.system();
-    b.setZero(), model.add_impulse(step, state.x, step, state.v, b), took(2);
-    multigrid.setup(a), took(round % 2 ? 4 : 3);
-    a.multiply(state.v, y), took(5);
-    multigrid.apply(b, y), took(6);
+    b.setZero();
+    model.add_impulse(step, state.x, step, state.v, b);
+    took(2);
+    multigrid.setup(a);
+    took(round % 2 ? 4 : 3);
+    a.multiply(state.v, y);
+    took(5);
+    multigrid.apply(b, y);
+    took(6);
   }
   // Which of the set-ups keeps the coarse matrices.
   if (median(phases[3].us) > median(phases[4].us)) std::swap(phases[3].us, phases[4].us);
@@ -130,7 +138,7 @@ void print_rates() {
 void print_phases(int triangles, const MethodRow& row) {
   double working_set = 0;
   const auto phases = phases_of(squares_per_side(triangles), row, working_set);
-  const double rate = read_rate(static_cast<std::size_t>(working_set));
+  const double rate = read_rate(to_size(working_set));
   std::printf("\n%d triangles, cut by %s; a step's data are %.1f MB, of which this machine reads %.1f GB/s\n",
               triangles, row.name.c_str(), working_set / 1e6, rate / 1e3);
   std::printf("%-20s %9s %9s %9s %9s %9s %11s\n", "phase", "MB", "Mflop", "ms", "GB/s", "Gflop/s", "% of GB/s");

@@ -10,6 +10,7 @@
 #include <iostream>
 
 #include "experiments/program/options.h"
+#include "harness/base/conversions.h"
 #include "harness/base/stop_watch.h"
 #include "harness/cut/cut.h"
 #include "harness/fem/model/state.h"
@@ -49,7 +50,7 @@ class Body {
     Cost cost;
     const CutOutcome outcome = cutter_.cut(sheet_, locator_, curve, method, {});
     if (outcome.status != Status::ok) throw std::runtime_error("a cut failed: " + outcome.reason);
-    cost.crossed = static_cast<double>(outcome.crossed_triangles);
+    cost.crossed = to_double(outcome.crossed_triangles);
     cost.geometry = outcome.time_us.total();
     StopWatch watch;
     transfer(sheet_.log(), sheet_.deformed_slots(), 3, state_);
@@ -95,7 +96,7 @@ double median(std::vector<double> values) {
 double peak_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+  return 1024.0 * to_double(usage.ru_maxrss);
 }
 
 void measure(const MethodRow& row, int n) {
@@ -108,7 +109,10 @@ void measure(const MethodRow& row, int n) {
   double bytes = 0;
   std::vector<std::vector<double>> costs(6);
   for (int k = 0; k < places; ++k) {
-    if (!body || !shared) body.reset(), body = std::make_unique<Body>(mesh);
+    if (!body || !shared) {
+      body.reset();
+      body = std::make_unique<Body>(mesh);
+    }
     if (bytes == 0) bytes = (peak_bytes() - before) / triangles;
     const int column = k % 3, line = k / 3;
     const double off = shared ? 0.31 : 0.02;

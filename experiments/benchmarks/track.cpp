@@ -11,6 +11,7 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "harness/cut/cut.h"
 #include "harness/cut/cut_phases.h"
@@ -63,7 +64,7 @@ struct Counted {
     const auto* at = static_cast<const unsigned char*>(data);
     for (std::size_t i = 0; i < bytes; ++i) fingerprint = (fingerprint ^ at[i]) * 1099511628211u;
   }
-  void add(const Field& x) { add(x.data(), sizeof(double) * static_cast<std::size_t>(x.size())); }
+  void add(const Field& x) { add(x.data(), sizeof(double) * to_size(x.size())); }
   void add(const MeshData& mesh) {
     add(mesh.rest.data(), sizeof(mesh.rest[0]) * mesh.rest.size());
     add(mesh.triangles.data(), sizeof(mesh.triangles[0]) * mesh.triangles.size());
@@ -89,7 +90,10 @@ struct Bench {
     sheet.reserve(4 * base.triangle_slots(), 4 * base.vertex_slots(), 4 * base.deformed_slots());
     for (std::size_t i = 0; i < cuts; ++i) curves.push_back(make_case("curved", 1, i, base).front());
   }
-  void undo() { sheet.rollback(), locator = base_locator; }
+  void undo() {
+    sheet.rollback();
+    locator = base_locator;
+  }
 
   Sheet base;
   Locator base_locator;
@@ -104,10 +108,10 @@ void count_edits(const Sheet& sheet, Counted& all, const std::function<void()>& 
   const auto edits = [&]() -> std::map<std::string, double> {
     const EditLog& log = sheet.log();
     const std::size_t rewritten = log.touched.size() + sheet.triangle_slots() - log.triangles_before;
-    return {{"flips", static_cast<double>(log.flips)},
-            {"splits", static_cast<double>(log.splits)},
-            {"vertices_made", static_cast<double>(log.new_vertices.size())},
-            {"triangles_rewritten", static_cast<double>(rewritten)}};
+    return {{"flips", to_double(log.flips)},
+            {"splits", to_double(log.splits)},
+            {"vertices_made", to_double(log.new_vertices.size())},
+            {"triangles_rewritten", to_double(rewritten)}};
   };
   const auto before = edits();
   work();
@@ -141,7 +145,7 @@ Counted run_phase(const std::string& counted, const MethodRow& row, int triangle
         if (!goes_on) throw std::runtime_error(row.name + ": " + cut.outcome.reason);
       }
       if (counts) {
-        const auto crossed = static_cast<double>(cut.outcome.crossed_triangles);
+        const auto crossed = to_double(cut.outcome.crossed_triangles);
         all.units += crossed;
         all.counters["triangles_met"] += crossed;
         all.add(bench.sheet.to_mesh_data());
@@ -157,11 +161,12 @@ Counted run_cut(const MethodRow& row, int triangles, const Region& region) {
   Counted all;
   for (const Curve& curve : bench.curves) {
     const auto cut = [&] { return bench.cutter.cut(bench.sheet, bench.locator, curve, *method, {}); };
-    cut(), bench.undo();
+    cut();
+    bench.undo();
     CutOutcome outcome;
     region([&] { outcome = cut(); });
     if (outcome.status != Status::ok) throw std::runtime_error(row.name + " failed: " + outcome.reason);
-    all.units += static_cast<double>(outcome.crossed_triangles);
+    all.units += to_double(outcome.crossed_triangles);
     const auto request = request_for(bench.base, {&curve, 1}, row.promises, {}, true);
     if (!oracle::judge(request, for_oracle(bench.sheet)).ok) throw std::runtime_error(row.name + ": a wrong cut");
     all.add(bench.sheet.to_mesh_data());
@@ -178,7 +183,7 @@ Counted run_score(int triangles, const Region& region) {
   const auto request = request_for(bench.base, {&bench.curves[0], 1}, row.promises, {}, true);
   const auto mesh = for_oracle(bench.sheet);
   Counted all;
-  all.units = static_cast<double>(bench.sheet.triangle_count());
+  all.units = to_double(bench.sheet.triangle_count());
   bool ok = false;
   region([&] { ok = oracle::judge(request, mesh).ok; });
   if (!ok) throw std::runtime_error("a right cut is refused");
@@ -200,16 +205,23 @@ class Body {
     const auto method = find_method("conventional_split").make(0);
     if (bench_.cutter.cut(bench_.sheet, bench_.locator, bench_.curves[i], *method, {}).status != Status::ok)
       throw std::runtime_error("a cut failed");
-    touched = static_cast<double>(bench_.sheet.log().touched.size());
+    touched = to_double(bench_.sheet.log().touched.size());
   }
-  void follow() { follow_state(), follow_pattern(), model_.update_bending(bench_.sheet); }
+  void follow() {
+    follow_state();
+    follow_pattern();
+    model_.update_bending(bench_.sheet);
+  }
   void follow_state() { transfer(bench_.sheet.log(), bench_.sheet.deformed_slots(), 3, state_); }
   void follow_pattern() { model_.update(bench_.sheet); }
   void bend() {
     for (Eigen::Index v = 0; v < state_.x.size() / 3; ++v)
       state_.x[3 * v + 2] = 0.3 * std::sin(3 * state_.x[3 * v]) * std::cos(2 * state_.x[3 * v + 1]);
   }
-  void assemble() { model_.rotate(state_.x), model_.assemble(1, step * step + 1e-3 * step); }
+  void assemble() {
+    model_.rotate(state_.x);
+    model_.assemble(1, step * step + 1e-3 * step);
+  }
   Model<3>& model() { return model_; }
   State& state() { return state_; }
   const Sheet& sheet() const { return bench_.sheet; }
@@ -224,7 +236,8 @@ class Body {
 
 Counted run_update(const std::string& part, int triangles, const Region& region) {
   Body body(triangles);
-  body.cut(0), body.follow();  // what has to grow has grown
+  body.cut(0);
+  body.follow();  // what has to grow has grown
   body.cut(1);
   Counted all;
   all.units = body.touched;
@@ -234,19 +247,24 @@ Counted run_update(const std::string& part, int triangles, const Region& region)
   run("state", [&] { body.follow_state(); });
   run("pattern", [&] { body.follow_pattern(); });
   run("bending", [&] { body.model().update_bending(body.sheet()); });
-  all.counters["rows_touched"] = static_cast<double>(history->changed_since(before).size());
+  all.counters["rows_touched"] = to_double(history->changed_since(before).size());
   body.assemble();
   Field f = Field::Zero(body.state().x.size());
-  body.bend(), body.model().rotate(body.state().x), body.model().add_internal_force(body.state().x, f);
+  body.bend();
+  body.model().rotate(body.state().x);
+  body.model().add_internal_force(body.state().x, f);
   all.add(f);
   return all;
 }
 
 Counted run_elements(const std::string& part, int triangles, const Region& region) {
   Body body(triangles);
-  body.cut(0), body.follow(), body.bend(), body.assemble();
+  body.cut(0);
+  body.follow();
+  body.bend();
+  body.assemble();
   Counted all;
-  all.units = static_cast<double>(body.model().elements().size());
+  all.units = to_double(body.model().elements().size());
   Model<3>& model = body.model();
   if (part == "rotate") region([&] { model.rotate(body.state().x); });
   if (part == "assemble") region([&] { model.assemble(1, step * step + 1e-3 * step); });
@@ -258,26 +276,34 @@ Counted run_elements(const std::string& part, int triangles, const Region& regio
 
 Counted run_solver(const std::string& part, const std::string& name, int triangles, const Region& region) {
   Body body(triangles);
-  body.cut(0), body.follow(), body.bend(), body.assemble();
+  body.cut(0);
+  body.follow();
+  body.bend();
+  body.assemble();
   const bool once = part == "iteration";
   const auto solver = make_solver<3>({.name = name, .tolerance = 1e-2, .max_iterations = once ? 1 : 10000});
   SystemMatrix<3> a = body.model().system();
   Field b = Field::Zero(body.state().x.size()), x;
-  body.model().add_internal_force(body.state().x, b), body.model().add_external_force(b);
+  body.model().add_internal_force(body.state().x, b);
+  body.model().add_external_force(b);
   solver->setup(a);
   if (part == "setup") region([&] { solver->setup(a); });
   if (part == "setup_after_cut") {
-    body.cut(1), body.follow(), body.bend(), body.assemble();
+    body.cut(1);
+    body.follow();
+    body.bend();
+    body.assemble();
     a = body.model().system();
     region([&] { solver->setup(a); });
     b = Field::Zero(body.state().x.size());
-    body.model().add_internal_force(body.state().x, b), body.model().add_external_force(b);
+    body.model().add_internal_force(body.state().x, b);
+    body.model().add_external_force(b);
   }
   SolveReport report = solver->solve(b, x);
   if (part == "solve" || once) region([&] { report = solver->solve(b, x); });
   if (!once && !report.converged) throw std::runtime_error(name + " did not converge");
   Counted all;
-  all.units = static_cast<double>(b.size());
+  all.units = to_double(b.size());
   all.counters["iterations"] = report.iterations;
   all.add(x);
   return all;
@@ -285,16 +311,19 @@ Counted run_solver(const std::string& part, const std::string& name, int triangl
 
 Counted run_step(const std::string& name, int triangles, const Region& region) {
   Body body(triangles);
-  body.cut(0), body.follow();
+  body.cut(0);
+  body.follow();
   StepOptions options;
-  options.integrator = Integrator::backward_euler, options.step = step, options.solver.name = name;
+  options.integrator = Integrator::backward_euler;
+  options.step = step;
+  options.solver.name = name;
   Stepper<3> stepper(options);
   StepReport report;
   for (int n = 0; n < 3; ++n) report = stepper.step(body.model(), body.state());
   region([&] { report = stepper.step(body.model(), body.state()); });
   if (report.verdict != "ok") throw std::runtime_error("a step failed: " + report.reason);
   Counted all;
-  all.units = static_cast<double>(body.model().elements().size());
+  all.units = to_double(body.model().elements().size());
   all.add(body.state().x);
   return all;
 }
@@ -358,7 +387,7 @@ int count(const Row& row, std::int64_t spend) {
     CALLGRIND_STOP_INSTRUMENTATION;
     allocated += allocations - before;
   });
-  all.counters["allocations"] = static_cast<double>(allocated);
+  all.counters["allocations"] = to_double(allocated);
   char fingerprint[17];
   std::snprintf(fingerprint, sizeof fingerprint, "%016llx", static_cast<unsigned long long>(all.fingerprint));
   nlohmann::ordered_json json{

@@ -20,7 +20,10 @@ int main(int argc, char** argv) {
         oracle::cgal_whole_sheet_cut(for_oracle(sheet), for_oracle(cut), default_flatten_tolerance * sheet.mean_edge());
     if (made.refused) return std::fprintf(stderr, "%s\n", made.reason.c_str()), 3;
     MeshData result;
-    for (const auto& [x, y] : made.mesh.rest) result.rest.push_back({x, y}), result.deformed.push_back({x, y, 0});
+    for (const auto& [x, y] : made.mesh.rest) {
+      result.rest.push_back({x, y});
+      result.deformed.push_back({x, y, 0});
+    }
     result.triangles = made.mesh.triangles;
     write_mesh(result, argv[3]);
   } catch (const std::exception& error) {

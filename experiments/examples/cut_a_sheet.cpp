@@ -1,4 +1,5 @@
 // A sheet given as arrays is cut; then its lips, and what each new vertex and triangle was before. Links cutbench::cut.
+#include <cutbench/base/conversions.h>
 #include <cutbench/cut/cut.h>
 #include <cutbench/mesh/check_and_repair.h>
 #include <cutbench/mesh/parents.h>
@@ -26,7 +27,7 @@ MeshData strip() {
 
 /// The vertex of the opened sheet that h begins at.
 int begin_of(const Sheet& sheet, HalfEdge h) {
-  return sheet.triangle(triangle_of(h)).deformed[static_cast<std::size_t>(corner_of(h))].value;
+  return sheet.triangle(triangle_of(h)).deformed[to_size(corner_of(h))].value;
 }
 
 /// The two vertices, one for each lip, at each end of the incision's edges; at a tip they are one.

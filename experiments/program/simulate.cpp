@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "experiments/program/step_summary.h"
+#include "harness/base/conversions.h"
 #include "harness/cut/cut_all.h"
 #include "harness/fem/elements/bending_kinds.h"
 #include "harness/files/frame_writer.h"
@@ -54,7 +55,7 @@ void print_budget(const EnergyBudget& budget) {
               100 * gains.jumps);
 }
 
-/// What to compare an explicit step with; null where the method constraints vertices.
+/// What to compare an explicit step with; null where the method constrains vertices.
 nlohmann::ordered_json limits_of(Simulation& motion) {
   const StepLimits limits = motion.step_limits();
   if (!std::isfinite(limits.membrane)) return nullptr;
@@ -71,22 +72,21 @@ void print_limits(const nlohmann::ordered_json& limits, double step) {
 std::string description(const Scene& scene, const Simulation& motion, const SimulateOptions& options,
                         std::size_t triangles_before) {
   const Context context = gather_context();
-  nlohmann::ordered_json document{
-      {"scene", scene.stem},
-      {"effect", scene.effect},
-      {"method", options.method},
-      {"sheet", scene.family.empty() ? scene.mesh_file : scene.family},
-      {"triangles_before", triangles_before},
-      {"triangles_after", motion.sheet().triangle_count()},
-      {"unknowns", scene.physics.dimension * static_cast<int>(motion.sheet().deformed_count())},
-      {"size_m", scene.size},
-      {"step_s", scene.step},
-      {"bending", name_of(scene.physics.bending)},
-      {"solver", scene.solver.name},
-      {"solver_tolerance", scene.solver.tolerance},
-      {"newton", scene.newton},
-      {"verdict", motion.verdict().name},
-      {"reason", motion.verdict().reason}};
+  nlohmann::ordered_json document{{"scene", scene.stem},
+                                  {"effect", scene.effect},
+                                  {"method", options.method},
+                                  {"sheet", scene.family.empty() ? scene.mesh_file : scene.family},
+                                  {"triangles_before", triangles_before},
+                                  {"triangles_after", motion.sheet().triangle_count()},
+                                  {"unknowns", scene.physics.dimension * to_int(motion.sheet().deformed_count())},
+                                  {"size_m", scene.size},
+                                  {"step_s", scene.step},
+                                  {"bending", name_of(scene.physics.bending)},
+                                  {"solver", scene.solver.name},
+                                  {"solver_tolerance", scene.solver.tolerance},
+                                  {"newton", scene.newton},
+                                  {"verdict", motion.verdict().name},
+                                  {"reason", motion.verdict().reason}};
   if (std::isfinite(options.cut.chord_tolerance)) document["chord_tolerance"] = options.cut.chord_tolerance;
   document["cuts"] = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < motion.made_cuts().size(); ++i) {
@@ -94,7 +94,10 @@ std::string description(const Scene& scene, const Simulation& motion, const Simu
     nlohmann::ordered_json cut{{"time_s", scene.cuts[i].time},
                                {"status", name_of(made.status)},
                                {"crossed_triangles", made.crossed_triangles}};
-    if (scene.cuts[i].speed > 0) cut["speed_m_s"] = scene.cuts[i].speed, cut["parts"] = motion.made_cuts()[i].parts;
+    if (scene.cuts[i].speed > 0) {
+      cut["speed_m_s"] = scene.cuts[i].speed;
+      cut["parts"] = motion.made_cuts()[i].parts;
+    }
     if (!scene.cuts[i].family.empty()) cut["seed"] = scene.cuts[i].seed;
     document["cuts"].push_back(cut);
   }
@@ -130,7 +133,7 @@ void write_report(const Scene& scene, const SimulateOptions& options, const Simu
 void make_steps(const Scene& scene, Simulation& motion, CuttingMethod& method, const SimulateOptions& options,
                 FrameWriter* frames) {
   const int steps =
-      scene.integrator == Integrator::equilibrium ? 1 : static_cast<int>(std::ceil(scene.duration / scene.step - 1e-9));
+      scene.integrator == Integrator::equilibrium ? 1 : to_int(std::ceil(scene.duration / scene.step - 1e-9));
   print_head(scene);
   print_balance(motion);
   if (frames) frames->add(motion.posed_sheet(), motion.time());
@@ -139,8 +142,10 @@ void make_steps(const Scene& scene, Simulation& motion, CuttingMethod& method, c
     goes_on = motion.advance(step * scene.step, method, options.cut).verdict == "ok";
     const bool last = step == steps || !goes_on;
     if (frames && goes_on && (last || step % options.every == 0)) frames->add(motion.posed_sheet(), motion.time());
-    if (last || std::int64_t{step} * 10 >= std::int64_t{part} * steps)
-      print_balance(motion), part = static_cast<int>(std::int64_t{step} * 10 / steps) + 1;
+    if (last || std::int64_t{step} * 10 >= std::int64_t{part} * steps) {
+      print_balance(motion);
+      part = to_int(std::int64_t{step} * 10 / steps) + 1;
+    }
   }
 }
 
@@ -150,7 +155,7 @@ void print_verdict(const SimulationVerdict& verdict, const Sheet& sheet) {
   std::printf("%s", verdict.name.c_str());
   if (verdict.name != "ok") std::printf(" at %.4g s: %s", verdict.time, verdict.reason.c_str());
   std::printf("; %zu triangles, %zu pieces; peak memory %.0f MB\n", sheet.triangle_count(), count_pieces(sheet),
-              static_cast<double>(usage.ru_maxrss) / 1024);
+              to_double(usage.ru_maxrss) / 1024);
 }
 
 }  // namespace

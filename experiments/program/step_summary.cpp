@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <functional>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -34,15 +36,18 @@ nlohmann::ordered_json summary_of(const std::vector<LoggedStep>& steps, double s
   long iterations = 0, worst = 0, fallbacks = 0;
   for (const LoggedStep& s : steps) {
     if (s.has_cut) with_cut.push_back(s);
-    computed_us += s.total_us(), iterations += s.step.iterations, fallbacks += s.step.fallbacks;
-    worst = std::max(worst, static_cast<long>(s.step.iterations)), residual = std::max(residual, s.step.residual);
+    computed_us += s.total_us();
+    iterations += s.step.iterations;
+    fallbacks += s.step.fallbacks;
+    worst = std::max(worst, static_cast<long>(s.step.iterations));
+    residual = std::max(residual, s.step.residual);
   }
   nlohmann::ordered_json summary{{"steps", steps.size()},
                                  {"simulated_s", seconds},
                                  {"computed_s", 1e-6 * computed_us},
                                  {"real_time_factor", computed_us > 0 ? seconds / (1e-6 * computed_us) : 0},
                                  {"step_ms", phases_of(steps)}};
-  summary["iterations"] = {{"mean", static_cast<double>(iterations) / static_cast<double>(steps.size())},
+  summary["iterations"] = {{"mean", to_double(iterations) / to_double(steps.size())},
                            {"worst", worst},
                            {"largest_residual", residual},
                            {"fallbacks", fallbacks}};
@@ -65,10 +70,10 @@ std::string table_of(const std::vector<LoggedStep>& steps, double step) {
     const LoggedStep& s = steps[i];
     const StepTimes& us = s.step.time_us;
     char row[256];
-    std::snprintf(row, sizeof row, "%.6g,%d,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%d,%.3g\n",
-                  step * static_cast<double>(i + 1), s.has_cut, s.geometry_us / 1000, s.update_us / 1000,
-                  s.bending_us / 1000, us.rotate / 1000, us.assemble / 1000, us.setup / 1000, us.solve / 1000,
-                  s.total_us() / 1000, s.step.iterations, s.step.residual);
+    std::snprintf(row, sizeof row, "%.6g,%d,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%d,%.3g\n", step * to_double(i + 1),
+                  s.has_cut, s.geometry_us / 1000, s.update_us / 1000, s.bending_us / 1000, us.rotate / 1000,
+                  us.assemble / 1000, us.setup / 1000, us.solve / 1000, s.total_us() / 1000, s.step.iterations,
+                  s.step.residual);
     table += row;
   }
   return table;

@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/base/errors.h"
 
 namespace cutbench {
@@ -66,8 +67,7 @@ std::string explain(const std::string& text) {
   FaultFinder fault;
   json::sax_parse(text, &fault);
   const std::size_t end = std::min(fault.end, text.size());
-  const std::string line =
-      "line " + std::to_string(1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+  const std::string line = "line " + std::to_string(1 + std::count(text.begin(), text.begin() + to_index(end), '\n'));
   if (fault.end > text.size() || end == 0) return line + ": the file ends too soon; is it complete?";
   std::size_t at = end - 1;
   if (fault.too_large) {  // the number is known to be one by the character behind it, which may have been read

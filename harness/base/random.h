@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "harness/base/conversions.h"
 #include "harness/base/points.h"
 
 namespace cutbench {
@@ -19,11 +20,11 @@ class Random {
     z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
     return z ^ (z >> 31);
   }
-  double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }  ///< uniform in [0, 1)
+  double unit() { return to_double(bits() >> 11) * 0x1p-53; }  ///< uniform in [0, 1)
   double between(double a, double b) { return a + (b - a) * unit(); }
   bool coin(double p = 0.5) { return unit() < p; }
   /// 0 ... n-1. \pre n > 0
-  std::size_t below(std::size_t n) { return static_cast<std::size_t>(bits() % n); }
+  std::size_t below(std::size_t n) { return to_size(bits() % n); }
 
   /// Uniform on the unit circle; by square roots alone, which every machine rounds alike.
   Point2 direction() {

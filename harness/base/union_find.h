@@ -16,7 +16,8 @@ class UnionFind {
   /// 0 ... n-1, each in a class of its own. \pre n < 2^32
   explicit UnionFind(std::size_t n = 0) { reset(n); }
   void reset(std::size_t n) {
-    parent_.resize(n), size_.assign(n, 1);
+    parent_.resize(n);
+    size_.assign(n, 1);
     std::iota(parent_.begin(), parent_.end(), 0u);
   }
 
@@ -26,7 +27,8 @@ class UnionFind {
     return i;
   }
   void join(std::size_t a, std::size_t b) {
-    a = find(a), b = find(b);
+    a = find(a);
+    b = find(b);
     if (a == b) return;
     if (a > b) std::swap(a, b);
     parent_[b] = static_cast<std::uint32_t>(a);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "harness/base/conversions.h"
 #include "harness/base/random.h"
 #include "harness/cases/cut_families.h"
 #include "harness/mesh/predicates.h"
@@ -99,7 +100,7 @@ class AdversarialCuts {
     }
   }
   double tiny() { return std::pow(10.0, -random_.between(2, 17)) * extent_.mean_edge; }
-  int some_ulps() { return static_cast<int>(random_.below(33)) - 16; }
+  int some_ulps() { return to_int(random_.below(33)) - 16; }
   Point2 nudged(Point2 p) {
     switch (random_.below(4)) {
       case 0: {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_generator.h"
 
 namespace cutbench {
@@ -30,7 +31,7 @@ bool Generator::is_smooth(const Points& p, bool stays_inside) {
   constexpr double radius = 0.05;
   Points points;
   for (int k = 0; k <= n; ++k) {
-    const double t = static_cast<double>(k) / n, s = 1 - t;
+    const double t = to_double(k) / n, s = 1 - t;
     const Point2 velocity = 3 * s * s * (p[1] - p[0]) + 6 * s * t * (p[2] - p[1]) + 3 * t * t * (p[3] - p[2]);
     const Point2 acceleration = 6 * s * (p[2] - 2 * p[1] + p[0]) + 6 * t * (p[3] - 2 * p[2] + p[1]);
     const double speed2 = squared_length(velocity);

@@ -1,5 +1,6 @@
 #include "harness/cut/cut.h"
 
+#include "harness/base/conversions.h"
 #include "harness/base/stop_watch.h"
 #include "harness/cut/cut_phases.h"
 
@@ -18,7 +19,7 @@ CutOutcome nothing_done(Status status, const std::string& reason) {
 
 const char* name_of(Status status) {
   constexpr const char* names[] = {"ok", "noop", "deviated", "refused", "failed"};
-  return names[static_cast<std::size_t>(status)];
+  return names[to_size(status)];
 }
 
 CutOutcome Cutter::cut(Sheet& sheet, Locator& locator, const Curve& curve, CuttingMethod& method,

@@ -36,8 +36,13 @@ struct PhaseTimes {
   double program = 0;    ///< as it reports, else from its start to its end
   double total() const { return locate + trace + embed + improve + open + constrain + program; }
   PhaseTimes& operator+=(const PhaseTimes& o) {
-    locate += o.locate, trace += o.trace, embed += o.embed, improve += o.improve, open += o.open;
-    constrain += o.constrain, program += o.program;
+    locate += o.locate;
+    trace += o.trace;
+    embed += o.embed;
+    improve += o.improve;
+    open += o.open;
+    constrain += o.constrain;
+    program += o.program;
     return *this;
   }
 };

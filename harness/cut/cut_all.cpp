@@ -2,6 +2,8 @@
 
 #include <ctime>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -9,7 +11,7 @@ namespace {
 double cpu_time_us() {
   timespec t{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return 1e6 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_nsec);
+  return 1e6 * to_double(t.tv_sec) + 1e-3 * to_double(t.tv_nsec);
 }
 
 }  // namespace

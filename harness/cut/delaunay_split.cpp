@@ -1,5 +1,6 @@
 #include "harness/cut/delaunay_split.h"
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/predicates.h"
 
 namespace cutbench {
@@ -18,7 +19,7 @@ bool is_diagonal_from_p_delaunay(const Crossing& crossing) {
 }
 
 int split_step_by_step(Patch& patch) {
-  const auto inside = [&](int p) { return patch.ring_position[static_cast<std::size_t>(p)] < 0; };
+  const auto inside = [&](int p) { return patch.ring_position[to_size(p)] < 0; };
   start_triangulation(patch);
   for (int p : patch.path_order)
     if (inside(p)) insert_inside(patch, p);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/base/conversions.h"
 #include "harness/cut/patch.h"
 #include "harness/mesh/one_ring.h"
 #include "harness/mesh/predicates.h"
@@ -36,7 +37,7 @@ class CarefulEmbedding {
       const bool again = i > 0 && within(p, rest(vertex_[i - 1]), snap_);
       vertex_[i] = again ? vertex_[i - 1] : insert(p, triangle_of_node_[i]);
     }
-    const auto vertex_of = [&](int node) { return vertex_[static_cast<std::size_t>(node)]; };
+    const auto vertex_of = [&](int node) { return vertex_[to_size(node)]; };
     for (const auto& face : trace_.faces)  // the list of all segments has those that were replaced, too
       for (int s = face.segments; s >= 0; s = trace_.segment(s).next)
         connect(vertex_of(trace_.segment(s).from), vertex_of(trace_.segment(s).to));
@@ -58,7 +59,8 @@ class CarefulEmbedding {
 
   /// The faces and edges of the trace are those of the sheet before any edit: what is needed of them is stored first.
   void collect() {
-    vertex_.assign(trace_.nodes.size(), {}), triangle_of_node_.assign(trace_.nodes.size(), {});
+    vertex_.assign(trace_.nodes.size(), {});
+    triangle_of_node_.assign(trace_.nodes.size(), {});
     for (std::size_t i = 0; i < trace_.nodes.size(); ++i) {
       const Place& at = trace_.nodes[i].place;
       if (at.kind == Place::Kind::vertex) vertex_[i] = at.vertex;
@@ -67,7 +69,7 @@ class CarefulEmbedding {
     for (const auto& face : trace_.faces)
       for (int k = 0; k < 3; ++k) {
         const HalfEdge h = half_edge(face.triangle, k);
-        const int first = face.on_edge[static_cast<std::size_t>(k)];
+        const int first = face.on_edge[to_size(k)];
         if (first >= 0 && first_half_edge(sheet_, h) == h && sheet_.separates(h))
           separating_.push_back({{sheet_.origin(h), sheet_.target(h)}, first});
       }
@@ -77,7 +79,7 @@ class CarefulEmbedding {
   void split_separating_edge(Chain edge, int first) {
     for (int n = first; n >= 0; n = trace_.node(n).next) {
       const VertexIndex v = split(edge.from, edge.to, trace_.node(n).place.point);
-      vertex_[static_cast<std::size_t>(n)] = v;
+      vertex_[to_size(n)] = v;
       if (v != edge.to) edge.from = v;
     }
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -29,7 +31,7 @@ bool separate_fans(Sheet& sheet, HalfEdge first, std::vector<DeformedIndex>& see
   HalfEdge h = first;
   do {
     const Triangle& triangle = sheet.triangle(triangle_of(h));
-    const auto k = static_cast<std::size_t>(corner_of(h));
+    const auto k = to_size(corner_of(h));
     const HalfEdge left = triangle.opposite[k == 0 ? 2 : k - 1];
     if (!triangle.opposite[k].valid() || triangle.mark[k] != EdgeMark::none) {  // a fan begins
       mine = triangle.deformed[k];
@@ -40,7 +42,7 @@ bool separate_fans(Sheet& sheet, HalfEdge first, std::vector<DeformedIndex>& see
         seen.push_back(mine);
       if (triangle.mark[k] == EdgeMark::path) sheet.set_mark(h, EdgeMark::incision);
     }
-    if (copied) sheet.set_deformed(triangle_of(h), static_cast<int>(k), mine);
+    if (copied) sheet.set_deformed(triangle_of(h), to_int(k), mine);
     h = left;
   } while (h.valid() && h != first);
   return h.valid();

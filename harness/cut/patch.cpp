@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/one_ring.h"
 #include "harness/mesh/predicates.h"
 
@@ -12,8 +13,7 @@ namespace {
 
 int orientation(const Patch& patch, int a, int b, int c) {
   const auto& p = patch.points;
-  return cutbench::orientation(p[static_cast<std::size_t>(a)], p[static_cast<std::size_t>(b)],
-                               p[static_cast<std::size_t>(c)]);
+  return cutbench::orientation(p[to_size(a)], p[to_size(b)], p[to_size(c)]);
 }
 
 using Segments = std::vector<std::array<int, 2>>;
@@ -35,14 +35,13 @@ bool is_segment(const Patch& patch, const Segments& all, int a, int b) {
 }
 
 bool is_of_ring(const Patch& patch, int a, int b) {
-  const int i = patch.ring_position[static_cast<std::size_t>(a)], j = patch.ring_position[static_cast<std::size_t>(b)];
-  return i >= 0 && j == (i + 1 == static_cast<int>(patch.ring.size()) ? 0 : i + 1);
+  const int i = patch.ring_position[to_size(a)], j = patch.ring_position[to_size(b)];
+  return i >= 0 && j == (i + 1 == to_int(patch.ring.size()) ? 0 : i + 1);
 }
 
 /// Mark of edge a -> b of the answer.
 EdgeMark mark_of(const Patch& patch, const Segments& all, int a, int b) {
-  if (is_of_ring(patch, a, b))
-    return patch.ring_marks[static_cast<std::size_t>(patch.ring_position[static_cast<std::size_t>(a)])];
+  if (is_of_ring(patch, a, b)) return patch.ring_marks[to_size(patch.ring_position[to_size(a)])];
   return is_segment(patch, all, a, b) ? EdgeMark::path : EdgeMark::none;
 }
 
@@ -50,7 +49,7 @@ EdgeMark mark_of(const Patch& patch, const Segments& all, int a, int b) {
 /// only because it was rounded to the outside.
 bool are_on_one_edge(const Patch& patch, int a, int b) {
   const auto edges = [&](int p) {
-    if (patch.ring_position[static_cast<std::size_t>(p)] < 0) return 0;
+    if (patch.ring_position[to_size(p)] < 0) return 0;
     return p < 3 ? 1 << p | 1 << previous_corner(p) : 1 << patch.edge_of(p);
   };
   return (edges(a) & edges(b)) != 0;
@@ -67,8 +66,8 @@ HalfEdge find_half_edge(const Sheet& sheet, VertexIndex from, VertexIndex to) {
 
 int Patch::edge_of(int point) const {
   int edge = -1;
-  for (int i = 0; i <= ring_position[static_cast<std::size_t>(point)]; ++i)
-    if (ring[static_cast<std::size_t>(i)] < 3) ++edge;
+  for (int i = 0; i <= ring_position[to_size(point)]; ++i)
+    if (ring[to_size(i)] < 3) ++edge;
   return edge;
 }
 
@@ -84,15 +83,20 @@ void make_vertices(Sheet& sheet, Subdivision& subdivision) {
 void make_patch(const Sheet& sheet, const Subdivision& subdivision, int f, Patch& patch) {
   const Subdivision::Face& face = subdivision.face(f);
   patch.triangle = face.triangle;
-  patch.points.clear(), patch.vertices.clear(), patch.nodes.clear(), patch.ring.clear(), patch.ring_marks.clear();
-  patch.path_order.clear(), patch.segments.clear();
+  patch.points.clear();
+  patch.vertices.clear();
+  patch.nodes.clear();
+  patch.ring.clear();
+  patch.ring_marks.clear();
+  patch.path_order.clear();
+  patch.segments.clear();
   for (auto v : sheet.triangle(face.triangle).vertex) {
     patch.points.push_back(sheet.rest(v));
     patch.vertices.push_back(v);
     patch.nodes.push_back(subdivision.node_at(v));
   }
   auto add = [&](int n) {
-    const int local = static_cast<int>(patch.points.size());
+    const int local = to_int(patch.points.size());
     patch.points.push_back(subdivision.node(n).place.point);
     patch.vertices.push_back(subdivision.node(n).vertex);
     patch.nodes.push_back(n);
@@ -102,18 +106,16 @@ void make_patch(const Sheet& sheet, const Subdivision& subdivision, int f, Patch
   for (int k = 0; k < 3; ++k) {
     const HalfEdge h = half_edge(face.triangle, k);
     patch.ring.push_back(k);
-    const auto on_edge = static_cast<std::ptrdiff_t>(patch.ring.size());
-    for (int n = face.on_edge[static_cast<std::size_t>(k)]; n >= 0; n = subdivision.node(n).next)
-      patch.ring.push_back(add(n));
+    const auto on_edge = to_index(patch.ring.size());
+    for (int n = face.on_edge[to_size(k)]; n >= 0; n = subdivision.node(n).next) patch.ring.push_back(add(n));
     if (first_half_edge(sheet, h) != h) std::reverse(patch.ring.begin() + on_edge, patch.ring.end());
     patch.ring_marks.resize(patch.ring.size(), sheet.mark(h));
   }
   for (int n = face.inside; n >= 0; n = subdivision.node(n).next) add(n);
 
   patch.ring_position.assign(patch.points.size(), -1);
-  for (std::size_t i = 0; i < patch.ring.size(); ++i)
-    patch.ring_position[static_cast<std::size_t>(patch.ring[i])] = static_cast<int>(i);
-  const auto node = [&](int local) { return patch.nodes[static_cast<std::size_t>(local)]; };
+  for (std::size_t i = 0; i < patch.ring.size(); ++i) patch.ring_position[to_size(patch.ring[i])] = to_int(i);
+  const auto node = [&](int local) { return patch.nodes[to_size(local)]; };
   std::sort(patch.path_order.begin(), patch.path_order.end(), [&](int a, int b) { return node(a) < node(b); });
   const auto local = [&](int n) {
     for (int k = 0; k < 3; ++k)
@@ -132,7 +134,7 @@ bool find_crossing(const Sheet& sheet, const Subdivision& subdivision, int f, Cr
   const auto& on = face.on_edge;
   const int free = on[0] < 0 ? 0 : on[1] < 0 ? 1 : 2;  // the edge without a node
   const int edge_q = previous_corner(free), edge_p = next_corner(free);
-  const int p = on[static_cast<std::size_t>(edge_p)], q = on[static_cast<std::size_t>(edge_q)];
+  const int p = on[to_size(edge_p)], q = on[to_size(edge_q)];
   if (p < 0 || q < 0) return false;
   if (face.segments >= 0) {
     const auto& s = subdivision.segment(face.segments);
@@ -140,7 +142,7 @@ bool find_crossing(const Sheet& sheet, const Subdivision& subdivision, int f, Cr
   }
   const Triangle& t = sheet.triangle(face.triangle);
   const auto corner = [&](int k) {
-    const VertexIndex v = t.vertex[static_cast<std::size_t>(k)];
+    const VertexIndex v = t.vertex[to_size(k)];
     return Crossing::Corner{v, sheet.rest(v)};
   };
   const auto node = [&](int n) {
@@ -184,7 +186,7 @@ void append_answer(const Patch& patch, int parent, std::vector<Sheet::NewTriangl
     made.parent = parent;
     for (std::size_t k = 0; k < 3; ++k) {
       const int a = t[k], b = t[k == 2 ? 0 : k + 1];
-      made.vertex[k] = patch.vertices[static_cast<std::size_t>(a)];
+      made.vertex[k] = patch.vertices[to_size(a)];
       made.mark[k] = mark_of(patch, all, a, b);
       if (are_on_one_edge(patch, a, b) && !is_of_ring(patch, a, b) && !is_of_ring(patch, b, a))
         throw TooClose("an edge divided by the path would be one again");
@@ -214,8 +216,7 @@ void mark_along(Sheet& sheet, const Subdivision& subdivision) {
 PatchEdge find_edge(const Patch& patch, int a, int b) {
   for (std::size_t t = 0; t < patch.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k)
-      if (patch.triangles[t][k] == a && patch.triangles[t][k == 2 ? 0 : k + 1] == b)
-        return {static_cast<int>(t), static_cast<int>(k)};
+      if (patch.triangles[t][k] == a && patch.triangles[t][k == 2 ? 0 : k + 1] == b) return {to_int(t), to_int(k)};
   return {};
 }
 
@@ -227,8 +228,8 @@ namespace {
 void split_side(Patch& patch, int a, int b, int p) {
   const PatchEdge e = find_edge(patch, a, b);
   if (e.triangle < 0) return;
-  auto& t = patch.triangles[static_cast<std::size_t>(e.triangle)];
-  const int c = t[static_cast<std::size_t>(previous_corner(e.corner))];
+  auto& t = patch.triangles[to_size(e.triangle)];
+  const int c = t[to_size(previous_corner(e.corner))];
   t = {a, p, c};
   patch.triangles.push_back({p, b, c});
 }
@@ -242,7 +243,7 @@ void insert_on_ring(Patch& patch, int p) {
                        [&](const auto& t) { return t[0] == q || t[1] == q || t[2] == q; });
   };
   const auto neighbour = [&](std::size_t step) {
-    std::size_t i = static_cast<std::size_t>(patch.ring_position[static_cast<std::size_t>(p)]);
+    std::size_t i = to_size(patch.ring_position[to_size(p)]);
     do i = (i + step) % patch.ring.size();
     while (!inserted(patch.ring[i]));
     return patch.ring[i];
@@ -283,11 +284,13 @@ void insert_inside(Patch& patch, int p) {
     for (std::size_t k = 0; k < 3; ++k)
       if (side[k] == 0) {
         const int from = patch.triangles[i][k], to = patch.triangles[i][k == 2 ? 0 : k + 1];
-        split_side(patch, from, to, p), split_side(patch, to, from, p);
+        split_side(patch, from, to, p);
+        split_side(patch, to, from, p);
         return;
       }
     patch.triangles[i] = {a, b, p};
-    patch.triangles.push_back({b, c, p}), patch.triangles.push_back({c, a, p});
+    patch.triangles.push_back({b, c, p});
+    patch.triangles.push_back({c, a, p});
     return;
   }
   throw TooClose("a point of the path fell out of its triangle, coordinates too close for doubles");
@@ -306,13 +309,14 @@ bool cross_properly(const Patch& patch, int a, int b, int c, int d) {
 std::optional<std::array<int, 2>> flip(Patch& patch, int a, int b) {
   const PatchEdge e = find_edge(patch, a, b), o = find_edge(patch, b, a);
   if (e.triangle < 0 || o.triangle < 0) return {};
-  auto& left = patch.triangles[static_cast<std::size_t>(e.triangle)];
-  auto& right = patch.triangles[static_cast<std::size_t>(o.triangle)];
-  const int c = left[static_cast<std::size_t>(previous_corner(e.corner))];
-  const int d = right[static_cast<std::size_t>(previous_corner(o.corner))];
+  auto& left = patch.triangles[to_size(e.triangle)];
+  auto& right = patch.triangles[to_size(o.triangle)];
+  const int c = left[to_size(previous_corner(e.corner))];
+  const int d = right[to_size(previous_corner(o.corner))];
   if (orientation(patch, a, d, c) <= 0 || orientation(patch, d, b, c) <= 0) return {};
   if (are_on_one_edge(patch, c, d)) return {};
-  left = {a, d, c}, right = {d, b, c};
+  left = {a, d, c};
+  right = {d, b, c};
   return std::array{c, d};
 }
 

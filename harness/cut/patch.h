@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/sheet.h"
 #include "harness/path/cut_failed.h"
 #include "harness/path/subdivision.h"
@@ -75,8 +76,9 @@ template <class DiagonalFromP, class Solve>
 void embed_patches(Sheet& sheet, Subdivision& subdivision, PatchWork& work, DiagonalFromP diagonal_from_p,
                    Solve solve) {
   make_vertices(sheet, subdivision);
-  work.removed.clear(), work.added.clear();
-  for (int f = 0; f < static_cast<int>(subdivision.faces.size()); ++f) {
+  work.removed.clear();
+  work.added.clear();
+  for (int f = 0; f < to_int(subdivision.faces.size()); ++f) {
     if (find_crossing(sheet, subdivision, f, work.crossing)) {
       split_crossing(sheet, work.crossing, diagonal_from_p(work.crossing));
       continue;
@@ -84,7 +86,7 @@ void embed_patches(Sheet& sheet, Subdivision& subdivision, PatchWork& work, Diag
     make_patch(sheet, subdivision, f, work.patch);
     work.patch.triangles.clear();
     solve(work.patch);
-    append_answer(work.patch, static_cast<int>(work.removed.size()), work.added);
+    append_answer(work.patch, to_int(work.removed.size()), work.added);
     work.removed.push_back(subdivision.face(f).triangle);
   }
   sheet.replace_cavity(work.removed, work.added);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "harness/fem/elements/bending_kinds.h"
 #include "harness/fem/solvers/solver_table.h"
@@ -198,7 +199,7 @@ Scene::Cut read_cut(const TomlReader& reader) {
   cut.seed = static_cast<std::uint64_t>(reader.value<std::int64_t>("seed", 1));
   const auto index = reader.value<std::int64_t>("case", 0);
   if (index < 0) reader.refuse("\"case\" must be positive, or 0");
-  cut.index = static_cast<std::size_t>(index);
+  cut.index = to_size(index);
   return cut;
 }
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <fstream>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -36,7 +38,7 @@ void check_keys(const toml::table& table, const std::vector<std::string>& known,
 int TomlReader::count(const char* key, int fallback, int least) const {
   const auto n = value<std::int64_t>(key, fallback);
   if (n < least || n > 1000000) refuse(quoted(key) + " must be between " + std::to_string(least) + " and 1000000");
-  return static_cast<int>(n);
+  return to_int(n);
 }
 
 double TomlReader::finite(const char* key, double fallback) const {

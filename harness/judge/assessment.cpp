@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "harness/base/conversions.h"
 #include "harness/judge/oracle_request.h"
 #include "harness/oracle/sheet_topology.h"
 
@@ -14,7 +15,7 @@ namespace {
 using Corners = std::array<oracle::Point, 3>;
 
 Corners corners_of(const oracle::Mesh& mesh, std::size_t t) {
-  const auto at = [&](std::size_t k) { return mesh.rest[static_cast<std::size_t>(mesh.triangles[t][k])]; };
+  const auto at = [&](std::size_t k) { return mesh.rest[to_size(mesh.triangles[t][k])]; };
   return {at(0), at(1), at(2)};
 }
 
@@ -37,7 +38,7 @@ std::vector<char> changed_triangles(const oracle::Mesh& before, const oracle::Me
 std::size_t count_places(const oracle::Mesh& mesh) {
   std::vector<oracle::Point> places = mesh.rest;
   std::sort(places.begin(), places.end());
-  return static_cast<std::size_t>(std::unique(places.begin(), places.end()) - places.begin());
+  return to_size(std::unique(places.begin(), places.end()) - places.begin());
 }
 
 /// Whether quality() can be asked: it wants edges, and no numbers that overflow.
@@ -51,9 +52,7 @@ bool can_be_measured(const Judgement& judgement, const oracle::Mesh& mesh) {
   return true;
 }
 
-std::ptrdiff_t difference(std::size_t a, std::size_t b) {
-  return static_cast<std::ptrdiff_t>(a) - static_cast<std::ptrdiff_t>(b);
-}
+std::ptrdiff_t difference(std::size_t a, std::size_t b) { return to_index(a) - to_index(b); }
 
 Quality quality_in_h(const std::vector<std::array<Point2, 3>>& triangles, double h) {
   Quality q = quality(triangles);
@@ -66,7 +65,8 @@ void measure(Assessment& result, const oracle::Mesh& mesh, const std::vector<cha
              std::span<const oracle::ForcedCorner> forced, double h) {
   const auto zones = oracle::forced_zones({forced.begin(), forced.end()}, mesh, h);
   result.forced_corners = forced.size();
-  result.corner_triangles = zones.corner_triangles, result.wedge_triangles = zones.zone_triangles;
+  result.corner_triangles = zones.corner_triangles;
+  result.wedge_triangles = zones.zone_triangles;
   result.wedge_area = zones.zone_area;
   std::vector<std::array<Point2, 3>> all, cut, strict, outside_wedges, away;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -81,8 +81,10 @@ void measure(Assessment& result, const oracle::Mesh& mesh, const std::vector<cha
     if (!zones.in_zone[t]) outside_wedges.push_back(c);
     if (!zones.near_zone[t]) away.push_back(c);
   }
-  result.all = quality_in_h(all, h), result.cut = quality_in_h(cut, h);
-  result.strict = quality_in_h(strict, h), result.outside_wedges = quality_in_h(outside_wedges, h);
+  result.all = quality_in_h(all, h);
+  result.cut = quality_in_h(cut, h);
+  result.strict = quality_in_h(strict, h);
+  result.outside_wedges = quality_in_h(outside_wedges, h);
   result.ar_max_away_from_wedges = quality(away).ar_max;
 }
 

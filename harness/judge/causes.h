@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/judge/findings.h"
 #include "harness/oracle/exact.h"
 #include "harness/oracle/search.h"
@@ -47,7 +48,7 @@ class Causes {
   /// A neighbour has an edge in the same direction, or all of its edges are alone.
   bool runs_against_neighbours(int t) const;
 
-  int from(int e) const { return after_.triangles[e / 3][static_cast<std::size_t>(e % 3)]; }
+  int from(int e) const { return after_.triangles[e / 3][to_size(e % 3)]; }
   int to(int e) const { return from(next(e)); }
   std::optional<Finding> lips_differ() const;
   std::optional<Finding> t_junction() const;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 
+#include "harness/base/conversions.h"
 #include "harness/judge/causes.h"
 #include "harness/oracle/clip.h"
 #include "harness/oracle/flatten.h"
@@ -61,7 +62,8 @@ std::optional<Finding> Causes::lost_triangle() const {
     const Point outside{middle[0] + 1e-4 * along[1], middle[1] - 1e-4 * along[0]};
     if (!was.holds(outside) || is.holds(outside)) continue;
     if (!place) place = outside;
-    corners.insert(a), corners.insert(b);
+    corners.insert(a);
+    corners.insert(b);
   }
   if (!place) return {};
   std::string which = "no triangle covers the place beside " + at(*place);
@@ -112,9 +114,9 @@ std::pair<double, Point> Causes::farthest(const std::vector<Segment>& segments, 
                                           Counts counts) const {
   std::pair<double, Point> result{-1, {}};
   for (const Segment& s : segments) {
-    const int steps = static_cast<int>(std::ceil(distance(s[0], s[1]) / (0.02 * h_)));
+    const int steps = to_int(std::ceil(distance(s[0], s[1]) / (0.02 * h_)));
     for (int i = 0; i <= steps; ++i) {
-      const Point p = between(s[0], s[1], steps == 0 ? 0.0 : static_cast<double>(i) / steps);
+      const Point p = between(s[0], s[1], steps == 0 ? 0.0 : to_double(i) / steps);
       if (const double d = others.distance(p); d > result.first && counts(p)) result = {d, p};
     }
   }
@@ -144,7 +146,7 @@ std::optional<Finding> Causes::beside_path() const {
 std::optional<Finding> Causes::not_opened() const {
   std::vector<Segment> open;
   for (std::size_t e = 0; e < edges_.opposite.size(); ++e)
-    if (edges_.opposite[e] < 0) open.push_back(segment(after_, static_cast<int>(e)));
+    if (edges_.opposite[e] < 0) open.push_back(segment(after_, to_int(e)));
   const oracle::TriangleSearch sheet(before_);
   auto [off, place] =
       farthest(whole_path(), oracle::SegmentSearch(open), [&](const Point& p) { return sheet.holds(p); });
@@ -166,16 +168,19 @@ std::optional<Finding> Causes::not_opened() const {
 int Causes::closed_edge() const {
   std::vector<char> on_border(after_.rest.size(), 0);
   for (std::size_t e = 0; e < edges_.opposite.size(); ++e)
-    if (edges_.opposite[e] < 0) on_border[from(static_cast<int>(e))] = on_border[to(static_cast<int>(e))] = 1;
+    if (edges_.opposite[e] < 0) on_border[from(to_int(e))] = on_border[to(to_int(e))] = 1;
   const oracle::SegmentSearch path(whole_path());
   int best = -1;
   double least = 0.2;
-  for (int e = 0; e < static_cast<int>(edges_.opposite.size()); ++e) {
+  for (int e = 0; e < to_int(edges_.opposite.size()); ++e) {
     if (edges_.opposite[e] < e || !on_border[from(e)] || !on_border[to(e)]) continue;
     const Segment s = segment(after_, e);
     double off = 0;
     for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) off = std::max(off, path.distance(between(s[0], s[1], t)));
-    if (const double share = off / distance(s[0], s[1]); share < least) least = share, best = e;
+    if (const double share = off / distance(s[0], s[1]); share < least) {
+      least = share;
+      best = e;
+    }
   }
   return best;
 }

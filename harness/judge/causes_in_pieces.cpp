@@ -3,17 +3,21 @@
 #include <cmath>
 #include <limits>
 
+#include "harness/base/conversions.h"
 #include "harness/judge/causes.h"
 
 namespace cutbench::causes {
 
 auto Causes::all_pieces(const std::vector<int>& piece) const -> std::vector<Piece> {
-  std::vector<Piece> all(static_cast<std::size_t>(judgement_.pieces));
-  for (int t = 0; t < static_cast<int>(piece.size()); ++t) {
+  std::vector<Piece> all(to_size(judgement_.pieces));
+  for (int t = 0; t < to_int(piece.size()); ++t) {
     const double a = area_of(t);
     Piece& p = all[piece[t]];
     p.area += a;
-    if (a > p.largest_area) p.largest_area = a, p.largest = t;
+    if (a > p.largest_area) {
+      p.largest_area = a;
+      p.largest = t;
+    }
   }
   return all;
 }
@@ -53,11 +57,14 @@ std::optional<Finding> Causes::lost_loop() const {
     Point middle{0, 0};
     for (const auto& [a, b] : path) {
       twice += oracle::cross(minus(a, path.front()[0]), minus(b, path.front()[0]));
-      for (std::size_t i = 0; i < 2; ++i) middle[i] += a[i] / static_cast<double>(path.size());
+      for (std::size_t i = 0; i < 2; ++i) middle[i] += a[i] / to_double(path.size());
     }
     const double inside = std::abs(twice) / 2;
-    for (int t = 0; t < static_cast<int>(piece.size()); ++t)
-      if (holds(t, middle) && all[piece[t]].area > 2 * inside && inside < smallest) smallest = inside, place = middle;
+    for (int t = 0; t < to_int(piece.size()); ++t)
+      if (holds(t, middle) && all[piece[t]].area > 2 * inside && inside < smallest) {
+        smallest = inside;
+        place = middle;
+      }
   }
   if (!std::isfinite(smallest)) return {};
   return Finding{"lost_loop",

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "harness/base/conversions.h"
 #include "harness/judge/causes.h"
 #include "harness/judge/lost_digits.h"
 
@@ -21,7 +22,8 @@ std::string at(const Point& p) { return "(" + number(p[0]) + ", " + number(p[1])
 
 std::vector<Finding> Causes::find() {
   if (judgement_.verdict == Verdict::not_finite || judgement_.verdict == Verdict::bad_index) return {other()};
-  before_edges_ = oracle::half_edges(before_), edges_ = oracle::half_edges(after_);
+  before_edges_ = oracle::half_edges(before_);
+  edges_ = oracle::half_edges(after_);
   h_ = oracle::edge_lengths(before_, before_edges_).mean;
   compare_places();
   std::vector<Finding> all;
@@ -61,7 +63,7 @@ void Causes::look_at_borders(Try try_one) {
 void Causes::compare_places() {
   const std::vector<int> unused = oracle::unused_vertices(before_);
   std::set<Point> had, has(after_.rest.begin(), after_.rest.end());
-  for (int v = 0; v < static_cast<int>(before_.rest.size()); ++v)
+  for (int v = 0; v < to_int(before_.rest.size()); ++v)
     if (!std::binary_search(unused.begin(), unused.end(), v)) had.insert(before_.rest[v]);
   places_before_ = had.size();
   for (const Point& p : had)
@@ -82,7 +84,10 @@ std::optional<Finding> Causes::rounded() const {
     for (const Point& p : gone_)
       if (const double d = search.distance(p); d <= 1e-4 * h_) {
         ++close;
-        if (d > farthest) farthest = d, worst = p;
+        if (d > farthest) {
+          farthest = d;
+          worst = p;
+        }
       }
     if (10 * close < 9 * gone_.size()) return {};
     how = std::to_string(close) + " of " + std::to_string(places_before_) +
@@ -147,7 +152,7 @@ std::optional<Finding> Causes::flipped() const {
   if (every_triangle_turns_back())
     return Finding{"flipped", "every triangle has its corners in clockwise order", "swap two corners of each", {}};
   std::optional<Finding> folded;
-  for (int t = 0; t < static_cast<int>(after_.triangles.size()); ++t) {
+  for (int t = 0; t < to_int(after_.triangles.size()); ++t) {
     const auto& [a, b, c] = after_.triangles[t];
     const int turn = orientation(after_.rest[a], after_.rest[b], after_.rest[c]);
     if (turn > 0) continue;
@@ -187,8 +192,10 @@ std::vector<Finding> Causes::with_cuts(std::vector<Finding> all) const {
     if (!f.place) continue;
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < request_.cuts.size(); ++i)
-      if (const double d = oracle::SegmentSearch(path_of(i)).distance(*f.place); f.cut == 0 || d < nearest)
-        nearest = d, f.cut = static_cast<int>(i) + 1;
+      if (const double d = oracle::SegmentSearch(path_of(i)).distance(*f.place); f.cut == 0 || d < nearest) {
+        nearest = d;
+        f.cut = to_int(i) + 1;
+      }
   }
   return all;
 }

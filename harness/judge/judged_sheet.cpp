@@ -44,7 +44,8 @@ JudgedSheet::Finding JudgedSheet::cut(const Curve& curve, const CutOptions& opti
     request = request_for(before, {&curve, 1}, promises_, options, method_.improved);
   }
   request.snap = std::max(request.snap, 2 * outcome.deviation);
-  request.vertex_tolerance += outcome.deviation, request.tolerance += outcome.deviation;
+  request.vertex_tolerance += outcome.deviation;
+  request.tolerance += outcome.deviation;
   judgement = oracle::judge(request, for_oracle(sheet));
   if (status == Status::deviated) {
     std::erase_if(judgement.problems, [](const std::string& problem) { return problem.starts_with("wrong_pieces"); });
@@ -70,7 +71,8 @@ Judgement judge_one_by_one(const Sheet& start, const Sheet& result, std::span<co
         cuts.size() > 1 ? "cut " + std::to_string(i + 1) + " of " + std::to_string(cuts.size()) + ": " : "";
     const JudgedSheet::Finding finding = again.cut(cuts[i], options);
     const Judgement& last = again.judgement;
-    all.pieces = last.pieces, all.expected_pieces = last.expected_pieces;
+    all.pieces = last.pieces;
+    all.expected_pieces = last.expected_pieces;
     all.incision_error = std::max(all.incision_error, last.incision_error);
     all.area_change += (1 + all.area_change) * last.area_change;
     if (!finding.ok()) {

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -11,7 +13,7 @@ namespace {
 enum class Shortened { no, possibly, surely };  ///< possibly: so short that it may be exact, like 0.5
 
 Shortened as_float(double x) {
-  if (x != static_cast<double>(static_cast<float>(x))) return Shortened::no;
+  if (x != to_double(static_cast<float>(x))) return Shortened::no;
   int exponent = 0;
   const double mantissa = std::frexp(x, &exponent) * 65536;
   return mantissa == std::floor(mantissa) ? Shortened::possibly : Shortened::surely;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/tolerances.h"
 
 namespace cutbench {
@@ -13,7 +14,7 @@ oracle::Mesh for_oracle(const Sheet& sheet) {
   for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) {
     const VertexIndex v = sheet.rest_vertex(DeformedIndex(d));
     if (!v.valid()) continue;
-    number[d] = static_cast<int>(mesh.rest.size());
+    number[d] = to_int(mesh.rest.size());
     mesh.rest.push_back({sheet.rest(v).x, sheet.rest(v).y});
   }
   for (std::size_t t = 0; t < sheet.triangle_slots(); ++t) {

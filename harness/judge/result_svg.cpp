@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <map>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/tolerances.h"
 
 namespace cutbench {
@@ -33,12 +34,12 @@ class Drawing {
     text_ += text;
   }
   std::string finished(const std::string& caption) const {
-    const std::string size = std::to_string(static_cast<int>(side + 2 * margin));
+    const std::string size = std::to_string(to_int(side + 2 * margin));
     std::string escaped;
     for (const char c : caption) escaped += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
     return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + size + " " + size +
            "\" font-family=\"sans-serif\" font-size=\"13\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n" +
-           text_ + "<rect y=\"0\" width=\"100%\" height=\"" + std::to_string(static_cast<int>(margin)) +
+           text_ + "<rect y=\"0\" width=\"100%\" height=\"" + std::to_string(to_int(margin)) +
            "\" fill=\"white\"/>\n<text x=\"10\" y=\"24\">" + escaped + "</text>\n</svg>\n";
   }
 
@@ -73,15 +74,15 @@ Drawing canvas(const Sheet& before, std::span<const Finding> findings) {
 /// Its edges; a border edge has one triangle.
 void draw(Drawing& drawing, const MeshData& mesh, const char* inner, const char* border, double width) {
   std::map<std::pair<std::int32_t, std::int32_t>, int> triangles_at;
-  const auto count = static_cast<std::int32_t>(mesh.rest.size());
+  const auto count = to_int32(mesh.rest.size());
   for (const auto& t : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const auto a = t[k], b = t[(k + 1) % 3];
       if (std::min(a, b) >= 0 && std::max(a, b) < count) ++triangles_at[std::minmax(a, b)];
     }
   for (const auto& [ends, triangles] : triangles_at)
-    drawing.line(mesh.rest[static_cast<std::size_t>(ends.first)], mesh.rest[static_cast<std::size_t>(ends.second)],
-                 triangles == 1 ? border : inner, triangles == 1 ? 2 * width : width);
+    drawing.line(mesh.rest[to_size(ends.first)], mesh.rest[to_size(ends.second)], triangles == 1 ? border : inner,
+                 triangles == 1 ? 2 * width : width);
 }
 
 }  // namespace

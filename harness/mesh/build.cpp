@@ -6,6 +6,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "harness/base/conversions.h"
 #include "harness/base/union_find.h"
 #include "harness/mesh/sheet.h"
 #include "harness/mesh/tolerances.h"
@@ -22,8 +23,10 @@ struct RestEdge {
 struct RestEdgeHash {
   std::size_t operator()(const RestEdge& e) const {
     std::uint64_t hash = 0;
-    for (double c : {e.a.x, e.a.y, e.b.x, e.b.y})
-      hash = (hash ^ std::bit_cast<std::uint64_t>(c + 0.0)) * 0x9E3779B97F4A7C15u, hash ^= hash >> 29;
+    for (double c : {e.a.x, e.a.y, e.b.x, e.b.y}) {
+      hash = (hash ^ std::bit_cast<std::uint64_t>(c + 0.0)) * 0x9E3779B97F4A7C15u;
+      hash ^= hash >> 29;
+    }
     return hash;
   }
 };
@@ -34,7 +37,7 @@ double ulp(double x) { return std::nextafter(x, std::numeric_limits<double>::inf
 
 Sheet::Sheet(const MeshData& data) {
   const std::size_t n = data.triangles.size();
-  auto rest_of = [&](std::int32_t v) { return data.rest[static_cast<std::size_t>(v)]; };
+  auto rest_of = [&](std::int32_t v) { return data.rest[to_size(v)]; };
   triangles_.resize(n);
 
   // Neighbours through shared vertices.
@@ -42,12 +45,11 @@ Sheet::Sheet(const MeshData& data) {
   edges.reset(3 * n);
   for (std::size_t t = 0; t < n; ++t)
     for (int k = 0; k < 3; ++k) {
-      const auto a = data.triangles[t][static_cast<std::size_t>(k)];
-      const auto b = data.triangles[t][static_cast<std::size_t>(next_corner(k))];
+      const auto a = data.triangles[t][to_size(k)];
+      const auto b = data.triangles[t][to_size(next_corner(k))];
       const HalfEdge h = half_edge(TriangleIndex(t), k);
-      triangles_[t].deformed[corner(h)] = DeformedIndex(static_cast<std::size_t>(a));
-      const HalfEdge o =
-          edges.pair_or_insert(VertexIndex(static_cast<std::size_t>(a)), VertexIndex(static_cast<std::size_t>(b)), h);
+      triangles_[t].deformed[corner(h)] = DeformedIndex(to_size(a));
+      const HalfEdge o = edges.pair_or_insert(VertexIndex(to_size(a)), VertexIndex(to_size(b)), h);
       triangles_[t].opposite[corner(h)] = o;
       if (o.valid()) at(triangle_of(o)).opposite[corner(o)] = h;
     }
@@ -59,7 +61,7 @@ Sheet::Sheet(const MeshData& data) {
     for (int k = 0; k < 3; ++k) {
       const HalfEdge h = half_edge(TriangleIndex(t), k);
       if (triangles_[t].opposite[corner(h)].valid()) continue;
-      const auto a = data.triangles[t][corner(h)], b = data.triangles[t][static_cast<std::size_t>(next_corner(k))];
+      const auto a = data.triangles[t][corner(h)], b = data.triangles[t][to_size(next_corner(k))];
       const auto other = lips.find({rest_of(b), rest_of(a)});
       if (other == lips.end()) {
         lips.emplace(RestEdge{rest_of(a), rest_of(b)}, h);
@@ -67,10 +69,11 @@ Sheet::Sheet(const MeshData& data) {
       }
       const HalfEdge o = other->second;
       lips.erase(other);
-      triangles_[t].opposite[corner(h)] = o, at(triangle_of(o)).opposite[corner(o)] = h;
+      triangles_[t].opposite[corner(h)] = o;
+      at(triangle_of(o)).opposite[corner(o)] = h;
       triangles_[t].mark[corner(h)] = at(triangle_of(o)).mark[corner(o)] = EdgeMark::incision;
       const auto& twin = data.triangles[triangle_of(o)()];
-      welded.join(a, twin[static_cast<std::size_t>(next_corner(corner_of(o)))]);
+      welded.join(a, twin[to_size(next_corner(corner_of(o)))]);
       welded.join(b, twin[corner(o)]);
     }
 
@@ -80,7 +83,8 @@ Sheet::Sheet(const MeshData& data) {
     if (representative == d) rest_.push_back(data.rest[d]);
     vertex_of_deformed_[d] = representative == d ? VertexIndex(rest_.size() - 1) : vertex_of_deformed_[representative];
   }
-  triangle_of_vertex_.resize(rest_.size()), born_in_.resize(rest_.size());
+  triangle_of_vertex_.resize(rest_.size());
+  born_in_.resize(rest_.size());
   for (std::size_t t = 0; t < n; ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       triangles_[t].vertex[k] = vertex_of_deformed_[triangles_[t].deformed[k]()];
@@ -93,7 +97,8 @@ Sheet::Sheet(const MeshData& data) {
   for (const Triangle& t : triangles_)
     for (std::size_t k = 0; k < 3; ++k) {
       const Point2 a = rest(t.vertex[k]), b = rest(t.vertex[k == 2 ? 0 : k + 1]);
-      low = {std::min(low.x, a.x), std::min(low.y, a.y)}, high = {std::max(high.x, a.x), std::max(high.y, a.y)};
+      low = {std::min(low.x, a.x), std::min(low.y, a.y)};
+      high = {std::max(high.x, a.x), std::max(high.y, a.y)};
       largest = std::max({largest, std::abs(a.x), std::abs(a.y)});
       const double share = t.opposite[k].valid() ? 0.5 : 1;  // an inner edge is met twice
       total += share * length(b - a);
@@ -109,7 +114,7 @@ MeshData Sheet::to_mesh_data() const {
   std::vector<std::int32_t> number(position_.size(), -1);
   for (std::size_t d = 0; d < position_.size(); ++d) {
     if (!vertex_of_deformed_[d].valid()) continue;
-    number[d] = static_cast<std::int32_t>(data.rest.size());
+    number[d] = to_int32(data.rest.size());
     data.rest.push_back(rest(vertex_of_deformed_[d]));
     data.deformed.push_back(position_[d]);
   }
@@ -135,7 +140,10 @@ template <class Index, class T>
 void keep(std::vector<T>& data, const std::vector<Index>& map) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < data.size(); ++i)
-    if (map[i].valid()) data[map[i]()] = data[i], ++kept;
+    if (map[i].valid()) {
+      data[map[i]()] = data[i];
+      ++kept;
+    }
   data.resize(kept);
 }
 
@@ -150,8 +158,11 @@ Sheet::Compaction Sheet::compact() {
   keep(triangles_, map.triangles);
   held_.resize(rest_.size());
   keep(held_, map.vertices);
-  keep(rest_, map.vertices), keep(triangle_of_vertex_, map.vertices), keep(born_in_, map.vertices);
-  keep(position_, map.deformed), keep(vertex_of_deformed_, map.deformed);
+  keep(rest_, map.vertices);
+  keep(triangle_of_vertex_, map.vertices);
+  keep(born_in_, map.vertices);
+  keep(position_, map.deformed);
+  keep(vertex_of_deformed_, map.deformed);
   for (Triangle& t : triangles_)
     for (std::size_t k = 0; k < 3; ++k) {
       t.vertex[k] = map.vertices[t.vertex[k]()];
@@ -161,7 +172,9 @@ Sheet::Compaction Sheet::compact() {
     }
   for (auto& t : triangle_of_vertex_) t = map.triangles[t()];
   for (auto& v : vertex_of_deformed_) v = map.vertices[v()];
-  free_triangles_.clear(), free_vertices_.clear(), free_deformed_.clear();
+  free_triangles_.clear();
+  free_vertices_.clear();
+  free_deformed_.clear();
   begin_cut();
   return map;
 }

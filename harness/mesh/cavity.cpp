@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/sheet.h"
 
 namespace cutbench {
@@ -19,9 +20,13 @@ DeformedIndex Sheet::pending_deformed(VertexIndex v, TriangleIndex parent) const
 /// Makes h and o neighbours. What o is marked with counts.
 void Sheet::link(HalfEdge h, HalfEdge o) {
   Triangle &left = at(triangle_of(h)), &right = at(triangle_of(o));
-  left.opposite[corner(h)] = o, right.opposite[corner(o)] = h;
+  left.opposite[corner(h)] = o;
+  right.opposite[corner(o)] = h;
   const EdgeMark mark = left.mark[corner(h)] = right.mark[corner(o)];
-  if (mark == EdgeMark::path) put_on_path(origin(h)), put_on_path(target(h));
+  if (mark == EdgeMark::path) {
+    put_on_path(origin(h));
+    put_on_path(target(h));
+  }
 }
 
 void Sheet::link_by_vertices(HalfEdge h) {
@@ -38,12 +43,14 @@ void Sheet::put_on_path(VertexIndex v) {
 void Sheet::join_halves(VertexIndex v, HalfEdge first, HalfEdge second) {
   auto& waiting = work_.pending[work_.pending_of[v()]].waiting;
   const auto connect = [&](HalfEdge h, HalfEdge o) {
-    at(triangle_of(h)).opposite[corner(h)] = o, at(triangle_of(o)).opposite[corner(o)] = h;
+    at(triangle_of(h)).opposite[corner(h)] = o;
+    at(triangle_of(o)).opposite[corner(o)] = h;
   };
   if (!waiting[0].valid()) {
     waiting = {first, second};
   } else {
-    connect(waiting[0], second), connect(waiting[1], first);
+    connect(waiting[0], second);
+    connect(waiting[1], first);
     waiting = {};
   }
 }
@@ -150,7 +157,10 @@ void Sheet::inherit_round(HalfEdge outgoing, std::span<const TriangleIndex> remo
         const Point2 right = rest(t.vertex[k == 2 ? 0 : k + 1]) - v, left = rest(t.vertex[k == 0 ? 2 : k - 1]) - v;
         const double depth = std::min(cross(right, inward) / std::sqrt(squared_length(right)),
                                       cross(inward, left) / std::sqrt(squared_length(left)));
-        if (depth > deepest) deepest = depth, d = t.deformed[k];
+        if (depth > deepest) {
+          deepest = depth;
+          d = t.deformed[k];
+        }
       }
   }
   at(triangle_of(outgoing)).deformed[corner(outgoing)] = d;
@@ -158,25 +168,27 @@ void Sheet::inherit_round(HalfEdge outgoing, std::span<const TriangleIndex> remo
 
 /// Fills a slot, with what its parent knows: deformed vertices, and neighbours across edges that stay as they were.
 void Sheet::add_triangle(TriangleIndex slot, const NewTriangle& made, std::span<const TriangleIndex> removed) {
-  const Triangle* old = made.parent >= 0 ? &work_.old[static_cast<std::size_t>(made.parent)] : nullptr;
-  const TriangleIndex parent = old ? removed[static_cast<std::size_t>(made.parent)] : TriangleIndex();
+  const Triangle* old = made.parent >= 0 ? &work_.old[to_size(made.parent)] : nullptr;
+  const TriangleIndex parent = old ? removed[to_size(made.parent)] : TriangleIndex();
   Triangle& t = at(slot);
-  t.vertex = made.vertex, t.mark = made.mark, t.opposite = {};
+  t.vertex = made.vertex;
+  t.mark = made.mark;
+  t.opposite = {};
   std::array<int, 3> corner_of_parent{-1, -1, -1};
   for (std::size_t k = 0; k < 3; ++k) {
     const VertexIndex v = t.vertex[k];
     if (old) corner_of_parent[k] = old->vertex[0] == v ? 0 : old->vertex[1] == v ? 1 : old->vertex[2] == v ? 2 : -1;
-    t.deformed[k] = corner_of_parent[k] >= 0 ? old->deformed[static_cast<std::size_t>(corner_of_parent[k])]
-                                             : pending_deformed(v, parent);
-    if (!t.deformed[k].valid()) work_.unassigned.push_back(half_edge(slot, static_cast<int>(k)));
+    t.deformed[k] =
+        corner_of_parent[k] >= 0 ? old->deformed[to_size(corner_of_parent[k])] : pending_deformed(v, parent);
+    if (!t.deformed[k].valid()) work_.unassigned.push_back(half_edge(slot, to_int(k)));
     triangle_of_vertex_[v()] = slot;
   }
   for (int k = 0; k < 3; ++k) {
-    const auto i = static_cast<std::size_t>(k);
+    const auto i = to_size(k);
     const HalfEdge h = half_edge(slot, k);
-    const int from = corner_of_parent[i], to = corner_of_parent[static_cast<std::size_t>(next_corner(k))];
+    const int from = corner_of_parent[i], to = corner_of_parent[to_size(next_corner(k))];
     if (from >= 0 && to == next_corner(from)) {
-      const HalfEdge o = old->opposite[static_cast<std::size_t>(from)];
+      const HalfEdge o = old->opposite[to_size(from)];
       if (!o.valid()) continue;
       if (was_removed(o))
         link_by_vertices(h);
@@ -192,7 +204,10 @@ void Sheet::replace_cavity(std::span<const TriangleIndex> removed, std::span<con
   auto& old = work_.old;
   auto& slot = work_.slot;
   auto& claimed = work_.claimed;
-  old.clear(), slot.resize(added.size()), work_.unassigned.clear(), claimed.assign(removed.size(), 0);
+  old.clear();
+  slot.resize(added.size());
+  work_.unassigned.clear();
+  claimed.assign(removed.size(), 0);
   work_.edges.reset(3 * (removed.size() + added.size()) + 2 * work_.pending.size());
   if (work_.removed_in.size() < triangles_.size()) work_.removed_in.resize(triangles_.capacity());
   ++work_.call;
@@ -206,7 +221,7 @@ void Sheet::replace_cavity(std::span<const TriangleIndex> removed, std::span<con
   // a neighbour does not point back: its halves wait to be found.
   for (std::size_t i = 0; i < old.size(); ++i)
     for (int k = 0; k < 3; ++k) {
-      HalfEdge& o = old[i].opposite[static_cast<std::size_t>(k)];
+      HalfEdge& o = old[i].opposite[to_size(k)];
       if (!o.valid() || was_removed(o)) continue;
       if (opposite(o) == half_edge(removed[i], k))
         at(triangle_of(o)).opposite[corner(o)] = {};
@@ -222,13 +237,16 @@ void Sheet::replace_cavity(std::span<const TriangleIndex> removed, std::span<con
   std::size_t unclaimed = 0;
   for (std::size_t i = 0; i < added.size(); ++i) {
     const int p = added[i].parent;
-    const bool first = p >= 0 && !claimed[static_cast<std::size_t>(p)];
-    slot[i] = first ? removed[static_cast<std::size_t>(p)] : TriangleIndex();
-    if (first) claimed[static_cast<std::size_t>(p)] = 1;
+    const bool first = p >= 0 && !claimed[to_size(p)];
+    slot[i] = first ? removed[to_size(p)] : TriangleIndex();
+    if (first) claimed[to_size(p)] = 1;
   }
   for (std::size_t i = 0; i < added.size(); ++i) {
     while (!slot[i].valid() && unclaimed < removed.size())
-      if (const std::size_t j = unclaimed++; !claimed[j]) slot[i] = removed[j], claimed[j] = 1;
+      if (const std::size_t j = unclaimed++; !claimed[j]) {
+        slot[i] = removed[j];
+        claimed[j] = 1;
+      }
     if (!slot[i].valid()) slot[i] = new_triangle();
   }
   for (std::size_t i = 0; i < added.size(); ++i) add_triangle(slot[i], added[i], removed);

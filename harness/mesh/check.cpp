@@ -1,5 +1,6 @@
 #include <set>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/predicates.h"
 #include "harness/mesh/sheet.h"
 
@@ -44,7 +45,7 @@ class Checker {
   }
 
   void half(HalfEdge h, const std::string& name) {
-    const auto k = static_cast<std::size_t>(corner_of(h));
+    const auto k = to_size(corner_of(h));
     const Triangle& record = sheet_.triangle(triangle_of(h));
     if (sheet_.rest_vertex(record.deformed[k]) != record.vertex[k]) say(name + ": corner and deformed vertex disagree");
     if (opened_ && record.mark[k] == EdgeMark::path) say(name + " has a path edge that was not opened");
@@ -81,7 +82,7 @@ class Checker {
     std::set<DeformedIndex> fans;
     do {
       ++corners_met_[triangle_of(h)()];
-      const DeformedIndex d = sheet_.triangle(triangle_of(h)).deformed[static_cast<std::size_t>(corner_of(h))];
+      const DeformedIndex d = sheet_.triangle(triangle_of(h)).deformed[to_size(corner_of(h))];
       used_.insert(d);
       if (h == first || separates(h)) {
         if (!fans.insert(d).second) say(name + ": two fans share deformed vertex " + std::to_string(d()));

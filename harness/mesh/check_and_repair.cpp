@@ -6,6 +6,7 @@
 #include <optional>
 #include <sstream>
 
+#include "harness/base/conversions.h"
 #include "harness/base/union_find.h"
 #include "harness/mesh/predicates.h"
 
@@ -48,7 +49,7 @@ class Repair {
   }
 
  private:
-  static std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+  static std::size_t at(std::int32_t i) { return to_size(i); }
   std::int32_t& vertex(std::size_t corner) { return mesh_.triangles[corner / 3][corner % 3]; }
   std::size_t corners() const { return 3 * mesh_.triangles.size(); }
 
@@ -97,7 +98,7 @@ class Repair {
       sum += std::hypot(b.x - a.x, b.y - a.y);  // sides whose squares are zero count, too
       largest = std::max({largest, std::abs(a.x), std::abs(a.y)});
     }
-    const double mean = sum / static_cast<double>(corners());
+    const double mean = sum / to_double(corners());
     const double ulp = std::nextafter(largest, 2 * largest_coordinate) - largest;
     std::ostringstream sizes;
     sizes << "the mean side of its triangles is " << mean << ", its largest rest coordinate " << largest;
@@ -115,7 +116,10 @@ class Repair {
       auto& [a, b, c] = mesh_.triangles[t];
       const int turn = orientation(mesh_.rest[at(a)], mesh_.rest[at(b)], mesh_.rest[at(c)]);
       if (turn == 0) fail(triangle_name(t) + " has zero area in rest space; collapse or delete it");
-      if (turn < 0) std::swap(b, c), ++reversed;
+      if (turn < 0) {
+        std::swap(b, c);
+        ++reversed;
+      }
     }
     const std::size_t all = mesh_.triangles.size();
     if (reversed > 0)
@@ -131,7 +135,7 @@ class Repair {
     };
     std::vector<std::int32_t> order;
     for (std::size_t v = 0; v < mesh_.rest.size(); ++v)
-      if (used_[v]) order.push_back(static_cast<std::int32_t>(v));
+      if (used_[v]) order.push_back(to_int32(v));
     std::sort(order.begin(), order.end(), before);
     welded_.assign(mesh_.rest.size(), -1);
     for (std::size_t i = 0; i < order.size(); ++i)
@@ -180,7 +184,8 @@ class Repair {
       if (!third_follows && uses[i].forward == uses[i - 1].forward)
         fail(triangle_name(uses[i].triangle()) + " overlaps triangle " + std::to_string(uses[i - 1].triangle() + 1) +
              " in rest space, on the same side of the edge " + edge_name(uses[i]) + "; unfold the rest positions");
-      ++inner_edges, together += vertex(uses[i].half_edge) == vertex(next_half_edge(uses[i - 1].half_edge));
+      ++inner_edges;
+      together += vertex(uses[i].half_edge) == vertex(next_half_edge(uses[i - 1].half_edge));
     }
     if (inner_edges > 0 && together == 0)
       note("no two neighbouring triangles share vertices, so the sheet is read as cut open along all its " +
@@ -211,8 +216,9 @@ class Repair {
       } else if (const std::size_t v = at(vertex(c)); !taken[v]) {
         taken[v] = true;
       } else {
-        vertex(c) = static_cast<std::int32_t>(mesh_.rest.size());
-        mesh_.rest.push_back(Point2(mesh_.rest[v])), mesh_.deformed.push_back(Point3(mesh_.deformed[v]));
+        vertex(c) = to_int32(mesh_.rest.size());
+        mesh_.rest.push_back(Point2(mesh_.rest[v]));
+        mesh_.deformed.push_back(Point3(mesh_.deformed[v]));
       }
     }
     used_.resize(mesh_.rest.size(), true);
@@ -225,10 +231,12 @@ class Repair {
     std::size_t kept = 0;
     for (std::size_t v = 0; v < used_.size(); ++v) {
       if (!used_[v]) continue;
-      mesh_.rest[kept] = mesh_.rest[v], mesh_.deformed[kept] = mesh_.deformed[v];
-      number[v] = static_cast<std::int32_t>(kept++);
+      mesh_.rest[kept] = mesh_.rest[v];
+      mesh_.deformed[kept] = mesh_.deformed[v];
+      number[v] = to_int32(kept++);
     }
-    mesh_.rest.resize(kept), mesh_.deformed.resize(kept);
+    mesh_.rest.resize(kept);
+    mesh_.deformed.resize(kept);
     for (std::size_t c = 0; c < corners(); ++c) vertex(c) = number[at(vertex(c))];
     if (kept < used_.size()) note("vertices without triangles dropped: " + std::to_string(used_.size() - kept));
   }
@@ -249,7 +257,7 @@ void take_rest_from_plane(MeshData& mesh, const std::string& name) {
     for (const auto& triangle : mesh.triangles)
       for (std::int32_t v : triangle) {
         if (v < 0 || v >= std::ssize(mesh.deformed)) continue;
-        const double c = mesh.deformed[static_cast<std::size_t>(v)].*axis;
+        const double c = mesh.deformed[to_size(v)].*axis;
         if (std::isfinite(c) && c != first.value_or(c)) return false;
         if (std::isfinite(c)) first = c;
       }

@@ -60,8 +60,14 @@ struct EditLog {
   std::vector<VertexIndex> path_vertices;  ///< ends of the edges marked as path, each once; collapsed ones stay in
 
   void clear() {
-    touched.clear(), new_vertices.clear(), new_deformed.clear(), ancestry.clear();
-    moved.clear(), displaced.clear(), path_vertices.clear(), flips = splits = 0;
+    touched.clear();
+    new_vertices.clear();
+    new_deformed.clear();
+    ancestry.clear();
+    moved.clear();
+    displaced.clear();
+    path_vertices.clear();
+    flips = splits = 0;
   }
 };
 

@@ -8,6 +8,7 @@
 #include <functional>
 #include <tuple>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/predicates.h"
 
 namespace cutbench {
@@ -29,7 +30,7 @@ MeshData flat(std::vector<Point2> rest, Triangles triangles) {
 MeshData squares(int n, const std::function<bool(int, int)>& rising) {
   std::vector<Point2> rest;
   for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i) rest.push_back({static_cast<double>(i) / n, static_cast<double>(j) / n});
+    for (int i = 0; i <= n; ++i) rest.push_back({to_double(i) / n, to_double(j) / n});
   Triangles triangles;
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
@@ -72,7 +73,7 @@ class Random {
     std::uint64_t z = state_ += 0x9E3779B97F4A7C15u;
     z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
     z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+    return to_double((z ^ (z >> 31)) >> 11) * 0x1p-53;
   }
 
  private:
@@ -82,7 +83,7 @@ class Random {
 /// Points in n x n boxes: whether a place is at least r <= 1/n from all others takes a look at nine boxes.
 class SpacedPoints {
  public:
-  explicit SpacedPoints(int n) : n_(n), boxes_(static_cast<std::size_t>(n * n)) {}
+  explicit SpacedPoints(int n) : n_(n), boxes_(to_size(n * n)) {}
 
   const std::vector<Point2>& points() const { return points_; }
 
@@ -100,8 +101,8 @@ class SpacedPoints {
   }
 
  private:
-  int row(double x) const { return std::min(n_ - 1, static_cast<int>(x * n_)); }
-  std::size_t box(int i, int j) const { return static_cast<std::size_t>(j * n_ + i); }
+  int row(double x) const { return std::min(n_ - 1, to_int(x * n_)); }
+  std::size_t box(int i, int j) const { return to_size(j * n_ + i); }
 
   int n_;
   std::vector<std::vector<Point2>> boxes_;
@@ -116,7 +117,7 @@ std::vector<Point2> poisson_disc_points(int n) {
   SpacedPoints spaced(n);
   for (int side = 0; side < 4; ++side)
     for (int i = 0; i < n; ++i) {
-      const double s = static_cast<double>(i) / n, e = static_cast<double>(n - i) / n;
+      const double s = to_double(i) / n, e = to_double(n - i) / n;
       constexpr double low = 0, high = 1;
       spaced.add(side == 0   ? Point2{s, low}
                  : side == 1 ? Point2{high, s}
@@ -126,14 +127,17 @@ std::vector<Point2> poisson_disc_points(int n) {
   Random random(1);
   const double margin = border_distance / n;
   double radius = first_radius / n;
-  const auto wanted = static_cast<std::size_t>((n + 1) * (n + 1));
+  const auto wanted = to_size((n + 1) * (n + 1));
   for (int misses = 0; spaced.points().size() < wanted;) {
     const double x = random.unit(), y = random.unit();
     const Point2 p{margin + (1 - 2 * margin) * x, margin + (1 - 2 * margin) * y};
-    if (spaced.has_room(p, radius))
-      spaced.add(p), misses = 0;
-    else if (++misses == 1000)
-      radius *= 0.99, misses = 0;
+    if (spaced.has_room(p, radius)) {
+      spaced.add(p);
+      misses = 0;
+    } else if (++misses == 1000) {
+      radius *= 0.99;
+      misses = 0;
+    }
   }
   std::vector<Point2> points = spaced.points();
   std::sort(points.begin() + 4 * n, points.end(), [n](Point2 p, Point2 q) {
@@ -148,12 +152,12 @@ Triangles delaunay_triangles(const std::vector<Point2>& points) {
   using Vertex = CGAL::Triangulation_vertex_base_with_info_2<std::int32_t, Kernel>;
   using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertex>>;
   std::vector<std::pair<Kernel::Point_2, std::int32_t>> numbered;
-  for (Point2 p : points) numbered.emplace_back(to_cgal(p), static_cast<std::int32_t>(numbered.size()));
+  for (Point2 p : points) numbered.emplace_back(to_cgal(p), to_int32(numbered.size()));
   const Delaunay delaunay(numbered.begin(), numbered.end());
   Triangles triangles;
   for (const auto& face : delaunay.finite_face_handles()) {
     auto& triangle = triangles.emplace_back();
-    for (int k = 0; k < 3; ++k) triangle[static_cast<std::size_t>(k)] = face->vertex(k)->info();
+    for (int k = 0; k < 3; ++k) triangle[to_size(k)] = face->vertex(k)->info();
     std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
   }
   std::sort(triangles.begin(), triangles.end());
@@ -165,11 +169,12 @@ void smooth(std::vector<Point2>& points, const Triangles& triangles, std::size_t
   std::vector<Point2> sum(points.size());
   std::vector<double> weight(points.size());
   for (const auto& [a, b, c] : triangles) {
-    const Point2 p = points[static_cast<std::size_t>(a)], q = points[static_cast<std::size_t>(b)],
-                 r = points[static_cast<std::size_t>(c)];
+    const Point2 p = points[to_size(a)], q = points[to_size(b)], r = points[to_size(c)];
     const double area = cross(q - p, r - p);
-    for (const auto v : {static_cast<std::size_t>(a), static_cast<std::size_t>(b), static_cast<std::size_t>(c)})
-      sum[v] = sum[v] + area * (p + q + r), weight[v] += 3 * area;
+    for (const auto v : {to_size(a), to_size(b), to_size(c)}) {
+      sum[v] = sum[v] + area * (p + q + r);
+      weight[v] += 3 * area;
+    }
   }
   for (std::size_t v = first; v < points.size(); ++v) points[v] = {sum[v].x / weight[v], sum[v].y / weight[v]};
 }
@@ -177,7 +182,7 @@ void smooth(std::vector<Point2>& points, const Triangles& triangles, std::size_t
 /// 4 n border points and (n-1)^2 others give 2 n^2 triangles whatever the triangulation (Euler).
 MeshData delaunay(int n) {
   std::vector<Point2> points = poisson_disc_points(n);
-  for (int pass = 0; pass < 2; ++pass) smooth(points, delaunay_triangles(points), static_cast<std::size_t>(4 * n));
+  for (int pass = 0; pass < 2; ++pass) smooth(points, delaunay_triangles(points), to_size(4 * n));
   Triangles triangles = delaunay_triangles(points);
   return flat(std::move(points), std::move(triangles));
 }
@@ -202,8 +207,8 @@ MeshData make_sheet(const std::string& family, int n) {
 
 int squares_per_side(std::int64_t triangles) {
   constexpr std::int64_t most = 1000000;
-  const auto n = triangles < 0 ? 0 : std::lround(std::sqrt(static_cast<double>(std::min(triangles, most)) / 2));
-  if (n >= 1 && 2 * n * n == triangles) return static_cast<int>(n);
+  const auto n = triangles < 0 ? 0 : std::lround(std::sqrt(to_double(std::min(triangles, most)) / 2));
+  if (n >= 1 && 2 * n * n == triangles) return to_int(n);
   throw InputError("resolution " + std::to_string(triangles) +
                    ": a sheet has 2 n^2 triangles, at most 1000000, such as 800, 1800, 3200, 5000, 7200, 9800, 12800");
 }

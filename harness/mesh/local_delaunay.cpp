@@ -7,8 +7,10 @@
 namespace cutbench {
 
 void LocalDelaunay::begin(const Sheet& sheet) {
-  open_.clear(), changed.clear();
-  noted_.clear(sheet.vertex_slots()), made_ = moved_ = 0;
+  open_.clear();
+  changed.clear();
+  noted_.clear(sheet.vertex_slots());
+  made_ = moved_ = 0;
   note_vertices(sheet);
 }
 
@@ -37,7 +39,8 @@ void LocalDelaunay::run(Sheet& sheet) {
     const TriangleIndex left = triangle_of(h), right = triangle_of(o);
     for (const HalfEdge outer : {half_edge(left, 0), half_edge(left, 2), half_edge(right, 0), half_edge(right, 1)})
       open_.push_back(outer);
-    changed.push_back(left), changed.push_back(right);
+    changed.push_back(left);
+    changed.push_back(right);
   }
 }
 

@@ -3,21 +3,25 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 Locator::Locator(const Sheet& sheet) {
-  low_ = {1e300, 1e300}, high_ = {-1e300, -1e300};
+  low_ = {1e300, 1e300};
+  high_ = {-1e300, -1e300};
   for (std::size_t v = 0; v < sheet.vertex_slots(); ++v) {
     if (!sheet.triangle_of_vertex(VertexIndex(v)).valid()) continue;
     const Point2 p = sheet.rest(VertexIndex(v));
-    low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)}, high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
+    low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
+    high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
   }
   // About two triangles per cell, cells about square.
   const Point2 extent{high_.x - low_.x, high_.y - low_.y};
-  const double cells = std::max(1.0, static_cast<double>(sheet.triangle_count()) / 2);
+  const double cells = std::max(1.0, to_double(sheet.triangle_count()) / 2);
   const double ratio = std::clamp(extent.x / extent.y, 1 / cells, cells);
-  columns_ = std::max(1, static_cast<int>(std::sqrt(cells * ratio)));
-  rows_ = std::max(1, static_cast<int>(cells / columns_));
+  columns_ = std::max(1, to_int(std::sqrt(cells * ratio)));
+  rows_ = std::max(1, to_int(cells / columns_));
   per_cell_ = {columns_ / extent.x, rows_ / extent.y};
   triangle_.resize(cell(0, rows_));
   border_.assign(cell(0, rows_), -1);
@@ -35,7 +39,7 @@ Locator::Locator(const Sheet& sheet) {
   for (std::size_t i = 0; i < triangle_.size(); ++i)
     if (triangle_[i].valid()) front.push_back(i);
   for (std::size_t i = 0; i < front.size(); ++i) {
-    const int c = static_cast<int>(front[i]) % columns_, r = static_cast<int>(front[i]) / columns_;
+    const int c = to_int(front[i]) % columns_, r = to_int(front[i]) / columns_;
     for (const auto& [dc, dr] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
       if (c + dc < 0 || c + dc >= columns_ || r + dr < 0 || r + dr >= rows_) continue;
       const std::size_t other = cell(c + dc, r + dr);
@@ -51,7 +55,7 @@ void Locator::add_border(const Sheet& sheet, HalfEdge h) {
   for (int r = row(std::min(a.y, b.y)); r <= row(std::max(a.y, b.y)); ++r)
     for (int c = column(std::min(a.x, b.x)); c <= column(std::max(a.x, b.x)); ++c) {
       entries_.push_back({h, border_[cell(c, r)]});
-      border_[cell(c, r)] = static_cast<std::int32_t>(entries_.size() - 1);
+      border_[cell(c, r)] = to_int32(entries_.size() - 1);
     }
 }
 
@@ -67,7 +71,7 @@ void Locator::update(const Sheet& sheet) {
     const Triangle& triangle = sheet.triangle(t);
     if (!triangle.alive()) return;
     for (int k = 0; k < 3; ++k) {
-      const auto i = static_cast<std::size_t>(k), j = static_cast<std::size_t>(next_corner(k));
+      const auto i = to_size(k), j = to_size(next_corner(k));
       const bool same = in_place && before.alive() && !before.opposite[i].valid() &&
                         before.vertex[i] == triangle.vertex[i] && before.vertex[j] == triangle.vertex[j];
       if (!triangle.opposite[i].valid() && !same) add_border(sheet, half_edge(t, k));

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/sheet.h"
 #include "harness/mesh/tolerances.h"
 
@@ -35,10 +36,8 @@ class Locator {
   };
   int column(double x) const { return clamp_cell((x - low_.x) * per_cell_.x, columns_); }
   int row(double y) const { return clamp_cell((y - low_.y) * per_cell_.y, rows_); }
-  static int clamp_cell(double c, int n) { return c <= 0 ? 0 : c >= n - 1 ? n - 1 : static_cast<int>(c); }
-  std::size_t cell(int column, int row) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
-  }
+  static int clamp_cell(double c, int n) { return c <= 0 ? 0 : c >= n - 1 ? n - 1 : to_int(c); }
+  std::size_t cell(int column, int row) const { return to_size(row) * to_size(columns_) + to_size(column); }
   void add_border(const Sheet& sheet, HalfEdge h);
 
   int columns_ = 0, rows_ = 0;
@@ -67,8 +66,8 @@ void Locator::visit_border(const Sheet& sheet, Point2 a, Point2 b, Visit visit, 
     const double y0 = a.y + s0 * (b.y - a.y), y1 = a.y + s1 * (b.y - a.y);
     const int bottom = std::max(0, row(std::min(y0, y1)) - 1), top = std::min(rows_ - 1, row(std::max(y0, y1)) + 1);
     for (int r = bottom; r <= top; ++r)
-      for (std::int32_t e = border_[cell(c, r)]; e >= 0; e = entries_[static_cast<std::size_t>(e)].next) {
-        const HalfEdge h = entries_[static_cast<std::size_t>(e)].half_edge;
+      for (std::int32_t e = border_[cell(c, r)]; e >= 0; e = entries_[to_size(e)].next) {
+        const HalfEdge h = entries_[to_size(e)].half_edge;
         if (triangle_of(h)() < sheet.triangle_slots() && sheet.triangle(triangle_of(h)).alive() && sheet.on_border(h))
           visit(h);
       }

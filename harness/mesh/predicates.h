@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/types.h"
 
 namespace cutbench {
@@ -23,12 +24,12 @@ inline int orientation(Point2 a, Point2 b, Point2 c) {
   const double magnitude = std::abs(left) + std::abs(right);
   if (std::abs(difference) > 3.3306690738754716e-16 * magnitude && magnitude > 1e-280 && magnitude < 1e300)
     return difference > 0 ? 1 : -1;
-  return static_cast<int>(CGAL::orientation(to_cgal(a), to_cgal(b), to_cgal(c)));
+  return to_int(CGAL::orientation(to_cgal(a), to_cgal(b), to_cgal(c)));
 }
 
 /// +1 where d lies strictly inside the circumcircle of the counter-clockwise triangle a, b, c, 0 on it, -1 outside.
 inline int in_circle(Point2 a, Point2 b, Point2 c, Point2 d) {
-  return static_cast<int>(CGAL::side_of_oriented_circle(to_cgal(a), to_cgal(b), to_cgal(c), to_cgal(d)));
+  return to_int(CGAL::side_of_oriented_circle(to_cgal(a), to_cgal(b), to_cgal(c), to_cgal(d)));
 }
 
 }  // namespace cutbench

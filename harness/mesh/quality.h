@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/types.h"
 
 namespace cutbench {
@@ -51,10 +52,10 @@ inline Quality quality(std::span<const std::array<Point2, 3>> triangles) {
     q.angle_max_deg = std::max(q.angle_max_deg, largest_angle_deg(a, b, c));
     q.altitude_min = std::min(q.altitude_min, smallest_altitude(a, b, c));
   }
-  q.ar_mean = sum / static_cast<double>(q.triangles);
-  const auto rank = static_cast<std::ptrdiff_t>((99 * q.triangles + 99) / 100);  // ceil(0.99 n), counted from 1
+  q.ar_mean = sum / to_double(q.triangles);
+  const auto rank = to_index((99 * q.triangles + 99) / 100);  // ceil(0.99 n), counted from 1
   std::nth_element(ratios.begin(), ratios.begin() + (rank - 1), ratios.end());
-  q.ar_p99 = ratios[static_cast<std::size_t>(rank - 1)];
+  q.ar_p99 = ratios[to_size(rank - 1)];
   return q;
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <tuple>
 
+#include "harness/base/conversions.h"
 #include "harness/base/number_from_chars.h"
 #include "harness/mesh/mesh_text.h"
 
@@ -120,7 +121,7 @@ class ObjReader {
   std::int64_t index(std::string_view token, std::size_t count, std::string_view shown) const {
     std::int32_t value = 0;
     const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
-    const std::int64_t resolved = value < 0 ? static_cast<std::int64_t>(count) + value + 1 : value;
+    const std::int64_t resolved = value < 0 ? to_int64(count) + value + 1 : value;
     if (as_is_ && error == std::errc() && resolved < 1) return none;
     if (error != std::errc() || end != token.data() + token.size() || resolved < 1) fail_corner(shown);
     return resolved;
@@ -147,7 +148,7 @@ class ObjReader {
     mesh.deformed = positions_;
     for (const Face& face : faces_) {
       auto& triangle = mesh.triangles.emplace_back();
-      for (std::size_t k = 0; k < 3; ++k) triangle[k] = static_cast<std::int32_t>(face.corners[k].v - 1);
+      for (std::size_t k = 0; k < 3; ++k) triangle[k] = to_int32(face.corners[k].v - 1);
     }
     return mesh;
   }
@@ -161,17 +162,23 @@ class ObjReader {
     std::vector<bool> has_rest(positions_.size(), false);
     std::map<std::tuple<std::size_t, double, double>, std::int32_t> copies;
     auto vertex_of = [&](const Corner& corner) {
-      if (!exists(corner.v, positions_.size())) return static_cast<std::int32_t>(corner.v - 1);
-      if (!exists(corner.vt, textures_.size())) return static_cast<std::int32_t>(none);
-      const auto v = static_cast<std::size_t>(corner.v - 1);
-      const Point2 rest = textures_[static_cast<std::size_t>(corner.vt - 1)];
+      if (!exists(corner.v, positions_.size())) return to_int32(corner.v - 1);
+      if (!exists(corner.vt, textures_.size())) return to_int32(none);
+      const auto v = to_size(corner.v - 1);
+      const Point2 rest = textures_[to_size(corner.vt - 1)];
       const bool broken = !std::isfinite(rest.x) || !std::isfinite(rest.y);  // equal to nothing: marks the whole vertex
-      if (!has_rest[v] || broken) mesh.rest[v] = rest, has_rest[v] = true;
-      if (broken) return static_cast<std::int32_t>(v);
-      if (mesh.rest[v] == rest) return static_cast<std::int32_t>(v);
-      const auto next = static_cast<std::int32_t>(mesh.rest.size());
+      if (!has_rest[v] || broken) {
+        mesh.rest[v] = rest;
+        has_rest[v] = true;
+      }
+      if (broken) return to_int32(v);
+      if (mesh.rest[v] == rest) return to_int32(v);
+      const auto next = to_int32(mesh.rest.size());
       const auto [copy, is_new] = copies.try_emplace({v, rest.x, rest.y}, next);
-      if (is_new) mesh.rest.push_back(rest), mesh.deformed.push_back(positions_[v]);
+      if (is_new) {
+        mesh.rest.push_back(rest);
+        mesh.deformed.push_back(positions_[v]);
+      }
       return copy->second;
     };
     for (const Face& face : faces_) {
@@ -187,9 +194,7 @@ class ObjReader {
     return mesh;
   }
 
-  static bool exists(std::int64_t number, std::size_t count) {
-    return number >= 1 && number <= static_cast<std::int64_t>(count);
-  }
+  static bool exists(std::int64_t number, std::size_t count) { return number >= 1 && number <= to_int64(count); }
 
   const std::string& name_;
   bool as_is_;

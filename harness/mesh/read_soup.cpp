@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/mesh_text.h"
 #include "harness/mesh/predicates.h"
 
@@ -33,9 +34,8 @@ MeshData from_soup(const SpacePoints& points, const Faces& faces, const std::str
                        " corners; only triangles are read: triangulate the mesh");
     // check_and_repair looks at the range; here an index too large for 32 bits must only not turn into a good one.
     auto& triangle = mesh.triangles.emplace_back();
-    std::transform(face.begin(), face.end(), triangle.begin(), [](std::size_t i) {
-      return i > static_cast<std::size_t>(INT32_MAX) ? -1 : static_cast<std::int32_t>(i);
-    });
+    std::transform(face.begin(), face.end(), triangle.begin(),
+                   [](std::size_t i) { return i > to_size(INT32_MAX) ? -1 : to_int32(i); });
   }
   return mesh;
 }

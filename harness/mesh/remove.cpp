@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/one_ring.h"
 #include "harness/mesh/sheet.h"
 
@@ -21,7 +22,7 @@ void Sheet::mend_vertex(VertexIndex v, std::span<const HalfEdge> outgoing) {
 
   // Round an inner vertex a fan may go on past the last outgoing edge: begin behind a triangle that is gone.
   const auto gone = std::find_if_not(outgoing.begin(), outgoing.end(), stays);
-  const auto begin = static_cast<std::size_t>(gone - outgoing.begin());
+  const auto begin = to_size(gone - outgoing.begin());
   VertexIndex mine;                                             // of the fan under way
   std::vector<DeformedIndex> taken, kept;                       // originals: by earlier sides, by the one under way
   std::vector<std::pair<DeformedIndex, DeformedIndex>> copies;  // of this side, where it can't have the originals
@@ -36,7 +37,8 @@ void Sheet::mend_vertex(VertexIndex v, std::span<const HalfEdge> outgoing) {
     }
     if (on_border(h) || mark(h) == EdgeMark::incision) {  // a side
       taken.insert(taken.end(), kept.begin(), kept.end());
-      kept.clear(), copies.clear();
+      kept.clear();
+      copies.clear();
     }
     const DeformedIndex d = known(h);
     if (mine == v && !holds(taken, d)) {
@@ -46,7 +48,8 @@ void Sheet::mend_vertex(VertexIndex v, std::span<const HalfEdge> outgoing) {
     auto copy = std::find_if(copies.begin(), copies.end(), [&](const auto& c) { return c.first == d; });
     if (copy == copies.end()) copy = copies.insert(copies.end(), {d, new_deformed(mine, {d, {}, {}}, {1, 0, 0})});
     touch(triangle_of(h));
-    t.vertex[corner(h)] = mine, t.deformed[corner(h)] = copy->second;
+    t.vertex[corner(h)] = mine;
+    t.deformed[corner(h)] = copy->second;
   }
   taken.insert(taken.end(), kept.begin(), kept.end());
   if (!has_fan) free_vertex(v);

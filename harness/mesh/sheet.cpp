@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/one_ring.h"
 #include "harness/mesh/predicates.h"
 
@@ -38,7 +39,10 @@ HalfEdge Sheet::first_outgoing(VertexIndex v) const {
 // --- the log ---------------------------------------------------------------------------------------------------------
 
 void Sheet::begin_cut() {
-  auto recycle = [](auto& freed, auto& free) { free.insert(free.end(), freed.begin(), freed.end()), freed.clear(); };
+  auto recycle = [](auto& freed, auto& free) {
+    free.insert(free.end(), freed.begin(), freed.end());
+    freed.clear();
+  };
   recycle(freed_triangles_, free_triangles_);
   recycle(freed_vertices_, free_vertices_);
   recycle(freed_deformed_, free_deformed_);
@@ -48,7 +52,8 @@ void Sheet::begin_cut() {
   log_.vertices_before = rest_.size();
   log_.deformed_before = position_.size();
   if (work_.touched_in.size() < triangles_.size()) work_.touched_in.resize(triangles_.size());
-  ++work_.epoch, ++cuts_begun_;
+  ++work_.epoch;
+  ++cuts_begun_;
 }
 
 void Sheet::touch(TriangleIndex t) {
@@ -81,7 +86,7 @@ void Sheet::rollback() {
       continue;
     }
     for (int k = 0; k < 3; ++k) {
-      const auto i = static_cast<std::size_t>(k);
+      const auto i = to_size(k);
       triangle_of_vertex_[entry->before.vertex[i]()] = entry->vertex_triangle[i];
       // Neighbours were re-linked without being touched themselves.
       if (const HalfEdge o = entry->before.opposite[i]; o.valid())
@@ -89,10 +94,15 @@ void Sheet::rollback() {
     }
   }
   triangles_.resize(log_.triangles_before);
-  rest_.resize(log_.vertices_before), triangle_of_vertex_.resize(log_.vertices_before);
+  rest_.resize(log_.vertices_before);
+  triangle_of_vertex_.resize(log_.vertices_before);
   born_in_.resize(log_.vertices_before);
-  position_.resize(log_.deformed_before), vertex_of_deformed_.resize(log_.deformed_before);
-  freed_triangles_.clear(), freed_vertices_.clear(), freed_deformed_.clear(), vertex_of_freed_.clear();
+  position_.resize(log_.deformed_before);
+  vertex_of_deformed_.resize(log_.deformed_before);
+  freed_triangles_.clear();
+  freed_vertices_.clear();
+  freed_deformed_.clear();
+  vertex_of_freed_.clear();
   work_.pending.clear();
   log_.clear();
 }
@@ -113,7 +123,9 @@ TriangleIndex Sheet::new_triangle() {
 VertexIndex Sheet::new_rest_vertex(Point2 p) {
   VertexIndex v(rest_.size());
   if (free_vertices_.empty()) {
-    rest_.push_back(p), triangle_of_vertex_.emplace_back(), born_in_.emplace_back();
+    rest_.push_back(p);
+    triangle_of_vertex_.emplace_back();
+    born_in_.emplace_back();
   } else {
     v = free_vertices_.back();
     free_vertices_.pop_back();
@@ -134,11 +146,13 @@ DeformedIndex Sheet::new_deformed(VertexIndex v, const std::array<DeformedIndex,
   if (parents[2].valid()) x = x + weights[2] * position(parents[2]);
   DeformedIndex d(position_.size());
   if (free_deformed_.empty()) {
-    position_.push_back(x), vertex_of_deformed_.push_back(v);
+    position_.push_back(x);
+    vertex_of_deformed_.push_back(v);
   } else {
     d = free_deformed_.back();
     free_deformed_.pop_back();
-    position_[d()] = x, vertex_of_deformed_[d()] = v;
+    position_[d()] = x;
+    vertex_of_deformed_[d()] = v;
   }
   log_.new_deformed.push_back(d);
   log_.ancestry.push_back({d, parents, weights});
@@ -149,8 +163,11 @@ DeformedIndex Sheet::copy_deformed(DeformedIndex d) { return new_deformed(rest_v
 
 void Sheet::reserve(std::size_t triangles, std::size_t vertices, std::size_t deformed) {
   triangles_.reserve(triangles);
-  rest_.reserve(vertices), triangle_of_vertex_.reserve(vertices), born_in_.reserve(vertices);
-  position_.reserve(deformed), vertex_of_deformed_.reserve(deformed);
+  rest_.reserve(vertices);
+  triangle_of_vertex_.reserve(vertices);
+  born_in_.reserve(vertices);
+  position_.reserve(deformed);
+  vertex_of_deformed_.reserve(deformed);
 }
 
 // --- new vertices ----------------------------------------------------------------------------------------------------
@@ -288,13 +305,14 @@ bool Sheet::collapse(HalfEdge h) {
 
   auto& star = work_.star;
   auto& rest_of_star = work_.rest_of_star;
-  star.clear(), rest_of_star.clear();
+  star.clear();
+  rest_of_star.clear();
   do {
     const VertexIndex c = target(outgoing), d = origin(previous(outgoing));
     if (c != b && d != b) {
       if (orientation(rest(b), rest(c), rest(d)) <= 0) return false;
       const auto mark_to = [&](VertexIndex v) { return v == end ? EdgeMark::path : EdgeMark::none; };
-      rest_of_star.push_back({{b, c, d}, static_cast<int>(star.size()), {mark_to(c), EdgeMark::none, mark_to(d)}});
+      rest_of_star.push_back({{b, c, d}, to_int(star.size()), {mark_to(c), EdgeMark::none, mark_to(d)}});
     } else if (c == end || d == end) {
       return false;
     }
@@ -312,16 +330,18 @@ bool Sheet::collapse(HalfEdge h) {
 void Sheet::set_mark(HalfEdge h, EdgeMark mark) {
   const HalfEdge o = opposite(h);
   if (!o.valid() || this->mark(h) == mark) return;
-  touch(triangle_of(h)), touch(triangle_of(o));
+  touch(triangle_of(h));
+  touch(triangle_of(o));
   at(triangle_of(h)).mark[corner(h)] = mark;
   at(triangle_of(o)).mark[corner(o)] = mark;
   if (mark != EdgeMark::path) return;
-  put_on_path(origin(h)), put_on_path(target(h));
+  put_on_path(origin(h));
+  put_on_path(target(h));
 }
 
 void Sheet::set_deformed(TriangleIndex t, int corner, DeformedIndex d) {
   touch(t);
-  at(t).deformed[static_cast<std::size_t>(corner)] = d;
+  at(t).deformed[to_size(corner)] = d;
 }
 
 }  // namespace cutbench

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/edge_table.h"
 #include "harness/mesh/edit_log.h"
 #include "harness/mesh/mesh_data.h"
@@ -115,7 +116,10 @@ class Sheet {
   bool is_held(VertexIndex v) const { return v() < held_.size() && held_[v()] != 0; }
 
   /// Frees a vertex that the last replace_cavity() left without triangles. \pre d was its one deformed vertex.
-  void drop_vertex(VertexIndex v, DeformedIndex d) { free_vertex(v), free_deformed(d); }
+  void drop_vertex(VertexIndex v, DeformedIndex d) {
+    free_vertex(v);
+    free_deformed(d);
+  }
 
   void set_mark(HalfEdge h, EdgeMark mark);  ///< of both half-edges; nothing on the border
   void set_deformed(TriangleIndex t, int corner, DeformedIndex d);
@@ -133,7 +137,7 @@ class Sheet {
   void reserve(std::size_t triangles, std::size_t vertices, std::size_t deformed);
 
  private:
-  static std::size_t corner(HalfEdge h) { return static_cast<std::size_t>(corner_of(h)); }
+  static std::size_t corner(HalfEdge h) { return to_size(corner_of(h)); }
   Triangle& at(TriangleIndex t) { return triangles_[t()]; }
   void touch(TriangleIndex t);
   TriangleIndex new_triangle();

@@ -15,7 +15,10 @@ class StampedTable {
   /// Empties it. Keys below `size` may be used from now on.
   void clear(std::size_t size) {
     grow(size);
-    if (++stamp_ == 0) entries_.assign(entries_.size(), {}), stamp_ = 1;
+    if (++stamp_ == 0) {
+      entries_.assign(entries_.size(), {});
+      stamp_ = 1;
+    }
   }
   /// Makes room for keys below `size`, and keeps what is there.
   void grow(std::size_t size) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "harness/base/conversions.h"
 #include "harness/base/points.h"
 
 namespace cutbench {
@@ -15,9 +16,9 @@ struct Index {
   std::int32_t value = -1;
 
   constexpr Index() = default;
-  constexpr explicit Index(std::size_t i) : value(static_cast<std::int32_t>(i)) {}
+  constexpr explicit Index(std::size_t i) : value(to_int32(i)) {}
   constexpr bool valid() const { return value >= 0; }
-  constexpr std::size_t operator()() const { return static_cast<std::size_t>(value); }
+  constexpr std::size_t operator()() const { return to_size(value); }
   constexpr auto operator<=>(const Index&) const = default;
 };
 
@@ -29,9 +30,9 @@ using TriangleIndex = Index<struct TriangleTag>;  ///< slot in the triangle arra
 /// come back with a shift and a mask, and every fourth number is unused.
 using HalfEdge = Index<struct HalfEdgeTag>;
 
-constexpr HalfEdge half_edge(TriangleIndex t, int k) { return HalfEdge(4 * t() + static_cast<std::size_t>(k)); }
+constexpr HalfEdge half_edge(TriangleIndex t, int k) { return HalfEdge(4 * t() + to_size(k)); }
 constexpr TriangleIndex triangle_of(HalfEdge h) { return TriangleIndex(h() >> 2); }
-constexpr int corner_of(HalfEdge h) { return static_cast<int>(h() & 3); }
+constexpr int corner_of(HalfEdge h) { return to_int(h() & 3); }
 constexpr int next_corner(int k) { return k == 2 ? 0 : k + 1; }
 constexpr int previous_corner(int k) { return k == 0 ? 2 : k - 1; }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <string_view>
 
+#include "harness/base/conversions.h"
 #include "harness/base/union_find.h"
 #include "harness/mesh/mesh_text.h"
 #include "harness/mesh/quality.h"
@@ -40,26 +41,28 @@ class Text {
 /// Per triangle, the number of its piece: triangles that share a vertex are of one piece.
 std::vector<std::int32_t> pieces(const MeshData& mesh) {
   UnionFind joined(mesh.rest.size());
-  for (const auto& [a, b, c] : mesh.triangles) joined.join(a, b), joined.join(a, c);
+  for (const auto& [a, b, c] : mesh.triangles) {
+    joined.join(a, b);
+    joined.join(a, c);
+  }
   std::map<std::size_t, std::int32_t> number;
   std::vector<std::int32_t> result;
   for (const auto& triangle : mesh.triangles)
-    result.push_back(
-        number.try_emplace(joined.find(triangle[0]), static_cast<std::int32_t>(number.size())).first->second);
+    result.push_back(number.try_emplace(joined.find(triangle[0]), to_int32(number.size())).first->second);
   return result;
 }
 
 double rest_aspect_ratio(const MeshData& mesh, const std::array<std::int32_t, 3>& triangle) {
-  auto rest = [&](std::int32_t v) { return mesh.rest[static_cast<std::size_t>(v)]; };
+  auto rest = [&](std::int32_t v) { return mesh.rest[to_size(v)]; };
   return aspect_ratio(rest(triangle[0]), rest(triangle[1]), rest(triangle[2]));
 }
 
 /// The largest |principal stretch - 1|: of the two singular values of F, which takes the rest triangle to the deformed.
 double largest_strain(const MeshData& mesh, const std::array<std::int32_t, 3>& triangle) {
   const auto [a, b, c] = triangle;
-  const auto rest = [&](std::int32_t v) { return mesh.rest[static_cast<std::size_t>(v)]; };
+  const auto rest = [&](std::int32_t v) { return mesh.rest[to_size(v)]; };
   const auto side = [&](std::int32_t from, std::int32_t to) {
-    return mesh.deformed[static_cast<std::size_t>(to)] + -1.0 * mesh.deformed[static_cast<std::size_t>(from)];
+    return mesh.deformed[to_size(to)] + -1.0 * mesh.deformed[to_size(from)];
   };
   const Point2 u = rest(b) - rest(a), v = rest(c) - rest(a);
   const Point3 p = side(a, b), q = side(a, c);

@@ -1,5 +1,6 @@
 #include "harness/oracle/chains.h"
 
+#include "harness/oracle/conversions.h"
 #include "harness/oracle/sheet_topology.h"
 
 namespace cutbench::oracle {
@@ -20,7 +21,7 @@ void add_chains(std::vector<PathSegment> run, bool closed, bool curved, std::vec
       chains.push_back({std::move(run), true, curved});
       return;
     }
-    std::rotate(run.begin(), run.begin() + static_cast<std::ptrdiff_t>(i), run.end());
+    std::rotate(run.begin(), run.begin() + to_index(i), run.end());
   }
   for (std::size_t i = 0; i < run.size(); ++i) {
     if (i == 0 || sharp(run[i - 1], run[i])) chains.push_back({{}, false, curved});
@@ -32,7 +33,7 @@ void add_chains(std::vector<PathSegment> run, bool closed, bool curved, std::vec
 
 std::vector<Chain> border_chains(const Mesh& mesh) {
   const HalfEdges edges = half_edges(mesh);
-  const int count = static_cast<int>(edges.opposite.size());
+  const int count = to_int(edges.opposite.size());
   std::vector<int> from(mesh.rest.size(), -1);  // the border half-edge that leaves a vertex; there is at most one
   for (int e = 0; e < count; ++e)
     if (edges.opposite[e] < 0) from[mesh.triangles[e / 3][e % 3]] = e;
@@ -65,7 +66,7 @@ std::vector<Chain> path_chains(const std::vector<Curve>& cuts, double tolerance)
 
 Walker::Walker(const Chain& chain, int index, bool forward, const Point& start)
     : chain_(chain), index_(index), forward_(forward), position_(start) {
-  const int count = static_cast<int>(chain.segments.size());
+  const int count = to_int(chain.segments.size());
   segments_left_ = chain.closed ? count - 1 : forward ? count - 1 - index : index;
 }
 
@@ -81,7 +82,7 @@ double Walker::advance(double length) {
     left -= rest;
     if (segments_left_ == 0) return length - left;
     --segments_left_;
-    const int count = static_cast<int>(chain_.segments.size());
+    const int count = to_int(chain_.segments.size());
     index_ = (index_ + (forward_ ? 1 : count - 1)) % count;
   }
 }

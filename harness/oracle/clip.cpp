@@ -49,10 +49,15 @@ std::optional<Segment> clip(const Segment& s, const Point& low, const Point& hig
 std::vector<Segment> near_mesh(const std::vector<Segment>& path, const Mesh& mesh) {
   Point low = mesh.rest.front(), high = low;
   for (const Point& p : mesh.rest)
-    for (std::size_t axis = 0; axis < 2; ++axis)
-      low[axis] = std::min(low[axis], p[axis]), high[axis] = std::max(high[axis], p[axis]);
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      low[axis] = std::min(low[axis], p[axis]);
+      high[axis] = std::max(high[axis], p[axis]);
+    }
   const double margin = high[0] - low[0] + high[1] - low[1];
-  for (std::size_t axis = 0; axis < 2; ++axis) low[axis] -= margin, high[axis] += margin;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    low[axis] -= margin;
+    high[axis] += margin;
+  }
   std::vector<Segment> near;
   for (const Segment& s : path)
     if (const auto part = clip(s, low, high)) near.push_back(*part);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "harness/oracle/conversions.h"
 #include "harness/oracle/exact.h"
 #include "harness/oracle/search.h"
 
@@ -14,8 +15,7 @@ using Corners = std::array<Point, 3>;
 
 Corners corners(const Mesh& mesh, std::size_t t) {
   const auto& [a, b, c] = mesh.triangles[t];
-  return {mesh.rest[static_cast<std::size_t>(a)], mesh.rest[static_cast<std::size_t>(b)],
-          mesh.rest[static_cast<std::size_t>(c)]};
+  return {mesh.rest[to_size(a)], mesh.rest[to_size(b)], mesh.rest[to_size(c)]};
 }
 
 /// The corners of all triangles, each from its smallest on, sorted.
@@ -70,7 +70,7 @@ Deletion judge_deletion(const Mesh& before, const Mesh& after, const std::vector
         box.high[i] = std::max(box.high[i], p[i] + near);
       }
     bool found = false;
-    search.for_each_in(box, [&](int i) { found = found || meets(path[static_cast<std::size_t>(i)]); });
+    search.for_each_in(box, [&](int i) { found = found || meets(path[to_size(i)]); });
     return found;
   };
 
@@ -78,14 +78,13 @@ Deletion judge_deletion(const Mesh& before, const Mesh& after, const std::vector
   Deletion result;
   for (std::size_t t = 0; t < after.triangles.size(); ++t) {
     const Corners c = corners(after, t);
-    if (!holds(old, c)) result.invented.push_back(static_cast<int>(t));
-    if (on_path(c, [&](const Segment& s) { return is_deep_inside(s, c, near); }))
-      result.left.push_back(static_cast<int>(t));
+    if (!holds(old, c)) result.invented.push_back(to_int(t));
+    if (on_path(c, [&](const Segment& s) { return is_deep_inside(s, c, near); })) result.left.push_back(to_int(t));
   }
   for (std::size_t t = 0; t < before.triangles.size(); ++t) {
     const Corners c = corners(before, t);
     if (!holds(kept, c) && !on_path(c, [&](const Segment& s) { return from_path(s, c) <= near; }))
-      result.unasked.push_back(static_cast<int>(t));
+      result.unasked.push_back(to_int(t));
   }
   return result;
 }

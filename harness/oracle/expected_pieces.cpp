@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "harness/oracle/conversions.h"
 #include "harness/oracle/exact.h"
 #include "harness/oracle/planar_map.h"
 #include "harness/oracle/search.h"
@@ -37,7 +38,10 @@ int add_near_touches(const std::vector<Segment>& segments, const std::vector<int
         const Segment& s = segments[j];
         if (p == s[0] || p == s[1] || (path[i] == path[j] && (path[i] < 0 || tiny[path[i]]))) return;
         if (distance(p, s) > tolerance || !done.insert({p, j}).second) return;
-        if (path[i] == path[j]) stretches += stretches == 0 || i > behind_stretch, behind_stretch = i + 1;
+        if (path[i] == path[j]) {
+          stretches += stretches == 0 || i > behind_stretch;
+          behind_stretch = i + 1;
+        }
         const Point d = direction(s[0], s[1]);
         const auto is_beyond = [&](const Point& end, double way) {
           return way * ((p[0] - end[0]) * d[0] + (p[1] - end[1]) * d[1]) > 0;
@@ -63,13 +67,13 @@ int count_tips_passed(const std::vector<Segment>& path, const std::vector<Segmen
   for (const Segment& incision : incisions) {
     search.for_each_in({{std::min(incision[0][0], incision[1][0]), std::min(incision[0][1], incision[1][1])},
                         {std::max(incision[0][0], incision[1][0]), std::max(incision[0][1], incision[1][1])}},
-                       [&](int i) { crossings += meet(path[static_cast<std::size_t>(i)], incision); });
+                       [&](int i) { crossings += meet(path[to_size(i)], incision); });
     for (const Point& p : incision) {
       if (search.distance(p) > tolerances.touch) continue;
       if (std::min(distance(p, path.front()[0]), distance(p, path.back()[1])) <= tolerances.tip) continue;
       int ends = 0;
       older.for_each_in({p, p}, [&](int i) {
-        const Segment& s = older.segments()[static_cast<std::size_t>(i)];
+        const Segment& s = older.segments()[to_size(i)];
         ends += p == s[0] || p == s[1];
       });
       tips += ends == 1;
@@ -86,7 +90,10 @@ int count_grazes(const std::vector<Segment>& path, const std::vector<Segment>& o
     int nearest = -1;
     double least = tolerance;
     search.for_each_in({{p[0] - tolerance, p[1] - tolerance}, {p[0] + tolerance, p[1] + tolerance}}, [&](int i) {
-      if (const double d = distance(p, older[static_cast<std::size_t>(i)]); d <= least) nearest = i, least = d;
+      if (const double d = distance(p, older[to_size(i)]); d <= least) {
+        nearest = i;
+        least = d;
+      }
     });
     return nearest;
   };
@@ -98,12 +105,14 @@ int count_grazes(const std::vector<Segment>& path, const std::vector<Segment>& o
     const int now = nearest_to(p);
     if (now >= 0) line = now;
     if (line >= 0 && before) {
-      const Segment& met = older[static_cast<std::size_t>(line)];
+      const Segment& met = older[to_size(line)];
       crosses |= orientation(met[0], met[1], *before) * orientation(met[0], met[1], p) < 0;
     }
     if (now >= 0) continue;
     count += line >= 0 && before && !crosses;
-    before = &p, line = -1, crosses = false;
+    before = &p;
+    line = -1;
+    crosses = false;
   }
   return count;
 }
@@ -113,13 +122,13 @@ int count_grazes(const std::vector<Segment>& path, const std::vector<Segment>& o
 int count_corners_passed(const std::vector<Segment>& path, const std::vector<Segment>& older,
                          const SegmentSearch& search, double tolerance) {
   std::map<Point, std::set<int>> passed;  // the corners, and the path's segments near each
-  for (int i = 0; i < static_cast<int>(path.size()); ++i) {
-    const auto& [a, b] = path[static_cast<std::size_t>(i)];
+  for (int i = 0; i < to_int(path.size()); ++i) {
+    const auto& [a, b] = path[to_size(i)];
     const BoxTree::Box box{{std::min(a[0], b[0]) - tolerance, std::min(a[1], b[1]) - tolerance},
                            {std::max(a[0], b[0]) + tolerance, std::max(a[1], b[1]) + tolerance}};
     search.for_each_in(box, [&](int line) {
-      for (const Point& p : older[static_cast<std::size_t>(line)])
-        if (distance(p, path[static_cast<std::size_t>(i)]) <= tolerance) passed[p].insert(i);
+      for (const Point& p : older[to_size(line)])
+        if (distance(p, path[to_size(i)]) <= tolerance) passed[p].insert(i);
     });
   }
   int count = 0;
@@ -128,19 +137,17 @@ int count_corners_passed(const std::vector<Segment>& path, const std::vector<Seg
     const std::set<int>& near = entry.second;
     std::vector<Point> ends;  // of the corner's lines, away from it
     search.for_each_in({corner, corner}, [&](int line) {
-      const Segment& s = older[static_cast<std::size_t>(line)];
+      const Segment& s = older[to_size(line)];
       if (s[0] == corner || s[1] == corner) ends.push_back(s[0] == corner ? s[1] : s[0]);
     });
     if (ends.size() < 2) continue;
     for (auto first = near.begin(); first != near.end();) {  // one time that the path passes: segments in a row
       auto last = first;
       while (std::next(last) != near.end() && *std::next(last) == *last + 1) ++last;
-      const Point &before = path[static_cast<std::size_t>(*first)][0],
-                  &after = path[static_cast<std::size_t>(*last)][1];
+      const Point &before = path[to_size(*first)][0], &after = path[to_size(*last)][1];
       Point turn = before;
       for (auto i = first; i != last; ++i)
-        if (const Point& p = path[static_cast<std::size_t>(*i)][1];
-            turn == before || distance(p, corner) < distance(turn, corner))
+        if (const Point& p = path[to_size(*i)][1]; turn == before || distance(p, corner) < distance(turn, corner))
           turn = p;
       const auto is_left = [&](const Point& p) {
         if (first == last) return orientation(before, after, p) > 0;
@@ -148,11 +155,10 @@ int count_corners_passed(const std::vector<Segment>& path, const std::vector<Seg
         return orientation(before, turn, after) > 0 ? one && other : one || other;
       };
       const auto runs_along = [&](const Point& p) {
-        return std::any_of(first, std::next(last),
-                           [&](int i) { return distance(p, path[static_cast<std::size_t>(i)]) <= tolerance; });
+        return std::any_of(first, std::next(last), [&](int i) { return distance(p, path[to_size(i)]) <= tolerance; });
       };
       const auto left = std::count_if(ends.begin(), ends.end(), is_left);
-      const bool on_one_side = left == 0 || left == static_cast<std::ptrdiff_t>(ends.size());
+      const bool on_one_side = left == 0 || left == to_index(ends.size());
       count += on_one_side && std::none_of(ends.begin(), ends.end(), runs_along);
       first = std::next(last);
     }
@@ -168,10 +174,10 @@ int count_points_on_itself(const std::vector<Segment>& path, double tolerance) {
   for (const Segment& segment : path)
     for (const Point& p : segment)
       search.for_each_in({{p[0] - tolerance, p[1] - tolerance}, {p[0] + tolerance, p[1] + tolerance}}, [&](int i) {
-        const Segment& s = path[static_cast<std::size_t>(i)];
+        const Segment& s = path[to_size(i)];
         if (p != s[0] && p != s[1] && distance(p, s) <= tolerance) found.insert(p);
       });
-  return static_cast<int>(found.size());
+  return to_int(found.size());
 }
 
 /// How many ends of an open path are the tip of an older incision, and within `tolerance` of another line: the path may
@@ -183,9 +189,10 @@ int count_ends_between(const std::vector<Segment>& path, const std::vector<Segme
     int ends = 0;
     bool beside = false;
     search.for_each_in({{p[0] - tolerance, p[1] - tolerance}, {p[0] + tolerance, p[1] + tolerance}}, [&](int i) {
-      const Segment& s = older[static_cast<std::size_t>(i)];
+      const Segment& s = older[to_size(i)];
       const bool ends_here = p == s[0] || p == s[1];
-      ends += ends_here, beside |= !ends_here && distance(p, s) <= tolerance;
+      ends += ends_here;
+      beside |= !ends_here && distance(p, s) <= tolerance;
     });
     count += ends == 1 && beside;
   }
@@ -198,7 +205,10 @@ double extent(const std::vector<Segment>& path) {
   for (const std::size_t axis : {0, 1}) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const Segment& s : path)
-      for (const Point& p : s) low = std::min(low, p[axis]), high = std::max(high, p[axis]);
+      for (const Point& p : s) {
+        low = std::min(low, p[axis]);
+        high = std::max(high, p[axis]);
+      }
     longest = std::max(longest, high - low);
   }
   return longest;
@@ -217,8 +227,7 @@ std::vector<char> inside_faces(const PlanarMap& map, std::size_t border_count) {
   };
   std::vector<std::vector<Crossing>> neighbours(map.faces.size());
   for (const auto& [segments, left, right] : map.edges) {
-    const auto of_border =
-        std::lower_bound(segments.begin(), segments.end(), static_cast<int>(border_count)) - segments.begin();
+    const auto of_border = std::lower_bound(segments.begin(), segments.end(), to_int(border_count)) - segments.begin();
     neighbours[left].push_back({right, of_border % 2 == 1});
     neighbours[right].push_back({left, of_border % 2 == 1});
   }
@@ -243,8 +252,8 @@ std::vector<int> faces_without_extensions(const PlanarMap& map, std::size_t firs
   std::vector<int> parent(map.faces.size());
   std::iota(parent.begin(), parent.end(), 0);
   for (const auto& [segments, left, right] : map.edges)
-    if (segments.front() >= static_cast<int>(first_extension)) parent[root(parent, left)] = root(parent, right);
-  for (int i = 0; i < static_cast<int>(parent.size()); ++i) parent[i] = root(parent, i);
+    if (segments.front() >= to_int(first_extension)) parent[root(parent, left)] = root(parent, right);
+  for (int i = 0; i < to_int(parent.size()); ++i) parent[i] = root(parent, i);
   return parent;
 }
 
@@ -262,10 +271,10 @@ ExpectedPieces expected_pieces(const std::vector<Segment>& border, const std::ve
   int may_fall_short = 0;
   for (const auto& path : paths) {
     segments.insert(segments.end(), path.begin(), path.end());
-    path_of.resize(segments.size(), static_cast<int>(tiny.size()));
+    path_of.resize(segments.size(), to_int(tiny.size()));
     // Where a path nearly touches itself almost everywhere, as many pieces as it has segments are enough to allow for.
     tiny.push_back(extent(path) <= 8 * tolerances.touch);
-    if (tiny.back()) result.most += static_cast<int>(path.size());
+    if (tiny.back()) result.most += to_int(path.size());
     if (!path.empty()) may_fall_short += count_points_on_itself(path, tolerances.tip);
     if (path.empty() || tolerances.tip == 0) continue;
     may_fall_short += count_tips_passed(path, incisions, search, tolerances);
@@ -289,19 +298,20 @@ ExpectedPieces expected_pieces(const std::vector<Segment>& border, const std::ve
   std::map<int, PlanarMap::Face> whole;  // of each face, what the extensions made of it together
   for (std::size_t face = 1; face < map.faces.size(); ++face) {  // the first is the infinite one
     auto& [area, perimeter] = whole[joined[face]];
-    area += map.faces[face].area, perimeter += map.faces[face].perimeter;
+    area += map.faces[face].area;
+    perimeter += map.faces[face].perimeter;
     if (!inside[face]) continue;
     const double width = 2 * map.faces[face].area / map.faces[face].perimeter;
     ++result.most;
     if (width >= tolerances.tip) expected.insert(joined[face]);
     if (width >= tolerances.thin) thick.insert(joined[face]);
   }
-  result.expected = static_cast<int>(expected.size());
+  result.expected = to_int(expected.size());
   whole.erase(joined.front());
   const auto slits = std::count_if(whole.begin(), whole.end(), [&](const auto& face) {
     return 2 * face.second.area < tolerances.touch * face.second.perimeter;
   });
-  result.least = std::max(1, static_cast<int>(thick.size()) - static_cast<int>(slits) - may_fall_short);
+  result.least = std::max(1, to_int(thick.size()) - to_int(slits) - may_fall_short);
   return result;
 }
 

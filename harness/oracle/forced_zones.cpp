@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "harness/oracle/chains.h"
+#include "harness/oracle/conversions.h"
 #include "harness/oracle/exact.h"
 #include "harness/oracle/search.h"
 
@@ -45,8 +46,8 @@ class CornerFinder {
     const std::size_t borders = chains_.size();
     for (Chain& chain : path_chains(cuts, flattening * h)) chains_.push_back(std::move(chain));
     std::vector<Segment> all;
-    for (int c = 0; c < static_cast<int>(chains_.size()); ++c)
-      for (int s = 0; s < static_cast<int>(chains_[c].segments.size()); ++s) {
+    for (int c = 0; c < to_int(chains_.size()); ++c)
+      for (int s = 0; s < to_int(chains_[c].segments.size()); ++s) {
         all.push_back(chains_[c].segments[s].segment);
         owner_.push_back({c, s});
       }
@@ -58,7 +59,10 @@ class CornerFinder {
   }
 
   std::vector<ForcedCorner> run() {
-    for (const Segment& s : search_->segments()) visit(s[0]), visit(s[1]);
+    for (const Segment& s : search_->segments()) {
+      visit(s[0]);
+      visit(s[1]);
+    }
     for (std::size_t i = first_path_; i < search_->segments().size(); ++i) visit_crossings(search_->segments()[i]);
     return std::move(corners_);
   }

@@ -1,13 +1,15 @@
 #include "harness/oracle/incision_error.h"
 
+#include "harness/oracle/conversions.h"
+
 namespace cutbench::oracle {
 namespace {
 
 /// Calls visit(point) along the segment, both ends included, at equal steps of at most `spacing`.
 template <class Visit>
 void sample(const Segment& s, double spacing, Visit visit) {
-  const int steps = static_cast<int>(std::ceil(distance(s[0], s[1]) / spacing));
-  for (int i = 0; i <= steps; ++i) visit(between(s[0], s[1], steps == 0 ? 0.0 : static_cast<double>(i) / steps));
+  const int steps = to_int(std::ceil(distance(s[0], s[1]) / spacing));
+  for (int i = 0; i <= steps; ++i) visit(between(s[0], s[1], steps == 0 ? 0.0 : to_double(i) / steps));
 }
 
 }  // namespace

@@ -6,12 +6,14 @@
 #include <cstdint>
 #include <limits>
 
+#include "harness/oracle/conversions.h"
+
 namespace cutbench::oracle {
 
 int lowest_bit(double x) {
   if (x == 0) return std::numeric_limits<int>::max();
   int exponent = 0;
-  const auto digits = static_cast<std::int64_t>(std::ldexp(std::frexp(std::abs(x), &exponent), 53));
+  const auto digits = to_int64(std::ldexp(std::frexp(std::abs(x), &exponent), 53));
   return exponent - 53 + std::countr_zero(static_cast<std::uint64_t>(digits));
 }
 
@@ -57,13 +59,13 @@ double toward_zero(const Rational& x) {
   if (x == 0) return 0;
   const Integer above = abs(numerator(x)), below = denominator(x);
   // Shifted so that the quotient has 54 or 55 bits, less where the double is subnormal.
-  const int shift = std::min(54 + static_cast<int>(msb(below)) - static_cast<int>(msb(above)), 1074);
+  const int shift = std::min(54 + to_int(msb(below)) - to_int(msb(above)), 1074);
   const Integer quotient = shift >= 0 ? Integer((above << static_cast<unsigned long>(shift)) / below)
                                       : Integer(above / (below << static_cast<unsigned long>(-shift)));
   auto digits = quotient.convert_to<std::uint64_t>();
-  const int excess = std::max(0, static_cast<int>(std::bit_width(digits)) - 53);
+  const int excess = std::max(0, to_int(std::bit_width(digits)) - 53);
   digits >>= excess;
-  const double size = std::ldexp(static_cast<double>(digits), excess - shift);
+  const double size = std::ldexp(to_double(digits), excess - shift);
   return x < 0 && size > 0 ? -size : size;  // no negative zero, as GMP
 }
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "harness/oracle/clip.h"
+#include "harness/oracle/conversions.h"
 #include "harness/oracle/deletion.h"
 #include "harness/oracle/exact.h"
 #include "harness/oracle/expected_pieces.h"
@@ -65,9 +66,9 @@ bool check_values(const Mesh& mesh, Problems& problems) {
       problems.add(Verdict::not_finite, "vertex " + std::to_string(v));
       usable = false;
     }
-  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+  for (int t = 0; t < to_int(mesh.triangles.size()); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
-    const int count = static_cast<int>(mesh.rest.size());
+    const int count = to_int(mesh.rest.size());
     const bool in_range = std::min({a, b, c}) >= 0 && std::max({a, b, c}) < count;
     if (in_range && a != b && b != c && c != a) continue;
     problems.add(Verdict::bad_index, name(mesh, t) + " of " + std::to_string(count) + " vertices");
@@ -77,7 +78,7 @@ bool check_values(const Mesh& mesh, Problems& problems) {
 }
 
 void check_orientation(const Mesh& mesh, Problems& problems) {
-  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+  for (int t = 0; t < to_int(mesh.triangles.size()); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
     if (orientation(mesh.rest[a], mesh.rest[b], mesh.rest[c]) <= 0) problems.add(Verdict::inverted, name(mesh, t));
   }
@@ -204,7 +205,7 @@ class Judge {
 
   void check_area() {
     const long double before = area(request_.before), after = area(after_);
-    judgement_.area_change = static_cast<double>((after - before) / before);
+    judgement_.area_change = to_double((after - before) / before);
     double perimeter = 0;
     for (const auto& [a, b] : input_.border) perimeter += distance(a, b);
     const long double allowed = 1e-12L * before + input_.rounding * perimeter;
@@ -244,7 +245,8 @@ class Judge {
     judgement_.expected_pieces = expected.expected;
     int most = expected.most;
     if (judgement_.pieces > most) most += count_hairs(edges, requested, 2 * flattening);
-    judgement_.least_pieces = expected.least, judgement_.most_pieces = most;
+    judgement_.least_pieces = expected.least;
+    judgement_.most_pieces = most;
     if (judgement_.pieces < expected.least || judgement_.pieces > most)
       problems_.add(Verdict::wrong_pieces,
                     std::to_string(judgement_.pieces) + " instead of " + std::to_string(expected.expected));
@@ -261,7 +263,7 @@ class Judge {
       const Point p = between(s[0], s[1], 0.5);
       std::set<int> found;
       search.for_each_in({{p[0] - near, p[1] - near}, {p[0] + near, p[1] + near}}, [&](int i) {
-        if (distance(p, lines[static_cast<std::size_t>(i)]) <= near) found.insert(i);
+        if (distance(p, lines[to_size(i)]) <= near) found.insert(i);
       });
       return found.size() > 1;
     };
@@ -269,7 +271,7 @@ class Judge {
       double area = 0, perimeter = 0;
       bool between_lines = true;
     };
-    std::vector<Piece> pieces(static_cast<std::size_t>(judgement_.pieces));
+    std::vector<Piece> pieces(to_size(judgement_.pieces));
     for (std::size_t t = 0; t < piece_.size(); ++t) {
       const auto& [a, b, c] = after_.triangles[t];
       const Point &p = after_.rest[a], &q = after_.rest[b], &r = after_.rest[c];
@@ -277,14 +279,14 @@ class Judge {
     }
     for (std::size_t e = 0; e < edges.opposite.size(); ++e) {
       if (edges.opposite[e] >= 0) continue;
-      const Segment s = segment(after_, static_cast<int>(e));
+      const Segment s = segment(after_, to_int(e));
       pieces[piece_[e / 3]].perimeter += distance(s[0], s[1]);
     }
     const auto is_thin = [&](const Piece& p) { return 4 * p.area < near * p.perimeter; };
     for (std::size_t e = 0; e < edges.opposite.size(); ++e)
       if (Piece& p = pieces[piece_[e / 3]]; edges.opposite[e] < 0 && is_thin(p) && p.between_lines)
-        p.between_lines = between_two(segment(after_, static_cast<int>(e)));
-    return static_cast<int>(
+        p.between_lines = between_two(segment(after_, to_int(e)));
+    return to_int(
         std::count_if(pieces.begin(), pieces.end(), [&](const Piece& p) { return is_thin(p) && p.between_lines; }));
   }
 
@@ -351,7 +353,7 @@ const char* name_of(Verdict verdict) {
   constexpr const char* names[] = {"ok",           "not_finite",    "bad_index", "inverted",
                                    "non_manifold", "unused_vertex", "leak",      "area",
                                    "moved_vertex", "wrong_pieces",  "deletion",  "incision"};
-  return names[static_cast<std::size_t>(verdict)];
+  return names[to_size(verdict)];
 }
 
 std::ostream& operator<<(std::ostream& out, Verdict verdict) { return out << name_of(verdict); }

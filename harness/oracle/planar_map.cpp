@@ -4,6 +4,7 @@
 #include <numeric>
 #include <optional>
 
+#include "harness/oracle/conversions.h"
 #include "harness/oracle/exact.h"
 #include "harness/oracle/numbers.h"
 #include "harness/oracle/search.h"
@@ -92,7 +93,7 @@ class Builder {
     sort_outgoing();
     find_cycles();
     add_faces();
-    map_.vertices = static_cast<int>(vertices_.size());
+    map_.vertices = to_int(vertices_.size());
     return std::move(map_);
   }
 
@@ -116,9 +117,9 @@ class Builder {
   }
 
   int add_vertex(Node v) {
-    known_[v.rounded].push_back(static_cast<int>(vertices_.size()));
+    known_[v.rounded].push_back(to_int(vertices_.size()));
     vertices_.push_back(std::move(v));
-    return static_cast<int>(vertices_.size()) - 1;
+    return to_int(vertices_.size()) - 1;
   }
 
   void add_ends() {
@@ -129,7 +130,7 @@ class Builder {
   void intersect() {
     const SegmentSearch search(segments_);
     std::vector<int> near;
-    for (int s = 0; s < static_cast<int>(segments_.size()); ++s) {
+    for (int s = 0; s < to_int(segments_.size()); ++s) {
       const auto& [a, b] = segments_[s];
       near.clear();
       search.for_each_in({{a[0], std::min(a[1], b[1])}, {b[0], std::max(a[1], b[1])}}, [&](int t) {
@@ -150,7 +151,8 @@ class Builder {
     const int side_a = orientation(c, d, a), side_b = orientation(c, d, b);
     if (side_c * side_d < 0 && side_a * side_b < 0) {
       const int v = vertex(intersection({segments_[s], exponent_}, {segments_[t], exponent_}, exponent_));
-      on_[s].push_back(v), on_[t].push_back(v);
+      on_[s].push_back(v);
+      on_[t].push_back(v);
       return;
     }
     if (side_c == 0 && in_box(c, segments_[s])) on_[s].push_back(on_[t][0]);
@@ -161,14 +163,17 @@ class Builder {
 
   void add_edges() {
     std::map<std::array<int, 2>, int> known;
-    for (int s = 0; s < static_cast<int>(segments_.size()); ++s) {
+    for (int s = 0; s < to_int(segments_.size()); ++s) {
       std::vector<int>& on = on_[s];
       std::sort(on.begin(), on.end());
       on.erase(std::unique(on.begin(), on.end()), on.end());
       std::sort(on.begin(), on.end(), [&](int v, int w) { return before(vertices_[v], vertices_[w]); });
       for (std::size_t i = 1; i < on.size(); ++i) {
-        const auto [place, is_new] = known.try_emplace({on[i - 1], on[i]}, static_cast<int>(map_.edges.size()));
-        if (is_new) map_.edges.emplace_back(), ends_.push_back(place->first);
+        const auto [place, is_new] = known.try_emplace({on[i - 1], on[i]}, to_int(map_.edges.size()));
+        if (is_new) {
+          map_.edges.emplace_back();
+          ends_.push_back(place->first);
+        }
         map_.edges[place->second].segments.push_back(s);
       }
     }
@@ -184,7 +189,7 @@ class Builder {
   }
 
   void sort_outgoing() {
-    for (int e = 0; e < 2 * static_cast<int>(ends_.size()); ++e) vertices_[origin(e)].outgoing.push_back(e);
+    for (int e = 0; e < 2 * to_int(ends_.size()); ++e) vertices_[origin(e)].outgoing.push_back(e);
     next_.resize(2 * ends_.size());
     for (Node& v : vertices_) {
       std::sort(v.outgoing.begin(), v.outgoing.end(), [this](int e, int f) { return turns_before(e, f); });
@@ -195,12 +200,12 @@ class Builder {
 
   void find_cycles() {
     cycle_of_.assign(next_.size(), -1);
-    for (int first = 0; first < static_cast<int>(next_.size()); ++first) {
+    for (int first = 0; first < to_int(next_.size()); ++first) {
       if (cycle_of_[first] >= 0) continue;
       Cycle cycle;
       const Point anchor = vertices_[origin(first)].rounded;
       for (int e = first; cycle_of_[e] < 0; e = next_[e]) {
-        cycle_of_[e] = static_cast<int>(cycles_.size());
+        cycle_of_[e] = to_int(cycles_.size());
         const Point &p = vertices_[origin(e)].rounded, &q = vertices_[origin(e ^ 1)].rounded;
         cycle.area += cross(minus(p, anchor), minus(q, anchor)) / 2;
         cycle.perimeter += distance(p, q);
@@ -218,12 +223,19 @@ class Builder {
       cycles_[outer_cycle(v)].face = 0;  // for now
     }
     for (Cycle& cycle : cycles_)
-      if (cycle.face < 0) cycle.face = static_cast<int>(map_.faces.size()), map_.faces.emplace_back();
+      if (cycle.face < 0) {
+        cycle.face = to_int(map_.faces.size());
+        map_.faces.emplace_back();
+      }
     for (int v : outermost) cycles_[outer_cycle(v)].face = face_round(v);
-    for (const Cycle& cycle : cycles_)
-      map_.faces[cycle.face].area += cycle.area, map_.faces[cycle.face].perimeter += cycle.perimeter;
-    for (std::size_t e = 0; e < ends_.size(); ++e)
-      map_.edges[e].left = face_left_of(2 * e), map_.edges[e].right = face_left_of(2 * e + 1);
+    for (const Cycle& cycle : cycles_) {
+      map_.faces[cycle.face].area += cycle.area;
+      map_.faces[cycle.face].perimeter += cycle.perimeter;
+    }
+    for (std::size_t e = 0; e < ends_.size(); ++e) {
+      map_.edges[e].left = face_left_of(2 * e);
+      map_.edges[e].right = face_left_of(2 * e + 1);
+    }
   }
 
   /// The first vertex of each, which is an end of a segment; in order.
@@ -232,7 +244,7 @@ class Builder {
     std::iota(component_.begin(), component_.end(), 0);
     for (const auto& [v, w] : ends_) component_[root(v)] = root(w);
     std::vector<int> first(vertices_.size(), -1), result;
-    for (int v = 0; v < static_cast<int>(vertices_.size()); ++v) {
+    for (int v = 0; v < to_int(vertices_.size()); ++v) {
       int& best = first[component_[v] = root(v)];
       if (best < 0 || before(vertices_[v], vertices_[best])) best = v;
     }
@@ -257,17 +269,19 @@ class Builder {
     const Integer x = as_integer(vertices_[v].rounded[0], exponent_);
     int best = -1;
     Rational highest;
-    for (int e = 0; e < static_cast<int>(ends_.size()); ++e) {
+    for (int e = 0; e < to_int(ends_.size()); ++e) {
       const auto& [from, to] = ends_[e];
       if (component_[from] == component_[v]) continue;
       if (compare(vertices_[from], vertices_[v], 0) >= 0 || compare(vertices_[v], vertices_[to], 0) > 0) continue;
       const Segment& s = line(2 * e);
       if (orientation(s[0], s[1], vertices_[v].rounded) < 0) continue;
       const Rational height = height_at({s, exponent_}, x);
-      if (best < 0 || height > highest || (height == highest && turn(s, line(2 * best)) > 0))
-        best = e, highest = height;
+      if (best < 0 || height > highest || (height == highest && turn(s, line(2 * best)) > 0)) {
+        best = e;
+        highest = height;
+      }
     }
-    return best < 0 ? 0 : face_left_of(2 * static_cast<std::size_t>(best));
+    return best < 0 ? 0 : face_left_of(2 * to_size(best));
   }
 
   int exponent_ = std::numeric_limits<int>::max();  // 2^that divides all coordinates

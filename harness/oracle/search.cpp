@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "harness/oracle/conversions.h"
 #include "harness/oracle/exact.h"
 
 namespace cutbench::oracle {
@@ -36,7 +37,7 @@ std::vector<BoxTree::Box> boxes(const Mesh& mesh) {
 
 BoxTree::BoxTree(const std::vector<Box>& boxes) : items_(boxes.size()) {
   std::iota(items_.begin(), items_.end(), 0);
-  if (!items_.empty()) build(boxes, 0, static_cast<int>(items_.size()));
+  if (!items_.empty()) build(boxes, 0, to_int(items_.size()));
 }
 
 /// Halves along the longer side, at the median.
@@ -44,8 +45,11 @@ int BoxTree::build(const std::vector<Box>& boxes, int first, int count) {
   constexpr int most_in_leaf = 4;
   const auto begin = items_.begin() + first, end = begin + count;
   Node node{boxes[*begin], first, count};
-  for (auto i = begin; i != end; ++i) extend(node.box, boxes[*i].low), extend(node.box, boxes[*i].high);
-  const int n = static_cast<int>(nodes_.size());
+  for (auto i = begin; i != end; ++i) {
+    extend(node.box, boxes[*i].low);
+    extend(node.box, boxes[*i].high);
+  }
+  const int n = to_int(nodes_.size());
   nodes_.push_back(node);
   if (count <= most_in_leaf) return n;
   const int axis = node.box.high[0] - node.box.low[0] >= node.box.high[1] - node.box.low[1] ? 0 : 1, half = count / 2;

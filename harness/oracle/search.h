@@ -52,7 +52,8 @@ class BoxTree {
       for (int i = node.first; i < node.first + node.count; ++i) visit(items_[i]);
       return;
     }
-    visit_in(n + 1, box, visit), visit_in(node.right, box, visit);
+    visit_in(n + 1, box, visit);
+    visit_in(node.right, box, visit);
   }
 
   template <class Visit>
@@ -66,10 +67,13 @@ class BoxTree {
     const auto go = [&](int child, double away) {
       if (away < enough) visit_outwards(child, p, enough, visit);
     };
-    if (left <= right)
-      go(n + 1, left), go(node.right, right);
-    else
-      go(node.right, right), go(n + 1, left);
+    if (left <= right) {
+      go(n + 1, left);
+      go(node.right, right);
+    } else {
+      go(node.right, right);
+      go(n + 1, left);
+    }
   }
 
   /// No more than the distance from p to the box.

@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "harness/oracle/conversions.h"
+
 namespace cutbench::oracle {
 namespace {
 
@@ -15,14 +17,15 @@ struct Outgoing {
 };
 
 Outgoing outgoing(const Mesh& mesh) {
-  const int count = static_cast<int>(3 * mesh.triangles.size());
+  const int count = to_int(3 * mesh.triangles.size());
   Outgoing out{std::vector<int>(mesh.rest.size() + 1, 0), std::vector<int>(count), std::vector<int>(count)};
   for (int e = 0; e < count; ++e) ++out.first[origin(mesh, e) + 1];
   std::partial_sum(out.first.begin(), out.first.end(), out.first.begin());
   std::vector<int> end(out.first);
   for (int e = 0; e < count; ++e) {
     const int i = end[origin(mesh, e)]++;
-    out.list[i] = e, out.target[i] = target(mesh, e);
+    out.list[i] = e;
+    out.target[i] = target(mesh, e);
   }
   return out;
 }
@@ -34,7 +37,10 @@ int fan_size(const HalfEdges& edges, int start) {
   while ((e = edges.opposite[previous(e)]) >= 0 && e != start) ++size;
   if (e == start) return size;
   e = start;
-  while ((e = edges.opposite[e]) >= 0) e = next(e), ++size;
+  while ((e = edges.opposite[e]) >= 0) {
+    e = next(e);
+    ++size;
+  }
   return size;
 }
 
@@ -46,7 +52,7 @@ Segment segment(const Mesh& mesh, int half_edge) {
 
 HalfEdges half_edges(const Mesh& mesh) {
   const Outgoing out = outgoing(mesh);
-  const int count = static_cast<int>(3 * mesh.triangles.size());
+  const int count = to_int(3 * mesh.triangles.size());
   HalfEdges edges{std::vector<int>(count, -1), {}};
   for (int e = 0; e < count; ++e) {
     const int from = origin(mesh, e), to = target(mesh, e);
@@ -64,7 +70,7 @@ HalfEdges half_edges(const Mesh& mesh) {
 std::vector<int> bow_ties(const Mesh& mesh, const HalfEdges& edges) {
   const Outgoing out = outgoing(mesh);
   std::vector<int> result;
-  for (int v = 0; v < static_cast<int>(mesh.rest.size()); ++v) {
+  for (int v = 0; v < to_int(mesh.rest.size()); ++v) {
     const int corners = out.first[v + 1] - out.first[v];
     if (corners > 0 && fan_size(edges, out.list[out.first[v]]) != corners) result.push_back(v);
   }
@@ -76,7 +82,7 @@ std::vector<int> unused_vertices(const Mesh& mesh) {
   for (const auto& triangle : mesh.triangles)
     for (int v : triangle) used[v] = 1;
   std::vector<int> result;
-  for (int v = 0; v < static_cast<int>(used.size()); ++v)
+  for (int v = 0; v < to_int(used.size()); ++v)
     if (!used[v]) result.push_back(v);
   return result;
 }
@@ -84,7 +90,7 @@ std::vector<int> unused_vertices(const Mesh& mesh) {
 std::vector<int> pieces_of_triangles(const HalfEdges& edges) {
   std::vector<int> piece(edges.opposite.size() / 3, -1), open;
   int pieces = 0;
-  for (int seed = 0; seed < static_cast<int>(piece.size()); ++seed) {
+  for (int seed = 0; seed < to_int(piece.size()); ++seed) {
     if (piece[seed] >= 0) continue;
     piece[seed] = pieces;
     open.push_back(seed);
@@ -93,7 +99,10 @@ std::vector<int> pieces_of_triangles(const HalfEdges& edges) {
       open.pop_back();
       for (int e = 3 * t; e < 3 * t + 3; ++e) {
         const int other = edges.opposite[e] < 0 ? t : edges.opposite[e] / 3;
-        if (piece[other] < 0) piece[other] = pieces, open.push_back(other);
+        if (piece[other] < 0) {
+          piece[other] = pieces;
+          open.push_back(other);
+        }
       }
     }
     ++pieces;
@@ -107,7 +116,7 @@ Borders borders(const Mesh& mesh, const HalfEdges& edges) {
     int half_edge;
   };
   std::vector<Keyed> all;
-  for (int e = 0; e < static_cast<int>(edges.opposite.size()); ++e) {
+  for (int e = 0; e < to_int(edges.opposite.size()); ++e) {
     if (edges.opposite[e] >= 0) continue;
     Segment key = segment(mesh, e);
     if (key[1] < key[0]) std::swap(key[0], key[1]);
@@ -133,7 +142,7 @@ Borders borders(const Mesh& mesh, const HalfEdges& edges) {
 EdgeLengths edge_lengths(const Mesh& mesh, const HalfEdges& edges) {
   EdgeLengths result;
   int count = 0;
-  for (int e = 0; e < static_cast<int>(edges.opposite.size()); ++e) {
+  for (int e = 0; e < to_int(edges.opposite.size()); ++e) {
     if (edges.opposite[e] > e) continue;
     const Segment s = segment(mesh, e);
     const double length = distance(s[0], s[1]);

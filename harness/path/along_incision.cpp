@@ -41,13 +41,18 @@ void Tracer::take(const Step& step, std::size_t point, bool tip) {
   const bool back = is_on_incision(step.place);
   if (departed_ && back && runs_along_incision()) {
     excursion_.clear();
-    from_ = step.place, from_node_ = -1;
-    first_ = step.arrived ? point + 1 : point, count_ = 0;
+    from_ = step.place;
+    from_node_ = -1;
+    first_ = step.arrived ? point + 1 : point;
+    count_ = 0;
   } else if (back || excursion_.size() == longest) {
     flush();
     departed_ = false;
   }
-  if (back) departed_ = true, departure_ = step.place;
+  if (back) {
+    departed_ = true;
+    departure_ = step.place;
+  }
 }
 
 void Tracer::flush() {
@@ -97,11 +102,14 @@ bool Tracer::find_chain(const Place& to, VertexIndex before, VertexIndex v) {
       const VertexIndex next = sheet_->target(h);
       const Point2 p = sheet_->rest(next);
       if (const double d = squared_length(to.point - p);
-          sheet_->mark(h) == EdgeMark::incision && next != before && d < least && is_near(p, way_, chord_tolerance_))
-        best = next, least = d;
+          sheet_->mark(h) == EdgeMark::incision && next != before && d < least && is_near(p, way_, chord_tolerance_)) {
+        best = next;
+        least = d;
+      }
     }
     if (!best.valid()) return false;
-    before = v, v = best;
+    before = v;
+    v = best;
     chain_.push_back(sheet_->rest(v));
   }
   return false;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -29,7 +31,7 @@ Blade::Blade(Curve curve)
   for (std::size_t i = 0; (i + 1) * step_ < curve_.points.size(); ++i) {
     Point2 from = *piece(i);
     for (int k = 1; k <= chords_; ++k) {
-      const double t = static_cast<double>(k) / chords_;
+      const double t = to_double(k) / chords_;
       const Point2 to = step_ == 3 ? blossom(piece(i), t, t, t) : piece(i)[1];
       ends_.push_back(travelled += std::sqrt(squared_length(to - from)));
       from = to;
@@ -38,11 +40,11 @@ Blade::Blade(Curve curve)
 }
 
 Blade::Place Blade::place_at(double distance) const {
-  const auto chord = static_cast<std::size_t>(std::lower_bound(ends_.begin(), ends_.end(), distance) - ends_.begin());
-  const auto per_piece = static_cast<std::size_t>(chords_);
+  const auto chord = to_size(std::lower_bound(ends_.begin(), ends_.end(), distance) - ends_.begin());
+  const auto per_piece = to_size(chords_);
   if (chord == ends_.size()) return {ends_.size() / per_piece - 1, 1};
   const double begin = chord > 0 ? ends_[chord - 1] : 0, share = (distance - begin) / (ends_[chord] - begin);
-  return {chord / per_piece, (static_cast<double>(chord % per_piece) + std::min(share, 1.0)) / chords_};
+  return {chord / per_piece, (to_double(chord % per_piece) + std::min(share, 1.0)) / chords_};
 }
 
 Curve Blade::part(double from, double to) const {
@@ -54,7 +56,10 @@ Curve Blade::part(double from, double to) const {
     const Point2* p = piece(i);
     const auto at = [&](double t) { return step_ == 3 ? blossom(p, t, t, t) : between(p[0], p[1], t); };
     if (part.points.empty()) part.points.push_back(at(a));
-    if (step_ == 3) part.points.push_back(blossom(p, a, a, b)), part.points.push_back(blossom(p, a, b, b));
+    if (step_ == 3) {
+      part.points.push_back(blossom(p, a, a, b));
+      part.points.push_back(blossom(p, a, b, b));
+    }
     part.points.push_back(at(b));
   }
   return part;

@@ -63,7 +63,9 @@ void flatten_bezier(const Curve& curve, double tolerance, double snap, Polyline&
       if (dot(from - before, after - to) < 0)
         add(out, bezier_point(p, slowest_between(p, (k - 1) / steps, k / steps)), false, snap);
       if (k < steps) add(out, to, false, snap);
-      before = from, from = to, to = after;
+      before = from;
+      from = to;
+      to = after;
     }
   }
   if (!curve.closed) add(out, c.back(), true, snap);
@@ -72,15 +74,18 @@ void flatten_bezier(const Curve& curve, double tolerance, double snap, Polyline&
 }  // namespace
 
 void flatten(const Curve& curve, double tolerance, double snap, Polyline& out) {
-  out.points.clear(), out.kept.clear();
-  out.closed = curve.closed, out.curved = curve.kind == Curve::Kind::bezier;
+  out.points.clear();
+  out.kept.clear();
+  out.closed = curve.closed;
+  out.curved = curve.kind == Curve::Kind::bezier;
   if (curve.kind == Curve::Kind::bezier)
     flatten_bezier(curve, tolerance, snap, out);
   else
     for (Point2 p : curve.points) add(out, p, true, snap);
   if (!out.closed || out.points.size() < 2) return;
   if (within(out.points.back(), out.points.front(), snap))  // the closing step has a length, too
-    out.points.pop_back(), out.kept.pop_back();
+    out.points.pop_back();
+  out.kept.pop_back();
 }
 
 void check_curve(const Curve& curve, const std::string& name) {

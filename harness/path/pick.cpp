@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "harness/base/conversions.h"
 #include "harness/base/errors.h"
 
 namespace cutbench {
@@ -64,7 +65,7 @@ struct Picker::Tree {
   Boxes boxes;
 
   Point2 at_rest(DeformedTriangles::const_iterator triangle, Weights w) const {
-    const auto& [a, b, c] = rest[static_cast<std::size_t>(triangle - deformed.begin())];
+    const auto& [a, b, c] = rest[to_size(triangle - deformed.begin())];
     // Rounding must not carry a pick on the border out of the sheet's triangle.
     const double second = std::clamp(w.second, 0.0, 1.0), third = std::clamp(w.third, 0.0, 1.0 - second);
     return a + second * (b - a) + third * (c - a);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/predicates.h"
 #include "harness/path/trace.h"
 
@@ -75,8 +76,7 @@ int count_crossings(const std::vector<Point2>& a, const std::vector<Point2>& b) 
 }  // namespace
 
 int Tracer::passages_of(int face) const {
-  return static_cast<std::size_t>(face) < passages_of_face_.size() ? passages_of_face_[static_cast<std::size_t>(face)]
-                                                                   : -1;
+  return to_size(face) < passages_of_face_.size() ? passages_of_face_[to_size(face)] : -1;
 }
 
 /// One straight passage and nothing else, or only nodes on the edges.
@@ -180,7 +180,8 @@ void Tracer::resolve_crossings(int f) {
     bool split = false;
     for (int n : nodes) {  // through a node: two segments
       if (n == a || n == b || !on_segment(at(a), at(b), at(n), snap)) continue;
-      open.emplace_back(a, n), open.emplace_back(n, b);
+      open.emplace_back(a, n);
+      open.emplace_back(n, b);
       split = true;
       break;
     }
@@ -189,7 +190,7 @@ void Tracer::resolve_crossings(int f) {
       if (a == c || a == d || b == c || b == d || !cross_properly(at(a), at(b), at(c), at(d))) continue;
       const int n = trace_.node_of(place_in(t, intersection(at(a), at(b), at(c), at(d))));
       nodes = nodes_of(f);
-      done.erase(done.begin() + static_cast<std::ptrdiff_t>(i));
+      done.erase(done.begin() + to_index(i));
       for (int end : {a, b, c, d})
         if (end != n) open.emplace_back(end, n);
       // A new node may lie on segments that were clear before.

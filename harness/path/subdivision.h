@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/sheet.h"
 #include "harness/mesh/stamped_table.h"
 #include "harness/path/walk.h"
@@ -76,10 +77,10 @@ class Subdivision {
   /// The node at v, -1 where there is none.
   int node_at(VertexIndex v) const { return node_at_.get(v, -1); }
 
-  const Node& node(int i) const { return nodes[static_cast<std::size_t>(i)]; }
-  const Face& face(int i) const { return faces[static_cast<std::size_t>(i)]; }
-  const Segment& segment(int i) const { return segments[static_cast<std::size_t>(i)]; }
-  Face& face(int i) { return faces[static_cast<std::size_t>(i)]; }
+  const Node& node(int i) const { return nodes[to_size(i)]; }
+  const Face& face(int i) const { return faces[to_size(i)]; }
+  const Segment& segment(int i) const { return segments[to_size(i)]; }
+  Face& face(int i) { return faces[to_size(i)]; }
 
   /// Triangles whose interior a segment crosses: for a trace, the unit of geometric cost.
   std::size_t crossed_triangles() const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/one_ring.h"
 #include "harness/mesh/predicates.h"
 
@@ -20,13 +21,22 @@ double key_of(Point2 p) { return p.x + 0.61803398874989485 * p.y; }
 
 Subdivision& Tracer::trace(const Sheet& sheet, const Polyline& path, Walk& walk, double chord_tolerance,
                            bool may_begin_elsewhere) {
-  sheet_ = &sheet, path_ = &path, chord_tolerance_ = chord_tolerance;
-  trace_.reset(sheet), trace_.chord_tolerance = chord_tolerance;
-  passages_.clear(), passages_of_face_.clear();
-  from_ = walk.place(), from_node_ = -1;
-  first_ = 1, count_ = 0;
+  sheet_ = &sheet;
+  path_ = &path;
+  chord_tolerance_ = chord_tolerance;
+  trace_.reset(sheet);
+  trace_.chord_tolerance = chord_tolerance;
+  passages_.clear();
+  passages_of_face_.clear();
+  from_ = walk.place();
+  from_node_ = -1;
+  first_ = 1;
+  count_ = 0;
   loop_ = head_open_ = path.closed && !path.kept[0] && from_.kind == Place::Kind::face;
-  if (loop_) first_ = 0, count_ = 1;
+  if (loop_) {
+    first_ = 0;
+    count_ = 1;
+  }
   face_ = from_.face;
   excursion_.clear();
   departed_ = path.curved && std::isfinite(chord_tolerance) && is_on_incision(from_);
@@ -38,7 +48,8 @@ Subdivision& Tracer::trace(const Sheet& sheet, const Polyline& path, Walk& walk,
   std::size_t steps_left = 8 * (sheet.triangle_slots() + n) + 1000;
   const Place begin = from_;
   Place start;
-  found_.clear(), note(path.points.front(), from_);
+  found_.clear();
+  note(path.points.front(), from_);
   for (std::size_t i = 1; i <= last; ++i) {
     const Place* before = found_before(point(i));
     for (bool arrived = false; !arrived;) {
@@ -52,9 +63,12 @@ Subdivision& Tracer::trace(const Sheet& sheet, const Polyline& path, Walk& walk,
       } else if (begun = is_on_incision(step.place); begun) {
         // A loop that may follow an incision is traced from where it meets one first, once round to there.
         excursion_.clear();
-        loop_ = head_open_ = false, last = n + i;
-        start = departure_ = from_ = step.place, departed_ = true;
-        first_ = arrived ? i + 1 : i, count_ = 0;
+        loop_ = head_open_ = false;
+        last = n + i;
+        start = departure_ = from_ = step.place;
+        departed_ = true;
+        first_ = arrived ? i + 1 : i;
+        count_ = 0;
       } else {
         excursion_.push_back({step, i, false});
       }
@@ -69,7 +83,7 @@ Subdivision& Tracer::trace(const Sheet& sheet, const Polyline& path, Walk& walk,
   if (comes_back && may_begin_elsewhere && !are_together(sheet, walk.place(), begin))
     return trace(sheet, path, walk, chord_tolerance, false);
   if (loop_) close_loop();
-  for (int f = 0; f < static_cast<int>(trace_.faces.size()); ++f)
+  for (int f = 0; f < to_int(trace_.faces.size()); ++f)
     if (!is_simple(f)) arrange(f);
   if (trace_.nodes.size() == 2) split_lone_piece();
   return trace_;
@@ -112,8 +126,10 @@ void Tracer::split_lone_piece() {
     const HalfEdge h = trace_.along[0].edge;
     const Point2 from = sheet_->rest(sheet_->origin(h)), edge = sheet_->rest(sheet_->target(h)) - from;
     Place place;
-    place.kind = Place::Kind::edge, place.edge = h;
-    place.lambda = dot(middle - from, edge) / dot(edge, edge), place.point = from + place.lambda * edge;
+    place.kind = Place::Kind::edge;
+    place.edge = h;
+    place.lambda = dot(middle - from, edge) / dot(edge, edge);
+    place.point = from + place.lambda * edge;
     trace_.add_node(place);
   } else if (!trace_.segments.empty()) {
     const TrianglePassage& only = passages_.front();
@@ -127,7 +143,8 @@ void Tracer::split_lone_piece() {
     trace_.reset(*sheet_);
     const int face = trace_.face_of(t), from = trace_.add_node(a), at = trace_.add_node(between),
               to = trace_.add_node(b);
-    trace_.add_segment(face, from, at), trace_.add_segment(face, at, to);
+    trace_.add_segment(face, from, at);
+    trace_.add_segment(face, at, to);
   }
 }
 
@@ -147,7 +164,9 @@ void Tracer::handle(const Step& step, std::size_t point, bool tip) {
       }
       if (head_open_) {
         head_open_ = false;
-        head_face_ = face_, head_to_ = to, head_count_ = count_;
+        head_face_ = face_;
+        head_to_ = to;
+        head_count_ = count_;
       } else {
         to_node = finish(trace_.face_of(face_), from_, first_, count_, to);
       }
@@ -156,7 +175,8 @@ void Tracer::handle(const Step& step, std::size_t point, bool tip) {
     case Passage::Kind::outside:
       break;
   }
-  from_ = to, from_node_ = to_node;
+  from_ = to;
+  from_node_ = to_node;
   // The next passage's points start behind this place.
   first_ = step.arrived ? point + 1 : point;
   count_ = 0;
@@ -185,7 +205,7 @@ void Tracer::run_along(const Place& from, const Place& to, HalfEdge edge) {
 
 /// With what is chosen of the passage under way.
 void Tracer::check_room(int face) const {
-  std::size_t segments = 1 + static_cast<std::size_t>(std::count(chosen_.begin(), chosen_.end(), 1));
+  std::size_t segments = 1 + to_size(std::count(chosen_.begin(), chosen_.end(), 1));
   for (int i = passages_of(face); i >= 0; i = passage(i).next)
     segments += passage(i).segments[1] - passage(i).segments[0];
   if (segments > most_segments_in_triangle)
@@ -220,9 +240,9 @@ int Tracer::finish(int face, const Place& from, std::size_t first, std::size_t c
   const int end = trace_.node_of(to);
   trace_.add_segment(face, node, end);
   passages_of_face_.resize(trace_.faces.size(), -1);
-  int& head = passages_of_face_[static_cast<std::size_t>(face)];
+  int& head = passages_of_face_[to_size(face)];
   passages_.push_back({start, end, first, count, kept < count, {segments, trace_.segments.size()}, head});
-  head = static_cast<int>(passages_.size() - 1);
+  head = to_int(passages_.size() - 1);
   return end;
 }
 
@@ -237,7 +257,8 @@ void Tracer::choose(bool on_one_edge, const Place& from, std::size_t first, std:
       if (i < count && !chosen_[i]) continue;
       const Point2 b = i < count ? point(first + i) : to.point;
       choose_by_chord(a, b, first, begin, i);
-      a = b, begin = i + 1;
+      a = b;
+      begin = i + 1;
     }
   }
   if (on_one_edge && !any_chosen()) {  // a U-turn: its farthest point
@@ -245,7 +266,10 @@ void Tracer::choose(bool on_one_edge, const Place& from, std::size_t first, std:
     double farthest = sheet_->snap() * std::sqrt(squared_length(chord));
     std::size_t best = count;
     for (std::size_t i = 0; i < count; ++i)
-      if (const double d = std::abs(cross(chord, point(first + i) - from.point)); d > farthest) farthest = d, best = i;
+      if (const double d = std::abs(cross(chord, point(first + i) - from.point)); d > farthest) {
+        farthest = d;
+        best = i;
+      }
     if (best < count) chosen_[best] = 1;
   }
   // Pieces that all go the way of the chord can't meet.
@@ -259,12 +283,14 @@ void Tracer::choose(bool on_one_edge, const Place& from, std::size_t first, std:
   }
   const bool all_chosen = std::find(chosen_.begin(), chosen_.end(), 0) == chosen_.end();
   if (count < 2 || monotone || all_chosen) return;
-  all_points_.assign(1, from.point), chosen_points_ = all_points_;
+  all_points_.assign(1, from.point);
+  chosen_points_ = all_points_;
   for (std::size_t i = 0; i < count; ++i) {
     all_points_.push_back(point(first + i));
     if (chosen_[i]) chosen_points_.push_back(all_points_.back());
   }
-  all_points_.push_back(to.point), chosen_points_.push_back(to.point);
+  all_points_.push_back(to.point);
+  chosen_points_.push_back(to.point);
   if (crosses_itself(all_points_) || crosses_itself(chosen_points_)) chosen_.assign(count, 1);
 }
 
@@ -295,7 +321,10 @@ void Tracer::choose_by_chord(Point2 a, Point2 b, std::size_t first, std::size_t 
     const Point2 p = point(first + i);
     const double s = std::clamp(dot(p - a, b - a) / squared_length(b - a), 0.0, 1.0);
     const double d = std::sqrt(squared_length(p - (a + s * (b - a))));
-    if (d > farthest) farthest = d, best = i;
+    if (d > farthest) {
+      farthest = d;
+      best = i;
+    }
   }
   if (best == end) return;
   chosen_[best] = 1;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/sheet.h"
 #include "harness/path/curve.h"
 #include "harness/path/subdivision.h"
@@ -82,7 +83,7 @@ class Tracer {
 
   // self_crossings.cpp
   int passages_of(int face) const;
-  const TrianglePassage& passage(int i) const { return passages_[static_cast<std::size_t>(i)]; }
+  const TrianglePassage& passage(int i) const { return passages_[to_size(i)]; }
   bool is_simple(int face) const;
   void arrange(int face);
   bool chords_tell_the_truth(int face) const;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/one_ring.h"
 #include "harness/mesh/predicates.h"
 #include "harness/mesh/tolerances.h"
@@ -85,11 +86,14 @@ Step Walk::along(HalfEdge h, VertexIndex v, Point2 target) {
 Step Walk::leave(HalfEdge exit, double right, double left, Passage passage) {
   const Point2 a = rest(sheet_.origin(exit)), b = rest(sheet_.target(exit));
   Place place;
-  place.kind = Place::Kind::edge, place.edge = exit;
+  place.kind = Place::Kind::edge;
+  place.edge = exit;
   place.point = divide(a, b, std::abs(right), std::abs(left), place.lambda);
   at_ = place;
-  crossing_ = true, entry_ = sheet_.opposite(exit);
-  left_ = left, right_ = right;
+  crossing_ = true;
+  entry_ = sheet_.opposite(exit);
+  left_ = left;
+  right_ = right;
   return {passage, place, false};
 }
 
@@ -132,7 +136,7 @@ Step Walk::from_face(TriangleIndex t, Point2 target) {
   bool inside = true, clear = true;
   for (int k = 0; k < 3; ++k) {
     const HalfEdge h = half_edge(t, k);
-    const auto i = static_cast<std::size_t>(k);
+    const auto i = to_size(k);
     beyond[i] = side(rest(sheet_.origin(h)), rest(sheet_.target(h)), target);
     inside &= beyond[i].sign >= 0;
     clear &= beyond[i].sign > 0;
@@ -145,7 +149,7 @@ Step Walk::from_face(TriangleIndex t, Point2 target) {
     if (lateral[k].sign == 0 && ahead(rest(v), target)) return pass_vertex(through_face(t), v, target);
   }
   for (int k = 0; k < 3; ++k) {
-    const auto i = static_cast<std::size_t>(k), j = static_cast<std::size_t>(next_corner(k));
+    const auto i = to_size(k), j = to_size(next_corner(k));
     if (lateral[i].sign < 0 && lateral[j].sign > 0 && beyond[i].sign < 0)
       return leave(half_edge(t, k), lateral[i].distance, lateral[j].distance, through_face(t));
   }
@@ -223,8 +227,10 @@ Step Walk::from_vertex(VertexIndex v, Point2 target) {
   const auto look_at = [&](HalfEdge outgoing, VertexIndex x) {
     bool separates = false;
     for_each_separating_end(sheet_, x, [&](VertexIndex) { separates = true; });
-    if (separates && orientation(origin_, target, rest(x)) == 0 && dot(rest(x) - rest(v), target - origin_) > 0)
-      to_met = outgoing, met = x;
+    if (separates && orientation(origin_, target, rest(x)) == 0 && dot(rest(x) - rest(v), target - origin_) > 0) {
+      to_met = outgoing;
+      met = x;
+    }
   };
   for_each_outgoing(sheet_, v, [&](HalfEdge outgoing) {
     look_at(outgoing, sheet_.target(outgoing));
@@ -282,8 +288,11 @@ Step Walk::from_outside(Point2 target) {
   auto try_vertex = [&](VertexIndex v, const Side& s) {
     const double at = dot(rest(v) - origin_, line) / length2;
     if (s.sign == 0 && at <= 1 + margin && at < best &&
-        (at > outside_from_ + margin || (at >= outside_from_ - 2 * margin && goes_on_at(v))))
-      best = at, best_edge = {}, best_vertex = v;
+        (at > outside_from_ + margin || (at >= outside_from_ - 2 * margin && goes_on_at(v)))) {
+      best = at;
+      best_edge = {};
+      best_vertex = v;
+    }
   };
   locator_.visit_border(
       sheet_, origin_, target,
@@ -294,14 +303,19 @@ Step Walk::from_outside(Point2 target) {
           if (const Place place = place_on(h, target); !at_target || off_target(place) < off_target(*at_target))
             at_target = place;
         const Side left = side(origin_, target, rest(u)), right = side(origin_, target, rest(v));
-        try_vertex(u, left), try_vertex(v, right);
+        try_vertex(u, left);
+        try_vertex(v, right);
         if (left.sign <= 0 || right.sign >= 0) return;
         const Side from = side(rest(u), rest(v), origin_), to = side(rest(u), rest(v), target);
         // Where a line begins on several edges, as in a notch, it may leave through one and come in through the other.
         const bool comes_in = from.sign == 0 && begins && at_.edge != h && from.distance <= 0 && to.sign > 0;
         if (to.sign < 0 || (from.sign >= 0 && !comes_in)) return;
         const double at = from.distance / (from.distance - to.distance);
-        if ((comes_in || at > outside_from_) && at < best) best = at, best_edge = h, best_vertex = {};
+        if ((comes_in || at > outside_from_) && at < best) {
+          best = at;
+          best_edge = h;
+          best_vertex = {};
+        }
       },
       [&](double covered) { return best < covered; });
   if (best_vertex.valid()) return pass_vertex(outside, best_vertex, target);
@@ -315,11 +329,14 @@ Step Walk::from_outside(Point2 target) {
   if (side(rest(u), rest(v), target).sign == 0) return reach(outside, place_on(best_edge, target));
   const double left = side(origin_, target, rest(u)).distance, right = side(origin_, target, rest(v)).distance;
   Place place;
-  place.kind = Place::Kind::edge, place.edge = best_edge;
+  place.kind = Place::Kind::edge;
+  place.edge = best_edge;
   place.point = divide(rest(u), rest(v), std::abs(left), std::abs(right), place.lambda);
   at_ = place;
-  crossing_ = true, entry_ = best_edge;
-  left_ = left, right_ = right;
+  crossing_ = true;
+  entry_ = best_edge;
+  left_ = left;
+  right_ = right;
   return {outside, place, false};
 }
 
@@ -371,7 +388,8 @@ Step Walk::go_on(Point2 target) {
     case Place::Kind::vertex:
       return from_vertex(at_.vertex, target);
     case Place::Kind::outside:
-      return outside_from_ = 0, from_outside(target);
+      outside_from_ = 0;
+      return from_outside(target);
     case Place::Kind::edge:
       break;
   }

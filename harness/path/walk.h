@@ -32,13 +32,17 @@ bool are_together(const Sheet& sheet, const Place& a, const Place& b);
 
 inline Place place_in(TriangleIndex t, Point2 p) {
   Place place;
-  place.kind = Place::Kind::face, place.face = t, place.point = p;
+  place.kind = Place::Kind::face;
+  place.face = t;
+  place.point = p;
   return place;
 }
 
 inline Place place_at(const Sheet& sheet, VertexIndex v) {
   Place place;
-  place.kind = Place::Kind::vertex, place.vertex = v, place.point = sheet.rest(v);
+  place.kind = Place::Kind::vertex;
+  place.vertex = v;
+  place.point = sheet.rest(v);
   return place;
 }
 

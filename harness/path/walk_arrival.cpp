@@ -22,7 +22,8 @@ bool Walk::lies_on(HalfEdge h, Point2 p) const {
 Place Walk::place_on(HalfEdge h, Point2 p) const {
   const Point2 a = rest(sheet_.origin(h)), ab = rest(sheet_.target(h)) - a;
   Place place;
-  place.kind = Place::Kind::edge, place.edge = h;
+  place.kind = Place::Kind::edge;
+  place.edge = h;
   const double from_a = std::max(0.0, dot(p - a, ab)), from_b = std::max(0.0, dot(rest(sheet_.target(h)) - p, ab));
   place.point = divide(a, rest(sheet_.target(h)), from_a, from_b, place.lambda);
   if (near(place.point, a)) return place_at(sheet_, sheet_.origin(h));

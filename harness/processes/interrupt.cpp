@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <initializer_list>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -28,7 +30,7 @@ void explain_interruption() {
   explaining_process = getpid();
   struct sigaction action {};
   action.sa_handler = explain;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  action.sa_flags = to_int(SA_RESETHAND);
   for (int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
 }
 

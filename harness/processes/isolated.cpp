@@ -18,6 +18,8 @@
 #include <string>
 #include <thread>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -40,7 +42,10 @@ void isolate_from(pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(0);  // it has ended already
   for (int signal_number : {SIGPROF, SIGALRM, SIGINT, SIGTERM}) std::signal(signal_number, SIG_DFL);
-  if (const int nowhere = open("/dev/null", O_WRONLY); nowhere >= 0) dup2(nowhere, 1), dup2(nowhere, 2);
+  if (const int nowhere = open("/dev/null", O_WRONLY); nowhere >= 0) {
+    dup2(nowhere, 1);
+    dup2(nowhere, 2);
+  }
   const rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
 }
@@ -50,8 +55,7 @@ void isolate_from(pid_t parent) {
 std::vector<Fate> run_isolated(std::size_t n, const Isolation& isolation, const std::function<void(std::size_t)>& work,
                                const std::function<void(std::size_t)>& progress) {
   const auto cores = std::max(1u, std::thread::hardware_concurrency());
-  const std::size_t count =
-      std::min(n, isolation.workers > 0 ? static_cast<std::size_t>(isolation.workers) : std::size_t{cores});
+  const std::size_t count = std::min(n, isolation.workers > 0 ? to_size(isolation.workers) : std::size_t{cores});
   const SharedArray<Fate> fates(n + 1);         // the last one is for a worker that has not begun a piece
   const SharedArray<std::size_t> piece(count);  // per worker: the piece under way, or the last one done
   for (std::size_t w = 0; w < count; ++w) piece[w] = n;
@@ -66,7 +70,8 @@ std::vector<Fate> run_isolated(std::size_t n, const Isolation& isolation, const 
     if (child > 0) return child;
     isolate_from(parent);
     for (std::size_t i; (i = next[0].fetch_add(1)) < n;) {
-      piece[worker] = i, fates[i] = Fate::under_way;
+      piece[worker] = i;
+      fates[i] = Fate::under_way;
       set_timers(isolation.time_limit_s);
       do_piece(i);
       set_timers(0);
@@ -83,12 +88,16 @@ std::vector<Fate> run_isolated(std::size_t n, const Isolation& isolation, const 
       int status = 0;
       if (processes[w] == 0 || waitpid(processes[w], &status, WNOHANG) == 0) continue;
       idle = false;
-      processes[w] = 0, --running;
+      processes[w] = 0;
+      --running;
       if (Fate& fate = fates[piece[w]]; fate == Fate::under_way) {
         const bool timer = WIFSIGNALED(status) && (WTERMSIG(status) == SIGPROF || WTERMSIG(status) == SIGALRM);
         fate = timer ? Fate::timed_out : Fate::crashed;
       }
-      if (next[0] < n) processes[w] = begin(w), ++running;
+      if (next[0] < n) {
+        processes[w] = begin(w);
+        ++running;
+      }
     }
     if (progress) progress(std::min<std::size_t>(n, next[0]));
     if (idle) std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -17,6 +17,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -35,7 +37,10 @@ void limit(int resource, double value) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   for (int signal_number : {SIGPROF, SIGALRM, SIGINT, SIGTERM, SIGPIPE}) std::signal(signal_number, SIG_DFL);
-  if (const int nowhere = open("/dev/null", O_RDWR); nowhere >= 0) dup2(nowhere, 0), dup2(nowhere, 1);
+  if (const int nowhere = open("/dev/null", O_RDWR); nowhere >= 0) {
+    dup2(nowhere, 0);
+    dup2(nowhere, 1);
+  }
   dup2(error_pipe, 2);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, std::ceil(limits.time_s) + 1);  // of what leaves the group
@@ -56,7 +61,7 @@ bool read_some(int pipe, std::string& text) {
   char bytes[4096];
   for (ssize_t n; (n = read(pipe, bytes, sizeof bytes)) != 0;) {
     if (n < 0) return errno == EAGAIN || errno == EINTR;
-    text.append(bytes, static_cast<std::size_t>(n));
+    text.append(bytes, to_size(n));
     if (text.size() > 16384) text.erase(0, text.size() - 8192);  // only its end is wanted
   }
   return false;
@@ -79,10 +84,13 @@ ProgramEnd run_program(const std::string& command, const std::filesystem::path& 
   const pid_t child = fork();
   if (child == 0) become(command.c_str(), folder.c_str(), ends[1], limits);
   close(ends[1]);
-  const int ended = child < 0 ? -1 : static_cast<int>(syscall(SYS_pidfd_open, child, 0));
+  const int ended = child < 0 ? -1 : to_int(syscall(SYS_pidfd_open, child, 0));
   if (ended < 0) {
     close(ends[0]);
-    if (child > 0) kill(child, SIGKILL), waitpid(child, nullptr, 0);
+    if (child > 0) {
+      kill(child, SIGKILL);
+      waitpid(child, nullptr, 0);
+    }
     fail("no process");
   }
   setpgid(child, child);  // whoever comes first
@@ -95,7 +103,7 @@ ProgramEnd run_program(const std::string& command, const std::filesystem::path& 
   for (bool open = true;;) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
     pollfd both[] = {{ended, POLLIN, 0}, {open ? ends[0] : -1, POLLIN, 0}};
-    const int ready = left > 0 ? poll(both, 2, static_cast<int>(std::min<decltype(left)>(left, 1000000))) : 0;
+    const int ready = left > 0 ? poll(both, 2, to_int(std::min<decltype(left)>(left, 1000000))) : 0;
     if (both[1].revents != 0) open = read_some(ends[0], said);
     if (ready > 0 && both[0].revents != 0) break;
     if (Clock::now() < deadline) continue;
@@ -107,7 +115,8 @@ ProgramEnd run_program(const std::string& command, const std::filesystem::path& 
   int status = 0;
   waitpid(child, &status, 0);
   read_some(ends[0], said);
-  close(ends[0]), close(ended);
+  close(ends[0]);
+  close(ended);
   end.message = last_line(said);
   if (end.how == ProgramEnd::How::timed_out) return end;
   const int code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);  // as the shell tells it

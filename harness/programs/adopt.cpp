@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "harness/base/conversions.h"
 #include "harness/cut/patch.h"
 #include "harness/mesh/one_ring.h"
 #include "harness/path/cut_failed.h"
@@ -29,7 +30,7 @@ RestCorners from_smallest(RestCorners c) {
   return c;
 }
 
-std::size_t at(int corner) { return static_cast<std::size_t>(corner); }
+std::size_t at(int corner) { return to_size(corner); }
 
 class Adoption {
  public:
@@ -66,7 +67,7 @@ class Adoption {
     }
     place_in_removed_.assign(sheet_.triangle_slots(), -1);
     for (const auto& [corners, t] : known) {
-      place_in_removed_[t()] = static_cast<int>(removed_.size());
+      place_in_removed_[t()] = to_int(removed_.size());
       removed_.push_back(t);
     }
   }

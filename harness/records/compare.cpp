@@ -19,9 +19,13 @@ namespace {
 
 TrackRow read_row(const nlohmann::json& json) {
   TrackRow row;
-  row.id = json.at("id"), row.phase = json.at("phase"), row.unit = json.at("unit");
+  row.id = json.at("id");
+  row.phase = json.at("phase");
+  row.unit = json.at("unit");
   row.fingerprint = json.at("fingerprint");
-  row.units = json.at("units"), row.instructions = json.at("instructions"), row.misses = json.at("misses");
+  row.units = json.at("units");
+  row.instructions = json.at("instructions");
+  row.misses = json.at("misses");
   for (const auto& [name, value] : json.at("counters").items()) row.counters[name] = value;
   return row;
 }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "harness/base/conversions.h"
 #include "harness/base/errors.h"
 #include "harness/files/whole_file.h"
 #include "harness/records/metrics.h"
@@ -86,21 +87,18 @@ class Pairs {
     if (mine < 0 || theirs < 0) return;
     for (const auto& [key, fields] : base_.rows) {
       const auto found = head_.rows.find(key);
-      if (found != head_.rows.end())
-        visit(key, fields, fields[static_cast<std::size_t>(mine)], found->second[static_cast<std::size_t>(theirs)]);
+      if (found != head_.rows.end()) visit(key, fields, fields[to_size(mine)], found->second[to_size(theirs)]);
     }
   }
   /// Method and parameter.
   std::string method(const std::vector<std::string>& fields) const {
     const auto parameter = base_.column("parameter");
-    const std::string name = fields[static_cast<std::size_t>(base_.column("method"))];
-    return parameter < 0 || fields[static_cast<std::size_t>(parameter)].empty()
-               ? name
-               : name + " " + fields[static_cast<std::size_t>(parameter)];
+    const std::string name = fields[to_size(base_.column("method"))];
+    return parameter < 0 || fields[to_size(parameter)].empty() ? name : name + " " + fields[to_size(parameter)];
   }
   /// The row without its repetition.
   std::string case_of(std::vector<std::string> fields) const {
-    if (const auto r = base_.column("repetition"); r >= 0) fields[static_cast<std::size_t>(r)].clear();
+    if (const auto r = base_.column("repetition"); r >= 0) fields[to_size(r)].clear();
     std::string text;
     for (std::size_t k = 0; k < key_columns; ++k) text += fields[k] + ',';
     return text;
@@ -118,7 +116,8 @@ void compare_times(const Pairs& pairs, const std::string& column, double most, R
                    const double ratio = value_of(after) / value_of(before);
                    if (!(ratio > 0) || !std::isfinite(ratio)) return;
                    auto& [sum, number] = logs[pairs.method(fields)][pairs.case_of(fields)];
-                   sum += std::log(ratio), ++number;
+                   sum += std::log(ratio);
+                   ++number;
                  });
   for (const auto& [method, cases] : logs) {
     std::vector<double> means;
@@ -144,7 +143,8 @@ void compare_quality(const Pairs& pairs, const Metric& metric, RunComparison& re
                    ++(better ? change.better : change.worse);  // what can no longer be measured is worse
                  });
   for (auto& [method, change] : by_method) {
-    change.method = method, change.column = metric.name;
+    change.method = method;
+    change.column = metric.name;
     if (change.better + change.worse > 0) result.quality.push_back(change);
   }
 }
@@ -160,7 +160,10 @@ std::string verdict_of(const TimeRatio& t) { return t.slower ? "slower" : t.fast
 std::string first_line(const RunComparison& c) {
   if (!c.not_comparable.empty()) return "not comparable: " + c.not_comparable;
   std::size_t slower = 0, faster = 0;
-  for (const TimeRatio& t : c.times) slower += t.slower, faster += t.faster;
+  for (const TimeRatio& t : c.times) {
+    slower += t.slower;
+    faster += t.faster;
+  }
   std::string text = slower ? "SLOWER: " + std::to_string(slower) + " times" : "nothing slower";
   text += " of " + std::to_string(c.times.size()) + ", " + std::to_string(faster) + " faster; ";
   text += std::to_string(c.worse.size()) + " verdicts worse; " + std::to_string(c.quality.size()) +
@@ -183,15 +186,15 @@ std::string cells(const QualityChange& q, const char* between) {
 std::pair<std::size_t, std::size_t> median_ranks(std::size_t n) {
   if (n == 0) return {0, 0};
   // The number of values below the median is binomial(n, 1/2): take off both ends what has at most 2.5 % each.
-  double term = std::exp2(-static_cast<double>(n)), below = term;
+  double term = std::exp2(-to_double(n)), below = term;
   if (n > 1000) {  // the powers of 2 end; so does the difference to the normal distribution
-    const double middle = static_cast<double>(n) / 2, half = 0.98 * std::sqrt(static_cast<double>(n));
-    const auto low = static_cast<std::size_t>(middle - half);
+    const double middle = to_double(n) / 2, half = 0.98 * std::sqrt(to_double(n));
+    const auto low = to_size(middle - half);
     return {low, n - 1 - low};
   }
   std::size_t low = 0;
   for (std::size_t k = 1; k <= n / 2; ++k) {
-    term *= static_cast<double>(n - k + 1) / static_cast<double>(k);
+    term *= to_double(n - k + 1) / to_double(k);
     if (below > 0.025) break;
     low = k - 1;
     below += term;
@@ -206,7 +209,8 @@ bool RunComparison::is_slower() const {
 RunComparison compare_runs(const std::filesystem::path& base, const std::filesystem::path& head, double times) {
   const Run before = read_run(base), after = read_run(head);
   RunComparison result;
-  result.base = base.string(), result.head = head.string();
+  result.base = base.string();
+  result.head = head.string();
   for (const auto& [key, fields] : before.rows) result.rows += after.rows.contains(key);
   result.not_comparable = why_not(before, after, result.rows);
   if (!result.not_comparable.empty()) return result;

@@ -15,6 +15,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/linear/factor.h"
 #include "harness/mesh/mesh_data.h"
 
@@ -26,7 +27,7 @@ namespace {
 std::optional<std::string> first_line_of(const std::string& command) {
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen((command + " 2>/dev/null").c_str(), "r"), pclose);
   std::array<char, 256> buffer{};
-  if (!pipe || !std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe.get())) return {};
+  if (!pipe || !std::fgets(buffer.data(), to_int(buffer.size()), pipe.get())) return {};
   std::string line(buffer.data());
   while (!line.empty() && line.back() == '\n') line.pop_back();
   return line;
@@ -80,7 +81,9 @@ Context gather_context() {
     std::ifstream file(source + "/harness/records/commit.txt");
     if (std::getline(file, line) && line.find('$') == std::string::npos) context.commit = line;
   }
-  context.compiler = CUTBENCH_COMPILER, context.flags = CUTBENCH_FLAGS, context.build_type = CUTBENCH_BUILD_TYPE;
+  context.compiler = CUTBENCH_COMPILER;
+  context.flags = CUTBENCH_FLAGS;
+  context.build_type = CUTBENCH_BUILD_TYPE;
   context.cpu = cpu_model();
   context.versions = {
       {"CGAL", CGAL_VERSION_STR},     {"GMP", gmp_version},

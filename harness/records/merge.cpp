@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string>
 
+#include "harness/base/conversions.h"
 #include "harness/base/errors.h"
 #include "harness/files/whole_file.h"
 #include "harness/records/record.h"
@@ -95,7 +96,7 @@ class Table {
  private:
   bool has(const std::string& name) const { return std::find(names_.begin(), names_.end(), name) != names_.end(); }
   std::size_t column(const std::string& name) const {
-    return static_cast<std::size_t>(std::find(names_.begin(), names_.end(), name) - names_.begin());
+    return to_size(std::find(names_.begin(), names_.end(), name) - names_.begin());
   }
   std::string key(const Fields& row, std::initializer_list<const char*> columns) const {
     std::string text;
@@ -192,14 +193,18 @@ void merge_shards(const std::vector<std::filesystem::path>& folders, const std::
   std::string csv = shards.front().head + '\n';
   for (const Fields& row : rows) csv += joined(row) + '\n';
   nlohmann::json context = shards.front().context;
-  context["merged_shards"] = shards.size(), context["shard"] = 1, context["shards"] = 1, context["rows"] = rows.size();
+  context["merged_shards"] = shards.size();
+  context["shard"] = 1;
+  context["shards"] = 1;
+  context["rows"] = rows.size();
   std::error_code error;
   std::filesystem::create_directories(out, error);
   if (error) throw InputError(out.string() + ": can't be made (" + error.message() + "); choose another --out");
   WholeFile context_file(out / "context.json", context.dump(2) + '\n');
   WholeFile records(out / "records.csv", csv);
   copy_failing_cases(shards, out);
-  context_file.place(), records.place();
+  context_file.place();
+  records.place();
 }
 
 std::vector<int> missing_shards(const std::vector<std::filesystem::path>& folders, int of) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "harness/base/conversions.h"
 #include "harness/records/metrics.h"
 
 namespace cutbench {
@@ -85,7 +86,7 @@ Value reason(const Measured& m) {
 double peak_memory_mb() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
+  return to_double(usage.ru_maxrss) / 1024;
 }
 
 double membrane(const Balance& b) { return b.energy.membrane; }
@@ -131,7 +132,7 @@ void add_keys_and_outcome(std::vector<Metric>& t) {
                "One line that explains the verdict or the status.", reason});
   t.push_back({"crossed_triangles", "", "crossed triangles", Direction::none, Group::outcome,
                "Triangles of the sheet before the cut whose interior the path meets: the unit of geometry cost.",
-               of_cut([](const CutRun& c) { return static_cast<std::int64_t>(c.crossed_triangles); })});
+               of_cut([](const CutRun& c) { return to_int64(c.crossed_triangles); })});
   t.push_back(
       {"recovered_segments", "", "recovered segments", Direction::lower, Group::outcome,
        "Segments of the path that the method's own triangulation lacked and flips recovered.",
@@ -172,14 +173,14 @@ void add_shapes(std::vector<Metric>& t, const std::string& suffix, const std::st
       &Quality::altitude_min);
   t.push_back({"over_3" + suffix, "", "triangles with AR > 3", Direction::lower, Group::shape,
                "Number of triangles with an aspect ratio above 3" + where,
-               of_shapes([over](const Assessment& a) { return static_cast<std::int64_t>((a.*over).over_3); })});
+               of_shapes([over](const Assessment& a) { return to_int64((a.*over).over_3); })});
 }
 
 void add_forced_zones(std::vector<Metric>& t) {
   t.push_back({"forced_corners", "", "forced corners", Direction::none, Group::forced,
                "Corners where the input alone (path, border, older incisions) makes an angle below asin(1/3) = 19.47 "
                "degrees: no method stays below an aspect ratio of 3 there.",
-               of_shapes([](const Assessment& a) { return static_cast<std::int64_t>(a.forced_corners); })});
+               of_shapes([](const Assessment& a) { return to_int64(a.forced_corners); })});
   t.push_back({"forced_triangles", "", "triangles in forced corners", Direction::none, Group::forced,
                "Triangles of the result in such a corner.",
                of_shapes([](const Assessment& a) { return std::int64_t{a.corner_triangles}; })});
@@ -364,11 +365,18 @@ void add_jumps(std::vector<Metric>& t) {
 const std::vector<Metric>& all_metrics() {
   static const std::vector<Metric> table = [] {
     std::vector<Metric> t;
-    add_keys_and_outcome(t), add_sizes(t);
+    add_keys_and_outcome(t);
+    add_sizes(t);
     add_shapes(t, "_all", ", over the whole sheet after the cut.", &Assessment::all);
     add_shapes(t, "_cut", ", over the triangles that the cut made or changed.", &Assessment::cut);
-    add_forced_zones(t), add_stability_and_accuracy(t), add_times(t), add_steps(t), add_jumps(t);
-    add_accuracy_run(t), add_robustness(t), add_stability(t);
+    add_forced_zones(t);
+    add_stability_and_accuracy(t);
+    add_times(t);
+    add_steps(t);
+    add_jumps(t);
+    add_accuracy_run(t);
+    add_robustness(t);
+    add_stability(t);
     return t;
   }();
   return table;

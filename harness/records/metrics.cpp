@@ -4,6 +4,8 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -41,7 +43,7 @@ constexpr std::array<GroupText, 14> group_texts{{
     {Group::stability_point, "stability_point", "Only of the stability sweeps: what came of a point"},
 }};
 
-const char* name_of(Group group) { return group_texts[static_cast<std::size_t>(group)].name; }
+const char* name_of(Group group) { return group_texts[to_size(group)].name; }
 
 }  // namespace
 

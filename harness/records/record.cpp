@@ -9,6 +9,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "harness/base/conversions.h"
 #include "harness/base/errors.h"
 #include "harness/files/whole_file.h"
 
@@ -51,7 +52,7 @@ std::vector<std::string> fields_of(const std::string& line) {
 }
 
 std::size_t Record::index(const std::string& column) const {
-  return static_cast<std::size_t>(std::find(columns_->begin(), columns_->end(), column) - columns_->begin());
+  return to_size(std::find(columns_->begin(), columns_->end(), column) - columns_->begin());
 }
 
 const std::string& Record::get(const std::string& column) const { return fields_.at(index(column)); }
@@ -123,7 +124,7 @@ bool RecordFile::resume(const std::string& head) {
   std::size_t begin = head.size();
   for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
     const std::string line = text.substr(begin, end - begin);
-    if (static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1 != columns_.size()) break;
+    if (to_size(std::count(line.begin(), line.end(), ',')) + 1 != columns_.size()) break;
     lines_.push_back(line);
     done_.insert(key_of(line, keys_));
   }
@@ -171,7 +172,8 @@ void RecordFile::finish(const Context& context, const std::string& experiment, c
   for (const auto& line : lines_) csv += line + '\n';
   WholeFile context_file(folder_ / "context.json", document.dump(2) + '\n');
   WholeFile records(folder_ / "records.csv", csv);
-  context_file.place(), records.place();
+  context_file.place();
+  records.place();
   out_.close();
   std::filesystem::remove(part_);
 }

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <string>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -53,7 +55,7 @@ void EnergyBudget::add_step(Model<D>& model, const State& before, const State& a
   const Field mean_v = (before.v + after.v) / 2;
   Field u = midpoint ? mean_v : after.v;
   for (std::size_t i = 0; i < model.held().size() && midpoint; ++i)  // a pin sets off at once
-    if (model.pinned(i)) u[static_cast<Eigen::Index>(i)] = after.v[static_cast<Eigen::Index>(i)];
+    if (model.pinned(i)) u[to_index(i)] = after.v[to_index(i)];
   const Field dv = (midpoint ? 2 : 1) * (u - before.v);
   const Field& w = is_explicit ? before.v : u;
   const Field mass_w = mass_times(model, w), mass_dv = mass_times(model, dv);
@@ -74,8 +76,7 @@ void EnergyBudget::add_step(Model<D>& model, const State& before, const State& a
   Field pin_force = mass_dv / step + damping - force;
   if (model.constrained()) model.constrained()->transfer_forces(model.held(), pin_force);
   for (std::size_t i = 0; i < model.held().size(); ++i)
-    if (model.pinned(i))
-      row.pin_work += step * u[static_cast<Eigen::Index>(i)] * pin_force[static_cast<Eigen::Index>(i)];
+    if (model.pinned(i)) row.pin_work += step * u[to_index(i)] * pin_force[to_index(i)];
 
   if (midpoint) model.rotate(after.x);
   row.energy = model.energy(after.x, after.v);
@@ -96,7 +97,8 @@ void EnergyBudget::judge_last() {
   // Potential energy has rounding errors of its own size.
   scale_ = std::max(
       {scale_, row.energy.kinetic + row.energy.membrane + row.energy.bending, 1e-12 * std::abs(row.energy.potential)});
-  remainder_.add(row.remainder), jumps_.add(row.jumps);
+  remainder_.add(row.remainder);
+  jumps_.add(row.jumps);
   unexplained_.add(row.energy.total() - rows_.front().energy.total() - row.pin_work - row.jumps);
 }
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/model/state.h"
 #include "harness/mesh/locator.h"
 #include "harness/simulation/scene.h"
@@ -25,7 +26,7 @@ struct MovingSheet {
   Sheet posed() const {
     Sheet posed = sheet;
     for (std::size_t v = 0; v < posed.deformed_slots(); ++v) {
-      const auto x = state.x.template segment<D>(static_cast<Eigen::Index>(D * v));
+      const auto x = state.x.template segment<D>(to_index(D * v));
       posed.set_position(DeformedIndex(v), {x[0], x[1], D == 3 ? x[D - 1] : 0});
     }
     return posed;

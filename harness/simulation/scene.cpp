@@ -18,7 +18,10 @@ Point2 nearest_vertex(const Sheet& sheet, Point2 to) {
   for (std::size_t i = 0; i < sheet.vertex_slots(); ++i) {
     if (!sheet.triangle_of_vertex(VertexIndex(i)).valid()) continue;
     const Point2 p = sheet.rest(VertexIndex(i));
-    if (const double d2 = squared_length(p - to); d2 < distance2) best = p, distance2 = d2;
+    if (const double d2 = squared_length(p - to); d2 < distance2) {
+      best = p;
+      distance2 = d2;
+    }
   }
   return best;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "harness/base/conversions.h"
 #include "harness/base/stop_watch.h"
 #include "harness/cut/constraint_source.h"
 #include "harness/fem/elements/bending_kinds.h"
@@ -38,17 +39,24 @@ double distance_to_edges(const Sheet& sheet, Point2 p) {
 void add(const MotionCut& part, MotionCut& sum) {
   if (sum.parts++ == 0) {
     const double pick_us = sum.pick_us;
-    sum = part, sum.pick_us = pick_us;
+    sum = part;
+    sum.pick_us = pick_us;
     return;
   }
   if (sum.cut.status != Status::deviated) sum.cut.status = part.cut.status;
   sum.cut.crossed_triangles += part.cut.crossed_triangles;
-  sum.cut.time_us += part.cut.time_us, sum.cut.cpu_us += part.cut.cpu_us;
-  sum.verdict = part.verdict, sum.reason = part.reason;
-  sum.transfer_us += part.transfer_us, sum.pattern_us += part.pattern_us, sum.bending_us += part.bending_us;
+  sum.cut.time_us += part.cut.time_us;
+  sum.cut.cpu_us += part.cut.cpu_us;
+  sum.verdict = part.verdict;
+  sum.reason = part.reason;
+  sum.transfer_us += part.transfer_us;
+  sum.pattern_us += part.pattern_us;
+  sum.bending_us += part.bending_us;
   const Energy &was = part.before.energy, &is = part.after.energy;
-  sum.after.energy.membrane += is.membrane - was.membrane, sum.after.energy.bending += is.bending - was.bending;
-  sum.after.energy.kinetic += is.kinetic - was.kinetic, sum.after.energy.potential += is.potential - was.potential;
+  sum.after.energy.membrane += is.membrane - was.membrane;
+  sum.after.energy.bending += is.bending - was.bending;
+  sum.after.energy.kinetic += is.kinetic - was.kinetic;
+  sum.after.energy.potential += is.potential - was.potential;
   sum.after.residual += part.after.residual - part.before.residual;
   sum.after.momentum = sum.after.momentum + part.after.momentum + -1 * part.before.momentum;
   sum.after.angular_momentum =
@@ -130,7 +138,7 @@ void SceneCuts<D>::begin(DueCut& due, CuttingMethod& method, const CutOptions& o
   if (!due.picked.picks.empty()) {
     const Sheet posed = now_.posed();
     StopWatch watch;
-    const auto number = static_cast<std::size_t>(&due - cuts_.data());
+    const auto number = to_size(&due - cuts_.data());
     curves.push_back(Picker(posed).rest_curve(due.picked, scene_.stem + ", cut " + std::to_string(number)));
     pick_us = watch.lap();
   }
@@ -156,9 +164,14 @@ void SceneCuts<D>::advance_blade(DueCut& due, CuttingMethod& method, const CutOp
   const bool cut = part.cut.status == Status::ok || part.cut.status == Status::deviated;
   if (cut) due.reached = to;
   if (cut || part.verdict != "ok") add(part, made);
-  if (made.parts == 0) made.cut.status = part.cut.status, made.reason = part.reason;
-  if (to == end && part.cut.status == Status::refused && made.parts > 0)
-    made.cut.status = Status::deviated, made.reason = "its end was refused: " + part.reason;
+  if (made.parts == 0) {
+    made.cut.status = part.cut.status;
+    made.reason = part.reason;
+  }
+  if (to == end && part.cut.status == Status::refused && made.parts > 0) {
+    made.cut.status = Status::deviated;
+    made.reason = "its end was refused: " + part.reason;
+  }
   if (to == end) due.blade.reset();
 }
 
@@ -167,9 +180,11 @@ MotionCut SceneCuts<D>::cut_with_balances(std::span<const Curve> curves, Cutting
                                           const CutOptions& options, EnergyBudget* budget) {
   const Balance before = now_.balance();
   MotionCut made = cut(now_, curves, cutter_, method, options);
-  made.before = before, made.after = now_.balance();
+  made.before = before;
+  made.after = now_.balance();
   log_.has_cut = true;
-  log_.geometry_us += made.cut.time_us.total(), log_.bending_us += made.bending_us;
+  log_.geometry_us += made.cut.time_us.total();
+  log_.bending_us += made.bending_us;
   log_.update_us += made.transfer_us + made.pattern_us;
   if (budget) budget->add_cut(made.before, made.after);
   return made;
@@ -183,14 +198,18 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, std::span<const Curve> curve
   std::optional<std::string> refusal;  // of any of the curves
   const ConstraintSource* const source = method.constraint_source();
   if (const std::string reason = why_not(source); !reason.empty()) {
-    result.cut.status = Status::refused, result.cut.reason = result.reason = reason;
+    result.cut.status = Status::refused;
+    result.cut.reason = result.reason = reason;
     return result;
   }
   for (const Curve& curve : curves) {
     const CutRun run = cut_all(moving.sheet, moving.locator, cutter, {&curve, 1}, method, options);
-    result.cut.status = run.status, result.cut.verdict = run.verdict, result.cut.reason = run.reason;
+    result.cut.status = run.status;
+    result.cut.verdict = run.verdict;
+    result.cut.reason = run.reason;
     result.cut.crossed_triangles += run.crossed_triangles;
-    result.cut.time_us += run.time_us, result.cut.cpu_us += run.cpu_us;
+    result.cut.time_us += run.time_us;
+    result.cut.cpu_us += run.cpu_us;
     result.verdict = name_of(run.verdict);
     result.reason = run.reason;
     if (run.status == Status::refused) refusal = run.reason;
@@ -214,7 +233,10 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, std::span<const Curve> curve
     }
     result.pattern_us += watch.lap();
   }
-  if (refusal) result.cut.status = Status::refused, result.reason = *refusal;
+  if (refusal) {
+    result.cut.status = Status::refused;
+    result.reason = *refusal;
+  }
   return result;
 }
 
@@ -224,13 +246,13 @@ std::string SceneCuts<D>::why_not(const ConstraintSource* source) const {
   if (!source) return {};
   const ConstraintKind constraint_kind = source->constraint_kind();
   if (scene_.integrator == Integrator::xpbd)
-    return "the method constraints vertices or makes polygons, which xpbd does not take; choose another integrator";
+    return "the method constrains vertices or makes polygons, which xpbd does not take; choose another integrator";
   if (constraint_kind == ConstraintKind::polygons)
     return scene_.physics.bending != BendingKind::none && !row_of(scene_.physics.bending).has_slopes
                ? "the method's polygons have no hinges; set bending to patches, or to none"
                : "";
   if (scene_.integrator == Integrator::symplectic_euler)
-    return "the method constraints vertices to others, which symplectic_euler does not take; choose an implicit "
+    return "the method constrains vertices to others, which symplectic_euler does not take; choose an implicit "
            "integrator";
   if (constraint_kind == ConstraintKind::phantoms_at_rest)
     return "the method's ghost penalty or lumped mass is for sheets at rest; use phantom_node with ghost=0";

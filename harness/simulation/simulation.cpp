@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "harness/base/conversions.h"
 #include "harness/base/stop_watch.h"
 #include "harness/fem/model/largest_eigenvalue.h"
 #include "harness/simulation/moving_sheet.h"
@@ -22,7 +23,7 @@ template <int D>
 double time_triplets(const Model<D>& model) {
   StopWatch watch;
   std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(static_cast<std::size_t>(9 * D * D) * model.elements().size());
+  entries.reserve(to_size(9 * D * D) * model.elements().size());
   const MembraneLaw law = law_of(model.material(), model.physics());
   for (std::size_t e = 0; e < model.elements().size(); ++e) {
     const Element& element = model.elements()[e];
@@ -34,10 +35,10 @@ double time_triplets(const Model<D>& model) {
         for (int c = 0; c < D; ++c)
           for (int r = 0; r < D; ++r)
             entries.emplace_back(D * element.vertex[i].value + r, D * element.vertex[j].value + c,
-                                 block[static_cast<std::size_t>(D * c + r)]);
+                                 block[to_size(D * c + r)]);
       }
   }
-  const auto n = static_cast<Eigen::Index>(D * model.vertices());
+  const auto n = to_index(D * model.vertices());
   Eigen::SparseMatrix<double> matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return watch.lap();
@@ -51,7 +52,8 @@ class SceneInMotion : public Simulation {
  public:
   explicit SceneInMotion(const Scene& scene)
       : scene_(scene), now_(scene_), trial_(now_), cuts_(scene_, now_), stepper_(options_of(scene)) {
-    now_.model.reserve_spare(), trial_.model.reserve_spare();
+    now_.model.reserve_spare();
+    trial_.model.reserve_spare();
   }
 
   const std::vector<MotionCut>& made_cuts() const override { return cuts_.made(); }
@@ -66,7 +68,8 @@ class SceneInMotion : public Simulation {
   const EnergyBudget* budget() const override { return budget_ ? &*budget_ : nullptr; }
   const SimulationVerdict& verdict() const override { return verdict_; }
   void limit_time(double seconds) override {
-    time_limit_ = seconds, stop_at_ = static_cast<double>(std::clock()) + seconds * CLOCKS_PER_SEC;
+    time_limit_ = seconds;
+    stop_at_ = to_double(std::clock()) + seconds * CLOCKS_PER_SEC;
   }
   StepLimits step_limits() override {
     const Material& material = scene_.material;
@@ -92,13 +95,16 @@ class SceneInMotion : public Simulation {
     const double almost = time - 1e-9 * scene_.step;
     while (now_.state.time < almost && report.verdict == "ok") {
       if (cuts_.leave_out_far_parts()) begin_budget();
-      if (const MotionCut* failed = cuts_.make_due(method, options, budget_ ? &*budget_ : nullptr))
-        report.verdict = failed->verdict, report.reason = failed->reason;
+      if (const MotionCut* failed = cuts_.make_due(method, options, budget_ ? &*budget_ : nullptr)) {
+        report.verdict = failed->verdict;
+        report.reason = failed->reason;
+      }
       if (report.verdict == "ok") report = step();
-      if (report.verdict == "ok" && static_cast<double>(std::clock()) >= stop_at_) {
+      if (report.verdict == "ok" && to_double(std::clock()) >= stop_at_) {
         char text[64];
         std::snprintf(text, sizeof text, "the limit is %g s", time_limit_);
-        report.verdict = "timed_out", report.reason = text;
+        report.verdict = "timed_out";
+        report.reason = text;
       }
     }
     end_where_bad(report);
@@ -130,7 +136,10 @@ class SceneInMotion : public Simulation {
     const State at_cut = trial_.state;
     result.first_step = stepper_.step(trial_.model, trial_.state);
     for (const StepReport& step : {last, result.first_step})
-      if (step.verdict != "ok") result.verdict = step.verdict, result.reason = step.reason;
+      if (step.verdict != "ok") {
+        result.verdict = step.verdict;
+        result.reason = step.reason;
+      }
     result.triplets_us = time_triplets(trial_.model);
     StopWatch watch;
     Physics without_bending = scene_.physics;
@@ -160,7 +169,8 @@ class SceneInMotion : public Simulation {
   void judge_state(StepReport& report) {
     const Energy energy = budget_ ? budget_->rows().back().energy : balance().energy;
     if (!std::isfinite(energy.total()) || !std::isfinite(energy.kinetic)) {
-      report.verdict = "not_finite", report.reason = "the energy";
+      report.verdict = "not_finite";
+      report.reason = "the energy";
       return;
     }
     if (verdict_.name != "ok") return;  // the first fault counts

@@ -69,7 +69,7 @@ class Simulation {
   virtual const SimulationVerdict& verdict() const = 0;
   /// advance() makes no more steps once the process has taken so long from now on. \param seconds  of processor time
   virtual void limit_time(double seconds) = 0;
-  /// Of the sheet as it is cut now, at rest and with nothing held; NaN where the method constraints vertices. Looks at
+  /// Of the sheet as it is cut now, at rest and with nothing held; NaN where the method constrains vertices. Looks at
   /// everything.
   virtual StepLimits step_limits() = 0;
 };

@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "harness/base/conversions.h"
 #include "harness/base/own_seed.h"
 #include "harness/cut/cut_all.h"
 #include "harness/judge/assessment.h"
@@ -61,7 +62,10 @@ class AccuracyRun : public Study {
     for (const auto& solver : plan_.direct) direct_.push_back({.solver = {.name = solver}});
     budgets_ = direct_;
     if (plan_.tip_functions)
-      for (Budget with : direct_) with.tip_functions = true, budgets_.push_back(with);
+      for (Budget with : direct_) {
+        with.tip_functions = true;
+        budgets_.push_back(with);
+      }
     for (const auto& solver : plan_.preconditioners)
       for (int n : plan_.iterations) budgets_.push_back({.solver = {.name = solver}, .iterations = n});
     cut_options_.chord_tolerance = experiment.chord_tolerance;
@@ -97,7 +101,7 @@ class AccuracyRun : public Study {
     const auto& plan = problem.takes_budgets() ? plan_.members : plan_.members_nonlinear;
     const auto found =
         std::find_if(plan.begin(), plan.end(), [&](const auto& entry) { return entry.first == resolution; });
-    return static_cast<std::size_t>(found->second);
+    return to_size(found->second);
   }
 
   const std::vector<Budget>& budgets_for(const Problem& problem) const {
@@ -106,14 +110,19 @@ class AccuracyRun : public Study {
 
   void run_member(const Problem& problem, const std::string& family, int resolution, std::size_t i) {
     Record start(accuracy_columns());
-    start.set("suite_version", std::string(suite_version)), start.set("problem", problem.name());
-    start.set("sheet", family), start.set("resolution", std::int64_t{resolution});
-    start.set("case", static_cast<std::int64_t>(i)), start.set("repetition", std::int64_t{0});
-    start.set("seed", static_cast<std::int64_t>(experiment_.seed)), start.set("cache", std::string("warm"));
+    start.set("suite_version", std::string(suite_version));
+    start.set("problem", problem.name());
+    start.set("sheet", family);
+    start.set("resolution", std::int64_t{resolution});
+    start.set("case", to_int64(i));
+    start.set("repetition", std::int64_t{0});
+    start.set("seed", to_int64(experiment_.seed));
+    start.set("cache", std::string("warm"));
     start.set("primary", problem.measures().front());
     const auto of_worker = [&](const Worker& worker) {
       Record row = start;
-      row.set("method", worker.variant.row->name), row.set("parameter", worker.variant.parameter_text());
+      row.set("method", worker.variant.row->name);
+      row.set("parameter", worker.variant.parameter_text());
       return row;
     };
     Record of_reference = start;
@@ -142,7 +151,8 @@ class AccuracyRun : public Study {
   }
 
   static void set_budget(Record& row, const Budget& budget) {
-    row.set("solver", budget.solver.name), row.set("budget", std::int64_t{budget.iterations});
+    row.set("solver", budget.solver.name);
+    row.set("budget", std::int64_t{budget.iterations});
     row.set("tip_functions", std::int64_t{budget.tip_functions});
   }
   static std::string key(const Record& row) { return row.key(accuracy_key_columns); }
@@ -200,12 +210,14 @@ class AccuracyRun : public Study {
   }
 
   static void set_failure(Record& row, const std::string& status, const std::string& verdict, const std::string& why) {
-    row.set("status", status), row.set("verdict", verdict), row.set("reason", why);
+    row.set("status", status);
+    row.set("verdict", verdict);
+    row.set("reason", why);
   }
 
   static void set_assessment(Record& row, const CutRun* cut, const Assessment& a, const BaseSheet& base) {
     fill(row, {.h = base.sheet.mean_edge(), .cut = cut, .judged = true, .assessment = &a});
-    row.set("triangles", static_cast<std::int64_t>(base.sheet.triangle_count()) + a.triangles_added);
+    row.set("triangles", to_int64(base.sheet.triangle_count()) + a.triangles_added);
   }
 
   /// A row per budget. `sheet`: null where there is nothing to solve, which the row says already. Returns the errors of
@@ -234,21 +246,27 @@ class AccuracyRun : public Study {
 
   static void set_answer(Record& row, const Answer& answer, const Yardstick& yardstick) {
     if (answer.refused) {
-      row.set("status", std::string(name_of(Status::refused))), row.set("reason", answer.reason);
+      row.set("status", std::string(name_of(Status::refused)));
+      row.set("reason", answer.reason);
       return;
     }
-    row.set("unknowns", static_cast<std::int64_t>(answer.unknowns));
+    row.set("unknowns", to_int64(answer.unknowns));
     row.set("assemble_us", answer.assemble_us);
-    row.set("setup_us", answer.setup_us), row.set("solve_us", answer.solve_us);
+    row.set("setup_us", answer.setup_us);
+    row.set("solve_us", answer.solve_us);
     row.set("total_us", std::stod(row.get("cut_us")) + answer.assemble_us + answer.setup_us + answer.solve_us);
-    row.set("iterations", std::int64_t{answer.iterations}), row.set("residual", answer.residual);
-    row.set("verdict", answer.verdict), row.set("reason", answer.reason);
+    row.set("iterations", std::int64_t{answer.iterations});
+    row.set("residual", answer.residual);
+    row.set("verdict", answer.verdict);
+    row.set("reason", answer.reason);
     if (answer.verdict != "ok") return;
     for (const Measure& m : answer.measures) {
       const auto reference = yardstick.find(m.name);
       const bool measurable = reference != yardstick.end() && reference->second > exact_to_rounding;
       const double excess = measurable ? m.error / reference->second - 1 : 0;
-      row.set("value_" + m.name, m.value), row.set("exact_" + m.name, m.exact), row.set("error_" + m.name, m.error);
+      row.set("value_" + m.name, m.value);
+      row.set("exact_" + m.name, m.exact);
+      row.set("error_" + m.name, m.error);
       if (measurable) row.set("excess_" + m.name, excess);
       if (m.name != row.get("primary")) continue;
       row.set("error", m.error);

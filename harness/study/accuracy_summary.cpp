@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -12,7 +14,7 @@ namespace {
 double median(std::vector<double> values, std::size_t failed) {
   values.resize(values.size() + failed, std::numeric_limits<double>::infinity());
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
+  const auto middle = values.begin() + to_index((values.size() - 1) / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
@@ -27,7 +29,8 @@ void AccuracySummary::add(const Record& row) {
   ++group.rows;
   group.refused += row.get("status") == "refused";
   if (row.get("verdict") != "ok" || row.get("error").empty()) {
-    ++group.failed, all_ok_ = false;
+    ++group.failed;
+    all_ok_ = false;
     return;
   }
   group.total_us.push_back(std::stod(row.get("total_us")));

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -18,7 +20,8 @@ int solve_cubic(double a, double b, double c, double d, double* root) {
     const double discriminant = c * c - 4 * b * d;
     if (discriminant < 0) return 0;
     const double q = -0.5 * (c + std::copysign(std::sqrt(discriminant), c));
-    root[0] = q / b, root[1] = q == 0 ? 0 : d / q;
+    root[0] = q / b;
+    root[1] = q == 0 ? 0 : d / q;
     return 2;
   }
   const double p = b / a, q = c / a, r = d / a;
@@ -62,8 +65,7 @@ std::size_t count_crossings_by_every_edge(const Sheet& sheet, const Curve& curve
       const HalfEdge h = half_edge(TriangleIndex(i), k);
       if (!sheet.on_border(h) && sheet.opposite(h) < h) continue;  // each edge once
       for (std::size_t j = 0; j + 3 < curve.points.size(); j += 3)
-        count += static_cast<std::size_t>(
-            crossings(&curve.points[j], sheet.rest(sheet.origin(h)), sheet.rest(sheet.target(h))));
+        count += to_size(crossings(&curve.points[j], sheet.rest(sheet.origin(h)), sheet.rest(sheet.target(h))));
     }
   }
   return count;

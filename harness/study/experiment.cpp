@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "harness/fem/solvers/solver_table.h"
 #include "harness/files/toml_reader.h"
@@ -75,7 +76,7 @@ Experiment::Accuracy read_accuracy(const TomlReader& reader, const std::vector<i
   if (!accuracy.preconditioners.empty())
     for (const auto n : reader.list<std::int64_t>("iterations")) {
       if (n < 1 || n > 1000000) reader.refuse("\"iterations\" are whole numbers from 1 to 1000000");
-      accuracy.iterations.push_back(static_cast<int>(n));
+      accuracy.iterations.push_back(to_int(n));
     }
   const auto read_members = [&](const char* key, std::int64_t least) {
     const auto members = reader.list<std::int64_t>(key);
@@ -85,7 +86,7 @@ Experiment::Accuracy read_accuracy(const TomlReader& reader, const std::vector<i
     for (std::size_t i = 0; i < members.size(); ++i) {
       if (members[i] < least || members[i] > 1000000)
         reader.refuse("\"" + std::string(key) + "\" are whole numbers from " + std::to_string(least) + " to 1000000");
-      of_resolution.emplace_back(resolutions[i], static_cast<int>(members[i]));
+      of_resolution.emplace_back(resolutions[i], to_int(members[i]));
     }
     return of_resolution;
   };
@@ -179,7 +180,7 @@ Experiment read_experiment(const std::filesystem::path& file) {
   check_names(e.cut_families, cut_families(), name + ": cut family");
   for (auto triangles : reader.list<std::int64_t>("resolutions")) {
     squares_per_side(triangles);
-    e.resolutions.push_back(static_cast<int>(triangles));
+    e.resolutions.push_back(to_int(triangles));
   }
   refuse_repeated(e.sheets, name + ": \"sheets\"");
   refuse_repeated(e.cut_families, name + ": \"cut_families\"");
@@ -202,7 +203,8 @@ Experiment read_experiment(const std::filesystem::path& file) {
   // places of a point, whose sweep says how many. Accuracy has `members` instead.
   e.cases = reader.count("cases", is_stability ? 1000000 : 1);
   e.repetitions = reader.count("repetitions", 1);
-  e.cold = reader.value<bool>("cold", false), e.quality = reader.value<bool>("quality", true);
+  e.cold = reader.value<bool>("cold", false);
+  e.quality = reader.value<bool>("quality", true);
   e.own_cuts = reader.value<bool>("own_cuts", false);
   e.eigenvalue_cases = reader.count("eigenvalue_cases", 0, 0);
   e.every_edge = reader.value<bool>("every_edge", false);

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "harness/base/conversions.h"
 #include "harness/base/own_seed.h"
 #include "harness/cases/cut_families.h"
 #include "harness/cut/cut_all.h"
@@ -53,11 +54,11 @@ class Runner : public Study {
  private:
   std::size_t case_count() override {
     return experiment_.sheets.size() * experiment_.resolutions.size() * experiment_.cut_families.size() *
-           static_cast<std::size_t>(experiment_.cases);
+           to_size(experiment_.cases);
   }
 
   void run_cases(Progress& progress) override {
-    const auto cases = static_cast<std::size_t>(experiment_.cases);
+    const auto cases = to_size(experiment_.cases);
     std::size_t item = 0;
     for (const auto& sheet : experiment_.sheets)
       for (int resolution : experiment_.resolutions) {
@@ -65,11 +66,19 @@ class Runner : public Study {
         for (const auto& family : experiment_.cut_families) {
           const std::vector<std::size_t> numbers = options_.ours(item, cases);
           item += cases;
-          if (!numbers.empty() && !is_made) make_base(sheet, resolution), is_made = true;
+          if (!numbers.empty() && !is_made) {
+            make_base(sheet, resolution);
+            is_made = true;
+          }
           if (experiment_.times)
-            for (const std::size_t i : numbers) run_case(drawn(sheet, resolution, family, i)), progress.step();
-          else
-            judge_on_all_cores(sheet, resolution, family, numbers), progress.step(numbers.size());
+            for (const std::size_t i : numbers) {
+              run_case(drawn(sheet, resolution, family, i));
+              progress.step();
+            }
+          else {
+            judge_on_all_cores(sheet, resolution, family, numbers);
+            progress.step(numbers.size());
+          }
           progress.step(cases - numbers.size());
         }
       }
@@ -82,9 +91,10 @@ class Runner : public Study {
     start_scene(sheet, resolution);
     base_ = BaseSheet(motion_ ? motion_->sheet() : Sheet(make_sheet(sheet, squares_per_side(resolution))));
     for (Worker& worker : workers_) worker.forget_base();
-    if (experiment_.eigenvalue_cases > 0)
-      base_eigenvalue_ = largest_eigenvalue(base_.sheet),
+    if (experiment_.eigenvalue_cases > 0) {
+      base_eigenvalue_ = largest_eigenvalue(base_.sheet);
       base_bending_ = largest_eigenvalue(base_.sheet, {}, bent_skin);
+    }
   }
 
   Case drawn(const std::string& sheet, int resolution, const std::string& family, std::size_t i) const {
@@ -96,10 +106,16 @@ class Runner : public Study {
   Record start_row(const Case& c, const std::string& method, const std::string& parameter, int repetition,
                    const char* cache) const {
     Record row;
-    row.set("suite_version", std::string(suite_version)), row.set("cut_family", c.family), row.set("sheet", c.sheet);
-    row.set("method", method), row.set("parameter", parameter), row.set("resolution", std::int64_t{c.resolution});
-    row.set("case", static_cast<std::int64_t>(c.number)), row.set("repetition", std::int64_t{repetition});
-    row.set("seed", static_cast<std::int64_t>(experiment_.seed)), row.set("cache", std::string(cache));
+    row.set("suite_version", std::string(suite_version));
+    row.set("cut_family", c.family);
+    row.set("sheet", c.sheet);
+    row.set("method", method);
+    row.set("parameter", parameter);
+    row.set("resolution", std::int64_t{c.resolution});
+    row.set("case", to_int64(c.number));
+    row.set("repetition", std::int64_t{repetition});
+    row.set("seed", to_int64(experiment_.seed));
+    row.set("cache", std::string(cache));
     return row;
   }
   Record start_row(const Case& c, const Worker& worker, int repetition, const char* cache) const {
@@ -111,8 +127,8 @@ class Runner : public Study {
     const CutRun run = worker.cut(base_, c.cuts, cut_options_);
     if (c.forced.empty() && experiment_.quality) c.forced = forced_corners_of(base_.sheet, c.cuts);
     judge_into(row, summary, worker, c.cuts, c.forced, run);
-    summary.crossed_triangles = static_cast<double>(run.crossed_triangles);
-    if (static_cast<int>(c.number) < experiment_.eigenvalue_cases && row.get("verdict") == "ok" &&
+    summary.crossed_triangles = to_double(run.crossed_triangles);
+    if (to_int(c.number) < experiment_.eigenvalue_cases && row.get("verdict") == "ok" &&
         (run.status == Status::ok || run.status == Status::deviated))
       fill_eigenvalues(row, worker);
   }
@@ -188,7 +204,7 @@ class Runner : public Study {
       if (experiment_.every_edge)
         time_every_edge(c.cuts, start_row(c, "every_edge", "", repetition, cache), c.resolution, crossed, cold);
     }
-    if (!motion_ || c.number >= static_cast<std::size_t>(experiment_.scene_cases)) return;
+    if (!motion_ || c.number >= to_size(experiment_.scene_cases)) return;
     for (Worker& worker : workers_) run_in_motion(c.cuts, worker, start_row(c, worker, 0, "simulation"));
   }
 
@@ -216,7 +232,8 @@ class Runner : public Study {
   void start_scene(const std::string& sheet, int resolution) {
     if (!experiment_.scene) return;
     Scene scene = *experiment_.scene;
-    scene.family = sheet, scene.resolution = resolution;
+    scene.family = sheet;
+    scene.resolution = resolution;
     motion_ = Simulation::start(scene);
     const StepReport report =
         motion_->advance(experiment_.cut_time - scene.step, *workers_.front().method, cut_options_);
@@ -235,7 +252,8 @@ class Runner : public Study {
   }
 
   void summarize(int resolution, const Variant& variant, Summary::Cut cut, const CutRun& run) {
-    cut.geometry_us = run.time_us.total(), cut.crossed_triangles = static_cast<double>(run.crossed_triangles);
+    cut.geometry_us = run.time_us.total();
+    cut.crossed_triangles = to_double(run.crossed_triangles);
     cut.refused = run.status == Status::refused;
     cut.ok = cut.ok && run.verdict == Verdict::ok;
     summary_.add(resolution, variant.row->name, variant.parameter_text(), cut);
@@ -252,10 +270,11 @@ class Runner : public Study {
     const Assessment a = assess(base_.sheet, worker.sheet, judgement, forced);
     fill(row,
          {.h = base_.sheet.mean_edge(), .cut = &run, .judged = true, .assessment = &a, .shapes = experiment_.quality});
-    summary.ok = a.judgement.ok, summary.vertices_added = static_cast<double>(a.vertices_added);
+    summary.ok = a.judgement.ok;
+    summary.vertices_added = to_double(a.vertices_added);
     if (!experiment_.quality) return;
     if (a.cut.triangles > 0) summary.ar_max_cut = a.cut.ar_max;
-    summary.over_3_cut = static_cast<double>(a.cut.over_3);
+    summary.over_3_cut = to_double(a.cut.over_3);
   }
 
   void time_every_edge(const std::vector<Curve>& cuts, Record row, int resolution, std::size_t crossed, bool cold) {
@@ -269,10 +288,11 @@ class Runner : public Study {
     row.set("geometry_us", us);
     row.set("status", std::string("ok"));
     row.set("verdict", std::string(name_of(crossings > 0 ? Verdict::ok : Verdict::not_terminated)));
-    row.set("crossed_triangles", static_cast<std::int64_t>(crossed));  // the cut's, as a unit
+    row.set("crossed_triangles", to_int64(crossed));  // the cut's, as a unit
     file_.append(row);
     Summary::Cut summary;
-    summary.geometry_us = us, summary.crossed_triangles = static_cast<double>(crossed);
+    summary.geometry_us = us;
+    summary.crossed_triangles = to_double(crossed);
     if (!cold) summary_.add(resolution, "every_edge", "", summary);
   }
 

@@ -10,13 +10,15 @@
 #include <string>
 #include <utility>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 /// ", about 3 min left at this rate" where the cases done so far say something about the rest: at least 5 % of them and
 /// 5 s of work. Cases need not cost the same: an experiment's finer sheets come later, and then the estimate grows.
 inline std::string time_left(double seconds, std::size_t done, std::size_t total) {
   if (seconds < 5 || done == 0 || done >= total || 20 * done < total) return "";
-  const double left = seconds * static_cast<double>(total - done) / static_cast<double>(done);
+  const double left = seconds * to_double(total - done) / to_double(done);
   const auto rounded = [](double value) { return std::to_string(std::lround(value)); };
   return ", about " +
          (left < 90     ? rounded(left) + " s"

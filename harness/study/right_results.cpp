@@ -18,7 +18,8 @@ void RightResults::add(const Record& row) {
 
 void RightResults::add(const std::string& method, std::int64_t right, std::int64_t others, const std::string& why) {
   Counts& counts = methods_[method];
-  counts.right += right, counts.others += others;
+  counts.right += right;
+  counts.others += others;
   if (!why.empty()) counts.why = why.substr(0, why.find('\n'));
 }
 

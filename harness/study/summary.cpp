@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -13,7 +15,7 @@ std::string median(const std::vector<Summary::Cut>& cuts, double (*value)(const 
   for (const auto& cut : cuts)
     if (cut.ok && !cut.refused && value(cut) >= 0) values.push_back(value(cut));
   if (values.empty()) return "-";
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  const auto middle = values.begin() + to_index(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   char text[32];
   std::snprintf(text, sizeof text, format, *middle);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/elements/bending_kinds.h"
 #include "harness/fem/solvers/solver_table.h"
 #include "harness/files/scene_file.h"
@@ -134,9 +135,9 @@ void choose_for_eigenvalue(std::vector<SweepPoint>& points) {
     return std::tuple(p.cut, p.place, m.stiffness, m.poisson, m.bending, p.scene.physics.bending, p.scene.physics.mass);
   };
   for (std::size_t i = 0; i < points.size(); ++i)
-    points[i].eigenvalue =
-        std::none_of(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(i),
-                     [&](const SweepPoint& earlier) { return known_from(earlier) == known_from(points[i]); });
+    points[i].eigenvalue = std::none_of(points.begin(), points.begin() + to_index(i), [&](const SweepPoint& earlier) {
+      return known_from(earlier) == known_from(points[i]);
+    });
 }
 
 }  // namespace
@@ -164,8 +165,9 @@ std::vector<Sweep> read_sweeps(const TomlReader& experiment, const std::filesyst
     if (r.has("sheets")) s.sheets = r.list<std::string>("sheets");
     if (r.has("methods")) s.methods = r.list<std::string>("methods");
     if (r.has("resolutions"))
-      for (const auto n : r.list<std::int64_t>("resolutions")) s.resolutions.push_back(static_cast<int>(n));
-    s.cases = r.count("cases", s.cases), s.steps = r.count("steps", s.steps, 0);
+      for (const auto n : r.list<std::int64_t>("resolutions")) s.resolutions.push_back(to_int(n));
+    s.cases = r.count("cases", s.cases);
+    s.steps = r.count("steps", s.steps, 0);
     s.drift = r.value<bool>("drift", s.drift);
     s.scene_file = folder / r.value<std::string>("scene");
     s.points = read_points(r, read_scene_for_experiment(s.scene_file));

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/cut/method_row.h"
 #include "harness/records/shard_of.h"
 #include "harness/study/experiment.h"
@@ -19,9 +20,7 @@ struct RunOptions {
   int workers = 0;            ///< processes, where no times are recorded; 0: one per core
 
   /// \param item  numbered from 0 through the whole run, whatever the shard
-  bool is_ours(std::size_t item) const {
-    return shard_of(item, static_cast<std::size_t>(shards)) + 1 == static_cast<std::size_t>(shard);
-  }
+  bool is_ours(std::size_t item) const { return shard_of(item, to_size(shards)) + 1 == to_size(shard); }
   /// The i < n for which item `first` + i is.
   std::vector<std::size_t> ours(std::size_t first, std::size_t n) const {
     std::vector<std::size_t> numbers;

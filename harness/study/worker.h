@@ -23,7 +23,7 @@ class Worker {
 
   /// Another base sheet comes next; the worker's is not one cut away from it.
   void forget_base() { undoable_ = false; }
-  /// Cuts the base sheet. What the method constraints is part of the price: it is found anew after each cut (polygons:
+  /// Cuts the base sheet. What the method constrains is part of the price: it is found anew after each cut (polygons:
   /// once).
   CutRun cut(const BaseSheet& base, const std::vector<Curve>& cuts, const CutOptions& options);
   /// Cold: right after other work has driven everything out of the caches. Warm: the same cut, made and undone twice

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/one_ring.h"
 #include "harness/mesh/predicates.h"
 
@@ -22,7 +23,8 @@ HalfEdge edge_between(const Sheet& sheet, VertexIndex from, VertexIndex to) {
 }  // namespace
 
 void ActiveNode::adapt(Sheet& sheet, Subdivision& trace, const Polyline& path) {
-  way_.clear(), turned_.clear();
+  way_.clear();
+  turned_.clear();
   curve_.read(sheet, trace, path);
   node_length_.assign(1, 0);
   for (std::size_t i = 1; i < trace.nodes.size(); ++i) {
@@ -48,10 +50,11 @@ bool ActiveNode::is_as_traced(const Sheet& sheet) const {
 }
 
 void ActiveNode::measure_way() {
-  length_.assign(way_.size(), 0), stop_.assign(way_.size(), way_.size() - 1);
+  length_.assign(way_.size(), 0);
+  stop_.assign(way_.size(), way_.size() - 1);
   for (std::size_t i = 1; i < way_.size(); ++i) {
     const double s = curve_.parameter(way_[i]);
-    length_[i] = s >= 0 ? node_length_[static_cast<std::size_t>(s)] : length_[i - 1];
+    length_[i] = s >= 0 ? node_length_[to_size(s)] : length_[i - 1];
   }
   Reshape::Neighbours neighbours;
   for (std::size_t i = way_.size() - 1; i-- > 0;) {
@@ -67,7 +70,7 @@ void ActiveNode::measure_way() {
 double ActiveNode::parameter_at(double length) const {
   const auto behind = std::upper_bound(node_length_.begin() + 1, node_length_.end() - 1, length);
   const double from = *(behind - 1);
-  return static_cast<double>(behind - 1 - node_length_.begin()) + (length - from) / (*behind - from);
+  return to_double(behind - 1 - node_length_.begin()) + (length - from) / (*behind - from);
 }
 
 /// How far along the way the next vertex of the path is to be, the last one being at `from` before crossing i: equal
@@ -85,8 +88,10 @@ void ActiveNode::make_room(Sheet& sheet, VertexIndex v, Point2 to, VertexIndex o
     ring_.clear();
     for_each_outgoing(sheet, v, [&](HalfEdge h) {
       const VertexIndex c = sheet.target(h), d = sheet.origin(Sheet::previous(h));
-      if (c != onto && d != onto && orientation(to, sheet.rest(c), sheet.rest(d)) <= 0)
-        ring_.push_back(c), ring_.push_back(d);
+      if (c != onto && d != onto && orientation(to, sheet.rest(c), sheet.rest(d)) <= 0) {
+        ring_.push_back(c);
+        ring_.push_back(d);
+      }
     });
     if (ring_.size() > 128)
       return;  // a vertex of thousands of edges: looking at all of them again and again takes too long
@@ -95,7 +100,8 @@ void ActiveNode::make_room(Sheet& sheet, VertexIndex v, Point2 to, VertexIndex o
       if (!spoke.valid() || c == onto || sheet.on_border(spoke)) continue;
       const TriangleIndex left = triangle_of(spoke), right = triangle_of(sheet.opposite(spoke));
       if (!sheet.flip(spoke)) continue;
-      turned_.push_back(left), turned_.push_back(right);
+      turned_.push_back(left);
+      turned_.push_back(right);
       flipped = true;
       break;
     }
@@ -189,7 +195,8 @@ void ActiveNode::improve(Sheet& sheet, MethodNotes&) {
       const VertexIndex v = leave_between(sheet, last, way_[i + 1], target);
       if (!v.valid()) break;
       settle(sheet, v);
-      last = v, at = target;
+      last = v;
+      at = target;
       target = next_target(i + 1, at);
     }
   }

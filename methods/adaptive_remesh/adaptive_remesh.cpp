@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/one_ring.h"
 #include "harness/mesh/predicates.h"
 #include "harness/mesh/quality.h"
@@ -22,8 +23,10 @@ struct Meeting {
 
   Meeting(const Sheet& sheet, VertexIndex v) {
     for_each_outgoing(sheet, v, [&](HalfEdge h) {
-      path += sheet.mark(h) == EdgeMark::path, incision += sheet.mark(h) == EdgeMark::incision;
-      inside &= !sheet.on_border(h), ++edges;
+      path += sheet.mark(h) == EdgeMark::path;
+      incision += sheet.mark(h) == EdgeMark::incision;
+      inside &= !sheet.on_border(h);
+      ++edges;
     });
   }
   bool is_tip() const { return inside && path + incision == 1; }
@@ -85,7 +88,8 @@ void AdaptiveRemesh::find_zone(const Sheet& sheet) {
   constexpr double detour = 1.5;  // of a way along edges
   const double h = sheet.mean_edge();
   field_.begin(h, (flips_alone() ? 1 : options_.tip) * h, options_.growth);
-  zone_.clear(), in_zone_.clear(sheet.triangle_slots());
+  zone_.clear();
+  in_zone_.clear(sheet.triangle_slots());
   for_each_changed(sheet, [&](TriangleIndex t) { add(t); });
 
   // Tips that the field has to know: all that reach into the zone.
@@ -128,10 +132,10 @@ bool AdaptiveRemesh::split_long(Sheet& sheet, std::size_t most_vertices) {
       double most = longest;
       const auto c = sheet.corners(t);
       for (int k = 0; k < 3; ++k)
-        if (const double length =
-                field_.relative_length(c[static_cast<std::size_t>(k)], c[static_cast<std::size_t>(next_corner(k))]);
-            length > most)
-          worst = half_edge(t, k), most = length;
+        if (const double length = field_.relative_length(c[to_size(k)], c[to_size(next_corner(k))]); length > most) {
+          worst = half_edge(t, k);
+          most = length;
+        }
       if (!worst.valid() || !split(sheet, worst)) break;
       any = true;
     }
@@ -158,7 +162,10 @@ void AdaptiveRemesh::flip(Sheet& sheet) {
     if (!in_zone_.holds(t) && !in_zone_.holds(u)) continue;
     const auto c = sheet.corners(t);
     if (in_circle(c[0], c[1], c[2], sheet.rest(sheet.origin(Sheet::previous(sheet.opposite(h))))) <= 0) continue;
-    if (sheet.flip(h)) open(t), open(u);
+    if (sheet.flip(h)) {
+      open(t);
+      open(u);
+    }
   }
 }
 
@@ -192,7 +199,10 @@ bool AdaptiveRemesh::collapse_short(Sheet& sheet) {
       if (sheet.on_border(edge) || sheet.mark(edge) == EdgeMark::incision) continue;
       if (field_.relative_length(sheet.rest(sheet.origin(edge)), sheet.rest(sheet.target(edge))) >= shortest) continue;
       for (const HalfEdge h : {edge, sheet.opposite(edge)})
-        if (const double worst = worst_after_collapse(sheet, h); worst < least) best = h, least = worst;
+        if (const double worst = worst_after_collapse(sheet, h); worst < least) {
+          best = h;
+          least = worst;
+        }
     }
     if (!best.valid()) continue;
     const VertexIndex kept = sheet.target(best);

@@ -21,7 +21,10 @@ class SizeField {
  public:
   /// Forgets all tips. Lengths in rest units. \pre 0 < at_tip <= far, growth > 0
   void begin(double far, double at_tip, double growth) {
-    far_ = far, at_tip_ = at_tip, growth_ = growth, tips_.clear();
+    far_ = far;
+    at_tip_ = at_tip;
+    growth_ = growth;
+    tips_.clear();
   }
   void add_tip(Point2 tip) { tips_.push_back(tip); }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/one_ring.h"
 #include "harness/mesh/predicates.h"
 #include "harness/mesh/quality.h"
@@ -13,7 +14,7 @@ namespace {
 
 using Edge = std::array<int, 2>;
 
-Point2 at(const Patch& patch, int p) { return patch.points[static_cast<std::size_t>(p)]; }
+Point2 at(const Patch& patch, int p) { return patch.points[to_size(p)]; }
 
 /// Inserts one point: the cavity of triangles whose circumcircle holds it becomes a fan round it.
 class Insertion {
@@ -42,16 +43,16 @@ class Insertion {
 
   /// The triangles that the point lies in: the one behind the ring edge it splits, or that which holds it.
   void seed() {
-    const int position = patch_.ring_position[static_cast<std::size_t>(p_)], n = static_cast<int>(patch_.ring.size());
+    const int position = patch_.ring_position[to_size(p_)], n = to_int(patch_.ring.size());
     if (position >= 0) {
       int before = position, after = position;
       do before = (before + n - 1) % n;
-      while (!inserted(patch_.ring[static_cast<std::size_t>(before)]));
+      while (!inserted(patch_.ring[to_size(before)]));
       do after = (after + 1) % n;
-      while (!inserted(patch_.ring[static_cast<std::size_t>(after)]));
-      split_ = {patch_.ring[static_cast<std::size_t>(before)], patch_.ring[static_cast<std::size_t>(after)]};
+      while (!inserted(patch_.ring[to_size(after)]));
+      split_ = {patch_.ring[to_size(before)], patch_.ring[to_size(after)]};
       const PatchEdge side = find_edge(patch_, split_[0], split_[1]);
-      if (side.triangle >= 0) in_cavity_[static_cast<std::size_t>(side.triangle)] = holds_point;
+      if (side.triangle >= 0) in_cavity_[to_size(side.triangle)] = holds_point;
       return;
     }
     for (std::size_t t = 0; t < patch_.triangles.size(); ++t) {
@@ -79,8 +80,7 @@ class Insertion {
   }
 
   bool is_in(int t) const {
-    return t >= 0 && (in_cavity_[static_cast<std::size_t>(t)] == member ||
-                      in_cavity_[static_cast<std::size_t>(t)] == holds_point);
+    return t >= 0 && (in_cavity_[to_size(t)] == member || in_cavity_[to_size(t)] == holds_point);
   }
 
   bool touches_cavity(std::size_t t) const {
@@ -94,7 +94,7 @@ class Insertion {
   bool star_shaped() {
     rim_.clear();
     for (std::size_t t = 0; t < patch_.triangles.size(); ++t) {
-      if (!is_in(static_cast<int>(t))) continue;
+      if (!is_in(to_int(t))) continue;
       for (std::size_t k = 0; k < 3; ++k) {
         const int a = patch_.triangles[t][k], b = patch_.triangles[t][k == 2 ? 0 : k + 1];
         const int beyond = find_edge(patch_, b, a).triangle;
@@ -105,8 +105,8 @@ class Insertion {
         }
         if (in_cavity_[t] == member) {
           in_cavity_[t] = banned;
-        } else if (beyond >= 0 && in_cavity_[static_cast<std::size_t>(beyond)] == outside) {
-          in_cavity_[static_cast<std::size_t>(beyond)] = holds_point;
+        } else if (beyond >= 0 && in_cavity_[to_size(beyond)] == outside) {
+          in_cavity_[to_size(beyond)] = holds_point;
         } else {
           throw TooClose("a point of the path fell out of its triangle: coordinates too close for doubles");
         }
@@ -141,9 +141,9 @@ namespace {
 /// Points p and q on the two edges before and behind corner `shortest` + 2 leave three positive triangles, whichever
 /// diagonal is chosen.
 bool leaves_room(const std::array<Point2, 3>& corner, int shortest, Point2 p, Point2 q) {
-  const Point2 a = corner[static_cast<std::size_t>(shortest)];
-  const Point2 b = corner[static_cast<std::size_t>(next_corner(shortest))];
-  const Point2 apex = corner[static_cast<std::size_t>(previous_corner(shortest))];
+  const Point2 a = corner[to_size(shortest)];
+  const Point2 b = corner[to_size(next_corner(shortest))];
+  const Point2 apex = corner[to_size(previous_corner(shortest))];
   return orientation(apex, q, p) > 0 && orientation(a, b, p) > 0 && orientation(a, p, q) > 0 &&
          orientation(a, b, q) > 0 && orientation(b, p, q) > 0;
 }
@@ -153,9 +153,7 @@ bool leaves_room(const std::array<Point2, 3>& corner, int shortest, Point2 p, Po
 /// Puts midpoints on the two longest edges of t, where that is possible in doubles.
 void BowyerWatson::split_long_edges(const Sheet& sheet, TriangleIndex t) {
   const auto corner = sheet.corners(t);
-  const auto squared = [&](int k) {
-    return squared_length(corner[static_cast<std::size_t>(next_corner(k))] - corner[static_cast<std::size_t>(k)]);
-  };
+  const auto squared = [&](int k) { return squared_length(corner[to_size(next_corner(k))] - corner[to_size(k)]); };
   int shortest = 0;
   for (int k : {1, 2})
     if (squared(k) < squared(shortest)) shortest = k;
@@ -163,7 +161,9 @@ void BowyerWatson::split_long_edges(const Sheet& sheet, TriangleIndex t) {
   for (int k : {next_corner(shortest), previous_corner(shortest)}) {
     if (squared(k) < floor * floor) continue;
     Place place;
-    place.kind = Place::Kind::edge, place.edge = first_half_edge(sheet, half_edge(t, k)), place.lambda = 0.5;
+    place.kind = Place::Kind::edge;
+    place.edge = first_half_edge(sheet, half_edge(t, k));
+    place.lambda = 0.5;
     const Point2 a = sheet.rest(sheet.origin(place.edge)), b = sheet.rest(sheet.target(place.edge));
     place.point = 0.5 * a + 0.5 * b;
     const auto halves_stay_positive = [&](HalfEdge h) {

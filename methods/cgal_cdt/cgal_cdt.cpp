@@ -4,6 +4,7 @@
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
+#include "harness/base/conversions.h"
 #include "harness/cut/patch.h"
 #include "harness/mesh/predicates.h"
 #include "harness/mesh/stamped_table.h"
@@ -55,10 +56,12 @@ struct CgalCdt::Work {
 
 /// The strip's points, border, incisions and path.
 void CgalCdt::Work::collect(const Sheet& sheet, const Subdivision& trace) {
-  constraints.clear(), points.clear(), removed.clear();
+  constraints.clear();
+  points.clear();
+  removed.clear();
   expected = 0;
   handle_of.clear(sheet.vertex_slots());
-  for (int f = 0; f < static_cast<int>(trace.faces.size()); ++f) {
+  for (int f = 0; f < to_int(trace.faces.size()); ++f) {
     make_patch(sheet, trace, f, patch);
     removed.push_back(patch.triangle);
     expected += patch.ring.size() - 2 + 2 * patch.inside_count();
@@ -70,14 +73,14 @@ void CgalCdt::Work::collect(const Sheet& sheet, const Subdivision& trace) {
       const HalfEdge o = sheet.opposite(half_edge(patch.triangle, edge));
       const bool strip_goes_on = o.valid() && trace.has_face(triangle_of(o));
       if (strip_goes_on && patch.ring_marks[i] == EdgeMark::none) continue;
-      const auto a = static_cast<std::size_t>(patch.ring[i]);
-      const auto b = static_cast<std::size_t>(patch.ring[i + 1 == patch.ring.size() ? 0 : i + 1]);
+      const auto a = to_size(patch.ring[i]);
+      const auto b = to_size(patch.ring[i + 1 == patch.ring.size() ? 0 : i + 1]);
       constraints.push_back({patch.vertices[a], patch.vertices[b], f, false, !strip_goes_on,
                              strip_goes_on ? patch.ring_marks[i] : EdgeMark::none});
     }
     for (const auto& s : patch.segments)
-      constraints.push_back({patch.vertices[static_cast<std::size_t>(s[0])],
-                             patch.vertices[static_cast<std::size_t>(s[1])], -1, true, false, EdgeMark::path});
+      constraints.push_back(
+          {patch.vertices[to_size(s[0])], patch.vertices[to_size(s[1])], -1, true, false, EdgeMark::path});
   }
 }
 
@@ -113,7 +116,7 @@ void CgalCdt::Work::mark_faces() {
       i = triangulation.mirror_index(face, i);
       face = other;
     }
-    face->info().mark[static_cast<std::size_t>(i)] = mark;
+    face->info().mark[to_size(i)] = mark;
     if (parent >= 0) face->info().parent = parent;
     if (!std::exchange(face->info().inside, true)) front.push_back(face);
   };
@@ -146,8 +149,8 @@ void CgalCdt::Work::add_inside() {
     Sheet::NewTriangle made;
     made.parent = face->info().parent;
     for (int k = 0; k < 3; ++k) {
-      made.vertex[static_cast<std::size_t>(k)] = face->vertex(k)->info();
-      made.mark[static_cast<std::size_t>(k)] = face->info().mark[static_cast<std::size_t>(Triangulation::cw(k))];
+      made.vertex[to_size(k)] = face->vertex(k)->info();
+      made.mark[to_size(k)] = face->info().mark[to_size(Triangulation::cw(k))];
     }
     added.push_back(made);
   }

@@ -7,7 +7,8 @@ namespace cutbench {
 
 void CgalRefine::improve(Sheet& sheet, MethodNotes& notes) {
   wedges_.find(sheet);
-  region_.clear(sheet), region_.add_changed(sheet);
+  region_.clear(sheet);
+  region_.add_changed(sheet);
   if (region_.triangles().empty()) return;
 
   const bool refining = std::isfinite(options_.bound);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -27,11 +29,11 @@ std::optional<std::string> Cisamr::why_unsupported(const Sheet& sheet) const {
   std::vector<double> sides;
   for (std::size_t t = 0; t < sheet.triangle_slots(); ++t)
     if (sheet.triangle(TriangleIndex(t)).alive()) sides.push_back(side_of_square(sheet.corners(TriangleIndex(t))));
-  const auto half = sides.begin() + static_cast<std::ptrdiff_t>(sides.size() / 2);
+  const auto half = sides.begin() + to_index(sides.size() / 2);
   std::nth_element(sides.begin(), half, sides.end());
   const auto equal = std::count_if(sides.begin(), sides.end(),
                                    [side = *half](double s) { return s > 0 && std::abs(s - side) <= 1e-9 * side; });
-  if (2 * static_cast<std::size_t>(equal) >= sides.size()) return {};
+  if (2 * to_size(equal) >= sides.size()) return {};
   return "the sheet is no structured grid: less than half of its triangles are halves of equal squares along the axes";
 }
 

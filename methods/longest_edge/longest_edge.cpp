@@ -1,5 +1,6 @@
 #include "methods/longest_edge/longest_edge.h"
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/one_ring.h"
 #include "harness/mesh/quality.h"
 
@@ -42,7 +43,8 @@ bool LongestEdge::split_terminal_edge(Sheet& sheet, TriangleIndex t) {
   if (!halves_are_positive(sheet, h, middle) || !halves_are_positive(sheet, o, middle)) return false;
   const VertexIndex v = sheet.split_edge(h, 0.5, middle);
   for (const HalfEdge outgoing : outgoing_edges(sheet, v)) {
-    delaunay_.add(triangle_of(outgoing)), delaunay_.changed.push_back(triangle_of(outgoing));
+    delaunay_.add(triangle_of(outgoing));
+    delaunay_.changed.push_back(triangle_of(outgoing));
   }
   return true;
 }
@@ -56,14 +58,18 @@ void LongestEdge::note_changed(const Sheet& sheet) {
 
 void LongestEdge::improve(Sheet& sheet, MethodNotes&) {
   wedges_.find(sheet);
-  delaunay_.begin(sheet), ill_shaped_.clear();
-  for_each_changed(sheet, [&](TriangleIndex t) { delaunay_.add(t), delaunay_.changed.push_back(t); });
+  delaunay_.begin(sheet);
+  ill_shaped_.clear();
+  for_each_changed(sheet, [&](TriangleIndex t) {
+    delaunay_.add(t);
+    delaunay_.changed.push_back(t);
+  });
   delaunay_.run(sheet);
   note_changed(sheet);
 
-  const double most = options_.cap * static_cast<double>(sheet.log().path_vertices.size());
+  const double most = options_.cap * to_double(sheet.log().path_vertices.size());
   std::size_t made = 0;
-  for (std::size_t i = 0; i < ill_shaped_.size() && static_cast<double>(made) < most; ++i) {
+  for (std::size_t i = 0; i < ill_shaped_.size() && to_double(made) < most; ++i) {
     const TriangleIndex t = ill_shaped_[i];
     if (!wants_splitting(sheet, t) || !split_terminal_edge(sheet, t)) continue;
     ++made;

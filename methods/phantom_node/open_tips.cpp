@@ -4,6 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -123,7 +125,7 @@ bool OpenTips::touch(HalfEdge a, HalfEdge b) const {
   return false;
 }
 DeformedIndex OpenTips::deformed_origin(HalfEdge h) const {
-  return parts_.cut().triangle(triangle_of(h)).deformed[static_cast<std::size_t>(corner_of(h))];
+  return parts_.cut().triangle(triangle_of(h)).deformed[to_size(corner_of(h))];
 }
 
 }  // namespace cutbench

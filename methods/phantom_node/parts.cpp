@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "harness/base/conversions.h"
 #include "harness/base/union_find.h"
 
 namespace cutbench {
@@ -46,18 +47,18 @@ TriangleIndex Parts::whole_parent(TriangleIndex t, TriangleIndex beside) const {
 std::size_t Parts::place_of(TriangleIndex t) const {
   const auto found =
       std::lower_bound(near_.begin(), near_.end(), t, [](const auto& a, TriangleIndex b) { return a.part < b; });
-  return found != near_.end() && found->part == t ? static_cast<std::size_t>(found - near_.begin()) : near_.size();
+  return found != near_.end() && found->part == t ? to_size(found - near_.begin()) : near_.size();
 }
 
 std::size_t Parts::number_of(DeformedIndex d) const {
-  return static_cast<std::size_t>(std::lower_bound(vertices_.begin(), vertices_.end(), d) - vertices_.begin());
+  return to_size(std::lower_bound(vertices_.begin(), vertices_.end(), d) - vertices_.begin());
 }
 
 std::optional<std::size_t> Parts::corner_at(std::size_t i, VertexIndex v) const {
   const auto& corners = parent(i).vertex;
   const auto found = std::find(corners.begin(), corners.end(), v);
   if (found == corners.end()) return {};
-  return static_cast<std::size_t>(found - corners.begin());
+  return to_size(found - corners.begin());
 }
 
 }  // namespace cutbench

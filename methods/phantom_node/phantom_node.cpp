@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "harness/base/conversions.h"
 #include "harness/base/union_find.h"
 #include "harness/mesh/tolerances.h"
 #include "methods/phantom_node/open_tips.h"
@@ -68,8 +69,7 @@ class Doubling {
       for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t one = copies_.find(copy(i, k));
         if (one < parts_.vertices().size()) continue;
-        if (auto& number = phantom_[one - parts_.vertices().size()]; number < 0)
-          number = static_cast<std::int32_t>(phantoms_++);
+        if (auto& number = phantom_[one - parts_.vertices().size()]; number < 0) number = to_int32(phantoms_++);
       }
   }
 
@@ -148,14 +148,15 @@ class Doubling {
     ghost.unknown = {unknown(copy(i, k)), end((k + 1) % 3), end((k + 2) % 3), unknown(copy(j, far))};
     ghost.jump = {slope_c, (foot_c - 1) * slope_c - (foot_d - 1) * slope_d, foot_d * slope_d - foot_c * slope_c,
                   -slope_d};
-    ghost.stiffness = factor * length * length, ghost.mass = ghost.stiffness * length * length;
+    ghost.stiffness = factor * length * length;
+    ghost.mass = ghost.stiffness * length * length;
     return ghost;
   }
 
   DeformedIndex unknown(std::size_t number) {
     const std::size_t one = copies_.find(number), vertices = parts_.vertices().size();
     if (one < vertices) return parts_.vertices()[one];
-    return DeformedIndex(cut_.deformed_slots() + static_cast<std::size_t>(phantom_[one - vertices]));
+    return DeformedIndex(cut_.deformed_slots() + to_size(phantom_[one - vertices]));
   }
 
   Constraint constraint_of(DeformedIndex d, std::size_t i) {

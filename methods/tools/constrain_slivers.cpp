@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "methods/tools/divided.h"
 
 namespace cutbench {
@@ -88,9 +89,8 @@ class SliverConstraints {
 
   bool has_one_copy(DeformedIndex d) const {
     bool one = true;
-    for_each_round(sheet_.rest_vertex(d), [&](HalfEdge h) {
-      one &= triangle(triangle_of(h)).deformed[static_cast<std::size_t>(corner_of(h))] == d;
-    });
+    for_each_round(sheet_.rest_vertex(d),
+                   [&](HalfEdge h) { one &= triangle(triangle_of(h)).deformed[to_size(corner_of(h))] == d; });
     return one;
   }
 
@@ -117,7 +117,7 @@ class SliverConstraints {
     std::sort(new_.begin(), new_.end(), [](const New& a, const New& b) {
       return std::tuple(!a.tip, -a.altitude, a.vertex) < std::tuple(!b.tip, -b.altitude, b.vertex);
     });
-    for (std::size_t i = 0; i < new_.size(); ++i) number_[new_[i].vertex()] = static_cast<std::int32_t>(i);
+    for (std::size_t i = 0; i < new_.size(); ++i) number_[new_[i].vertex()] = to_int32(i);
     for (New& v : new_) {
       const DeformedIndex nearest = nearest_free(v);
       v.stands_for = nearest.valid() ? nearest : v.vertex;
@@ -134,7 +134,7 @@ class SliverConstraints {
   /// Nothing for old vertices.
   const New* find_new(DeformedIndex d) const {
     const std::int32_t number = number_[d()];
-    return number >= 0 ? &new_[static_cast<std::size_t>(number)] : nullptr;
+    return number >= 0 ? &new_[to_size(number)] : nullptr;
   }
   DeformedIndex stand_in(DeformedIndex d) const {
     const New* const v = find_new(d);
@@ -160,7 +160,10 @@ class SliverConstraints {
         for (const DeformedIndex d : triangle(corners_[j].triangle).deformed) {
           const double away = length(place(d) - p);
           if (d == v.vertex || away >= thinness_ * v.scale) continue;
-          if (is_free(d) && away < distance) nearest = d, distance = away;
+          if (is_free(d) && away < distance) {
+            nearest = d;
+            distance = away;
+          }
           if (find_new(d) && std::find(near_.begin(), near_.end(), d) == near_.end()) near_.push_back(d);
         }
     }
@@ -265,8 +268,10 @@ class SliverConstraints {
         std::array<double, 3> weights{0, cross(c[2] - p, c[0] - p) / twice, cross(c[0] - p, c[1] - p) / twice};
         weights[0] = 1 - weights[1] - weights[2];
         const std::pair score{met, *std::min_element(weights.begin(), weights.end())};
-        if (met > 0 && (!constraint || score > best))
-          best = score, constraint = Constraint{made.vertex, masters, weights};
+        if (met > 0 && (!constraint || score > best)) {
+          best = score;
+          constraint = Constraint{made.vertex, masters, weights};
+        }
       }
       for (int k = 0; k < 3; ++k) {
         const HalfEdge h = half_edge(seen_[i], k);

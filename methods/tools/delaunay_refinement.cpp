@@ -105,8 +105,10 @@ Point2 DelaunayRefinement::off_centre(const Sheet& sheet, TriangleIndex t) const
 
 /// Fills encroached_ with the edges that separate and would see p, a new vertex in t, at more than a right angle.
 bool DelaunayRefinement::find_encroached(const Sheet& sheet, TriangleIndex t, Point2 p) {
-  cavity_.assign(1, t), encroached_.clear();
-  met_.clear(sheet.triangle_slots()), met_.insert(t);
+  cavity_.assign(1, t);
+  encroached_.clear();
+  met_.clear(sheet.triangle_slots());
+  met_.insert(t);
   for (std::size_t i = 0; i < cavity_.size(); ++i)
     for (int k = 0; k < 3; ++k) {
       const HalfEdge h = half_edge(cavity_[i], k), o = sheet.opposite(h);
@@ -117,7 +119,10 @@ bool DelaunayRefinement::find_encroached(const Sheet& sheet, TriangleIndex t, Po
       const TriangleIndex next = triangle_of(o);
       if (met_.holds(next)) continue;
       const auto c = sheet.corners(next);
-      if (in_circle(c[0], c[1], c[2], p) > 0) cavity_.push_back(next), met_.insert(next);
+      if (in_circle(c[0], c[1], c[2], p) > 0) {
+        cavity_.push_back(next);
+        met_.insert(next);
+      }
     }
   return !encroached_.empty();
 }
@@ -158,7 +163,8 @@ bool DelaunayRefinement::flip_doubtful(Sheet& sheet) {
 
 void DelaunayRefinement::flip_round(Sheet& sheet, VertexIndex v) {
   for_each_outgoing(sheet, v, [&](HalfEdge outgoing) {
-    delaunay_.add(triangle_of(outgoing)), delaunay_.changed.push_back(triangle_of(outgoing));
+    delaunay_.add(triangle_of(outgoing));
+    delaunay_.changed.push_back(triangle_of(outgoing));
   });
   delaunay_.run(sheet);
   note_changed(sheet);
@@ -201,10 +207,14 @@ void DelaunayRefinement::note_changed(const Sheet& sheet) {
 
 void DelaunayRefinement::begin(const Sheet& sheet, const ForcedWedges& wedges) {
   wedges_ = &wedges;
-  delaunay_.begin(sheet), heap_.clear();
+  delaunay_.begin(sheet);
+  heap_.clear();
 }
 
-void DelaunayRefinement::flip_at(TriangleIndex t) { delaunay_.add(t), delaunay_.changed.push_back(t); }
+void DelaunayRefinement::flip_at(TriangleIndex t) {
+  delaunay_.add(t);
+  delaunay_.changed.push_back(t);
+}
 
 bool DelaunayRefinement::run(Sheet& sheet) {
   delaunay_.run(sheet);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/predicates.h"
 
 namespace cutbench {
@@ -42,7 +43,7 @@ TriangleIndex triangle_at(const Sheet& sheet, TriangleIndex start, Point2 p) {
   const auto step = [&](TriangleIndex t) {  // itself where it holds p, invalid beyond the border
     const auto c = sheet.corners(t);
     for (int k = 0; k < 3; ++k)
-      if (const auto i = static_cast<std::size_t>(k); orientation(c[i], c[(i + 1) % 3], p) < 0) {
+      if (const auto i = to_size(k); orientation(c[i], c[(i + 1) % 3], p) < 0) {
         const HalfEdge o = sheet.opposite(half_edge(t, k));
         return o.valid() ? triangle_of(o) : TriangleIndex();
       }

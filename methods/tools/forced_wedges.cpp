@@ -26,7 +26,8 @@ class Leg {
         at_ = at_ + distance / left * rest;
         return true;
       }
-      distance -= left, at_ = sheet_.rest(to_);
+      distance -= left;
+      at_ = sheet_.rest(to_);
       if (!turn()) return false;
     }
   }
@@ -40,9 +41,13 @@ class Leg {
     for_each_separating_end(sheet_, to_, [&](VertexIndex v) {
       const Point2 edge = sheet_.rest(v) - sheet_.rest(to_);
       const double cosine = dot(along, edge) / (length(along) * length(edge));
-      if (v != from_ && cosine > straightest) straightest = cosine, next = v;
+      if (v != from_ && cosine > straightest) {
+        straightest = cosine;
+        next = v;
+      }
     });
-    from_ = to_, to_ = next;
+    from_ = to_;
+    to_ = next;
     return next.valid() && next != first_ && next != apex_ && ++turns_ < 1000;
   }
 
@@ -64,7 +69,8 @@ bool lies_within(std::span<const Point2> polygon, Point2 p) {
 }  // namespace
 
 void ForcedWedges::find(const Sheet& sheet) {
-  corners_.clear(), polygon_.clear();
+  corners_.clear();
+  polygon_.clear();
   disc_ = share_ * forced_wedge_disc * sheet.mean_edge();
   for_each_sharp_corner(sheet,
                         [&](VertexIndex apex, VertexIndex right, VertexIndex left) { add(sheet, apex, right, left); });
@@ -77,11 +83,13 @@ void ForcedWedges::add(const Sheet& sheet, VertexIndex apex, VertexIndex right, 
   const Point2 p = sheet.rest(apex);
   Leg along_right(sheet, apex, right), along_left(sheet, apex, left);
   Corner corner{p, {p.x - disc_, p.y - disc_}, {p.x + disc_, p.y + disc_}, polygon_.size(), 0};
-  polygon_.push_back(p), left_.clear();
+  polygon_.push_back(p);
+  left_.clear();
   for (int i = 0; i < most_steps && along_right.advance(step) && along_left.advance(step); ++i) {
     const Point2 r = along_right.at(), l = along_left.at();
     if (squared_length(l - r) >= width * width) break;
-    polygon_.push_back(r), left_.push_back(l);
+    polygon_.push_back(r);
+    left_.push_back(l);
     corner.low = {std::min({corner.low.x, r.x, l.x}), std::min({corner.low.y, r.y, l.y})};
     corner.high = {std::max({corner.high.x, r.x, l.x}), std::max({corner.high.y, r.y, l.y})};
   }

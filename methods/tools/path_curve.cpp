@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/one_ring.h"
 #include "harness/mesh/tolerances.h"
 
@@ -25,13 +26,15 @@ void PathCurve::read(const Sheet& sheet, const Subdivision& trace, const Polylin
   chord_tolerance_ = trace.chord_tolerance;
   closed_ = path.closed;
   simplified_ = path.curved && std::isfinite(chord_tolerance_);
-  points_.clear(), left_out_.clear(), is_known_.assign(n, 0);
+  points_.clear();
+  left_out_.clear();
+  is_known_.assign(n, 0);
   for (const auto& node : trace.nodes) points_.push_back(node.place.point);
   degree_.assign(n, 0);
   const auto link = [&](int from, int to) {
     for (const int end : {from, to})
-      if (std::uint8_t& d = degree_[static_cast<std::size_t>(end)]; d < 3) ++d;
-    if (std::abs(from - to) == 1) is_known_[static_cast<std::size_t>(std::min(from, to))] = 1;
+      if (std::uint8_t& d = degree_[to_size(end)]; d < 3) ++d;
+    if (std::abs(from - to) == 1) is_known_[to_size(std::min(from, to))] = 1;
   };
   for (const auto& face : trace.faces)
     for (int s = face.segments; s >= 0; s = trace.segment(s).next) link(trace.segment(s).from, trace.segment(s).to);
@@ -58,15 +61,16 @@ void PathCurve::locate_nodes(const Polyline& path, double snap) {
   double last = 0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     double nearest2 = near2;
-    const auto first = static_cast<std::size_t>(last);
+    const auto first = to_size(last);
     for (std::size_t k = first; k < std::min(pieces, first + most); ++k) {
       const Point2 a = point_of(path, k), edge = point_of(path, k + 1) - a;
-      const double least = k == first ? last - static_cast<double>(first) : 0;
+      const double least = k == first ? last - to_double(first) : 0;
       const double f = std::clamp(dot(points_[i] - a, edge) / squared_length(edge), least, 1.0);
       const double d2 = squared_length(points_[i] - (a + f * edge));
-      if (d2 <= nearest2)
-        nearest2 = d2, place_[i] = static_cast<double>(k) + f;
-      else if (place_[i] >= 0)
+      if (d2 <= nearest2) {
+        nearest2 = d2;
+        place_[i] = to_double(k) + f;
+      } else if (place_[i] >= 0)
         break;  // it leads away again
     }
     if (place_[i] >= 0) last = place_[i];
@@ -81,14 +85,14 @@ void PathCurve::add_left_out(std::size_t node, const Polyline& path) {
   const std::size_t first = left_out_.size();
   double length = 0;
   Point2 before = points_[node];
-  for (auto k = static_cast<std::size_t>(from) + 1; static_cast<double>(k) < to; ++k) {
+  for (auto k = to_size(from) + 1; to_double(k) < to; ++k) {
     length += distance(before, point_of(path, k));
     before = point_of(path, k);
     left_out_.push_back({length, before});
   }
   length += distance(before, points_[node + 1]);
   for (std::size_t i = first; i < left_out_.size(); ++i)
-    left_out_[i].s = static_cast<double>(node) + (length > 0 ? left_out_[i].s / length : 0);
+    left_out_[i].s = to_double(node) + (length > 0 ? left_out_[i].s / length : 0);
 }
 
 void PathCurve::find_vertices(const Sheet& sheet, const Subdivision& trace) {
@@ -99,7 +103,7 @@ void PathCurve::find_vertices(const Sheet& sheet, const Subdivision& trace) {
     while (found < points_.size() && points_[found] != node.place.point) ++found;
     if (found == points_.size()) continue;
     i = found;
-    parameter_of_.set(node.vertex, static_cast<double>(found));
+    parameter_of_.set(node.vertex, to_double(found));
   }
 }
 
@@ -107,14 +111,14 @@ void PathCurve::find_vertices(const Sheet& sheet, const Subdivision& trace) {
 std::size_t PathCurve::first_behind(double s) const {
   const auto behind = std::upper_bound(left_out_.begin(), left_out_.end(), s,
                                        [](double value, const LeftOut& point) { return value < point.s; });
-  return static_cast<std::size_t>(behind - left_out_.begin());
+  return to_size(behind - left_out_.begin());
 }
 
 Point2 PathCurve::at(double s) const {
-  const auto i = static_cast<std::size_t>(s);
-  const double f = s - static_cast<double>(i);
+  const auto i = to_size(s);
+  const double f = s - to_double(i);
   if (f == 0) return points_[i];
-  LeftOut a{static_cast<double>(i), points_[i]}, b{static_cast<double>(i + 1), points_[i + 1]};
+  LeftOut a{to_double(i), points_[i]}, b{to_double(i + 1), points_[i + 1]};
   const std::size_t next = first_behind(s);
   if (next > 0 && left_out_[next - 1].s > a.s) a = left_out_[next - 1];
   if (next < left_out_.size() && left_out_[next].s < b.s) b = left_out_[next];
@@ -123,8 +127,8 @@ Point2 PathCurve::at(double s) const {
 }
 
 bool PathCurve::is_within(double from, double to, Point2 a, Point2 b, double tolerance) const {
-  for (auto i = static_cast<std::size_t>(from); static_cast<double>(i) < to; ++i)
-    if (static_cast<double>(i) > from && squared_distance(points_[i], a, b) > tolerance * tolerance) return false;
+  for (auto i = to_size(from); to_double(i) < to; ++i)
+    if (to_double(i) > from && squared_distance(points_[i], a, b) > tolerance * tolerance) return false;
   if (left_out_.empty()) return true;
   const double most = std::max(tolerance, chord_tolerance_);
   for (std::size_t i = first_behind(from); i < left_out_.size() && left_out_[i].s < to; ++i)
@@ -135,7 +139,7 @@ bool PathCurve::is_within(double from, double to, Point2 a, Point2 b, double tol
 bool PathCurve::stays_near(double from, double to, Point2 a, Point2 b, double tolerance) const {
   if (from > to) std::swap(from, to);
   if (from < 0) return false;
-  for (auto i = static_cast<std::size_t>(from); static_cast<double>(i) < to; ++i)
+  for (auto i = to_size(from); to_double(i) < to; ++i)
     if (!goes_on_[i]) return false;
   return is_within(from, to, a, b, tolerance);
 }
@@ -143,7 +147,7 @@ bool PathCurve::stays_near(double from, double to, Point2 a, Point2 b, double to
 bool PathCurve::stays_near_between_nodes(int from, int to, Point2 a, Point2 b, double tolerance) const {
   if (from > to) std::swap(from, to);
   for (int i = from; i < to; ++i)
-    if (!is_known_[static_cast<std::size_t>(i)]) return !simplified_;
+    if (!is_known_[to_size(i)]) return !simplified_;
   return is_within(from, to, a, b, tolerance);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/stamped_table.h"
 #include "harness/path/curve.h"
 #include "harness/path/subdivision.h"
@@ -36,7 +37,7 @@ class PathCurve {
   /// a parameter is unknown, or where the edge closes a closed path, from its last node to its first: then all of the
   /// path lies between them.
   bool is_piece(double from, double to) const {
-    return from >= 0 && to >= 0 && !(closed_ && 2 * std::abs(to - from) > static_cast<double>(points_.size()));
+    return from >= 0 && to >= 0 && !(closed_ && 2 * std::abs(to - from) > to_double(points_.size()));
   }
   double chord_tolerance() const { return chord_tolerance_; }  ///< of the trace, rest units; infinity: none
   /// Whether all between two parameters is one piece of the curve, without ends or crossings of the path with itself,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/base/conversions.h"
 #include "harness/cut/patch.h"
 #include "harness/mesh/one_ring.h"
 #include "harness/mesh/predicates.h"
@@ -32,8 +33,11 @@ HalfEdge common_edge(const Sheet& sheet, TriangleIndex t, const Place& a, const 
 // --- reading and writing ---------------------------------------------------------------------------------------------
 
 void PathGraph::read(const Sheet& sheet, const Subdivision& trace) {
-  sheet_ = &sheet, trace_ = &trace;
-  nodes_.clear(), pieces_.clear(), taken_.clear();
+  sheet_ = &sheet;
+  trace_ = &trace;
+  nodes_.clear();
+  pieces_.clear();
+  taken_.clear();
   for (const auto& node : trace.nodes) nodes_.push_back({node.place, 0, {-1, -1}, false});
   for (const auto& face : trace.faces)
     for (int s = face.segments; s >= 0; s = trace.segment(s).next)
@@ -46,8 +50,8 @@ void PathGraph::add_piece(int from, int to, TriangleIndex triangle, HalfEdge edg
   for (const int known : at(from).piece)
     if (known >= 0 && other_end(known, from) == to && piece(known).triangle == triangle) return;
   for (const int node : {from, to}) {
-    Node& n = nodes_[static_cast<std::size_t>(node)];
-    if (n.degree < 2) n.piece[static_cast<std::size_t>(n.degree)] = static_cast<int>(pieces_.size());
+    Node& n = nodes_[to_size(node)];
+    if (n.degree < 2) n.piece[to_size(n.degree)] = to_int(pieces_.size());
     ++n.degree;
   }
   pieces_.push_back({from, to, triangle, edge, false});
@@ -66,7 +70,7 @@ void PathGraph::write(Subdivision& trace) const {
     if (!nodes_[i].gone) number[i] = trace.add_node(nodes_[i].place);
   for (const Piece& piece : pieces_) {
     if (piece.gone) continue;
-    const int from = number[static_cast<std::size_t>(piece.from)], to = number[static_cast<std::size_t>(piece.to)];
+    const int from = number[to_size(piece.from)], to = number[to_size(piece.to)];
     const HalfEdge edge = piece.triangle.valid()
                               ? common_edge(*sheet_, piece.triangle, at(piece.from).place, at(piece.to).place)
                               : piece.edge;
@@ -96,7 +100,7 @@ bool PathGraph::may_move(int node) const {
 
 std::vector<PathGraph::Approach> PathGraph::approaches(double reach) const {
   std::vector<Approach> found;
-  for (int i = 0; i < static_cast<int>(nodes_.size()); ++i) {
+  for (int i = 0; i < to_int(nodes_.size()); ++i) {
     if (!may_move(i)) continue;
     const Place& place = at(i).place;
     const bool first = place.lambda <= 0.5;
@@ -195,7 +199,8 @@ bool PathGraph::find_run(int node, VertexIndex vertex, double reach, Run& run) c
     for (int from = node; i >= 0;) {
       int next = -1;
       if (!extend(from, i, vertex, reach, next)) {
-        end = next, end_piece = i;
+        end = next;
+        end_piece = i;
         break;
       }
       if (next == node) return false;
@@ -246,15 +251,15 @@ void PathGraph::contract(const Run& run) {
   for (std::size_t i = 1; i < run.nodes.size(); ++i) {
     for (const int shared : at(run.nodes[i - 1]).piece)
       if (shared >= 0 && shared != run.piece_before && other_end(shared, run.nodes[i - 1]) == run.nodes[i])
-        pieces_[static_cast<std::size_t>(shared)].gone = true;
-    nodes_[static_cast<std::size_t>(run.nodes[i])].gone = true;
+        pieces_[to_size(shared)].gone = true;
+    nodes_[to_size(run.nodes[i])].gone = true;
   }
   const int kept = run.nodes.front(), last = run.nodes.back();
   if (run.piece_after >= 0) {
-    Piece& after = pieces_[static_cast<std::size_t>(run.piece_after)];
+    Piece& after = pieces_[to_size(run.piece_after)];
     (after.from == last ? after.from : after.to) = kept;
   }
-  Node& node = nodes_[static_cast<std::size_t>(kept)];
+  Node& node = nodes_[to_size(kept)];
   node.place = place_at(*sheet_, run.vertex);
   node.piece = {run.piece_before, run.piece_after};
   node.degree = (run.piece_before >= 0) + (run.piece_after >= 0);
@@ -277,12 +282,12 @@ bool PathGraph::straighten(int node) {
     if (sheet_->separates(edge) || !is_clear_between(edge, before, after) || is_beside_flat_triangle(edge))
       return false;
 
-  Piece& piece = pieces_[static_cast<std::size_t>(kept)];
+  Piece& piece = pieces_[to_size(kept)];
   (piece.from == node ? piece.from : piece.to) = after;
-  pieces_[static_cast<std::size_t>(dropped)].gone = true;
-  for (int& known : nodes_[static_cast<std::size_t>(after)].piece)
+  pieces_[to_size(dropped)].gone = true;
+  for (int& known : nodes_[to_size(after)].piece)
     if (known == dropped) known = kept;
-  nodes_[static_cast<std::size_t>(node)].gone = true;
+  nodes_[to_size(node)].gone = true;
   return true;
 }
 

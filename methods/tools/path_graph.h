@@ -11,6 +11,7 @@
 #include <initializer_list>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/sheet.h"
 #include "harness/mesh/tolerances.h"
 #include "harness/path/subdivision.h"
@@ -60,7 +61,7 @@ class PathGraph {
   /// edge of a sliver.
   bool straighten(int node);
 
-  int size() const { return static_cast<int>(nodes_.size()); }  ///< nodes, those that are gone included
+  int size() const { return to_int(nodes_.size()); }  ///< nodes, those that are gone included
   Point2 point(int node) const { return at(node).place.point; }
   const Place& place(int node) const { return at(node).place; }
   /// The trace of what the graph has become, nodes in the old order.
@@ -80,8 +81,8 @@ class PathGraph {
     bool gone = false;
   };
 
-  const Node& at(int node) const { return nodes_[static_cast<std::size_t>(node)]; }
-  const Piece& piece(int i) const { return pieces_[static_cast<std::size_t>(i)]; }
+  const Node& at(int node) const { return nodes_[to_size(node)]; }
+  const Piece& piece(int i) const { return pieces_[to_size(i)]; }
   void add_piece(int from, int to, TriangleIndex triangle, HalfEdge edge);
   void add_along(const Subdivision::Along& along);
   int other_end(int piece, int node) const;

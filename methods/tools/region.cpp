@@ -1,5 +1,6 @@
 #include "methods/tools/region.h"
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/one_ring.h"
 
 namespace cutbench {
@@ -10,7 +11,7 @@ void Region::clear(const Sheet& sheet) {
 }
 
 void Region::add(TriangleIndex t) {
-  if (place_.insert(t, static_cast<int>(triangles_.size()))) triangles_.push_back(t);
+  if (place_.insert(t, to_int(triangles_.size()))) triangles_.push_back(t);
 }
 
 void Region::add_changed(const Sheet& sheet) {

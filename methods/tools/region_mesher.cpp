@@ -46,7 +46,9 @@ void RegionMesher::convert(const Sheet& sheet, const Region& region, bool with_i
   Work& w = *work_;
   w.region = &region;
   w.of_vertex.clear(sheet.vertex_slots());
-  w.constraints.clear(), w.points.clear(), w.left_out.clear();
+  w.constraints.clear();
+  w.points.clear();
+  w.left_out.clear();
   const auto put_on_constraint = [&](VertexIndex v) {
     if (w.of_vertex.insert(v, {.on_constraint = true})) w.of_vertex.at(v).on_incision = is_on_incision(sheet, v);
   };
@@ -54,7 +56,8 @@ void RegionMesher::convert(const Sheet& sheet, const Region& region, bool with_i
     for (int k = 0; k < 3; ++k) {
       const HalfEdge h = half_edge(t, k), o = sheet.opposite(h);
       if (o.valid() && w.in_region(o) && sheet.mark(h) == EdgeMark::none) continue;
-      put_on_constraint(sheet.origin(h)), put_on_constraint(sheet.target(h));
+      put_on_constraint(sheet.origin(h));
+      put_on_constraint(sheet.target(h));
       if (!o.valid() || !w.in_region(o) || h < o) w.constraints.push_back(h);
     }
   for (const TriangleIndex t : region.triangles())
@@ -180,7 +183,8 @@ bool RegionMesher::Work::follow(Vertex from, Vertex first, Chain& chain) const {
       if (const Vertex end = face->vertex(RegionTriangulation::cw(i)); end != before) next = end;
     } while (++face != done);
     if (constrained != 2 || next == Vertex()) return false;
-    before = here, here = next;
+    before = here;
+    here = next;
     chain.vertices.push_back(here);
     if (here->info().vertex.valid()) return true;
   }
@@ -199,7 +203,8 @@ bool RegionMesher::Work::goes_along(const Sheet& sheet, const Chain& chain) {
 }
 
 bool RegionMesher::Work::find_chains(const Sheet& sheet) {
-  chains.clear(), divided.clear();
+  chains.clear();
+  divided.clear();
   for (const VertexIndex v : points) {
     const Vertex start = handle_of(v);
     auto face = mesh.incident_faces(start), done = face;

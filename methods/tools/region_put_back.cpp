@@ -1,6 +1,7 @@
 // RegionMesher's last step: from CGAL's triangulation back to the sheet.
 #include <algorithm>
 
+#include "harness/base/conversions.h"
 #include "harness/cut/patch.h"
 #include "harness/mesh/one_ring.h"
 #include "methods/tools/region_mesh.h"
@@ -28,8 +29,10 @@ TriangleIndex RegionMesher::Work::find(const Sheet& sheet, const Vertex& from, c
     for_each_outgoing(sheet, from->info().vertex, [&](HalfEdge h) { meet(triangle_of(h)); });
   } else {
     meet(from->info().triangle);
-    if (const HalfEdge h = from->info().divides; h.valid() && !sheet.on_border(h))
-      meet(triangle_of(h)), meet(triangle_of(sheet.opposite(h)));
+    if (const HalfEdge h = from->info().divides; h.valid() && !sheet.on_border(h)) {
+      meet(triangle_of(h));
+      meet(triangle_of(sheet.opposite(h)));
+    }
   }
   for (std::size_t i = 0; i < on_line.size(); ++i) {
     const TriangleIndex t = on_line[i];
@@ -63,7 +66,8 @@ bool RegionMesher::Work::locate_inner(const Sheet& sheet) {
         if (info.vertex.valid() || info.divides.valid() || info.triangle.valid()) continue;
         info.triangle = find(sheet, known, v);
         if (!info.triangle.valid()) return false;
-        inner.push_back(v), front.push_back(v);
+        inner.push_back(v);
+        front.push_back(v);
       }
     } while (++face != done);
   }
@@ -103,14 +107,15 @@ HalfEdge RegionMesher::Work::edge_under(const Sheet& sheet, const Vertex& a, con
 
 /// The new triangles, without their new vertices; false where one of them is not positive.
 bool RegionMesher::Work::collect_triangles(const Sheet& sheet) {
-  faces.clear(), added.clear();
+  faces.clear();
+  added.clear();
   for (const auto& face : mesh.finite_face_handles()) {
     if (!face->is_in_domain()) continue;
     std::array<Vertex, 3> v{face->vertex(0), face->vertex(1), face->vertex(2)};
     if (orientation(from_cgal(v[0]->point()), from_cgal(v[1]->point()), from_cgal(v[2]->point())) <= 0) return false;
     Sheet::NewTriangle made;
     for (std::size_t k = 0; k < 3; ++k) {
-      if (!face->is_constrained(RegionTriangulation::cw(static_cast<int>(k)))) continue;
+      if (!face->is_constrained(RegionTriangulation::cw(to_int(k)))) continue;
       const HalfEdge h = edge_under(sheet, v[k], v[(k + 1) % 3]);
       if (!h.valid()) return false;
       made.mark[k] = sheet.mark(h);
@@ -118,14 +123,16 @@ bool RegionMesher::Work::collect_triangles(const Sheet& sheet) {
       if (made.mark[k] == EdgeMark::incision) made.parent = region->place_of(triangle_of(h));
     }
     if (made.parent < 0) made.parent = parent_of(sheet, face);
-    faces.push_back(face), added.push_back(made);
+    faces.push_back(face);
+    added.push_back(made);
   }
   return true;
 }
 
 bool RegionMesher::put_back(Sheet& sheet) {
   const bool done = work_->put_back(sheet);
-  work_->mesh.clear(), work_->chains.clear();  // else as much memory as the largest region took
+  work_->mesh.clear();
+  work_->chains.clear();  // else as much memory as the largest region took
   return done;
 }
 
@@ -140,7 +147,7 @@ bool RegionMesher::Work::put_back(Sheet& sheet) {
   }
   for (const Vertex& v : inner) v->info().vertex = sheet.new_vertex(v->info().triangle, from_cgal(v->point()));
   for (std::size_t i = 0; i < faces.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) added[i].vertex[k] = faces[i]->vertex(static_cast<int>(k))->info().vertex;
+    for (std::size_t k = 0; k < 3; ++k) added[i].vertex[k] = faces[i]->vertex(to_int(k))->info().vertex;
   sheet.replace_cavity(region->triangles(), added);
   for (const auto& [v, d] : left_out) sheet.drop_vertex(v, d);
   return true;

@@ -59,7 +59,8 @@ bool is_wide(const Sheet& sheet, VertexIndex v) {
 }  // namespace
 
 void Reshape::begin(Sheet& sheet, PathCurve& curve) {
-  sheet_ = &sheet, curve_ = &curve;
+  sheet_ = &sheet;
+  curve_ = &curve;
   h_ = sheet.mean_edge();
   tolerance_ = std::min(options_.tolerance * h_, curve.chord_tolerance());
 }
@@ -143,7 +144,10 @@ bool Reshape::shorten_at(VertexIndex v) {
   for_each_outgoing(*sheet_, v, [&](HalfEdge h) {
     if (sheet_->on_border(h) || sheet_->mark(h) == EdgeMark::incision) return;
     const double l2 = squared_length(sheet_->rest(sheet_->target(h)) - sheet_->rest(v));
-    if (l2 < length2) shortest = h, length2 = l2;
+    if (l2 < length2) {
+      shortest = h;
+      length2 = l2;
+    }
   });
   if (!shortest.valid()) return false;
   HalfEdge best;
@@ -152,7 +156,10 @@ bool Reshape::shorten_at(VertexIndex v) {
     const VertexIndex gone = sheet_->origin(h);
     if (!may_leave_out(gone, h)) continue;
     const double worst = worst_after_collapse(h);
-    if (worst < least) best = h, least = worst;
+    if (worst < least) {
+      best = h;
+      least = worst;
+    }
   }
   return best.valid() && sheet_->collapse(best);
 }
@@ -179,12 +186,16 @@ bool Reshape::flip_one(TriangleIndex t) {
                  d = sheet_->rest(sheet_->origin(Sheet::previous(o)));
     const double before = std::max(aspect_ratio(a, b, c), aspect_ratio(b, a, d));
     const double after = std::max(oriented_aspect(a, d, c), oriented_aspect(d, b, c));
-    if (before - after > gain) best = h, gain = before - after;
+    if (before - after > gain) {
+      best = h;
+      gain = before - after;
+    }
   }
   if (!best.valid()) return false;
   const TriangleIndex other = triangle_of(sheet_->opposite(best));
   if (!sheet_->flip(best)) return false;
-  queue_.push_back(t), queue_.push_back(other);
+  queue_.push_back(t);
+  queue_.push_back(other);
   return true;
 }
 
@@ -211,7 +222,10 @@ bool Reshape::smooth(VertexIndex v) {
     const Point2 centre = best;
     for (const Point2 d : directions) {
       const Point2 p = centre + step * d;
-      if (const double w = link.worst(p, least); w < least) best = p, least = w;
+      if (const double w = link.worst(p, least); w < least) {
+        best = p;
+        least = w;
+      }
     }
   }
   if (!(least < 0.99 * worst) || !sheet_->move(v, best)) return false;
@@ -233,8 +247,10 @@ bool Reshape::slide(VertexIndex v, const Neighbours& neighbours) {
     for (const double s : {centre - step, centre + step}) {
       const Point2 p = curve_->at(s);
       if (const double w = link.worst(p, least); w < least && curve_->stays_near(from, s, before, p, tolerance_) &&
-                                                 curve_->stays_near(s, to, p, after, tolerance_))
-        best = s, least = w;
+                                                 curve_->stays_near(s, to, p, after, tolerance_)) {
+        best = s;
+        least = w;
+      }
     }
   }
   if (!(least < 0.99 * worst) || !sheet_->move(v, curve_->at(best))) return false;
@@ -270,7 +286,10 @@ bool Reshape::shorten_in(TriangleIndex t) {
   for (int k = 0; k < 3; ++k)
     for (const HalfEdge h : {half_edge(t, k), sheet_->opposite(half_edge(t, k))}) {
       if (!h.valid() || !may_leave_out(sheet_->origin(h), h)) continue;
-      if (const double worst = worst_after_collapse(h); worst < least) best = h, least = worst;
+      if (const double worst = worst_after_collapse(h); worst < least) {
+        best = h;
+        least = worst;
+      }
     }
   if (!best.valid()) return false;
   const VertexIndex kept = sheet_->target(best);
@@ -300,7 +319,10 @@ bool Reshape::split_in(TriangleIndex t) {
     double s = -1;
     if (sheet_->mark(h) == EdgeMark::path) {
       const double from = curve_->parameter(sheet_->origin(h)), to = curve_->parameter(sheet_->target(h));
-      if (may_divide(from, to, a, b)) s = (from + to) / 2, middle = curve_->at(s);
+      if (may_divide(from, to, a, b)) {
+        s = (from + to) / 2;
+        middle = curve_->at(s);
+      }
     }
     const auto halves = [&](HalfEdge side) {
       if (!side.valid()) return 0.0;
@@ -309,8 +331,12 @@ bool Reshape::split_in(TriangleIndex t) {
       if (orientation(from, middle, apex) <= 0 || orientation(middle, to, apex) <= 0) return 1e300;
       return std::max(aspect_ratio(from, middle, apex), aspect_ratio(middle, to, apex));
     };
-    if (const double worst = std::max(halves(h), halves(o)); worst < least)
-      best = h, at = middle, least = worst, parameter = s;
+    if (const double worst = std::max(halves(h), halves(o)); worst < least) {
+      best = h;
+      at = middle;
+      least = worst;
+      parameter = s;
+    }
   }
   if (!best.valid()) return false;
   const VertexIndex v = split_at(best, at);

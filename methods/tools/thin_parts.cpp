@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "harness/base/conversions.h"
 #include "methods/tools/divided.h"
 
 namespace cutbench {
@@ -96,16 +97,21 @@ class Merging {
   Cell polygon_cell(std::span<const TriangleIndex> members) {
     Cell cell;
     cell.triangles.assign(members.begin(), members.end());
-    cell.reference = std::numeric_limits<double>::infinity(), cell.is_new = false;
+    cell.reference = std::numeric_limits<double>::infinity();
+    cell.is_new = false;
     std::vector<HalfEdge> border;
     std::vector<DeformedIndex> corners;
     for (const TriangleIndex t : members) {
       const Cell part = part_cell(t);
-      cell.area += part.area, cell.reference = std::min(cell.reference, part.reference);
+      cell.area += part.area;
+      cell.reference = std::min(cell.reference, part.reference);
       for (const HalfEdge h : part.outline) {
         corners.push_back(origin(h));
-        if (sheet_.separates(h) || !std::binary_search(members.begin(), members.end(), triangle_of(sheet_.opposite(h))))
-          border.push_back(h), cell.perimeter += length(h);
+        if (sheet_.separates(h) ||
+            !std::binary_search(members.begin(), members.end(), triangle_of(sheet_.opposite(h)))) {
+          border.push_back(h);
+          cell.perimeter += length(h);
+        }
       }
     }
     const auto from = [&](DeformedIndex d) {
@@ -153,12 +159,10 @@ class Merging {
   double length(HalfEdge h) const {
     return std::sqrt(squared_length(sheet_.rest(sheet_.target(h)) - sheet_.rest(sheet_.origin(h))));
   }
-  DeformedIndex origin(HalfEdge h) const {
-    return sheet_.triangle(triangle_of(h)).deformed[static_cast<std::size_t>(corner_of(h))];
-  }
+  DeformedIndex origin(HalfEdge h) const { return sheet_.triangle(triangle_of(h)).deformed[to_size(corner_of(h))]; }
 
   DeformedIndex target(HalfEdge h) const {
-    return sheet_.triangle(triangle_of(h)).deformed[static_cast<std::size_t>(next_corner(corner_of(h)))];
+    return sheet_.triangle(triangle_of(h)).deformed[to_size(next_corner(corner_of(h)))];
   }
 
   void merge_with_a_neighbour(std::size_t thin) {
@@ -191,7 +195,10 @@ class Merging {
     };
     std::size_t first = n, stretches = 0;
     for (std::size_t i = 0; i < n; ++i)
-      if (is_shared(i) && !is_shared(i + n - 1)) first = i, ++stretches;
+      if (is_shared(i) && !is_shared(i + n - 1)) {
+        first = i;
+        ++stretches;
+      }
     if (stretches != 1) return false;
     std::size_t i = first;
     for (; i < first + n && is_shared(i); ++i) shared.push_back(cell.outline[i % n]);
@@ -206,7 +213,10 @@ class Merging {
     if (!open_outline(cells_[a], b, merged.outline, shared) || !open_outline(cells_[b], a, merged.outline, shared_by_b))
       return {};
     std::vector<DeformedIndex> corners;
-    for (const HalfEdge h : merged.outline) corners.push_back(origin(h)), merged.perimeter += length(h);
+    for (const HalfEdge h : merged.outline) {
+      corners.push_back(origin(h));
+      merged.perimeter += length(h);
+    }
     std::sort(corners.begin(), corners.end());
     if (std::adjacent_find(corners.begin(), corners.end()) != corners.end()) return {};
     for (const std::size_t of : {a, b}) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/one_ring.h"
 #include "harness/mesh/quality.h"
 
@@ -14,7 +15,8 @@ Warp::Share Warp::share_of_run() const {
   Share all = share(run_.nodes.front());
   int count = 0;
   for (const int n : run_.nodes) {
-    all.first = std::min(all.first, share(n).first), all.last = std::max(all.last, share(n).last);
+    all.first = std::min(all.first, share(n).first);
+    all.last = std::max(all.last, share(n).last);
     count += share(n).last - share(n).first + 1;
   }
   if (all.last - all.first + 1 != count) all.first = -1;
@@ -79,7 +81,7 @@ void Warp::run(Sheet& sheet, Subdivision& trace, const PathCurve& curve) {
     Share all = share_of_run();
     if (all.first < 0) all = {-2, -2, share(target).at};  // next to no other node
     all.at = share(target).at;
-    shares_[static_cast<std::size_t>(run_.nodes.front())] = all;
+    shares_[to_size(run_.nodes.front())] = all;
     path_.contract(run_);
     moved = true;
   }

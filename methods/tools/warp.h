@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/sheet.h"
 #include "methods/tools/path_curve.h"
 #include "methods/tools/path_graph.h"
@@ -37,7 +38,7 @@ class Warp {
   struct Share {
     int first, last, at;
   };
-  const Share& share(int node) const { return shares_[static_cast<std::size_t>(node)]; }
+  const Share& share(int node) const { return shares_[to_size(node)]; }
   Share share_of_run() const;
   int move_to_path(Sheet& sheet, const PathCurve& curve);
   bool stays_near(int target, const PathCurve& curve) const;

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/base/conversions.h"
+
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 
 namespace {
@@ -19,11 +21,10 @@ struct Span {
 
 std::vector<Span> matches(const std::string& text, std::size_t from, std::size_t to, const char* pattern) {
   const std::regex regex(pattern);
-  const auto begin = text.begin() + static_cast<std::ptrdiff_t>(from),
-             end = text.begin() + static_cast<std::ptrdiff_t>(to);
+  const auto begin = text.begin() + to_index(from), end = text.begin() + to_index(to);
   std::vector<Span> found;
   for (std::sregex_iterator i(begin, end, regex), last; i != last; ++i)
-    found.push_back({from + static_cast<std::size_t>(i->position()), static_cast<std::size_t>(i->length())});
+    found.push_back({from + to_size(i->position()), to_size(i->length())});
   return found;
 }
 
@@ -37,7 +38,7 @@ const Span& any(const std::vector<Span>& spans, Random& random) { return spans[r
 std::string changed(const std::string& number, Random& random) {
   double x = std::strtod(number.c_str(), nullptr);
   if (random() % 4 == 0) {
-    x = std::ldexp(x, static_cast<int>(random() % 41) - 20);
+    x = std::ldexp(x, to_int(random() % 41) - 20);
   } else {
     const double direction = random() % 2 ? HUGE_VAL : -HUGE_VAL;
     for (auto steps = 1 + random() % 8; steps > 0; --steps) x = std::nextafter(x, direction);

@@ -5,6 +5,7 @@
 
 #include "experiments/program/commands/command.h"
 #include "experiments/program/commands/method_options.h"
+#include "harness/base/conversions.h"
 #include "harness/base/errors.h"
 #include "harness/files/mesh_file.h"
 #include "harness/files/path_file.h"
@@ -30,7 +31,7 @@ Exit reduce(const ReduceArguments& arguments) {
   for (const char* extension : {".obj", ".json", ".txt", ".svg"}) check_writable(arguments.out + extension, "--out");
   const CutCase whole{read_mesh(arguments.mesh), read_path(arguments.path)};
   print_notes(whole.mesh);
-  const double time_limit_s = 2 * arguments.method.limits.time_s * static_cast<double>(whole.cuts.size());
+  const double time_limit_s = 2 * arguments.method.limits.time_s * to_double(whole.cuts.size());
   const Fault fault = try_in_isolation(contender, whole, options, time_limit_s);
   if (fault.kind == Count::ok) throw InputError("nothing to reduce: " + row->name + " cuts this sheet right");
   const auto folder = stem.has_parent_path() ? stem.parent_path() : std::filesystem::path(".");

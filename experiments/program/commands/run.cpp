@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "experiments/program/commands/command.h"
+#include "harness/base/conversions.h"
 #include "harness/base/errors.h"
 #include "harness/processes/interrupt.h"
 #include "harness/study/run_experiment.h"
@@ -51,7 +52,9 @@ std::uint64_t seed_in(const std::string& text) {
 
 RunOptions run_options(const RunArguments& arguments, const std::string& command_line) {
   RunOptions options;
-  options.out = arguments.out, options.command = command_line, options.workers = arguments.jobs;
+  options.out = arguments.out;
+  options.command = command_line;
+  options.workers = arguments.jobs;
   char more = 0;
   if (std::sscanf(arguments.shard.c_str(), "%d/%d%c", &options.shard, &options.shards, &more) != 2 ||
       options.shard < 1 || options.shard > options.shards)
@@ -119,10 +122,10 @@ class OneCore {
     if (sched_getaffinity(0, sizeof before_, &before_) != 0) return;
     std::vector<int> allowed;
     for (int core = 0; core < CPU_SETSIZE; ++core)
-      if (CPU_ISSET(static_cast<std::size_t>(core), &before_)) allowed.push_back(core);
+      if (CPU_ISSET(to_size(core), &before_)) allowed.push_back(core);
     cpu_set_t one;
     CPU_ZERO(&one);
-    CPU_SET(static_cast<std::size_t>(allowed.at(static_cast<std::size_t>(shard - 1) % allowed.size())), &one);
+    CPU_SET(to_size(allowed.at(to_size(shard - 1) % allowed.size())), &one);
     sched_setaffinity(0, sizeof one, &one);
   }
   ~OneCore() { sched_setaffinity(0, sizeof before_, &before_); }
@@ -138,7 +141,7 @@ bool records_times(const Experiment& e) { return !e.robustness && e.times; }
 bool run_measured(const Experiment& e, const Context& context, const RunOptions& options) {
   const OneCore pinned(options.shard);
   const bool ok = run_experiment(e, nameable_methods(), context, options);
-  const auto cores = static_cast<double>(std::thread::hardware_concurrency());
+  const auto cores = to_double(std::thread::hardware_concurrency());
   if (context.load > 0.75 * cores)
     std::fprintf(stderr, "%s: note: the machine was busy at the start (load %.1f on %.0f cores): times came out long\n",
                  e.stem.c_str(), context.load, cores);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 template <int D>
@@ -15,7 +17,7 @@ template <int D>
 std::int32_t BlockMatrix<D>::find(std::size_t i, std::int32_t j) const {
   const auto all = columns(i);
   const auto at = std::find(all.begin(), all.end(), j);
-  return at == all.end() ? -1 : first_slot(i) + static_cast<std::int32_t>(at - all.begin());
+  return at == all.end() ? -1 : first_slot(i) + to_int32(at - all.begin());
 }
 
 template <int D>
@@ -49,10 +51,10 @@ void BlockMatrix<D>::add_product(double factor, const Field& x, Field& y) const 
 
 template <int D>
 void spread(const Field& x, std::vector<Lanes>& vertices) {
-  vertices.resize(static_cast<std::size_t>(x.size()) / D);
+  vertices.resize(to_size(x.size()) / D);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     Lanes at{};
-    for (std::size_t k = 0; k < D; ++k) at[k] = x[static_cast<Eigen::Index>(D * i + k)];
+    for (std::size_t k = 0; k < D; ++k) at[k] = x[to_index(D * i + k)];
     vertices[i] = at;
   }
 }
@@ -81,7 +83,7 @@ double max_entry(const BlockMatrix<D>& a) {
   double largest = 0;
   for (std::size_t i = 0; i < a.rows(); ++i)
     for (std::size_t k = 0; k < a.columns(i).size(); ++k)
-      largest = std::max(largest, a.block(a.first_slot(i) + static_cast<std::int32_t>(k)).cwiseAbs().maxCoeff());
+      largest = std::max(largest, a.block(a.first_slot(i) + to_int32(k)).cwiseAbs().maxCoeff());
   return largest;
 }
 
@@ -97,7 +99,8 @@ double max_difference(const BlockMatrix<D>& a, const BlockMatrix<D>& b) {
         largest = std::max(largest, (one.block(one.find(i, j)) - missing).cwiseAbs().maxCoeff());
       }
   };
-  compare(a, b), compare(b, a);
+  compare(a, b);
+  compare(b, a);
   return largest;
 }
 

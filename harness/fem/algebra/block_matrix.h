@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/base/prefetch.h"
 #include "harness/fem/algebra/growing_rows.h"
 #include "harness/fem/algebra/lanes.h"
@@ -25,7 +26,10 @@ class BlockMatrix {
   std::size_t rows() const { return columns_.size(); }
   void resize(std::size_t rows) { columns_.resize(rows); }
   /// Room for half as many blocks again, before they have to be copied.
-  void reserve_spare() { columns_.reserve_spare(), cutbench::reserve_spare(blocks_); }
+  void reserve_spare() {
+    columns_.reserve_spare();
+    cutbench::reserve_spare(blocks_);
+  }
   /// Gives row i these columns, the diagonal first; its values become zero. Where the row has outgrown its room it
   /// moves to the end, so slots of this row change, of others not. \pre `columns` is empty (a row of zeros), or begins
   /// with i and holds no column twice.
@@ -35,7 +39,7 @@ class BlockMatrix {
 
   std::span<const std::int32_t> columns(std::size_t i) const { return columns_[i]; }
   /// Slot of the first block in row i, the diagonal one; the others follow in the order of columns().
-  std::int32_t first_slot(std::size_t i) const { return static_cast<std::int32_t>(columns_.begin(i)); }
+  std::int32_t first_slot(std::size_t i) const { return to_int32(columns_.begin(i)); }
   /// Adds a block to each of four slots: lane l of entry k, column by column, to the block in slots[l]. Slots below
   /// zero are left out.
   void add(const std::array<std::int32_t, lane_count>& slots, const std::array<Lanes, D * D>& entries) {
@@ -45,13 +49,13 @@ class BlockMatrix {
       turned[k] = transposed(entries[4 * k], entries[4 * k + 1], entries[4 * k + 2], entries[4 * k + 3]);
     for (std::size_t l = 0; l < lane_count; ++l) {
       if (slots[l] < 0) continue;
-      double* const to = blocks_[static_cast<std::size_t>(slots[l])].data();
+      double* const to = blocks_[to_size(slots[l])].data();
       for (std::size_t k = 0; k < fours; ++k) store(load(to + 4 * k) + turned[k][l], to + 4 * k);
       for (std::size_t k = rest; k < D * D; ++k) to[k] += entries[k][l];
     }
   }
-  Block& block(std::int32_t slot) { return blocks_[static_cast<std::size_t>(slot)]; }
-  const Block& block(std::int32_t slot) const { return blocks_[static_cast<std::size_t>(slot)]; }
+  Block& block(std::int32_t slot) { return blocks_[to_size(slot)]; }
+  const Block& block(std::int32_t slot) const { return blocks_[to_size(slot)]; }
 
   void set_zero();
   void set_row_zero(std::size_t i);
@@ -70,17 +74,20 @@ class BlockMatrix {
     if constexpr (D == 1) {
       // Two sums, so that additions don't wait for each other.
       const auto columns = columns_[i];
-      const auto term = [&](std::size_t k) { return block[k](0) * x[static_cast<std::size_t>(columns[k])]; };
+      const auto term = [&](std::size_t k) { return block[k](0) * x[to_size(columns[k])]; };
       Lanes sum{}, other{};
       std::size_t k = 0;
-      for (; k + 2 <= columns.size(); k += 2) sum += term(k), other += term(k + 1);
+      for (; k + 2 <= columns.size(); k += 2) {
+        sum += term(k);
+        other += term(k + 1);
+      }
       if (k < columns.size()) sum += term(k);
       return sum + other;
     } else {
       // Entries four by four, which belong to different rows: sorted out at the end.
       Lanes first{}, second{}, last{};
       for (const std::int32_t j : columns_[i]) {
-        const Lanes at = x[static_cast<std::size_t>(j)];
+        const Lanes at = x[to_size(j)];
         const double* const entries = (block++)->data();
         if constexpr (D == 2) first += load(entries) * __builtin_shufflevector(at, at, 0, 0, 1, 1);
         if constexpr (D == 3) {

@@ -7,16 +7,21 @@
 #include <span>
 #include <vector>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 /// Each change has a number. Numbers rise, and are unique in the program: two copies of a matrix that are changed apart
 /// never have the same one.
 class PatternHistory {
  public:
-  void begin_change() { numbers_.push_back(next()), first_.push_back(rows_.size()); }
+  void begin_change() {
+    numbers_.push_back(next());
+    first_.push_back(rows_.size());
+  }
   /// The row changes: its pattern, its values that are not assembled anew each time, its place or which unknowns are
   /// held.
-  void mark(std::size_t row) { rows_.push_back(static_cast<std::int32_t>(row)); }
+  void mark(std::size_t row) { rows_.push_back(to_int32(row)); }
 
   std::uint64_t now() const { return numbers_.empty() ? 0 : numbers_.back(); }
   /// Whether the matrix has come from this change by those after it.
@@ -24,8 +29,7 @@ class PatternHistory {
   /// The rows that changes after this one have marked; a row may be there more than once. \pre holds(number)
   std::span<const std::int32_t> changed_since(std::uint64_t number) const {
     const auto next = std::upper_bound(numbers_.begin(), numbers_.end(), number);
-    const auto first =
-        next == numbers_.end() ? rows_.size() : first_[static_cast<std::size_t>(next - numbers_.begin())];
+    const auto first = next == numbers_.end() ? rows_.size() : first_[to_size(next - numbers_.begin())];
     return std::span(rows_).subspan(first);
   }
 

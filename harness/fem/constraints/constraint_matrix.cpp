@@ -4,43 +4,52 @@
 #include <cmath>
 #include <utility>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 void ConstraintMatrix::set(const Constraints& constraints, std::size_t vertices) {
-  const auto free = [&](std::size_t i) { rows_[i] = {{static_cast<std::int32_t>(i)}, {1}, 1}; };
-  for (const std::int32_t v : constrained_) free(static_cast<std::size_t>(v));
-  for (std::size_t i = rows_.size(); i < vertices; ++i) rows_.emplace_back(), free(i);
-  constrained_.clear(), phantoms_ = constraints.phantoms;
+  const auto free = [&](std::size_t i) { rows_[i] = {{to_int32(i)}, {1}, 1}; };
+  for (const std::int32_t v : constrained_) free(to_size(v));
+  for (std::size_t i = rows_.size(); i < vertices; ++i) {
+    rows_.emplace_back();
+    free(i);
+  }
+  constrained_.clear();
+  phantoms_ = constraints.phantoms;
   for (const Constraint& constraint : constraints.constraints) {
     Row& row = rows_[constraint.vertex()];
     row.size = 0;
     for (std::size_t k = 0; k < 3; ++k)
-      if (constraint.weights[k] != 0)
-        row.unknown[row.size] = constraint.masters[k].value, row.weight[row.size++] = constraint.weights[k];
+      if (constraint.weights[k] != 0) {
+        row.unknown[row.size] = constraint.masters[k].value;
+        row.weight[row.size++] = constraint.weights[k];
+      }
     constrained_.push_back(constraint.vertex.value);
   }
   std::sort(constrained_.begin(), constrained_.end());
 }
 
 void ConstraintMatrix::expand(int dimension, const Field& q, Field& x) const {
-  x.setZero(static_cast<Eigen::Index>(vertices()) * dimension);
+  x.setZero(to_index(vertices()) * dimension);
   for (std::size_t i = 0; i < vertices(); ++i)
     for (std::size_t k = 0; k < rows_[i].size; ++k)
-      x.segment(static_cast<Eigen::Index>(i) * dimension, dimension) +=
+      x.segment(to_index(i) * dimension, dimension) +=
           rows_[i].weight[k] * q.segment(rows_[i].unknown[k] * dimension, dimension);
 }
 
 void ConstraintMatrix::reduce(int dimension, const Field& f, Field& r) const {
-  r.setZero(static_cast<Eigen::Index>(unknowns()) * dimension);
+  r.setZero(to_index(unknowns()) * dimension);
   for (std::size_t i = 0; i < vertices(); ++i)
     for (std::size_t k = 0; k < rows_[i].size; ++k)
       r.segment(rows_[i].unknown[k] * dimension, dimension) +=
-          rows_[i].weight[k] * f.segment(static_cast<Eigen::Index>(i) * dimension, dimension);
+          rows_[i].weight[k] * f.segment(to_index(i) * dimension, dimension);
 }
 
 template <int D>
 void ConstrainedSystem<D>::change(const Constraints& constraints, std::size_t vertices) {
-  constraint_matrix_.set(constraints, vertices), ghosts_ = constraints.ghosts;
+  constraint_matrix_.set(constraints, vertices);
+  ghosts_ = constraints.ghosts;
   is_changed_ = true;
 }
 
@@ -55,14 +64,15 @@ void ConstrainedSystem<D>::find_near(const SystemMatrix<D>& a) {
     if (!std::exchange(near_[u], 1)) near_rows_.push_back(u);
   };
   const auto mark_all = [&](std::span<const std::int32_t> rows) {
-    for (const std::int32_t u : rows) mark(static_cast<std::size_t>(u));
+    for (const std::int32_t u : rows) mark(to_size(u));
   };
   for (std::size_t u = constraint_matrix_.vertices(); u < constraint_matrix_.unknowns(); ++u) mark(u);
   for (const std::int32_t v : constraint_matrix_.constrained()) {
-    const ConstraintMatrix::Row& row = constraint_matrix_.row(static_cast<std::size_t>(v));
-    mark(static_cast<std::size_t>(v)), mark_all({row.unknown.data(), row.size});
-    mark_all(a.blocks->columns(static_cast<std::size_t>(v)));
-    for (const auto& term : a.scalar) mark_all(term.matrix->columns(static_cast<std::size_t>(v)));
+    const ConstraintMatrix::Row& row = constraint_matrix_.row(to_size(v));
+    mark(to_size(v));
+    mark_all({row.unknown.data(), row.size});
+    mark_all(a.blocks->columns(to_size(v)));
+    for (const auto& term : a.scalar) mark_all(term.matrix->columns(to_size(v)));
   }
   for (const GhostEdge& ghost : ghosts_)
     for (const DeformedIndex u : ghost.unknown) mark(u());
@@ -75,12 +85,12 @@ void ConstrainedSystem<D>::find_changed(const SystemMatrix<D>& a) {
   changed_rows_.clear();
   if (pattern_ > 0 && a.history && a.history->holds(pattern_)) {
     changed_rows_ = near_rows_;
-    for (const std::int32_t u : a.history->changed_since(pattern_))
-      changed_rows_.push_back(static_cast<std::size_t>(u));
+    for (const std::int32_t u : a.history->changed_since(pattern_)) changed_rows_.push_back(to_size(u));
     std::sort(changed_rows_.begin(), changed_rows_.end());
     changed_rows_.erase(std::unique(changed_rows_.begin(), changed_rows_.end()), changed_rows_.end());
   } else {
-    blocks_ = {}, scalars_.assign(a.scalar.size(), {});
+    blocks_ = {};
+    scalars_.assign(a.scalar.size(), {});
     for (std::size_t u = 0; u < constraint_matrix_.unknowns(); ++u) changed_rows_.push_back(u);
   }
 }
@@ -95,11 +105,11 @@ void ConstrainedSystem<D>::for_each_share(const SystemMatrix<D>& a, const Act& a
       std::int32_t slot = part.first_slot(i);
       const ConstraintMatrix::Row& row = constraint_matrix_.row(i);
       for (const std::int32_t j : part.columns(i)) {
-        const ConstraintMatrix::Row& column = constraint_matrix_.row(static_cast<std::size_t>(j));
+        const ConstraintMatrix::Row& column = constraint_matrix_.row(to_size(j));
         for (std::size_t k = 0; k < row.size; ++k)
           for (std::size_t l = 0; l < column.size; ++l)
-            act(number, i, static_cast<std::size_t>(j), slot, static_cast<std::size_t>(row.unknown[k]),
-                column.unknown[l], row.weight[k] * column.weight[l]);
+            act(number, i, to_size(j), slot, to_size(row.unknown[k]), column.unknown[l],
+                row.weight[k] * column.weight[l]);
         ++slot;
       }
     }
@@ -111,7 +121,7 @@ void ConstrainedSystem<D>::for_each_share(const SystemMatrix<D>& a, const Act& a
 /// Vertices that are constrained on some axes and held on others: C differs by the axis.
 template <int D>
 bool ConstrainedSystem<D>::is_split(std::size_t vertex) const {
-  const auto held = held_vertices_.begin() + static_cast<std::ptrdiff_t>(D * vertex);
+  const auto held = held_vertices_.begin() + to_index(D * vertex);
   return constraint_matrix_.is_constrained(vertex) && std::find(held, held + D, 1) != held + D;
 }
 
@@ -134,7 +144,7 @@ template <int D>
 void ConstrainedSystem<D>::set_near_rows(const SystemMatrix<D>& a) {
   const std::size_t parts = 1 + a.scalar.size(), rows = near_rows_.size();
   const auto place = [&](std::size_t u) {
-    return static_cast<std::size_t>(std::lower_bound(near_rows_.begin(), near_rows_.end(), u) - near_rows_.begin());
+    return to_size(std::lower_bound(near_rows_.begin(), near_rows_.end(), u) - near_rows_.begin());
   };
   std::vector<std::vector<std::int32_t>> columns(parts * rows);
   const auto part_of = [&](std::size_t part, std::size_t i, std::size_t j) {
@@ -150,7 +160,7 @@ void ConstrainedSystem<D>::set_near_rows(const SystemMatrix<D>& a) {
       auto& all = columns[part * rows + r];
       std::sort(all.begin(), all.end());
       all.erase(std::unique(all.begin(), all.end()), all.end());
-      const auto own = std::find(all.begin(), all.end(), static_cast<std::int32_t>(near_rows_[r]));
+      const auto own = std::find(all.begin(), all.end(), to_int32(near_rows_[r]));
       if (own != all.end()) std::rotate(all.begin(), own, own + 1);
       if (part == 0)
         blocks_.set_row(near_rows_[r], all);
@@ -161,7 +171,8 @@ void ConstrainedSystem<D>::set_near_rows(const SystemMatrix<D>& a) {
 
 template <int D>
 void ConstrainedSystem<D>::set_shares(const SystemMatrix<D>& a) {
-  shares_.clear(), split_shares_.clear();
+  shares_.clear();
+  split_shares_.clear();
   for_each_share(a, [&](std::size_t part, std::size_t i, std::size_t j, std::int32_t slot, std::size_t u,
                         std::int32_t v, double weight) {
     if (is_split(i) || is_split(j))
@@ -179,12 +190,16 @@ void ConstrainedSystem<D>::follow(const SystemMatrix<D>& a) {
   find_near(a);
   blocks_.resize(constraint_matrix_.unknowns());
   for (auto& scalar : scalars_) scalar.resize(constraint_matrix_.unknowns());
-  copy_rows(a), set_near_rows(a), set_shares(a), find_places(a);
+  copy_rows(a);
+  set_near_rows(a);
+  set_shares(a);
+  find_places(a);
   history_.begin_change();
   for (const std::size_t u : changed_rows_)
     if (u < constraint_matrix_.unknowns()) history_.mark(u);
   for (const std::size_t u : near_rows_) history_.mark(u);
-  pattern_ = a.pattern, is_changed_ = false;
+  pattern_ = a.pattern;
+  is_changed_ = false;
 }
 
 template <int D>
@@ -194,13 +209,15 @@ void ConstrainedSystem<D>::find_places(const SystemMatrix<D>& a) {
   const std::size_t first = constraint_matrix_.vertices();
   for (const std::size_t u : changed_rows_)
     if (u < first) places_[u] = (*a.places)[u];
-  std::fill(places_.begin() + static_cast<std::ptrdiff_t>(first), places_.end(), Point2{});
+  std::fill(places_.begin() + to_index(first), places_.end(), Point2{});
   std::vector<double> dependents(constraint_matrix_.unknowns() - first);
   for (const std::int32_t v : constraint_matrix_.constrained()) {
-    const auto& row = constraint_matrix_.row(static_cast<std::size_t>(v));
+    const auto& row = constraint_matrix_.row(to_size(v));
     for (std::size_t k = 0; k < row.size; ++k)
-      if (const auto u = static_cast<std::size_t>(row.unknown[k]); constraint_matrix_.is_phantom(row.unknown[k]))
-        places_[u] = places_[u] + (*a.places)[static_cast<std::size_t>(v)], ++dependents[u - first];
+      if (const auto u = to_size(row.unknown[k]); constraint_matrix_.is_phantom(row.unknown[k])) {
+        places_[u] = places_[u] + (*a.places)[to_size(v)];
+        ++dependents[u - first];
+      }
   }
   for (std::size_t u = first; u < places_.size(); ++u) places_[u] = 1 / dependents[u - first] * places_[u];
 }
@@ -228,8 +245,8 @@ void ConstrainedSystem<D>::assemble(const SystemMatrix<D>& a, double stiffness) 
       block = a.scalar[split.part - 1].factor * a.scalar[split.part - 1].matrix->block(split.share.from)(0) *
               BlockMatrix<D>::Block::Identity();
     for (std::size_t k = 0; k < D; ++k) {
-      if (held_vertices_[D * split.i + k]) block.row(static_cast<Eigen::Index>(k)).setZero();
-      if (held_vertices_[D * split.j + k]) block.col(static_cast<Eigen::Index>(k)).setZero();
+      if (held_vertices_[D * split.i + k]) block.row(to_index(k)).setZero();
+      if (held_vertices_[D * split.j + k]) block.col(to_index(k)).setZero();
     }
     blocks_.block(split.share.to) += split.share.weight * block;
   }
@@ -242,7 +259,7 @@ void ConstrainedSystem<D>::assemble(const SystemMatrix<D>& a, double stiffness) 
     for (const auto& matrix : scalars_)
       if (!matrix.columns(u).empty()) scalar += std::abs(matrix.block(matrix.first_slot(u))(0));
     for (std::size_t k = 0; k < D && scalar == 0; ++k) {
-      const auto c = static_cast<Eigen::Index>(k);
+      const auto c = to_index(k);
       if (blocks_.columns(u).empty() || blocks_.block(blocks_.first_slot(u))(c, c) == 0) held_[D * u + k] = 1;
     }
   }
@@ -251,7 +268,7 @@ void ConstrainedSystem<D>::assemble(const SystemMatrix<D>& a, double stiffness) 
     for (std::size_t k = 0; k < 4; ++k)
       for (std::size_t l = 0; l < 4; ++l)
         for (std::size_t axis = 0; axis < D; ++axis)
-          if (const auto c = static_cast<Eigen::Index>(axis); acts(ghost, axis))
+          if (const auto c = to_index(axis); acts(ghost, axis))
             blocks_.block(blocks_.find(ghost.unknown[k](), ghost.unknown[l].value))(c, c) +=
                 stiffness * ghost.stiffness * ghost.jump[k] * ghost.jump[l];
 }
@@ -259,7 +276,10 @@ void ConstrainedSystem<D>::assemble(const SystemMatrix<D>& a, double stiffness) 
 template <int D>
 SystemMatrix<D> ConstrainedSystem<D>::system() const {
   SystemMatrix<D> a;
-  a.blocks = &blocks_, a.held = &held_, a.pattern = history_.now(), a.history = &history_;
+  a.blocks = &blocks_;
+  a.held = &held_;
+  a.pattern = history_.now();
+  a.history = &history_;
   for (std::size_t k = 0; k < scalars_.size(); ++k) a.scalar.push_back({factors_[k], &scalars_[k]});
   if (!places_.empty()) a.places = &places_;
   return a;
@@ -271,7 +291,7 @@ void ConstrainedSystem<D>::reduce(const std::vector<std::uint8_t>& held, const F
   project(held, f, free);
   constraint_matrix_.reduce(D, free, r);
   for (std::size_t u = 0; u < held.size(); ++u)
-    if (held[u]) r[static_cast<Eigen::Index>(u)] = 0;
+    if (held[u]) r[to_index(u)] = 0;
 }
 
 /// Not where it would be alone in saying where a phantom is.
@@ -290,8 +310,7 @@ void ConstrainedSystem<D>::subtract_ghosts(const Field& given, Field& r) const {
         for (std::size_t axis = 0; axis < D; ++axis) {
           const std::size_t from = D * ghost.unknown[l]() + axis, to = D * ghost.unknown[k]() + axis;
           if (ghost.unknown[l]() >= vertices || !held_vertices_[from] || held_[to] || !acts(ghost, axis)) continue;
-          r[static_cast<Eigen::Index>(to)] -= ghost_stiffness_ * ghost.stiffness * ghost.jump[k] * ghost.jump[l] *
-                                              given[static_cast<Eigen::Index>(from)];
+          r[to_index(to)] -= ghost_stiffness_ * ghost.stiffness * ghost.jump[k] * ghost.jump[l] * given[to_index(from)];
         }
 }
 
@@ -299,15 +318,15 @@ template <int D>
 void ConstrainedSystem<D>::expand(const Field& q, Field& x) const {
   constraint_matrix_.expand(D, q, x);
   for (std::size_t u = 0; u < held_vertices_.size(); ++u)
-    if (held_vertices_[u]) x[static_cast<Eigen::Index>(u)] = 0;
+    if (held_vertices_[u]) x[to_index(u)] = 0;
 }
 
 template <int D>
 void ConstrainedSystem<D>::extrapolate(std::int32_t constrained, const std::vector<std::uint8_t>& held,
                                        Field& x) const {
-  const auto& row = constraint_matrix_.row(static_cast<std::size_t>(constrained));
+  const auto& row = constraint_matrix_.row(to_size(constrained));
   for (std::int32_t k = 0; k < D; ++k) {
-    if (held[static_cast<std::size_t>(D * constrained + k)]) continue;
+    if (held[to_size(D * constrained + k)]) continue;
     double sum = 0;
     for (std::size_t l = 0; l < row.size; ++l)
       if (!constraint_matrix_.is_phantom(row.unknown[l])) sum += row.weight[l] * x[D * row.unknown[l] + k];
@@ -323,9 +342,9 @@ void ConstrainedSystem<D>::extrapolate(const std::vector<std::uint8_t>& held, Fi
 template <int D>
 void ConstrainedSystem<D>::transfer_forces(const std::vector<std::uint8_t>& held, Field& f) const {
   for (const std::int32_t v : constraint_matrix_.constrained()) {
-    const auto& row = constraint_matrix_.row(static_cast<std::size_t>(v));
+    const auto& row = constraint_matrix_.row(to_size(v));
     for (std::int32_t k = 0; k < D; ++k) {
-      if (held[static_cast<std::size_t>(D * v + k)]) continue;
+      if (held[to_size(D * v + k)]) continue;
       const double force = std::exchange(f[D * v + k], 0);
       for (std::size_t l = 0; l < row.size; ++l)
         if (!constraint_matrix_.is_phantom(row.unknown[l])) f[D * row.unknown[l] + k] += row.weight[l] * force;
@@ -336,8 +355,8 @@ void ConstrainedSystem<D>::transfer_forces(const std::vector<std::uint8_t>& held
 template <int D>
 void ConstrainedSystem<D>::satisfy(const std::vector<std::uint8_t>& held, Field& x) const {
   for (const std::int32_t v : constraint_matrix_.constrained()) {
-    const auto& row = constraint_matrix_.row(static_cast<std::size_t>(v));
-    const auto end = row.unknown.begin() + static_cast<std::ptrdiff_t>(row.size);
+    const auto& row = constraint_matrix_.row(to_size(v));
+    const auto end = row.unknown.begin() + to_index(row.size);
     if (std::none_of(row.unknown.begin(), end, [&](std::int32_t u) { return constraint_matrix_.is_phantom(u); }))
       extrapolate(v, held, x);
   }

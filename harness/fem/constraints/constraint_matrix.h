@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <span>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/linear/system_matrix.h"
 #include "harness/mesh/constraints.h"
 
@@ -28,12 +29,12 @@ class ConstraintMatrix {
   std::size_t vertices() const { return rows_.size(); }
   std::size_t unknowns() const { return rows_.size() + phantoms_; }
   const Row& row(std::size_t vertex) const { return rows_[vertex]; }
-  bool is_phantom(std::int32_t unknown) const { return static_cast<std::size_t>(unknown) >= vertices(); }
+  bool is_phantom(std::int32_t unknown) const { return to_size(unknown) >= vertices(); }
   const std::vector<std::int32_t>& constrained() const {
     return constrained_;
   }  ///< constrained vertices, in rising order
   bool is_constrained(std::size_t vertex) const {
-    return std::binary_search(constrained_.begin(), constrained_.end(), static_cast<std::int32_t>(vertex));
+    return std::binary_search(constrained_.begin(), constrained_.end(), to_int32(vertex));
   }
 
   /// x = C q and r = C^T f, for `dimension` values per vertex and unknown. Unknowns of constrained vertices are

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -31,10 +33,10 @@ ElementModes::InPlane ElementModes::membrane(std::size_t triangle) const {
 
 void ElementModes::bending_rows(std::size_t triangle, BendingRows& rows) const {
   const auto stencil = bending->stencil(triangle);
-  rows.resize(static_cast<Eigen::Index>(stencil.size()), 3);
+  rows.resize(to_index(stencil.size()), 3);
   Eigen::Index next = 0;
   for (const auto& [vertex, factor] : stencil) {
-    const auto holders = static_cast<double>(bending->stencils_of(static_cast<std::size_t>(vertex)).size());
+    const auto holders = to_double(bending->stencils_of(to_size(vertex)).size());
     rows.row(next++) = Eigen::Map<const Eigen::RowVector3d>(factor.data()) * std::sqrt(holders / lumped[vertex]);
   }
 }
@@ -56,20 +58,25 @@ void AddedMass::list(std::size_t vertex) {
 }
 
 void AddedMass::update(const ElementModes& modes, const Incidence& incidence, std::span<const std::size_t> changed) {
-  const auto vertices = static_cast<std::size_t>(modes.lumped.size()), triangles = modes.elements->size();
+  const auto vertices = to_size(modes.lumped.size()), triangles = modes.elements->size();
   ++round_;
   rows_.clear();
-  matrix_.resize(vertices), place_.resize(vertices, -1), listed_in_.resize(vertices);
+  matrix_.resize(vertices);
+  place_.resize(vertices, -1);
+  listed_in_.resize(vertices);
   in_plane_.resize(triangles, Eigen::Matrix2d::Zero());
-  if (modes.bending) bent_.resize(triangles, Eigen::Matrix3d::Zero()), bent_in_.resize(triangles);
+  if (modes.bending) {
+    bent_.resize(triangles, Eigen::Matrix3d::Zero());
+    bent_in_.resize(triangles);
+  }
   for (const std::size_t v : changed) {
     list(v);
     for (const auto c : incidence.at(v)) find_in_plane(modes, triangle_of(c)());
     if (!modes.bending) continue;
     for (const auto& [triangle, place] : modes.bending->stencils_of(v)) {
-      const auto t = static_cast<std::size_t>(triangle);
+      const auto t = to_size(triangle);
       if (std::exchange(bent_in_[t], round_) != round_ && find_bent(modes, t))
-        for (const StencilTerm& term : modes.bending->stencil(t)) list(static_cast<std::size_t>(term.vertex));
+        for (const StencilTerm& term : modes.bending->stencil(t)) list(to_size(term.vertex));
     }
   }
   for (const std::size_t v : rows_) write_row(modes, incidence, v);
@@ -108,13 +115,18 @@ bool AddedMass::find_bent(const ElementModes& modes, std::size_t triangle) {
 }
 
 void AddedMass::write_row(const ElementModes& modes, const Incidence& incidence, std::size_t v) {
-  columns_.clear(), values_.clear();
+  columns_.clear();
+  values_.clear();
   const auto add = [&](std::int32_t column, double value) {
-    std::int32_t& place = place_[static_cast<std::size_t>(column)];
-    if (place < 0) place = static_cast<std::int32_t>(columns_.size()), columns_.push_back(column), values_.push_back(0);
-    values_[static_cast<std::size_t>(place)] += value;
+    std::int32_t& place = place_[to_size(column)];
+    if (place < 0) {
+      place = to_int32(columns_.size());
+      columns_.push_back(column);
+      values_.push_back(0);
+    }
+    values_[to_size(place)] += value;
   };
-  const auto own = static_cast<std::int32_t>(v);
+  const auto own = to_int32(v);
   for (const auto c : incidence.at(v)) {
     const std::size_t t = triangle_of(c)();
     const Element& e = (*modes.elements)[t];
@@ -122,21 +134,21 @@ void AddedMass::write_row(const ElementModes& modes, const Incidence& incidence,
     if (f.isZero(0)) continue;
     add(own, kind_ == Mass::scaled ? density_ * e.material_area() / 3 * f(0, 0) : 0);  // the diagonal comes first
     if (kind_ == Mass::scaled) continue;
-    const Eigen::Vector2d pull = density_ * modes.speed2 * e.material_area() * f *
-                                 eigen_vector(e.gradient[static_cast<std::size_t>(corner_of(c))]);
+    const Eigen::Vector2d pull =
+        density_ * modes.speed2 * e.material_area() * f * eigen_vector(e.gradient[to_size(corner_of(c))]);
     for (std::size_t k = 0; k < 3; ++k) add(e.vertex[k].value, pull.dot(eigen_vector(e.gradient[k])));
   }
   if (modes.bending) {
     const auto stencils = modes.bending->stencils_of(v);
     for (const auto& [triangle, place] : stencils) {
-      const Eigen::Matrix3d& f = bent_[static_cast<std::size_t>(triangle)];
+      const Eigen::Matrix3d& f = bent_[to_size(triangle)];
       if (f.isZero(0)) continue;
-      const auto share = modes.lumped[static_cast<Eigen::Index>(v)] / static_cast<double>(stencils.size());
+      const auto share = modes.lumped[to_index(v)] / to_double(stencils.size());
       add(own, kind_ == Mass::scaled ? share * f(0, 0) : 0);
       if (kind_ == Mass::scaled) continue;
-      const auto terms = modes.bending->stencil(static_cast<std::size_t>(triangle));
+      const auto terms = modes.bending->stencil(to_size(triangle));
       const auto row = [](const StencilTerm& term) { return Eigen::Map<const Eigen::Vector3d>(term.factor.data()); };
-      const Eigen::Vector3d pull = f * row(terms[static_cast<std::size_t>(place)]);
+      const Eigen::Vector3d pull = f * row(terms[to_size(place)]);
       for (const StencilTerm& term : terms) add(term.vertex, pull.dot(row(term)));
     }
   }
@@ -144,7 +156,7 @@ void AddedMass::write_row(const ElementModes& modes, const Incidence& incidence,
   std::int32_t slot = matrix_.first_slot(v);
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     matrix_.block(slot++)(0) = values_[k];
-    place_[static_cast<std::size_t>(columns_[k])] = -1;
+    place_[to_size(columns_[k])] = -1;
   }
 }
 
@@ -152,7 +164,7 @@ double AddedMass::total() const {
   double sum = 0;
   for (std::size_t v = 0; v < matrix_.rows(); ++v)
     for (std::size_t k = 0; k < matrix_.columns(v).size(); ++k)
-      sum += matrix_.block(matrix_.first_slot(v) + static_cast<std::int32_t>(k))(0);
+      sum += matrix_.block(matrix_.first_slot(v) + to_int32(k))(0);
   return sum;
 }
 

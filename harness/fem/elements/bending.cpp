@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 Bending::Bending(const Sheet& sheet, BendingKind kind, double rigidity, double poisson, const ElementTable* elements)
@@ -14,7 +16,10 @@ Bending::Bending(const Sheet& sheet, BendingKind kind, double rigidity, double p
 }
 
 void Bending::reserve_spare() {
-  slopes_.reserve_spare(), stencils_.reserve_spare(), stencils_of_.reserve_spare(), matrix_.reserve_spare();
+  slopes_.reserve_spare();
+  stencils_.reserve_spare();
+  stencils_of_.reserve_spare();
+  matrix_.reserve_spare();
   cutbench::reserve_spare(reach_, work_.stale_in, work_.refitted_in, work_.listed_in, work_.place);
 }
 
@@ -40,10 +45,15 @@ double Bending::energy(const Field& x, int dimension) const {
 
 void Bending::resize(const Sheet& sheet) {
   const std::size_t triangles = sheet.triangle_slots(), vertices = sheet.deformed_slots();
-  slopes_.resize(triangles), reach_.resize(triangles), stencils_.resize(triangles);
-  work_.stale_in.resize(triangles), work_.refitted_in.resize(triangles);
-  stencils_of_.resize(vertices), matrix_.resize(vertices);
-  work_.listed_in.resize(vertices), work_.place.resize(vertices, -1);
+  slopes_.resize(triangles);
+  reach_.resize(triangles);
+  stencils_.resize(triangles);
+  work_.stale_in.resize(triangles);
+  work_.refitted_in.resize(triangles);
+  stencils_of_.resize(vertices);
+  matrix_.resize(vertices);
+  work_.listed_in.resize(vertices);
+  work_.place.resize(vertices, -1);
   work_.row.resize(vertices);
   work_.stale.clear();
 }
@@ -98,7 +108,7 @@ void Bending::rebuild(const Sheet& sheet) {
     if (sheet.triangle(t).alive() && t == members(t).front()) kind_->add_rows(stencil, t);
     replace_stencil(t());
   }
-  for (const std::int32_t vertex : work_.rows) write_row(static_cast<std::size_t>(vertex));
+  for (const std::int32_t vertex : work_.rows) write_row(to_size(vertex));
 }
 
 void Bending::fit_patch(const Sheet& sheet, TriangleIndex t) {
@@ -116,16 +126,16 @@ void Bending::fit_patch(const Sheet& sheet, TriangleIndex t) {
 // --- matrix ----------------------------------------------------------------------------------------------------------
 
 void Bending::put_on_list(std::int32_t vertex) {
-  auto& listed = work_.listed_in[static_cast<std::size_t>(vertex)];
+  auto& listed = work_.listed_in[to_size(vertex)];
   if (listed == work_.call) return;
   listed = work_.call;
   work_.rows.push_back(vertex);
 }
 
 void Bending::replace_stencil(std::size_t t) {
-  const auto slot = static_cast<std::int32_t>(t);
+  const auto slot = to_int32(t);
   for (const StencilTerm& term : stencils_[t]) {
-    const auto vertex = static_cast<std::size_t>(term.vertex);
+    const auto vertex = to_size(term.vertex);
     put_on_list(term.vertex);
     if (work_.place[vertex] < 0) {
       stencils_of_.erase(vertex, {slot, 0});
@@ -136,7 +146,7 @@ void Bending::replace_stencil(std::size_t t) {
   }
   stencils_.set(t, work_.terms);
   for (const StencilTerm& term : work_.terms) {
-    const auto vertex = static_cast<std::size_t>(term.vertex);
+    const auto vertex = to_size(term.vertex);
     if (work_.place[vertex] < 0) continue;
     put_on_list(term.vertex);
     stencils_of_.insert(vertex, {slot, work_.place[vertex]});
@@ -150,10 +160,10 @@ void Bending::write_row(std::size_t vertex) {
   RowSum<double>& row = work_.row;
   row.clear();
   const auto stencils = stencils_of_[vertex];
-  if (!stencils.empty()) row[static_cast<std::int32_t>(vertex)] = 0;
+  if (!stencils.empty()) row[to_int32(vertex)] = 0;
   for (const auto& [t, mine] : stencils) {
-    const auto terms = stencils_[static_cast<std::size_t>(t)];
-    const auto f = terms[static_cast<std::size_t>(mine)].factor;
+    const auto terms = stencils_[to_size(t)];
+    const auto f = terms[to_size(mine)].factor;
     for (const auto& [column, g] : terms) row[column] += f[0] * g[0] + f[1] * g[1] + f[2] * g[2];
   }
   matrix_.set_row(vertex, row.columns());

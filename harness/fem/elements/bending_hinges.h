@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/elements/bending_kinds.h"
 
 namespace cutbench {
@@ -31,7 +32,7 @@ inline void hinge_rows(BendingStencil& stencil, TriangleIndex t) {
       stencil.at(d[next].value)[k] -= factor * foot;
     };
     add_slope(t, k, twice);
-    add_slope(other, static_cast<std::size_t>(corner_of(sheet.triangle(t).opposite[k])), twice_other);
+    add_slope(other, to_size(corner_of(sheet.triangle(t).opposite[k])), twice_other);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "harness/fem/elements/bending_kinds.h"
 
+#include "harness/base/conversions.h"
 #include "harness/fem/elements/bending_hinges.h"
 #include "harness/fem/elements/bending_patches.h"
 
@@ -16,7 +17,7 @@ constexpr BendingRow rows[] = {
 
 }  // namespace
 
-const BendingRow& row_of(BendingKind kind) { return rows[static_cast<std::size_t>(kind)]; }
+const BendingRow& row_of(BendingKind kind) { return rows[to_size(kind)]; }
 
 const std::vector<EnumName<BendingKind>>& bending_names() {
   static const std::vector<EnumName<BendingKind>> names = [] {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/base/enum_names.h"
 #include "harness/fem/algebra/growing_rows.h"
 #include "harness/fem/elements/element_table.h"
@@ -26,12 +27,12 @@ struct BendingStencil {
 
   /// The sums of this vertex, which begin at zero.
   std::array<double, 3>& at(std::int32_t vertex) {
-    std::int32_t& mine = place[static_cast<std::size_t>(vertex)];
+    std::int32_t& mine = place[to_size(vertex)];
     if (mine < 0) {
-      mine = static_cast<std::int32_t>(terms.size());
+      mine = to_int32(terms.size());
       terms.push_back({vertex, {}});
     }
-    return terms[static_cast<std::size_t>(mine)].factor;
+    return terms[to_size(mine)].factor;
   }
   /// The triangles of the element that t belongs to.
   std::span<const TriangleIndex> members(const TriangleIndex& t) const { return members_of(elements, t); }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/elements/bending_kinds.h"
 
 namespace cutbench {
@@ -59,7 +60,7 @@ inline void patch_rows(BendingStencil& stencil, TriangleIndex t) {
       const double share = twice / (twice + twice_other);
       for (std::size_t i = 0; i < 3; ++i) own[k][i] = length * share * bend[i];
       if (!(twice_other > 0)) continue;
-      const auto there = static_cast<std::size_t>(corner_of(sheet.triangle(member).opposite[k]));
+      const auto there = to_size(corner_of(sheet.triangle(member).opposite[k]));
       for (const auto& [vertex, slope] : stencil.slopes[other()])
         add(vertex, bend, -length * (1 - share) * slope[there]);
     }

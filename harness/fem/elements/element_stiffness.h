@@ -110,7 +110,9 @@ class ElementStiffness {
   }
 
   void set_springs(Number young, const StrainInFrame<D, Number>& strained, StressStiffness of_stress) {
-    xx_ = {}, xy_ = {}, yy_ = {};
+    xx_ = {};
+    xy_ = {};
+    yy_ = {};
     const Springs<D, Number> springs(gradient_, strained.frame);
     for (std::size_t i = 0; i < 3; ++i) {
       const auto& [x, y] = springs.along[i];
@@ -120,20 +122,28 @@ class ElementStiffness {
         for (std::size_t r = 0; r < D; ++r) {
           Number both = along * (springs.edge[i][r] * springs.edge[i][c]);
           if (r == c) both += young * across;
-          xx_[D * c + r] += x * x * both, xy_[D * c + r] += x * y * both, yy_[D * c + r] += y * y * both;
+          xx_[D * c + r] += x * x * both;
+          xy_[D * c + r] += x * y * both;
+          yy_[D * c + r] += y * y * both;
         }
     }
   }
 
   void add_in_every_direction(const Moduli& m) {
-    for (std::size_t c = 0; c < D; ++c) xx_[D * c + c] += m.xx, xy_[D * c + c] += m.xy, yy_[D * c + c] += m.yy;
+    for (std::size_t c = 0; c < D; ++c) {
+      xx_[D * c + c] += m.xx;
+      xy_[D * c + c] += m.xy;
+      yy_[D * c + c] += m.yy;
+    }
   }
 
   void add_tilt(const Moduli& m, const std::array<Number, D>& normal) {
     for (std::size_t c = 0; c < D; ++c)
       for (std::size_t r = 0; r < D; ++r) {
         const Number both = normal[r] * normal[c];
-        xx_[D * c + r] += m.xx * both, xy_[D * c + r] += m.xy * both, yy_[D * c + r] += m.yy * both;
+        xx_[D * c + r] += m.xx * both;
+        xy_[D * c + r] += m.xy * both;
+        yy_[D * c + r] += m.yy * both;
       }
   }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -55,20 +57,20 @@ void ElementTable::add_strong_couplings(double aspect_ratio, std::vector<StrongC
 bool ElementTable::is_inside(TriangleIndex t, DeformedIndex vertex) const {
   const std::int32_t polygon = rows_[t()].polygon;
   if (polygon < 0) return false;
-  const auto& inside = polygons_[static_cast<std::size_t>(polygon)].polygon.inside;
+  const auto& inside = polygons_[to_size(polygon)].polygon.inside;
   return std::find(inside.begin(), inside.end(), vertex) != inside.end();
 }
 
 ElementShape ElementTable::shape(TriangleIndex t) const {
   const Element& e = rows_[t()];
   if (e.is_triangle()) return {e.vertex, e.gradient};
-  const PolygonElement& polygon = polygons_[static_cast<std::size_t>(e.polygon)];
+  const PolygonElement& polygon = polygons_[to_size(e.polygon)];
   return {polygon.polygon.corners, polygon.gradient};
 }
 
 double ElementTable::polygon_area_round(std::size_t vertex) const {
   double area = 0;
-  for (const std::int32_t p : polygons_of_[vertex]) area += polygons_[static_cast<std::size_t>(p)].corner_area();
+  for (const std::int32_t p : polygons_of_[vertex]) area += polygons_[to_size(p)].corner_area();
   return area;
 }
 
@@ -80,7 +82,7 @@ double ElementTable::area_round(std::size_t vertex, std::span<const HalfEdge> tr
 }
 
 Field ElementTable::areas(std::size_t vertices) const {
-  Field all = Field::Zero(static_cast<Eigen::Index>(vertices));
+  Field all = Field::Zero(to_index(vertices));
   for (const Element& e : rows_)
     if (e.is_triangle())
       for (const auto d : e.vertex) all[d.value] += e.area / 3;
@@ -100,8 +102,8 @@ std::size_t ElementTable::add_polygon(const Sheet& sheet, const Polygon& polygon
     free_polygons_.pop_back();
   }
   polygons_[slot] = PolygonElement(sheet, polygon);
-  for (const TriangleIndex t : polygon.triangles) rows_[t()].polygon = static_cast<std::int32_t>(slot);
-  for (const DeformedIndex d : polygon.corners) polygons_of_.append(d(), static_cast<std::int32_t>(slot));
+  for (const TriangleIndex t : polygon.triangles) rows_[t()].polygon = to_int32(slot);
+  for (const DeformedIndex d : polygon.corners) polygons_of_.append(d(), to_int32(slot));
   return slot;
 }
 
@@ -109,7 +111,7 @@ std::optional<std::size_t> ElementTable::merge(const Sheet& sheet, const Polygon
   const auto now = members(polygon.triangles.front());
   if (std::equal(now.begin(), now.end(), polygon.triangles.begin(), polygon.triangles.end())) return {};
   for (const TriangleIndex t : polygon.triangles)
-    if (const auto old = rows_[t()].polygon; old >= 0) dissolve(static_cast<std::size_t>(old), regrouped);
+    if (const auto old = rows_[t()].polygon; old >= 0) dissolve(to_size(old), regrouped);
   const std::size_t slot = add_polygon(sheet, polygon);
   const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   append(regrouped.triangles, polygon.triangles);
@@ -123,12 +125,12 @@ void ElementTable::release(TriangleIndex t, Regrouped& regrouped) {
   if (polygon < 0) return;
   const auto now = members(t);
   freed_.insert(freed_.end(), now.begin(), now.end());
-  dissolve(static_cast<std::size_t>(polygon), regrouped);
+  dissolve(to_size(polygon), regrouped);
 }
 
 void ElementTable::dissolve(std::size_t polygon, Regrouped& regrouped) {
   const Polygon& gone = polygons_[polygon].polygon;
-  for (const DeformedIndex d : gone.corners) polygons_of_.erase(d(), static_cast<std::int32_t>(polygon));
+  for (const DeformedIndex d : gone.corners) polygons_of_.erase(d(), to_int32(polygon));
   for (const TriangleIndex t : gone.triangles) rows_[t()].polygon = -1;
   const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   append(regrouped.triangles, gone.triangles);

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/algebra/growing_rows.h"
 #include "harness/fem/algebra/strong_couplings.h"
 #include "harness/fem/elements/polygon_element.h"
@@ -58,7 +59,7 @@ class ElementTable final : public CoupledElements {
   std::span<const TriangleIndex> members(const TriangleIndex& t) const {
     const std::int32_t polygon = rows_[t()].polygon;
     if (polygon < 0) return {&t, 1};
-    return polygons_[static_cast<std::size_t>(polygon)].polygon.triangles;
+    return polygons_[to_size(polygon)].polygon.triangles;
   }
   /// t, one of whose corners it is, lies in a polygon that has the vertex inside.
   bool is_inside(TriangleIndex t, DeformedIndex vertex) const;
@@ -73,7 +74,7 @@ class ElementTable final : public CoupledElements {
     for (const HalfEdge c : triangles)
       if (const Element& e = rows_[triangle_of(c)()]; e.is_triangle()) visit(std::span<const DeformedIndex>(e.vertex));
     for (const std::int32_t p : polygons_of_[vertex])
-      visit(std::span<const DeformedIndex>(polygons_[static_cast<std::size_t>(p)].polygon.corners));
+      visit(std::span<const DeformedIndex>(polygons_[to_size(p)].polygon.corners));
   }
   /// The area of material that stands for a vertex's mass.
   double area_round(std::size_t vertex, std::span<const HalfEdge> triangles) const;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 using Eigen::Matrix2d;
@@ -58,7 +60,8 @@ Matrix2d tangent_frame(const Matrix2d&) { return Matrix2d::Identity(); }
 /// Of springs along the edges (springs.h).
 template <int D>
 void add_spring_stress(const Element& element, double young, Deformation<D>& d) {
-  d.stress.setZero(), d.energy = 0;
+  d.stress.setZero();
+  d.energy = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vector2d across = gradient(element, k).normalized(), along(-across.y(), across.x());
     const double stretch = (d.frame * along).norm();
@@ -122,7 +125,7 @@ Deformation<D> deformation_of(const Element& element, const StrainInFrame<D, dou
                               const Lame& lame) {
   Deformation<D> d;
   for (std::size_t k = 0; k < 2; ++k)
-    d.frame.col(static_cast<Eigen::Index>(k)) = Eigen::Map<const Eigen::Matrix<double, D, 1>>(strained.frame[k].data());
+    d.frame.col(to_index(k)) = Eigen::Map<const Eigen::Matrix<double, D, 1>>(strained.frame[k].data());
   d.strain << strained.xx, strained.xy, strained.xy, strained.yy;
   if (strain == Strain::springs)
     add_spring_stress(element, young_of(lame), d);
@@ -135,9 +138,10 @@ template <int D>
 StrainInFrame<D, double> strain_of(const Deformation<D>& d) {
   StrainInFrame<D, double> strained;
   for (std::size_t k = 0; k < 2; ++k)
-    for (std::size_t r = 0; r < D; ++r)
-      strained.frame[k][r] = d.frame(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(k));
-  strained.xx = d.strain(0, 0), strained.xy = d.strain(0, 1), strained.yy = d.strain(1, 1);
+    for (std::size_t r = 0; r < D; ++r) strained.frame[k][r] = d.frame(to_index(r), to_index(k));
+  strained.xx = d.strain(0, 0);
+  strained.xy = d.strain(0, 1);
+  strained.yy = d.strain(1, 1);
   return strained;
 }
 

@@ -30,6 +30,7 @@
 #include <Eigen/Geometry>
 #include <array>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/algebra/block_matrix.h"
 #include "harness/fem/elements/element_table.h"
 #include "harness/fem/elements/physics.h"
@@ -86,8 +87,7 @@ Deformation<D> deformation_of(const Element& element, const StrainInFrame<D, dou
 /// Force on corner k, N: -A P g_k, with P = B s.
 template <int D>
 Eigen::Matrix<double, D, 1> membrane_force(const Element& element, const Deformation<D>& deformation, int k) {
-  const Eigen::Vector2d g(element.gradient[static_cast<std::size_t>(k)].x,
-                          element.gradient[static_cast<std::size_t>(k)].y);
+  const Eigen::Vector2d g(element.gradient[to_size(k)].x, element.gradient[to_size(k)].y);
   return -element.material_area() * (deformation.frame * (deformation.stress * g));
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "harness/base/conversions.h"
 #include "harness/base/errors.h"
 #include "harness/fem/algebra/growing_rows.h"
 #include "harness/fem/elements/springs.h"
@@ -93,7 +94,8 @@ StrainInFrame<D, Lanes> strain_of(const std::array<std::array<Lanes, D>, 2>& f, 
   switch (strain) {
     case Strain::linear:
       e.frame = {};
-      e.frame[0][0] += 1, e.frame[1][1] += 1;
+      e.frame[0][0] += 1;
+      e.frame[1][1] += 1;
       break;
     case Strain::corotational:
       e.frame = nearest_rotation(f, determined);
@@ -101,10 +103,13 @@ StrainInFrame<D, Lanes> strain_of(const std::array<std::array<Lanes, D>, 2>& f, 
     case Strain::green:
     case Strain::springs:
       e.frame = f;
-      e.xx = (dot(f[0], f[0]) - 1) / 2, e.yy = (dot(f[1], f[1]) - 1) / 2, e.xy = dot(f[0], f[1]) / 2;
+      e.xx = (dot(f[0], f[0]) - 1) / 2;
+      e.yy = (dot(f[1], f[1]) - 1) / 2;
+      e.xy = dot(f[0], f[1]) / 2;
       return e;
   }
-  e.xx = dot(e.frame[0], f[0]) - 1, e.yy = dot(e.frame[1], f[1]) - 1;
+  e.xx = dot(e.frame[0], f[0]) - 1;
+  e.yy = dot(e.frame[1], f[1]) - 1;
   e.xy = (dot(e.frame[0], f[1]) + dot(e.frame[1], f[0])) / 2;
   return e;
 }
@@ -114,7 +119,9 @@ StrainInFrame<D, double> lane(const StrainInFrame<D, Lanes>& four, std::size_t l
   StrainInFrame<D, double> one;
   for (std::size_t k = 0; k < 2; ++k)
     for (std::size_t r = 0; r < D; ++r) one.frame[k][r] = four.frame[k][r][l];
-  one.xx = four.xx[l], one.xy = four.xy[l], one.yy = four.yy[l];
+  one.xx = four.xx[l];
+  one.xy = four.xy[l];
+  one.yy = four.yy[l];
   return one;
 }
 
@@ -122,7 +129,9 @@ template <int D>
 void set_lane(const StrainInFrame<D, double>& one, std::size_t l, StrainInFrame<D, Lanes>& four) {
   for (std::size_t k = 0; k < 2; ++k)
     for (std::size_t r = 0; r < D; ++r) four.frame[k][r][l] = one.frame[k][r];
-  four.xx[l] = one.xx, four.xy[l] = one.xy, four.yy[l] = one.yy;
+  four.xx[l] = one.xx;
+  four.xy[l] = one.xy;
+  four.yy[l] = one.yy;
 }
 
 bool all_positive(Lanes x) { return x[0] > 0 && x[1] > 0 && x[2] > 0 && x[3] > 0; }
@@ -156,7 +165,7 @@ void MembraneSheet<D>::find_slots(const ElementTable& elements, std::size_t vert
     const std::size_t t = triangle_of(c)();
     if (!elements[t].is_triangle()) continue;
     for (std::size_t j = 0; j < 3; ++j)
-      set_slot(t, static_cast<std::size_t>(corner_of(c)), j, blocks.find(vertex, elements[t].vertex[j].value));
+      set_slot(t, to_size(corner_of(c)), j, blocks.find(vertex, elements[t].vertex[j].value));
   }
 }
 
@@ -207,7 +216,9 @@ void MembraneSheet<D>::add_forces(const Four& four, const StrainInFrame<D, Lanes
   Lanes sxx = 2 * mu * e.xx + pressure, syy = 2 * mu * e.yy + pressure, sxy = 2 * mu * e.xy;
   if (law_.strain == Strain::springs) {
     const auto s = Springs<D, Lanes>(four.gradient, e.frame).stress(young_of(law_.lame));
-    sxx = s.xx, syy = s.yy, sxy = s.xy;
+    sxx = s.xx;
+    syy = s.yy;
+    sxy = s.xy;
   }
   for (std::size_t k = 0; k < 3; ++k) {
     const auto& [gx, gy] = four.gradient[k];
@@ -239,8 +250,7 @@ double MembraneSheet<D>::energy(const ElementTable& elements) const {
 
 template <int D>
 Deformation<D> MembraneSheet<D>::deformation(const ElementTable& elements, std::size_t element) const {
-  if (const auto polygon = elements[element].polygon; polygon >= 0)
-    return polygons_.deformation(static_cast<std::size_t>(polygon));
+  if (const auto polygon = elements[element].polygon; polygon >= 0) return polygons_.deformation(to_size(polygon));
   return deformation_of<D>(elements[element], lane<D>(strained_[element / lane_count], element % lane_count),
                            law_.strain, law_.lame);
 }
@@ -254,7 +264,8 @@ void MembraneSheet<D>::add_stiffness(const ElementTable& elements, double factor
       blocks.add(slots_[i][a][a], k.block(a, a));
       for (std::size_t b = a + 1; b < 3; ++b) {
         const auto block = k.block(a, b);
-        blocks.add(slots_[i][a][b], block), blocks.add(slots_[i][b][a], mirrored<D>(block));
+        blocks.add(slots_[i][a][b], block);
+        blocks.add(slots_[i][b][a], mirrored<D>(block));
       }
     }
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 PolygonElement::PolygonElement(const Sheet& sheet, const Polygon& of) : polygon(of) {
@@ -10,7 +12,7 @@ PolygonElement::PolygonElement(const Sheet& sheet, const Polygon& of) : polygon(
   const Point2 origin = place(polygon.corners[0]);  // differences, so that a sheet far from zero loses nothing
   Point2 mean{};
   for (const DeformedIndex d : polygon.corners) offset.push_back(place(d) - origin);
-  for (const Point2 p : offset) mean = mean + 1 / static_cast<double>(k) * p;
+  for (const Point2 p : offset) mean = mean + 1 / to_double(k) * p;
   for (Point2& p : offset) p = p - mean;
   for (const DeformedIndex d : polygon.inside) inside.push_back(place(d) - origin - mean);
   for (std::size_t i = 0; i < k; ++i) area += cross(offset[i], offset[(i + 1) % k]) / 2;
@@ -18,18 +20,17 @@ PolygonElement::PolygonElement(const Sheet& sheet, const Polygon& of) : polygon(
     const Point2 across = offset[(i + 1) % k] - offset[(i + k - 1) % k];
     gradient.push_back({across.y / (2 * area), -across.x / (2 * area)});
   }
-  const auto n = static_cast<Eigen::Index>(k);
-  departure = Eigen::MatrixXd::Identity(n, n) - Eigen::MatrixXd::Constant(n, n, 1.0 / static_cast<double>(k));
+  const auto n = to_index(k);
+  departure = Eigen::MatrixXd::Identity(n, n) - Eigen::MatrixXd::Constant(n, n, 1.0 / to_double(k));
   for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j < n; ++j)
-      departure(i, j) -= dot(offset[static_cast<std::size_t>(i)], gradient[static_cast<std::size_t>(j)]);
+    for (Eigen::Index j = 0; j < n; ++j) departure(i, j) -= dot(offset[to_size(i)], gradient[to_size(j)]);
 }
 
 Point2 PolygonElement::offset_of(DeformedIndex vertex) const {
   const auto corner = std::find(polygon.corners.begin(), polygon.corners.end(), vertex);
-  if (corner != polygon.corners.end()) return offset[static_cast<std::size_t>(corner - polygon.corners.begin())];
+  if (corner != polygon.corners.end()) return offset[to_size(corner - polygon.corners.begin())];
   const auto other = std::find(polygon.inside.begin(), polygon.inside.end(), vertex);
-  return inside[static_cast<std::size_t>(other - polygon.inside.begin())];
+  return inside[to_size(other - polygon.inside.begin())];
 }
 
 template <int D>
@@ -42,7 +43,7 @@ LinearMap<D> PolygonElement::map(const Field& x) const {
     map.mean += away;
     map.gradient += away * Eigen::RowVector2d(gradient[i].x, gradient[i].y);
   }
-  map.mean = first + map.mean / static_cast<double>(size());
+  map.mean = first + map.mean / to_double(size());
   return map;
 }
 

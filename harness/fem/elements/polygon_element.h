@@ -15,6 +15,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/algebra/block_matrix.h"
 #include "harness/mesh/constraints.h"
 #include "harness/mesh/sheet.h"
@@ -44,7 +45,7 @@ struct PolygonElement {
 
   std::size_t size() const { return polygon.corners.size(); }
   bool alive() const { return !polygon.corners.empty(); }
-  double corner_area() const { return area / static_cast<double>(size()); }  ///< that stands for a corner's mass
+  double corner_area() const { return area / to_double(size()); }  ///< that stands for a corner's mass
   /// Of a vertex of its triangles, from the mean of the corners.
   Point2 offset_of(DeformedIndex vertex) const;
   /// \param x  D values per deformed vertex

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/elements/element_stiffness.h"
 
 namespace cutbench {
@@ -20,7 +21,7 @@ Eigen::Matrix<double, D, 1> normal_of(const Deformation<D>& deformation) {
 Vector2<double> vector(Point2 p) { return {p.x, p.y}; }
 
 Eigen::Vector2d gradient(const PolygonElement& polygon, Eigen::Index corner) {
-  const auto [x, y] = polygon.gradient[static_cast<std::size_t>(corner)];
+  const auto [x, y] = polygon.gradient[to_size(corner)];
   return {x, y};
 }
 
@@ -42,10 +43,10 @@ void PolygonSheet<D>::reset(std::size_t slot, const PolygonElement& polygon) {
 template <int D>
 void PolygonSheet<D>::find_slots(const ElementTable& elements, std::size_t vertex, const BlockMatrix<D>& blocks) {
   for (const std::int32_t p : elements.polygons_of(vertex)) {
-    const auto slot = static_cast<std::size_t>(p);
+    const auto slot = to_size(p);
     const auto& corners = elements.polygon(slot).polygon.corners;
     const auto own = std::find(corners.begin(), corners.end(), DeformedIndex(vertex)) - corners.begin();
-    auto to = states_[slot].slots.begin() + own * static_cast<std::ptrdiff_t>(corners.size());
+    auto to = states_[slot].slots.begin() + own * to_index(corners.size());
     for (const DeformedIndex d : corners) *to++ = blocks.find(vertex, d.value);
   }
 }
@@ -60,16 +61,17 @@ template <int D>
 void PolygonSheet<D>::rotate(const PolygonElement& polygon, const Field& x, State& state, Field& force) const {
   const LinearMap<D> map = polygon.map<D>(x);
   state.deformation = deformation_of<D>(map.gradient, law_.strain, law_.lame);
-  const auto k = static_cast<Eigen::Index>(polygon.size());
+  const auto k = to_index(polygon.size());
   state.departure.resize(D, k);
   for (Eigen::Index i = 0; i < k; ++i) {
-    const auto corner = static_cast<std::size_t>(i);
+    const auto corner = to_size(i);
     state.departure.col(i) = x.segment<D>(D * polygon.polygon.corners[corner].value) - map.at(polygon.offset[corner]);
   }
   const auto& d = state.departure;
   Eigen::Matrix<double, D, 2> pull = polygon.area * state.deformation.frame * state.deformation.stress;
   Eigen::Matrix<double, D, Eigen::Dynamic> resisted = stabilisation_.in_plane * d;
-  state.across.setZero(k), state.tilt.setZero(D, k);
+  state.across.setZero(k);
+  state.tilt.setZero(D, k);
   if (const double less = stabilisation_.in_plane - stabilisation_.across; D == 3 && less != 0) {
     const Eigen::Matrix<double, D, 1> n = normal_of<D>(state.deformation);
     state.across = d.transpose() * n;
@@ -83,7 +85,7 @@ void PolygonSheet<D>::rotate(const PolygonElement& polygon, const Field& x, Stat
   }
   resisted = resisted * polygon.departure;
   for (Eigen::Index i = 0; i < k; ++i) {
-    const auto corner = static_cast<std::size_t>(i);
+    const auto corner = to_size(i);
     force.segment<D>(D * polygon.polygon.corners[corner].value) -= pull * gradient(polygon, i) + resisted.col(i);
   }
 }
@@ -114,18 +116,16 @@ void PolygonSheet<D>::add_stiffness(const ElementTable& elements, double factor,
     const Block flat = stabilisation_.in_plane * Block::Identity() - less * n * n.transpose();
     const Eigen::VectorXd pulled = polygon.departure.transpose() * state.across;
     const double across = state.across.squaredNorm();
-    const auto k = static_cast<Eigen::Index>(polygon.size());
+    const auto k = to_index(polygon.size());
     for (Eigen::Index i = 0; i < k; ++i)
       for (Eigen::Index j = 0; j < k; ++j) {
-        const auto block = stiffness.block(vector(polygon.gradient[static_cast<std::size_t>(i)]),
-                                           vector(polygon.gradient[static_cast<std::size_t>(j)]));
+        const auto block = stiffness.block(vector(polygon.gradient[to_size(i)]), vector(polygon.gradient[to_size(j)]));
         Block stabilisation = state.stabilisation(i, j) * flat;
         if (D == 3 && less != 0)
           stabilisation +=
               less * (pulled[i] * state.tilt.col(j) * n.transpose() + pulled[j] * n * state.tilt.col(i).transpose() +
                       across * state.tilt.col(i).dot(state.tilt.col(j)) * n * n.transpose());
-        blocks.block(state.slots[static_cast<std::size_t>(i * k + j)]) +=
-            Eigen::Map<const Block>(block.data()) + factor * stabilisation;
+        blocks.block(state.slots[to_size(i * k + j)]) += Eigen::Map<const Block>(block.data()) + factor * stabilisation;
       }
   }
 }

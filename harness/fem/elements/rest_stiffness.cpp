@@ -1,5 +1,6 @@
 #include "harness/fem/elements/rest_stiffness.h"
 
+#include "harness/base/conversions.h"
 #include "harness/fem/elements/element_stiffness.h"
 #include "harness/fem/elements/polygon_sheet.h"
 
@@ -11,7 +12,7 @@ Vector2<double> gradient_vector(Point2 p) { return {p.x, p.y}; }
 
 /// 2 k x 2 k, N/m.
 Eigen::MatrixXd stiffness_of(const PolygonElement& polygon, const Lame& lame) {
-  const auto k = static_cast<Eigen::Index>(polygon.size());
+  const auto k = to_index(polygon.size());
   StrainInFrame<2, double> at_rest{};
   at_rest.frame[0][0] = at_rest.frame[1][1] = 1;
   const ElementStiffness<2> stiffness({}, polygon.area, at_rest, {Strain::linear, StressStiffness::none, lame});
@@ -20,8 +21,8 @@ Eigen::MatrixXd stiffness_of(const PolygonElement& polygon, const Lame& lame) {
   Eigen::MatrixXd matrix(2 * k, 2 * k);
   for (Eigen::Index i = 0; i < k; ++i)
     for (Eigen::Index j = 0; j < k; ++j) {
-      const auto block = stiffness.block(gradient_vector(polygon.gradient[static_cast<std::size_t>(i)]),
-                                         gradient_vector(polygon.gradient[static_cast<std::size_t>(j)]));
+      const auto block =
+          stiffness.block(gradient_vector(polygon.gradient[to_size(i)]), gradient_vector(polygon.gradient[to_size(j)]));
       matrix.block<2, 2>(2 * i, 2 * j) =
           Eigen::Map<const Eigen::Matrix2d>(block.data()) + stabilisation(i, j) * Eigen::Matrix2d::Identity();
     }
@@ -57,7 +58,9 @@ void RestStiffness::add_force(const Element& element, const Field& moved, Field&
   for (std::size_t k = 0; k < 3; ++k) {
     const auto [gx, gy] = element.gradient[k];
     const double u = moved[2 * element.vertex[k].value], v = moved[2 * element.vertex[k].value + 1];
-    xx += u * gx, yy += v * gy, xy += (u * gy + v * gx) / 2;
+    xx += u * gx;
+    yy += v * gy;
+    xy += (u * gy + v * gx) / 2;
   }
   const double pressure = lame_.lambda * (xx + yy), a = element.area;
   const double sx = a * (2 * lame_.mu * xx + pressure), sy = a * (2 * lame_.mu * yy + pressure);

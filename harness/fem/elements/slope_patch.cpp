@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -28,18 +30,22 @@ void SlopePatch::add(DeformedIndex d, Point2 offset) {
 }
 
 void SlopePatch::begin(const Sheet& sheet, TriangleIndex t) {
-  terms_.clear(), offset_.clear(), windows_.clear();
+  terms_.clear();
+  offset_.clear();
+  windows_.clear();
   const auto c = sheet.corners(t);
   centre_ = 1.0 / 3 * (c[0] + c[1] + c[2]);
   for (std::size_t k = 0; k < 3; ++k) {
     add(sheet.triangle(t).deformed[k], c[k] - centre_);
-    windows_.push_back({half_edge(t, static_cast<int>(k)), c[k] - centre_, c[(k + 1) % 3] - centre_});
+    windows_.push_back({half_edge(t, to_int(k)), c[k] - centre_, c[(k + 1) % 3] - centre_});
   }
   own_ = 3;
 }
 
 void SlopePatch::begin(const Sheet& sheet, const PolygonElement& element) {
-  terms_.clear(), offset_.clear(), windows_.clear();
+  terms_.clear();
+  offset_.clear();
+  windows_.clear();
   const auto& corners = element.polygon.corners;
   centre_ = sheet.rest(sheet.rest_vertex(corners[0])) - element.offset[0];
   for (std::size_t i = 0; i < corners.size(); ++i) add(corners[i], element.offset[i]);
@@ -68,8 +74,7 @@ bool SlopePatch::widen(const Sheet& sheet, const ElementTable* elements, bool fi
     const Point2 far = sheet.rest(sheet.origin(from_far)) - centre_;
     const bool left_of_right = cross(right, far) > 0, right_of_left = cross(far, left) > 0;
     const bool seen = left_of_right && right_of_left;
-    const DeformedIndex vertex =
-        sheet.triangle(triangle_of(from_far)).deformed[static_cast<std::size_t>(corner_of(from_far))];
+    const DeformedIndex vertex = sheet.triangle(triangle_of(from_far)).deformed[to_size(corner_of(from_far))];
     const bool is_unknown = !elements || !elements->is_inside(triangle_of(from_far), vertex);
     if ((seen || first) && is_unknown) add(vertex, far);
     if (left_of_right) next_windows_.push_back({from_right, right, seen ? far : left});
@@ -86,9 +91,9 @@ void SlopePatch::factorise() {
   double sum = 0, corners = 0;
   for (std::size_t i = 0; i < n; ++i) {
     sum += squared_length(offset_[i]);
-    if (i + 1 == own_) corners = sum / static_cast<double>(own_);
+    if (i + 1 == own_) corners = sum / to_double(own_);
   }
-  scale_ = std::sqrt(sum / static_cast<double>(n));
+  scale_ = std::sqrt(sum / to_double(n));
   reference_ = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const Point2 p = 1 / scale_ * offset_[i];
@@ -143,7 +148,7 @@ bool SlopePatch::tells_quadratics() {
 void SlopePatch::invert_what_is_known() {
   Eigen::Matrix3d a = Eigen::Matrix3d::Zero(), turn = Eigen::Matrix3d::Identity();
   for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = i; j < 3; ++j) a(static_cast<int>(i), static_cast<int>(j)) = upper_[3 + i][3 + j];
+    for (std::size_t j = i; j < 3; ++j) a(to_int(i), to_int(j)) = upper_[3 + i][3 + j];
   bool done = false;
   for (int sweep = 0; sweep < 12 && !done; ++sweep) {
     done = true;
@@ -158,9 +163,11 @@ void SlopePatch::invert_what_is_known() {
         rotation << c, s, -s, c;
         for (Eigen::Matrix3d* m : {&a, &turn}) {
           Eigen::Matrix<double, 3, 2> pair;
-          pair << m->col(p), m->col(q);
+          pair << m->col(p);
+          m->col(q);
           pair = (pair * rotation).eval();
-          m->col(p) = pair.col(0), m->col(q) = pair.col(1);
+          m->col(p) = pair.col(0);
+          m->col(q) = pair.col(1);
         }
       }
   }
@@ -184,11 +191,13 @@ std::span<const StencilTerm> SlopePatch::terms(const std::array<Point2, 3>& corn
     y[2] = over(n.y - r[1][2] * y[1], r[2][2]);
     Eigen::Vector3d quadratic(n.x * m.x, (n.x * m.y + n.y * m.x) * M_SQRT1_2, n.y * m.y);
     for (int j = 0; j < 3; ++j) {
-      const auto column = static_cast<std::size_t>(3 + j);
+      const auto column = to_size(3 + j);
       quadratic[j] -= r[1][column] * y[1] + r[2][column] * y[2];
     }
     quadratic = inverse_.transpose() * quadratic;
-    y[3] = quadratic[0], y[4] = quadratic[1], y[5] = quadratic[2];
+    y[3] = quadratic[0];
+    y[4] = quadratic[1];
+    y[5] = quadratic[2];
   }
   for (std::size_t i = 0; i < terms_.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -204,7 +213,7 @@ int SlopePatch::fit(const Sheet& sheet, const ElementTable* elements, TriangleIn
   if (polygon < 0)
     begin(sheet, t);
   else
-    begin(sheet, elements->polygon(static_cast<std::size_t>(polygon)));
+    begin(sheet, elements->polygon(to_size(polygon)));
   int reach = 1;
   for (bool more = widen(sheet, elements, true);; more = widen(sheet, elements, false), ++reach) {
     const bool last = !more || reach == max_reach;

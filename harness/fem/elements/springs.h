@@ -47,7 +47,9 @@ struct Springs {
     for (std::size_t i = 0; i < 3; ++i) {
       const auto& [x, y] = along[i];
       const Number weight = young * tension_over_stretch(i);
-      s.xx += weight * (x * x), s.xy += weight * (x * y), s.yy += weight * (y * y);
+      s.xx += weight * (x * x);
+      s.xy += weight * (x * y);
+      s.yy += weight * (y * y);
     }
     return s;
   }

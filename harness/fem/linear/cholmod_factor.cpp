@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/linear/compressed_columns.h"
 
 // Declared here, because <omp.h> may be that of another OpenMP library (clang's) than the one CHOLMOD runs on, which is
@@ -51,18 +52,21 @@ cholmod_sparse sparse_view(const std::vector<std::int32_t>& begin, const std::ve
   sparse.i = const_cast<std::int32_t*>(rows.data());
   sparse.x = const_cast<double*>(values);
   sparse.stype = -1;
-  sparse.itype = CHOLMOD_INT, sparse.xtype = values ? CHOLMOD_REAL : CHOLMOD_PATTERN, sparse.dtype = CHOLMOD_DOUBLE;
+  sparse.itype = CHOLMOD_INT;
+  sparse.xtype = values ? CHOLMOD_REAL : CHOLMOD_PATTERN;
+  sparse.dtype = CHOLMOD_DOUBLE;
   sparse.sorted = sparse.packed = 1;
   return sparse;
 }
 
 cholmod_dense dense_view(const Eigen::MatrixXd& b) {
   cholmod_dense dense{};
-  dense.nrow = dense.d = static_cast<std::size_t>(b.rows());
-  dense.ncol = static_cast<std::size_t>(b.cols());
+  dense.nrow = dense.d = to_size(b.rows());
+  dense.ncol = to_size(b.cols());
   dense.nzmax = dense.nrow * dense.ncol;
   dense.x = const_cast<double*>(b.data());
-  dense.xtype = CHOLMOD_REAL, dense.dtype = CHOLMOD_DOUBLE;
+  dense.xtype = CHOLMOD_REAL;
+  dense.dtype = CHOLMOD_DOUBLE;
   return dense;
 }
 
@@ -100,22 +104,21 @@ std::vector<std::int32_t> CholmodFactor<D>::Parts::extended_order() const {
   const std::size_t n = columns.graph_begin().size() - 1;
   // The places of old vertices, and for a new one the place of the neighbour that it follows.
   std::vector<std::int32_t> place(n, -1), all(n);
-  for (std::size_t k = 0; k < vertices.size(); ++k)
-    place[static_cast<std::size_t>(vertices[k])] = static_cast<std::int32_t>(k);
+  for (std::size_t k = 0; k < vertices.size(); ++k) place[to_size(vertices[k])] = to_int32(k);
   const auto follow = [&](std::int32_t v, std::int32_t neighbour) {
-    if (v < static_cast<std::int32_t>(vertices.size())) return;
-    auto& mine = place[static_cast<std::size_t>(v)];
-    mine = std::max(mine, place[static_cast<std::size_t>(neighbour)]);
+    if (v < to_int32(vertices.size())) return;
+    auto& mine = place[to_size(v)];
+    mine = std::max(mine, place[to_size(neighbour)]);
   };
   for (std::size_t j = 0; j < n; ++j)
     for (std::int32_t k = columns.graph_begin()[j]; k < columns.graph_begin()[j + 1]; ++k) {
-      const std::int32_t i = columns.graph_rows()[static_cast<std::size_t>(k)];
-      follow(i, static_cast<std::int32_t>(j)), follow(static_cast<std::int32_t>(j), i);
+      const std::int32_t i = columns.graph_rows()[to_size(k)];
+      follow(i, to_int32(j));
+      follow(to_int32(j), i);
     }
   std::iota(all.begin(), all.end(), 0);
-  std::stable_sort(all.begin(), all.end(), [&](std::int32_t a, std::int32_t b) {
-    return place[static_cast<std::size_t>(a)] < place[static_cast<std::size_t>(b)];
-  });
+  std::stable_sort(all.begin(), all.end(),
+                   [&](std::int32_t a, std::int32_t b) { return place[to_size(a)] < place[to_size(b)]; });
   return all;
 }
 
@@ -170,7 +173,7 @@ bool CholmodFactor<D>::solve(const Eigen::MatrixXd& b, Eigen::MatrixXd& x) {
     return false;
   x = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(cholmod.solution->x), b.rows(), b.cols());
   for (std::size_t u = 0; u < parts_->held.size(); ++u)
-    if (parts_->held[u]) x.row(static_cast<Eigen::Index>(u)).setZero();
+    if (parts_->held[u]) x.row(to_index(u)).setZero();
   return true;
 }
 

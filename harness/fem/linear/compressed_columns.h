@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/linear/system_matrix.h"
 
 namespace cutbench {
@@ -23,13 +24,11 @@ class CompressedColumns {
     for (const double v : values_) all = std::max(all, std::abs(v));
     return all;
   }
-  bool all_finite() const {
-    return Eigen::Map<const Field>(values_.data(), static_cast<Eigen::Index>(values_.size())).allFinite();
-  }
+  bool all_finite() const { return Eigen::Map<const Field>(values_.data(), to_index(values_.size())).allFinite(); }
   std::size_t unknowns() const { return begin_.size() - 1; }
   Eigen::Map<const Eigen::SparseMatrix<double>> lower_triangle() const {  ///< refers to this
-    const auto n = static_cast<Eigen::Index>(unknowns());
-    return {n, n, static_cast<Eigen::Index>(rows_.size()), begin_.data(), rows_.data(), values_.data()};
+    const auto n = to_index(unknowns());
+    return {n, n, to_index(rows_.size()), begin_.data(), rows_.data(), values_.data()};
   }
   /// Where each column begins, and its end; the row of each entry, rising in a column; the entries.
   const std::vector<std::int32_t>& begin() const { return begin_; }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -52,7 +54,7 @@ auto ConjugateGradients<D>::advance(double step, Field& x) -> Products {
   // additions don't wait for each other.
   Vector rr = Vector::Zero(), rdr = Vector::Zero();
   for (std::size_t i = 0; i < inverse_.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(D * i);
+    const auto at = to_index(D * i);
     x.template segment<D>(at) += step * p_.template segment<D>(at);
     const Vector r = r_.template segment<D>(at) - step * q_.template segment<D>(at);
     const Vector z = inverse_[i] * r;
@@ -75,7 +77,10 @@ template <int D>
 SolveReport ConjugateGradients<D>::solve(const Field& b, Field& x, const Field& start) {
   const SystemMatrix<D>& a = *matrix_;
   project(*a.held, b, b_);
-  x.setZero(b.size()), z_.resize(b.size()), p_.setZero(b.size()), q_.setZero(b.size());
+  x.setZero(b.size());
+  z_.resize(b.size());
+  p_.setZero(b.size());
+  q_.setZero(b.size());
   SolveReport report;
   if (b_.isZero(0)) {
     report.converged = true;
@@ -91,7 +96,10 @@ SolveReport ConjugateGradients<D>::solve(const Field& b, Field& x, const Field& 
     project(*a.held, start, x);
     a.multiply(x, q_);
     r_ -= q_;
-    if (!(r_.squaredNorm() < bb)) x.setZero(), r_ = b_;
+    if (!(r_.squaredNorm() < bb)) {
+      x.setZero();
+      r_ = b_;
+    }
     q_.setZero();
   }
   for (int restart = 0, begun = 0;;) {
@@ -109,7 +117,10 @@ SolveReport ConjugateGradients<D>::solve(const Field& b, Field& x, const Field& 
       broken = !(pap > 0 && now.rz > 0 && std::isfinite(pap) && std::isfinite(now.rz));
       if (broken) break;
       Products next = advance(now.rz / pap, x);
-      if (next.rr > enough || next.rdr > enough_rdr) precondition(next), p_ = z_ + (next.rz / now.rz) * p_;
+      if (next.rr > enough || next.rdr > enough_rdr) {
+        precondition(next);
+        p_ = z_ + (next.rz / now.rz) * p_;
+      }
       now = next;
     }
     a.multiply(x, q_);
@@ -124,8 +135,12 @@ SolveReport ConjugateGradients<D>::solve(const Field& b, Field& x, const Field& 
     if (gives_up && !(trial_ < trials_.size() && positive_blocks_ && std::isfinite(bb))) return report;
     if (gives_up) {
       give_up();
-      restart = 0, begun = report.iterations;
-      x.setZero(), r_ = b_, p_.setZero(), q_.setZero();
+      restart = 0;
+      begun = report.iterations;
+      x.setZero();
+      r_ = b_;
+      p_.setZero();
+      q_.setZero();
       continue;
     }
     ++restart;

@@ -1,5 +1,6 @@
 #include <Eigen/SparseCholesky>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/linear/compressed_columns.h"
 #include "harness/fem/linear/factor.h"
 
@@ -25,7 +26,7 @@ class EigenFactor final : public Factor<D> {
   bool solve(const Eigen::MatrixXd& b, Eigen::MatrixXd& x) override {
     x = ldlt_.solve(b);
     for (std::size_t u = 0; u < held_.size(); ++u)
-      if (held_[u]) x.row(static_cast<Eigen::Index>(u)).setZero();
+      if (held_[u]) x.row(to_index(u)).setZero();
     return true;
   }
   double largest_entry() const override { return columns_.largest(); }

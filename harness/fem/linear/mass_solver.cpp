@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 template <int D>
@@ -11,12 +13,11 @@ void MassSolver<D>::setup(const FieldView& lumped, const BlockMatrix<1>& added, 
     Group& group = groups_[used_];
     group.vertices.clear();
     for (std::size_t v = 0; v < added.rows(); ++v)
-      if (!added.columns(v).empty() && !held[D * v + static_cast<std::size_t>(axis)])
-        group.vertices.push_back(static_cast<std::int32_t>(v));
+      if (!added.columns(v).empty() && !held[D * v + to_size(axis)]) group.vertices.push_back(to_int32(v));
     group.axes = {axis};
-    const auto same = std::find_if(groups_.begin(), groups_.begin() + static_cast<std::ptrdiff_t>(used_),
+    const auto same = std::find_if(groups_.begin(), groups_.begin() + to_index(used_),
                                    [&](const Group& other) { return other.vertices == group.vertices; });
-    if (same != groups_.begin() + static_cast<std::ptrdiff_t>(used_))
+    if (same != groups_.begin() + to_index(used_))
       same->axes.push_back(axis);
     else if (!group.vertices.empty())
       ++used_;
@@ -24,17 +25,16 @@ void MassSolver<D>::setup(const FieldView& lumped, const BlockMatrix<1>& added, 
   std::vector<int> place(added.rows());
   for (std::size_t g = 0; g < used_; ++g) {
     Group& group = groups_[g];
-    const auto n = static_cast<Eigen::Index>(group.vertices.size());
+    const auto n = to_index(group.vertices.size());
     std::fill(place.begin(), place.end(), -1);
-    for (Eigen::Index i = 0; i < n; ++i)
-      place[static_cast<std::size_t>(group.vertices[static_cast<std::size_t>(i)])] = static_cast<int>(i);
+    for (Eigen::Index i = 0; i < n; ++i) place[to_size(group.vertices[to_size(i)])] = to_int(i);
     std::vector<Eigen::Triplet<double>> entries;
     for (const std::int32_t v : group.vertices) {
-      const auto row = static_cast<std::size_t>(v);
+      const auto row = to_size(v);
       entries.emplace_back(place[row], place[row], lumped[v]);
       std::int32_t slot = added.first_slot(row);
       for (const std::int32_t j : added.columns(row)) {
-        const int column = place[static_cast<std::size_t>(j)];
+        const int column = place[to_size(j)];
         const double value = added.block(slot++)(0);
         if (column >= 0 && column <= place[row]) entries.emplace_back(place[row], column, value);
       }
@@ -42,7 +42,7 @@ void MassSolver<D>::setup(const FieldView& lumped, const BlockMatrix<1>& added, 
     Eigen::SparseMatrix<double> matrix(n, n);
     matrix.setFromTriplets(entries.begin(), entries.end());
     group.factor.compute(matrix);
-    group.values.resize(n, static_cast<Eigen::Index>(group.axes.size()));
+    group.values.resize(n, to_index(group.axes.size()));
   }
 }
 
@@ -53,8 +53,7 @@ void MassSolver<D>::solve(const Field& p, Field& dv) {
     const auto each = [&group](const auto& act) {
       for (std::size_t k = 0; k < group.axes.size(); ++k)
         for (std::size_t i = 0; i < group.vertices.size(); ++i)
-          act(D * group.vertices[i] + group.axes[k],
-              group.values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)));
+          act(D * group.vertices[i] + group.axes[k], group.values(to_index(i), to_index(k)));
     };
     each([&](Eigen::Index unknown, double& value) { value = p[unknown]; });
     group.values = group.factor.solve(group.values).eval();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 /// Calls take(i, row i of A x). All parts row by row, so that each value of the product is written once.
@@ -25,7 +27,7 @@ void SystemMatrix<D>::for_each_product(const Field& x, const Take& take) const {
 template <int D>
 void SystemMatrix<D>::add_product(const Field& x, Field& y) const {
   for_each_product(x, [&](std::size_t i, Lanes sum) {
-    for (std::size_t k = 0; k < D; ++k) y[static_cast<Eigen::Index>(D * i + k)] += sum[k];
+    for (std::size_t k = 0; k < D; ++k) y[to_index(D * i + k)] += sum[k];
   });
 }
 
@@ -33,7 +35,7 @@ template <int D>
 void SystemMatrix<D>::multiply(const Field& x, Field& y) const {
   y.resize(x.size());
   for_each_product(x, [&](std::size_t i, Lanes sum) {
-    for (std::size_t k = 0; k < D; ++k) y[static_cast<Eigen::Index>(D * i + k)] = (*held)[D * i + k] ? 0 : sum[k];
+    for (std::size_t k = 0; k < D; ++k) y[to_index(D * i + k)] = (*held)[D * i + k] ? 0 : sum[k];
   });
 }
 
@@ -45,7 +47,11 @@ typename BlockMatrix<D>::Block SystemMatrix<D>::diagonal(std::size_t i) const {
     if (!term.matrix->columns(i).empty())
       a.diagonal().array() += term.factor * term.matrix->block(term.matrix->first_slot(i))(0);
   for (int k = 0; k < D; ++k)
-    if ((*held)[D * i + static_cast<std::size_t>(k)]) a.row(k).setZero(), a.col(k).setZero(), a(k, k) = 1;
+    if ((*held)[D * i + to_size(k)]) {
+      a.row(k).setZero();
+      a.col(k).setZero();
+      a(k, k) = 1;
+    }
   return a;
 }
 
@@ -64,7 +70,7 @@ void SystemMatrix<D>::diagonals(std::vector<typename BlockMatrix<D>::Block>& all
 
 void project(const std::vector<std::uint8_t>& held, const Eigen::Ref<const Field>& b, Field& projected) {
   projected.resize(b.size());
-  for (Eigen::Index u = 0; u < b.size(); ++u) projected[u] = held[static_cast<std::size_t>(u)] ? 0 : b[u];
+  for (Eigen::Index u = 0; u < b.size(); ++u) projected[u] = held[to_size(u)] ? 0 : b[u];
 }
 
 template struct SystemMatrix<2>;

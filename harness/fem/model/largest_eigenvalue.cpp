@@ -9,6 +9,7 @@
 #include <random>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/constraints/constraint_matrix.h"
 #include "harness/fem/elements/added_mass.h"
 #include "harness/fem/elements/element_table.h"
@@ -46,7 +47,7 @@ class ScaledStiffness {
   }
   double added_mass_share() const { return added_ ? added_->total() / lumped_.sum() : 0; }
 
-  Eigen::Index size() const { return 2 * static_cast<Eigen::Index>(constraint_matrix_.unknowns()); }
+  Eigen::Index size() const { return 2 * to_index(constraint_matrix_.unknowns()); }
   bool is_mass_positive() const { return is_mass_positive_; }
 
   void apply(const VectorXd& x, VectorXd& y) {
@@ -85,22 +86,19 @@ class ScaledStiffness {
     for (Eigen::Index i = 0; i < lumped_.size(); ++i) act(i, i, lumped_[i]);
     for (std::size_t v = 0; added_ && v < added_->matrix().rows(); ++v) {
       std::int32_t slot = added_->matrix().first_slot(v);
-      for (const std::int32_t j : added_->matrix().columns(v))
-        act(static_cast<Eigen::Index>(v), j, added_->matrix().block(slot++)(0));
+      for (const std::int32_t j : added_->matrix().columns(v)) act(to_index(v), j, added_->matrix().block(slot++)(0));
     }
   }
 
   void factor(const std::vector<double>& lumped) {
-    const auto n = static_cast<Eigen::Index>(constraint_matrix_.unknowns());
+    const auto n = to_index(constraint_matrix_.unknowns());
     if (n == 0) return;
     std::vector<Eigen::Triplet<double>> entries;
     VectorXd diagonal = VectorXd::Zero(n);
-    for (std::size_t u = 0; u < lumped.size(); ++u)
-      entries.emplace_back(u, u, diagonal[static_cast<Eigen::Index>(u)] = lumped[u]);
+    for (std::size_t u = 0; u < lumped.size(); ++u) entries.emplace_back(u, u, diagonal[to_index(u)] = lumped[u]);
     for_each_mass([&](Eigen::Index i, Eigen::Index j, double mass) {
       if (!lumped.empty()) return;
-      const auto &row = constraint_matrix_.row(static_cast<std::size_t>(i)),
-                 &column = constraint_matrix_.row(static_cast<std::size_t>(j));
+      const auto &row = constraint_matrix_.row(to_size(i)), &column = constraint_matrix_.row(to_size(j));
       for (std::size_t k = 0; k < row.size; ++k)
         for (std::size_t l = 0; l < column.size; ++l)
           entries.emplace_back(row.unknown[k], column.unknown[l], row.weight[k] * column.weight[l] * mass);
@@ -114,7 +112,7 @@ class ScaledStiffness {
         diagonal[ghost.unknown[k].value] += ghost.mass;
       }
     for (Eigen::Index u = 0; u < n; ++u)  // what nothing depends on has no stiffness either, and any mass will do
-      if (diagonal[u] == 0) entries.emplace_back(static_cast<int>(u), static_cast<int>(u), 1);
+      if (diagonal[u] == 0) entries.emplace_back(to_int(u), to_int(u), 1);
     Eigen::SparseMatrix<double> matrix(n, n);
     matrix.setFromTriplets(entries.begin(), entries.end());
     mass_.compute(matrix);
@@ -169,7 +167,7 @@ double largest_eigenvalue(const Sheet& sheet, const Constraints& constraints, co
   if (!stiffness.is_mass_positive()) return std::numeric_limits<double>::quiet_NaN();
   std::mt19937_64 bits(1);  // its bits, unlike the distributions, are the same everywhere
   VectorXd q(n), before = VectorXd::Zero(n), next;
-  for (double& x : q) x = static_cast<double>(bits() >> 11) * 0x1p-53 - 0.5;
+  for (double& x : q) x = to_double(bits() >> 11) * 0x1p-53 - 0.5;
   q.normalize();
   // Without orthogonalisation: what that costs is copies of eigenvalues already found.
   std::vector<double> diagonal, beside;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 template <int D>
@@ -30,7 +32,10 @@ Model<D>::Model(const Sheet& sheet, const Material& material, const Physics& phy
 
 template <int D>
 void Model<D>::reserve_spare() {
-  elements_.reserve_spare(), blocks_.reserve_spare(), incidence_.reserve_spare(), membrane_.reserve_spare();
+  elements_.reserve_spare();
+  blocks_.reserve_spare();
+  incidence_.reserve_spare();
+  membrane_.reserve_spare();
   cutbench::reserve_spare(mass_, external_, held_, pin_of_, places_, marked_in_);
   if (consistent_mass_) consistent_mass_->reserve_spare();
   if (bending_) bending_->reserve_spare();
@@ -39,11 +44,16 @@ void Model<D>::reserve_spare() {
 template <int D>
 void Model<D>::resize(const Sheet& sheet) {
   const std::size_t n = sheet.deformed_slots();
-  incidence_.resize(n), blocks_.resize(n), marked_in_.resize(std::max(n, marked_in_.size()));
+  incidence_.resize(n);
+  blocks_.resize(n);
+  marked_in_.resize(std::max(n, marked_in_.size()));
   if (consistent_mass_) consistent_mass_->resize(n);
-  held_.resize(D * n, 1), pin_of_.resize(D * n, -1), places_.resize(n);
+  held_.resize(D * n, 1);
+  pin_of_.resize(D * n, -1);
+  places_.resize(n);
   membrane_.resize(elements_.size());
-  mass_.resize(n), external_.resize(D * n);
+  mass_.resize(n);
+  external_.resize(D * n);
 }
 
 template <int D>
@@ -60,23 +70,23 @@ const BlockMatrix<1>* Model<D>::mass_matrix() const {
 
 template <int D>
 Field Model<D>::positions(const Sheet& sheet) const {
-  Field x = Field::Zero(static_cast<Eigen::Index>(D * sheet.deformed_slots()));
+  Field x = Field::Zero(to_index(D * sheet.deformed_slots()));
   for (std::size_t v = 0; v < sheet.deformed_slots(); ++v) {
     const auto p = coordinates(sheet.position(DeformedIndex(v)));
-    for (std::size_t k = 0; k < D; ++k) x[static_cast<Eigen::Index>(D * v + k)] = p[k];
+    for (std::size_t k = 0; k < D; ++k) x[to_index(D * v + k)] = p[k];
   }
   return x;
 }
 
 template <int D>
 double Model<D>::held_displacement(std::size_t unknown, double time) const {
-  const Pin& pin = pins_[static_cast<std::size_t>(pin_of_[unknown])];
+  const Pin& pin = pins_[to_size(pin_of_[unknown])];
   return coordinates(pin.displacement)[unknown % D] + held_velocity(unknown) * time;
 }
 
 template <int D>
 double Model<D>::held_velocity(std::size_t unknown) const {
-  return coordinates(pins_[static_cast<std::size_t>(pin_of_[unknown])].velocity)[unknown % D];
+  return coordinates(pins_[to_size(pin_of_[unknown])].velocity)[unknown % D];
 }
 
 template <int D>
@@ -94,7 +104,7 @@ std::size_t Model<D>::unheld_pieces() const {
       front.pop_back();
       for (std::size_t k = 0; k < D; ++k) held |= held_[D * v + k] != 0;
       for (const auto j : blocks_.columns(v))
-        if (!std::exchange(seen[static_cast<std::size_t>(j)], 1)) front.push_back(static_cast<std::size_t>(j));
+        if (!std::exchange(seen[to_size(j)], 1)) front.push_back(to_size(j));
     }
     unheld += !held;
   }
@@ -117,7 +127,8 @@ void Model<D>::add_internal_force(const Field& x, Field& f) const {
 template <int D>
 void Model<D>::add_impulse(double h, const Field& x, double factor, const Field& v, Field& y) {
   y += h * membrane_.force();
-  spread<D>(v, velocity_), spread<D>(x, bent_);
+  spread<D>(v, velocity_);
+  spread<D>(x, bent_);
   for (std::size_t i = 0; i < vertices(); ++i)  // K_b (h x) and factor stiffness_factor K_b v at once
     bent_[i] = h * bent_[i] + factor * stiffness_factor_ * velocity_[i];
   for (std::size_t i = 0; i < vertices(); ++i) {
@@ -126,14 +137,15 @@ void Model<D>::add_impulse(double h, const Field& x, double factor, const Field&
     if (bending_) bending_->matrix().prefetch_row(ahead);
     Lanes sum = factor * blocks_.row_product(i, velocity_);
     if (bending_) sum += bending_->matrix().row_product(i, bent_);
-    for (std::size_t k = 0; k < D; ++k) y[static_cast<Eigen::Index>(D * i + k)] -= sum[k];
+    for (std::size_t k = 0; k < D; ++k) y[to_index(D * i + k)] -= sum[k];
   }
   if (const auto* mass = mass_matrix()) add_product_per_coordinate(*mass, D, -factor * mass_factor_, v, y);
 }
 
 template <int D>
 void Model<D>::assemble(double mass_factor, double stiffness_factor) {
-  mass_factor_ = mass_factor, stiffness_factor_ = stiffness_factor;
+  mass_factor_ = mass_factor;
+  stiffness_factor_ = stiffness_factor;
   blocks_.set_zero();
   membrane_.add_stiffness(elements_, stiffness_factor, blocks_);
   if (consistent_mass_) return;
@@ -144,7 +156,11 @@ void Model<D>::assemble(double mass_factor, double stiffness_factor) {
 template <int D>
 SystemMatrix<D> Model<D>::system() const {
   SystemMatrix<D> a;
-  a.blocks = &blocks_, a.held = &held_, a.elements = &elements_, a.places = &places_, a.pattern = history_.now();
+  a.blocks = &blocks_;
+  a.held = &held_;
+  a.elements = &elements_;
+  a.places = &places_;
+  a.pattern = history_.now();
   a.history = &history_;
   if (bending_) a.scalar.push_back({stiffness_factor_, &bending_->matrix()});
   if (const auto* mass = mass_matrix()) a.scalar.push_back({mass_factor_, mass});
@@ -156,7 +172,7 @@ void Model<D>::add_mass_product(double factor, const Field& x, Field& y) const {
   if (const auto* mass = mass_matrix()) add_product_per_coordinate(*mass, D, factor, x, y);
   if (consistent_mass_) return;
   for (std::size_t v = 0; v < mass_.size(); ++v) {
-    const auto at = static_cast<Eigen::Index>(D * v);
+    const auto at = to_index(D * v);
     y.template segment<D>(at) += factor * mass_[v] * x.template segment<D>(at);
   }
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/constraints/constraint_matrix.h"
 #include "harness/fem/elements/added_mass.h"
 #include "harness/fem/elements/bending.h"
@@ -47,7 +48,7 @@ class Model {
   /// Gives the vertices inside elements their values, positions or velocities.
   void follow(Field& x) const { elements_.template follow<D>(x); }
 
-  std::size_t vertices() const { return static_cast<std::size_t>(mass_.size()); }  ///< slots of the opened sheet
+  std::size_t vertices() const { return to_size(mass_.size()); }  ///< slots of the opened sheet
   /// Positions of the sheet's vertices, m.
   Field positions(const Sheet& sheet) const;
 
@@ -91,9 +92,7 @@ class Model {
 
  private:
   static std::array<double, 3> coordinates(Point3 p) { return {p.x, p.y, p.z}; }
-  static FieldView view_of(const std::vector<double>& values) {
-    return {values.data(), static_cast<Eigen::Index>(values.size())};
-  }
+  static FieldView view_of(const std::vector<double>& values) { return {values.data(), to_index(values.size())}; }
   void resize(const Sheet& sheet);
   void refresh_vertices(const Sheet& sheet);
   void refresh_row(std::size_t v);

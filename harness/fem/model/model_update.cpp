@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/model/model.h"
 
 namespace cutbench {
@@ -39,10 +40,10 @@ void Model<D>::update_bending(const Sheet& sheet) {
   bending_->update(sheet, &elements_, regrouped_.triangles);
   regrouped_.triangles.clear();
   history_.begin_change();
-  for (const std::int32_t v : bending_->written_rows()) history_.mark(static_cast<std::size_t>(v));
+  for (const std::int32_t v : bending_->written_rows()) history_.mark(to_size(v));
   if (!added_mass_) return;
   for (const std::int32_t v : bending_->written_rows()) {
-    const DeformedIndex d(static_cast<std::size_t>(v));
+    const DeformedIndex d(to_size(v));
     mark({&d, 1});
   }
   refresh_added_mass();
@@ -70,7 +71,11 @@ void Model<D>::mark_regrouped() {
 
 template <int D>
 void Model<D>::refresh_vertices(const Sheet& sheet) {
-  for (const std::size_t v : marked_) refresh_row(v), refresh_mass(v), refresh_loads(sheet, v);
+  for (const std::size_t v : marked_) {
+    refresh_row(v);
+    refresh_mass(v);
+    refresh_loads(sheet, v);
+  }
   history_.begin_change();
   for (const std::size_t v : marked_) history_.mark(v);
 }
@@ -81,7 +86,7 @@ void Model<D>::refresh_row(std::size_t v) {
   const auto triangles = incidence_.at(v);
   columns_.clear();
   elements_.for_each_round(v, triangles, [&](std::span<const DeformedIndex> with) {
-    if (columns_.empty()) columns_.push_back(static_cast<std::int32_t>(v));
+    if (columns_.empty()) columns_.push_back(to_int32(v));
     for (const auto d : with)
       if (std::find(columns_.begin(), columns_.end(), d.value) == columns_.end()) columns_.push_back(d.value);
   });
@@ -115,14 +120,15 @@ void Model<D>::refresh_loads(const Sheet& sheet, std::size_t v) {
   const auto gravity = coordinates(physics_.gravity);
   for (std::size_t k = 0; k < D; ++k) {
     external_[D * v + k] = mass_[v] * gravity[k];
-    held_[D * v + k] = 1, pin_of_[D * v + k] = -1;
+    held_[D * v + k] = 1;
+    pin_of_[D * v + k] = -1;
   }
   if (!rest_vertex.valid()) return;
   const Point2 rest = places_[v] = sheet.rest(rest_vertex);
   if (blocks_.columns(v).empty()) return;  // inside an element
   for (std::size_t k = 0; k < D; ++k) {
     for (std::size_t p = 0; p < pins_.size() && pin_of_[D * v + k] < 0; ++p)
-      if (pins_[p].axes[k] && pins_[p].where.contains(rest)) pin_of_[D * v + k] = static_cast<std::int32_t>(p);
+      if (pins_[p].axes[k] && pins_[p].where.contains(rest)) pin_of_[D * v + k] = to_int32(p);
     held_[D * v + k] = pin_of_[D * v + k] >= 0;
   }
   if (tractions_.empty()) return;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 template <int D>
@@ -11,12 +13,12 @@ State initial_state(const Model<D>& model, const Sheet& sheet) {
   state.anchor = state.x = model.positions(sheet);
   state.v.setZero(state.x.size());
   for (std::size_t i = 0; i < model.held().size(); ++i)
-    if (model.pinned(i)) state.x[static_cast<Eigen::Index>(i)] += model.held_displacement(i, 0);
+    if (model.pinned(i)) state.x[to_index(i)] += model.held_displacement(i, 0);
   return state;
 }
 
 void transfer(const EditLog& log, std::size_t deformed_slots, int dimension, State& state) {
-  const auto size = static_cast<Eigen::Index>(deformed_slots) * dimension;
+  const auto size = to_index(deformed_slots) * dimension;
   for (Field* field : {&state.x, &state.v, &state.anchor, &state.dv}) {
     if (field == &state.dv && field->size() == 0) continue;
     const Eigen::Index old = field->size();
@@ -27,10 +29,9 @@ void transfer(const EditLog& log, std::size_t deformed_slots, int dimension, Sta
       for (std::size_t i = 0; i < 3; ++i) {
         if (!made.parents[i].valid()) continue;
         for (int k = 0; k < dimension; ++k)
-          sum[static_cast<std::size_t>(k)] += made.weights[i] * (*field)[dimension * made.parents[i].value + k];
+          sum[to_size(k)] += made.weights[i] * (*field)[dimension * made.parents[i].value + k];
       }
-      for (int k = 0; k < dimension; ++k)
-        (*field)[dimension * made.vertex.value + k] = sum[static_cast<std::size_t>(k)];
+      for (int k = 0; k < dimension; ++k) (*field)[dimension * made.vertex.value + k] = sum[to_size(k)];
     }
   }
 }
@@ -43,7 +44,7 @@ void renumber(const std::vector<DeformedIndex>& deformed, int dimension, State& 
     for (std::size_t i = 0; i < deformed.size(); ++i)
       if (deformed[i].valid())
         renumbered.segment(dimension * deformed[i].value, dimension) =
-            field->segment(dimension * static_cast<Eigen::Index>(i), dimension);
+            field->segment(dimension * to_index(i), dimension);
     *field = std::move(renumbered);
   }
 }
@@ -52,7 +53,7 @@ template <int D>
 void hold_where_it_is(const Model<D>& model, State& state) {
   for (std::size_t i = 0; i < model.held().size(); ++i) {
     if (!model.pinned(i)) continue;
-    const auto k = static_cast<Eigen::Index>(i);
+    const auto k = to_index(i);
     state.anchor[k] = state.x[k] - model.held_displacement(i, state.time);
     state.v[k] = model.held_velocity(i);
   }
@@ -68,16 +69,18 @@ Balance balance_of(Model<D>& model, const State& state) {
   model.add_mass_product(1, state.v, momentum);
   Eigen::Vector3d linear = Eigen::Vector3d::Zero(), angular = linear, x = linear, p = linear;
   for (std::size_t i = 0; i < model.vertices(); ++i) {
-    const auto at = static_cast<Eigen::Index>(D * i);
-    x.head<D>() = state.x.segment<D>(at), p.head<D>() = momentum.segment<D>(at);
-    linear += p, angular += x.cross(p);
+    const auto at = to_index(D * i);
+    x.head<D>() = state.x.segment<D>(at);
+    p.head<D>() = momentum.segment<D>(at);
+    linear += p;
+    angular += x.cross(p);
   }
   balance.momentum = {linear.x(), linear.y(), linear.z()};
   balance.angular_momentum = {angular.x(), angular.y(), angular.z()};
   model.add_internal_force(state.x, force);
   model.add_external_force(force);
   for (std::size_t i = 0; i < model.held().size(); ++i)
-    if (model.held()[i]) force[static_cast<Eigen::Index>(i)] = 0;
+    if (model.held()[i]) force[to_index(i)] = 0;
   if (const auto* constrained = model.constrained()) {
     Field reduced;
     constrained->reduce(model.held(), force, reduced);

@@ -18,6 +18,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/base/points.h"
 #include "harness/base/union_find.h"
 #include "harness/fem/algebra/row_sum.h"
@@ -76,12 +77,15 @@ class Coarsening {
   /// A set of numbers that is emptied at no cost.
   class Marks {
    public:
-    void clear(std::size_t size) { marked_in_.resize(size), ++round_; }
+    void clear(std::size_t size) {
+      marked_in_.resize(size);
+      ++round_;
+    }
     void grow(std::size_t size) { marked_in_.resize(size); }
-    bool holds(std::int32_t i) const { return marked_in_[static_cast<std::size_t>(i)] == round_; }
+    bool holds(std::int32_t i) const { return marked_in_[to_size(i)] == round_; }
     /// True if it was not there.
     bool insert(std::int32_t i) {
-      auto& mark = marked_in_[static_cast<std::size_t>(i)];
+      auto& mark = marked_in_[to_size(i)];
       return mark != round_ && (mark = round_, true);
     }
 

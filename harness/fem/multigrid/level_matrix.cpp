@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "harness/base/conversions.h"
 #include "harness/base/prefetch.h"
 
 namespace cutbench {
@@ -19,9 +20,10 @@ void LevelMatrix<D, S>::follow(const LevelRows& rows, std::span<const std::int32
   rows_ = &rows;
   blocks_.resize(D * D * rows.blocks.slots() + padding);
   inverse_.resize(D * D * rows.size() + padding);
-  near_.resize(rows.size()), left_out_.resize(rows.size());
+  near_.resize(rows.size());
+  left_out_.resize(rows.size());
   find_scales(changed);
-  for (const std::int32_t row : changed) take_scalars(static_cast<std::size_t>(row));
+  for (const std::int32_t row : changed) take_scalars(to_size(row));
 }
 
 /// A row keeps its scale as long as it is there, so that both rows of an entry leave it out or none does. That of a
@@ -32,7 +34,7 @@ void LevelMatrix<D, S>::find_scales(std::span<const std::int32_t> changed) {
   const bool is_first = scale_.empty();
   scale_.resize(rows_->size());
   for (const std::int32_t row : changed) {
-    const auto i = static_cast<std::size_t>(row);
+    const auto i = to_size(row);
     if (rows_->scalars[i].empty())
       scale_[i] = 0;
     else if (scale_[i] == 0)
@@ -42,36 +44,38 @@ void LevelMatrix<D, S>::find_scales(std::span<const std::int32_t> changed) {
     std::vector<double> sorted;
     for (const double scale : scale_)
       if (scale > 0 && std::isfinite(scale)) sorted.push_back(scale);
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    const auto middle = sorted.begin() + to_index(sorted.size() / 2);
     std::nth_element(sorted.begin(), middle, sorted.end());
     median_scale_ = sorted.empty() ? 0 : *middle;
   }
   for (const std::int32_t row : changed) {
-    auto& scale = scale_[static_cast<std::size_t>(row)];
+    auto& scale = scale_[to_size(row)];
     scale = std::min(scale, median_scale_);
   }
 }
 
 template <int D, class S>
 void LevelMatrix<D, S>::take_scalars(std::size_t i) {
-  columns_.clear(), values_.clear();
+  columns_.clear();
+  values_.clear();
   double left_out = 0;
   std::size_t slot = rows_->scalars.first_slot(i), own = 0;
   for (const std::int32_t column : rows_->scalars[i]) {
     const double value = rows_->scalar[slot++];
-    const auto j = static_cast<std::size_t>(column);
+    const auto j = to_size(column);
     if (j != i && std::abs(value) < small * std::min(scale_[i], scale_[j])) {
       left_out += value;
       continue;
     }
     if (j == i) own = values_.size();
-    columns_.push_back(column), values_.push_back(static_cast<S>(value));
+    columns_.push_back(column);
+    values_.push_back(static_cast<S>(value));
   }
   if (!columns_.empty()) values_[own] += static_cast<S>(left_out);
   left_out_[i] = left_out;
   near_.set(i, columns_);
   scalars_.resize(near_.slots());
-  std::copy(values_.begin(), values_.end(), scalars_.begin() + static_cast<std::ptrdiff_t>(near_.first_slot(i)));
+  std::copy(values_.begin(), values_.end(), scalars_.begin() + to_index(near_.first_slot(i)));
 }
 
 template <int D, class S>
@@ -85,24 +89,26 @@ template <int D, class S>
 void LevelMatrix<D, S>::follow(const LevelRows& rows) {
   std::vector<std::int32_t> all(rows.size());
   std::iota(all.begin(), all.end(), 0);
-  near_ = {}, scale_.clear();
+  near_ = {};
+  scale_.clear();
   follow(rows, all);
-  near_.reserve_spare(), cutbench::reserve_spare(blocks_, scalars_, inverse_, scale_, left_out_);
+  near_.reserve_spare();
+  cutbench::reserve_spare(blocks_, scalars_, inverse_, scale_, left_out_);
 }
 
 template <int D, class S>
 auto LevelMatrix<D, S>::diagonal(std::size_t i) const -> Block {
   Block all = Eigen::Map<const Eigen::Matrix<S, D, D>>(block(rows_->blocks.diagonal_slot(i))).template cast<double>();
-  if (!near_[i].empty()) all.diagonal().array() += static_cast<double>(scalars_[near_.diagonal_slot(i)]);
+  if (!near_[i].empty()) all.diagonal().array() += to_double(scalars_[near_.diagonal_slot(i)]);
   return all;
 }
 
 template <int D, class S>
 Eigen::MatrixXd LevelMatrix<D, S>::dense() const {
-  const auto n = static_cast<Eigen::Index>(D * size());
+  const auto n = to_index(D * size());
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n, n);
   for (std::size_t i = 0; i < size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(D * i);
+    const auto at = to_index(D * i);
     std::size_t slot = rows_->blocks.first_slot(i), scalar = rows_->scalars.first_slot(i);
     for (const std::int32_t j : rows_->blocks[i])
       all.block<D, D>(at, D * j) += Eigen::Map<const Eigen::Matrix<S, D, D>>(block(slot++)).template cast<double>();
@@ -126,7 +132,10 @@ void LevelMatrix<D, S>::subtract_blocks(std::size_t slot, Columns columns, const
   };
   Sum other = Sum::Zero();
   std::size_t k = 0;
-  for (; k + 2 <= columns.size(); k += 2) sum -= next(columns[k]), other -= next(columns[k + 1]);
+  for (; k + 2 <= columns.size(); k += 2) {
+    sum -= next(columns[k]);
+    other -= next(columns[k + 1]);
+  }
   if (k < columns.size()) other -= next(columns[k]);
   sum += other;
 }
@@ -137,8 +146,12 @@ void LevelMatrix<D, S>::subtract_scalars(std::size_t slot, Columns columns, cons
   const auto term = [&](std::size_t k) -> Sum { return a[k] * Eigen::Map<const Sum>(z.data() + D * columns[k]); };
   Sum other = Sum::Zero(), third = Sum::Zero(), fourth = Sum::Zero();
   std::size_t k = 0;
-  for (; k + 4 <= columns.size(); k += 4)
-    sum -= term(k), other -= term(k + 1), third -= term(k + 2), fourth -= term(k + 3);
+  for (; k + 4 <= columns.size(); k += 4) {
+    sum -= term(k);
+    other -= term(k + 1);
+    third -= term(k + 2);
+    fourth -= term(k + 3);
+  }
   for (; k < columns.size(); ++k) other -= term(k);
   sum += (other + third) + fourth;
 }
@@ -182,13 +195,13 @@ void LevelMatrix<D, S>::sweep_forwards(const Vector& r, Vector& z, Vector& t) co
       subtract_below(i, z, sum);
     }
     const Sum solved = times_inverse(i, sum);
-    for (int c = 0; c < D; ++c) z[D * i + static_cast<std::size_t>(c)] = solved[c];
+    for (int c = 0; c < D; ++c) z[D * i + to_size(c)] = solved[c];
   }
   for (std::size_t i = 0; i < size(); ++i) {
     prefetch_row(std::min(i + rows_ahead, last));
     Sum sum = Sum::Zero();
     if (!rows_->blocks[i].empty()) subtract_above(i, z, sum);
-    for (int c = 0; c < D; ++c) t[D * i + static_cast<std::size_t>(c)] = sum[c];
+    for (int c = 0; c < D; ++c) t[D * i + to_size(c)] = sum[c];
   }
 }
 
@@ -202,7 +215,7 @@ void LevelMatrix<D, S>::sweep_backwards(const Vector& r, Vector& z) const {
     subtract_blocks(rows_->blocks.first_slot(i), rows_->blocks[i], z, left);
     subtract_scalars(near_.first_slot(i), near_[i], z, left);
     const Sum solved = times_inverse(i, left);
-    for (int c = 0; c < D; ++c) z[D * i + static_cast<std::size_t>(c)] += solved[c];
+    for (int c = 0; c < D; ++c) z[D * i + to_size(c)] += solved[c];
   }
 }
 

@@ -12,8 +12,14 @@ namespace cutbench {
 class SweepRows {
  public:
   std::size_t size() const { return columns_.size(); }
-  void resize(std::size_t rows) { columns_.resize(rows), below_.resize(rows); }
-  void reserve_spare() { columns_.reserve_spare(), cutbench::reserve_spare(below_); }
+  void resize(std::size_t rows) {
+    columns_.resize(rows);
+    below_.resize(rows);
+  }
+  void reserve_spare() {
+    columns_.reserve_spare();
+    cutbench::reserve_spare(below_);
+  }
   struct Placed {
     std::span<const std::int32_t> order;  ///< for each entry of the row, its place among the columns that were given
     bool is_new;                          ///< the row was another before
@@ -43,9 +49,16 @@ struct LevelRows {
   std::vector<double> scalar;  // per slot of `scalars`
 
   std::size_t size() const { return blocks.size(); }
-  void resize(std::size_t rows) { blocks.resize(rows), scalars.resize(rows); }
+  void resize(std::size_t rows) {
+    blocks.resize(rows);
+    scalars.resize(rows);
+  }
   /// Room to grow by half, before anything has to be copied.
-  void reserve_spare() { blocks.reserve_spare(), scalars.reserve_spare(), cutbench::reserve_spare(scalar); }
+  void reserve_spare() {
+    blocks.reserve_spare();
+    scalars.reserve_spare();
+    cutbench::reserve_spare(scalar);
+  }
   /// True if the row was another before.
   bool set_scalars(std::size_t i, std::span<const std::int32_t> columns, std::span<const double> values);
 };

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "harness/base/conversions.h"
 #include "harness/base/stop_watch.h"
 
 namespace cutbench {
@@ -47,7 +48,7 @@ bool Multigrid<D>::find_changed(const SystemMatrix<D>& a) {
   if (follows) {
     const auto marked = a.history->changed_since(pattern_);
     changed_.assign(marked.begin(), marked.end());
-    for (std::size_t i = before; i < n; ++i) changed_.push_back(static_cast<std::int32_t>(i));
+    for (std::size_t i = before; i < n; ++i) changed_.push_back(to_int32(i));
     std::sort(changed_.begin(), changed_.end());
     changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
     if (2 * changed_.size() < n) return true;
@@ -71,13 +72,13 @@ void Multigrid<D>::read_row(const SystemMatrix<D>& a, std::size_t i) {
   }
   const bool has_new_scalars = rows_.set_scalars(i, scalars_.columns(), scalars_.sums()),
              is_elsewhere = read_place(a, i);
-  if (is_linked_anew || has_new_scalars) changes_.rows.push_back(static_cast<std::int32_t>(i));
-  if (is_linked_anew || is_elsewhere) changes_.links.push_back(static_cast<std::int32_t>(i));
+  if (is_linked_anew || has_new_scalars) changes_.rows.push_back(to_int32(i));
+  if (is_linked_anew || is_elsewhere) changes_.links.push_back(to_int32(i));
 }
 
 template <int D>
 bool Multigrid<D>::read_place(const SystemMatrix<D>& a, std::size_t i) {
-  const auto held = a.held->begin() + static_cast<std::ptrdiff_t>(D * i);
+  const auto held = a.held->begin() + to_index(D * i);
   const bool needs_no_correction = std::find(held, held + D, 0) == held + D;
   const bool is_known = a.places && i < a.places->size() && !needs_no_correction;
   const Point2 place = is_known ? (*a.places)[i] : Point2{std::numeric_limits<double>::quiet_NaN(), 0};
@@ -97,15 +98,20 @@ void Multigrid<D>::find_held(const SystemMatrix<D>& a) {
 template <int D>
 void Multigrid<D>::look_at_sizes(const SystemMatrix<D>& a) {
   a.diagonals(diagonals_);
-  sizes_.assign(a.vertices(), 0), sorted_.clear();
-  in_doubles_ = false, trace_ = median_size_ = 0;
+  sizes_.assign(a.vertices(), 0);
+  sorted_.clear();
+  in_doubles_ = false;
+  trace_ = median_size_ = 0;
   for (std::size_t i = 0; i < a.vertices(); ++i) {
     if (a.blocks->columns(i).empty()) continue;
     const Block& diagonal = diagonals_[i];
     double sum = 0;
     int free = 0;
     for (int c = 0; c < D; ++c)
-      if (!(*a.held)[D * i + static_cast<std::size_t>(c)]) sum += diagonal(c, c), ++free;
+      if (!(*a.held)[D * i + to_size(c)]) {
+        sum += diagonal(c, c);
+        ++free;
+      }
     if (free == 0) continue;
     sizes_[i] = D * sum / free;
     trace_ += sizes_[i];
@@ -113,7 +119,7 @@ void Multigrid<D>::look_at_sizes(const SystemMatrix<D>& a) {
   }
   if (sorted_.empty()) return;
   const double largest = *std::max_element(sorted_.begin(), sorted_.end());
-  const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(sorted_.size() / 2);
+  const auto middle = sorted_.begin() + to_index(sorted_.size() / 2);
   std::nth_element(sorted_.begin(), middle, sorted_.end());
   median_size_ = *middle;
   in_doubles_ = !(largest < widest_for_floats * median_size_ && largest < 1e30 && median_size_ > 1e-30);
@@ -124,11 +130,17 @@ template <int D>
 template <class S>
 void Multigrid<D>::set_inverse(Level<S>& level, std::size_t i, Block diagonal, const std::array<bool, D>& is_held) {
   for (int c = 0; c < D; ++c)
-    if (is_held[static_cast<std::size_t>(c)]) diagonal.row(c).setZero(), diagonal.col(c).setZero(), diagonal(c, c) = 1;
+    if (is_held[to_size(c)]) {
+      diagonal.row(c).setZero();
+      diagonal.col(c).setZero();
+      diagonal(c, c) = 1;
+    }
   Block inverse = inverse_of(diagonal);
   for (std::size_t c = 0; c < D; ++c)
-    if (const auto k = static_cast<int>(c); is_held[c] || inverse(k, k) == 0)
-      inverse(k, k) = 0, level.idle.push_back(D * i + c);
+    if (const auto k = to_int(c); is_held[c] || inverse(k, k) == 0) {
+      inverse(k, k) = 0;
+      level.idle.push_back(D * i + c);
+    }
   level.matrix.set_inverse(i, inverse);
 }
 
@@ -136,13 +148,17 @@ void Multigrid<D>::set_inverse(Level<S>& level, std::size_t i, Block diagonal, c
 template <int D>
 template <class S>
 void Multigrid<D>::fill(const SystemMatrix<D>& a, Level<S>& level, bool& is_new) {
-  if (is_new) level.matrix.follow(rows_), level.resize(), is_new = false;
-  const auto held = [&](std::size_t i, int c) { return (*a.held)[D * i + static_cast<std::size_t>(c)] != 0; };
+  if (is_new) {
+    level.matrix.follow(rows_);
+    level.resize();
+    is_new = false;
+  }
+  const auto held = [&](std::size_t i, int c) { return (*a.held)[D * i + to_size(c)] != 0; };
   level.idle.clear();
   for (std::size_t i = 0; i < a.vertices(); ++i) {
     std::size_t k = rows_.blocks.first_slot(i);
     for (const std::int32_t column : rows_.blocks[i]) {
-      const auto j = static_cast<std::size_t>(column);
+      const auto j = to_size(column);
       Eigen::Map<Eigen::Matrix<S, D, D>> block(level.matrix.block(k));
       block = a.blocks->block(slots_[k++]).template cast<S>();
       if (!has_held_[i] && !has_held_[j]) continue;
@@ -153,7 +169,7 @@ void Multigrid<D>::fill(const SystemMatrix<D>& a, Level<S>& level, bool& is_new)
     }
     if (rows_.blocks[i].empty()) continue;
     std::array<bool, D> is_held{};
-    for (int c = 0; c < D; ++c) is_held[static_cast<std::size_t>(c)] = held(i, c);
+    for (int c = 0; c < D; ++c) is_held[to_size(c)] = held(i, c);
     set_inverse(level, i, diagonals_[i] + level.matrix.left_out(i) * Block::Identity(), is_held);
   }
 }
@@ -165,7 +181,7 @@ void Multigrid<D>::sum_members(Level<S>& fine, std::span<const Coarsening::Weigh
   const LevelMatrix<D, S>& a = fine.matrix;
   fine.part_row.clear();
   for (const auto& member : members) {
-    const auto v = static_cast<std::size_t>(member.other);
+    const auto v = to_size(member.other);
     const S* block = a.block(a.rows().blocks.first_slot(v));
     for (const std::int32_t j : a.rows().blocks[v]) {
       Columns<S>& sum = fine.part_row[j];
@@ -186,22 +202,21 @@ void Multigrid<D>::fill_coarse(Level<S>& fine, CoarseLevel& level) {
   for (std::size_t i = 0; i < level.from.coarse_size(); ++i) {
     const auto columns = level.rows.blocks[i];
     if (columns.empty()) continue;
-    for (std::size_t k = 0; k < columns.size(); ++k)
-      place_[static_cast<std::size_t>(columns[k])] = static_cast<std::int32_t>(k);
+    for (std::size_t k = 0; k < columns.size(); ++k) place_[to_size(columns[k])] = to_int32(k);
     sums.assign(columns.size(), Columns<S>::Zero());
     sum_members(fine, level.from.members(i));
     const auto fine_columns = fine.part_row.columns();
     const auto part = fine.part_row.sums();
     for (std::size_t k = 0; k < part.size(); ++k)
-      for (const auto& parent : level.from.parents(static_cast<std::size_t>(fine_columns[k])))
-        sums[static_cast<std::size_t>(place_[static_cast<std::size_t>(parent.other)])] += S(parent.weight) * part[k];
+      for (const auto& parent : level.from.parents(to_size(fine_columns[k])))
+        sums[to_size(place_[to_size(parent.other)])] += S(parent.weight) * part[k];
     float* to = level.matrix.block(level.rows.blocks.first_slot(i));
     for (const Columns<S>& sum : sums)
       for (int c = 0; c < D; ++c)
         for (int k = 0; k < D; ++k) *to++ = static_cast<float>(sum(k, c));
     const Block diagonal = level.matrix.diagonal(i);
     std::array<bool, D> is_held{};
-    for (int c = 0; c < D; ++c) is_held[static_cast<std::size_t>(c)] = diagonal(c, c) == 0;  // all its members are
+    for (int c = 0; c < D; ++c) is_held[to_size(c)] = diagonal(c, c) == 0;  // all its members are
     set_inverse(level, i, diagonal, is_held);
   }
 }
@@ -223,10 +238,16 @@ void Multigrid<D>::setup(const SystemMatrix<D>& a) {
   const bool follows = find_changed(a);
   if (!changed_.empty()) {
     const std::size_t n = a.vertices();
-    if (!follows) rows_ = {}, factors_.clear();
-    rows_.resize(n), places_.resize(n), scalars_.resize(n), place_in_front_.resize(n, -1);
+    if (!follows) {
+      rows_ = {};
+      factors_.clear();
+    }
+    rows_.resize(n);
+    places_.resize(n);
+    scalars_.resize(n);
+    place_in_front_.resize(n, -1);
     changes_ = {};
-    for (const std::int32_t i : changed_) read_row(a, static_cast<std::size_t>(i));
+    for (const std::int32_t i : changed_) read_row(a, to_size(i));
     if (!follows)
       for (const auto& term : a.scalar) factors_.push_back(term.factor);
     follows ? update_levels(a) : make_levels(a);
@@ -236,10 +257,13 @@ void Multigrid<D>::setup(const SystemMatrix<D>& a) {
   find_held(a);
   look_at_sizes(a);
   if (!changed_.empty()) clusters_.find(sizes_, median_size_, rows_);
-  if (in_doubles_)
-    fill(a, finest_in_doubles_, double_is_new_), clusters_.factor(finest_in_doubles_.matrix, *a.held);
-  else
-    fill(a, finest_, float_is_new_), clusters_.factor(finest_.matrix, *a.held);
+  if (in_doubles_) {
+    fill(a, finest_in_doubles_, double_is_new_);
+    clusters_.factor(finest_in_doubles_.matrix, *a.held);
+  } else {
+    fill(a, finest_, float_is_new_);
+    clusters_.factor(finest_.matrix, *a.held);
+  }
   // Every other time the coarse matrices of the last time do: rotations change them little. They leave the trace alone,
   // so another trace shows another step or material.
   coarse_are_old_ = changed_.empty() && !coarse_are_old_ && std::abs(trace_ - coarse_trace_) <= 0.01 * coarse_trace_;
@@ -263,9 +287,8 @@ template <int D>
 auto Multigrid<D>::entries() const -> Entries {
   Entries all;
   const auto add = [&](const auto& level) {
-    for (std::size_t i = 0; i < level.matrix.size(); ++i)
-      all.blocks += static_cast<double>(level.matrix.rows().blocks[i].size());
-    all.scalars += static_cast<double>(level.matrix.scalar_count());
+    for (std::size_t i = 0; i < level.matrix.size(); ++i) all.blocks += to_double(level.matrix.rows().blocks[i].size());
+    all.scalars += to_double(level.matrix.scalar_count());
   };
   in_doubles_ ? add(finest_in_doubles_) : add(finest_);
   for (const CoarseLevel& level : coarse_) add(level);

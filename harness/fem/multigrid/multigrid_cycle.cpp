@@ -2,6 +2,7 @@
 #include <array>
 #include <type_traits>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/multigrid/multigrid.h"
 
 namespace cutbench {
@@ -11,7 +12,7 @@ template <int D>
 template <class S>
 void Multigrid<D>::cycle(Level<S>& level, std::size_t next) {
   if (next == coarse_.size() && next > 0 && solves_coarsest_) {
-    const auto n = static_cast<Eigen::Index>(D * level.matrix.size());
+    const auto n = to_index(D * level.matrix.size());
     using Values = Eigen::Matrix<S, Eigen::Dynamic, 1>;
     Eigen::VectorXd x = Eigen::Map<const Values>(level.r.data(), n).template cast<double>();
     coarsest_.solveInPlace(x);
@@ -35,14 +36,13 @@ void Multigrid<D>::correct(Level<S>& level, std::size_t next) {
   for (std::size_t k = 0; k < coarse.matrix.size(); ++k) {
     std::array<S, D> sum{};
     for (const auto& [i, weight] : coarse.from.members(k))
-      for (std::size_t c = 0; c < D; ++c) sum[c] += S(weight) * level.t[D * static_cast<std::size_t>(i) + c];
+      for (std::size_t c = 0; c < D; ++c) sum[c] += S(weight) * level.t[D * to_size(i) + c];
     for (std::size_t c = 0; c < D; ++c) coarse.r[D * k + c] = static_cast<float>(sum[c]);
   }
   cycle(static_cast<Level<float>&>(coarse), next + 1);
   for (std::size_t i = 0; i < level.matrix.size(); ++i)
     for (const auto& [k, weight] : coarse.from.parents(i))
-      for (std::size_t c = 0; c < D; ++c)
-        level.z[D * i + c] += S(weight) * S(coarse.z[D * static_cast<std::size_t>(k) + c]);
+      for (std::size_t c = 0; c < D; ++c) level.z[D * i + c] += S(weight) * S(coarse.z[D * to_size(k) + c]);
   level.set_idle_zero(level.z);
 }
 
@@ -52,10 +52,9 @@ void Multigrid<D>::apply(const Field& r, Field& z) {
     using S = std::decay_t<decltype(level.r[0])>;
     const double scale = r.cwiseAbs().maxCoeff();  // so that floats hold it
     const double inverse = scale > 0 ? 1 / scale : 0;
-    for (Eigen::Index u = 0; u < r.size(); ++u) level.r[static_cast<std::size_t>(u)] = static_cast<S>(inverse * r[u]);
+    for (Eigen::Index u = 0; u < r.size(); ++u) level.r[to_size(u)] = static_cast<S>(inverse * r[u]);
     cycle(level, 0);
-    for (Eigen::Index u = 0; u < r.size(); ++u)
-      z[u] = scale * static_cast<double>(level.z[static_cast<std::size_t>(u)]);
+    for (Eigen::Index u = 0; u < r.size(); ++u) z[u] = scale * to_double(level.z[to_size(u)]);
   };
   if (in_doubles_)
     run(finest_in_doubles_);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/multigrid/multigrid.h"
 
 namespace cutbench {
@@ -16,11 +17,10 @@ double median_edge(const SweepRows& links, const std::vector<Point2>& places) {
   std::vector<double> lengths;
   for (std::size_t i = 0; i < links.size(); ++i)
     for (const std::int32_t j : links[i])
-      if (static_cast<std::size_t>(j) > i)
-        if (const double l = length(places[static_cast<std::size_t>(j)] - places[i]); l > 0 && std::isfinite(l))
-          lengths.push_back(l);
+      if (to_size(j) > i)
+        if (const double l = length(places[to_size(j)] - places[i]); l > 0 && std::isfinite(l)) lengths.push_back(l);
   if (lengths.empty()) return 0;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  const auto middle = lengths.begin() + to_index(lengths.size() / 2);
   std::nth_element(lengths.begin(), middle, lengths.end());
   return *middle;
 }
@@ -35,36 +35,38 @@ Coarsening::Regrouping Multigrid<D>::regroup(const SystemMatrix<D>& a) {
   const auto for_each_strong = [&](std::size_t i, const auto& visit) {
     std::size_t slot = rows_.blocks.first_slot(i);
     for (const std::int32_t j : rows_.blocks[i])
-      if (-a.blocks->block(slots_[slot++]).trace() >
-          strong * std::min(stiffness(i), stiffness(static_cast<std::size_t>(j))))
-        visit(j);
+      if (-a.blocks->block(slots_[slot++]).trace() > strong * std::min(stiffness(i), stiffness(to_size(j)))) visit(j);
   };
   Coarsening::Regrouping found;
   front_.clear();
   const auto reach = [&](std::int32_t v) {
-    auto& place = place_in_front_[static_cast<std::size_t>(v)];
-    if (place < 0) place = static_cast<std::int32_t>(front_.size()), front_.push_back(v);
+    auto& place = place_in_front_[to_size(v)];
+    if (place < 0) {
+      place = to_int32(front_.size());
+      front_.push_back(v);
+    }
   };
   for (const std::int32_t v : changed_) reach(v);
   for (std::size_t k = 0; k < front_.size(); ++k) {
-    const auto v = static_cast<std::size_t>(front_[k]);
+    const auto v = to_size(front_[k]);
     const std::int32_t group = coarse_.empty() ? -1 : coarse_.front().from.group_of(v);
     if (group >= 0)
-      for (const auto& member : coarse_.front().from.members(static_cast<std::size_t>(group))) reach(member.other);
+      for (const auto& member : coarse_.front().from.members(to_size(group))) reach(member.other);
     for_each_strong(v, reach);
   }
   UnionFind joined(front_.size());
   for (std::size_t k = 0; k < front_.size(); ++k)
-    for_each_strong(static_cast<std::size_t>(front_[k]), [&](std::int32_t j) {
-      joined.join(k, static_cast<std::size_t>(place_in_front_[static_cast<std::size_t>(j)]));
-    });
+    for_each_strong(to_size(front_[k]), [&](std::int32_t j) { joined.join(k, to_size(place_in_front_[to_size(j)])); });
   std::vector<std::int32_t> group_of(front_.size(), -1);
   for (std::size_t k = 0; k < front_.size(); ++k) {
-    place_in_front_[static_cast<std::size_t>(front_[k])] = -1;
+    place_in_front_[to_size(front_[k])] = -1;
     if (joined.size(k) == 1) continue;
     auto& group = group_of[joined.find(k)];
-    if (group < 0) group = static_cast<std::int32_t>(found.groups.size()), found.groups.emplace_back();
-    found.groups[static_cast<std::size_t>(group)].push_back(front_[k]);
+    if (group < 0) {
+      group = to_int32(found.groups.size());
+      found.groups.emplace_back();
+    }
+    found.groups[to_size(group)].push_back(front_[k]);
   }
   found.members = front_;
   return found;
@@ -81,8 +83,10 @@ void Multigrid<D>::update(CoarseLevel& level, const LevelRows& fine, const std::
 
 template <int D>
 void Multigrid<D>::make_levels(const SystemMatrix<D>& a) {
-  coarse_.clear(), float_is_new_ = double_is_new_ = true;
-  rows_.reserve_spare(), cutbench::reserve_spare(slots_);
+  coarse_.clear();
+  float_is_new_ = double_is_new_ = true;
+  rows_.reserve_spare();
+  cutbench::reserve_spare(slots_);
   slots_made_ = rows_.blocks.slots();
   double spacing = first_spacing * median_edge(rows_.blocks, places_);
   if (!(spacing > 0)) return;
@@ -94,8 +98,12 @@ void Multigrid<D>::make_levels(const SystemMatrix<D>& a) {
     CoarseLevel& level = coarse_.emplace_back(spacing);
     update(level, *fine, *places, all, regrouping);
     if (const std::size_t n = level.rows.size(); n == 0 || 10 * n > 8 * fine->size()) return coarse_.pop_back();
-    level.from.reserve_spare(), level.rows.reserve_spare(), level.matrix.follow(level.rows);
-    fine = &level.rows, places = &level.from.coarse_places(), all = level.from.changes();
+    level.from.reserve_spare();
+    level.rows.reserve_spare();
+    level.matrix.follow(level.rows);
+    fine = &level.rows;
+    places = &level.from.coarse_places();
+    all = level.from.changes();
     regrouping = {};
   }
 }
@@ -106,11 +114,19 @@ void Multigrid<D>::update_levels(const SystemMatrix<D>& a) {
   const LevelRows* fine = &rows_;
   const std::vector<Point2>* places = &places_;
   const RowChanges* changes = &changes_;
-  if (!float_is_new_) finest_.matrix.follow(rows_, changes_.rows), finest_.resize();
-  if (!double_is_new_) finest_in_doubles_.matrix.follow(rows_, changes_.rows), finest_in_doubles_.resize();
+  if (!float_is_new_) {
+    finest_.matrix.follow(rows_, changes_.rows);
+    finest_.resize();
+  }
+  if (!double_is_new_) {
+    finest_in_doubles_.matrix.follow(rows_, changes_.rows);
+    finest_in_doubles_.resize();
+  }
   for (CoarseLevel& level : coarse_) {
     update(level, *fine, *places, *changes, regrouping);
-    fine = &level.rows, places = &level.from.coarse_places(), changes = &level.from.changes();
+    fine = &level.rows;
+    places = &level.from.coarse_places();
+    changes = &level.from.changes();
     regrouping = {};
   }
 }

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -15,7 +17,8 @@ template <int D>
 void StiffClusters<D>::find(const std::vector<double>& sizes, double median, const LevelRows& rows) {
   clusters_.clear();
   const std::size_t n = rows.size();
-  is_stiff_.assign(n, 0), place_.resize(n, -1);
+  is_stiff_.assign(n, 0);
+  place_.resize(n, -1);
   for (std::size_t i = 0; i < n; ++i) is_stiff_[i] = sizes[i] > stiff * median;
   for (std::size_t seed = 0; seed < n; ++seed) {
     if (!is_stiff_[seed]) continue;
@@ -23,13 +26,13 @@ void StiffClusters<D>::find(const std::vector<double>& sizes, double median, con
     const auto take = [&](std::size_t i) {
       if (!is_stiff_[i] || members.size() == largest_cluster) return;
       is_stiff_[i] = 0;
-      members.push_back(static_cast<std::int32_t>(i));
+      members.push_back(to_int32(i));
     };
     take(seed);
     for (std::size_t k = 0; k < members.size(); ++k) {
-      const auto v = static_cast<std::size_t>(members[k]);
+      const auto v = to_size(members[k]);
       for (const SweepRows* part : {&rows.blocks, &rows.scalars})
-        for (const std::int32_t j : (*part)[v]) take(static_cast<std::size_t>(j));
+        for (const std::int32_t j : (*part)[v]) take(to_size(j));
     }
     if (members.size() > 1) clusters_.emplace_back().vertices = std::move(members);
   }
@@ -39,29 +42,29 @@ template <int D>
 template <class S>
 void StiffClusters<D>::factor(const LevelMatrix<D, S>& a, const std::vector<std::uint8_t>& held) {
   for (Cluster& cluster : clusters_) {
-    const auto n = static_cast<Eigen::Index>(D * cluster.vertices.size());
+    const auto n = to_index(D * cluster.vertices.size());
     cluster.held.clear();
     Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
-    for (std::size_t k = 0; k < cluster.vertices.size(); ++k)
-      place_[static_cast<std::size_t>(cluster.vertices[k])] = static_cast<std::int32_t>(k);
+    for (std::size_t k = 0; k < cluster.vertices.size(); ++k) place_[to_size(cluster.vertices[k])] = to_int32(k);
     for (std::size_t k = 0; k < cluster.vertices.size(); ++k) {
-      const auto v = static_cast<std::size_t>(cluster.vertices[k]);
-      const auto at = static_cast<Eigen::Index>(D * k);
+      const auto v = to_size(cluster.vertices[k]);
+      const auto at = to_index(D * k);
       a.for_each_block(v, [&](std::int32_t j, const auto& block) {
-        if (const std::int32_t l = place_[static_cast<std::size_t>(j)]; l >= 0)
+        if (const std::int32_t l = place_[to_size(j)]; l >= 0)
           dense.block<D, D>(at, D * l) += block.template cast<double>();
       });
       a.for_each_scalar(v, [&](std::int32_t j, S value) {
-        if (const std::int32_t l = place_[static_cast<std::size_t>(j)]; l >= 0)
-          dense.block<D, D>(at, D * l).diagonal().array() += static_cast<double>(value);
+        if (const std::int32_t l = place_[to_size(j)]; l >= 0)
+          dense.block<D, D>(at, D * l).diagonal().array() += to_double(value);
       });
     }
     for (std::size_t k = 0; k < cluster.vertices.size(); ++k) {
-      const auto v = static_cast<std::size_t>(cluster.vertices[k]);
+      const auto v = to_size(cluster.vertices[k]);
       for (std::size_t c = 0; c < D; ++c) {
         if (!held[D * v + c]) continue;
-        const auto u = static_cast<Eigen::Index>(D * k + c);
-        dense.row(u).setZero(), dense.col(u).setZero();
+        const auto u = to_index(D * k + c);
+        dense.row(u).setZero();
+        dense.col(u).setZero();
         dense(u, u) = 1;
         cluster.held.push_back(u);
       }
@@ -84,14 +87,14 @@ void StiffClusters<D>::correct_forwards(const LevelMatrix<D, S>& a, Vector<S>& z
   using Values = Eigen::Matrix<S, D, 1>;
   for (const Cluster& cluster : clusters_) {
     if (!cluster.is_positive) continue;
-    correction_.resize(static_cast<Eigen::Index>(D * cluster.vertices.size()));
+    correction_.resize(to_index(D * cluster.vertices.size()));
     for (std::size_t k = 0; k < cluster.vertices.size(); ++k)
-      correction_.segment<D>(static_cast<Eigen::Index>(D * k)) =
+      correction_.segment<D>(to_index(D * k)) =
           Eigen::Map<const Values>(t.data() + D * cluster.vertices[k]).template cast<double>();
     solve(cluster);
     for (std::size_t k = 0; k < cluster.vertices.size(); ++k) {
-      const Values by = correction_.segment<D>(static_cast<Eigen::Index>(D * k)).template cast<S>();
-      const auto v = static_cast<std::size_t>(cluster.vertices[k]);
+      const Values by = correction_.segment<D>(to_index(D * k)).template cast<S>();
+      const auto v = to_size(cluster.vertices[k]);
       Eigen::Map<Values>(z.data() + D * v) += by;
       a.for_each_block(v, [&](std::int32_t j, const auto& block) {  // the row is the column, transposed
         Eigen::Map<Values>(t.data() + D * j) -= block.transpose() * by;
@@ -107,20 +110,20 @@ void StiffClusters<D>::correct_backwards(const LevelMatrix<D, S>& a, const Vecto
   using Values = Eigen::Matrix<S, D, 1>;
   for (auto cluster = clusters_.rbegin(); cluster != clusters_.rend(); ++cluster) {
     if (!cluster->is_positive) continue;
-    correction_.resize(static_cast<Eigen::Index>(D * cluster->vertices.size()));
+    correction_.resize(to_index(D * cluster->vertices.size()));
     for (std::size_t k = 0; k < cluster->vertices.size(); ++k) {
-      const auto v = static_cast<std::size_t>(cluster->vertices[k]);
+      const auto v = to_size(cluster->vertices[k]);
       Values left = Eigen::Map<const Values>(r.data() + D * v);
       a.for_each_block(
           v, [&](std::int32_t j, const auto& block) { left -= block * Eigen::Map<const Values>(z.data() + D * j); });
       a.for_each_scalar(v,
                         [&](std::int32_t j, S value) { left -= value * Eigen::Map<const Values>(z.data() + D * j); });
-      correction_.segment<D>(static_cast<Eigen::Index>(D * k)) = left.template cast<double>();
+      correction_.segment<D>(to_index(D * k)) = left.template cast<double>();
     }
     solve(*cluster);
     for (std::size_t k = 0; k < cluster->vertices.size(); ++k)
       Eigen::Map<Values>(z.data() + D * cluster->vertices[k]) +=
-          correction_.segment<D>(static_cast<Eigen::Index>(D * k)).template cast<S>();
+          correction_.segment<D>(to_index(D * k)).template cast<S>();
   }
 }
 

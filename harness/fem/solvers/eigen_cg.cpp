@@ -3,6 +3,7 @@
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/LU>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/linear/compressed_columns.h"
 
 namespace cutbench {
@@ -52,7 +53,7 @@ class EigenIterative final : public LinearSolver<D> {
       const Field next = method_.solveWithGuess(b_, x);
       if (!next.allFinite()) return report;
       x = next;
-      report.iterations += static_cast<int>(method_.iterations());
+      report.iterations += to_int(method_.iterations());
       matrix_->multiply(x, r_);
       r_ = b_ - r_;
       report.residual = r_.norm() / norm;
@@ -68,7 +69,7 @@ class EigenIterative final : public LinearSolver<D> {
   double equilibrated_norm(const Field& r) const {
     double sum = 0;
     for (std::size_t i = 0; i < matrix_->vertices(); ++i) {
-      const Eigen::Matrix<double, D, 1> at = r.template segment<D>(static_cast<Eigen::Index>(D * i));
+      const Eigen::Matrix<double, D, 1> at = r.template segment<D>(to_index(D * i));
       sum += at.dot(matrix_->diagonal(i).inverse() * at);
     }
     return std::sqrt(sum);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -45,7 +47,10 @@ bool ConstantFactor<D>::set_traces(const SystemMatrix<D>& a) {
     }
   };
   double change = 0, size = 0;
-  for_each([&](double mine, double trace) { change += std::abs(trace - mine), size += std::abs(trace); });
+  for_each([&](double mine, double trace) {
+    change += std::abs(trace - mine);
+    size += std::abs(trace);
+  });
   if (!is_new && change <= same_traces * size) return false;
   for_each([](double& mine, double trace) { mine = trace; });
   return true;
@@ -59,8 +64,12 @@ void ConstantFactor<D>::setup(const SystemMatrix<D>& a) {
   std::vector<double> factors;
   for (const auto& term : a.scalar) factors.push_back(term.factor);
   is_new = is_new || held != held_ || factors != factors_ || !factored_;
-  held_ = std::move(held), factors_ = std::move(factors), held_unknowns_ = a.held;
-  matrix_.blocks = &traces_, matrix_.held = &held_, matrix_.pattern = a.pattern;
+  held_ = std::move(held);
+  factors_ = std::move(factors);
+  held_unknowns_ = a.held;
+  matrix_.blocks = &traces_;
+  matrix_.held = &held_;
+  matrix_.pattern = a.pattern;
   matrix_.scalar.clear();
   for (const auto& term : a.scalar) matrix_.scalar.push_back({term.factor, term.matrix});
   if (is_new) factored_ = factor_->factor(matrix_);
@@ -71,8 +80,7 @@ void ConstantFactor<D>::apply(const Field& r, Field& z) {
   const Eigen::Index n = r.size() / D;
   right_ = Eigen::Map<const Eigen::MatrixXd>(r.data(), D, n).transpose();  // a column per coordinate
   if (!factored_ || !factor_->solve(right_, solution_)) return refuse(z);
-  for (Eigen::Index u = 0; u < r.size(); ++u)
-    z[u] = (*held_unknowns_)[static_cast<std::size_t>(u)] ? 0 : solution_(u / D, u % D);
+  for (Eigen::Index u = 0; u < r.size(); ++u) z[u] = (*held_unknowns_)[to_size(u)] ? 0 : solution_(u / D, u % D);
 }
 
 template class StaleFactor<2>;

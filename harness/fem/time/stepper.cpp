@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/solvers/solver_table.h"
 #include "harness/mesh/mesh_data.h"
 
@@ -34,7 +35,7 @@ std::string text(double value) {
 template <int D>
 void project(const Model<D>& model, Field& f) {
   for (std::size_t i = 0; i < model.held().size(); ++i)
-    if (model.held()[i]) f[static_cast<Eigen::Index>(i)] = 0;
+    if (model.held()[i]) f[to_index(i)] = 0;
 }
 
 }  // namespace
@@ -73,12 +74,16 @@ StepReport Stepper<D>::step(Model<D>& model, State& state) {
   state.time += options_.step;
   for (std::size_t i = 0; i < model.held().size(); ++i) {
     if (!model.pinned(i)) continue;
-    const auto k = static_cast<Eigen::Index>(i);
+    const auto k = to_index(i);
     state.x[k] = state.anchor[k] + model.held_displacement(i, state.time);  // exactly, so that rounding can't add up
     state.v[k] = options_.integrator == Integrator::equilibrium ? 0 : model.held_velocity(i);
   }
-  model.follow(state.x), model.follow(state.v);
-  if (!state.x.allFinite() || !state.v.allFinite()) report.verdict = "not_finite", report.reason = "the state";
+  model.follow(state.x);
+  model.follow(state.v);
+  if (!state.x.allFinite() || !state.v.allFinite()) {
+    report.verdict = "not_finite";
+    report.reason = "the state";
+  }
   return report;
 }
 
@@ -118,9 +123,10 @@ void Stepper<D>::solve(Model<D>& model, const Field& start, StepReport& report) 
   report.iterations += solved.iterations;
   report.residual = std::max(report.residual, solved.residual);
   report.fallbacks += solved.fell_back;
-  if (!solved.converged)
-    report.verdict = "solver_stalled",
+  if (!solved.converged) {
+    report.verdict = "solver_stalled";
     report.reason = options_.solver.name + " left a relative residual of " + text(solved.residual);
+  }
 }
 
 /// Velocities of held unknowns: what brings them where they are to be after h. What is constrained to them goes along.
@@ -130,7 +136,7 @@ void Stepper<D>::hold(Model<D>& model, const State& state, double h) {
   if (constrained) product_ = v_;
   for (std::size_t i = 0; i < model.held().size(); ++i) {
     if (!model.held()[i]) continue;
-    const auto k = static_cast<Eigen::Index>(i);
+    const auto k = to_index(i);
     v_[k] = model.pinned(i) ? (state.anchor[k] + model.held_displacement(i, state.time + h) - state.x[k]) / h : 0;
   }
   if (!constrained) return;
@@ -177,7 +183,7 @@ void Stepper<D>::judge_newton(const Model<D>& model, double h, double before2, d
   const SystemMatrix<D> a = model.system();
   double noise2 = 0;
   for (std::size_t i = 0; i < model.vertices(); ++i)
-    noise2 += a.diagonal(i).norm() * x_.template segment<D>(static_cast<Eigen::Index>(D * i)).squaredNorm();
+    noise2 += a.diagonal(i).norm() * x_.template segment<D>(to_index(D * i)).squaredNorm();
   if (last2 <= 1e-28 * noise2 / (h * h)) return;
   report.verdict = "newton_failed";
   report.reason = "the last of " + std::to_string(options_.newton) + " Newton steps was " +
@@ -251,7 +257,7 @@ void Stepper<D>::solve_added_mass(const Model<D>& model, const State& state, Ste
   const double h = options_.step, alpha = model.material().mass_damping;
   dv_ = h * alpha * state.v;
   for (Eigen::Index i = 0; i < v_.size(); ++i)
-    if (model.held()[static_cast<std::size_t>(i)]) dv_[i] += v_[i] - state.v[i];
+    if (model.held()[to_size(i)]) dv_[i] += v_[i] - state.v[i];
   rhs_ = h * force_;
   model.add_mass_product(-1, dv_, rhs_);
   dv_ = v_ - state.v;
@@ -271,8 +277,7 @@ void Stepper<D>::equilibrium(Model<D>& model, State& state, StepReport& report) 
   x_ = state.x;
   for (std::size_t i = 0; i < model.held().size(); ++i)
     if (model.pinned(i))
-      state.x[static_cast<Eigen::Index>(i)] =
-          state.anchor[static_cast<Eigen::Index>(i)] + model.held_displacement(i, state.time + options_.step);
+      state.x[to_index(i)] = state.anchor[to_index(i)] + model.held_displacement(i, state.time + options_.step);
   if (constrained) {
     state.x -= x_;
     constrained->extrapolate(model.held(), state.x);
@@ -285,7 +290,7 @@ void Stepper<D>::equilibrium(Model<D>& model, State& state, StepReport& report) 
     // The scale of the forces: what the elements and the loads pull with, before they cancel.
     double scale = model.external_force().norm();
     for (std::size_t i = 0; i < model.held().size(); ++i)
-      if (model.held()[i]) scale += std::abs(force_[static_cast<Eigen::Index>(i)]);
+      if (model.held()[i]) scale += std::abs(force_[to_index(i)]);
     rhs_ = force_;
     project(model, rhs_);
     if (constrained) constrained->reduce(model.held(), rhs_, reduced_);

@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/elements/springs.h"
 
 namespace cutbench {
@@ -36,19 +37,20 @@ Projection<D> spring_constraint(const Element& element, const Field& x) {
   for (std::size_t k = 0; k < 3; ++k) {
     gradient[k] = {element.gradient[k].x, element.gradient[k].y};
     for (std::size_t d = 0; d < D; ++d) {
-      const double place = x[static_cast<Eigen::Index>(D * element.vertex[k]() + d)];
-      f[0][d] += place * gradient[k].x, f[1][d] += place * gradient[k].y;
+      const double place = x[to_index(D * element.vertex[k]() + d)];
+      f[0][d] += place * gradient[k].x;
+      f[1][d] += place * gradient[k].y;
     }
   }
   const Springs<D, double> springs(gradient, f);
   Projection<D> c;
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto column = static_cast<Eigen::Index>(i);
+    const auto column = to_index(i);
     c.value[column] = springs.stretch[i] - 1;
     for (std::size_t k = 0; k < 3; ++k) {
       const double along = springs.along[i].x * gradient[k].x + springs.along[i].y * gradient[k].y;
       for (std::size_t d = 0; d < D; ++d)
-        c.gradient[k](static_cast<Eigen::Index>(d), column) = along * springs.inverse(i) * springs.edge[i][d];
+        c.gradient[k](to_index(d), column) = along * springs.inverse(i) * springs.edge[i][d];
     }
   }
   return c;
@@ -70,7 +72,7 @@ void Xpbd<D>::solve(const Model<D>& model, double h, int sweeps, const Field& x0
   const double mass_factor = 1 + h * model.material().mass_damping;
   inverse_mass_.assign(model.held().size(), 0);
   for (std::size_t i = 0; i < inverse_mass_.size(); ++i) {
-    const double mass = model.lumped_mass()[static_cast<Eigen::Index>(i / D)];
+    const double mass = model.lumped_mass()[to_index(i / D)];
     if (!model.held()[i] && mass > 0) inverse_mass_[i] = 1 / (mass_factor * mass);
   }
   membrane_.assign(model.elements().size(), Eigen::Vector3d::Zero());
@@ -97,15 +99,14 @@ void Xpbd<D>::sweep_membrane(const Model<D>& model, double h, const Field& x0, F
       const Eigen::Map<const Eigen::Matrix<double, D, 1>> w(&inverse_mass_[D * element.vertex[k]()]);
       moves[k] = w.asDiagonal() * c.gradient[k];
       mobility += (1 + damping) * c.gradient[k].transpose() * moves[k];
-      const auto first = static_cast<Eigen::Index>(D * element.vertex[k]());
+      const auto first = to_index(D * element.vertex[k]());
       c.value += damping * c.gradient[k].transpose() * (x.template segment<D>(first) - x0.template segment<D>(first));
     }
     const Eigen::Matrix3d s = h * h * element.material_area() * stiffness;
     const Eigen::Vector3d change =
         -(s * mobility + Eigen::Matrix3d::Identity()).partialPivLu().solve(s * c.value + membrane_[e]);
     membrane_[e] += change;
-    for (std::size_t k = 0; k < 3; ++k)
-      x.template segment<D>(static_cast<Eigen::Index>(D * element.vertex[k]())) += moves[k] * change;
+    for (std::size_t k = 0; k < 3; ++k) x.template segment<D>(to_index(D * element.vertex[k]())) += moves[k] * change;
   }
 }
 
@@ -117,16 +118,16 @@ void Xpbd<D>::sweep_bending(const Bending& bending, double h, double damping, co
       for (std::size_t d = 0; d < D; ++d) {
         double value = 0, mobility = 0;
         for (const StencilTerm& term : terms) {
-          const std::size_t i = D * static_cast<std::size_t>(term.vertex) + d;
-          const auto k = static_cast<Eigen::Index>(i);
+          const std::size_t i = D * to_size(term.vertex) + d;
+          const auto k = to_index(i);
           value += term.factor[row] * (x[k] + damping * (x[k] - x0[k]));
           mobility += (1 + damping) * term.factor[row] * term.factor[row] * inverse_mass_[i];
         }
         const double change = -(h * h * value + bending_[t][row][d]) / (h * h * mobility + 1);
         bending_[t][row][d] += change;
         for (const StencilTerm& term : terms) {
-          const std::size_t i = D * static_cast<std::size_t>(term.vertex) + d;
-          x[static_cast<Eigen::Index>(i)] += inverse_mass_[i] * term.factor[row] * change;
+          const std::size_t i = D * to_size(term.vertex) + d;
+          x[to_index(i)] += inverse_mass_[i] * term.factor[row] * change;
         }
       }
   }

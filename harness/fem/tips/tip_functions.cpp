@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/predicates.h"
 
 namespace cutbench {
@@ -50,9 +51,11 @@ TipFunctions::TipFunctions(const Sheet& sheet) : sheet_(sheet), reaching_(sheet.
   for_each_half_edge(sheet, [&](HalfEdge h) {
     const std::size_t from = sheet.origin(h)();
     if (sheet.on_border(h)) {
-      border.push_back(h), on_border[from] = on_border[sheet.target(h)()] = 1;
+      border.push_back(h);
+      on_border[from] = on_border[sheet.target(h)()] = 1;
     } else if (sheet.mark(h) == EdgeMark::incision) {
-      ends[from] = static_cast<std::uint8_t>(std::min(ends[from] + 1, 3)), opened[from] = h;
+      ends[from] = static_cast<std::uint8_t>(std::min(ends[from] + 1, 3));
+      opened[from] = h;
     }
   });
   const auto is_tip = [&](std::size_t v) { return ends[v] == 1 && !on_border[v]; };
@@ -80,10 +83,11 @@ void TipFunctions::reach_from(std::size_t tip, HalfEdge incision) {
   const auto is_reached = [&](TriangleIndex t) { return !reaching_[t()].empty() && reaching_[t()].back().tip == tip; };
   const auto enter = [&](HalfEdge h, double at_origin, double at_target) {
     const TriangleIndex t = triangle_of(h);
-    const auto a = static_cast<std::size_t>(corner_of(h)), b = (a + 1) % 3, c = (a + 2) % 3;
+    const auto a = to_size(corner_of(h)), b = (a + 1) % 3, c = (a + 2) % 3;
     const auto corners = sheet_.corners(t);
     auto& theta = reaching_[t()].emplace_back(Reach{tip, {}}).theta;
-    theta[a] = at_origin, theta[b] = at_target;
+    theta[a] = at_origin;
+    theta[b] = at_target;
     theta[c] = sheet_.triangle(t).vertex[c] == vertex ? nothing
                : std::isnan(at_origin)                ? at_target + turn(at, corners[b], corners[c])
                                                       : at_origin + turn(at, corners[a], corners[c]);
@@ -97,7 +101,7 @@ void TipFunctions::reach_from(std::size_t tip, HalfEdge incision) {
           distance(at, sheet_.rest(sheet_.origin(h)), sheet_.rest(sheet_.target(h))) >= tips_[tip].radius)
         continue;
       const auto theta = reaching_[all[i]()].back().theta;
-      enter(across, theta[static_cast<std::size_t>(next_corner(k))], theta[static_cast<std::size_t>(k)]);
+      enter(across, theta[to_size(next_corner(k))], theta[to_size(k)]);
     }
 }
 
@@ -109,7 +113,10 @@ std::array<TipFunctions::Value, TipFunctions::per_tip> TipFunctions::at(Triangle
   const std::size_t k = std::isnan(reach.theta[0]) ? 1 : 0;
   double least = reach.theta[k], most = least;
   for (const double theta : reach.theta)
-    if (!std::isnan(theta)) least = std::min(least, theta), most = std::max(most, theta);
+    if (!std::isnan(theta)) {
+      least = std::min(least, theta);
+      most = std::max(most, theta);
+    }
   const Point2 corner = sheet_.corners(t)[k] - at;
   // Within the corners' range, rounded points of slivers keep to their side of the incision.
   const double theta =
@@ -135,7 +142,7 @@ TipFunctions::Displacement TipFunctions::displacement(TriangleIndex t, Point2 p,
     if (p == tips_[reach.tip].at) continue;
     const auto values = at(t, reach, p);
     for (std::size_t j = 0; j < per_tip; ++j) {
-      const Eigen::Vector2d of_function = c.segment<2>(static_cast<Eigen::Index>(2 * (per_tip * reach.tip + j)));
+      const Eigen::Vector2d of_function = c.segment<2>(to_index(2 * (per_tip * reach.tip + j)));
       sum.value += values[j].value * of_function;
       sum.gradient += of_function * values[j].gradient.transpose();
     }

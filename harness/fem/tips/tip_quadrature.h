@@ -6,6 +6,7 @@
 #include <array>
 #include <span>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/types.h"
 
 namespace cutbench {
@@ -37,7 +38,7 @@ void integrate_near_tips(std::array<Point2, 3> c, std::span<const Point2> tips, 
   const bool at_tip = is_tip(c[0]);
   std::array<double, 3> side{};
   for (std::size_t k = 0; k < 3; ++k) side[k] = squared_length(c[(k + 1) % 3] - c[k]);
-  std::size_t from = static_cast<std::size_t>(std::max_element(side.begin(), side.end()) - side.begin());
+  std::size_t from = to_size(std::max_element(side.begin(), side.end()) - side.begin());
   const Point2 centre = 1.0 / 3 * (c[0] + c[1] + c[2]);
   bool divide = side[from] > longest * longest;
   divide = divide || std::any_of(tips.begin(), tips.end(), [&](Point2 tip) {
@@ -45,7 +46,8 @@ void integrate_near_tips(std::array<Point2, 3> c, std::span<const Point2> tips, 
            });
   if (at_tip && !divide) {  // the side opposite, where the tip sees it at a wide angle
     const double foot = std::clamp(dot(c[0] - c[1], c[2] - c[1]) / side[1], 0.0, 1.0);
-    from = 1, divide = side[1] > squared_length(c[1] + foot * (c[2] - c[1]) - c[0]);
+    from = 1;
+    divide = side[1] > squared_length(c[1] + foot * (c[2] - c[1]) - c[0]);
   }
   if (!divide || depth == deepest) return integrate_from_corner(c, at_tip, add);
   const std::size_t to = (from + 1) % 3, apex = (from + 2) % 3;

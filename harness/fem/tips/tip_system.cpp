@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/tips/tip_quadrature.h"
 
 namespace cutbench {
@@ -27,9 +28,9 @@ Eigen::Matrix3d hooke(const Lame& lame) {
 
 TipSystem::TipSystem(const Sheet& sheet, const ElementTable& elements, const TipFunctions& functions,
                      const Lame& lame) {
-  constexpr auto of_tip = static_cast<Eigen::Index>(2 * TipFunctions::per_tip);
-  const auto unknowns = static_cast<Eigen::Index>(functions.unknowns());
-  border_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(2 * sheet.deformed_slots()), unknowns);
+  constexpr auto of_tip = to_index(2 * TipFunctions::per_tip);
+  const auto unknowns = to_index(functions.unknowns());
+  border_ = Eigen::MatrixXd::Zero(to_index(2 * sheet.deformed_slots()), unknowns);
   corner_ = Eigen::MatrixXd::Zero(unknowns, unknowns);
   const Eigen::Matrix3d moduli = hooke(lame);
   std::vector<Point2> places;
@@ -40,15 +41,16 @@ TipSystem::TipSystem(const Sheet& sheet, const ElementTable& elements, const Tip
     const TriangleIndex t(slot);
     const auto reaching = functions.reaching(t);
     if (reaching.empty()) continue;
-    const auto first = [&](std::size_t k) { return of_tip * static_cast<Eigen::Index>(reaching[k].tip); };
+    const auto first = [&](std::size_t k) { return of_tip * to_index(reaching[k].tip); };
     double radius = std::numeric_limits<double>::infinity();
     for (const auto& reach : reaching) radius = std::min(radius, functions.tips()[reach.tip].radius);
-    here.resize(reaching.size()), integral.assign(reaching.size(), Strains::Zero());
+    here.resize(reaching.size());
+    integral.assign(reaching.size(), Strains::Zero());
     integrate_near_tips(sheet.corners(t), places, radius / 8, [&](Point2 p, double weight) {
       for (std::size_t k = 0; k < reaching.size(); ++k) {
         const auto values = functions.at(t, reaching[k], p);
         for (std::size_t j = 0; j < values.size(); ++j)
-          for (int a = 0; a < 2; ++a) here[k].col(static_cast<Eigen::Index>(2 * j) + a) = strain(values[j].gradient, a);
+          for (int a = 0; a < 2; ++a) here[k].col(to_index(2 * j) + a) = strain(values[j].gradient, a);
         integral[k] += weight * here[k];
         const Strains stress = weight * moduli * here[k];
         for (std::size_t l = 0; l <= k; ++l)
@@ -78,7 +80,8 @@ SolveReport TipSystem::solve(LinearSolver<2>& solver, const Field& given, const 
   Field column;
   for (Eigen::Index k = 0; k < border_.cols(); ++k) {
     const SolveReport other = solver.solve(border_.col(k), column);
-    report.iterations += other.iterations, report.residual = std::max(report.residual, other.residual);
+    report.iterations += other.iterations;
+    report.residual = std::max(report.residual, other.residual);
     report.converged = report.converged && other.converged;
     moved.col(k) = column;
   }

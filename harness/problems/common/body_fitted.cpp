@@ -11,6 +11,7 @@
 #include <map>
 #include <span>
 
+#include "harness/base/conversions.h"
 #include "harness/cut/open.h"
 #include "harness/mesh/predicates.h"
 #include "harness/problems/common/problem.h"
@@ -54,7 +55,10 @@ std::vector<Chain> cuts_of(const Specimen& specimen, double tolerance, double sn
   Polyline fine;
   for (const Curve& cut : specimen.cuts) {
     flatten(cut, tolerance, snap, fine);
-    if (fine.closed) fine.points.push_back(fine.points.front()), fine.kept.push_back(1);
+    if (fine.closed) {
+      fine.points.push_back(fine.points.front());
+      fine.kept.push_back(1);
+    }
     chains.push_back({fine.points.front()});
     for (std::size_t i = 1; i < fine.points.size(); ++i) {
       chains.back().push_back(fine.points[i]);
@@ -75,11 +79,13 @@ void end_where_they_meet(std::vector<Chain>& sides, std::vector<Chain>& cuts) {
         const double s = cross(p - a, step) / det, t = cross(p - a, along) / det;
         if (!(s > 0 && s < 1 && t > 0 && t < 1)) continue;
         const Point2 mouth = a + s * along;
-        Chain rest(cuts[c].begin() + static_cast<std::ptrdiff_t>(i), cuts[c].end());
+        Chain rest(cuts[c].begin() + to_index(i), cuts[c].end());
         rest.front() = mouth;
-        cuts[c].resize(i + 1), cuts[c].push_back(mouth);
+        cuts[c].resize(i + 1);
+        cuts[c].push_back(mouth);
         cuts.push_back(std::move(rest));
-        sides.push_back({mouth, sides[k][1]}), sides[k][1] = mouth;
+        sides.push_back({mouth, sides[k][1]});
+        sides[k][1] = mouth;
       }
 }
 
@@ -119,7 +125,8 @@ Kernel::Point_2 smoothed(const Triangulation& mesh, Triangulation::Vertex_handle
   auto face = mesh.incident_faces(vertex), end = face;
   do {
     const double weight = mesh.triangle(face).area();
-    sum = sum + weight * (mesh.circumcenter(face) - CGAL::ORIGIN), area += weight;
+    sum = sum + weight * (mesh.circumcenter(face) - CGAL::ORIGIN);
+    area += weight;
   } while (++face != end);
   const Kernel::Point_2 place = CGAL::ORIGIN + sum / area;
   do {
@@ -151,7 +158,7 @@ std::size_t triangles_in(const Triangulation& mesh) {
 
 Sheet body_fitted(const Specimen& specimen) {
   const Sheet uncut(specimen.mesh);
-  const auto wanted = static_cast<double>(specimen.mesh.triangles.size());
+  const auto wanted = to_double(specimen.mesh.triangles.size());
   double area = 0;
   for (std::size_t t = 0; t < uncut.triangle_slots(); ++t) {
     const auto [a, b, c] = uncut.corners(TriangleIndex(t));
@@ -166,8 +173,11 @@ Sheet body_fitted(const Specimen& specimen) {
   // The number goes with 1 / size^2, roughly: a few steps come as near as can be told beforehand.
   double size = 1.2 * edge, best_size = size, best = 1e300;
   for (int step = 0; step < 8; ++step) {
-    const auto count = static_cast<double>(triangles_in(mesh_of(constraints, size)));
-    if (std::abs(count - wanted) < best) best = std::abs(count - wanted), best_size = size;
+    const auto count = to_double(triangles_in(mesh_of(constraints, size)));
+    if (std::abs(count - wanted) < best) {
+      best = std::abs(count - wanted);
+      best_size = size;
+    }
     if (best <= 0.01 * wanted) break;
     size *= std::sqrt(count / wanted);
   }
@@ -184,9 +194,9 @@ Sheet body_fitted(const Specimen& specimen) {
     if (!face->is_in_domain()) continue;
     auto& triangle = data.triangles.emplace_back();
     for (int k = 0; k < 3; ++k) {
-      const auto [entry, fresh] = number.emplace(face->vertex(k), static_cast<std::int32_t>(data.rest.size()));
+      const auto [entry, fresh] = number.emplace(face->vertex(k), to_int32(data.rest.size()));
       if (fresh) data.rest.push_back({face->vertex(k)->point().x(), face->vertex(k)->point().y()});
-      triangle[static_cast<std::size_t>(k)] = entry->second;
+      triangle[to_size(k)] = entry->second;
     }
     // CGAL's edge k is opposite corner k.
     cut.push_back({face->is_constrained(2), face->is_constrained(0), face->is_constrained(1)});
@@ -197,7 +207,7 @@ Sheet body_fitted(const Specimen& specimen) {
   for (std::size_t t = 0; t < cut.size(); ++t)
     for (int k = 0; k < 3; ++k) {
       const HalfEdge h = half_edge(TriangleIndex(t), k);
-      if (cut[t][static_cast<std::size_t>(k)] && !sheet.on_border(h)) sheet.set_mark(h, EdgeMark::path);
+      if (cut[t][to_size(k)] && !sheet.on_border(h)) sheet.set_mark(h, EdgeMark::path);
     }
   open_path(sheet);
   sheet.begin_cut();

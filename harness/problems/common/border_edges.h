@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/sheet.h"
 
 namespace cutbench {
@@ -18,8 +19,7 @@ void for_each_border_edge(const Sheet& sheet, Visit visit) {
 /// The deformed vertices of the ends of a half-edge.
 inline std::array<DeformedIndex, 2> deformed_ends(const Sheet& sheet, HalfEdge h) {
   const auto& deformed = sheet.triangle(triangle_of(h)).deformed;
-  return {deformed[static_cast<std::size_t>(corner_of(h))],
-          deformed[static_cast<std::size_t>(next_corner(corner_of(h)))]};
+  return {deformed[to_size(corner_of(h))], deformed[to_size(next_corner(corner_of(h)))]};
 }
 
 }  // namespace cutbench

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -22,8 +24,7 @@ std::vector<OpenedEdge> opened_edges(const Sheet& sheet, const Field& displaceme
       if (sheet.mark(h) != EdgeMark::incision || o < h) continue;
       const auto moved = [&](HalfEdge lip, int end) -> Eigen::Vector2d {
         const int corner = end == 0 ? corner_of(lip) : next_corner(corner_of(lip));
-        return displacement.segment<2>(
-            2 * sheet.triangle(triangle_of(lip)).deformed[static_cast<std::size_t>(corner)].value);
+        return displacement.segment<2>(2 * sheet.triangle(triangle_of(lip)).deformed[to_size(corner)].value);
       };
       edges.push_back({sheet.rest(sheet.origin(h)), sheet.rest(sheet.target(h)), triangle_of(h), triangle_of(o),
                        moved(h, 0) - moved(o, 1), moved(h, 1) - moved(o, 0)});

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "harness/base/conversions.h"
 #include "harness/base/random.h"
 #include "harness/problems/common/elastic_field.h"
 
@@ -27,7 +28,7 @@ class MemberNumbers {
  private:
   double unit() {
     constexpr std::array<double, 6> primes{2, 3, 5, 7, 11, 13};
-    const double number = start_.unit() + static_cast<double>(turns_) * std::sqrt(primes.at(drawn_++));
+    const double number = start_.unit() + to_double(turns_) * std::sqrt(primes.at(drawn_++));
     return number - std::floor(number);
   }
 

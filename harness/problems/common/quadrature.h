@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/types.h"
 
 namespace cutbench {
@@ -53,7 +54,7 @@ void integrate(std::array<Point2, 3> c, std::span<const Point2> tips, double lon
   if (!(area > 0)) return;
   std::array<double, 3> side{};
   for (std::size_t k = 0; k < 3; ++k) side[k] = squared_length(c[(k + 1) % 3] - c[k]);
-  const std::size_t k = static_cast<std::size_t>(std::max_element(side.begin(), side.end()) - side.begin());
+  const std::size_t k = to_size(std::max_element(side.begin(), side.end()) - side.begin());
   bool divide = side[k] > longest * longest;
   for (const Point2 tip : tips) {
     for (std::size_t i = 0; i < 3; ++i)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "harness/base/conversions.h"
 #include "harness/problems/common/quadrature.h"
 
 namespace cutbench {
@@ -39,7 +40,7 @@ LinearDisplacement displacement_in(const ElementTable& elements, std::size_t tri
   const Element& element = elements[triangle];
   if (element.is_triangle())
     return {displacement.segment<2>(2 * element.vertex[0].value), displacement_gradient(element, displacement)};
-  const PolygonElement& polygon = elements.polygon(static_cast<std::size_t>(element.polygon));
+  const PolygonElement& polygon = elements.polygon(to_size(element.polygon));
   const LinearMap<2> map = polygon.map<2>(displacement);
   return {map.at(polygon.offset_of(element.vertex[0])), map.gradient};
 }
@@ -50,10 +51,13 @@ std::optional<StressIntensity> intensity_of_coefficients(const TipFunctions& fun
   double least = reach * reach;
   for (std::size_t i = 0; i < functions.tips().size(); ++i) {
     const double distance = squared_length(functions.tips()[i].at - tip.at);
-    if (distance <= least) least = distance, nearest = i;
+    if (distance <= least) {
+      least = distance;
+      nearest = i;
+    }
   }
   if (!nearest) return std::nullopt;
-  const Eigen::Vector2d opening = c.segment<2>(static_cast<Eigen::Index>(2 * TipFunctions::per_tip * *nearest)),
+  const Eigen::Vector2d opening = c.segment<2>(to_index(2 * TipFunctions::per_tip * *nearest)),
                         along(std::cos(tip.angle), std::sin(tip.angle)), across(-along.y(), along.x());
   const double factor = elastic.young * std::sqrt(2 * std::numbers::pi) / 4;
   return StressIntensity{factor * across.dot(opening), factor * along.dot(opening)};
@@ -72,7 +76,7 @@ InteractionIntegral::InteractionIntegral(const Sheet& sheet, const ElementTable&
   to_intensity_ = elastic.young / 2 * of_modes.inverse();
   Eigen::Matrix2d turn;
   turn << 0, -tip.curvature, tip.curvature, 0;
-  if (functions) of_functions_ = Eigen::Matrix2Xd::Zero(2, static_cast<Eigen::Index>(functions->unknowns()));
+  if (functions) of_functions_ = Eigen::Matrix2Xd::Zero(2, to_index(functions->unknowns()));
   for (std::size_t e = 0; e < elements.size(); ++e) {
     if (!elements[e].alive()) continue;
     const auto corners = sheet.corners(TriangleIndex(e));
@@ -114,10 +118,9 @@ InteractionIntegral::InteractionIntegral(const Sheet& sheet, const ElementTable&
 void InteractionIntegral::add_functions(std::size_t mode, const TipFunctions& functions, TriangleIndex t, Point2 p,
                                         const Eigen::Matrix2d& of_gradient, const Eigen::Vector2d& of_value) {
   for (const auto& reach : functions.reaching(t)) {
-    auto unknown = static_cast<Eigen::Index>(2 * TipFunctions::per_tip * reach.tip);
+    auto unknown = to_index(2 * TipFunctions::per_tip * reach.tip);
     for (const auto& [value, gradient] : functions.at(t, reach, p)) {
-      of_functions_.block<1, 2>(static_cast<Eigen::Index>(mode), unknown) +=
-          (of_gradient * gradient + value * of_value).transpose();
+      of_functions_.block<1, 2>(to_index(mode), unknown) += (of_gradient * gradient + value * of_value).transpose();
       unknown += 2;
     }
   }
@@ -130,7 +133,7 @@ StressIntensity InteractionIntegral::of(const ElementTable& elements, const Fiel
   for (const auto& [element, mode] : weights_) {
     const auto [corner, gradient] = displacement_in(elements, element, displacement);
     for (std::size_t m = 0; m < 2; ++m)
-      sum[static_cast<Eigen::Index>(m)] += mode[m].gradient.cwiseProduct(gradient).sum() + mode[m].corner.dot(corner);
+      sum[to_index(m)] += mode[m].gradient.cwiseProduct(gradient).sum() + mode[m].corner.dot(corner);
   }
   const Eigen::Vector2d k = to_intensity_ * sum;
   return {k[0], k[1]};

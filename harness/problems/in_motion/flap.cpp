@@ -62,8 +62,12 @@ class Flap : public Problem {
         if (!in_flap(d) || bent.held(d)) continue;
         const Point2 at = rest(d);
         const Point3 p = bent.position(d), exact = start(d).position, e = p + -1 * exact;
-        squares += bent.mass(d) * (e.x * e.x + e.y * e.y + e.z * e.z), mass += bent.mass(d);
-        if (at.x > 0.9 * length) tip += bent.mass(d) * e.z, tip_mass += bent.mass(d);
+        squares += bent.mass(d) * (e.x * e.x + e.y * e.y + e.z * e.z);
+        mass += bent.mass(d);
+        if (at.x > 0.9 * length) {
+          tip += bent.mass(d) * e.z;
+          tip_mass += bent.mass(d);
+        }
       }
       const double depth = -elastica_.at(length).z, rms = std::sqrt(squares / mass) / depth;
       answer.measures = {{"profile_rms", rms, 0, rms}};

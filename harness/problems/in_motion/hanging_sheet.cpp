@@ -7,6 +7,7 @@
 #include <mutex>
 #include <tuple>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/time/stepper.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/predicates.h"
@@ -31,7 +32,7 @@ struct Motion {
 
 /// Root of the mean square of the difference over that of the exact values, all times and places alike.
 double relative_error(const std::vector<double>& values, const std::vector<double>& exact) {
-  const auto size = static_cast<Eigen::Index>(exact.size());
+  const auto size = to_index(exact.size());
   const FieldView a(values.data(), size), b(exact.data(), size);
   return (a - b).norm() / b.norm();
 }
@@ -105,8 +106,7 @@ class HangingSheet : public Problem {
 
   std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
                              const Constraints& constraints) const override {
-    const auto squares =
-        static_cast<int>(std::lround(std::sqrt(static_cast<double>(specimen.mesh.triangles.size()) / 2)));
+    const auto squares = to_int(std::lround(std::sqrt(to_double(specimen.mesh.triangles.size()) / 2)));
     const Motion& exact = fine_motion(specimen, squares);
     const UncutDisplacement uncut(specimen);
     std::vector<Answer> answers;
@@ -116,8 +116,10 @@ class HangingSheet : public Problem {
           specimen, sheet, constraints, [&](Point2 p) { return uncut.at(p); }, budget.solver, squares, answer);
       if (motion.is_whole && exact.is_whole)
         answer.measures = compared_with(exact, motion);
-      else if (motion.is_whole)
-        answer.refused = true, answer.reason = "the motion of a fine mesh, which it is compared with, failed";
+      else if (motion.is_whole) {
+        answer.refused = true;
+        answer.reason = "the motion of a fine mesh, which it is compared with, failed";
+      }
     }
     return answers;
   }
@@ -161,7 +163,8 @@ class HangingSheet : public Problem {
       if (p.x == 1 && p.y == 0) corner = d;
     }
     if (!corner.valid()) {
-      answer.verdict = "no_corner", answer.reason = "the cut sheet has no vertex at its lower right corner";
+      answer.verdict = "no_corner";
+      answer.reason = "the cut sheet has no vertex at its lower right corner";
       return {};
     }
     for (const std::uint8_t held : model.held()) answer.unknowns += held == 0;
@@ -178,7 +181,8 @@ class HangingSheet : public Problem {
       for (const double gape : opening(sheet, displacement, places, sheet.mean_edge())) motion.gapes.push_back(gape);
       model.rotate(state.x);
       const Energy energy = model.energy(state.x, state.v);
-      motion.strain_energy.push_back(energy.membrane), motion.kinetic_energy.push_back(energy.kinetic);
+      motion.strain_energy.push_back(energy.membrane);
+      motion.kinetic_energy.push_back(energy.kinetic);
       motion.total_energy.push_back(energy.total());
     };
     Stepper<2> stepper({.integrator = integrator_, .step = 1.0 / squares, .solver = solver});
@@ -186,9 +190,12 @@ class HangingSheet : public Problem {
     for (int step = 0; step < std::lround(duration_ * squares); ++step) {
       const StepReport report = stepper.step(model, state);
       answer.assemble_us += report.time_us.rotate + report.time_us.assemble;
-      answer.setup_us += report.time_us.setup, answer.solve_us += report.time_us.solve;
-      answer.iterations += report.newton, answer.residual = std::max(answer.residual, report.residual);
-      answer.verdict = report.verdict, answer.reason = report.reason;
+      answer.setup_us += report.time_us.setup;
+      answer.solve_us += report.time_us.solve;
+      answer.iterations += report.newton;
+      answer.residual = std::max(answer.residual, report.residual);
+      answer.verdict = report.verdict;
+      answer.reason = report.reason;
       if (answer.verdict != "ok") return motion;
       read();
     }
@@ -203,9 +210,9 @@ class HangingSheet : public Problem {
     const double length = std::sqrt(squared_length(to_border));
     std::vector<LipSample> places;
     for (std::size_t i = 0; i < samples; ++i) {
-      const double part = (static_cast<double>(i) + 0.5) / static_cast<double>(samples);
-      places.push_back({tip + part * to_border, 1 / length * Point2{-to_border.y, to_border.x},
-                        length / static_cast<double>(samples)});
+      const double part = (to_double(i) + 0.5) / to_double(samples);
+      places.push_back(
+          {tip + part * to_border, 1 / length * Point2{-to_border.y, to_border.x}, length / to_double(samples)});
     }
     return places;
   }

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/time/stepper.h"
 #include "harness/mesh/families.h"
 #include "harness/problems/common/members.h"
@@ -47,7 +48,8 @@ std::vector<std::size_t> pieces_of(const Sheet& sheet) {
 std::vector<Bar> bars_of(const Sheet& sheet, double cut) {
   const std::vector<std::size_t> piece = pieces_of(sheet);
   std::vector<Bar> bars(2);
-  bars[left].length = cut, bars[right].length = 1 - cut;
+  bars[left].length = cut;
+  bars[right].length = 1 - cut;
   for (const DeformedIndex d : vertices_in_use(sheet)) {
     const double x = sheet.rest(sheet.rest_vertex(d)).x;
     if (x == 0) bars[left].clamp.push_back(d);
@@ -71,14 +73,14 @@ std::vector<Bar> bars_of(const Sheet& sheet, double cut) {
     for (const int side : {left, right})
       if (piece[edge.first()] == (side == left ? of_left : of_right))
         for (const DeformedIndex d : {edge.first, edge.second})
-          bars[static_cast<std::size_t>(side)].lip.emplace_back(d, (side == left ? dy : -dy) / 2);
+          bars[to_size(side)].lip.emplace_back(d, (side == left ? dy : -dy) / 2);
   return bars;
 }
 
 /// Of a series with a value every `step`, at a time within it.
 double at(const std::vector<double>& series, double step, double time) {
-  const auto k = std::min(static_cast<std::size_t>(time / step), series.size() - 2);
-  const double part = time / step - static_cast<double>(k);
+  const auto k = std::min(to_size(time / step), series.size() - 2);
+  const double part = time / step - to_double(k);
   return (1 - part) * series[k] + part * series[k + 1];
 }
 
@@ -87,7 +89,7 @@ double arrival(const Bar& bar, double step) {
   std::size_t k = 1;
   while (k + 1 < bar.force.size() && bar.force[k] * bar.force[0] > 0) ++k;
   const double before = bar.force[k - 1], after = bar.force[k];
-  return step * (static_cast<double>(k) - (before * after < 0 ? after / (after - before) : 0));
+  return step * (to_double(k) - (before * after < 0 ? after / (after - before) : 0));
 }
 
 class SeveredStrip : public Problem {
@@ -117,7 +119,7 @@ class SeveredStrip : public Problem {
 
   std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
                              const Constraints& constraints) const override {
-    const double squares = std::sqrt(static_cast<double>(specimen.mesh.triangles.size()) / 2);
+    const double squares = std::sqrt(to_double(specimen.mesh.triangles.size()) / 2);
     std::vector<Answer> answers;
     for (const Budget& budget : budgets)
       swing(sheet, constraints, budget.solver, specimen.origin.x, step_ / squares, answers.emplace_back());
@@ -129,7 +131,8 @@ class SeveredStrip : public Problem {
              Answer& answer) const {
     std::vector<Bar> bars = bars_of(sheet, cut);
     if (bars.empty()) {
-      answer.verdict = "not_severed", answer.reason = "the two clamps hold one piece";
+      answer.verdict = "not_severed";
+      answer.reason = "the two clamps hold one piece";
       return;
     }
     constexpr double infinity = Box::infinity;
@@ -152,9 +155,12 @@ class SeveredStrip : public Problem {
     while (state.time < end) {
       const StepReport report = stepper.step(model, state);
       answer.assemble_us += report.time_us.rotate + report.time_us.assemble;
-      answer.setup_us += report.time_us.setup, answer.solve_us += report.time_us.solve;
-      answer.iterations += report.newton, answer.residual = std::max(answer.residual, report.residual);
-      answer.verdict = report.verdict, answer.reason = report.reason;
+      answer.setup_us += report.time_us.setup;
+      answer.solve_us += report.time_us.solve;
+      answer.iterations += report.newton;
+      answer.residual = std::max(answer.residual, report.residual);
+      answer.verdict = report.verdict;
+      answer.reason = report.reason;
       if (answer.verdict != "ok") return;
       read(sheet, model, state, bars);
     }
@@ -172,7 +178,8 @@ class SeveredStrip : public Problem {
       for (const auto& [d, weight] : bar.lip)
         stretch += (is_left ? weight : -weight) * (state.x[2 * d.value] - sheet.rest(sheet.rest_vertex(d)).x);
       for (const DeformedIndex d : bar.clamp) pull += force[2 * d.value];
-      bar.stretch.push_back(stretch), bar.force.push_back(pull);
+      bar.stretch.push_back(stretch);
+      bar.force.push_back(pull);
     }
   }
 
@@ -182,9 +189,9 @@ class SeveredStrip : public Problem {
     for (const Bar& bar : bars) {
       double sum = 0;
       std::size_t steps = 0;
-      for (double t = 0; steps < bar.stretch.size() && t <= 4 * bar.length; t = step * static_cast<double>(++steps))
+      for (double t = 0; steps < bar.stretch.size() && t <= 4 * bar.length; t = step * to_double(++steps))
         sum += std::pow(bar.stretch[steps] - released_end(strain, bar.length, t), 2);
-      squares += sum / static_cast<double>(steps) / std::pow(strain * bar.length, 2) / 2;
+      squares += sum / to_double(steps) / std::pow(strain * bar.length, 2) / 2;
       const double length = bar.length;
       speed += (at(bar.stretch, step, length / 2) - at(bar.stretch, step, 3 * length / 2)) / length / 2;
       time += arrival(bar, step) / 2;

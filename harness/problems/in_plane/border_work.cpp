@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -11,7 +13,7 @@ namespace {
 std::vector<double> panel_ends(Point2 a, Point2 b, const std::vector<Curve>& cuts) {
   constexpr int panels = 64;
   std::vector<double> ends;
-  for (int i = 0; i <= panels; ++i) ends.push_back(static_cast<double>(i) / panels);
+  for (int i = 0; i <= panels; ++i) ends.push_back(to_double(i) / panels);
   for (const Curve& cut : cuts)
     for (std::size_t i = 0; i + 1 < cut.points.size(); ++i) {
       const Point2 p = cut.points[i], d = cut.points[i + 1] - p;

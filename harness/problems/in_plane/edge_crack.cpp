@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/families.h"
 #include "harness/problems/common/members.h"
 #include "harness/problems/common/stress_intensity.h"
@@ -28,13 +29,16 @@ MeshData strip(const std::string& family, int n) {
     std::vector<std::int32_t> of_sheet;
     for (Point2 p : sheet.rest) {
       p.y = upside_down ? level + 1 - p.y : level + p.y;
-      const auto [entry, fresh] = number.emplace(std::pair(p.x, p.y), static_cast<std::int32_t>(all.rest.size()));
-      if (fresh) all.rest.push_back(p), all.deformed.push_back({p.x, p.y, 0});
+      const auto [entry, fresh] = number.emplace(std::pair(p.x, p.y), to_int32(all.rest.size()));
+      if (fresh) {
+        all.rest.push_back(p);
+        all.deformed.push_back({p.x, p.y, 0});
+      }
       of_sheet.push_back(entry->second);
     }
     for (auto [a, b, c] : sheet.triangles) {
       if (upside_down) std::swap(b, c);
-      const auto here = [&](std::int32_t v) { return of_sheet[static_cast<std::size_t>(v)]; };
+      const auto here = [&](std::int32_t v) { return of_sheet[to_size(v)]; };
       all.triangles.push_back({here(a), here(b), here(c)});
     }
   }
@@ -78,9 +82,12 @@ class EdgeCrack final : public Problem {
                              const Constraints& constraints) const override {
     StaticSolve solve(sheet, sheet_material, constraints);
     const auto at = [](double y) { return [y](Point2 a, Point2 b) { return a.y == y && b.y == y; }; };
-    solve.pull_border(at(0), {0, -pull}), solve.pull_border(at(height), {0, pull});
+    solve.pull_border(at(0), {0, -pull});
+    solve.pull_border(at(height), {0, pull});
     // Tractions in equilibrium: what is held takes no force.
-    solve.hold({1, 0}, 0, 0), solve.hold({1, 0}, 1, 0), solve.hold({1, height}, 0, 0);
+    solve.hold({1, 0}, 0, 0);
+    solve.hold({1, 0}, 1, 0);
+    solve.hold({1, height}, 0, 0);
     const double depth = specimen.origin.x;
     const double k1 = pull * std::sqrt(pi * depth) * edge_crack_factor(depth);
     const double energy = pull * pull / sheet_material.young * released_energy(depth);

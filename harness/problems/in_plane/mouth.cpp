@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "harness/base/conversions.h"
 #include "harness/problems/common/border_edges.h"
 
 namespace cutbench {
@@ -26,11 +27,12 @@ Field continued_over_the_mouth(const ElasticField& field, const Sheet& sheet) {
   std::vector<std::uint8_t> reached(none, 0);
   const auto rest = [&](std::size_t d) { return sheet.rest(sheet.rest_vertex(DeformedIndex(d))); };
   const auto place = [&](std::size_t d) { return field.frame().to_local(rest(d)); };
-  Field values = Field::Zero(static_cast<Eigen::Index>(2 * none));
-  const auto value = [&](std::size_t d) { return values.segment<2>(static_cast<Eigen::Index>(2 * d)); };
+  Field values = Field::Zero(to_index(2 * none));
+  const auto value = [&](std::size_t d) { return values.segment<2>(to_index(2 * d)); };
   for_each_border_edge(sheet, [&](HalfEdge h) {
     const auto [from, to] = deformed_ends(sheet, h);
-    next[from()] = to(), reached[to()] = 1;
+    next[from()] = to();
+    reached[to()] = 1;
     value(from()) = field.displacement(rest(from()));
   });
 
@@ -38,7 +40,8 @@ Field continued_over_the_mouth(const ElasticField& field, const Sheet& sheet) {
   std::vector<double> angle;
   for (std::size_t start = 0; start < none; ++start) {
     if (reached[start] || next[start] == none) continue;
-    part.assign(1, start), angle.assign(1, std::arg(place(start)));
+    part.assign(1, start);
+    angle.assign(1, std::arg(place(start)));
     for (std::size_t d = start; next[d] != none; d = next[d]) {
       part.push_back(next[d]);
       angle.push_back(angle.back() + std::arg(place(next[d]) / place(d)));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "harness/base/conversions.h"
 #include "harness/base/stop_watch.h"
 #include "harness/fem/solvers/solver_table.h"
 #include "harness/problems/common/border_edges.h"
@@ -21,7 +22,7 @@ StaticSolve::StaticSolve(const Sheet& sheet, const Elastic& elastic, const Const
   if (!constraints.polygons.empty()) model_.constrain(sheet, {.polygons = constraints.polygons});
   if (!constraints.constraints.empty()) constrained_.emplace(constraints, model_.vertices());
   held_ = model_.held();
-  given_ = force_ = Field::Zero(static_cast<Eigen::Index>(held_.size()));
+  given_ = force_ = Field::Zero(to_index(held_.size()));
 }
 
 void StaticSolve::hold_border(const std::function<Eigen::Vector2d(Point2, Point2)>& value) {
@@ -48,8 +49,9 @@ void StaticSolve::hold(Point2 p, int axis, double value) {
   for (std::size_t d = 0; d < sheet_.deformed_slots(); ++d) {
     const VertexIndex v = sheet_.rest_vertex(DeformedIndex(d));
     if (!v.valid() || !(sheet_.rest(v) == p)) continue;
-    const std::size_t unknown = 2 * d + static_cast<std::size_t>(axis);
-    held_[unknown] = 1, given_[static_cast<Eigen::Index>(unknown)] = value;
+    const std::size_t unknown = 2 * d + to_size(axis);
+    held_[unknown] = 1;
+    given_[to_index(unknown)] = value;
   }
 }
 
@@ -70,11 +72,12 @@ void StaticSolve::hold_loose_pieces() {
   for (std::size_t start = 0; start < seen.size(); ++start) {
     if (seen[start] || blocks.columns(start).empty()) continue;
     bool held = false;
-    piece.assign(1, start), seen[start] = 1;
+    piece.assign(1, start);
+    seen[start] = 1;
     for (std::size_t i = 0; i < piece.size(); ++i) {
       held = held || held_[2 * piece[i]] || held_[2 * piece[i] + 1];
       for (const auto j : blocks.columns(piece[i]))
-        if (!std::exchange(seen[static_cast<std::size_t>(j)], 1)) piece.push_back(static_cast<std::size_t>(j));
+        if (!std::exchange(seen[to_size(j)], 1)) piece.push_back(to_size(j));
     }
     if (held) continue;
     for (const std::size_t v : piece) loose_[v] = held_[2 * v] = held_[2 * v + 1] = 1;
@@ -109,7 +112,8 @@ SystemMatrix<2> StaticSolve::held_system() const {
 StaticSolve::Solution StaticSolve::solve(const Budget& budget) {
   if (budget.tip_functions && !why_no_tips_.empty()) {
     Solution refused;
-    refused.answer.refused = true, refused.answer.reason = why_no_tips_;
+    refused.answer.refused = true;
+    refused.answer.reason = why_no_tips_;
     return refused;
   }
   StopWatch watch;
@@ -130,7 +134,10 @@ StaticSolve::Solution StaticSolve::solve(const Budget& budget) {
   }
   const SystemMatrix<2> system = constrained_ ? constrained_->system() : held_system();
   SolverOptions options = budget.solver;
-  if (budget.iterations > 0) options.tolerance = 0, options.max_iterations = budget.iterations;
+  if (budget.iterations > 0) {
+    options.tolerance = 0;
+    options.max_iterations = budget.iterations;
+  }
   const auto solver = make_solver<2>(options);
   Solution solution;
   Answer& answer = solution.answer;
@@ -144,7 +151,7 @@ StaticSolve::Solution StaticSolve::solve(const Budget& budget) {
     report = solver->solve(right_, solution.displacement);
   answer.solve_us = watch.lap();
   for (const auto h : *system.held) answer.unknowns += !h;
-  answer.unknowns += static_cast<std::size_t>(solution.of_tips.size());
+  answer.unknowns += to_size(solution.of_tips.size());
   if (constrained_) {
     const Field unknowns = solution.displacement;
     constrained_->expand(unknowns, solution.displacement);
@@ -153,11 +160,15 @@ StaticSolve::Solution StaticSolve::solve(const Budget& budget) {
   model_.follow(solution.displacement);
 
   answer.assemble_us = assemble_us_ + (budget.tip_functions ? tips_us_ : 0);
-  answer.iterations = report.iterations, answer.residual = report.residual;
-  if (!solution.displacement.allFinite())
-    answer.verdict = "not_finite", answer.reason = "the displacement is not finite";
-  else if (budget.iterations == 0 && !report.converged)
-    answer.verdict = "solver_stalled", answer.reason = options.name + " reached " + std::to_string(report.residual);
+  answer.iterations = report.iterations;
+  answer.residual = report.residual;
+  if (!solution.displacement.allFinite()) {
+    answer.verdict = "not_finite";
+    answer.reason = "the displacement is not finite";
+  } else if (budget.iterations == 0 && !report.converged) {
+    answer.verdict = "solver_stalled";
+    answer.reason = options.name + " reached " + std::to_string(report.residual);
+  }
   return solution;
 }
 

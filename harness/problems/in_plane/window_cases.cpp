@@ -2,6 +2,7 @@
 #include <numbers>
 #include <utility>
 
+#include "harness/base/conversions.h"
 #include "harness/problems/common/members.h"
 #include "harness/problems/in_plane/window_problem.h"
 
@@ -17,7 +18,7 @@ Curve line(Point2 a, Point2 b) { return {Curve::Kind::polyline, false, {a, b}}; 
 
 /// An arc round the origin as cubic Beziers, each so short that it is within 1e-7 of the radius.
 Curve arc(double radius, double from, double to) {
-  const int pieces = static_cast<int>(std::ceil((to - from) / (22.5 * degree) - 1e-9));
+  const int pieces = to_int(std::ceil((to - from) / (22.5 * degree) - 1e-9));
   const double step = (to - from) / pieces, handle = 4.0 / 3 * std::tan(step / 4) * radius;
   const auto at = [&](double t) { return Point2{radius * std::cos(t), radius * std::sin(t)}; };
   const auto along = [&](double t) { return Point2{-handle * std::sin(t), handle * std::cos(t)}; };

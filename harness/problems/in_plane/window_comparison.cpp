@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/base/conversions.h"
 #include "harness/problems/common/quadrature.h"
 
 namespace cutbench {
@@ -96,8 +97,10 @@ double WindowComparison::opening_error(const StaticSolve::Solution& solution) co
   const auto found =
       opening(sheet_, solution.displacement, lips_, sheet_.mean_edge(), solve_.tip_functions(), solution.of_tips);
   double off = 0, scale = 0;
-  for (std::size_t i = 0; i < lips_.size(); ++i)
-    off += lips_[i].length * std::pow(found[i] - opening_[i], 2), scale += lips_[i].length * std::pow(opening_[i], 2);
+  for (std::size_t i = 0; i < lips_.size(); ++i) {
+    off += lips_[i].length * std::pow(found[i] - opening_[i], 2);
+    scale += lips_[i].length * std::pow(opening_[i], 2);
+  }
   return std::sqrt(off / scale);
 }
 
@@ -116,11 +119,12 @@ double WindowComparison::rim_error(const StaticSolve::Solution& solution) const 
 /// At the ends of an arc sliding goes in opposite directions: the mean is that of the first one's.
 StressIntensity WindowComparison::mean(const std::function<StressIntensity(std::size_t i)>& of_tip) const {
   StressIntensity mean;
-  const auto tips = static_cast<double>(tips_.size());
+  const auto tips = to_double(tips_.size());
   for (std::size_t i = 0; i < tips_.size(); ++i) {
     const auto [k1, k2] = of_tip(i);
     const bool mirrored = window_.tips[i].k.k2 * window_.tips[0].k.k2 < 0;
-    mean.k1 += k1 / tips, mean.k2 += (mirrored ? -k2 : k2) / tips;
+    mean.k1 += k1 / tips;
+    mean.k2 += (mirrored ? -k2 : k2) / tips;
   }
   return mean;
 }

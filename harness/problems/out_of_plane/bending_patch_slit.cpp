@@ -59,7 +59,9 @@ class BendingPatchSlit : public Problem {
         if (bent.held(d) || bent.mass(d) == 0) continue;  // no unknown: inside a polygon
         const Point3 e = bent.position(d) + -1 * exact(d);
         const double square = e.x * e.x + e.y * e.y + e.z * e.z;
-        squares += bent.mass(d) * square, mass += bent.mass(d), largest = std::max(largest, square);
+        squares += bent.mass(d) * square;
+        mass += bent.mass(d);
+        largest = std::max(largest, square);
       }
       const double rms = std::sqrt(squares / mass) / sag, most = std::sqrt(largest) / sag;
       answer.measures = {

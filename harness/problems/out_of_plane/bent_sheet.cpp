@@ -36,11 +36,13 @@ BentSheet::BentSheet(const Sheet& sheet, const Material& material, BendingKind b
 bool BentSheet::solve_to_equilibrium(const SolverOptions& solver, Answer& answer) {
   Stepper<3> stepper({.integrator = Integrator::equilibrium, .newton = 100, .solver = solver});
   const StepReport report = stepper.step(model_, state_);
-  answer.verdict = report.verdict, answer.reason = report.reason;
+  answer.verdict = report.verdict;
+  answer.reason = report.reason;
   answer.unknowns = 0;
   for (const std::uint8_t h : model_.held()) answer.unknowns += h == 0;
   answer.assemble_us += report.time_us.rotate + report.time_us.assemble;
-  answer.setup_us += report.time_us.setup, answer.solve_us += report.time_us.solve;
+  answer.setup_us += report.time_us.setup;
+  answer.solve_us += report.time_us.solve;
   answer.iterations += report.newton;
   answer.residual = std::max(answer.residual, report.newton_residual);
   if (answer.verdict != "ok") return false;
@@ -76,7 +78,10 @@ std::vector<Point2> sides(const Sheet& sheet) {
     const auto c = sheet.corners(TriangleIndex(t));
     const double twice_area = cross(c[1] - c[0], c[2] - c[0]);
     for (const DeformedIndex d : sheet.triangle(TriangleIndex(t)).deformed)
-      if (twice_area > largest[d()]) largest[d()] = twice_area, centre[d()] = 1.0 / 3 * (c[0] + c[1] + c[2]);
+      if (twice_area > largest[d()]) {
+        largest[d()] = twice_area;
+        centre[d()] = 1.0 / 3 * (c[0] + c[1] + c[2]);
+      }
   }
   return centre;
 }

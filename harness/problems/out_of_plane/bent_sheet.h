@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/time/stepper.h"
 #include "harness/problems/common/problem.h"
 
@@ -32,7 +33,7 @@ class BentSheet {
   Energy energy() const;
   /// N: what holds the vertex on its held axes, with the sheet's weight there.
   Point3 support(DeformedIndex d) const;
-  double mass(DeformedIndex d) const { return model_.lumped_mass()[static_cast<Eigen::Index>(d())]; }
+  double mass(DeformedIndex d) const { return model_.lumped_mass()[to_index(d())]; }
   bool held(DeformedIndex d) const { return model_.pinned(3 * d()); }  ///< along x
 
  private:

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -55,9 +57,9 @@ HeavyElastica::HeavyElastica(double length, double load) : length_(length) {
 /// Hermite's cubic between two sections.
 HeavyElastica::Section HeavyElastica::at(double s) const {
   const double from = std::clamp(s, 0.0, length_), beyond = s - from;
-  const auto i = std::min(static_cast<std::size_t>(from / length_ * steps), std::size_t{steps - 1});
+  const auto i = std::min(to_size(from / length_ * steps), std::size_t{steps - 1});
   const Section &a = sections_[i], &b = sections_[i + 1];
-  const double h = length_ * step, t = from / h - static_cast<double>(i), u = 1 - t;
+  const double h = length_ * step, t = from / h - to_double(i), u = 1 - t;
   const double at_a = u * u * (1 + 2 * t), at_b = t * t * (1 + 2 * u), out_of_a = h * t * u * u,
                into_b = -h * t * t * u;
   const Section on{at_a * a.x + at_b * b.x + out_of_a * std::cos(a.angle) + into_b * std::cos(b.angle),

@@ -47,7 +47,8 @@ class SlitStrip : public Problem {
       BentSheet slit = hung(sheet, constraints), uncut = hung(whole);
       if (!slit.solve_to_equilibrium(budget.solver, answer)) continue;
       if (!uncut.solve_to_equilibrium(budget.solver, of_whole)) {
-        answer.verdict = of_whole.verdict, answer.reason = "the sheet before the cut: " + of_whole.reason;
+        answer.verdict = of_whole.verdict;
+        answer.reason = "the sheet before the cut: " + of_whole.reason;
         continue;
       }
       double squares = 0, mass = 0;

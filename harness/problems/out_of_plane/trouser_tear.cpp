@@ -25,6 +25,7 @@
 #include <map>
 #include <numbers>
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/families.h"
 #include "harness/problems/common/members.h"
 #include "harness/problems/out_of_plane/bent_sheet.h"
@@ -94,13 +95,15 @@ class TrouserTear : public Problem {
       std::vector<std::int32_t> number;
       for (const Point2 p : sheet.rest) {
         const Point2 q{i + (mirrored ? 1 - p.x : p.x), p.y};
-        const auto [place, is_new] = at.try_emplace({q.x, q.y}, static_cast<std::int32_t>(strip.rest.size()));
-        if (is_new) strip.rest.push_back(q), strip.deformed.push_back({q.x, q.y, 0});
+        const auto [place, is_new] = at.try_emplace({q.x, q.y}, to_int32(strip.rest.size()));
+        if (is_new) {
+          strip.rest.push_back(q);
+          strip.deformed.push_back({q.x, q.y, 0});
+        }
         number.push_back(place->second);
       }
       for (const auto& t : sheet.triangles) {
-        const auto a = number[static_cast<std::size_t>(t[0])], b = number[static_cast<std::size_t>(t[1])],
-                   c = number[static_cast<std::size_t>(t[2])];
+        const auto a = number[to_size(t[0])], b = number[to_size(t[1])], c = number[to_size(t[2])];
         strip.triangles.push_back(mirrored ? std::array{a, c, b} : std::array{a, b, c});
       }
     }
@@ -119,8 +122,11 @@ class TrouserTear : public Problem {
         const Point2 p = sheet.rest(triangle.vertex[k]);
         const bool beyond = p.x > specimen.origin.x - sheet.snap();
         const auto [place, is_new] = number.try_emplace(beyond ? ~triangle.vertex[k].value : triangle.deformed[k].value,
-                                                        static_cast<std::int32_t>(mesh.rest.size()));
-        if (is_new) mesh.rest.push_back(p), mesh.deformed.push_back({p.x, p.y, 0});
+                                                        to_int32(mesh.rest.size()));
+        if (is_new) {
+          mesh.rest.push_back(p);
+          mesh.deformed.push_back({p.x, p.y, 0});
+        }
         corners[k] = place->second;
       }
       mesh.triangles.push_back(corners);

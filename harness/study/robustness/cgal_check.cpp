@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 
+#include "harness/base/conversions.h"
 #include "harness/oracle/flatten.h"
 #include "harness/oracle/sheet_topology.h"
 
@@ -71,7 +72,7 @@ class Plane {
   /// For each vertex of inside(), the input's vertices there; in the input's order.
   std::vector<std::vector<int>> input_vertices() const {
     std::vector<std::vector<int>> result(triangulation_.number_of_vertices());
-    for (int i = 0; i < static_cast<int>(vertices_.size()); ++i) result[vertices_[i]->info()].push_back(i);
+    for (int i = 0; i < to_int(vertices_.size()); ++i) result[vertices_[i]->info()].push_back(i);
     return result;
   }
 
@@ -79,7 +80,10 @@ class Plane {
   /// opened.
   std::vector<Segment> slits() const {
     std::vector<int> degree(triangulation_.number_of_vertices(), 0);
-    for (const auto& [edge, lines] : lines_) ++degree[edge.first], ++degree[edge.second];
+    for (const auto& [edge, lines] : lines_) {
+      ++degree[edge.first];
+      ++degree[edge.second];
+    }
     std::vector<Segment> result;
     for (const Constraint& c : constraints_) {
       const auto chain = triangulation_.vertices_in_constraint(c.id);
@@ -157,11 +161,11 @@ Mesh opened(const Mesh& closed, const std::vector<int>& opposite, const Mesh& be
   Mesh mesh{before.rest, closed.triangles};
   std::vector<std::size_t> fans(closed.rest.size(), 0);
   std::vector<char> seen(opposite.size(), 0);
-  for (int start = 0; start < static_cast<int>(opposite.size()); ++start) {
+  for (int start = 0; start < to_int(opposite.size()); ++start) {
     if (seen[start]) continue;
     const int v = closed.triangles[start / 3][start % 3];
     const std::size_t fan = fans[v]++;
-    int index = static_cast<int>(mesh.rest.size());
+    int index = to_int(mesh.rest.size());
     if (fan < input_vertices[v].size())
       index = input_vertices[v][fan];
     else
@@ -172,10 +176,15 @@ Mesh opened(const Mesh& closed, const std::vector<int>& opposite, const Mesh& be
       mesh.triangles[corner / 3][corner % 3] = index;
     };
     int e = start;
-    do visit(e), e = opposite[previous(e)];
-    while (e >= 0 && e != start);
+    do {
+      visit(e);
+      e = opposite[previous(e)];
+    } while (e >= 0 && e != start);
     if (e == start) continue;
-    for (e = opposite[start]; e >= 0; e = opposite[e]) e = next(e), visit(e);
+    for (e = opposite[start]; e >= 0; e = opposite[e]) {
+      e = next(e);
+      visit(e);
+    }
   }
   return mesh;
 }
@@ -208,7 +217,7 @@ CrossCheckResult cgal_whole_sheet_cut(const Mesh& before, const Curve& curve, do
     const Mesh closed = plane->inside();
     std::vector<int> opposite = half_edges(closed).opposite;
     bool opens = false;
-    for (int e = 0; e < static_cast<int>(opposite.size()); ++e) {
+    for (int e = 0; e < to_int(opposite.size()); ++e) {
       if (opposite[e] < 0) continue;
       const Lines lines = plane->lines(closed.triangles[e / 3][e % 3], closed.triangles[e / 3][next(e) % 3]);
       opens = opens || (lines.path && !lines.older && !lines.border);

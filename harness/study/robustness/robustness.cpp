@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <map>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/adversarial.h"
 #include "harness/files/mesh_file.h"
 #include "harness/mesh/families.h"
@@ -46,7 +47,7 @@ class Robustness : public Study {
  private:
   std::size_t case_count() override {
     const std::size_t sheets = experiment_.sheets.size() * experiment_.resolutions.size() + plan_.mesh_files.size();
-    const std::size_t ours = options_.ours(0, sheets * static_cast<std::size_t>(experiment_.cases)).size();
+    const std::size_t ours = options_.ours(0, sheets * to_size(experiment_.cases)).size();
     return ours * contenders_.size();
   }
 
@@ -74,10 +75,12 @@ class Robustness : public Study {
   bool all_ok() const override { return summary_.all_ok(); }
 
   void run_sheet(const std::string& name, const MeshData& mesh, Progress& progress) {
-    sheet_name_ = name, mesh_ = mesh, sheet_ = Sheet(mesh);
+    sheet_name_ = name;
+    mesh_ = mesh;
+    sheet_ = Sheet(mesh);
     drawn_.clear();
-    numbers_ = options_.ours(items_, static_cast<std::size_t>(experiment_.cases));
-    items_ += static_cast<std::size_t>(experiment_.cases);
+    numbers_ = options_.ours(items_, to_size(experiment_.cases));
+    items_ += to_size(experiment_.cases);
     for (const Contender& contender : contenders_) {
       if (is_done(contender)) {
         progress.skip(numbers_.size());
@@ -91,10 +94,13 @@ class Robustness : public Study {
 
   Record start_row(const Contender& contender, const std::string& family) const {
     Record row(robustness_columns());
-    row.set("suite_version", std::string(suite_version)), row.set("cut_family", family), row.set("sheet", sheet_name_);
-    row.set("method", contender.method), row.set("parameter", contender.parameter);
-    row.set("resolution", static_cast<std::int64_t>(sheet_.triangle_count()));
-    row.set("seed", static_cast<std::int64_t>(experiment_.seed));
+    row.set("suite_version", std::string(suite_version));
+    row.set("cut_family", family);
+    row.set("sheet", sheet_name_);
+    row.set("method", contender.method);
+    row.set("parameter", contender.parameter);
+    row.set("resolution", to_int64(sheet_.triangle_count()));
+    row.set("seed", to_int64(experiment_.seed));
     return row;
   }
 
@@ -114,7 +120,7 @@ class Robustness : public Study {
       const AdversarialCase c = adversarial_case(k);
       const auto family = std::find(families_.begin() + 1, families_.end(), c.family);
       drawn[k].near_event = nearest_event(c.cuts, sheet_) < near;
-      drawn[k].family = static_cast<std::int32_t>(family - families_.begin());
+      drawn[k].family = to_int32(family - families_.begin());
     });
     for (std::size_t k = 0; k < numbers_.size(); ++k) drawn_.push_back(drawn[k]);
   }
@@ -131,12 +137,13 @@ class Robustness : public Study {
     std::vector<std::size_t> saved(families_.size(), 0);
     std::vector<FailingCase> failing;
     for (std::size_t k = 0; k < numbers_.size(); ++k) {
-      const auto family = static_cast<std::size_t>(drawn_[k].family);
+      const auto family = to_size(drawn_[k].family);
       const Fault fault = fault_of(results[k], fates[k]);
       Counts count = results[k].count;
       if (fates[k] != Fate::done) ++count[fault.kind];
       count[Count::tried] = std::max<std::int64_t>(1, count[Count::tried]);  // it may have crashed before its first cut
-      count[Count::cases] = 1, count[Count::near_event_cases] = drawn_[k].near_event;
+      count[Count::cases] = 1;
+      count[Count::near_event_cases] = drawn_[k].near_event;
       std::transform(count.begin(), count.end(), sums[family].begin(), sums[family].begin(), std::plus<>());
       if (fault.kind != Count::ok)
         last_reason_[contender.method] = fault.text();

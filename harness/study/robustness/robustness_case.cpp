@@ -4,6 +4,7 @@
 #include <exception>
 #include <span>
 
+#include "harness/base/conversions.h"
 #include "harness/base/stop_watch.h"
 #include "harness/judge/judged_sheet.h"
 #include "harness/judge/oracle_request.h"
@@ -16,7 +17,7 @@ namespace {
 
 Count::Kind count_of(Status status) {
   constexpr Count::Kind counts[] = {Count::ok, Count::noop, Count::deviated, Count::refused, Count::failed};
-  return counts[static_cast<std::size_t>(status)];
+  return counts[to_size(status)];
 }
 
 class MethodAtWork : public Subject {
@@ -90,8 +91,10 @@ void copy_to_array(const std::string& text, std::span<char> to) {
 void note_fault(CaseResult& result, std::int32_t cut, Count::Kind fault, const std::string& verdict,
                 const std::string& reason) {
   if (result.fault != Count::ok) return;
-  result.cut = cut, result.fault = fault;
-  copy_to_array(verdict, result.verdict), copy_to_array(reason, result.reason);
+  result.cut = cut;
+  result.fault = fault;
+  copy_to_array(verdict, result.verdict);
+  copy_to_array(reason, result.reason);
 }
 
 }  // namespace
@@ -113,7 +116,7 @@ void try_case(const Contender& contender, const Sheet& sheet, const std::vector<
               CaseResult& result) {
   const auto subject = contender.start(sheet, options);
   for (std::size_t k = 0; k < cuts.size(); ++k) {
-    const auto number = static_cast<std::int32_t>(k);
+    const auto number = to_int32(k);
     if (result.fault == Count::ok) result.cut = number;
     ++result.count[Count::tried];
     try {

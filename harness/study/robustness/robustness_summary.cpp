@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "harness/base/conversions.h"
+
 namespace cutbench {
 
 namespace {
@@ -12,7 +14,7 @@ void add_to(Counts& sum, const Counts& more) {
 }
 
 double percent(std::int64_t part, std::int64_t whole) {
-  return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0;
+  return whole > 0 ? 100.0 * to_double(part) / to_double(whole) : 0;
 }
 
 using Sums = std::vector<std::pair<std::string, Counts>>;  // in order of appearance
@@ -24,12 +26,12 @@ Counts& sum_of(Sums& sums, const std::string& name) {
 
 void print_sums(const char* by, const Sums& sums) {
   std::printf("%-28s", by);
-  for (int c = Count::tried; c <= Count::carefully; ++c) std::printf(" %9s", count_names[static_cast<std::size_t>(c)]);
+  for (int c = Count::tried; c <= Count::carefully; ++c) std::printf(" %9s", count_names[to_size(c)]);
   std::printf("  near cases\n");
   for (const auto& [name, count] : sums) {
     std::printf("%-28s", name.c_str());
     for (int c = Count::tried; c <= Count::carefully; ++c)
-      std::printf(" %9lld", static_cast<long long>(count[static_cast<std::size_t>(c)]));
+      std::printf(" %9lld", static_cast<long long>(count[to_size(c)]));
     std::printf(" %9.1f %%\n", percent(count[Count::near_event_cases], count[Count::cases]));
   }
 }

@@ -1,5 +1,6 @@
 #include "harness/study/robustness/shrink.h"
 
+#include "harness/base/conversions.h"
 #include "harness/mesh/check_and_repair.h"
 
 namespace cutbench {
@@ -14,8 +15,8 @@ void leave_out(std::vector<Item>& items, std::size_t step, std::size_t least, St
   for (std::size_t run = (items.size() - least) / step; run > 0; run /= 2)
     for (std::size_t i = 0; i + run * step <= items.size() && items.size() >= least + run * step;) {
       const std::vector<Item> whole = items;
-      const auto first = items.begin() + static_cast<std::ptrdiff_t>(i);
-      items.erase(first, first + static_cast<std::ptrdiff_t>(run * step));
+      const auto first = items.begin() + to_index(i);
+      items.erase(first, first + to_index(run * step));
       if (still_fails()) continue;
       items = whole;
       i += run * step;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "harness/base/conversions.h"
 #include "harness/base/names.h"
 #include "harness/base/random.h"
 #include "harness/cases/cut_families.h"
@@ -50,7 +51,10 @@ class Placer {
       for (int k = 0; k < 3 && sheet.triangle(TriangleIndex(t)).alive(); ++k) {
         const HalfEdge e = half_edge(TriangleIndex(t), k);
         edges_.push_back(e);
-        if (sheet.on_border(e)) border_.push_back(sheet.origin(e)), border_.push_back(sheet.target(e));
+        if (sheet.on_border(e)) {
+          border_.push_back(sheet.origin(e));
+          border_.push_back(sheet.target(e));
+        }
       }
   }
 
@@ -63,7 +67,10 @@ class Placer {
       double clearance = std::numeric_limits<double>::infinity();
       for (const double p : places)
         for (const Curve& curve : spot.curves(p)) clearance = std::min(clearance, clearance_of(curve, spot));
-      if (clearance > best_clearance) best_clearance = clearance, chosen = std::move(spot);
+      if (clearance > best_clearance) {
+        best_clearance = clearance;
+        chosen = std::move(spot);
+      }
     }
     return chosen.curves(place);
   }
@@ -195,8 +202,7 @@ std::vector<Curve> placed_cut(const std::string& name, double place, std::uint64
                               const Sheet& sheet) {
   if (name == "in_a_row") {
     std::vector<Curve> curves;
-    for (std::size_t n = 0; n < static_cast<std::size_t>(place); ++n)
-      curves.push_back(make_small_cut(seed + i, n, sheet));
+    for (std::size_t n = 0; n < to_size(place); ++n) curves.push_back(make_small_cut(seed + i, n, sheet));
     return curves;
   }
   if (std::find(std::begin(names), std::end(names), name) == std::end(names)) return make_case(name, seed, i, sheet);

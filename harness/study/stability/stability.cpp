@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <map>
 
+#include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "harness/processes/isolated.h"
 #include "harness/study/stability/placed_cuts.h"
@@ -87,7 +88,7 @@ class StabilityRun : public Study {
                             .variant = &variant,
                             .sheet = sheet,
                             .resolution = resolution,
-                            .index = static_cast<std::size_t>(i),
+                            .index = to_size(i),
                             .seed = experiment_.seed,
                             .options = {.chord_tolerance = experiment_.chord_tolerance},
                             .uncut_step_s = 0};
@@ -102,7 +103,8 @@ class StabilityRun : public Study {
   double uncut_step(const Trial& trial) {
     if (!trial.point->eigenvalue && trial.point->step_share == 0) return 0;
     Scene scene = trial.point->scene;
-    scene.family = trial.sheet, scene.resolution = trial.resolution;
+    scene.family = trial.sheet;
+    scene.resolution = trial.resolution;
     const Material& m = scene.material;
     const auto key = std::tuple(trial.sheet, trial.resolution, trial.sweep->scene_file.string(), m.stiffness, m.poisson,
                                 m.stiffness_damping, m.mass_damping, scene.physics.bending);
@@ -113,11 +115,15 @@ class StabilityRun : public Study {
 
   Record start_row(const Trial& trial) const {
     Record row(stability_columns());
-    row.set("suite_version", std::string(suite_version)), row.set("sweep", trial.sweep->name);
-    row.set("sheet", trial.sheet), row.set("method", trial.variant->row->name);
-    row.set("parameter", trial.variant->parameter_text()), row.set("resolution", std::int64_t{trial.resolution});
-    row.set("case", static_cast<std::int64_t>(trial.index)), row.set("repetition", std::int64_t{0});
-    row.set("seed", static_cast<std::int64_t>(trial.seed));
+    row.set("suite_version", std::string(suite_version));
+    row.set("sweep", trial.sweep->name);
+    row.set("sheet", trial.sheet);
+    row.set("method", trial.variant->row->name);
+    row.set("parameter", trial.variant->parameter_text());
+    row.set("resolution", std::int64_t{trial.resolution});
+    row.set("case", to_int64(trial.index));
+    row.set("repetition", std::int64_t{0});
+    row.set("seed", to_int64(trial.seed));
     row.set("cache", std::string(trial.sweep->steps > 0 ? "simulation" : "cold"));
     for (const SweepSetting& setting : sweep_settings()) row.set(setting.name, setting.get(*trial.point));
     return row;

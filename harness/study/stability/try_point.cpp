@@ -4,6 +4,7 @@
 #include <numbers>
 #include <span>
 
+#include "harness/base/conversions.h"
 #include "harness/cut/constraint_source.h"
 #include "harness/fem/model/largest_eigenvalue.h"
 #include "harness/judge/assessment.h"
@@ -74,7 +75,8 @@ class Point {
   double& measure(PointMeasure::Kind kind) { return result_.measure[kind]; }
   void at(const std::string& what) { put("in " + what, result_.reason); }
   void conclude(const std::string& verdict, const std::string& reason) {
-    put(verdict, result_.verdict), put(reason, result_.reason);
+    put(verdict, result_.verdict);
+    put(reason, result_.reason);
   }
 
   /// False: the verdict is final.
@@ -95,23 +97,27 @@ class Point {
       const JudgedSheet::Finding finding = judged.cut(curves_[i], trial_.options);
       const CutOutcome& outcome = judged.outcome;
       put(name_of(outcome.status), result_.status);
-      us += outcome.time_us.total(), error = std::max(error, judged.judgement.incision_error);
+      us += outcome.time_us.total();
+      error = std::max(error, judged.judgement.incision_error);
       if (!finding.ok()) return conclude(name_of(finding.verdict), finding.reason), false;
       if (outcome.status == Status::refused) return conclude("refused", outcome.reason), false;
       if (outcome.status == Status::failed) return conclude("failed", outcome.reason), false;
     }
     conclude("ok", "");
-    measure(PointMeasure::geometry_us) = us, measure(PointMeasure::incision_error_h) = error / before_.mean_edge();
+    measure(PointMeasure::geometry_us) = us;
+    measure(PointMeasure::incision_error_h) = error / before_.mean_edge();
     measure_sheet(judged.sheet, *make());
     return true;
   }
 
   void measure_sheet(const Sheet& sheet, const CuttingMethod& method) {
     const Assessment a = assess(before_, sheet, {}, {});
-    measure(PointMeasure::triangles) = static_cast<double>(sheet.triangle_count());
-    measure(PointMeasure::vertices_added) = static_cast<double>(a.vertices_added);
-    if (a.cut.triangles > 0)
-      measure(PointMeasure::ar_max_cut) = a.cut.ar_max, measure(PointMeasure::altitude_min_h_cut) = a.cut.altitude_min;
+    measure(PointMeasure::triangles) = to_double(sheet.triangle_count());
+    measure(PointMeasure::vertices_added) = to_double(a.vertices_added);
+    if (a.cut.triangles > 0) {
+      measure(PointMeasure::ar_max_cut) = a.cut.ar_max;
+      measure(PointMeasure::altitude_min_h_cut) = a.cut.altitude_min;
+    }
     if (!trial_.point->eigenvalue) return;
     at("the eigenvalue");
     const Constraints constraints = constraints_of(method, before_, sheet);
@@ -144,19 +150,21 @@ class Point {
 
   void note_steps(const Simulation& motion) {
     const auto& steps = motion.steps();
-    measure(PointMeasure::steps) = static_cast<double>(steps.size());
+    measure(PointMeasure::steps) = to_double(steps.size());
     if (steps.empty()) return;
     std::vector<double> us;
     double iterations = 0, residual = 0, cut_update = 0;
     for (const LoggedStep& s : steps) {
       us.push_back(s.step.time_us.total());
       cut_update += s.total_us() - us.back();
-      iterations += s.step.iterations, residual = std::max(residual, s.step.residual);
+      iterations += s.step.iterations;
+      residual = std::max(residual, s.step.residual);
     }
-    measure(PointMeasure::cut_update_us) = cut_update, measure(PointMeasure::first_step_us) = us.front();
-    std::nth_element(us.begin(), us.begin() + static_cast<std::ptrdiff_t>(us.size() / 2), us.end());
+    measure(PointMeasure::cut_update_us) = cut_update;
+    measure(PointMeasure::first_step_us) = us.front();
+    std::nth_element(us.begin(), us.begin() + to_index(us.size() / 2), us.end());
     measure(PointMeasure::step_us) = us[us.size() / 2];
-    measure(PointMeasure::iterations) = iterations / static_cast<double>(steps.size());
+    measure(PointMeasure::iterations) = iterations / to_double(steps.size());
     measure(PointMeasure::residual) = residual;
     if (!motion.budget()) return;
     const EnergyBudget::Gains gains = motion.budget()->gains();
@@ -192,8 +200,11 @@ class Point {
 
 Scene scene_of(const Trial& trial) {
   Scene scene = trial.point->scene;
-  scene.stem = trial.sweep->name, scene.family = trial.sheet, scene.resolution = trial.resolution;
-  scene.duration = std::numeric_limits<double>::infinity(), scene.cuts.clear();
+  scene.stem = trial.sweep->name;
+  scene.family = trial.sheet;
+  scene.resolution = trial.resolution;
+  scene.duration = std::numeric_limits<double>::infinity();
+  scene.cuts.clear();
   if (trial.point->step_share > 0) scene.step = trial.point->step_share * trial.uncut_step_s;
   if (trial.point->pose != "flat") {
     MeshData mesh = mesh_of(scene);
