@@ -73,10 +73,10 @@ Made run(const Scene& scene) {
   const auto method = find_method("conventional_split").make(0);
   auto motion = Simulation::start(scene);
   motion->watch();
-  EXPECT_EQ(motion->advance(scene.cuts[0].time, *method, {}).verdict, "ok");
+  EXPECT_EQ(motion->advance(scene.cuts[0].time, *method, {}).verdict, Verdict::ok);
   Sheet at_cut = motion->posed_sheet();
-  EXPECT_EQ(motion->advance(scene.duration, *method, {}).verdict, "ok");
-  EXPECT_EQ(motion->verdict().name, "ok") << motion->verdict().reason;
+  EXPECT_EQ(motion->advance(scene.duration, *method, {}).verdict, Verdict::ok);
+  EXPECT_EQ(motion->outcome().verdict, Verdict::ok) << motion->outcome().reason;
   EXPECT_EQ(motion->made_cuts().size(), 1u);
   return {std::move(motion), std::move(at_cut)};
 }
@@ -245,7 +245,7 @@ TEST_P(LocalDynamicsOf, IsTheWholeSheetHeldFarAway) {
   const auto end_of = [&](const Scene& scene) {
     const auto method = find_method(kind.method).make(find_method(kind.method).parameter.value);
     const auto motion = Simulation::start(scene);
-    EXPECT_EQ(motion->advance(scene.duration, *method, {}).verdict, "ok");
+    EXPECT_EQ(motion->advance(scene.duration, *method, {}).verdict, Verdict::ok);
     EXPECT_EQ(motion->made_cuts().size(), 2u);
     for (const MotionCut& cut : motion->made_cuts()) EXPECT_EQ(cut.cut.status, Status::ok) << cut.reason;
     return motion->posed_sheet();

@@ -216,8 +216,8 @@ TEST(AddedMass, LetsExplicitStepsRunAndTheirEnergyClose) {
     Stepper<3> stepper({.integrator = Integrator::symplectic_euler, .step = step, .solver = {}});
     for (Eigen::Index i = 0; i < body.state.v.size(); ++i) body.state.v[i] = 0.3 * std::sin(to_double(37 * i * i));
     EnergyBudget budget(balance_of(body.model, body.state), Integrator::symplectic_euler);
-    std::string verdict = "ok";
-    for (int n = 0; n < 400 && verdict == "ok"; ++n) {
+    Verdict verdict = Verdict::ok;
+    for (int n = 0; n < 400 && verdict == Verdict::ok; ++n) {
       if (n == 100) {
         const Balance before = balance_of(body.model, body.state);
         ASSERT_EQ(body.cut(near_vertices), Status::ok);
@@ -225,14 +225,14 @@ TEST(AddedMass, LetsExplicitStepsRunAndTheirEnergyClose) {
       }
       const State before = body.state;
       verdict = stepper.step(body.model, body.state).verdict;
-      if (verdict == "ok") budget.add_step(body.model, before, body.state, step);
+      if (verdict == Verdict::ok) budget.add_step(body.model, before, body.state, step);
     }
     const BudgetRow& end = budget.rows().back();
     if (kind == Mass::lumped) {
-      EXPECT_TRUE(verdict == "not_finite" || end.energy.kinetic > 1e6 * budget.rows()[99].energy.kinetic);
+      EXPECT_TRUE(verdict == Verdict::not_finite || end.energy.kinetic > 1e6 * budget.rows()[99].energy.kinetic);
       continue;
     }
-    EXPECT_EQ(verdict, "ok");
+    EXPECT_EQ(verdict, Verdict::ok);
     EXPECT_GT(std::abs(end.pin_work), 1e-4);
     EXPECT_NEAR(end.remainder, 0, 1e-9 * end.energy.kinetic);
     EXPECT_LT(budget.gains().unexplained, EnergyBudget::most_unexplained_explicit);
@@ -258,7 +258,7 @@ TEST(AddedMass, ImplicitStepsCloseToRounding) {
             budget.add_cut(before, balance_of(body.model, body.state));
           }
           const State before = body.state;
-          ASSERT_EQ(stepper.step(body.model, body.state).verdict, "ok");
+          ASSERT_EQ(stepper.step(body.model, body.state).verdict, Verdict::ok);
           budget.add_step(body.model, before, body.state, step);
         }
         const BudgetRow& end = budget.rows().back();

@@ -166,7 +166,7 @@ TEST(Blade, AdvancesWithTheTime) {
   const double h = motion->sheet().mean_edge();
   std::set<double> tips;
   for (int step = 1; step <= 50; ++step) {
-    ASSERT_EQ(motion->advance(step * scene.step, *method, {}).verdict, "ok");
+    ASSERT_EQ(motion->advance(step * scene.step, *method, {}).verdict, Verdict::ok);
     const double blade = std::clamp(speed * (motion->time() - start), 0.0, length);
     double tip = 0;
     for (const Lip& lip : lips_of(motion->sheet())) tip = std::max(tip, std::sqrt(squared_length(lip.b - from)));
@@ -200,7 +200,7 @@ TEST(Blade, SaysThatItsEndWasRefused) {
   cut.curve = {Curve::Kind::polyline, false, {{0.2, 0.23}, {0.83, 0.71}}};
   GivesUp method;
   const auto motion = Simulation::start(scene);
-  EXPECT_EQ(motion->advance(0.5, method, {}).verdict, "ok");
+  EXPECT_EQ(motion->advance(0.5, method, {}).verdict, Verdict::ok);
   ASSERT_EQ(motion->made_cuts().size(), 1u);
   const MotionCut& made = motion->made_cuts()[0];
   EXPECT_GE(made.parts, 1);

@@ -168,7 +168,7 @@ TEST(Constraints, HoldInMotion) {
       if (shaken) body.state.v = c * (0.1 * Field::Random(c.cols()));
       const Balance start = balance_of(body.model, body.state);
       Stepper<3> stepper({.step = 0.01, .solver = {.name = "cholmod"}});
-      for (int i = 0; i < 5; ++i) ASSERT_EQ(stepper.step(body.model, body.state).verdict, "ok");
+      for (int i = 0; i < 5; ++i) ASSERT_EQ(stepper.step(body.model, body.state).verdict, Verdict::ok);
       const Balance end = balance_of(body.model, body.state);
       EXPECT_NEAR(end.momentum.z - start.momentum.z, -0.5, 1e-9);
       EXPECT_NEAR(end.momentum.x, start.momentum.x, 1e-9);

@@ -153,7 +153,7 @@ TEST(Constraints, CracksOpenAsTheyDoByTheSplitAlone) {
         const Budget direct;
         const Answer constrained = problem.answer(specimen, cut, {&direct, 1}, constraints).front();
         const Answer split = solved(problem, specimen, cut);
-        ASSERT_EQ(constrained.verdict, "ok") << constrained.reason;
+        ASSERT_EQ(constrained.verdict, Verdict::ok) << constrained.reason;
         const auto energy = [](const Answer& answer) { return measure_of(answer, "released_energy"); };
         ASSERT_FALSE(constraints.empty());
         EXPECT_LE(energy(constrained).value, energy(split).value - 1e-9 * energy(split).exact)

@@ -184,7 +184,7 @@ TEST(CutPolygons, FallFreely) {
       merge_as_after_a_cut(body, before, *find_method("cut_polygons").make(0.7));
     }
     Stepper<3> stepper({.integrator = integrator, .step = 1e-3, .solver = {.name = "cholmod"}});
-    for (int i = 0; i < 20; ++i) ASSERT_EQ(stepper.step(body.model, body.state).verdict, "ok");
+    for (int i = 0; i < 20; ++i) ASSERT_EQ(stepper.step(body.model, body.state).verdict, Verdict::ok);
     for (std::size_t d = 0; d < body.sheet.deformed_slots(); ++d)
       if (body.sheet.rest_vertex(DeformedIndex(d)).valid()) {
         EXPECT_NEAR(body.state.v[to_index(3 * d + 2)], -0.2, 1e-8);
@@ -205,7 +205,7 @@ TEST(CutPolygons, EverySolverFindsTheSameStep) {
     for (const Curve& cut : {line({0.2, 0.41}, {1.1, 0.52}), line({0.4, 0.2}, {0.44, 0.8})}) {
       ASSERT_EQ(body.cut(cut, "cut_polygons", 0.7), Status::ok);
       merge_as_after_a_cut(body, before, *find_method("cut_polygons").make(0.7));
-      for (int i = 0; i < 2; ++i) ASSERT_EQ(stepper.step(body.model, body.state).verdict, "ok") << solver;
+      for (int i = 0; i < 2; ++i) ASSERT_EQ(stepper.step(body.model, body.state).verdict, Verdict::ok) << solver;
     }
     found[solver] = body.state.x;
   }
@@ -223,7 +223,7 @@ TEST(CutPolygons, CracksOpenBetterThanByTheSplit) {
       const Constraints constraints = constraints_of(*find_method("cut_polygons").make(0.7), before, cut);
       const Budget direct;
       const Answer merged = problem.answer(specimen, cut, {&direct, 1}, constraints).front();
-      ASSERT_EQ(merged.verdict, "ok") << merged.reason;
+      ASSERT_EQ(merged.verdict, Verdict::ok) << merged.reason;
       const auto error = [](const Answer& answer) { return measure_of(answer, "released_energy").error; };
       worst = std::max(worst, error(merged) / error(solved(problem, specimen, cut)));
     }

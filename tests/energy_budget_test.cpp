@@ -33,7 +33,7 @@ EnergyBudget run(Body<3>& body, double step, int steps, int newton = 1,
       budget.add_cut(before, balance_of(body.model, body.state));
     }
     const State before = body.state;
-    EXPECT_EQ(stepper.step(body.model, body.state).verdict, "ok");
+    EXPECT_EQ(stepper.step(body.model, body.state).verdict, Verdict::ok);
     budget.add_step(body.model, before, body.state, step);
   }
   return budget;
@@ -118,7 +118,7 @@ TEST(EnergyBudget, GrowthIsWhatNothingExplains) {
     const auto step = [&](double push) {
       const State before = body.state;
       body.state.v *= push;
-      EXPECT_EQ(stepper.step(body.model, body.state).verdict, "ok");
+      EXPECT_EQ(stepper.step(body.model, body.state).verdict, Verdict::ok);
       pushed.add_step(body.model, before, body.state, 0.01);
     };
     for (int n = 0; n < 10; ++n) step(1);

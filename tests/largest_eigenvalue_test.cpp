@@ -109,7 +109,7 @@ TEST(LargestEigenvalue, IsWhereExplicitStepsBreakDown) {
         Stepper<3> stepper({.integrator = Integrator::symplectic_euler, .step = step, .solver = {}});
         for (Eigen::Index i = 0; i < body.state.v.size(); ++i) body.state.v[i] = 1e-3 * std::sin(to_double(37 * i * i));
         const double initial = balance_of(body.model, body.state).energy.total();
-        for (int n = 0; n < 400; ++n) EXPECT_EQ(stepper.step(body.model, body.state).verdict, "ok");
+        for (int n = 0; n < 400; ++n) EXPECT_EQ(stepper.step(body.model, body.state).verdict, Verdict::ok);
         return balance_of(body.model, body.state).energy.total() > 100 * initial;
       };
       EXPECT_FALSE(grows(0.98)) << method << damping;

@@ -101,7 +101,7 @@ Answer solved(const Problem& problem, const Specimen& specimen, const Sheet& she
   const Budget directly;
   const std::vector<Answer> answers = problem.answer(specimen, sheet, {&directly, 1});
   EXPECT_EQ(answers.size(), 1u);
-  EXPECT_EQ(answers[0].verdict, "ok") << answers[0].reason;
+  EXPECT_EQ(answers[0].verdict, Verdict::ok) << answers[0].reason;
   EXPECT_GT(answers[0].unknowns, 0u);
   EXPECT_GT(answers[0].solve_us, 0);
   const std::vector<std::string> names = problem.measures();

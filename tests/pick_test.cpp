@@ -166,7 +166,7 @@ bezier = [{origin = [0.53, 0.3, 9], direction = [0, 0, -1]}, [0.73, 0.9, 0.1], [
 time = 0.05
 bezier = [[0.2, 0.1], [0.4, 0.7], [0.6, 0.1], [0.8, 0.3]])"}) {
     const auto motion = Simulation::start(scene(cut));
-    ASSERT_EQ(motion->advance(0.1, *method, {}).verdict, "ok");
+    ASSERT_EQ(motion->advance(0.1, *method, {}).verdict, Verdict::ok);
     results.push_back(motion->posed_sheet().to_mesh_data());
     EXPECT_EQ(motion->made_cuts().at(0).pick_us > 0, results.size() == 1);
   }

@@ -105,7 +105,7 @@ TEST(SeveredStrip, WrongCutsHaveLargerErrors) {
   specimen.cuts = {{Curve::Kind::polyline, false, {{0.51, -0.1}, {0.51, 0.9}}}};
   const Budget direct;
   EXPECT_EQ(problem->answer(specimen, cut_by(specimen, "conventional_split"), {&direct, 1}).front().verdict,
-            "not_severed");
+            Verdict::not_severed);
 }
 
 /// A path on a column of vertices cuts through no triangle: what it errs by beyond the fitted mesh is due to the sheet.

@@ -68,7 +68,7 @@ TEST(SolversAfterCuts, SixtyStepsEndInOnePlace) {
       if (n == 10) body.cut(cuts[0], "conventional_split");
       if (n == 25) body.cut(cuts[1], "conventional_split");
       const StepReport report = stepper.step(body.model, body.state);
-      ASSERT_EQ(report.verdict, "ok") << report.reason;
+      ASSERT_EQ(report.verdict, Verdict::ok) << report.reason;
     }
     ends.push_back(body.state.x);
   }

@@ -50,7 +50,7 @@ TEST(Stepper, FreeFallIsExact) {
     Stepper<3> stepper(with(Integrator::backward_euler, h));
     double v = 0, z = 0;
     for (int n = 0; n < 20; ++n) {
-      ASSERT_EQ(stepper.step(body.model, body.state).verdict, "ok");
+      ASSERT_EQ(stepper.step(body.model, body.state).verdict, Verdict::ok);
       v = (v - g * h) / (1 + material.mass_damping * h);
       z += h * v;
       for (const auto i : falling) {
@@ -81,7 +81,7 @@ TEST(Stepper, AStretchedSheetIsAsLongAsTheClosedFormSays) {
     ASSERT_EQ(body.cut(line({0.2, 0.45}, {0.8, 0.45})), Status::ok);
     Stepper<2> stepper(with(Integrator::equilibrium, 1, "cholmod", 50));
     const StepReport report = stepper.step(body.model, body.state);
-    ASSERT_EQ(report.verdict, "ok") << report.reason;
+    ASSERT_EQ(report.verdict, Verdict::ok) << report.reason;
     const double expected = strain == Strain::green ? longer : 1 + pull / young;
     for (std::size_t v = 0; v < body.model.vertices(); ++v) {
       const Point2 rest = body.sheet.rest(body.sheet.rest_vertex(DeformedIndex(v)));
@@ -105,7 +105,7 @@ TEST(Stepper, SolversAgreeWhateverTheStrain) {
           ASSERT_EQ(body.cut(line({0.3, 0.2}, {0.7, 0.8}), "warp_and_refine"), Status::ok);
         }
         const StepReport report = stepper.step(body.model, body.state);
-        ASSERT_EQ(report.verdict, "ok") << solver << ": " << report.reason;
+        ASSERT_EQ(report.verdict, Verdict::ok) << solver << ": " << report.reason;
       }
       ends.push_back(body.state.x);
     }
@@ -191,7 +191,7 @@ TEST(Equilibrium, ElasticaInThePlane) {
                  held_in({0, 0}, {0, thickness}), shear);
     Stepper<2> stepper(with(Integrator::equilibrium, 1, "cholmod", 200));
     const StepReport report = stepper.step(body.model, body.state);
-    ASSERT_EQ(report.verdict, "ok") << report.reason;
+    ASSERT_EQ(report.verdict, Verdict::ok) << report.reason;
     const auto end = to_index(2 * ((ny / 2) * (40 * ny + 1) + 40 * ny));
     tip.push_back({length - body.state.x[end], body.state.x[end + 1] - thickness / 2});
   }
@@ -220,7 +220,7 @@ TEST(Equilibrium, CooksMembraneConverges) {
     Body<2> body(mapped(n, map), {.stiffness = 1, .poisson = 1.0 / 3}, {.dimension = 2, .strain = Strain::linear},
                  held_in({0, 0}, {0, 44}), {{{{48, 44}, {48, 60}}, {0, 1.0 / 16, 0}}});
     Stepper<2> stepper(with(Integrator::equilibrium, 1, "cholmod", 3));
-    ASSERT_EQ(stepper.step(body.model, body.state).verdict, "ok");
+    ASSERT_EQ(stepper.step(body.model, body.state).verdict, Verdict::ok);
     deflection.push_back(body.state.x[2 * ((n / 2) * (n + 1) + n) + 1] - 52);
   }
   for (std::size_t i = 0; i + 1 < deflection.size(); ++i) {
@@ -256,7 +256,7 @@ TEST(Equilibrium, NafemsLe1Converges) {
                  pressure);
     Stepper<2> stepper(with(Integrator::equilibrium, 1, "cholmod", 3));
     const StepReport report = stepper.step(body.model, body.state);
-    ASSERT_EQ(report.verdict, "ok") << report.reason;
+    ASSERT_EQ(report.verdict, Verdict::ok) << report.reason;
     body.model.rotate(body.state.x);
     double sum = 0;
     const auto corners = body.model.incidence().at(0);
@@ -278,7 +278,7 @@ TEST(Equilibrium, P1APieceHeldNowhereIsRefused) {
   body.cut(polygon({{0.31, 0.32}, {0.72, 0.29}, {0.68, 0.75}}));
   Stepper<2> stepper(with(Integrator::equilibrium, 1, "cholmod", 20));
   const StepReport report = stepper.step(body.model, body.state);
-  EXPECT_EQ(report.verdict, "solver_stalled");
+  EXPECT_EQ(report.verdict, Verdict::solver_stalled);
   EXPECT_NE(report.reason.find("held nowhere"), std::string::npos);
 }
 
@@ -311,9 +311,10 @@ TEST(Stepper, P5NothingBlowsUpOnSlivers) {
           const double initial = balance_of(body.model, body.state).energy.total();
           for (std::size_t n = 0; n < each; ++n) {
             const StepReport report = stepper.step(body.model, body.state);
-            if (report.verdict == "solver_stalled" && solver != "cholmod") break;  // said, and no state made of it
+            if (report.verdict == Verdict::solver_stalled && solver != "cholmod")
+              break;  // said, and no state made of it
             ++steps;
-            ASSERT_EQ(report.verdict, "ok") << report.reason;
+            ASSERT_EQ(report.verdict, Verdict::ok) << report.reason;
             ASSERT_LE(balance_of(body.model, body.state).energy.total(), 1.01 * initial);
           }
         }
@@ -330,7 +331,7 @@ TEST(Stepper, P7LoadOutOfThePlaneIsStable) {
     const double initial = balance_of(body.model, body.state).energy.total();
     for (int n = 0; n < 60; ++n) {
       const StepReport report = stepper.step(body.model, body.state);
-      ASSERT_EQ(report.verdict, "ok") << solver << ", step " << n << ": " << report.reason;
+      ASSERT_EQ(report.verdict, Verdict::ok) << solver << ", step " << n << ": " << report.reason;
     }
     const Energy energy = balance_of(body.model, body.state).energy;
     EXPECT_LE(energy.total(), initial + 1e-3 * energy.kinetic);
@@ -346,7 +347,7 @@ TEST(Stepper, SameInputSameBits) {
     Stepper<3> stepper(with(Integrator::backward_euler, 1.0 / 240, "cg"));
     for (int n = 0; n < 10; ++n) {
       if (n == 5) body.cut(line({0.2, 0.3}, {0.9, 0.61}));
-      ASSERT_EQ(stepper.step(body.model, body.state).verdict, "ok");
+      ASSERT_EQ(stepper.step(body.model, body.state).verdict, Verdict::ok);
     }
     end.push_back(body.state.x);
   }

@@ -309,7 +309,7 @@ TEST(TipFunctions, TheSolutionHasTheLeastEnergy) {
       const Budget budget = with_tips();
       solve.make_tip_functions({&budget, 1});
       const auto solution = solve.solve(budget);
-      ASSERT_EQ(solution.answer.verdict, "ok");
+      ASSERT_EQ(solution.answer.verdict, Verdict::ok);
       const auto energy = [&](const Field& u, const Eigen::VectorXd& c) {
         energies.model.rotate(u);
         return energies.model.energy(u, Field::Zero(u.size())).membrane + energies.system.energy(u, c);
@@ -378,7 +378,7 @@ TEST(TipFunctions, ReproduceTheFieldAtATip) {
         const auto [specimen, sheet, constraints] = made("williams_mode_" + mode, "delaunay", 40, index, method);
         const std::array<Budget, 2> budgets{Budget{}, with_tips()};
         const auto answers = problem.answer(specimen, sheet, budgets, constraints);
-        ASSERT_EQ(answers[1].verdict, "ok");
+        ASSERT_EQ(answers[1].verdict, Verdict::ok);
         EXPECT_EQ(answers[1].unknowns, answers[0].unknowns + 8);
         EXPECT_LT(error_of(answers[1], "energy_norm"), 0.6 * error_of(answers[0], "energy_norm"));
         // The linear functions take over part of the opening, polygons at the tip more of it.
@@ -418,7 +418,7 @@ TEST(TipFunctions, AStressAlongTheCutStaysExact) {
       const auto [specimen, sheet, constraints] = made("parallel_stress", family, 16, index);
       const Budget budget = with_tips();
       const Answer answer = problem.answer(specimen, sheet, {&budget, 1}).front();
-      EXPECT_EQ(answer.verdict, "ok");
+      EXPECT_EQ(answer.verdict, Verdict::ok);
       EXPECT_LT(error_of(answer, "energy_norm"), 1e-5);
     }
 }

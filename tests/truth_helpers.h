@@ -25,7 +25,7 @@ inline Sheet cut_by(const Specimen& specimen, const std::string& method, double 
 inline Answer solved(const Problem& problem, const Specimen& specimen, const Sheet& sheet) {
   const Budget direct;
   Answer answer = problem.answer(specimen, sheet, {&direct, 1}).front();
-  EXPECT_EQ(answer.verdict, "ok") << answer.reason;
+  EXPECT_EQ(answer.verdict, Verdict::ok) << answer.reason;
   return answer;
 }
 

@@ -38,7 +38,7 @@ TEST(Problems, KeepTheContract) {
     const auto answers = problem->answer(a, sheet, budgets);
     ASSERT_EQ(answers.size(), budgets.size());
     for (std::size_t i = 0; i < answers.size(); ++i) {
-      EXPECT_EQ(answers[i].verdict, "ok");
+      EXPECT_EQ(answers[i].verdict, Verdict::ok);
       EXPECT_EQ(answers[i].iterations == budgets[i].iterations, problem->takes_budgets());
       ASSERT_EQ(answers[i].measures.size(), problem->measures().size());
       for (std::size_t m = 0; m < answers[i].measures.size(); ++m) {

@@ -42,7 +42,7 @@ double largest_difference(const Body<D>& a, const Body<D>& b) {
 template <int D>
 void advance(Body<D>& body, const StepOptions& options, int steps) {
   Stepper<D> stepper(options);
-  for (int i = 0; i < steps; ++i) ASSERT_EQ(stepper.step(body.model, body.state).verdict, "ok");
+  for (int i = 0; i < steps; ++i) ASSERT_EQ(stepper.step(body.model, body.state).verdict, Verdict::ok);
 }
 
 /// All constraints are linear then, so that sweeps converge to the one solution, with both dampings.

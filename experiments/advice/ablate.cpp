@@ -174,8 +174,8 @@ void print_ablations(const std::vector<Ablation>& rows) {
               "change %", "dev. %", "ms/s", "saved %");
   for (const Ablation& row : rows) {
     const std::string name = row.without.empty() ? "(whole model)" : row.without;
-    std::printf("%-26s %-14s", name.c_str(), row.verdict.c_str());
-    if (row.verdict == "refused") {
+    std::printf("%-26s %-14s", name.c_str(), name_of(row.verdict));
+    if (row.verdict == Verdict::refused) {
       std::printf(" %s\n", row.reason.c_str());
       continue;
     }
@@ -201,7 +201,7 @@ nlohmann::ordered_json json_of(const std::vector<Ablation>& rows) {
   const auto number = [](double value) { return std::isfinite(value) ? nlohmann::ordered_json(value) : nullptr; };
   for (const Ablation& row : rows)
     array.push_back({{"without", row.without},
-                     {"verdict", row.verdict},
+                     {"verdict", name_of(row.verdict)},
                      {"reason", row.reason},
                      {"deflection_m", number(row.deflection)},
                      {"gape_m", number(row.gape)},

@@ -34,7 +34,9 @@ std::vector<AblatedScene> ablations_of(const Scene& scene);
 
 /// Where a simulation ends, and what it took.
 struct Ablation {
-  std::string without, verdict = "ok", reason;
+  std::string without;
+  Verdict verdict = Verdict::ok;
+  std::string reason;
   // Largest distances at the end, m; NaN where a verdict ended the run early.
   double deflection = std::numeric_limits<double>::quiet_NaN();  ///< of a vertex from its rest position
   double gape = std::numeric_limits<double>::quiet_NaN();        ///< of vertices that were one before the cuts

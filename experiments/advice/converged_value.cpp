@@ -37,9 +37,9 @@ double ConvergedValue::value_of(int side, int steps) {
   if (!failed_.empty()) return std::numeric_limits<double>::quiet_NaN();
   result_.runs.push_back(trials_.run(choice, tight, time_limit_));
   const SceneTrial& made = result_.runs.back();
-  if (made.verdict != "ok")
+  if (made.verdict != Verdict::ok)
     failed_ = "its run with " + std::to_string(choice.resolution) + " triangles and " + std::to_string(steps) +
-              " steps ended as " + made.verdict + ": " + made.reason;
+              " steps ended as " + name_of(made.verdict) + ": " + made.reason;
   return made.value;
 }
 

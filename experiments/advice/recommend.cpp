@@ -82,7 +82,7 @@ std::string beyond(const Converged& converged, const Calibration& seen) {
 std::string shortfall(const std::vector<SceneTrial>& trials, double max_error) {
   const SceneTrial* best = nullptr;
   for (const SceneTrial& trial : trials)
-    if (trial.verdict == "ok" && (!best || trial.high < best->high)) best = &trial;
+    if (trial.verdict == Verdict::ok && (!best || trial.high < best->high)) best = &trial;
   if (!best) return "no candidate ended as ok";
   char text[200];
   if (best->low <= max_error)
@@ -150,19 +150,21 @@ class Candidates {
   }
 
  private:
-  bool good(const SceneTrial& trial) const { return trial.verdict == "ok" && trial.high <= options_.max_error; }
-  bool may_be_good(const SceneTrial& trial) const { return trial.verdict == "ok" && trial.low <= options_.max_error; }
+  bool good(const SceneTrial& trial) const { return trial.verdict == Verdict::ok && trial.high <= options_.max_error; }
+  bool may_be_good(const SceneTrial& trial) const {
+    return trial.verdict == Verdict::ok && trial.low <= options_.max_error;
+  }
 
   /// Now, or before.
   const SceneTrial& tried(const Choice& choice, double time_limit) {
     auto trial = std::find_if(trials_.begin(), trials_.end(), [&](const SceneTrial& t) { return t.choice == choice; });
     const bool is_new = trial == trials_.end();
     if (is_new) trial = trials_.insert(trial, SceneTrial{});
-    if (is_new || (trial->verdict == "timed_out" && trial->time_limit < time_limit)) {
+    if (is_new || (trial->verdict == Verdict::timed_out && trial->time_limit < time_limit)) {
       *trial = runs_.run(choice, scene_.solver.tolerance, time_limit);
       cutbench::judge(*trial, converged_, margin_);
     }
-    const bool worth_timing = may_be_good(*trial) || (options_.everything && trial->verdict == "ok");
+    const bool worth_timing = may_be_good(*trial) || (options_.everything && trial->verdict == Verdict::ok);
     if (worth_timing && std::isnan(trial->ms_per_second)) runs_.time(*trial);
     return *trial;
   }

@@ -24,7 +24,7 @@ nlohmann::ordered_json json_of(const std::vector<SceneTrial>& trials) {
                      {"solver", trial.choice.solver},
                      {"resolution", trial.choice.resolution},
                      {"steps", trial.choice.steps},
-                     {"verdict", trial.verdict},
+                     {"verdict", name_of(trial.verdict)},
                      {"reason", trial.reason},
                      {"value_m", finite_or_null(trial.value)},
                      {"error", finite_or_null(trial.error)},
@@ -59,7 +59,7 @@ void print_recommendation(const Recommendation& result, const RecommendOptions& 
                 calibration.file.c_str(), result.refined_to_decide ? "; refined further than those" : "");
   std::vector<SceneTrial> good;
   for (const SceneTrial& trial : result.trials)
-    if (trial.verdict == "ok" && trial.high <= options.max_error) good.push_back(trial);
+    if (trial.verdict == Verdict::ok && trial.high <= options.max_error) good.push_back(trial);
   std::sort(good.begin(), good.end(),
             [](const SceneTrial& a, const SceneTrial& b) { return a.ms_per_second < b.ms_per_second; });
   if (!result.trials.empty())

@@ -39,6 +39,9 @@ double largest_gape(const Sheet& end) {
   return largest;
 }
 
+/// The word of a cut that is not ok.
+Verdict verdict_of(Status status) { return value_named(verdict_names, name_of(status)).value(); }
+
 double seconds_of(std::clock_t ticks) { return to_double(ticks) / CLOCKS_PER_SEC; }
 
 }  // namespace
@@ -61,25 +64,26 @@ SceneRun run_to_end(const Scene& scene, CuttingMethod& method, const CutOptions&
     run.motion->limit_time(time_limit);
     run.motion->advance(end_of(scene), method, options);
     run.processor_s = seconds_of(std::clock() - start);
-    const std::string verdict = run.motion->verdict().name;
+    const Verdict verdict = run.motion->outcome().verdict;
     run.verdict = verdict;
-    run.reason = run.motion->verdict().reason;
+    run.reason = run.motion->outcome().reason;
     for (const MotionCut& cut : run.motion->made_cuts())
-      if (cut.cut.status != Status::ok && cut.cut.status != Status::noop && run.verdict == "ok") {
-        run.verdict = name_of(cut.cut.status);
+      if (cut.cut.status != Status::ok && cut.cut.status != Status::noop && run.verdict == Verdict::ok) {
+        run.verdict = verdict_of(cut.cut.status);
         run.reason = cut.reason;
       }
     double us = 0;
     for (const LoggedStep& step : run.motion->steps()) us += step.total_us();
     run.steps = to_int(run.motion->steps().size());
     run.ms_per_second = us / 1000 / (at_rest(scene) ? 1 : run.motion->time());
-    if (verdict == "ok" || verdict == "inverted" || verdict == "energy_growth") {  // others end it early
+    if (verdict == Verdict::ok || verdict == Verdict::inverted ||
+        verdict == Verdict::energy_growth) {  // others end it early
       const Sheet end = run.motion->posed_sheet();
       run.deflection = largest_deflection(end);
       run.gape = largest_gape(end);
     }
   } catch (const InputError& error) {
-    run.verdict = "refused";
+    run.verdict = Verdict::refused;
     run.reason = error.what();
   }
   return run;

@@ -21,7 +21,8 @@ double end_of(const Scene& scene);
 void set_steps(Scene& scene, double steps);
 
 struct SceneRun {
-  std::string verdict = "ok", reason;  ///< of the steps, or the status of the first cut that is not ok
+  Verdict verdict = Verdict::ok;  ///< of the steps, or the status of the first cut that is not ok
+  std::string reason;
   // Largest distances at the end, m; NaN where a verdict ended the run early.
   double deflection = std::numeric_limits<double>::quiet_NaN();  ///< of a vertex from its rest position
   double gape = std::numeric_limits<double>::quiet_NaN();        ///< of vertices that were one before the cuts

@@ -21,7 +21,8 @@ struct Choice {
 
 struct SceneTrial {
   Choice choice;
-  std::string verdict = "ok", reason;
+  Verdict verdict = Verdict::ok;
+  std::string reason;
   double value = std::numeric_limits<double>::quiet_NaN();  ///< of the quantity, m
   // Relative: |value - converged value| / converged value, and between what, given the margin.
   double error = std::numeric_limits<double>::quiet_NaN();

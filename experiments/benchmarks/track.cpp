@@ -321,7 +321,7 @@ Counted run_step(const std::string& name, int triangles, const Region& region) {
   StepReport report;
   for (int n = 0; n < 3; ++n) report = stepper.step(body.model(), body.state());
   region([&] { report = stepper.step(body.model(), body.state()); });
-  if (report.verdict != "ok") throw std::runtime_error("a step failed: " + report.reason);
+  if (report.verdict != Verdict::ok) throw std::runtime_error("a step failed: " + report.reason);
   Counted all;
   all.units = to_double(body.model().elements().size());
   all.add(body.state().x);

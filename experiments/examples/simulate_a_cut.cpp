@@ -53,10 +53,10 @@ int main() {
   for (int i = 0; i < 240; ++i) {
     if (i == 120) {
       const MotionCut cut = simulation->cut_now({&slit, 1}, *method);
-      std::printf("cut: %s, %zu triangles\n", cut.verdict.c_str(), simulation->sheet().triangle_count());
+      std::printf("cut: %s, %zu triangles\n", name_of(cut.verdict), simulation->sheet().triangle_count());
     }
     const StepReport report = simulation->step();
-    if (report.verdict != "ok") {
+    if (report.verdict != Verdict::ok) {
       std::fprintf(stderr, "%s\n", report.reason.c_str());
       return 1;
     }

@@ -85,8 +85,8 @@ std::string description(const Scene& scene, const Simulation& motion, const Simu
                                   {"solver", scene.solver.name},
                                   {"solver_tolerance", scene.solver.tolerance},
                                   {"newton", scene.newton},
-                                  {"verdict", motion.verdict().name},
-                                  {"reason", motion.verdict().reason}};
+                                  {"verdict", name_of(motion.outcome().verdict)},
+                                  {"reason", motion.outcome().reason}};
   if (std::isfinite(options.cut.chord_tolerance)) document["chord_tolerance"] = options.cut.chord_tolerance;
   document["cuts"] = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < motion.made_cuts().size(); ++i) {
@@ -109,16 +109,17 @@ std::string description(const Scene& scene, const Simulation& motion, const Simu
 
 void write_report(const Scene& scene, const SimulateOptions& options, const Simulation& motion,
                   const nlohmann::ordered_json& limits, const nlohmann::ordered_json& summary) {
-  const SimulationVerdict& verdict = motion.verdict();
+  const SimulationOutcome& outcome = motion.outcome();
   nlohmann::ordered_json document{{"scene", scene.stem},
                                   {"method", options.method},
                                   {"integrator", name_of(integrator_names, scene.integrator)},
                                   {"solver", scene.solver.name},
                                   {"solver_tolerance", scene.solver.tolerance},
                                   {"step_s", scene.step},
-                                  {"verdict", verdict.name},
-                                  {"reason", verdict.reason}};
-  document["verdict_time_s"] = verdict.name == "ok" ? nlohmann::ordered_json() : nlohmann::ordered_json(verdict.time);
+                                  {"verdict", name_of(outcome.verdict)},
+                                  {"reason", outcome.reason}};
+  document["verdict_time_s"] =
+      outcome.verdict == Verdict::ok ? nlohmann::ordered_json() : nlohmann::ordered_json(outcome.time);
   document["explicit_step_limit_s"] = limits;
   document["gains"] = nullptr;
   if (motion.budget()) {
@@ -139,7 +140,7 @@ void make_steps(const Scene& scene, Simulation& motion, CuttingMethod& method, c
   if (frames) frames->add(motion.posed_sheet(), motion.time());
   bool goes_on = true;
   for (int step = 1, part = 1; step <= steps && goes_on; ++step) {
-    goes_on = motion.advance(step * scene.step, method, options.cut).verdict == "ok";
+    goes_on = motion.advance(step * scene.step, method, options.cut).verdict == Verdict::ok;
     const bool last = step == steps || !goes_on;
     if (frames && goes_on && (last || step % options.every == 0)) frames->add(motion.posed_sheet(), motion.time());
     if (last || std::int64_t{step} * 10 >= std::int64_t{part} * steps) {
@@ -149,11 +150,11 @@ void make_steps(const Scene& scene, Simulation& motion, CuttingMethod& method, c
   }
 }
 
-void print_verdict(const SimulationVerdict& verdict, const Sheet& sheet) {
+void print_outcome(const SimulationOutcome& outcome, const Sheet& sheet) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  std::printf("%s", verdict.name.c_str());
-  if (verdict.name != "ok") std::printf(" at %.4g s: %s", verdict.time, verdict.reason.c_str());
+  std::printf("%s", name_of(outcome.verdict));
+  if (outcome.verdict != Verdict::ok) std::printf(" at %.4g s: %s", outcome.time, outcome.reason.c_str());
   std::printf("; %zu triangles, %zu pieces; peak memory %.0f MB\n", sheet.triangle_count(), count_pieces(sheet),
               to_double(usage.ru_maxrss) / 1024);
 }
@@ -176,9 +177,9 @@ bool simulate(const Scene& scene, CuttingMethod& method, const SimulateOptions& 
   if (!summary.is_null()) print_summary(summary);
   if (scene.integrator == Integrator::symplectic_euler || !options.report.empty()) limits = limits_of(*motion);
   print_limits(limits, scene.step);
-  const SimulationVerdict& verdict = motion->verdict();
+  const SimulationOutcome& outcome = motion->outcome();
   const Sheet sheet = motion->posed_sheet();
-  print_verdict(verdict, sheet);
+  print_outcome(outcome, sheet);
   if (frames) {
     frames->finish(sheet);
     const std::filesystem::path folder = options.frames;
@@ -190,7 +191,7 @@ bool simulate(const Scene& scene, CuttingMethod& method, const SimulateOptions& 
   if (!options.report.empty()) write_report(scene, options, *motion, limits, summary);
   const auto refused = [](const MotionCut& cut) { return cut.cut.status == Status::refused; };
   const auto& cuts = motion->made_cuts();
-  return verdict.name == "ok" && std::none_of(cuts.begin(), cuts.end(), refused);
+  return outcome.verdict == Verdict::ok && std::none_of(cuts.begin(), cuts.end(), refused);
 }
 
 }  // namespace cutbench

@@ -48,13 +48,18 @@ Getter of_phase(double PhaseTimes::*phase) {
 }
 
 /// Of a cut in a running scene that was made.
+bool made_in_motion(const Measured& m) {
+  return m.motion && m.motion->verdict == Verdict::ok && m.motion->cut.status != Status::noop &&
+         m.motion->cut.status != Status::refused;
+}
+
 template <class Get>
 Getter of_motion(Get get) {
-  return [get](const Measured& m) {
-    const bool made = m.motion && m.motion->verdict == "ok" && m.motion->cut.status != Status::noop &&
-                      m.motion->cut.status != Status::refused;
-    return made ? Value(get(*m.motion)) : Value();
-  };
+  return [get](const Measured& m) { return made_in_motion(m) ? Value(get(*m.motion)) : Value(); };
+}
+
+Getter of_rebuild(double RebuildTimes::*part) {
+  return [part](const Measured& m) { return made_in_motion(m) ? Value(m.rebuild.*part) : Value(); };
 }
 
 Getter of_step(double StepTimes::*phase) {
@@ -73,7 +78,7 @@ Getter jump_of(Get get) {
 
 Value verdict(const Measured& m) {
   if (m.assessment) return name_of(m.assessment->judgement.verdict);
-  if (m.motion) return m.motion->verdict;
+  if (m.motion) return name_of(m.motion->verdict);
   return m.cut ? Value(name_of(m.cut->verdict)) : Value();
 }
 
@@ -313,14 +318,14 @@ void add_steps(std::vector<Metric>& t) {
                of_step(&StepTimes::solve)});
   t.push_back({"rebuild_us", "us", "rebuild", Direction::lower, Group::step,
                "Instead of the pattern update: everything made anew, in the same run.",
-               of_motion([](const MotionCut& m) { return m.rebuild_us; })});
+               of_rebuild(&RebuildTimes::model)});
   t.push_back({"bending_rebuild_us", "us", "bending rebuild", Direction::lower, Group::step,
                "Instead of the bending update: everything made anew, in the same run.",
-               of_motion([](const MotionCut& m) { return m.bending_rebuild_us; })});
+               of_rebuild(&RebuildTimes::bending)});
   t.push_back({"triplets_us", "us", "triplets", Direction::lower, Group::step,
                "Instead of assemble: the same membrane matrix by Eigen's setFromTriplets, the making of the triplets "
                "included.",
-               of_motion([](const MotionCut& m) { return m.triplets_us; })});
+               of_rebuild(&RebuildTimes::triplets)});
   t.push_back({"solver_iterations", "", "solver iterations", Direction::lower, Group::step,
                "Iterations of the linear solve of that step.",
                of_motion([](const MotionCut& m) { return std::int64_t{m.first_step.iterations}; })});

@@ -23,6 +23,13 @@ struct EigenvalueRatios {
   double scaled_added = -1;  ///< mass that scaling adds, over the sheet's
 };
 
+/// What the updates after a cut save: the same from nothing, on the same sheet. Microseconds, steady clock.
+struct RebuildTimes {
+  double model = 0;     ///< instead of `pattern`: a new model, without bending
+  double bending = 0;   ///< instead of `bending`: a new bending matrix
+  double triplets = 0;  ///< instead of `assemble`: Eigen's setFromTriplets with scalar entries, triplets included
+};
+
 /// What has been measured of one cut, or of several in a row. A null pointer: that has not been measured.
 struct Measured {
   double h = 0;                 ///< mean rest edge of the uncut sheet
@@ -31,6 +38,7 @@ struct Measured {
   const Assessment* assessment = nullptr;
   bool shapes = true;                         ///< the assessment's shapes and forced zones are wanted
   const MotionCut* motion = nullptr;          ///< the cut in a running scene; then `cut` is its `cut`
+  RebuildTimes rebuild = {};                  ///< of that cut
   EigenvalueRatios membrane = {}, bent = {};  ///< without and with bending
 };
 

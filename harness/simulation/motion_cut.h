@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 
+#include "harness/base/verdict.h"
 #include "harness/cut/cut_all.h"
 #include "harness/fem/model/state.h"
 #include "harness/fem/time/stepper.h"
@@ -13,16 +14,14 @@ namespace cutbench {
 /// Times in microseconds, steady clock; nothing is warmed up.
 struct MotionCut {
   CutRun cut;
-  std::string verdict = "ok", reason;  ///< of the cut and of the steps before and after it
-  std::size_t parts = 0;               ///< a blade cuts one part in each step; the times below are sums over the parts
+  Verdict verdict = Verdict::ok;  ///< of the cut and of the steps before and after it
+  std::string reason;
+  std::size_t parts = 0;   ///< a blade cuts one part in each step; the times below are sums over the parts
   double pick_us = 0;      ///< building the tree of the deformed sheet, and carrying the picks to rest space
   double transfer_us = 0;  ///< state of new vertices
   double pattern_us = 0;   ///< element data, mass, loads and the pattern of the system
   double bending_us = 0;   ///< stencils and rows of the bending matrix
   StepReport first_step;
-  double rebuild_us = 0;          ///< instead of `pattern`: a new model
-  double bending_rebuild_us = 0;  ///< instead of `bending`: a new bending matrix
-  double triplets_us = 0;  ///< instead of `assemble`: Eigen's setFromTriplets with scalar entries, triplets included
   /// Right before and after the cut. Of a blade's cut, `after` contains the sum of all jumps, without the motion
   /// between.
   Balance before, after;

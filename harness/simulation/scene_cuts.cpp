@@ -84,7 +84,7 @@ const MotionCut* SceneCuts<D>::make_due(CuttingMethod& method, const CutOptions&
     if (!is_due(due)) break;
     if (!due.made) begin(due, method, options, budget);
     if (due.blade) advance_blade(due, method, options, budget);
-    if (made_[*due.made].verdict != "ok") return &made_[*due.made];
+    if (made_[*due.made].verdict != Verdict::ok) return &made_[*due.made];
   }
   return nullptr;
 }
@@ -163,7 +163,7 @@ void SceneCuts<D>::advance_blade(DueCut& due, CuttingMethod& method, const CutOp
   const MotionCut part = cut_with_balances({&curve, 1}, method, options, budget);
   const bool cut = part.cut.status == Status::ok || part.cut.status == Status::deviated;
   if (cut) due.reached = to;
-  if (cut || part.verdict != "ok") add(part, made);
+  if (cut || part.verdict != Verdict::ok) add(part, made);
   if (made.parts == 0) {
     made.cut.status = part.cut.status;
     made.reason = part.reason;
@@ -210,7 +210,7 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, std::span<const Curve> curve
     result.cut.crossed_triangles += run.crossed_triangles;
     result.cut.time_us += run.time_us;
     result.cut.cpu_us += run.cpu_us;
-    result.verdict = name_of(run.verdict);
+    result.verdict = run.verdict;
     result.reason = run.reason;
     if (run.status == Status::refused) refusal = run.reason;
     if (run.status == Status::noop || run.status == Status::refused) continue;

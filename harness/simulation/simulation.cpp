@@ -1,6 +1,5 @@
 #include "harness/simulation/simulation.h"
 
-#include <Eigen/SparseCore>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -8,7 +7,6 @@
 #include <optional>
 
 #include "harness/base/conversions.h"
-#include "harness/base/stop_watch.h"
 #include "harness/fem/model/largest_eigenvalue.h"
 #include "harness/simulation/moving_sheet.h"
 #include "harness/simulation/scene_cuts.h"
@@ -17,32 +15,6 @@
 namespace cutbench {
 
 namespace {
-
-/// The membrane's stiffness as most codes assemble it: a list of scalar entries, sorted and summed by the library.
-template <int D>
-double time_triplets(const Model<D>& model) {
-  StopWatch watch;
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(to_size(9 * D * D) * model.elements().size());
-  const MembraneLaw law = law_of(model.material(), model.physics());
-  for (std::size_t e = 0; e < model.elements().size(); ++e) {
-    const Element& element = model.elements()[e];
-    if (!element.alive()) continue;
-    const ElementStiffness<D> k(element, model.deformation(e), law);
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j) {
-        const auto block = k.block(i, j);
-        for (int c = 0; c < D; ++c)
-          for (int r = 0; r < D; ++r)
-            entries.emplace_back(D * element.vertex[i].value + r, D * element.vertex[j].value + c,
-                                 block[to_size(D * c + r)]);
-      }
-  }
-  const auto n = to_index(D * model.vertices());
-  Eigen::SparseMatrix<double> matrix(n, n);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return watch.lap();
-}
 
 /// In space a share of slivers is turned over in any bent sheet, with no area and no harm.
 constexpr double most_turned = 0.01;
@@ -60,13 +32,14 @@ class SceneInMotion : public Simulation {
   const std::vector<LoggedStep>& steps() const override { return steps_; }
   const Sheet& sheet() const override { return now_.sheet; }
   Sheet posed_sheet() const override { return now_.posed(); }
+  Sheet tried_sheet() const override { return trial_.posed(); }
   double time() const override { return now_.state.time; }
   void watch() override {
     watched_ = true;
     begin_budget();
   }
   const EnergyBudget* budget() const override { return budget_ ? &*budget_ : nullptr; }
-  const SimulationVerdict& verdict() const override { return verdict_; }
+  const SimulationOutcome& outcome() const override { return outcome_; }
   void limit_time(double seconds) override {
     time_limit_ = seconds;
     stop_at_ = to_double(std::clock()) + seconds * CLOCKS_PER_SEC;
@@ -93,17 +66,17 @@ class SceneInMotion : public Simulation {
   StepReport advance(double time, CuttingMethod& method, const CutOptions& options) override {
     StepReport report;
     const double almost = time - 1e-9 * scene_.step;
-    while (now_.state.time < almost && report.verdict == "ok") {
+    while (now_.state.time < almost && report.verdict == Verdict::ok) {
       if (cuts_.leave_out_far_parts()) begin_budget();
       if (const MotionCut* failed = cuts_.make_due(method, options, budget_ ? &*budget_ : nullptr)) {
         report.verdict = failed->verdict;
         report.reason = failed->reason;
       }
-      if (report.verdict == "ok") report = step();
-      if (report.verdict == "ok" && to_double(std::clock()) >= stop_at_) {
+      if (report.verdict == Verdict::ok) report = step();
+      if (report.verdict == Verdict::ok && to_double(std::clock()) >= stop_at_) {
         char text[64];
         std::snprintf(text, sizeof text, "the limit is %g s", time_limit_);
-        report.verdict = "timed_out";
+        report.verdict = Verdict::timed_out;
         report.reason = text;
       }
     }
@@ -114,8 +87,8 @@ class SceneInMotion : public Simulation {
   StepReport step() override {
     if (budget_) before_ = now_.state;
     StepReport report = stepper_.step(now_.model, now_.state);
-    if (budget_ && report.verdict == "ok") budget_->add_step(now_.model, before_, now_.state, scene_.step);
-    if (watched_ && report.verdict == "ok") judge_state(report);
+    if (budget_ && report.verdict == Verdict::ok) budget_->add_step(now_.model, before_, now_.state, scene_.step);
+    if (watched_ && report.verdict == Verdict::ok) judge_state(report);
     steps_.push_back(cuts_.take_log());
     steps_.back().step = report;
     end_where_bad(report);
@@ -132,24 +105,14 @@ class SceneInMotion : public Simulation {
     const StepReport last = stepper_.step(trial_.model, trial_.state);
     const State at_last = trial_.state;
     MotionCut result = cuts_.cut(trial_, cuts, cutter, method, options);
-    if (result.verdict != "ok") return result;
+    if (result.verdict != Verdict::ok) return result;
     const State at_cut = trial_.state;
     result.first_step = stepper_.step(trial_.model, trial_.state);
     for (const StepReport& step : {last, result.first_step})
-      if (step.verdict != "ok") {
+      if (step.verdict != Verdict::ok) {
         result.verdict = step.verdict;
         result.reason = step.reason;
       }
-    result.triplets_us = time_triplets(trial_.model);
-    StopWatch watch;
-    Physics without_bending = scene_.physics;
-    without_bending.bending = BendingKind::none;
-    const Model<D> anew(trial_.sheet, scene_.material, without_bending, trial_.pins, scene_.tractions);
-    result.rebuild_us = watch.lap();
-    if (scene_.physics.bending != BendingKind::none) {
-      const Bending bending(trial_.sheet, scene_.physics.bending, scene_.material.bending, scene_.material.poisson);
-      result.bending_rebuild_us = watch.lap();
-    }
     // The balances come last: looking at the model before would have warmed it up.
     result.before = balance_of(now_.model, at_last);
     result.after = balance_of(trial_.model, at_cut);
@@ -162,26 +125,26 @@ class SceneInMotion : public Simulation {
   }
 
   void end_where_bad(const StepReport& report) {
-    if (report.verdict != "ok") verdict_ = {report.verdict, report.reason, now_.state.time};
+    if (report.verdict != Verdict::ok) outcome_ = {report.verdict, report.reason, now_.state.time};
   }
 
   /// \pre the step is in the budget, where one is kept.
   void judge_state(StepReport& report) {
     const Energy energy = budget_ ? budget_->rows().back().energy : balance().energy;
     if (!std::isfinite(energy.total()) || !std::isfinite(energy.kinetic)) {
-      report.verdict = "not_finite";
+      report.verdict = Verdict::not_finite;
       report.reason = "the energy";
       return;
     }
-    if (verdict_.name != "ok") return;  // the first fault counts
+    if (outcome_.verdict != Verdict::ok) return;  // the first fault counts
     const TurnedOver turned = turned_over(now_.sheet, now_.model.elements(), now_.state.x, D);
     const bool inverted = D == 2 ? turned.triangles > 0 : turned.area > most_turned;
     char text[96];
     std::snprintf(text, sizeof text, "%zu triangles, %.2g %% of the rest area, are turned over", turned.triangles,
                   100 * turned.area);
-    if (inverted) verdict_ = {"inverted", text, now_.state.time};
-    if (const std::string fault = budget_ ? budget_->fault() : ""; verdict_.name == "ok" && !fault.empty())
-      verdict_ = {"energy_growth", fault, now_.state.time};
+    if (inverted) outcome_ = {Verdict::inverted, text, now_.state.time};
+    if (const std::string fault = budget_ ? budget_->fault() : ""; outcome_.verdict == Verdict::ok && !fault.empty())
+      outcome_ = {Verdict::energy_growth, fault, now_.state.time};
   }
 
   void begin_budget() {
@@ -197,7 +160,7 @@ class SceneInMotion : public Simulation {
   bool watched_ = false;
   std::optional<EnergyBudget> budget_;
   State before_;  // the step, for the budget
-  SimulationVerdict verdict_;
+  SimulationOutcome outcome_;
   double time_limit_ = 0, stop_at_ = std::numeric_limits<double>::infinity();  // s; ticks of std::clock()
   std::vector<LoggedStep> steps_;
 };

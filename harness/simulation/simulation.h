@@ -24,8 +24,9 @@ namespace cutbench {
 ///   timed_out       it took longer than limit_time(): ends it
 ///   inverted        triangles are turned over (turned_over.h): any in the plane, over 1 % of the area in space
 ///   energy_growth   energy came from nowhere (EnergyBudget::fault())
-struct SimulationVerdict {
-  std::string name = "ok", reason;
+struct SimulationOutcome {
+  Verdict verdict = Verdict::ok;
+  std::string reason;
   double time = 0;  ///< s, simulated: when it was found
 };
 
@@ -45,7 +46,7 @@ class Simulation {
   /// Steps, with the scene's own cuts made by `method` when they are due. Returns the first report that is not ok, or
   /// the last one. Throws InputError where a pick misses the sheet.
   virtual StepReport advance(double time, CuttingMethod& method, const CutOptions& options) = 0;
-  /// Makes one step; the scene's own cuts wait for advance(). A report that is not ok ends the simulation: verdict().
+  /// Makes one step; the scene's own cuts wait for advance(). A report that is not ok ends the simulation: outcome().
   virtual StepReport step() = 0;
   /// Makes a cut right now, before the step that is next: the curves one after the other, as a cut of the scene with
   /// these curves would be made. \return  what came of it. A curve that is refused, or fails (`verdict`), or has
@@ -58,6 +59,7 @@ class Simulation {
   /// Makes one step, the cuts, and one more step, and then restores the state before.
   virtual MotionCut try_cut(const std::vector<Curve>& cuts, Cutter& cutter, CuttingMethod& method,
                             const CutOptions& options) = 0;
+  virtual Sheet tried_sheet() const = 0;  ///< posed, as the last try_cut() left it before the state was restored
   virtual Balance balance() = 0;
   virtual const std::vector<MotionCut>& made_cuts() const = 0;  ///< by advance() and cut_now(), with what jumped
   virtual const std::vector<LoggedStep>& steps() const = 0;     ///< made by advance() and step()
@@ -66,7 +68,7 @@ class Simulation {
   virtual void watch() = 0;
   virtual const EnergyBudget* budget() const = 0;  ///< none where it isn't watched, and in equilibrium
   /// Of the steps so far, and of cuts that advance() made; energies and shapes only where it is watched.
-  virtual const SimulationVerdict& verdict() const = 0;
+  virtual const SimulationOutcome& outcome() const = 0;
   /// advance() makes no more steps once the process has taken so long from now on. \param seconds  of processor time
   virtual void limit_time(double seconds) = 0;
   /// Of the sheet as it is cut now, at rest and with nothing held; NaN where the method constrains vertices. Looks at

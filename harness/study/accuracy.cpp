@@ -232,7 +232,7 @@ class AccuracyRun : public Study {
       set_failure(row, row.get("status"), name_of(Verdict::crashed), error.what());
     }
     Yardstick errors;
-    if (!answers.empty() && answers.front().verdict == "ok")
+    if (!answers.empty() && answers.front().verdict == Verdict::ok)
       for (const Measure& m : answers.front().measures) errors[m.name] = m.error;
     const bool is_reference = row.get("method") == reference_method;
     for (std::size_t b = 0; b < budgets.size(); ++b) {
@@ -257,9 +257,9 @@ class AccuracyRun : public Study {
     row.set("total_us", std::stod(row.get("cut_us")) + answer.assemble_us + answer.setup_us + answer.solve_us);
     row.set("iterations", std::int64_t{answer.iterations});
     row.set("residual", answer.residual);
-    row.set("verdict", answer.verdict);
+    row.set("verdict", std::string(name_of(answer.verdict)));
     row.set("reason", answer.reason);
-    if (answer.verdict != "ok") return;
+    if (answer.verdict != Verdict::ok) return;
     for (const Measure& m : answer.measures) {
       const auto reference = yardstick.find(m.name);
       const bool measurable = reference != yardstick.end() && reference->second > exact_to_rounding;

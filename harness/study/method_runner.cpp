@@ -19,6 +19,7 @@
 #include "harness/simulation/simulation.h"
 #include "harness/study/chill_caches.h"
 #include "harness/study/every_edge.h"
+#include "harness/study/rebuild_times.h"
 #include "harness/study/study.h"
 #include "harness/study/summary.h"
 #include "harness/study/worker.h"
@@ -231,24 +232,27 @@ class Runner : public Study {
   /// The experiment's scene on this sheet, brought to the last step before the cut.
   void start_scene(const std::string& sheet, int resolution) {
     if (!experiment_.scene) return;
-    Scene scene = *experiment_.scene;
-    scene.family = sheet;
-    scene.resolution = resolution;
-    motion_ = Simulation::start(scene);
+    scene_ = *experiment_.scene;
+    scene_.family = sheet;
+    scene_.resolution = resolution;
+    motion_ = Simulation::start(scene_);
     const StepReport report =
-        motion_->advance(experiment_.cut_time - scene.step, *workers_.front().method, cut_options_);
-    if (report.verdict != "ok")
-      throw InputError(scene.stem + ": the scene fails before its cut (" + report.verdict + "; " + report.reason +
-                       "); change its step or its solver");
+        motion_->advance(experiment_.cut_time - scene_.step, *workers_.front().method, cut_options_);
+    if (report.verdict != Verdict::ok)
+      throw InputError(scene_.stem + ": the scene fails before its cut (" + name_of(report.verdict) + "; " +
+                       report.reason + "); change its step or its solver");
   }
 
   /// The cut made in the running scene, where nothing is warmed up for it.
   void run_in_motion(const std::vector<Curve>& cuts, Worker& worker, Record row) {
     if (file_.has(row.key())) return;
     const MotionCut m = motion_->try_cut(cuts, worker.cutter, *worker.method, cut_options_);
-    fill(row, {.cut = &m.cut, .motion = &m});
+    const RebuildTimes rebuild = m.verdict == Verdict::ok
+                                     ? time_rebuild(scene_, pins_of(scene_, motion_->sheet()), motion_->tried_sheet())
+                                     : RebuildTimes();
+    fill(row, {.cut = &m.cut, .motion = &m, .rebuild = rebuild});
     file_.append(row);
-    if (m.verdict != "ok") summary_.add_failure();
+    if (m.verdict != Verdict::ok) summary_.add_failure();
   }
 
   void summarize(int resolution, const Variant& variant, Summary::Cut cut, const CutRun& run) {
@@ -300,6 +304,7 @@ class Runner : public Study {
   CutOptions cut_options_;
   BaseSheet base_;
   double base_eigenvalue_ = 0, base_bending_ = 0;  // of its sheet, where they are asked for
+  Scene scene_;                                    // on the sheet of now
   std::unique_ptr<Simulation> motion_;
   Summary summary_;
 };

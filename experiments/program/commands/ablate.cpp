@@ -27,7 +27,7 @@ Exit run_ablation(const AblateArguments& arguments) {
   const auto rows = ablate(scene, *method, arguments.method.chord_tolerance.cut_options(), arguments.time_limit);
   print_ablations(rows);
   if (!arguments.report.empty()) WholeFile(arguments.report, json_of(rows).dump(2) + "\n").place();
-  return rows.front().verdict == "ok" ? done : fell_short;
+  return rows.front().verdict == Verdict::ok ? done : fell_short;
 }
 
 }  // namespace

@@ -51,13 +51,13 @@ StepReport Stepper<D>::step(Model<D>& model, State& state) {
   switch (options_.integrator) {
     case Integrator::backward_euler:
       implicit_step(model, state, options_.step, report);
-      if (report.verdict != "ok") return report;
+      if (report.verdict != Verdict::ok) return report;
       state.x += options_.step * v_;
       state.v = v_;
       break;
     case Integrator::midpoint:
       implicit_step(model, state, options_.step / 2, report);
-      if (report.verdict != "ok") return report;
+      if (report.verdict != Verdict::ok) return report;
       state.x += options_.step * v_;
       state.v = 2 * v_ - state.v;
       break;
@@ -81,7 +81,7 @@ StepReport Stepper<D>::step(Model<D>& model, State& state) {
   model.follow(state.x);
   model.follow(state.v);
   if (!state.x.allFinite() || !state.v.allFinite()) {
-    report.verdict = "not_finite";
+    report.verdict = Verdict::not_finite;
     report.reason = "the state";
   }
   return report;
@@ -124,7 +124,7 @@ void Stepper<D>::solve(Model<D>& model, const Field& start, StepReport& report) 
   report.residual = std::max(report.residual, solved.residual);
   report.fallbacks += solved.fell_back;
   if (!solved.converged) {
-    report.verdict = "solver_stalled";
+    report.verdict = Verdict::solver_stalled;
     report.reason = options_.solver.name + " left a relative residual of " + text(solved.residual);
   }
 }
@@ -153,7 +153,7 @@ void Stepper<D>::implicit_step(Model<D>& model, State& state, double h, StepRepo
   double before2 = 0, last2 = 0;  // dv'A dv of the last two solves: Newton's decrement, squared
   v_ = state.v;
   hold(model, state, h);
-  for (int iteration = 0; iteration < options_.newton && report.verdict == "ok"; ++iteration) {
+  for (int iteration = 0; iteration < options_.newton && report.verdict == Verdict::ok; ++iteration) {
     const bool first = iteration == 0;
     x_ = state.x;
     if (!first) x_ += h * v_;
@@ -171,7 +171,7 @@ void Stepper<D>::implicit_step(Model<D>& model, State& state, double h, StepRepo
     v_ += dv_;
     before2 = std::exchange(last2, dv_.dot(rhs_));
   }
-  if (options_.newton > 2 && report.verdict == "ok") judge_newton(model, h, before2, last2, report);
+  if (options_.newton > 2 && report.verdict == Verdict::ok) judge_newton(model, h, before2, last2, report);
 }
 
 /// Newton's steps have to become smaller (Deuflhard, Newton Methods for Nonlinear Problems, 2011, 2.1.1).
@@ -185,7 +185,7 @@ void Stepper<D>::judge_newton(const Model<D>& model, double h, double before2, d
   for (std::size_t i = 0; i < model.vertices(); ++i)
     noise2 += a.diagonal(i).norm() * x_.template segment<D>(to_index(D * i)).squaredNorm();
   if (last2 <= 1e-28 * noise2 / (h * h)) return;
-  report.verdict = "newton_failed";
+  report.verdict = Verdict::newton_failed;
   report.reason = "the last of " + std::to_string(options_.newton) + " Newton steps was " +
                   text(report.newton_residual) + " times as large as the one before";
 }
@@ -268,7 +268,7 @@ void Stepper<D>::solve_added_mass(const Model<D>& model, const State& state, Ste
 template <int D>
 void Stepper<D>::equilibrium(Model<D>& model, State& state, StepReport& report) {
   if (const std::size_t pieces = model.unheld_pieces(); pieces > 0) {
-    report.verdict = "solver_stalled";
+    report.verdict = Verdict::solver_stalled;
     report.reason = std::to_string(pieces) + " pieces are held nowhere, so they have no equilibrium";
     return;
   }
@@ -304,7 +304,7 @@ void Stepper<D>::equilibrium(Model<D>& model, State& state, StepReport& report) 
       model.assemble(0, 1);
     }
     solve(model, Field(), report);
-    if (report.verdict != "ok") return;
+    if (report.verdict != Verdict::ok) return;
     // Backtracking (Nocedal and Wright, Numerical Optimization, 3.1): the direction goes downhill, since A is positive.
     const Energy energy = model.energy(state.x, still);
     const double size = energy.membrane + energy.bending + std::abs(energy.potential), slope = -rhs_.dot(dv_);
@@ -325,7 +325,7 @@ void Stepper<D>::equilibrium(Model<D>& model, State& state, StepReport& report) 
     if ((fraction == 1 && -slope <= 1e-12 * size) || (-slope <= 1e-8 * size && falls > 0.5)) return;
     last_slope = -slope;
   }
-  report.verdict = "newton_failed";
+  report.verdict = Verdict::newton_failed;
   report.reason = "no equilibrium after " + std::to_string(options_.newton) + " Newton iterations, relative residual " +
                   text(report.newton_residual);
 }

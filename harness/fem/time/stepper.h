@@ -21,6 +21,7 @@
 #include <memory>
 #include <string>
 
+#include "harness/base/verdict.h"
 #include "harness/fem/linear/linear_solver.h"
 #include "harness/fem/linear/mass_solver.h"
 #include "harness/fem/model/state.h"
@@ -46,11 +47,12 @@ struct StepTimes {
 };
 
 struct StepReport {
-  std::string verdict = "ok", reason;  ///< "solver_stalled", "newton_failed", "not_finite"
-  int newton = 0;                      ///< linear solves
-  int iterations = 0;                  ///< of the linear solver, summed; of xpbd the sweeps
-  double residual = 0;                 ///< the largest that a linear solve left
-  int fallbacks = 0;                   ///< solves that another preconditioner ended (SolveReport::fell_back)
+  Verdict verdict = Verdict::ok;  ///< or solver_stalled, newton_failed, not_finite
+  std::string reason;
+  int newton = 0;       ///< linear solves
+  int iterations = 0;   ///< of the linear solver, summed; of xpbd the sweeps
+  double residual = 0;  ///< the largest that a linear solve left
+  int fallbacks = 0;    ///< solves that another preconditioner ended (SolveReport::fell_back)
   /// Equilibrium: |f| over the scale of the forces. A step of three solves or more: the size of the last Newton step
   /// over that of the one before, in the norm of A; newton_failed where it is not smaller, and no rounding error. The
   /// first one is linearised elsewhere than the others and does not compare.

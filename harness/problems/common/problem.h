@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/base/verdict.h"
 #include "harness/fem/linear/linear_solver.h"
 #include "harness/mesh/constraints.h"
 #include "harness/mesh/mesh_data.h"
@@ -30,9 +31,10 @@ struct Measure {
 
 /// What one solver made of one cut sheet. Microseconds, steady clock, one thread.
 struct Answer {
-  std::string verdict = "ok", reason;  ///< solver_stalled, not_finite; a fixed budget of iterations never stalls
-  bool refused = false;                ///< nothing was solved; the reason says why
-  std::size_t unknowns = 0;            ///< free ones
+  Verdict verdict = Verdict::ok;  ///< or solver_stalled, not_finite; a fixed budget of iterations never stalls
+  std::string reason;
+  bool refused = false;      ///< nothing was solved; the reason says why
+  std::size_t unknowns = 0;  ///< free ones
   double assemble_us = 0, setup_us = 0, solve_us = 0;
   int iterations = 0;
   double residual = 0;  ///< |b - A x| / |b|

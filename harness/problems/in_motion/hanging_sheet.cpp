@@ -163,7 +163,7 @@ class HangingSheet : public Problem {
       if (p.x == 1 && p.y == 0) corner = d;
     }
     if (!corner.valid()) {
-      answer.verdict = "no_corner";
+      answer.verdict = Verdict::no_corner;
       answer.reason = "the cut sheet has no vertex at its lower right corner";
       return {};
     }
@@ -196,7 +196,7 @@ class HangingSheet : public Problem {
       answer.residual = std::max(answer.residual, report.residual);
       answer.verdict = report.verdict;
       answer.reason = report.reason;
-      if (answer.verdict != "ok") return motion;
+      if (answer.verdict != Verdict::ok) return motion;
       read();
     }
     motion.is_whole = true;

@@ -131,7 +131,7 @@ class SeveredStrip : public Problem {
              Answer& answer) const {
     std::vector<Bar> bars = bars_of(sheet, cut);
     if (bars.empty()) {
-      answer.verdict = "not_severed";
+      answer.verdict = Verdict::not_severed;
       answer.reason = "the two clamps hold one piece";
       return;
     }
@@ -161,7 +161,7 @@ class SeveredStrip : public Problem {
       answer.residual = std::max(answer.residual, report.residual);
       answer.verdict = report.verdict;
       answer.reason = report.reason;
-      if (answer.verdict != "ok") return;
+      if (answer.verdict != Verdict::ok) return;
       read(sheet, model, state, bars);
     }
     answer.measures = measured(bars, step);

@@ -99,7 +99,7 @@ class EdgeCrack final : public Problem {
     std::vector<Answer> answers;
     for (const Budget& budget : budgets) {
       auto [displacement, of_tips, answer] = solve.solve(budget);
-      if (!answer.refused && answer.verdict != "not_finite") {
+      if (!answer.refused && answer.verdict != Verdict::not_finite) {
         // Dead loads: as much energy as they lose in work done, twice what the sheet takes up.
         const double value = solve.force().dot(displacement) / 2 - before;
         answer.measures.push_back({"released_energy", value, energy, std::abs(value - energy) / energy});

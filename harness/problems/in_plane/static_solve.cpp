@@ -163,10 +163,10 @@ StaticSolve::Solution StaticSolve::solve(const Budget& budget) {
   answer.iterations = report.iterations;
   answer.residual = report.residual;
   if (!solution.displacement.allFinite()) {
-    answer.verdict = "not_finite";
+    answer.verdict = Verdict::not_finite;
     answer.reason = "the displacement is not finite";
   } else if (budget.iterations == 0 && !report.converged) {
-    answer.verdict = "solver_stalled";
+    answer.verdict = Verdict::solver_stalled;
     answer.reason = options.name + " reached " + std::to_string(report.residual);
   }
   return solution;

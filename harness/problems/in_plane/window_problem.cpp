@@ -57,7 +57,7 @@ class WindowProblem final : public Problem {
     std::vector<Answer> answers;
     for (const Budget& budget : budgets) {
       StaticSolve::Solution solution = solve.solve(budget);
-      if (!solution.answer.refused && solution.answer.verdict != "not_finite")
+      if (!solution.answer.refused && solution.answer.verdict != Verdict::not_finite)
         solution.answer.measures = comparison.measures(solution);
       answers.push_back(std::move(solution.answer));
     }

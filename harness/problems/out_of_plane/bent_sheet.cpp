@@ -45,7 +45,7 @@ bool BentSheet::solve_to_equilibrium(const SolverOptions& solver, Answer& answer
   answer.solve_us += report.time_us.solve;
   answer.iterations += report.newton;
   answer.residual = std::max(answer.residual, report.newton_residual);
-  if (answer.verdict != "ok") return false;
+  if (answer.verdict != Verdict::ok) return false;
   model_.rotate(state_.x);
   force_.setZero(state_.x.size());
   model_.add_internal_force(state_.x, force_);

@@ -66,9 +66,9 @@ class TrouserTear : public Problem {
     for (const Budget& budget : budgets) {
       Answer& answer = answers.emplace_back();
       const Pulled before = pull(shorter, specimen.origin, budget.solver, answer);
-      if (answer.verdict != "ok") continue;
+      if (answer.verdict != Verdict::ok) continue;
       const Pulled after = pull(sheet, {specimen.origin.x + torn, specimen.origin.y}, budget.solver, answer);
-      if (answer.verdict != "ok") continue;
+      if (answer.verdict != Verdict::ok) continue;
       const double work = before.force + after.force;  // of both grips, per length: 2 F
       answer.measures = {compared("release_rate", work - (after.energy - before.energy) / torn, work),
                          compared("force_after", after.force, before.force)};

@@ -74,8 +74,8 @@ class Point {
  private:
   double& measure(PointMeasure::Kind kind) { return result_.measure[kind]; }
   void at(const std::string& what) { put("in " + what, result_.reason); }
-  void conclude(const std::string& verdict, const std::string& reason) {
-    put(verdict, result_.verdict);
+  void conclude(Verdict verdict, const std::string& reason) {
+    put(name_of(verdict), result_.verdict);
     put(reason, result_.reason);
   }
 
@@ -99,11 +99,11 @@ class Point {
       put(name_of(outcome.status), result_.status);
       us += outcome.time_us.total();
       error = std::max(error, judged.judgement.incision_error);
-      if (!finding.ok()) return conclude(name_of(finding.verdict), finding.reason), false;
-      if (outcome.status == Status::refused) return conclude("refused", outcome.reason), false;
-      if (outcome.status == Status::failed) return conclude("failed", outcome.reason), false;
+      if (!finding.ok()) return conclude(finding.verdict, finding.reason), false;
+      if (outcome.status == Status::refused) return conclude(Verdict::refused, outcome.reason), false;
+      if (outcome.status == Status::failed) return conclude(Verdict::failed, outcome.reason), false;
     }
-    conclude("ok", "");
+    conclude(Verdict::ok, "");
     measure(PointMeasure::geometry_us) = us;
     measure(PointMeasure::incision_error_h) = error / before_.mean_edge();
     measure_sheet(judged.sheet, *make());
@@ -126,18 +126,18 @@ class Point {
     Scene scene = scene_;
     if (constraints.phantoms > 0) scene.physics.bending = BendingKind::none;  // phantom nodes do not bend
     measure(PointMeasure::explicit_step_ratio) = explicit_step_of(scene, sheet, constraints) / trial_.uncut_step_s;
-    conclude("ok", "");
+    conclude(Verdict::ok, "");
   }
 
   void move() {
     at("the motion");
     const auto motion = moved(scene_);
-    const SimulationVerdict& verdict = motion->verdict();
-    conclude(verdict.name, verdict.reason);
+    const SimulationOutcome& outcome = motion->outcome();
+    conclude(outcome.verdict, outcome.reason);
     for (const MotionCut& made : motion->made_cuts())
-      if (made.cut.status == Status::refused) conclude("refused", made.reason);
+      if (made.cut.status == Status::refused) conclude(Verdict::refused, made.reason);
     note_steps(*motion);
-    if (trial_.sweep->drift && verdict.name == "ok") note_drift(*motion);
+    if (trial_.sweep->drift && outcome.verdict == Verdict::ok) note_drift(*motion);
   }
 
   std::unique_ptr<Simulation> moved(const Scene& scene) const {
@@ -178,8 +178,8 @@ class Point {
     Scene scene = scene_;
     scene.solver.name = "cholmod";
     const auto reference = moved(scene);
-    conclude("ok", "");
-    if (reference->verdict().name != "ok") return;
+    conclude(Verdict::ok, "");
+    if (reference->outcome().verdict != Verdict::ok) return;
     const Sheet a = motion.posed_sheet(), b = reference->posed_sheet();
     double farthest = 0;
     for (std::size_t v = 0; v < a.deformed_slots(); ++v) {

@@ -87,7 +87,7 @@ Scene scene_of(const Trial& trial);
 double explicit_step_of(const Scene& scene, const Sheet& sheet, const Constraints& constraints = {});
 
 /// The verdict is that of the cut where it is not ok, else that of the motion: `refused`, `failed`, the oracle's, or a
-/// SimulationVerdict. While it is under way the reason says what it is at.
+/// SimulationOutcome. While it is under way the reason says what it is at.
 void try_point(const Trial& trial, TrialResult& result);
 
 }  // namespace cutbench
