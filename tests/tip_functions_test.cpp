@@ -324,8 +324,7 @@ TEST(TipFunctions, TheSolutionHasTheLeastEnergy) {
           if (const VertexIndex v = sheet.rest_vertex(DeformedIndex(d)); v.valid()) {
             const Point2 p = sheet.rest(v);
             const double bump = 1e-2 * p.x * (1 - p.x) * p.y * (1 - p.y);
-            du.segment<2>(to_index(2 * d)) << bump * (a + p.x);
-            bump*(b - both * p.y);
+            du.segment<2>(to_index(2 * d)) << bump * (a + p.x), bump * (b - both * p.y);
           }
         const Eigen::VectorXd dc = 1e-2 * some_coefficients(energies.functions, 10 + static_cast<std::uint64_t>(trial));
         const double plus = energy(solution.displacement + du, solution.of_tips + dc),

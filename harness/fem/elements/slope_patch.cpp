@@ -163,8 +163,7 @@ void SlopePatch::invert_what_is_known() {
         rotation << c, s, -s, c;
         for (Eigen::Matrix3d* m : {&a, &turn}) {
           Eigen::Matrix<double, 3, 2> pair;
-          pair << m->col(p);
-          m->col(q);
+          pair << m->col(p), m->col(q);
           pair = (pair * rotation).eval();
           m->col(p) = pair.col(0);
           m->col(q) = pair.col(1);

@@ -55,7 +55,7 @@ void SliverBlocks<D>::setup(const SystemMatrix<D>& a) {
 
 template <int D>
 void SliverBlocks<D>::factor(const SystemMatrix<D>& a, Group& group) {
-  const auto n = to_index(group.vertices.size());
+  const Eigen::Index n = to_index(group.vertices.size());
   for (Eigen::Index k = 0; k < n; ++k) place_[to_size(group.vertices[to_size(k)])] = to_int32(k);
   const std::int32_t own = group_[to_size(group.vertices.front())];
   block_.setZero(D * n, D * n);

@@ -33,10 +33,7 @@ ElasticField::ElasticField(const Elastic& elastic, const Axes& frame, Solution p
       axis_(std::polar(1.0, frame.angle)),
       potentials_(std::move(potentials)),
       on_side_(std::move(on_side)) {
-  rotation_ << axis_.real();
-  -axis_.imag();
-  axis_.imag();
-  axis_.real();
+  rotation_ << axis_.real(), -axis_.imag(), axis_.imag(), axis_.real();
 }
 
 Complex ElasticField::to_local(Point2 p) const {
@@ -49,8 +46,7 @@ ElasticField::State ElasticField::state(Point2 p, Point2 side) const {
   const double kappa = elastic_.kappa(), half = 1 / (2 * elastic_.mu());
   const Complex even = kappa * f.phi_1 - std::conj(f.phi_1), odd = z * std::conj(f.phi_2) + std::conj(f.psi_1);
   Eigen::Matrix2d gradient;
-  gradient << vector(even - odd);
-  vector(Complex(0, 1) * (even + odd));
+  gradient << vector(even - odd), vector(Complex(0, 1) * (even + odd));
   State state;
   state.displacement = half * (rotation_ * vector(kappa * f.phi - z * std::conj(f.phi_1) - std::conj(f.psi)));
   state.gradient = half * (rotation_ * gradient * rotation_.transpose());
