@@ -14,8 +14,6 @@
 #include <string>
 #include <vector>
 
-#include "harness/base/conversions.h"
-
 namespace {
 
 constexpr double near_path = 1e-10;  // rest units: nearer than this, a vertex lies on the path
@@ -58,7 +56,7 @@ class Sheet {
   double mean_edge() const {
     double sum = 0;
     for (const auto& [edge, triangle] : left_of_) sum += distance(rest_[edge.first], rest_[edge.second]);
-    return sum / to_double(left_of_.size());
+    return sum / static_cast<double>(left_of_.size());
   }
 
   /// Divides the edges that the straight piece from p to q crosses, and puts the edges along it on the path.
@@ -115,7 +113,7 @@ class Sheet {
           }
         }
         if (star.empty()) break;
-        mine = to_int(rest_.size());
+        mine = static_cast<int>(rest_.size());
         rest_.push_back(Point(rest_[v]));
       }
     std::FILE* out = std::fopen(file.c_str(), "w");
@@ -139,7 +137,7 @@ class Sheet {
   }
 
   void divide_edge(Edge edge, const Point& p) {
-    const int v = to_int(rest_.size());
+    const int v = static_cast<int>(rest_.size());
     rest_.push_back(p);
     for (const auto& [tail, head] : {edge, Edge{edge.second, edge.first}}) {
       const auto found = left_of_.find({tail, head});
@@ -158,12 +156,12 @@ class Sheet {
     for (const Triangle& t : std::vector<Triangle>(triangles_.begin(), triangles_.end())) {
       std::array<double, 3> side{};
       for (std::size_t k = 0; k < 3; ++k) side[k] = beside(rest_[t[k]], rest_[t[(k + 1) % 3]], p);
-      const auto on = to_size(std::find(side.begin(), side.end(), 0) - side.begin());
+      const auto on = static_cast<std::size_t>(std::find(side.begin(), side.end(), 0) - side.begin());
       if (*std::min_element(side.begin(), side.end()) < 0 || !triangles_.contains(t)) continue;
       if (std::count(side.begin(), side.end(), 0) == 1) {
         divide_edge({t[on], t[(on + 1) % 3]}, p);
       } else if (on == 3) {
-        const int v = to_int(rest_.size());
+        const int v = static_cast<int>(rest_.size());
         rest_.push_back(p);
         triangles_.erase(t);
         add({{t[0], t[1], v}, {t[1], t[2], v}, {t[2], t[0], v}});
@@ -199,9 +197,9 @@ std::vector<Point> read_polyline(const std::string& file, double tolerance) {
     double bend = 0;
     for (std::size_t j = i; j < i + 2; ++j)
       bend = std::max(bend, 2 * distance(points[j + 1], between(points[j], points[j + 2], 0.5)));
-    const int steps = std::max(3, to_int(std::ceil(std::sqrt(0.75 * bend / tolerance))));
+    const int steps = std::max(3, static_cast<int>(std::ceil(std::sqrt(0.75 * bend / tolerance))));
     for (int k = 1; k <= steps; ++k) {
-      const double t = to_double(k) / steps, s = 1 - t;
+      const double t = static_cast<double>(k) / steps, s = 1 - t;
       Point& p = line.emplace_back();
       for (std::size_t c = 0; c < 2; ++c)
         p[c] = s * s * s * points[i][c] + 3 * s * s * t * points[i + 1][c] + 3 * s * t * t * points[i + 2][c] +

@@ -13,6 +13,9 @@ extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, st
 
 namespace {
 
+using cutbench::to_index;
+using cutbench::to_int;
+using cutbench::to_size;
 using Random = std::minstd_rand;
 
 struct Span {
