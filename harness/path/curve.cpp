@@ -83,9 +83,10 @@ void flatten(const Curve& curve, double tolerance, double snap, Polyline& out) {
   else
     for (Point2 p : curve.points) add(out, p, true, snap);
   if (!out.closed || out.points.size() < 2) return;
-  if (within(out.points.back(), out.points.front(), snap))  // the closing step has a length, too
+  if (within(out.points.back(), out.points.front(), snap)) {  // the closing step has a length, too
     out.points.pop_back();
-  out.kept.pop_back();
+    out.kept.pop_back();
+  }
 }
 
 void check_curve(const Curve& curve, const std::string& name) {
