@@ -47,7 +47,7 @@ def rows_of(text, heading):
 
 def measured():
     """A row per method: what the cells of the tables claim to be."""
-    rows = pd.read_csv(ROOT / "results/reference/method_comparison.records.csv.gz", usecols=COLUMNS, low_memory=False)
+    rows = pd.read_csv(ROOT / "results/reference/method_comparison.records.csv.xz", usecols=COLUMNS, low_memory=False)
     rows = rows[rows["status"] != "refused"]
     rows = rows.assign(us=rows["geometry_us"] / rows["crossed_triangles"],
                        added=rows["vertices_added"] / rows["crossed_triangles"])
@@ -72,7 +72,7 @@ FITTED = "body_fitted (reference)"
 
 def solved():
     """The direct solves in plane of the cases that all methods made, but for those that refuse that kind of sheet."""
-    rows = pd.read_csv(ROOT / "results/reference/method_comparison_accuracy.direct.records.csv.gz", low_memory=False,
+    rows = pd.read_csv(ROOT / "results/reference/method_comparison_accuracy.direct.records.csv.xz", low_memory=False,
                        usecols=[*CASE, "method", "status", "verdict", "unknowns", "error", "error_energy_norm"])
     rows["kind"] = rows["problem"].str.extract("^(centre_crack|inclined_crack|arc_crack|edge_crack|kirsch_hole|williams)")[0].replace(
         {"centre_crack": "crack", "inclined_crack": "crack"})
@@ -104,7 +104,7 @@ def errors(rows):
 
 def chart(solves):
     """{method: [ms, error in percent]} of README's chart at 12,800 triangles: 4 cuts, steps of 1/240 s, 1,000 N/m."""
-    rows = pd.read_csv(ROOT / "results/reference/whole_step_chart.records.csv.gz", low_memory=False)
+    rows = pd.read_csv(ROOT / "results/reference/whole_step_chart.records.csv.xz", low_memory=False)
     rows = rows[(rows["place"] == 4) & (rows["step_s"] < 0.005) & (rows["stiffness_n_m"] == 1000) & (rows["resolution"] == 12800)]
     ms = (rows["cut_update_us"] / 4 + rows["first_step_us"] + 59 * rows["step_us"]) / 1000  # a cut each 0.25 s, which is 60 steps
     ms = ms.where(rows["verdict"].isin(["ok", "energy_growth", "inverted"]), float("inf"))

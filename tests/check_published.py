@@ -4,10 +4,10 @@ experiments/publish do what it promises, on a small project of its own? Prints e
 usage: check_published.py PROGRAM, that of this tree"""
 
 import csv
-import gzip
 import importlib.machinery
 import importlib.util
 import json
+import lzma
 import re
 import subprocess
 import sys
@@ -31,7 +31,7 @@ def expect(what, condition):
 
 
 def names_of(stages):
-    names = set(publish.KEPT) | set(publish.FROM_REFERENCE)
+    names = {"publish.json"} | set(publish.OF_OTHERS) | set(publish.FROM_RECORDS)
     for stage in stages.values():
         names |= set().union(*publish.published(stage), stage.get("made_last", []))
     return names
@@ -46,8 +46,8 @@ def check_reference(program):
     for name in sorted(made - there - {"publish.json"}):
         problems.append(f"results/reference/{name} is missing; experiments/publish makes it")
     versions = set()
-    for file in sorted(REFERENCE.glob("*.records.csv.gz")):
-        with gzip.open(file, "rt", encoding="utf-8", newline="") as rows:
+    for file in sorted(REFERENCE.glob("*.records.csv.xz")):
+        with lzma.open(file, "rt", encoding="utf-8", newline="") as rows:
             versions |= {row["suite_version"] for row in csv.DictReader(rows)}
     expect(f"results/reference: rows of suite versions {', '.join(sorted(versions))}; publish them at one commit", len(versions) == 1)
     said = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
@@ -63,7 +63,10 @@ def check_reference(program):
 
 # --- a small project ----------------------------------------------------------------------------------------------------
 
-ROWS = "suite_version,problem,budget\n5,a,0\n5,a,100\n5,b,0\n"
+ROWS = ("suite_version,problem,step_s,budget,reason,kept_us,left_us\n5,a,0.0041666666666666666,0,,1.23456789,1\n5,a,1,100,,,1\n"
+        "5,b,1,0,it broke,2.99999998,1\n")
+PACKED = ["suite_version,problem,step_s,budget,reason,kept_us", "5,a,0.0041666666666666666,0,,1.23457", "5,a,1,100,,",
+          "5,b,1,0,it broke,2.99999998"]
 
 
 def git(folder, *words):
@@ -77,6 +80,7 @@ def make_project(folder):
         (folder / part / "keep").write_text("", encoding="utf-8")
     (folder / "CMakeLists.txt").write_text("", encoding="utf-8")
     (folder / "plots/pages/readme.py").write_text("", encoding="utf-8")
+    (folder / "results/reference/publish.json").write_text("{}", encoding="utf-8")
     (folder / ".gitignore").write_text("/results/*\n!/results/reference/\n", encoding="utf-8")
     git(folder, "init", "-q")
     git(folder, "add", "-A")
@@ -140,30 +144,44 @@ def check_assembled(folder):
     (folder / "results/a/a.md").write_text("[a](a/a.png) [b](b.md)", encoding="utf-8")
     for old in ("old.png", "tracking.md"):
         (reference / old).write_text(old, encoding="utf-8")
-    stages = {"s": {"records": ["a"], "direct": ["a"], "files": ["renamed.txt=a/a.txt", "a/a.png", "a/a.md"]}}
+    stages = {"s": {"records": ["a"], "direct": ["a"], "columns": ["kept_us"],
+                    "files": ["renamed.txt=a/a.txt", "a/a.png", "a/a.md", "table.csv.xz=a/records.csv"]}}
     state = {"seconds": {"s": 90.0}}
     new = folder / "results/publish/reference"
-    publish.assemble(stages, state, "c0ffee", new)
     publish.write_about({"s": {"commit": "beef"}, "other": {"commit": "beef"}}, reference)
-    publish.replace_reference(new, whole=False)
+    publish.begin(new, whole=False)
+    publish.assemble(stages, state, "c0ffee", new)
+    expect("what is not accepted is in results/reference", not (reference / "a.png").exists())
+    publish.begin(new, whole=False)
+    expect("another part of the stages removes what is not accepted yet", (new / "a.png").is_file())
+    check_accepted(new, reference)
     expect("a part of the stages removes what others made", (reference / "old.png").is_file())
     commits = {name: about["commit"] for name, about in publish.read_about(reference).items()}
     expect(f"publish.json has the wrong commits: {commits}", commits == {"s": "c0ffee", "other": "beef"})
-    publish.replace_reference(new, whole=True)
+    publish.begin(new, whole=True)
+    publish.assemble(stages, state, "c0ffee", new)
+    (reference / "tracking.md").write_text("newer", encoding="utf-8")
+    check_accepted(new, reference)
     expect("publish.json tells of what is gone", list(publish.read_about(reference)) == ["s"])
     expect("a file that no stage makes stays", not (reference / "old.png").exists())
-    expect("what experiments/track keeps there goes", (reference / "tracking.md").is_file())
-    expect("the records are not whole", gzip.decompress((reference / "a.records.csv.gz").read_bytes()).decode() == ROWS)
-    direct = gzip.decompress((reference / "a.direct.records.csv.gz").read_bytes()).decode().splitlines()
-    expect("other rows than those of the direct solve", [line[2] for line in direct[1:]] == ["a", "b"] and len(direct) == 3)
+    expect("what experiments/track keeps there goes", (reference / "tracking.md").read_text(encoding="utf-8") == "newer")
+    expect("what is accepted can be accepted again", "nothing to accept" in refusal(publish.accept, new))
+    rows, direct, table = (lzma.decompress((reference / name).read_bytes()).decode().splitlines()
+                           for name in ("a.records.csv.xz", "a.direct.records.csv.xz", "table.csv.xz"))
+    expect(f"other records than those to be published: {rows}", rows == PACKED)
+    expect(f"other rows than those of the direct solve: {direct}", direct == [PACKED[0], PACKED[1], PACKED[3]])
+    expect(f"another table: {table}", table[0] == ROWS.splitlines()[0] and len(table) == 4)
     expect("not under its name", (reference / "renamed.txt").read_text(encoding="utf-8") == "text")
     expect("a link to a figure leads away", (reference / "a.md").read_text(encoding="utf-8") == "[a](a.png) [b](b.md)")
     expect("a figure without its caption", (reference / "a.caption.txt").is_file())
     about = publish.read_about(reference)["s"]
     expect(f"publish.json: {about}", about["commit"] == "c0ffee" and about["minutes"] == 1.5)
-    packed = (reference / "a.records.csv.gz").read_bytes()
+    packed = (reference / "a.records.csv.xz").read_bytes()
+    publish.begin(new, whole=True)
     publish.assemble(stages, state, "c0ffee", new)
-    expect("the same records are packed differently", (new / "a.records.csv.gz").read_bytes() == packed)
+    expect("the same records are packed differently", (new / "a.records.csv.xz").read_bytes() == packed)
+    unknown = {"s": stages["s"] | {"columns": ["kept_us", "spelt_us"]}}
+    expect("columns that no record has are not named", "spelt_us" in refusal(publish.assemble, unknown, state, "c0ffee", new))
     full = {"s": {"full_files": ["a/a.txt"]}}
     publish.assemble(full, state | {"quick": True}, "c0ffee", new)
     expect("--quick wants a file of a full run", not (new / "a.txt").exists())
@@ -178,6 +196,17 @@ def check_assembled(folder):
     expect("the last commands remove what was there", (reference / "renamed.txt").is_file())
     (folder / "results/a/context.json").write_text('{"dirty": true}', encoding="utf-8")
     expect("records of a changed tree are published", "changed" in refusal(publish.assemble, stages, state, "c0ffee", new))
+
+
+def check_accepted(new, reference):
+    """Accepts, but for a picture that is too heavy."""
+    before = {file.name: file.read_bytes() for file in reference.iterdir()}
+    (new / "heavy.png").write_bytes(bytes(1_000_000))
+    told = refusal(publish.accept, new)
+    expect(f"too heavy a picture is accepted: {told}", "heavy.png" in told)
+    expect("what is refused changes results/reference", before == {file.name: file.read_bytes() for file in reference.iterdir()})
+    (new / "heavy.png").unlink()
+    expect("a release is not accepted", not refusal(publish.accept, new) and (reference / "publish.json").is_file())
 
 
 check_reference(sys.argv[1])

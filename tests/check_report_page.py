@@ -4,7 +4,7 @@ order of the rows, filters, links, the chart, and whether it fits a phone. All i
 records, by code that shares nothing with plots/. Prints every disagreement; exit code 1 if there is any."""
 
 import csv
-import gzip
+import lzma
 import html
 import json
 import math
@@ -34,7 +34,7 @@ def expect(what, condition):
 
 
 def rows_of(stem):
-    with gzip.open(REFERENCE / f"{stem}.records.csv.gz", "rt", encoding="utf-8", newline="") as file:
+    with lzma.open(REFERENCE / f"{stem}.records.csv.xz", "rt", encoding="utf-8", newline="") as file:
         names = ["parameter" if name == "knob" else name for name in next(csv.reader([file.readline()]))]  # its older name
         return list(csv.DictReader(file, names))
 
@@ -361,7 +361,7 @@ def main():
     check_order(link, restored, "error_percent", True, on_grid)
     check_chart(link, restored, oracle.chart("20", 1 / 240, "1000"))
     expect(f"{link}: {restored['more']}", len(restored["more"]) == 1 and "reach=0.4" in restored["more"][0]
-           and "method_comparison.records.csv.gz" in restored["more"][0])
+           and "method_comparison.records.csv.xz" in restored["more"][0])
     expect(f"{link}: did not scroll, or menus {restored['menus']}", restored["scroll"] > 0 and restored["menus"]["sheet"] == "grid")
     expect(f"{figure}: unfolds {steps['fresh ' + figure]['unfolded']}", figure[1:] in steps["fresh " + figure]["unfolded"])
     check_numbers("a made-up link", steps["fresh #sort=nonsense&sheet=nowhere&open=nobody"], everything)

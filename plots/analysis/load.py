@@ -6,6 +6,7 @@ import functools
 import gzip
 import itertools
 import json
+import lzma
 import re
 import shlex
 import sys
@@ -24,6 +25,7 @@ TEXT_OF_SOME = ["cut_family", "problem", "solver", "primary",  # text in the rec
 OLD_METHODS = {"cgal_whole_sheet (peer)": "cgal_whole_sheet (cross-check)", "peer": "cross_check"}
 OPTIONAL = ["process_us"]  # read wherever it is: which methods are programs
 COUNTS = ["resolution", "case", "repetition"]
+OPENERS = {".gz": gzip.open, ".xz": lzma.open}  # of packed records, by the end of their name
 VARIANT = ["method", "parameter"]
 CUT = ["suite_version", "cut_family", "sheet", "resolution", "case"]  # names one cut, whatever the method
 
@@ -95,12 +97,6 @@ def read(folder, measures):
     return run_of(folder / "records.csv", folder / "context.json", measures)
 
 
-def read_reference(stem, measures):
-    """The same, from the records in results/reference."""
-    folder = REPOSITORY / "results/reference"
-    return run_of(folder / f"{stem}.records.csv.gz", folder / f"{stem}.context.json", measures)
-
-
 def run_of(records, context, measures):
     table = read_records(records, TEXT + ["cut_family"] + COUNTS + measures)
     row_made = (table["verdict"] == "ok") & ~table["status"].isin(["failed", "refused"])
@@ -116,14 +112,15 @@ def read_records(path, columns, all_columns=False):
         stop(f"{unfinished} is of a run that has not ended; give the same command again to continue it" if unfinished.is_file()
              else f"{path} is missing; `cutbench run experiments/{path.parent.name}.toml --out results` makes it")
     try:
-        with (gzip.open if path.suffix == ".gz" else open)(path, "rt", encoding="utf-8", newline="") as file:
+        with OPENERS.get(path.suffix, open)(path, "rt", encoding="utf-8", newline="") as file:
             start = 0
             while (line := file.readline()).startswith("#"):
                 start = file.tell()
             names = new_names(line.strip().split(","))
             missing = [c for c in columns if c not in names.values()]
             if missing and line:
-                stop(f"{path} lacks the column{'s' * (len(missing) > 1)} {', '.join(missing)}")
+                stop(f"{path} lacks the column{'s' * (len(missing) > 1)} {', '.join(missing)}"
+                     + "; experiments/publish.toml says which are published" * (path.suffix == ".xz"))
             file.seek(start)
             table = pd.read_csv(file, dtype=str, keep_default_na=False).rename(columns=names)
             if not all_columns:
@@ -131,7 +128,7 @@ def read_records(path, columns, all_columns=False):
         for column in table.columns.difference(TEXT + TEXT_OF_SOME):
             table[column] = table[column].replace("", "nan").astype(float)
         table = table.astype({column: int for column in COUNTS})
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, EOFError, lzma.LZMAError) as error:
         stop(f"{path} can't be read: {' '.join(str(error).split())}")
     if table.empty:
         stop(f"{path} has no rows")

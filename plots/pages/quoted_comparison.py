@@ -89,7 +89,7 @@ def files(results, stem, direct=""):
     """The records and the context of a run below `results`, or of what is published there."""
     if (results / stem / "records.csv").is_file():
         return results / stem / "records.csv", results / stem / "context.json"
-    return results / f"{stem}{direct}.records.csv.gz", results / f"{stem}.context.json"
+    return results / f"{stem}{direct}.records.csv.xz", results / f"{stem}.context.json"
 
 
 def by(rows, method):

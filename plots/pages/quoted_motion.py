@@ -23,7 +23,7 @@ NAMED = ["adaptive_remesh", "cut_polygons", "global_remesh", "longest_edge", "de
 
 def read(folder, stem):
     """The rows of the cuts that were made; says what was not."""
-    rows = load.read_records(folder / f"{stem}.records.csv.gz", [*load.TEXT, "problem", *load.COUNTS, "unknowns", "error"],
+    rows = load.read_records(folder / f"{stem}.records.csv.xz", [*load.TEXT, "problem", *load.COUNTS, "unknowns", "error"],
                              all_columns=True)
     context = load.read_context(folder / f"{stem}.context.json")
     say("commit and seed", str(context["commit"])[:7], str(context["seed"]))
@@ -64,7 +64,7 @@ def out_of_plane(folder):
     for problem in ("slit_strip", "flap"):
         near = medians[problem].drop([motion.REFERENCE, "bowyer_watson", *WRONG_PATH])
         say(f"{problem} at 3,200 triangles, median, %: {len(near)} methods, all but bowyer_watson, {', '.join(WRONG_PATH)}", span(near))
-    table = at_equal_unknowns(Records(folder, "out_of_plane.records.csv.gz", "out_of_plane.context.json")).table
+    table = at_equal_unknowns(Records(folder, "out_of_plane.records.csv.xz", "out_of_plane.context.json")).table
     flap = table[(table["problem"] == "flap") & (table["resolution"] == 3200) & ~table["failed"]]
     for method, here in flap.groupby("method"):
         logs = np.log(here["ratio_equal"])

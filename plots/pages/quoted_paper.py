@@ -146,13 +146,13 @@ def main():
     options = parser.parse_args()
 
     def published(stem, measures):
-        return load.run_of(options.results / f"{stem}.records.csv.gz", options.results / f"{stem}.context.json", measures)
+        return load.run_of(options.results / f"{stem}.records.csv.xz", options.results / f"{stem}.context.json", measures)
     shapes(published(fig9_aspect_ratio.STEM, fig9_aspect_ratio.MEASURES).first_repetition())
     run = published(table1_timing.STEM, table1_timing.MEASURES + table1_timing.IN_MOTION)
     sheets = naming.sheet_order(run.everything()["sheet"])
     cost([table1_timing.Timings(run, sheet) for sheet in sheets])
     inside([table1_timing.in_motion(run, sheet) for sheet in sheets])
-    accuracy(at_equal_unknowns(Records(options.results, "accuracy.direct.records.csv.gz", "accuracy.context.json")))
+    accuracy(at_equal_unknowns(Records(options.results, "accuracy.direct.records.csv.xz", "accuracy.context.json")))
     for stem, find in ((fig8_edge_quality.STEM, edge), (fig10_level_of_detail.STEM, detail), ("progressive_cut", blade)):
         if (options.scenes / stem).is_dir():
             find(options.scenes / stem)

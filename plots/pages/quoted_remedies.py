@@ -80,9 +80,9 @@ def chart(cuts, accuracy):
 
 def changes(results):
     print("\nOne change at a time")
-    cuts = load.read_records(results / "one_change.records.csv.gz", load.TEXT + ["cut", "mass", "solver"] + load.COUNTS
+    cuts = load.read_records(results / "one_change.records.csv.xz", load.TEXT + ["cut", "mass", "solver"] + load.COUNTS
                              + ["eigenvalue_ratio", "iterations", "step_us"])
-    errors = load.read_records(results / "one_change_accuracy.direct.records.csv.gz",
+    errors = load.read_records(results / "one_change_accuracy.direct.records.csv.xz",
                                load.TEXT + ["problem", "tip_functions", one_change.ERROR] + load.COUNTS)
     for method in ("warp_and_refine", POLYGONS):
         for size in SIZES:
@@ -178,7 +178,7 @@ def mass(cuts):
 def tips(results):
     print("\nChange the functions: tip functions")
     columns = [*load.TEXT, "problem", *load.COUNTS, "tip_functions", tip_functions.MEASURE]
-    rows = load.read_records(results / "tip_functions.records.csv.gz", columns, all_columns=True)
+    rows = load.read_records(results / "tip_functions.records.csv.xz", columns, all_columns=True)
     rows = rows.assign(error=rows[tip_functions.MEASURE].abs(), ms=rows[["assemble_us", "setup_us", "solve_us"]].sum(axis=1) / 1000,
                        soft=rows["value_released_energy"] > rows["exact_released_energy"])
     say("largest relative residual", f"{rows['residual'].max():.1e}")
@@ -203,9 +203,9 @@ def tips(results):
 
 def main():
     results = load.results_folder("reference", __doc__)
-    cuts, parameters = (load.run_of(results / f"{stem}.records.csv.gz", results / f"{stem}.context.json", MEASURES).first_repetition().rows
+    cuts, parameters = (load.run_of(results / f"{stem}.records.csv.xz", results / f"{stem}.context.json", MEASURES).first_repetition().rows
                    for stem in ("remedies", "method_comparison_parameters"))
-    accuracy = Records(results, "remedies_accuracy.direct.records.csv.gz", "remedies_accuracy.context.json")
+    accuracy = Records(results, "remedies_accuracy.direct.records.csv.xz", "remedies_accuracy.context.json")
     errors = made_by_all(at_equal_unknowns(accuracy).ranked().table)
     chart(cuts, accuracy)
     changes(results)

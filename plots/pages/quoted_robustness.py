@@ -26,7 +26,7 @@ def robustness(folder):
     print("Half a million adversarial cuts")
     context = load.read_context(folder / "robustness.context.json")
     say("commit and seed", context["commit"][:7], str(context["seed"]))
-    rows = load.read_counts(folder / "robustness.records.csv.gz")
+    rows = load.read_counts(folder / "robustness.records.csv.xz")
     by_cross_check = rows["method"] == CROSS_CHECK
     own, cross_check = rows[~by_cross_check], rows[by_cross_check]
     say("methods; sheets", *map(str, (own["method"].nunique(), len(own[["sheet", "resolution"]].drop_duplicates()))))

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Prints the numbers that docs/step.md quotes of the stages solvers and limits, in the order of the page, labelled by its words. Reads
-solver_table.csv, limits.txt and scaling.txt in --results. Milliseconds are of a step, in the median of its run. --before FILE is the
+solver_table.csv.xz, limits.txt and scaling.txt in --results. Milliseconds are of a step, in the median of its run. --before FILE is the
 solver_table.csv of another run, whose times say how far runs differ: git show 256d83a:results/reference/solver_table.csv."""
 
 import argparse
@@ -188,7 +188,7 @@ def main():
     parser.add_argument("--before", type=Path, metavar="FILE")
     options = parser.parse_args()
     folder = options.results
-    solvers = Solvers(folder / "solver_table.csv")
+    solvers = Solvers(folder / "solver_table.csv.xz")
     if options.before:
         against(solvers.rows, Solvers(options.before).rows)
     two_cuts(solvers)

@@ -1,15 +1,13 @@
 #!/usr/bin/env python3
 """The figures of README.md: readme_gallery.png, the same cut by every method, made by the program that
-experiments/reproduce builds, and from the records in results/reference readme_chart.png, the time of a cut and of the
+experiments/reproduce builds, and from the published records readme_chart.png, the time of a cut and of the
 motion after it against the error, and readme_stability.png, where methods stop working. Writes them there."""
 
 import argparse
-import io
 import sys
 from pathlib import Path
 
 import matplotlib.pyplot as plt
-from PIL import Image
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.lines import Line2D
@@ -19,11 +17,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from analysis import load
 from analysis.methods import same_cut
 from analysis.stability import points as stability_points
+from figures.common import style
 from figures.methods import whole_step
 from figures.stability import panels, stability as stability_page
 
-WIDTH = 9.0  # inches; at 150 dpi twice the pixels of a page that is not a high-resolution one
-DPI = 150
+WIDTH = 9.0  # inches: twice the pixels of a page that is not a high-resolution one
 WINDOW = (0.345, 0.765, 0.355, 0.59)  # of the unit sheet: a stretch between vertices, a bend and the tip
 BANDS = {3: "#fbdca4", 10: "#f29d4b"}  # colours of aspect ratios above these; triangles of more than 30 are lines here
 MESH, PATH, INCISION = "#8d8d8d", "#0072b2", "#a50021"
@@ -83,9 +81,9 @@ def gallery(methods):
 # ---- the stability sweeps in short
 
 
-def stability():
-    """Four panels of the stability sweeps, large enough to be read beside the text."""
-    rows = stability_points.on_the_page(stability_points.read(load.REPOSITORY / "results/reference"))
+def stability(folder):
+    """Of the records in the folder: four panels of the stability sweeps, large enough to be read beside the text."""
+    rows = stability_points.on_the_page(stability_points.read(folder))
     shown = ["vertex", "border", "strip", "in_a_row"]
     figure, axes = plt.subplots(1, 4, figsize=(WIDTH, 3.8))
     figure.subplots_adjust(left=0.135, right=0.99, top=0.88, bottom=0.33, wspace=0.1)
@@ -109,26 +107,15 @@ def stability():
     return figure
 
 
-def save(figure, path):
-    picture = io.BytesIO()
-    figure.savefig(picture, dpi=DPI)
-    plt.close(figure)
-    try:  # in 256 colours: a third of the bytes
-        Image.open(picture).convert("RGB").quantize(256, kmeans=4, dither=Image.Dither.NONE).save(path, optimize=True)
-    except OSError as error:
-        load.stop(f"{path} can't be written: {error.strerror}")
-    print(path)
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--out", type=Path, metavar="DIR", default=load.REPOSITORY / "results/reference",
-                        help="receives the figures (default: results/reference)")
-    folder = parser.parse_args().out
+    parser.add_argument("--results", type=Path, metavar="DIR", default=load.REPOSITORY / "results/reference",
+                        help="holds the published records, receives the figures (default: results/reference)")
+    folder = parser.parse_args().results
     methods = same_cut.all_methods()
-    save(gallery(methods), folder / "readme_gallery.png")
-    save(whole_step.readme_chart(load.REPOSITORY / "results/reference")[0], folder / "readme_chart.png")
-    save(stability(), folder / "readme_stability.png")
+    style.write_png(gallery(methods), folder / "readme_gallery.png")
+    style.write_png(whole_step.readme_chart(folder)[0], folder / "readme_chart.png")
+    style.write_png(stability(folder), folder / "readme_stability.png")
 
 
 if __name__ == "__main__":

@@ -20,7 +20,7 @@ SOLVERS = {"cg": "CG", "cg_sliver_blocks": "sliver blocks", "multigrid": "multig
 def read(folder):
     """The rows, with columns `name` (of the method, for figures), `share` (of `place` and its like) and `worse`."""
     path = folder / "records.csv"
-    table = load.read_records(path if path.is_file() else folder / "stability.records.csv.gz", ["sweep", "place", EXPLICIT],
+    table = load.read_records(path if path.is_file() else folder / "stability.records.csv.xz", ["sweep", "place", EXPLICIT],
                               all_columns=True)
     table["name"] = [name_of(*row) for row in zip(table["method"], table["parameter"], table["mass"])]
     table["sweep"] = table["sweep"].str.removesuffix("_added_mass")

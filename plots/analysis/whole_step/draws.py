@@ -8,7 +8,7 @@ from analysis.whole_step import points
 from analysis.whole_step.points import SETTING
 
 
-def fronts(motions, measure, draws, folder=points.PUBLISHED):
+def fronts(motions, measure, draws, folder):
     """Yields tables as points.joined() makes them, each method by its fastest solver. A draw takes the same cuts and the same kinds
     of problems for all methods, and the cuts for all settings. Sheets share paths, but are drawn apart: by paths with all of their
     sheets the shares of README's chart change by 4 % at most."""
@@ -32,7 +32,7 @@ def _medians(by_cut, random, size):
     return pd.DataFrame({"ms": ms, "grew": by_cut["grew"].iloc[:, cuts].mean(axis=1)}).reset_index().assign(resolution=size)
 
 
-def shares(motions, measure, draws=1000):
+def shares(motions, measure, folder, draws=1000):
     """By (method, resolution): the share of the draws in which it is on the front. \\param motions  of one setting"""
-    found = pd.concat([table.assign(first=table["layer"] == 1) for table in fronts(motions, measure, draws)])
+    found = pd.concat([table.assign(first=table["layer"] == 1) for table in fronts(motions, measure, draws, folder)])
     return found.groupby(["method", "resolution"])["first"].sum() / draws

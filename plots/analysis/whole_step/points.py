@@ -12,7 +12,6 @@ from analysis.accuracy.records import CASE, REFERENCE
 from analysis.methods.kinds import kind_of
 
 SETTING = ["place", "step_s", "stiffness_n_m"]  # cuts in the sheet, step, stiffness
-PUBLISHED = load.REPOSITORY / "results/reference"
 BETWEEN_S = 0.25  # from one cut to the next
 TIMES = ["cut_update_us", "first_step_us", "step_us"]
 NO_ANSWER = 0.9  # an error that is on no front: that of a sheet that does not move is 1
@@ -26,9 +25,10 @@ class Measure(NamedTuple):
     column: str
     kind: Callable  # of a table of records, for each row: what the mean is taken over; none: the row does not count
 
-    def files(self, folder=PUBLISHED):
-        """Its published records and their context."""
-        return folder / f"{self.stem}.records.csv.gz", folder / f"{self.stem.removesuffix('.direct')}.context.json"
+    def files(self, folder):
+        """Its published records and their context, in published_in() of the folder."""
+        folder = published_in(folder)
+        return folder / f"{self.stem}.records.csv.xz", folder / f"{self.stem.removesuffix('.direct')}.context.json"
 
 
 def _in_plane(table):
@@ -86,13 +86,21 @@ def best_of(table):
     return table.loc[table.groupby([*SETTING, "method", "resolution"], sort=False)["ms"].idxmin()]
 
 
-def errors(measure, folder=PUBLISHED):
+def published_in(folder):
+    """The folder, or its part reference/, where that holds the published rows of all MEASURES, else results/reference."""
+    for place in (folder, folder / "reference"):
+        if all((place / f"{measure.stem}.records.csv.xz").is_file() for measure in MEASURES.values()):
+            return place
+    return load.REPOSITORY / "results/reference"
+
+
+def errors(measure, folder):
     """errors_of() the published rows."""
     return errors_of(published(measure, folder))
 
 
-def published(measure, folder=PUBLISHED):
-    """The published rows of direct solves of the cases that all methods made, but for methods that miss over half of that kind
+def published(measure, folder):
+    """The published rows, of published_in() the folder, of direct solves of the cases that all methods made, but for methods that miss over half of that kind
     and sheet, which have no row there, with `kind` and `size`, the absolute relative error. \\param measure  a key of MEASURES"""
     measure = MEASURES[measure]
     table = load.read_records(measure.files(folder)[0], load.TEXT + ["problem", "solver", "primary", "budget", "error"] + load.COUNTS,

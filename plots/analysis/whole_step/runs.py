@@ -38,8 +38,8 @@ def summarised(table):
 
 def read(folder, stem=STEM):
     """The rows and the context of a run, or those that are published in the folder."""
-    published = not (folder / "records.csv").is_file() and (folder / f"{stem}.records.csv.gz").is_file()
-    rows = load.read_records(folder / (f"{stem}.records.csv.gz" if published else "records.csv"),
+    published = not (folder / "records.csv").is_file() and (folder / f"{stem}.records.csv.xz").is_file()
+    rows = load.read_records(folder / (f"{stem}.records.csv.xz" if published else "records.csv"),
                              [*SETTING, *points.TIMES, "solver"], all_columns=True)
     return rows, load.read_context(folder / (f"{stem}.context.json" if published else "context.json"))
 
@@ -52,15 +52,15 @@ def ways(cost):
 def read_chart(folder):
     """The rows of one setting and the context of the run of its own, which has more cuts of it, where that is there."""
     own = folder.resolve().with_name(CHART)
-    if (folder / f"{CHART}.records.csv.gz").is_file():
+    if (folder / f"{CHART}.records.csv.xz").is_file():
         rows, context = read(folder, CHART)
     else:
         rows, context = read(own if (own / "records.csv").is_file() else folder)
     return at(rows, summarised(rows)), context
 
 
-def chart(here):
+def chart(here, folder):
     """Of read_chart() the points of readme_chart.png, with the share of draws in which each is on the front."""
-    table = points.joined(points.best_of(points.costs(here)), points.errors(points.LEADS))
-    share = draws.shares(points.motions(here), points.LEADS).rename("share").reset_index()
+    table = points.joined(points.best_of(points.costs(here)), points.errors(points.LEADS, folder))
+    share = draws.shares(points.motions(here), points.LEADS, folder).rename("share").reset_index()
     return table.merge(share, how="left", on=["method", "resolution"])

@@ -72,7 +72,7 @@ def print_iterations(rows):
                      [[m, *(median.get((m, c, n), np.nan) for c in cuts for n in sizes)] for m in sorted(set(rows["method"]))])
 
 
-def tables(rows, charted, cost, fronts):
+def tables(rows, charted, cost, fronts, folder):
     text = io.StringIO()
     with contextlib.redirect_stdout(text):
         print_counts(fronts)
@@ -83,13 +83,13 @@ def tables(rows, charted, cost, fronts):
             print_fronts(table, f"Fronts: time against error ({points.MEASURES[column].title}; {table['kinds'].max()} "
                                 f"{points.MEASURES[column].of}), {solver}")
         print_costs(cost)
-        print_ranks()
+        print_ranks(folder)
     return text.getvalue()
 
 
-def print_ranks():
+def print_ranks(folder):
     """Whether one error ranks the methods as another does: Spearman's rank correlation, by the sizes that all have."""
-    errors = {m.title: points.errors(key).set_index(["resolution", "method"])["error"] for key, m in points.MEASURES.items()}
+    errors = {m.title: points.errors(key, folder).set_index(["resolution", "method"])["error"] for key, m in points.MEASURES.items()}
     table = pd.DataFrame(errors).dropna()
     for size in sorted(set(table.index.get_level_values("resolution"))):
         ranks = table.loc[size].corr(method="spearman")

@@ -1,6 +1,7 @@
 """The style of every figure: sizes for a column of 8.5 cm, axes, two lines of the caption below them and all of it in a file beside
 the figure. The same data give the same bytes."""
 
+import io
 import re
 
 import matplotlib
@@ -8,6 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
+from PIL import Image
 
 from analysis.load import count, stop
 from analysis.naming import sheet_title
@@ -17,6 +19,7 @@ matplotlib.use("Agg")
 WIDTH = 8.5 / 2.54  # inches, of a column
 PAGE = 17.4 / 2.54  # of two, and the space between them
 CAPTION_SIZE = 7
+DPI, COLOURS = 150, 64  # of a PNG: PAGE is as wide as a page of text on a screen
 matplotlib.rcParams.update({
     "font.family": "DejaVu Sans", "font.size": 7, "axes.titlesize": 7, "axes.labelsize": 7, "legend.fontsize": 7,
     "xtick.labelsize": 7, "ytick.labelsize": 7, "axes.linewidth": 0.6,
@@ -180,17 +183,30 @@ def wrapped(figure, text, width):
 
 
 def save(figure, folder, stem):
-    """Writes folder/stem.pdf and .png (300 dpi), the whole caption to stem.caption.txt, and prints where."""
+    """Writes folder/stem.pdf and .png, the whole caption to stem.caption.txt, and prints where."""
     if figure.get_label():
         try:
             (folder / f"{stem}.caption.txt").write_text(f"{figure.get_label()}\n", encoding="utf-8")
         except OSError as error:
             stop(f"{folder / stem}.caption.txt can't be written: {error.strerror}")
-    for suffix, metadata in (("pdf", {"CreationDate": None}), ("png", {"Software": None})):
-        path = folder / f"{stem}.{suffix}"
-        try:
-            figure.savefig(path, dpi=300, metadata=metadata)
-        except OSError as error:
-            stop(f"{path} can't be written: {error.strerror}")
-        print(path)
+    path = folder / f"{stem}.pdf"
+    try:
+        figure.savefig(path, metadata={"CreationDate": None})
+    except OSError as error:
+        stop(f"{path} can't be written: {error.strerror}")
+    print(path)
+    write_png(figure, folder / f"{stem}.png")
+
+
+def write_png(figure, path):
+    """Writes a figure in the resolution of a page and few colours, a sixth of the bytes of one for print, which the PDF is; closes
+    it and prints where."""
+    picture = io.BytesIO()
+    figure.savefig(picture, dpi=DPI)
     plt.close(figure)
+    try:
+        few = Image.open(picture).convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE, kmeans=2, dither=Image.Dither.NONE)
+        few.save(path, "PNG", optimize=True)
+    except OSError as error:
+        stop(f"{path} can't be written: {error.strerror}")
+    print(path)

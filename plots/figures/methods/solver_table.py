@@ -52,9 +52,7 @@ def draw(rows, path):
     figure.legend(*axes[0].get_legend_handles_labels(), loc="lower center", ncols=5)
     figure.suptitle("A step of 1/240 s by solver; iterative ones stop at a residual of 1e-2. Dashed: 16.7 ms.", fontsize=7)
     figure.tight_layout(rect=(0, 0.13, 1, 1))
-    figure.savefig(path, dpi=200)
-    plt.close(figure)
-    print(path)
+    style.write_png(figure, path)
 
 
 def main():

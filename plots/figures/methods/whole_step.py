@@ -108,7 +108,7 @@ def source(context):
     return f"commit {str(context.get('commit'))[:10]}, seed {context.get('seed')}"
 
 
-def pages(table, column, context, by_solver):
+def pages(table, column, context, by_solver, errors_commit):
     settings = sorted(set(table[SETTING].itertuples(index=False, name=None)), key=lambda s: (s[2], -s[1], s[0]))
     columns = min(3, len(settings))
     rows = -(-len(settings) // columns)
@@ -122,7 +122,6 @@ def pages(table, column, context, by_solver):
         ax.set_title(setting_name(setting), fontsize=6.5, loc="left")
         ax.set_xlabel("ms for a cut and the 0.25 s after it" if i + columns >= len(settings) else "")
         ax.set_ylabel("" if i % columns else f"error, {points.MEASURES[column].title}")
-    errors_commit = str(load.read_context(points.MEASURES[column].files()[1]).get("commit"))
     solver = f"All by {SAME}."
     if by_solver:
         solver = (f"Each by its fastest solver: {SAME}, unless CG (conjugate gradients with sliver blocks) or direct (CHOLMOD) stands "
@@ -169,7 +168,7 @@ def absent(drawn, methods):
 def readme_chart(folder):
     """The figure, and its points."""
     here, context = read_chart(folder)
-    table = chart(here)
+    table = chart(here, folder)
     return summary(table, here["method"].unique(), context), table
 
 
@@ -177,15 +176,15 @@ def main():
     folder = load.results_folder(STEM, __doc__)
     rows, context = read(folder)
     cost = points.costs(rows)
-    fronts = {(column, way): points.joined(some, points.errors(column))
+    fronts = {(column, way): points.joined(some, points.errors(column, folder))
               for column in points.MEASURES for way, some in ways(cost).items()}
     for (column, way), table in fronts.items():
-        style.save(pages(table, column, context, way == "best"), folder,
+        of_errors = load.read_context(points.MEASURES[column].files(folder)[1])
+        style.save(pages(table, column, context, way == "best", str(of_errors.get("commit"))), folder,
                    STEM + "_same_solver" * (way == "same") + f"_{column}" * (column != points.LEADS))
     figure, charted = readme_chart(folder)
-    figure.savefig(folder / "readme_chart.png", dpi=150)
-    plt.close(figure)
-    load.write_beside(folder / f"{STEM}.txt", tables(rows, charted, cost, fronts))
+    style.write_png(figure, folder / "readme_chart.png")
+    load.write_beside(folder / f"{STEM}.txt", tables(rows, charted, cost, fronts, folder))
 
 
 if __name__ == "__main__":

@@ -157,7 +157,7 @@ def motion_figure(run, sheet):
 
 def main():
     folder = load.results_folder(STEM, __doc__)
-    run, paper = load.read(folder, MEASURES + IN_MOTION), published()
+    run, paper = load.read(folder, [*MEASURES, *PHASES, *IN_MOTION]), published()
     timings = [Timings(run, sheet) for sheet in naming.sheet_order(run.everything()["sheet"])]
     style.save(time_figure(timings[0], paper, other_sheets(timings[1:])), folder, STEM)
     if len(timings) > 1:

@@ -62,9 +62,7 @@ def draw(frames, limits, path):
     names = " and ".join(f"{limit:g} ms ({'dashed' if k == 0 else 'dotted'})" for k, limit in enumerate(limits[:2]))
     figure.suptitle(f"A swinging sheet, cut every quarter of a second. Lines: {names}.", fontsize=7)
     figure.tight_layout(rect=(0, 0.08, 1, 1))
-    figure.savefig(path, dpi=200)
-    plt.close(figure)
-    print(path)
+    style.write_png(figure, path)
 
 
 def animate(folder, limit):
@@ -77,7 +75,7 @@ def animate(folder, limit):
     times = [frame.time for frame in frames]
     durations = [round(1000 * (b - a)) for a, b in zip(times, times[1:])] + [1000]
     path = folder / "realtime.webp"
-    pictures[0].save(path, save_all=True, append_images=pictures[1:], duration=durations, loop=0, quality=60, method=4)
+    pictures[0].save(path, save_all=True, append_images=pictures[1:], duration=durations, loop=0, quality=30, method=6)
     print(path)
 
 
@@ -105,7 +103,7 @@ def frame_picture(frame, camera, box, description, costs, limit):
     last = past["total_ms"].iloc[-1] if len(past) else 0
     figure.text(0.98, 0.99, f"{frame.time:.2f} s, {last:.1f} ms", fontsize=5, va="top", ha="right")
     buffer = io.BytesIO()
-    figure.savefig(buffer, dpi=200, format="png")
+    figure.savefig(buffer, dpi=style.DPI, format="png")
     plt.close(figure)
     return Image.open(buffer).convert("RGB")
 

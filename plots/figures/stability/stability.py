@@ -130,8 +130,7 @@ def alone(rows, panel, folder):
     if handles:
         figure.legend(handles=handles, loc="lower center", ncol=4, fontsize=5.5, handlelength=1)
     path = folder / f"stability_{panel}.png"
-    figure.savefig(path, dpi=200)
-    plt.close(figure)
+    style.write_png(figure, path)
 
 
 def main():

@@ -31,7 +31,7 @@ def as_json(results):
     cost, found, absent = points.costs(rows), {}, {}
     methods = list(dict.fromkeys(rows["method"]))
     for measure in points.MEASURES:
-        error = points.errors(measure)
+        error = points.errors(measure, results)
         for way, some in runs.ways(cost).items():
             table = points.joined(some, error)
             for setting in {tuple(s) for s in table[points.SETTING].itertuples(index=False, name=None)}:
@@ -46,7 +46,7 @@ def as_json(results):
 
     return {
         "points": found, "absent": absent, "real_time_ms": whole_step.REAL_TIME_MS,
-        "origins": [origin(files), *(origin(files) for files in dict.fromkeys(m.files() for m in points.MEASURES.values()))],
+        "origins": [origin(files), *(origin(files) for files in dict.fromkeys(m.files(results) for m in points.MEASURES.values()))],
         "groups": [{"name": f.name, "colour": f.colour, "shape": SHAPES[f.marker], "methods": f.methods}
                    for f in [*families.FAMILIES, families.OTHER]],
         "choices": [

@@ -66,8 +66,8 @@ COLUMNS = [
 def files_of(results, stem):
     """(records, context) of this machine's run, else of the project's own, or None."""
     for records, context in ((f"{stem}/records.csv", f"{stem}/context.json"),
-                             (f"reference/{stem}.records.csv.gz", f"reference/{stem}.context.json"),
-                             (f"reference/{stem}.direct.records.csv.gz", f"reference/{stem}.context.json")):
+                             (f"reference/{stem}.records.csv.xz", f"reference/{stem}.context.json"),
+                             (f"reference/{stem}.direct.records.csv.xz", f"reference/{stem}.context.json")):
         if (results / records).is_file() and (results / context).is_file():
             return results / records, results / context
     return None
@@ -120,6 +120,7 @@ class Comparison:
     """`cells`: {column: {choice of its filters, joined by "|": {method: value}}}."""
 
     def __init__(self, results):
+        self.results = results
         self.origins, self.variants, self.cells = {}, {}, {}
         self.sheets, self.families, self.sizes, self.setting = [], [], [], ""
         self.programs = set()
@@ -157,8 +158,8 @@ class Comparison:
         self.sheets = self.sheets or naming.sheet_order(rows["sheet"])
         self.sizes = self.sizes or sorted(set(rows["resolution"]))
         rows = rows[rows["parameter"] == rows["method"].map(self.variants)]
-        published = whole_step_points.published(whole_step_points.LEADS)
-        self.origins["method_comparison_accuracy"] = origin(whole_step_points.MEASURES[whole_step_points.LEADS].files())
+        published = whole_step_points.published(whole_step_points.LEADS, self.results)
+        self.origins["method_comparison_accuracy"] = origin(whole_step_points.MEASURES[whole_step_points.LEADS].files(self.results))
         for sheet, size in itertools.product([ALL, *self.sheets], [ALL, *self.sizes]):
             here = whole_step_points.errors_of(chosen(published, sheet=sheet, resolution=size), pooled=True)
             error = dict(zip(here["method"], 100 * here["error"])) if len(here) else {}
