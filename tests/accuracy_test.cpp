@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "harness/fem/linear/factor.h"
 #include "harness/problems/common/problem.h"
 #include "methods/registry.h"
 #include "tests/program.h"
@@ -270,7 +271,7 @@ TEST_F(Accuracy, AFailureIsARow) {
   RunOptions options;
   options.out = folder_;
   options.quiet = true;
-  EXPECT_FALSE(run_accuracy(e, contenders, gather_context(), options));
+  EXPECT_FALSE(run_accuracy(e, contenders, gather_context(cholmod_version()), options));
   const auto rows = rows_of(folder_ / "e/records.csv");
   ASSERT_EQ(rows.size(), 4u * 2 * 2);
   for (const Record& row : rows) {

@@ -15,6 +15,7 @@
 
 #include "harness/base/conversions.h"
 #include "harness/cases/adversarial.h"
+#include "harness/fem/linear/factor.h"
 #include "harness/files/path_file.h"
 #include "harness/mesh/families.h"
 #include "harness/processes/isolated.h"
@@ -107,7 +108,7 @@ class RobustnessRun : public testing::Test {
     options.workers = workers;
     options.shard = shard;
     options.shards = shards;
-    all_ok_ = run_robustness(e, rows(), gather_context(), options);
+    all_ok_ = run_robustness(e, rows(), gather_context(cholmod_version()), options);
     std::ifstream in(folder_ / out / "small" / "records.csv");
     std::vector<Record> records;
     std::string line;

@@ -9,6 +9,7 @@
 #include <map>
 #include <regex>
 
+#include "harness/fem/linear/factor.h"
 #include "harness/mesh/families.h"
 #include "harness/study/stability/placed_cuts.h"
 #include "methods/registry.h"
@@ -257,7 +258,7 @@ TEST_F(Stability, ACrashOrAHangCostsOneRow) {
   options.out = folder_ / "r";
   options.quiet = true;
   options.workers = 2;
-  EXPECT_FALSE(run_stability(read_experiment(folder_ / "stability.toml"), rows, gather_context(), options));
+  EXPECT_FALSE(run_stability(read_experiment(folder_ / "stability.toml"), rows, gather_context(cholmod_version()), options));
   std::map<std::string, int> verdicts;
   for (const Record& row : records_of("r")) {
     ++verdicts[row.get("method") + " " + row.get("verdict")];

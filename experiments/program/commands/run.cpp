@@ -12,6 +12,7 @@
 #include "experiments/program/commands/command.h"
 #include "harness/base/conversions.h"
 #include "harness/base/errors.h"
+#include "harness/fem/linear/factor.h"
 #include "harness/processes/interrupt.h"
 #include "harness/study/run_experiment.h"
 #include "methods/registry.h"
@@ -151,7 +152,7 @@ bool run_measured(const Experiment& e, const Context& context, const RunOptions&
 Exit run_all(const RunArguments& arguments, const std::string& command_line) {
   explain_interruption();
   const RunOptions options = run_options(arguments, command_line);
-  const Context context = gather_context();
+  const Context context = gather_context(cholmod_version());
   std::vector<Experiment> experiments;  // all are read before any is run
   for (const auto& file : arguments.experiments) experiments.push_back(read_part(file, arguments, context));
   for (const Experiment& e : experiments)
