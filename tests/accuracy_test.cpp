@@ -267,7 +267,7 @@ TEST_F(Accuracy, AFailureIsARow) {
   e.sheets = {"grid"};
   e.resolutions = {72};
   for (const MethodRow& row : contenders) e.methods.push_back({row.name, {}});
-  e.accuracy = Experiment::Accuracy{{"centre_crack"}, {"cholmod"}, {"cg"}, {5}, {{72, 2}}, {{72, 2}}};
+  e.study = AccuracyStudy{{"centre_crack"}, {"cholmod"}, {"cg"}, {5}, {{72, 2}}, {{72, 2}}};
   RunOptions options;
   options.out = folder_;
   options.quiet = true;

@@ -258,7 +258,8 @@ TEST_F(Stability, ACrashOrAHangCostsOneRow) {
   options.out = folder_ / "r";
   options.quiet = true;
   options.workers = 2;
-  EXPECT_FALSE(run_stability(read_experiment(folder_ / "stability.toml"), rows, gather_context(cholmod_version()), options));
+  EXPECT_FALSE(
+      run_stability(read_experiment(folder_ / "stability.toml"), rows, gather_context(cholmod_version()), options));
   std::map<std::string, int> verdicts;
   for (const Record& row : records_of("r")) {
     ++verdicts[row.get("method") + " " + row.get("verdict")];
