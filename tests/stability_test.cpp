@@ -269,6 +269,14 @@ TEST_F(Stability, ACrashOrAHangCostsOneRow) {
                           {"conventional_split ok", 2}, {"crashing crashed", 2}, {"hanging timed_out", 2}}));
 }
 
+/// The settings are in two tables: that of sweeps, and that of all columns.
+TEST(StabilityColumns, SettingsFollowTheKeysAndEndBeforeTheStatus) {
+  std::size_t column = key_columns;
+  for (const SweepSetting& setting : sweep_settings()) EXPECT_EQ(stability_columns().at(column++), setting.name);
+  EXPECT_EQ(stability_columns().at(column), "status");
+  EXPECT_EQ(column, stability_key_columns());
+}
+
 TEST_F(Stability, RefusesWrongSweeps) {
   const auto says = [&](const std::string& text) {
     write(folder_ / "stability.toml", text);
