@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "harness/fem/linear/factor.h"
 #include "harness/problems/common/problem.h"
 #include "methods/registry.h"
 #include "tests/program.h"
@@ -266,11 +267,11 @@ TEST_F(Accuracy, AFailureIsARow) {
   e.sheets = {"grid"};
   e.resolutions = {72};
   for (const MethodRow& row : contenders) e.methods.push_back({row.name, {}});
-  e.accuracy = Experiment::Accuracy{{"centre_crack"}, {"cholmod"}, {"cg"}, {5}, {{72, 2}}, {{72, 2}}};
+  e.study = AccuracyStudy{{"centre_crack"}, {"cholmod"}, {"cg"}, {5}, {{72, 2}}, {{72, 2}}};
   RunOptions options;
   options.out = folder_;
   options.quiet = true;
-  EXPECT_FALSE(run_accuracy(e, contenders, gather_context(), options));
+  EXPECT_FALSE(run_accuracy(e, contenders, gather_context(cholmod_version()), options));
   const auto rows = rows_of(folder_ / "e/records.csv");
   ASSERT_EQ(rows.size(), 4u * 2 * 2);
   for (const Record& row : rows) {

@@ -47,7 +47,7 @@ ROOMS = {  # from the ground up: a room (a folder, or one file), its library, an
     "problems/out_of_plane": ("bench", ["base", "mesh", "fem", "problems/common"]),
     "problems/in_motion": ("bench", ["base", "mesh", "fem", "problems/common", "problems/out_of_plane"]),
     "problems": ("bench", ["base", "problems/common", "problems/in_plane", "problems/out_of_plane", "problems/in_motion"]),
-    "records": ("bench", ["base", "mesh", "cut", "fem/linear", "files", "judge", "simulation"]),
+    "records": ("bench", ["base", "mesh", "cut", "files", "judge", "simulation"]),
     "study": ("bench", ["base", "mesh", "path", "cut", "cases", "fem", "files", "judge", "processes", "programs",
                         "problems/common", "records", "simulation"]),
     "study/robustness": ("bench", ["base", "mesh", "path", "cut", "cases", "files", "oracle", "judge", "processes",

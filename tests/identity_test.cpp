@@ -3,7 +3,7 @@
 #include <map>
 #include <sstream>
 
-#include "harness/study/study.h"
+#include "harness/study/study_run.h"
 #include "tests/program.h"
 
 namespace cutbench {
@@ -19,7 +19,7 @@ class Identity : public Program {
 
   std::string identity(const std::string& text) const {
     write(folder_ / "e.toml", text);
-    return identity_of(read_experiment(folder_ / "e.toml"), Context(), true);
+    return identity_of(read_experiment(folder_ / "e.toml"), Context());
   }
   std::string identity(const toml::table& table) const {
     std::ostringstream text;

@@ -9,9 +9,12 @@
 #include "harness/base/conversions.h"
 #include "harness/cut/cut.h"
 #include "harness/mesh/families.h"
+#include "harness/problems/out_of_plane/bending_patch_slit.h"
 #include "harness/problems/out_of_plane/bent_sheet.h"
+#include "harness/problems/out_of_plane/flap.h"
 #include "harness/problems/out_of_plane/heavy_elastica.h"
-#include "harness/problems/out_of_plane/out_of_plane.h"
+#include "harness/problems/out_of_plane/slit_strip.h"
+#include "harness/problems/out_of_plane/trouser_tear.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 
@@ -127,18 +130,20 @@ void expect_within(const Problem& problem, int n, const std::vector<double>& bou
       }
 }
 
-TEST(OutOfPlane, ASlitLeavesABentPatchAsItIs) {
-  expect_within(*bending_patch_slit(), 14, {1e-4, 5e-4, 1e-6}, {0, 1, 2});
-}
+TEST(OutOfPlane, ASlitLeavesABentPatchAsItIs) { expect_within(BendingPatchSlit(), 14, {1e-4, 5e-4, 1e-6}, {0, 1, 2}); }
 TEST(OutOfPlane, HalvesHangLikeTheWholeAndTheElastica) {
-  expect_within(*slit_strip(), 14, {7e-3, 7e-3, 0.015}, {1, 3});
-  expect_within(*slit_strip(), 14, {0.03, 0.03, 0.06}, {0, 2});  // with slivers
+  expect_within(SlitStrip(), 14, {7e-3, 7e-3, 0.015}, {1, 3});
+  expect_within(SlitStrip(), 14, {0.03, 0.03, 0.06}, {0, 2});  // with slivers
 }
-TEST(OutOfPlane, AFlapHangsAsHeavyElastica) { expect_within(*flap(), 20, {4e-3, 5e-3}, {0, 1}); }
-TEST(OutOfPlane, ATearReleasesWhatPullsTheLegs) { expect_within(*trouser_tear(), 20, {0.15}, {0}); }
+TEST(OutOfPlane, AFlapHangsAsHeavyElastica) { expect_within(Flap(), 20, {4e-3, 5e-3}, {0, 1}); }
+TEST(OutOfPlane, ATearReleasesWhatPullsTheLegs) { expect_within(TrouserTear(), 20, {0.15}, {0}); }
 
 TEST(OutOfPlane, SpecimensDependOnTheirArgumentsAlone) {
-  for (const auto& problem : {bending_patch_slit(), slit_strip(), flap(), trouser_tear()}) {
+  const BendingPatchSlit patch;
+  const SlitStrip strip;
+  const Flap flap;
+  const TrouserTear tear;
+  for (const Problem* problem : std::initializer_list<const Problem*>{&patch, &strip, &flap, &tear}) {
     const Specimen a = problem->specimen("grid", 8, 3, 5), b = problem->specimen("grid", 8, 3, 5);
     EXPECT_TRUE(std::equal(a.mesh.rest.begin(), a.mesh.rest.end(), b.mesh.rest.begin(), b.mesh.rest.end()));
     EXPECT_EQ(a.cuts.at(0).points, b.cuts.at(0).points);
@@ -163,42 +168,42 @@ TEST(OutOfPlane, HingesAreNoticed) {
     EXPECT_GT(error, 5e-3) << right.name();
     EXPECT_GT(error, 10 * primary_error(right, specimen, sheet)) << right.name();
   };
-  compare(*bending_patch_slit(), *bending_patch_slit(BendingKind::hinges));
-  compare(*slit_strip(), *slit_strip(BendingKind::hinges));
-  compare(*flap(), *flap(BendingKind::hinges));
+  compare(BendingPatchSlit(), BendingPatchSlit(BendingKind::hinges));
+  compare(SlitStrip(), SlitStrip(BendingKind::hinges));
+  compare(Flap(), Flap(BendingKind::hinges));
 }
 
 /// Lips that run in steps of a triangle, beside the requested slit.
 TEST(OutOfPlane, AJaggedSlitIsNoticed) {
-  const auto problem = bending_patch_slit();
-  const Specimen specimen = problem->specimen("alternating", 14, 1, 0);
+  const BendingPatchSlit problem;
+  const Specimen specimen = problem.specimen("alternating", 14, 1, 0);
   Curve jagged = specimen.cuts[0];
   jagged.points = {};
   for (int i = 0; i <= 6; ++i)
     jagged.points.push_back(from_frame(specimen, {-0.2 + 0.4 * i / 6, i % 2 == 0 ? 0.02 : -0.02}));
-  const double straight = primary_error(*problem, specimen, cut_open(specimen, specimen.cuts, "conventional_split"));
-  EXPECT_GT(primary_error(*problem, specimen, cut_open(specimen, {jagged}, "conventional_split")), 10 * straight);
+  const double straight = primary_error(problem, specimen, cut_open(specimen, specimen.cuts, "conventional_split"));
+  EXPECT_GT(primary_error(problem, specimen, cut_open(specimen, {jagged}, "conventional_split")), 10 * straight);
 }
 
 TEST(OutOfPlane, AFlapThatHangsOnIsNoticed) {
-  const auto problem = flap();
-  const Specimen specimen = problem->specimen("delaunay", 14, 1, 0);
+  const Flap problem;
+  const Specimen specimen = problem.specimen("delaunay", 14, 1, 0);
   std::vector<Curve> cuts = specimen.cuts;
   cuts[0].points.back() = from_frame(specimen, {0.25, 0.2});
-  EXPECT_GT(primary_error(*problem, specimen, cut_open(specimen, cuts, "cgal_cdt")), 0.03);
+  EXPECT_GT(primary_error(problem, specimen, cut_open(specimen, cuts, "cgal_cdt")), 0.03);
 }
 
 /// The energy that a tear releases is in proportion to its length.
 TEST(OutOfPlane, ATearThatLosesATenthIsNoticed) {
-  const auto problem = trouser_tear();
+  const TrouserTear problem;
   double whole = 0, rest = 0;
   for (std::size_t i = 0; i < 2; ++i) {
-    const Specimen specimen = problem->specimen("delaunay", 20, 1, i);
+    const Specimen specimen = problem.specimen("delaunay", 20, 1, i);
     std::vector<Curve> shorter = specimen.cuts;
     const double torn = shorter[1].points[1].x - shorter[1].points[0].x;
     shorter[1].points[1].x -= 0.1 * torn;
     const auto released = [&](const std::vector<Curve>& cuts) {
-      const Measure m = solved(*problem, specimen, cut_open(specimen, cuts, "bowyer_watson")).measures.at(0);
+      const Measure m = solved(problem, specimen, cut_open(specimen, cuts, "bowyer_watson")).measures.at(0);
       return m.value / m.exact;
     };
     whole += released(specimen.cuts) / 2;

@@ -15,6 +15,7 @@
 
 #include "harness/base/conversions.h"
 #include "harness/cases/adversarial.h"
+#include "harness/fem/linear/factor.h"
 #include "harness/files/path_file.h"
 #include "harness/mesh/families.h"
 #include "harness/processes/isolated.h"
@@ -90,13 +91,11 @@ class RobustnessRun : public testing::Test {
     e.stem = "small";
     e.claim = "c";
     e.seed = 3;
-    e.cases = cases;
     e.sheets = {"grid", "delaunay"};
     e.resolutions = {32};
     for (const auto& method : methods) e.methods.push_back({method, {}});
-    e.robustness.emplace();
-    e.robustness->mesh_files = {CUTBENCH_TEST_CASES "/meshes/mfem_beam-tri.off"};
-    e.robustness->time_limit_s = 0.5;
+    e.study = RobustnessStudy{
+        .cases = cases, .mesh_files = {CUTBENCH_TEST_CASES "/meshes/mfem_beam-tri.off"}, .time_limit_s = 0.5};
     return e;
   }
   /// Runs, and returns the records without the times.
@@ -107,7 +106,7 @@ class RobustnessRun : public testing::Test {
     options.workers = workers;
     options.shard = shard;
     options.shards = shards;
-    all_ok_ = run_robustness(e, rows(), gather_context(), options);
+    all_ok_ = run_robustness(e, rows(), gather_context(cholmod_version()), options);
     std::ifstream in(folder_ / out / "small" / "records.csv");
     std::vector<Record> records;
     std::string line;
@@ -134,7 +133,7 @@ class RobustnessRun : public testing::Test {
 
 TEST_F(RobustnessRun, RowsAddUpAndDoNotDependOnTheWorkers) {
   Experiment e = experiment({"conventional_split", "failing"}, 30);
-  e.robustness->cross_check = true;
+  std::get<RobustnessStudy>(e.study).cross_check = true;
   const auto one = run(e, "one", 1), two = run(e, "two", 2);
   EXPECT_EQ(lines_of(one), lines_of(two));
   EXPECT_EQ(one.size(), 3 * 3 * adversarial_families().size());  // sheets x contenders x families
@@ -179,7 +178,7 @@ TEST_F(RobustnessRun, AFaultCostsOneCaseAndIsSavedAndMadeSmall) {
     SCOPED_TRACE(expected.method);
     Experiment e = experiment({expected.method}, expected.kind == Count::timed_out ? 4 : 14);
     if (expected.kind == Count::timed_out)
-      e.robustness->time_limit_s = 0.2;  // each trial of making it small takes that long
+      std::get<RobustnessStudy>(e.study).time_limit_s = 0.2;  // each trial of making it small takes that long
     const auto records = run(e, expected.method);
     EXPECT_FALSE(all_ok_);
     EXPECT_GT(sum(records, expected.kind), 0);
@@ -205,7 +204,7 @@ TEST_F(RobustnessRun, AFaultCostsOneCaseAndIsSavedAndMadeSmall) {
       for (const std::string kind : {"", ".small"}) {
         const CutCase again{read_mesh(stem + kind + ".obj"), read_path(stem + kind + ".json")};
         EXPECT_EQ(try_in_isolation(contender_of({std::make_shared<const MethodRow>(*row), 0}), again, {},
-                                   e.robustness->time_limit_s)
+                                   std::get<RobustnessStudy>(e.study).time_limit_s)
                       .kind,
                   expected.kind);
         triangles.push_back(again.mesh.triangles.size());

@@ -9,6 +9,7 @@
 #include <map>
 #include <regex>
 
+#include "harness/fem/linear/factor.h"
 #include "harness/mesh/families.h"
 #include "harness/study/stability/placed_cuts.h"
 #include "methods/registry.h"
@@ -257,7 +258,8 @@ TEST_F(Stability, ACrashOrAHangCostsOneRow) {
   options.out = folder_ / "r";
   options.quiet = true;
   options.workers = 2;
-  EXPECT_FALSE(run_stability(read_experiment(folder_ / "stability.toml"), rows, gather_context(), options));
+  EXPECT_FALSE(
+      run_stability(read_experiment(folder_ / "stability.toml"), rows, gather_context(cholmod_version()), options));
   std::map<std::string, int> verdicts;
   for (const Record& row : records_of("r")) {
     ++verdicts[row.get("method") + " " + row.get("verdict")];
@@ -265,6 +267,14 @@ TEST_F(Stability, ACrashOrAHangCostsOneRow) {
   }
   EXPECT_EQ(verdicts, (std::map<std::string, int>{
                           {"conventional_split ok", 2}, {"crashing crashed", 2}, {"hanging timed_out", 2}}));
+}
+
+/// The settings are in two tables: that of sweeps, and that of all columns.
+TEST(StabilityColumns, SettingsFollowTheKeysAndEndBeforeTheStatus) {
+  std::size_t column = key_columns;
+  for (const SweepSetting& setting : sweep_settings()) EXPECT_EQ(stability_columns().at(column++), setting.name);
+  EXPECT_EQ(stability_columns().at(column), "status");
+  EXPECT_EQ(column, stability_key_columns());
 }
 
 TEST_F(Stability, RefusesWrongSweeps) {

@@ -16,6 +16,7 @@
 #include "harness/cut/cut.h"
 #include "harness/cut/cut_phases.h"
 #include "harness/cut/open.h"
+#include "harness/fem/linear/factor.h"
 #include "harness/fem/solvers/solver_table.h"
 #include "harness/fem/time/stepper.h"
 #include "harness/judge/oracle_request.h"
@@ -368,7 +369,7 @@ int list(const std::vector<Row>& rows) {
 
 /// What must be the same for counts to compare, and the commit.
 int print_tools() {
-  const Context context = gather_context();
+  const Context context = gather_context(cholmod_version());
   nlohmann::ordered_json tools{{"compiler", context.compiler}, {"flags", context.flags}, {"build", context.build_type}};
   for (const auto& [library, version] : context.versions) tools[library] = version;
   std::cout << nlohmann::ordered_json{{"commit", context.commit.value_or("")}, {"tools", tools}}.dump() << '\n';

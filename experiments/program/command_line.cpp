@@ -9,6 +9,7 @@
 #include "experiments/program/commands/command.h"
 #include "harness/base/errors.h"
 #include "harness/base/names.h"
+#include "harness/fem/linear/factor.h"
 #include "harness/records/context.h"
 #include "harness/records/record.h"
 #include "methods/registry.h"
@@ -79,7 +80,7 @@ Command add_method_list(Options& app, bool& as_json) {
 // --- what all subcommands share --------------------------------------------------------------------------------------
 
 std::string version() {
-  const Context context = gather_context();
+  const Context context = gather_context(cholmod_version());
   std::string text = std::string("cutbench " CUTBENCH_VERSION ", suite version ") + suite_version + "\ncommit " +
                      context.commit.value_or("unknown") + (context.dirty.value_or(false) ? ", with changes" : "");
   return text + "\ncompiled by " + context.compiler + ", " + context.build_type + ", " + context.flags;

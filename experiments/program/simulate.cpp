@@ -12,6 +12,7 @@
 #include "harness/base/conversions.h"
 #include "harness/cut/cut_all.h"
 #include "harness/fem/elements/bending_kinds.h"
+#include "harness/fem/linear/factor.h"
 #include "harness/files/frame_writer.h"
 #include "harness/files/mesh_file.h"
 #include "harness/files/whole_file.h"
@@ -71,7 +72,7 @@ void print_limits(const nlohmann::ordered_json& limits, double step) {
 /// What a caption needs to say of the frames beside it.
 std::string description(const Scene& scene, const Simulation& motion, const SimulateOptions& options,
                         std::size_t triangles_before) {
-  const Context context = gather_context();
+  const Context context = gather_context(cholmod_version());
   nlohmann::ordered_json document{{"scene", scene.stem},
                                   {"effect", scene.effect},
                                   {"method", options.method},

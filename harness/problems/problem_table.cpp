@@ -6,7 +6,10 @@
 #include "harness/problems/in_motion/severed_strip.h"
 #include "harness/problems/in_plane/edge_crack.h"
 #include "harness/problems/in_plane/window_problem.h"
-#include "harness/problems/out_of_plane/out_of_plane.h"
+#include "harness/problems/out_of_plane/bending_patch_slit.h"
+#include "harness/problems/out_of_plane/flap.h"
+#include "harness/problems/out_of_plane/slit_strip.h"
+#include "harness/problems/out_of_plane/trouser_tear.h"
 
 namespace cutbench {
 
@@ -16,10 +19,10 @@ const std::vector<std::unique_ptr<const Problem>>& all_problems() {
     std::vector<std::unique_ptr<const Problem>> all;
     append_window_problems(all);
     append_edge_cracks(all);
-    all.push_back(bending_patch_slit());
-    all.push_back(slit_strip());
-    all.push_back(flap());
-    all.push_back(trouser_tear());
+    all.push_back(std::make_unique<BendingPatchSlit>());
+    all.push_back(std::make_unique<SlitStrip>());
+    all.push_back(std::make_unique<Flap>());
+    all.push_back(std::make_unique<TrouserTear>());
     all.push_back(severed_strip(Integrator::midpoint));
     all.push_back(severed_strip(Integrator::backward_euler));
     all.push_back(hanging_sheet(Integrator::midpoint));

@@ -16,7 +16,6 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/base/conversions.h"
-#include "harness/fem/linear/factor.h"
 #include "harness/mesh/mesh_data.h"
 
 namespace cutbench {
@@ -70,7 +69,7 @@ std::string Context::identity(bool with_times) const {
   return j.dump();
 }
 
-Context gather_context() {
+Context gather_context(const std::string& cholmod) {
   const std::string source = CUTBENCH_SOURCE_DIR, git = "git -C '" + source + "' ";
   Context context;
   if (first_line_of(git + "rev-parse --show-toplevel") == source) {
@@ -86,9 +85,9 @@ Context gather_context() {
   context.build_type = CUTBENCH_BUILD_TYPE;
   context.cpu = cpu_model();
   context.versions = {
-      {"CGAL", CGAL_VERSION_STR},     {"GMP", gmp_version},
-      {"MPFR", mpfr_get_version()},   {"Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
-      {"CHOLMOD", cholmod_version()}, {"BLAS", blas_in_use()},
+      {"CGAL", CGAL_VERSION_STR},   {"GMP", gmp_version},
+      {"MPFR", mpfr_get_version()}, {"Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+      {"CHOLMOD", cholmod},         {"BLAS", blas_in_use()},
   };
   std::array<char, 32> date{};
   const std::time_t now = std::time(nullptr);

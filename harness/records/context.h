@@ -22,7 +22,8 @@ struct Context {
   std::string identity(bool with_times = true) const;
 };
 
-Context gather_context();
+/// \param cholmod  version of the library of factors: cholmod_version() (harness/fem/linear/factor.h)
+Context gather_context(const std::string& cholmod);
 
 /// The seed that a commit's hash stands for. Throws InputError where the commit isn't known.
 std::uint64_t seed_of_commit(const Context& context);

@@ -67,6 +67,13 @@ std::vector<std::string> key_column_names(const std::string& subject) {
   return names;
 }
 
+std::vector<std::string> record_columns(const std::string& subject, const std::vector<Metric>& metrics) {
+  std::vector<std::string> names = key_column_names(subject);
+  for (const Metric& m : metrics)
+    if (m.name != subject && !m.name.ends_with('*')) names.push_back(m.name);
+  return names;
+}
+
 void fill(Record& row, const Measured& measured, std::initializer_list<Group> groups) {
   for (const Metric& m : all_metrics()) {
     if (groups.size() > 0 && std::find(groups.begin(), groups.end(), m.group) == groups.end()) continue;

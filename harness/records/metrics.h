@@ -77,12 +77,15 @@ struct Metric {
 
 /// The columns of all records, in their order.
 const std::vector<Metric>& all_metrics();
-/// The part of the table of accuracy runs; filled by harness/study/accuracy.cpp.
-void add_accuracy_run(std::vector<Metric>& table);
-/// That of robustness runs, which count instead of measuring; filled by harness/study/robustness/robustness.cpp.
-void add_robustness(std::vector<Metric>& table);
-/// The stability sweeps' part of the table.
-void add_stability(std::vector<Metric>& table);
+/// What the records of other kinds of studies have behind their keys, in the order of their columns. An entry without a
+/// definition is one of the whole table that they share (shared_metric()); the others are these kinds' part of it.
+std::vector<Metric> accuracy_metrics();    ///< filled by harness/study/accuracy.cpp
+std::vector<Metric> robustness_metrics();  ///< counts; filled by harness/study/robustness/robustness.cpp
+std::vector<Metric> stability_metrics();   ///< filled by harness/study/stability
+inline Metric shared_metric(const char* name) { return {.name = name, .unit = {}, .label = {}, .definition = {}}; }
+/// The columns of such records: the keys with `subject` in the place of the cut family, and the metrics that are not
+/// among them; without those whose name ends with `*`, which stands for several.
+std::vector<std::string> record_columns(const std::string& subject, const std::vector<Metric>& metrics);
 /// Names of the columns of these groups, in the table's order.
 std::vector<std::string> columns_of(std::initializer_list<Group> groups);
 

@@ -57,6 +57,7 @@ class RecordFile {
   RecordFile(const std::filesystem::path& folder, const std::string& identity,
              const std::vector<std::string>& columns = column_names(), std::size_t keys = key_columns);
   bool has(const std::string& key) const { return done_.contains(key); }
+  bool has(const Record& row) const { return has(row.key(keys_)); }
   const std::string& note() const { return note_; }  ///< what became of an earlier run's rows; empty without any
   /// Throws OutputError on a full disk.
   void append(const Record& record);

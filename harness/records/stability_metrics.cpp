@@ -2,7 +2,11 @@
 
 namespace cutbench {
 
-void add_stability(std::vector<Metric>& t) {
+std::vector<Metric> stability_metrics() {
+  std::vector<Metric> t;
+  const auto share = [&](std::initializer_list<const char*> names) {
+    for (const char* name : names) t.push_back(shared_metric(name));
+  };
   const auto add_setting = [&](const char* name, const char* unit, const char* label, const char* definition) {
     t.push_back({name, unit, label, Direction::none, Group::stability_setting, definition});
   };
@@ -19,6 +23,7 @@ void add_stability(std::vector<Metric>& t) {
   add_setting("integrator", "", "integrator", "As in scenes.");
   add_setting("step_s", "s", "step", "As the file says; of an explicit motion its `step_share` decides instead.");
   add_setting("newton", "", "Newton iterations", "Linear solves in a step.");
+  share({"solver"});
   add_setting("tolerance", "", "tolerance", "Of the linear solver.");
   add_setting("max_iterations", "", "iterations allowed", "Of the linear solver, in a solve.");
   add_setting("stiffness_n_m", "N/m", "stiffness", "Young's modulus x thickness.");
@@ -29,6 +34,9 @@ void add_stability(std::vector<Metric>& t) {
               "`positive`, `full` or `none`: of the stiffness that stress gives to the membrane.");
   add_setting("mass", "", "mass", "`lumped` or `consistent`.");
   add_setting("bending", "", "bending", "`none`, `patches` or `hinges`.");
+  share({"status", "verdict", "reason"});
+  share({"triangles", "vertices_added", "ar_max_cut", "altitude_min_h_cut", "incision_error_h", "geometry_us",
+         "eigenvalue_ratio"});
   const auto add = [&](const char* name, const char* unit, const char* label, Direction direction,
                        const char* definition) {
     t.push_back({name, unit, label, direction, Group::stability_point, definition});
@@ -47,11 +55,13 @@ void add_stability(std::vector<Metric>& t) {
   add("first_step_us", "us", "time of the first step", Direction::lower,
       "The one right after the cuts, in which the solver is set up from nothing.");
   add("step_us", "us", "time of a step", Direction::lower, "Median over the steps of the motion.");
+  share({"iterations", "residual"});
   add("energy_gain", "", "energy gained", Direction::lower,
       "What the energy budget can't explain over the largest kinetic and elastic energy: of an explicit motion all but "
       "pins and jumps, else the remainder (harness/simulation/energy_budget.h).");
   add("drift_h", "h", "drift", Direction::lower,
       "Farthest that a vertex ends from where `cholmod` brings it in the same motion.");
+  return t;
 }
 
 }  // namespace cutbench

@@ -18,7 +18,7 @@
 #include "harness/problems/common/problem.h"
 #include "harness/records/metrics.h"
 #include "harness/study/accuracy_summary.h"
-#include "harness/study/study.h"
+#include "harness/study/study_run.h"
 #include "harness/study/worker.h"
 
 namespace cutbench {
@@ -31,18 +31,6 @@ constexpr double exact_to_rounding = 1e-9;
 /// Solver, budget and tip functions, too, say what was measured.
 constexpr std::size_t accuracy_key_columns = key_columns + 3;
 
-/// Columns that accuracy runs share with measured cuts, and the column of their own that these stand behind.
-struct Borrowed {
-  const char* after;
-  std::vector<const char*> names;
-};
-const std::vector<Borrowed> borrowed_columns{
-    {"tip_functions", {"status", "verdict", "reason"}},
-    {"cut_us", {"assemble_us", "setup_us", "solve_us"}},
-    {"triangles", {"vertices_added"}},
-    {"residual",
-     {"crossed_triangles", "incision_error_h", "ar_max_cut", "ar_max_all", "angle_max_deg_cut", "altitude_min_h_cut"}}};
-
 using Clock = std::chrono::steady_clock;
 
 double us_since(Clock::time_point start) {
@@ -52,12 +40,11 @@ double us_since(Clock::time_point start) {
 /// The errors of the reference, solved directly, by the name of the measure.
 using Yardstick = std::map<std::string, double>;
 
-class AccuracyRun : public Study {
+class AccuracyRun : public StudyRun {
  public:
-  AccuracyRun(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
-              const RunOptions& options)
-      : Study(experiment, context, options, {.columns = accuracy_columns(), .keys = accuracy_key_columns}),
-        plan_(*experiment.accuracy) {
+  AccuracyRun(const Experiment& experiment, const AccuracyStudy& plan, const std::vector<MethodRow>& methods,
+              const Context& context, const RunOptions& options)
+      : StudyRun(experiment, context, options, accuracy_columns(), accuracy_key_columns), plan_(plan) {
     for (const Variant& v : variants_of(experiment, methods)) workers_.emplace_back(v);
     for (const auto& solver : plan_.direct) direct_.push_back({.solver = {.name = solver}});
     budgets_ = direct_;
@@ -75,18 +62,16 @@ class AccuracyRun : public Study {
   std::size_t case_count() override {
     std::size_t total = 0;
     for (const auto& name : plan_.problems)
-      for (int resolution : experiment_.resolutions) total += members(find_problem(name), resolution);
-    return total * experiment_.sheets.size();
+      for (const auto& sheet : experiment_.sized_sheets()) total += members(find_problem(name), sheet.resolution);
+    return total;
   }
 
   void run_cases(Progress& progress) override {
-    std::size_t number = 0;
     for (const auto& name : plan_.problems) {
       const Problem& problem = find_problem(name);
-      for (const auto& sheet : experiment_.sheets)
-        for (int resolution : experiment_.resolutions)
-          for (std::size_t i = 0; i < members(problem, resolution); ++i, progress.step())
-            if (options_.is_ours(number++)) run_member(problem, sheet, resolution, i);
+      for (const auto& [sheet, resolution] : experiment_.sized_sheets())
+        for (std::size_t i = 0; i < members(problem, resolution); ++i, progress.step())
+          if (next_is_ours()) run_member(problem, sheet, resolution, i);
     }
   }
 
@@ -109,24 +94,19 @@ class AccuracyRun : public Study {
   }
 
   void run_member(const Problem& problem, const std::string& family, int resolution, std::size_t i) {
-    Record start(accuracy_columns());
-    start.set("suite_version", std::string(suite_version));
-    start.set("problem", problem.name());
-    start.set("sheet", family);
-    start.set("resolution", std::int64_t{resolution});
-    start.set("case", to_int64(i));
-    start.set("repetition", std::int64_t{0});
-    start.set("seed", to_int64(experiment_.seed));
-    start.set("cache", std::string("warm"));
-    start.set("primary", problem.measures().front());
-    const auto of_worker = [&](const Worker& worker) {
-      Record row = start;
-      row.set("method", worker.variant.row->name);
-      row.set("parameter", worker.variant.parameter_text());
+    const auto of_method = [&](const std::string& method, const std::string& parameter) {
+      Record row = start_row(family, resolution, method, parameter);
+      row.set("problem", problem.name());
+      row.set("case", to_int64(i));
+      row.set("repetition", std::int64_t{0});
+      row.set("cache", std::string("warm"));
+      row.set("primary", problem.measures().front());
       return row;
     };
-    Record of_reference = start;
-    of_reference.set("method", std::string(reference_method));
+    const auto of_worker = [&](const Worker& worker) {
+      return of_method(worker.variant.row->name, worker.variant.parameter_text());
+    };
+    const Record of_reference = of_method(reference_method, "");
     if ((!plan_.reference || is_done(of_reference, problem)) &&
         std::all_of(workers_.begin(), workers_.end(),
                     [&](const Worker& worker) { return is_done(of_worker(worker), problem); }))
@@ -146,7 +126,7 @@ class AccuracyRun : public Study {
     const auto& budgets = budgets_for(problem);
     return std::all_of(budgets.begin(), budgets.end(), [&](const Budget& budget) {
       set_budget(row, budget);
-      return file_.has(key(row));
+      return file_.has(row);
     });
   }
 
@@ -155,7 +135,6 @@ class AccuracyRun : public Study {
     row.set("budget", std::int64_t{budget.iterations});
     row.set("tip_functions", std::int64_t{budget.tip_functions});
   }
-  static std::string key(const Record& row) { return row.key(accuracy_key_columns); }
 
   Yardstick run_reference(const Problem& problem, const Specimen& specimen, const BaseSheet& base, Record row) {
     const auto start = Clock::now();
@@ -239,7 +218,7 @@ class AccuracyRun : public Study {
       Record full = row;
       set_budget(full, budgets[b]);
       if (b < answers.size()) set_answer(full, answers[b], is_reference ? errors : yardstick);
-      if (!file_.has(key(full))) file_.append(full);
+      if (!file_.has(full)) file_.append(full);
     }
     return errors;
   }
@@ -274,7 +253,7 @@ class AccuracyRun : public Study {
     }
   }
 
-  const Experiment::Accuracy& plan_;
+  const AccuracyStudy& plan_;
   AccuracySummary summary_;
   CutOptions cut_options_;
   std::vector<Worker> workers_;
@@ -286,13 +265,7 @@ class AccuracyRun : public Study {
 
 const std::vector<std::string>& accuracy_columns() {
   static const std::vector<std::string> columns = [] {
-    std::vector<std::string> names = key_column_names("problem"), measures;
-    for (const std::string& name : columns_of({Group::accuracy_run})) {
-      if (name == "problem" || name.ends_with('*')) continue;  // among the keys; by measure
-      names.push_back(name);
-      for (const Borrowed& borrowed : borrowed_columns)
-        if (name == borrowed.after) names.insert(names.end(), borrowed.names.begin(), borrowed.names.end());
-    }
+    std::vector<std::string> names = record_columns("problem", accuracy_metrics()), measures;
     for (const auto& problem : all_problems())
       for (const std::string& measure : problem->measures())
         if (std::find(measures.begin(), measures.end(), measure) == measures.end()) measures.push_back(measure);
@@ -306,7 +279,7 @@ const std::vector<std::string>& accuracy_columns() {
 
 bool run_accuracy(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
                   const RunOptions& options) {
-  return AccuracyRun(experiment, methods, context, options).run();
+  return AccuracyRun(experiment, std::get<AccuracyStudy>(experiment.study), methods, context, options).run();
 }
 
 }  // namespace cutbench

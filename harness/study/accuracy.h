@@ -16,7 +16,7 @@ constexpr const char* reference_method = "body_fitted (reference)";
 
 /// Writes <out>/<stem>/records.csv, a row per problem, sheet, resolution, member, method, solver and budget, and
 /// context.json; a killed run goes on where it stopped. Prints the table. Returns false where a row's verdict is not
-/// ok. \pre experiment.accuracy
+/// ok. \pre the experiment is an AccuracyStudy
 bool run_accuracy(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
                   const RunOptions& options);
 

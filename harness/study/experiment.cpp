@@ -1,6 +1,7 @@
 #include "harness/study/experiment.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -17,6 +18,64 @@
 namespace cutbench {
 
 namespace {
+
+// --- which keys there are --------------------------------------------------------------------------------------------
+
+/// A kind of study, in the order in which a file is asked for its mark.
+struct Kind {
+  const char* name;                ///< in messages
+  const char* mark;                ///< the key that makes a file this kind's; empty: no other kind's mark is there
+  std::vector<std::string> keys;   ///< of the file, besides those of all kinds
+  std::vector<std::string> inner;  ///< of the section [mark]
+};
+const std::vector<std::string> common_keys{"claim", "sheets", "resolutions", "methods", "seed", "chord_tolerance"};
+const Kind robustness_kind{
+    "robustness runs", "robustness", {"robustness", "cases"}, {"mesh_files", "time_limit_s", "cross_check"}};
+const Kind accuracy_kind{"accuracy runs",
+                         "accuracy",
+                         {"accuracy"},
+                         {"problems", "direct", "preconditioners", "iterations", "members", "members_nonlinear",
+                          "tip_functions", "reference"}};
+const Kind stability_kind{"stability sweeps", "sweeps", {"sweeps", "cases", "time_limit_s"}, {}};
+const Kind cut_kind{"cut families",
+                    "",
+                    {"cases", "own_cuts", "cut_families", "repetitions", "times", "cold", "quality", "eigenvalue_cases",
+                     "every_edge", "scene", "cut_time", "scene_cases"},
+                    {}};
+const std::array<const Kind*, 4> kinds{&robustness_kind, &accuracy_kind, &stability_kind, &cut_kind};
+
+const Kind& kind_of(const toml::table& table) {
+  return **std::find_if(kinds.begin(), kinds.end() - 1, [&](const Kind* kind) { return table.contains(kind->mark); });
+}
+
+bool contains(const std::vector<std::string>& keys, const std::string& key) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+/// Throws InputError for a key of `table` that is known, but of another kind or at another place.
+void check_place(const toml::table& table, const Kind& kind, bool within_section, const std::string& where) {
+  for (const auto& entry : table) {
+    const std::string key(entry.first.str()), quoted = where + ": \"" + key + "\"";
+    const bool of_file = contains(common_keys, key) || contains(kind.keys, key), of_section = contains(kind.inner, key);
+    if (within_section ? of_section : of_file) continue;
+    if (of_file) throw InputError(quoted + " belongs above [" + kind.mark + "]; move it there");
+    if (of_section) throw InputError(quoted + " belongs below [" + kind.mark + "]; move it there");
+    std::string owners;
+    for (const Kind* other : kinds)
+      if (contains(other->keys, key) || contains(other->inner, key))
+        owners += (owners.empty() ? "" : " and ") + std::string(other->name);
+    if (!owners.empty())
+      throw InputError(quoted + " is for " + owners + ", but this experiment is for " + kind.name + "; leave it out");
+  }
+}
+
+TomlReader section_of(const TomlReader& experiment, const Kind& kind) {
+  if (const toml::table* section = experiment.table[kind.mark].as_table())
+    check_place(*section, kind, true, experiment.where + ", [" + kind.mark + "]");
+  return experiment.section(kind.mark, kind.inner);
+}
+
+// --- methods ---------------------------------------------------------------------------------------------------------
 
 ProgramSettings read_program(const TomlReader& reader, const std::filesystem::path& folder) {
   ProgramSettings program{reader.value<std::string>("name"), reader.value<std::string>("command"), folder, {}};
@@ -45,8 +104,20 @@ void read_entry(const toml::node& node, const std::filesystem::path& file, Exper
                        table->contains("parameter") ? reader.list<double>("parameter") : std::vector<double>{}});
 }
 
-Experiment::Robustness read_robustness(const TomlReader& reader, const std::filesystem::path& folder) {
-  Experiment::Robustness robustness;
+// --- the kinds -------------------------------------------------------------------------------------------------------
+
+/// The records of two equal entries could not be told apart.
+template <class T>
+void refuse_repeated(std::vector<T> entries, const std::string& what) {
+  std::sort(entries.begin(), entries.end());
+  if (std::adjacent_find(entries.begin(), entries.end()) != entries.end())
+    throw InputError(what + " names something twice; delete one");
+}
+
+RobustnessStudy read_robustness(const TomlReader& experiment, const std::filesystem::path& folder) {
+  RobustnessStudy robustness;
+  robustness.cases = experiment.count("cases", robustness.cases);
+  const TomlReader reader = section_of(experiment, robustness_kind);
   if (reader.has("mesh_files"))
     for (const auto& file : reader.list<std::string>("mesh_files")) {
       robustness.mesh_files.push_back(folder / file);
@@ -59,8 +130,9 @@ Experiment::Robustness read_robustness(const TomlReader& reader, const std::file
   return robustness;
 }
 
-Experiment::Accuracy read_accuracy(const TomlReader& reader, const std::vector<int>& resolutions) {
-  Experiment::Accuracy accuracy;
+AccuracyStudy read_accuracy(const TomlReader& experiment, const std::vector<int>& resolutions) {
+  AccuracyStudy accuracy;
+  const TomlReader reader = section_of(experiment, accuracy_kind);
   const bool all = !reader.table["problems"].is_array() && reader.value<std::string>("problems", "all") == "all";
   if (all)
     for (const auto& problem : all_problems()) {
@@ -95,26 +167,18 @@ Experiment::Accuracy read_accuracy(const TomlReader& reader, const std::vector<i
       reader.has("members_nonlinear") ? read_members("members_nonlinear", 0) : accuracy.members;
   accuracy.tip_functions = reader.value<bool>("tip_functions", accuracy.tip_functions);
   accuracy.reference = reader.value<bool>("reference", accuracy.reference);
+  refuse_repeated(accuracy.problems, experiment.where + ": \"problems\"");
+  refuse_repeated(accuracy.direct, experiment.where + ": \"direct\"");
+  refuse_repeated(accuracy.preconditioners, experiment.where + ": \"preconditioners\"");
+  refuse_repeated(accuracy.iterations, experiment.where + ": \"iterations\"");
   return accuracy;
 }
 
-/// The records of two equal entries could not be told apart.
-template <class T>
-void refuse_repeated(std::vector<T> entries, const std::string& what) {
-  std::sort(entries.begin(), entries.end());
-  if (std::adjacent_find(entries.begin(), entries.end()) != entries.end())
-    throw InputError(what + " names something twice; delete one");
-}
-
-std::string text_of_file(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-Experiment::Stability read_stability(const TomlReader& reader, const std::filesystem::path& file, const Experiment& e) {
-  Experiment::Stability stability;
+StabilityStudy read_stability(const TomlReader& reader, const std::filesystem::path& folder, const Experiment& e) {
+  StabilityStudy stability;
+  stability.cases = reader.count("cases", stability.cases);
   stability.time_limit_s = reader.positive("time_limit_s", stability.time_limit_s);
-  stability.sweeps = read_sweeps(reader, file.parent_path());
+  stability.sweeps = read_sweeps(reader, folder);
   std::vector<std::string> names, sheets;
   for (const Sweep& sweep : stability.sweeps) {
     names.push_back(sweep.name);
@@ -129,19 +193,69 @@ Experiment::Stability read_stability(const TomlReader& reader, const std::filesy
   return stability;
 }
 
+void read_scene_into(CutStudy& cuts, const TomlReader& reader, const std::filesystem::path& folder) {
+  cuts.scene = read_scene_for_experiment(folder / reader.value<std::string>("scene"));
+  if (!cuts.scene->mesh_file.empty())
+    reader.refuse("\"scene\" has a sheet from a file, but the sheets are the experiment's; use a family");
+  cuts.scene_cases = reader.count("scene_cases", cuts.cases);
+  cuts.cut_time = reader.value<double>("cut_time");
+  if (!(cuts.cut_time >= 0 && cuts.cut_time < cuts.scene->duration))
+    reader.refuse("\"cut_time\" must lie within the scene's duration");
+}
+
+CutStudy read_cuts(const TomlReader& reader, const std::filesystem::path& folder) {
+  CutStudy cuts;
+  cuts.cut_families = reader.list<std::string>("cut_families");
+  check_names(cuts.cut_families, cut_families(), reader.where + ": cut family");
+  refuse_repeated(cuts.cut_families, reader.where + ": \"cut_families\"");
+  cuts.cases = reader.count("cases", cuts.cases);
+  cuts.own_cuts = reader.value<bool>("own_cuts", cuts.own_cuts);
+  cuts.repetitions = reader.count("repetitions", cuts.repetitions);
+  cuts.times = reader.value<bool>("times", cuts.times);
+  cuts.cold = reader.value<bool>("cold", cuts.cold);
+  cuts.quality = reader.value<bool>("quality", cuts.quality);
+  cuts.eigenvalue_cases = reader.count("eigenvalue_cases", cuts.eigenvalue_cases, 0);
+  cuts.every_edge = reader.value<bool>("every_edge", cuts.every_edge);
+  for (const char* key : {"repetitions", "cold", "every_edge", "scene"})
+    if (!cuts.times && reader.has(key))
+      reader.refuse("\"" + std::string(key) + "\" is for times, but \"times\" is false; leave one of them out");
+  if (reader.has("scene")) read_scene_into(cuts, reader, folder);
+  return cuts;
+}
+
+// --- the whole -------------------------------------------------------------------------------------------------------
+
+std::string text_of_file(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 /// The file's keys in alphabetic order with their values, and the texts of the files that it names.
 std::string text_of_what_was_asked(const toml::table& table, const std::filesystem::path& folder, const Experiment& e) {
   std::ostringstream text;
   text << toml::json_formatter{table};
-  if (e.scene) text << text_of_file(folder / *table["scene"].value<std::string>());
-  if (e.robustness)
-    for (const auto& mesh : e.robustness->mesh_files) text << text_of_file(mesh);
-  if (e.stability)
-    for (const Sweep& sweep : e.stability->sweeps) text << text_of_file(sweep.scene_file);
+  if (const auto* cuts = std::get_if<CutStudy>(&e.study); cuts && cuts->scene)
+    text << text_of_file(folder / *table["scene"].value<std::string>());
+  if (const auto* robustness = std::get_if<RobustnessStudy>(&e.study))
+    for (const auto& mesh : robustness->mesh_files) text << text_of_file(mesh);
+  if (const auto* stability = std::get_if<StabilityStudy>(&e.study))
+    for (const Sweep& sweep : stability->sweeps) text << text_of_file(sweep.scene_file);
   return text.str();
 }
 
 }  // namespace
+
+std::vector<Experiment::SizedSheet> Experiment::sized_sheets() const {
+  std::vector<SizedSheet> all;
+  for (const std::string& sheet : sheets)
+    for (const int resolution : resolutions) all.push_back({sheet, resolution});
+  return all;
+}
+
+bool Experiment::records_times() const {
+  const auto* cuts = std::get_if<CutStudy>(&study);
+  return cuts ? cuts->times : !std::holds_alternative<RobustnessStudy>(study);
+}
 
 std::string identity_of_methods(const Experiment& experiment) {
   nlohmann::json methods;
@@ -152,79 +266,35 @@ std::string identity_of_methods(const Experiment& experiment) {
 
 Experiment read_experiment(const std::filesystem::path& file) {
   const std::string name = file.string();
+  const std::filesystem::path folder = file.parent_path();
   const toml::table table = parse_toml(file);
-  const bool is_robustness = table.contains("robustness"), is_accuracy = table.contains("accuracy");
-  const bool is_stability = table.contains("sweeps");
-  std::vector<std::string> known{"claim", "sheets", "resolutions", "methods", "seed", "chord_tolerance"};
-  if (is_robustness)
-    known.insert(known.end(), {"robustness", "cases"});
-  else if (is_accuracy)
-    known.emplace_back("accuracy");
-  else if (is_stability)
-    known.insert(known.end(), {"sweeps", "cases", "time_limit_s"});
-  else
-    known.insert(known.end(), {"cases", "own_cuts", "cut_families", "repetitions", "times", "cold", "quality",
-                               "eigenvalue_cases", "every_edge", "scene", "cut_time", "scene_cases"});
+  const Kind& kind = kind_of(table);
+  check_place(table, kind, false, name);
+  std::vector<std::string> known = common_keys;
+  known.insert(known.end(), kind.keys.begin(), kind.keys.end());
   check_keys(table, known, name);
   const TomlReader reader{table, name};
   Experiment e;
   e.stem = file.stem().string();
   e.claim = reader.value<std::string>("claim");
   e.sheets = reader.list<std::string>("sheets");
-  if (is_robustness)
-    e.robustness = read_robustness(reader.section("robustness", {"mesh_files", "time_limit_s", "cross_check"}),
-                                   file.parent_path());
-  else if (!is_accuracy && !is_stability)
-    e.cut_families = reader.list<std::string>("cut_families");
   check_names(e.sheets, sheet_families(), name + ": sheet");
-  check_names(e.cut_families, cut_families(), name + ": cut family");
   for (auto triangles : reader.list<std::int64_t>("resolutions")) {
     squares_per_side(triangles);
     e.resolutions.push_back(to_int(triangles));
   }
   refuse_repeated(e.sheets, name + ": \"sheets\"");
-  refuse_repeated(e.cut_families, name + ": \"cut_families\"");
   refuse_repeated(e.resolutions, name + ": \"resolutions\"");
-  if (is_accuracy) {
-    const std::vector<std::string> keys{"problems",      "direct",   "preconditioners",
-                                        "iterations",    "members",  "members_nonlinear",
-                                        "tip_functions", "reference"};
-    e.accuracy = read_accuracy(reader.section("accuracy", keys), e.resolutions);
-    refuse_repeated(e.accuracy->problems, name + ": \"problems\"");
-    refuse_repeated(e.accuracy->direct, name + ": \"direct\"");
-    refuse_repeated(e.accuracy->preconditioners, name + ": \"preconditioners\"");
-    refuse_repeated(e.accuracy->iterations, name + ": \"iterations\"");
-  }
-  if (is_stability) e.stability = read_stability(reader, file, e);
   if (table["methods"].value<std::string>() != "all")
     for (const auto& node : reader.array("methods")) read_entry(node, file, e);
   e.seed = static_cast<std::uint64_t>(reader.value<std::int64_t>("seed", 1));
-  // Cuts: of each sheet, resolution and family. Robustness: of each sheet and resolution. Stability: the most seeded
-  // places of a point, whose sweep says how many. Accuracy has `members` instead.
-  e.cases = reader.count("cases", is_stability ? 1000000 : 1);
-  e.repetitions = reader.count("repetitions", 1);
-  e.cold = reader.value<bool>("cold", false);
-  e.quality = reader.value<bool>("quality", true);
-  e.own_cuts = reader.value<bool>("own_cuts", false);
-  e.eigenvalue_cases = reader.count("eigenvalue_cases", 0, 0);
-  e.every_edge = reader.value<bool>("every_edge", false);
-  e.times = reader.value<bool>("times", true);
-  for (const char* key : {"repetitions", "cold", "every_edge", "scene"})
-    if (!e.times && table.contains(key))
-      throw InputError(name + ": \"" + key + "\" is for times, but \"times\" is false; leave one of them out");
   e.chord_tolerance = reader.value<double>("chord_tolerance", 0.05);  // TOML has inf
-  if (!(e.chord_tolerance > 0)) throw InputError(name + ": \"chord_tolerance\" must be positive, or inf");
-  if (table.contains("scene")) {
-    const auto scene_file = file.parent_path() / reader.value<std::string>("scene");
-    e.scene = read_scene_for_experiment(scene_file);
-    if (!e.scene->mesh_file.empty())
-      throw InputError(name + ": \"scene\" has a sheet from a file, but the sheets are the experiment's; use a family");
-    e.scene_cases = reader.count("scene_cases", e.cases);
-    e.cut_time = reader.value<double>("cut_time");
-    if (!(e.cut_time >= 0 && e.cut_time < e.scene->duration))
-      throw InputError(name + ": \"cut_time\" must lie within the scene's duration");
-  }
-  e.asked = text_of_what_was_asked(table, file.parent_path(), e);
+  if (!(e.chord_tolerance > 0)) reader.refuse("\"chord_tolerance\" must be positive, or inf");
+  if (&kind == &robustness_kind) e.study = read_robustness(reader, folder);
+  if (&kind == &accuracy_kind) e.study = read_accuracy(reader, e.resolutions);
+  if (&kind == &stability_kind) e.study = read_stability(reader, folder, e);
+  if (&kind == &cut_kind) e.study = read_cuts(reader, folder);
+  e.asked = text_of_what_was_asked(table, folder, e);
   return e;
 }
 

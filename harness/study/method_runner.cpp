@@ -14,13 +14,12 @@
 #include "harness/judge/assessment.h"
 #include "harness/judge/judged_sheet.h"
 #include "harness/mesh/families.h"
-#include "harness/processes/isolated.h"
 #include "harness/records/metrics.h"
 #include "harness/simulation/simulation.h"
 #include "harness/study/chill_caches.h"
 #include "harness/study/every_edge.h"
 #include "harness/study/rebuild_times.h"
-#include "harness/study/study.h"
+#include "harness/study/study_run.h"
 #include "harness/study/summary.h"
 #include "harness/study/worker.h"
 
@@ -43,46 +42,42 @@ struct Case {
   std::vector<oracle::ForcedCorner> forced;
 };
 
-class Runner : public Study {
+class Runner : public StudyRun {
  public:
-  Runner(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
-         const RunOptions& options)
-      : Study(experiment, context, options, {.columns = column_names(), .with_times = experiment.times}) {
+  Runner(const Experiment& experiment, const CutStudy& plan, const std::vector<MethodRow>& methods,
+         const Context& context, const RunOptions& options)
+      : StudyRun(experiment, context, options, column_names()), plan_(plan) {
     for (const Variant& v : variants_of(experiment, methods)) workers_.emplace_back(v);
     cut_options_.chord_tolerance = experiment.chord_tolerance;
   }
 
  private:
   std::size_t case_count() override {
-    return experiment_.sheets.size() * experiment_.resolutions.size() * experiment_.cut_families.size() *
-           to_size(experiment_.cases);
+    return experiment_.sized_sheets().size() * plan_.cut_families.size() * to_size(plan_.cases);
   }
 
   void run_cases(Progress& progress) override {
-    const auto cases = to_size(experiment_.cases);
-    std::size_t item = 0;
-    for (const auto& sheet : experiment_.sheets)
-      for (int resolution : experiment_.resolutions) {
-        bool is_made = false;
-        for (const auto& family : experiment_.cut_families) {
-          const std::vector<std::size_t> numbers = options_.ours(item, cases);
-          item += cases;
-          if (!numbers.empty() && !is_made) {
-            make_base(sheet, resolution);
-            is_made = true;
-          }
-          if (experiment_.times)
-            for (const std::size_t i : numbers) {
-              run_case(drawn(sheet, resolution, family, i));
-              progress.step();
-            }
-          else {
-            judge_on_all_cores(sheet, resolution, family, numbers);
-            progress.step(numbers.size());
-          }
-          progress.step(cases - numbers.size());
+    const auto cases = to_size(plan_.cases);
+    for (const auto& [sheet, resolution] : experiment_.sized_sheets()) {
+      bool is_made = false;
+      for (const auto& family : plan_.cut_families) {
+        const std::vector<std::size_t> numbers = next_ours(cases);
+        if (!numbers.empty() && !is_made) {
+          make_base(sheet, resolution);
+          is_made = true;
         }
+        if (plan_.times)
+          for (const std::size_t i : numbers) {
+            run_case(drawn(sheet, resolution, family, i));
+            progress.step();
+          }
+        else {
+          judge_on_all_cores(sheet, resolution, family, numbers);
+          progress.step(numbers.size());
+        }
+        progress.step(cases - numbers.size());
       }
+    }
   }
 
   void print_summary() const override { summary_.print(experiment_.stem); }
@@ -92,7 +87,7 @@ class Runner : public Study {
     start_scene(sheet, resolution);
     base_ = BaseSheet(motion_ ? motion_->sheet() : Sheet(make_sheet(sheet, squares_per_side(resolution))));
     for (Worker& worker : workers_) worker.forget_base();
-    if (experiment_.eigenvalue_cases > 0) {
+    if (plan_.eigenvalue_cases > 0) {
       base_eigenvalue_ = largest_eigenvalue(base_.sheet);
       base_bending_ = largest_eigenvalue(base_.sheet, {}, bent_skin);
     }
@@ -100,22 +95,16 @@ class Runner : public Study {
 
   Case drawn(const std::string& sheet, int resolution, const std::string& family, std::size_t i) const {
     std::uint64_t seed = experiment_.seed;
-    if (experiment_.own_cuts) seed = own_seed(own_seed(seed, sheet), std::to_string(resolution));
+    if (plan_.own_cuts) seed = own_seed(own_seed(seed, sheet), std::to_string(resolution));
     return {sheet, family, resolution, i, make_case(family, seed, i, base_.sheet), {}};
   }
 
   Record start_row(const Case& c, const std::string& method, const std::string& parameter, int repetition,
                    const char* cache) const {
-    Record row;
-    row.set("suite_version", std::string(suite_version));
+    Record row = StudyRun::start_row(c.sheet, c.resolution, method, parameter);
     row.set("cut_family", c.family);
-    row.set("sheet", c.sheet);
-    row.set("method", method);
-    row.set("parameter", parameter);
-    row.set("resolution", std::int64_t{c.resolution});
     row.set("case", to_int64(c.number));
     row.set("repetition", std::int64_t{repetition});
-    row.set("seed", to_int64(experiment_.seed));
     row.set("cache", std::string(cache));
     return row;
   }
@@ -126,10 +115,10 @@ class Runner : public Study {
   /// Cuts and fills the row of the first repetition.
   void judge(Case& c, Worker& worker, Record& row, Summary::Cut& summary) {
     const CutRun run = worker.cut(base_, c.cuts, cut_options_);
-    if (c.forced.empty() && experiment_.quality) c.forced = forced_corners_of(base_.sheet, c.cuts);
+    if (c.forced.empty() && plan_.quality) c.forced = forced_corners_of(base_.sheet, c.cuts);
     judge_into(row, summary, worker, c.cuts, c.forced, run);
     summary.crossed_triangles = to_double(run.crossed_triangles);
-    if (to_int(c.number) < experiment_.eigenvalue_cases && row.get("verdict") == "ok" &&
+    if (to_int(c.number) < plan_.eigenvalue_cases && row.get("verdict") == "ok" &&
         (run.status == Status::ok || run.status == Status::deviated))
       fill_eigenvalues(row, worker);
   }
@@ -147,29 +136,31 @@ class Runner : public Study {
     std::vector<std::pair<Case*, Worker*>> missing;
     for (Case& c : cases)
       for (Worker& worker : workers_)
-        if (!file_.has(start_row(c, worker, 0, "warm").key())) missing.emplace_back(&c, &worker);
-    const SharedArray<Told> told(missing.size());
-    const auto fates = run_isolated(missing.size(), {options_.workers, longest_cut_s}, [&](std::size_t k) {
-      Record row = start_row(*missing[k].first, *missing[k].second, 0, "warm");
-      judge(*missing[k].first, *missing[k].second, row, told[k].summary);
-      for (const std::string& time : columns_of({Group::time})) row.set(time, std::string());
-      row.line().copy(told[k].line.data(), told[k].line.size() - 1);
-    });
-    for (std::size_t k = 0; k < missing.size(); ++k) {
-      const Worker& worker = *missing[k].second;
-      Record row = start_row(*missing[k].first, worker, 0, "warm");
-      Summary::Cut summary = told[k].summary;
-      if (fates[k] == Fate::done) {
-        row = Record(column_names(), told[k].line.data());
-      } else {
-        row.set("status", std::string(name_of(Status::failed)));
-        row.set("verdict", std::string(name_of(fates[k] == Fate::timed_out ? Verdict::timed_out : Verdict::crashed)));
-        summary.ok = false;
-      }
-      file_.append(row);
-      summary.refused = row.get("status") == name_of(Status::refused);
-      summary_.add(resolution, worker.variant.row->name, worker.variant.parameter_text(), summary);
+        if (!file_.has(start_row(c, worker, 0, "warm"))) missing.emplace_back(&c, &worker);
+    run_apart<Told>(
+        missing.size(), longest_cut_s,
+        [&](std::size_t k, Told& told) {
+          Record row = start_row(*missing[k].first, *missing[k].second, 0, "warm");
+          judge(*missing[k].first, *missing[k].second, row, told.summary);
+          for (const std::string& time : columns_of({Group::time})) row.set(time, std::string());
+          row.line().copy(told.line.data(), told.line.size() - 1);
+        },
+        [&](std::size_t k, const Told& told, Fate fate) { record(*missing[k].first, *missing[k].second, told, fate); });
+  }
+
+  void record(const Case& c, const Worker& worker, const Told& told, Fate fate) {
+    Record row = start_row(c, worker, 0, "warm");
+    Summary::Cut summary = told.summary;
+    if (fate == Fate::done) {
+      row = Record(column_names(), told.line.data());
+    } else {
+      row.set("status", std::string(name_of(Status::failed)));
+      set_fate(row, fate);
+      summary.ok = false;
     }
+    file_.append(row);
+    summary.refused = row.get("status") == name_of(Status::refused);
+    summary_.add(c.resolution, worker.variant.row->name, worker.variant.parameter_text(), summary);
   }
 
   void run_case(Case c) {
@@ -179,17 +170,17 @@ class Runner : public Study {
     std::vector<Summary::Cut> summaries(workers_.size());
     for (std::size_t w = 0; w < workers_.size(); ++w) {
       Record& row = judged.emplace_back(start_row(c, workers_[w], 0, "warm"));
-      if (!file_.has(row.key())) judge(c, workers_[w], row, summaries[w]);
+      if (!file_.has(row)) judge(c, workers_[w], row, summaries[w]);
     }
     std::size_t crossed = 0;
-    for (int r = 0; r < experiment_.repetitions + (experiment_.cold ? 1 : 0); ++r) {
-      const bool cold = r == experiment_.repetitions;
+    for (int r = 0; r < plan_.repetitions + (plan_.cold ? 1 : 0); ++r) {
+      const bool cold = r == plan_.repetitions;
       const int repetition = cold ? 0 : r;
       const char* cache = cold ? "cold" : "warm";
       for (std::size_t w = 0; w < workers_.size(); ++w) {
         Worker& worker = workers_[w];
         Record row = start_row(c, worker, repetition, cache);
-        if (file_.has(row.key())) continue;
+        if (file_.has(row)) continue;
         const CutRun run = worker.measure(base_, c.cuts, cut_options_, cold);
         if (run.crossed_triangles > 0) crossed = run.crossed_triangles;
         if (r == 0)
@@ -199,13 +190,13 @@ class Runner : public Study {
         file_.append(row);
         if (!cold) summarize(c.resolution, worker.variant, summaries[w], run);
       }
-      if (experiment_.every_edge && crossed == 0)  // all rows but this one were there
+      if (plan_.every_edge && crossed == 0)  // all rows but this one were there
         for (Worker& worker : workers_)
           crossed = std::max(crossed, worker.cut(base_, c.cuts, cut_options_).crossed_triangles);
-      if (experiment_.every_edge)
+      if (plan_.every_edge)
         time_every_edge(c.cuts, start_row(c, "every_edge", "", repetition, cache), c.resolution, crossed, cold);
     }
-    if (!motion_ || c.number >= to_size(experiment_.scene_cases)) return;
+    if (!motion_ || c.number >= to_size(plan_.scene_cases)) return;
     for (Worker& worker : workers_) run_in_motion(c.cuts, worker, start_row(c, worker, 0, "simulation"));
   }
 
@@ -231,13 +222,12 @@ class Runner : public Study {
 
   /// The experiment's scene on this sheet, brought to the last step before the cut.
   void start_scene(const std::string& sheet, int resolution) {
-    if (!experiment_.scene) return;
-    scene_ = *experiment_.scene;
+    if (!plan_.scene) return;
+    scene_ = *plan_.scene;
     scene_.family = sheet;
     scene_.resolution = resolution;
     motion_ = Simulation::start(scene_);
-    const StepReport report =
-        motion_->advance(experiment_.cut_time - scene_.step, *workers_.front().method, cut_options_);
+    const StepReport report = motion_->advance(plan_.cut_time - scene_.step, *workers_.front().method, cut_options_);
     if (report.verdict != Verdict::ok)
       throw InputError(scene_.stem + ": the scene fails before its cut (" + name_of(report.verdict) + "; " +
                        report.reason + "); change its step or its solver");
@@ -245,7 +235,7 @@ class Runner : public Study {
 
   /// The cut made in the running scene, where nothing is warmed up for it.
   void run_in_motion(const std::vector<Curve>& cuts, Worker& worker, Record row) {
-    if (file_.has(row.key())) return;
+    if (file_.has(row)) return;
     const MotionCut m = motion_->try_cut(cuts, worker.cutter, *worker.method, cut_options_);
     const RebuildTimes rebuild = m.verdict == Verdict::ok
                                      ? time_rebuild(scene_, pins_of(scene_, motion_->sheet()), motion_->tried_sheet())
@@ -272,17 +262,16 @@ class Runner : public Study {
     const Judgement judgement =
         judge_one_by_one(base_.sheet, worker.sheet, cuts, v.row->promises, v.row->make(v.parameter), cut_options_);
     const Assessment a = assess(base_.sheet, worker.sheet, judgement, forced);
-    fill(row,
-         {.h = base_.sheet.mean_edge(), .cut = &run, .judged = true, .assessment = &a, .shapes = experiment_.quality});
+    fill(row, {.h = base_.sheet.mean_edge(), .cut = &run, .judged = true, .assessment = &a, .shapes = plan_.quality});
     summary.ok = a.judgement.ok;
     summary.vertices_added = to_double(a.vertices_added);
-    if (!experiment_.quality) return;
+    if (!plan_.quality) return;
     if (a.cut.triangles > 0) summary.ar_max_cut = a.cut.ar_max;
     summary.over_3_cut = to_double(a.cut.over_3);
   }
 
   void time_every_edge(const std::vector<Curve>& cuts, Record row, int resolution, std::size_t crossed, bool cold) {
-    if (file_.has(row.key())) return;
+    if (file_.has(row)) return;
     if (cold) chill_caches();
     const auto start = std::chrono::steady_clock::now();
     std::size_t crossings = 0;
@@ -300,6 +289,7 @@ class Runner : public Study {
     if (!cold) summary_.add(resolution, "every_edge", "", summary);
   }
 
+  const CutStudy& plan_;
   std::vector<Worker> workers_;
   CutOptions cut_options_;
   BaseSheet base_;
@@ -313,7 +303,7 @@ class Runner : public Study {
 
 bool run_methods(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
                  const RunOptions& options) {
-  return Runner(experiment, methods, context, options).run();
+  return Runner(experiment, std::get<CutStudy>(experiment.study), methods, context, options).run();
 }
 
 }  // namespace cutbench

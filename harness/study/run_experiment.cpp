@@ -7,12 +7,23 @@
 
 namespace cutbench {
 
+namespace {
+
+using Run = bool (*)(const Experiment&, const std::vector<MethodRow>&, const Context&, const RunOptions&);
+
+struct RunOfKind {
+  Run operator()(const CutStudy&) const { return run_methods; }
+  Run operator()(const AccuracyStudy&) const { return run_accuracy; }
+  Run operator()(const RobustnessStudy&) const { return run_robustness; }
+  Run operator()(const StabilityStudy&) const { return run_stability; }
+};
+
+}  // namespace
+
 bool run_experiment(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
                     const RunOptions& options) {
-  if (experiment.robustness) return run_robustness(experiment, methods, context, options);
-  if (experiment.accuracy) return run_accuracy(experiment, methods, context, options);
-  if (experiment.stability) return run_stability(experiment, methods, context, options);
-  return run_methods(experiment, methods, context, options);
+  const Run run = std::visit(RunOfKind(), experiment.study);
+  return run(experiment, methods, context, options);
 }
 
 }  // namespace cutbench

@@ -1,4 +1,4 @@
-// Any experiment: cut families, a robustness run or an accuracy run.
+// Any experiment, whatever kind of study it is.
 #pragma once
 
 #include <vector>

@@ -12,6 +12,7 @@
 #include "experiments/program/commands/command.h"
 #include "harness/base/conversions.h"
 #include "harness/base/errors.h"
+#include "harness/fem/linear/factor.h"
 #include "harness/processes/interrupt.h"
 #include "harness/study/run_experiment.h"
 #include "methods/registry.h"
@@ -77,13 +78,36 @@ std::string text_of_options(const RunArguments& arguments) {
   return nlohmann::json{methods, commands, sweeps, resolutions, cases, repetitions, seed}.dump();
 }
 
+void set_cases(AccuracyStudy& study, int cases) {
+  for (auto* members : {&study.members, &study.members_nonlinear})
+    for (auto& [resolution, number] : *members)
+      if (number > 0) number = cases;
+}
+void set_cases(auto& study, int cases) { study.cases = cases; }
+
+/// The options that restrict or replace what kinds of studies have of their own.
+void apply_to_study(Experiment& e, const RunArguments& arguments, bool with_cross_check) {
+  if (arguments.cases > 0) std::visit([&](auto& study) { set_cases(study, arguments.cases); }, e.study);
+  if (auto* cuts = std::get_if<CutStudy>(&e.study); cuts && arguments.repetitions > 0)
+    cuts->repetitions = arguments.repetitions;
+  if (auto* robustness = std::get_if<RobustnessStudy>(&e.study)) {
+    if (!arguments.methods.empty()) robustness->cross_check = with_cross_check;
+    if (!arguments.resolutions.empty()) robustness->mesh_files.clear();
+  }
+  if (auto* stability = std::get_if<StabilityStudy>(&e.study))
+    restrict_to(stability->sweeps, arguments.sweeps, "--sweeps", [](const Sweep& s) { return s.name; });
+}
+
 Experiment read_part(const std::string& file, const RunArguments& arguments, const Context& context) {
   Experiment e = read_experiment(file);
+  if (!arguments.sweeps.empty() && !std::holds_alternative<StabilityStudy>(e.study))
+    throw InputError(file + ": --sweeps is for an experiment that has [[sweeps]]");
   e.asked += text_of_options(arguments);
   if (e.methods.empty())
     for (const MethodRow& row : all_methods()) e.methods.push_back({row.name, {}});
   std::vector<std::string> methods = arguments.methods;
-  const bool with_cross_check = e.robustness && std::erase(methods, "cross_check") > 0;
+  const bool with_cross_check =
+      std::holds_alternative<RobustnessStudy>(e.study) && std::erase(methods, "cross_check") > 0;
   std::vector<Experiment::Entry> programs;  // they run whether --methods names them or not
   for (const std::string& command : arguments.commands) {
     e.programs.push_back(program_in(command));
@@ -94,18 +118,7 @@ Experiment read_part(const std::string& file, const RunArguments& arguments, con
   if (methods.empty() && !arguments.methods.empty()) e.methods.clear();
   e.methods.insert(e.methods.end(), programs.begin(), programs.end());
   restrict_to(e.resolutions, arguments.resolutions, "--resolutions", [](int r) { return r; });
-  if (e.stability)
-    restrict_to(e.stability->sweeps, arguments.sweeps, "--sweeps", [](const Sweep& s) { return s.name; });
-  else if (!arguments.sweeps.empty())
-    throw InputError(file + ": --sweeps is for an experiment that has [[sweeps]]");
-  if (e.robustness && !arguments.methods.empty()) e.robustness->cross_check = with_cross_check;
-  if (e.robustness && !arguments.resolutions.empty()) e.robustness->mesh_files.clear();
-  if (arguments.cases > 0) e.cases = arguments.cases;
-  if (arguments.cases > 0 && e.accuracy)
-    for (auto* members : {&e.accuracy->members, &e.accuracy->members_nonlinear})
-      for (auto& [resolution, number] : *members)
-        if (number > 0) number = arguments.cases;
-  if (arguments.repetitions > 0) e.repetitions = arguments.repetitions;
+  apply_to_study(e, arguments, with_cross_check);
   if (arguments.seed == "commit")
     e.seed = seed_of_commit(context);
   else if (!arguments.seed.empty())
@@ -136,8 +149,6 @@ class OneCore {
   cpu_set_t before_{};
 };
 
-bool records_times(const Experiment& e) { return !e.robustness && e.times; }
-
 bool run_measured(const Experiment& e, const Context& context, const RunOptions& options) {
   const OneCore pinned(options.shard);
   const bool ok = run_experiment(e, nameable_methods(), context, options);
@@ -151,16 +162,16 @@ bool run_measured(const Experiment& e, const Context& context, const RunOptions&
 Exit run_all(const RunArguments& arguments, const std::string& command_line) {
   explain_interruption();
   const RunOptions options = run_options(arguments, command_line);
-  const Context context = gather_context();
+  const Context context = gather_context(cholmod_version());
   std::vector<Experiment> experiments;  // all are read before any is run
   for (const auto& file : arguments.experiments) experiments.push_back(read_part(file, arguments, context));
   for (const Experiment& e : experiments)
-    if (arguments.jobs > 1 && records_times(e))
+    if (arguments.jobs > 1 && e.records_times())
       throw InputError(e.stem + ": records times, which other processes would disturb; leave --jobs out");
   bool ok = true;
   for (const Experiment& e : experiments)
     ok &=
-        records_times(e) ? run_measured(e, context, options) : run_experiment(e, nameable_methods(), context, options);
+        e.records_times() ? run_measured(e, context, options) : run_experiment(e, nameable_methods(), context, options);
   return ok ? done : fell_short;
 }
 

@@ -1,4 +1,11 @@
-// A sheet in equilibrium out of its plane: what the problems with bending share.
+// A sheet in equilibrium out of its plane: what the problems with bending share. SI units.
+//
+// "Solved" is Newton's decrement at 1e-8 of the energy or less (Stepper), not a small residual: forces of slivers
+// cancel no better than 1e-5 to 1e-3 of the whole in doubles. Where slivers keep Newton from that, too, the row has
+// failed.
+//
+// What each problem compares with, formula and source, is at the top of its file; the elastica's numbers are in
+// heavy_elastica.h. Tests give them a bending energy other than `patches` to show what a wrong one does.
 #pragma once
 
 #include <functional>

@@ -13,7 +13,7 @@
 #include "harness/study/robustness/failing_case.h"
 #include "harness/study/robustness/robustness_case.h"
 #include "harness/study/robustness/robustness_summary.h"
-#include "harness/study/study.h"
+#include "harness/study/study_run.h"
 
 namespace cutbench {
 
@@ -29,14 +29,13 @@ struct Drawn {
   bool near_event = false;
 };
 
-class Robustness : public Study {
+class RobustnessRun : public StudyRun {
  public:
-  Robustness(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
-             const RunOptions& options)
-      : Study(experiment, context, options, {.columns = robustness_columns(), .with_times = false}),
-        plan_(*experiment.robustness),
-        folder_(std::filesystem::path(options.out) / experiment.stem),
-        isolation_{options.workers, plan_.time_limit_s} {
+  RobustnessRun(const Experiment& experiment, const RobustnessStudy& plan, const std::vector<MethodRow>& methods,
+                const Context& context, const RunOptions& options)
+      : StudyRun(experiment, context, options, robustness_columns()),
+        plan_(plan),
+        folder_(std::filesystem::path(options.out) / experiment.stem) {
     for (const Variant& v : variants_of(experiment, methods)) contenders_.push_back(contender_of(v));
     if (plan_.cross_check) contenders_.push_back(cgal_check());
     cut_options_.chord_tolerance = experiment.chord_tolerance;
@@ -46,15 +45,14 @@ class Robustness : public Study {
 
  private:
   std::size_t case_count() override {
-    const std::size_t sheets = experiment_.sheets.size() * experiment_.resolutions.size() + plan_.mesh_files.size();
-    const std::size_t ours = options_.ours(0, sheets * to_size(experiment_.cases)).size();
+    const std::size_t sheets = experiment_.sized_sheets().size() + plan_.mesh_files.size();
+    const std::size_t ours = options_.ours(0, sheets * to_size(plan_.cases)).size();
     return ours * contenders_.size();
   }
 
   void run_cases(Progress& progress) override {
-    for (const auto& sheet : experiment_.sheets)
-      for (int resolution : experiment_.resolutions)
-        run_sheet(sheet, make_sheet(sheet, squares_per_side(resolution)), progress);
+    for (const auto& [sheet, resolution] : experiment_.sized_sheets())
+      run_sheet(sheet, make_sheet(sheet, squares_per_side(resolution)), progress);
     for (const auto& file : plan_.mesh_files) run_sheet(file.stem().string(), read_mesh(file), progress);
   }
 
@@ -79,8 +77,7 @@ class Robustness : public Study {
     mesh_ = mesh;
     sheet_ = Sheet(mesh);
     drawn_.clear();
-    numbers_ = options_.ours(items_, to_size(experiment_.cases));
-    items_ += to_size(experiment_.cases);
+    numbers_ = next_ours(to_size(plan_.cases));
     for (const Contender& contender : contenders_) {
       if (is_done(contender)) {
         progress.skip(numbers_.size());
@@ -93,20 +90,15 @@ class Robustness : public Study {
   }
 
   Record start_row(const Contender& contender, const std::string& family) const {
-    Record row(robustness_columns());
-    row.set("suite_version", std::string(suite_version));
+    Record row =
+        StudyRun::start_row(sheet_name_, to_int64(sheet_.triangle_count()), contender.method, contender.parameter);
     row.set("cut_family", family);
-    row.set("sheet", sheet_name_);
-    row.set("method", contender.method);
-    row.set("parameter", contender.parameter);
-    row.set("resolution", to_int64(sheet_.triangle_count()));
-    row.set("seed", to_int64(experiment_.seed));
     return row;
   }
 
   bool is_done(const Contender& contender) const {
     return std::all_of(families_.begin() + 1, families_.end(),
-                       [&](const std::string& family) { return file_.has(start_row(contender, family).key()); });
+                       [&](const std::string& family) { return file_.has(start_row(contender, family)); });
   }
 
   AdversarialCase adversarial_case(std::size_t k) const {
@@ -115,54 +107,64 @@ class Robustness : public Study {
 
   /// Draws the cases of a sheet, which are the same for all contenders.
   void draw() {
-    const SharedArray<Drawn> drawn(numbers_.size());
-    run_isolated(numbers_.size(), isolation_, [&](std::size_t k) {
-      const AdversarialCase c = adversarial_case(k);
-      const auto family = std::find(families_.begin() + 1, families_.end(), c.family);
-      drawn[k].near_event = nearest_event(c.cuts, sheet_) < near;
-      drawn[k].family = to_int32(family - families_.begin());
-    });
-    for (std::size_t k = 0; k < numbers_.size(); ++k) drawn_.push_back(drawn[k]);
+    run_apart<Drawn>(
+        numbers_.size(), plan_.time_limit_s,
+        [&](std::size_t k, Drawn& drawn) {
+          const AdversarialCase c = adversarial_case(k);
+          const auto family = std::find(families_.begin() + 1, families_.end(), c.family);
+          drawn.near_event = nearest_event(c.cuts, sheet_) < near;
+          drawn.family = to_int32(family - families_.begin());
+        },
+        [&](std::size_t, const Drawn& drawn, Fate) { drawn_.push_back(drawn); });
   }
 
-  void run_contender(const Contender& contender, Progress& progress) {
-    const SharedArray<CaseResult> results(numbers_.size());
-    const auto fates = run_isolated(
-        numbers_.size(), isolation_,
-        [&](std::size_t k) { try_case(contender, sheet_, adversarial_case(k).cuts, cut_options_, results[k]); },
-        [&](std::size_t begun) { progress.show(begun); });
+  /// Of one contender on the sheet under way, by family.
+  struct Sums {
+    explicit Sums(std::size_t families) : counts(families, Counts{}), slowest_us(families, 0), saved(families, 0) {}
+    std::vector<Counts> counts;
+    std::vector<double> slowest_us;
+    std::vector<std::size_t> saved;
+    std::vector<FailingCase> failing;  // of all families
+  };
 
-    std::vector<Counts> sums(families_.size(), Counts{});
-    std::vector<double> slowest(families_.size(), 0);
-    std::vector<std::size_t> saved(families_.size(), 0);
-    std::vector<FailingCase> failing;
-    for (std::size_t k = 0; k < numbers_.size(); ++k) {
-      const auto family = to_size(drawn_[k].family);
-      const Fault fault = fault_of(results[k], fates[k]);
-      Counts count = results[k].count;
-      if (fates[k] != Fate::done) ++count[fault.kind];
-      count[Count::tried] = std::max<std::int64_t>(1, count[Count::tried]);  // it may have crashed before its first cut
-      count[Count::cases] = 1;
-      count[Count::near_event_cases] = drawn_[k].near_event;
-      std::transform(count.begin(), count.end(), sums[family].begin(), sums[family].begin(), std::plus<>());
-      if (fault.kind != Count::ok)
-        last_reason_[contender.method] = fault.text();
-      else if (results[k].refusal.front() != 0)
-        last_reason_[contender.method] = std::string("refused: ") + results[k].refusal.data();
-      slowest[family] = std::max(slowest[family], results[k].slowest_us);
-      if (fault.kind != Count::ok && family > 0 &&
-          saved[family]++ < (contender.variant ? saved_per_row : saved_per_row_of_cross_check))
-        failing.push_back(failing_case(contender, k, fault));
-    }
-    save_all(contender, failing);
+  void run_contender(const Contender& contender, Progress& progress) {
+    Sums sums(families_.size());
+    run_apart<CaseResult>(
+        numbers_.size(), plan_.time_limit_s,
+        [&](std::size_t k, CaseResult& result) {
+          try_case(contender, sheet_, adversarial_case(k).cuts, cut_options_, result);
+        },
+        [&](std::size_t k, const CaseResult& result, Fate fate) { add_case(contender, k, result, fate, sums); },
+        [&](std::size_t begun) { progress.show(begun); });
+    save_all(contender, sums.failing);
     for (std::size_t family = 0; family < families_.size(); ++family) {
-      if (family == 0 && sums[family][Count::cases] == 0) continue;
+      if (family == 0 && sums.counts[family][Count::cases] == 0) continue;
       Record row = start_row(contender, families_[family]);
-      if (file_.has(row.key())) continue;
-      for (std::size_t c = 0; c < count_names.size(); ++c) row.set(count_names[c], sums[family][c]);
-      row.set("slowest_us", slowest[family]);
+      if (file_.has(row)) continue;
+      for (std::size_t c = 0; c < count_names.size(); ++c) row.set(count_names[c], sums.counts[family][c]);
+      row.set("slowest_us", sums.slowest_us[family]);
       file_.append(row);
     }
+  }
+
+  void add_case(const Contender& contender, std::size_t k, const CaseResult& result, Fate fate, Sums& sums) {
+    const auto family = to_size(drawn_[k].family);
+    const Fault fault = fault_of(result, fate);
+    Counts count = result.count;
+    if (fate != Fate::done) ++count[fault.kind];
+    count[Count::tried] = std::max<std::int64_t>(1, count[Count::tried]);  // it may have crashed before its first cut
+    count[Count::cases] = 1;
+    count[Count::near_event_cases] = drawn_[k].near_event;
+    Counts& sum = sums.counts[family];
+    std::transform(count.begin(), count.end(), sum.begin(), sum.begin(), std::plus<>());
+    if (fault.kind != Count::ok)
+      last_reason_[contender.method] = fault.text();
+    else if (result.refusal.front() != 0)
+      last_reason_[contender.method] = std::string("refused: ") + result.refusal.data();
+    sums.slowest_us[family] = std::max(sums.slowest_us[family], result.slowest_us);
+    if (fault.kind != Count::ok && family > 0 &&
+        sums.saved[family]++ < (contender.variant ? saved_per_row : saved_per_row_of_cross_check))
+      sums.failing.push_back(failing_case(contender, k, fault));
   }
 
   FailingCase failing_case(const Contender& contender, std::size_t k, const Fault& fault) const {
@@ -192,15 +194,13 @@ class Robustness : public Study {
       throw InputError(folder.string() + ": failing cases can't be written; check that it may be written and has room");
   }
 
-  const Experiment::Robustness& plan_;
+  const RobustnessStudy& plan_;
   std::filesystem::path folder_;
   RobustnessSummary summary_;
-  Isolation isolation_;
   CutOptions cut_options_;
   std::vector<Contender> contenders_;
   std::vector<std::string> families_;
   std::map<std::string, std::string> last_reason_;  // by method: of what was refused or is wrong
-  std::size_t items_ = 0;                           // cases of the sheets so far, of all shards
   // Of the sheet under way.
   std::string sheet_name_;
   std::vector<std::size_t> numbers_;  // of the shard's cases
@@ -212,18 +212,13 @@ class Robustness : public Study {
 }  // namespace
 
 const std::vector<std::string>& robustness_columns() {
-  static const std::vector<std::string> columns = [] {
-    std::vector<std::string> names = key_column_names();
-    const std::vector<std::string> counts = columns_of({Group::robustness});
-    names.insert(names.end(), counts.begin(), counts.end());
-    return names;
-  }();
+  static const std::vector<std::string> columns = record_columns("cut_family", robustness_metrics());
   return columns;
 }
 
 bool run_robustness(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
                     const RunOptions& options) {
-  return Robustness(experiment, methods, context, options).run();
+  return RobustnessRun(experiment, std::get<RobustnessStudy>(experiment.study), methods, context, options).run();
 }
 
 }  // namespace cutbench

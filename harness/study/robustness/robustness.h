@@ -13,7 +13,7 @@ namespace cutbench {
 /// a row per sheet, method and family, context.json and failing/. What is counted depends on the experiment and the
 /// shard alone, not on the number of processes. A killed robustness run goes on with the sheet and method it was at.
 /// Prints the tables. Returns false where a method's cut failed, was wrong, crashed or was timed out; the cross-check's
-/// don't count. \pre experiment.robustness
+/// don't count. \pre the experiment is a RobustnessStudy
 bool run_robustness(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
                     const RunOptions& options);
 

@@ -6,10 +6,10 @@
 
 #include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
-#include "harness/processes/isolated.h"
+#include "harness/records/metrics.h"
 #include "harness/study/stability/placed_cuts.h"
 #include "harness/study/stability/try_point.h"
-#include "harness/study/study.h"
+#include "harness/study/study_run.h"
 
 namespace cutbench {
 
@@ -23,15 +23,16 @@ bool wants(const std::vector<T>& some, const T& one) {
   return some.empty() || std::find(some.begin(), some.end(), one) != some.end();
 }
 
-class StabilityRun : public Study {
+class StabilityRun : public StudyRun {
  public:
-  StabilityRun(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
-               const RunOptions& options)
-      : Study(experiment, context, options, {.columns = stability_columns(), .keys = stability_key_columns()}),
+  StabilityRun(const Experiment& experiment, const StabilityStudy& plan, const std::vector<MethodRow>& methods,
+               const Context& context, const RunOptions& options)
+      : StudyRun(experiment, context, options, stability_columns(), stability_key_columns()),
+        plan_(plan),
         variants_(variants_of(experiment, methods)) {
     std::vector<std::string> cuts(placed_cuts().begin(), placed_cuts().end());
     cuts.insert(cuts.end(), cut_families().begin(), cut_families().end());
-    for (const Sweep& sweep : experiment.stability->sweeps)
+    for (const Sweep& sweep : plan.sweeps)
       for (const SweepPoint& point : sweep.points)
         check_names({point.cut}, cuts, experiment.stem + ", sweep \"" + sweep.name + "\": cut");
   }
@@ -45,12 +46,10 @@ class StabilityRun : public Study {
   void run_cases(Progress& progress) override {
     for (std::size_t begin = 0; begin < trials_.size(); begin += batch) {
       const std::size_t n = std::min(batch, trials_.size() - begin);
-      const SharedArray<TrialResult> results(n);
-      const auto fates = run_isolated(
-          n, {options_.workers, experiment_.stability->time_limit_s},
-          [&](std::size_t i) { try_point(trials_[begin + i], results[i]); },
+      run_apart<TrialResult>(
+          n, plan_.time_limit_s, [&](std::size_t i, TrialResult& result) { try_point(trials_[begin + i], result); },
+          [&](std::size_t i, const TrialResult& result, Fate fate) { append(trials_[begin + i], result, fate); },
           [&](std::size_t begun) { progress.show(begun); });
-      for (std::size_t i = 0; i < n; ++i) append(trials_[begin + i], results[i], fates[i]);
       progress.step(n);
     }
   }
@@ -61,7 +60,7 @@ class StabilityRun : public Study {
     all_ok_ &= verdict != "crashed" && verdict != "failed" && verdict != "timed_out";
   }
   void print_summary() const override {
-    for (const Sweep& sweep : experiment_.stability->sweeps) {
+    for (const Sweep& sweep : plan_.sweeps) {
       std::printf("%-24s", sweep.name.c_str());
       if (const auto counts = counts_.find(sweep.name); counts != counts_.end())
         for (const auto& [verdict, n] : counts->second) std::printf(" %zu %s", n, verdict.c_str());
@@ -73,30 +72,28 @@ class StabilityRun : public Study {
   /// Those of the shard that are not in the file yet. The points of a sweep stay together, methods in turn.
   std::vector<Trial> missing_trials() {
     std::vector<Trial> trials;
-    std::size_t number = 0;
-    for (const Sweep& sweep : experiment_.stability->sweeps)
-      for (const std::string& sheet : experiment_.sheets)
-        for (const int resolution : experiment_.resolutions) {
-          if (!wants(sweep.sheets, sheet) || !wants(sweep.resolutions, resolution)) continue;
-          for (const SweepPoint& point : sweep.points)
-            for (int i = 0; i < std::min(sweep.cases, experiment_.cases); ++i)
-              for (const Variant& variant : variants_) {
-                if (!wants(sweep.methods, variant.row->name)) continue;
-                if (!options_.is_ours(number++)) continue;
-                Trial trial{.sweep = &sweep,
-                            .point = &point,
-                            .variant = &variant,
-                            .sheet = sheet,
-                            .resolution = resolution,
-                            .index = to_size(i),
-                            .seed = experiment_.seed,
-                            .options = {.chord_tolerance = experiment_.chord_tolerance},
-                            .uncut_step_s = 0};
-                if (file_.has(start_row(trial).key(stability_key_columns()))) continue;
-                trial.uncut_step_s = uncut_step(trial);
-                trials.push_back(trial);
-              }
-        }
+    for (const Sweep& sweep : plan_.sweeps)
+      for (const auto& [sheet, resolution] : experiment_.sized_sheets()) {
+        if (!wants(sweep.sheets, sheet) || !wants(sweep.resolutions, resolution)) continue;
+        for (const SweepPoint& point : sweep.points)
+          for (int i = 0; i < std::min(sweep.cases, plan_.cases); ++i)
+            for (const Variant& variant : variants_) {
+              if (!wants(sweep.methods, variant.row->name)) continue;
+              if (!next_is_ours()) continue;
+              Trial trial{.sweep = &sweep,
+                          .point = &point,
+                          .variant = &variant,
+                          .sheet = sheet,
+                          .resolution = resolution,
+                          .index = to_size(i),
+                          .seed = experiment_.seed,
+                          .options = {.chord_tolerance = experiment_.chord_tolerance},
+                          .uncut_step_s = 0};
+              if (file_.has(start_row(trial))) continue;
+              trial.uncut_step_s = uncut_step(trial);
+              trials.push_back(trial);
+            }
+      }
     return trials;
   }
 
@@ -114,16 +111,11 @@ class StabilityRun : public Study {
   }
 
   Record start_row(const Trial& trial) const {
-    Record row(stability_columns());
-    row.set("suite_version", std::string(suite_version));
+    Record row =
+        StudyRun::start_row(trial.sheet, trial.resolution, trial.variant->row->name, trial.variant->parameter_text());
     row.set("sweep", trial.sweep->name);
-    row.set("sheet", trial.sheet);
-    row.set("method", trial.variant->row->name);
-    row.set("parameter", trial.variant->parameter_text());
-    row.set("resolution", std::int64_t{trial.resolution});
     row.set("case", to_int64(trial.index));
     row.set("repetition", std::int64_t{0});
-    row.set("seed", to_int64(trial.seed));
     row.set("cache", std::string(trial.sweep->steps > 0 ? "simulation" : "cold"));
     for (const SweepSetting& setting : sweep_settings()) row.set(setting.name, setting.get(*trial.point));
     return row;
@@ -132,15 +124,15 @@ class StabilityRun : public Study {
   void append(const Trial& trial, const TrialResult& result, Fate fate) {
     Record row = start_row(trial);
     row.set("status", std::string(result.status.data()));
-    row.set("verdict", std::string(fate == Fate::done        ? result.verdict.data()
-                                   : fate == Fate::timed_out ? "timed_out"
-                                                             : "crashed"));
+    row.set("verdict", std::string(result.verdict.data()));
+    set_fate(row, fate);
     row.set("reason", std::string(result.reason.data()));
-    for (std::size_t m = 0; m < measure_names.size(); ++m)
-      if (!std::isnan(result.measure[m])) row.set(measure_names[m], result.measure[m]);
+    for (std::size_t m = 0; m < point_measures().size(); ++m)
+      if (!std::isnan(result.measure[m])) row.set(point_measures()[m], result.measure[m]);
     file_.append(row);
   }
 
+  const StabilityStudy& plan_;
   std::vector<Variant> variants_;
   std::vector<Trial> trials_;  // those to run, which point into the experiment and the variants
   std::map<std::string, std::map<std::string, std::size_t>> counts_;  // by sweep and verdict
@@ -153,19 +145,13 @@ class StabilityRun : public Study {
 std::size_t stability_key_columns() { return key_columns + sweep_settings().size(); }
 
 const std::vector<std::string>& stability_columns() {
-  static const std::vector<std::string> columns = [] {
-    std::vector<std::string> names = key_column_names("sweep");
-    for (const SweepSetting& setting : sweep_settings()) names.emplace_back(setting.name);
-    for (const char* name : {"status", "verdict", "reason"}) names.emplace_back(name);
-    names.insert(names.end(), measure_names.begin(), measure_names.end());
-    return names;
-  }();
+  static const std::vector<std::string> columns = record_columns("sweep", stability_metrics());
   return columns;
 }
 
 bool run_stability(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
                    const RunOptions& options) {
-  return StabilityRun(experiment, methods, context, options).run();
+  return StabilityRun(experiment, std::get<StabilityStudy>(experiment.study), methods, context, options).run();
 }
 
 }  // namespace cutbench

@@ -14,7 +14,7 @@ namespace cutbench {
 /// A point that crashes or hangs has the verdict `crashed` or `timed_out`. A killed run goes on where it was. Prints
 /// how many points of each sweep had which verdict. Failures are what it is for: returns false only where a cut itself
 /// failed, was wrong, crashed or was timed out.
-/// \pre experiment.stability
+/// \pre the experiment is a StabilityStudy
 bool run_stability(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
                    const RunOptions& options);
 

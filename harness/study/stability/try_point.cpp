@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <numbers>
 #include <span>
+#include <stdexcept>
 
 #include "harness/base/conversions.h"
 #include "harness/cut/constraint_source.h"
 #include "harness/fem/model/largest_eigenvalue.h"
 #include "harness/judge/assessment.h"
 #include "harness/judge/judged_sheet.h"
+#include "harness/records/metrics.h"
 #include "harness/simulation/simulation.h"
 #include "harness/study/stability/placed_cuts.h"
 
@@ -72,7 +74,13 @@ class Point {
   }
 
  private:
-  double& measure(PointMeasure::Kind kind) { return result_.measure[kind]; }
+  /// \pre `name` is one of point_measures()
+  double& measure(const char* name) {
+    const auto& names = point_measures();
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) throw std::logic_error(std::string(name) + " is not measured at points");
+    return result_.measure[to_size(found - names.begin())];
+  }
   void at(const std::string& what) { put("in " + what, result_.reason); }
   void conclude(Verdict verdict, const std::string& reason) {
     put(name_of(verdict), result_.verdict);
@@ -104,28 +112,28 @@ class Point {
       if (outcome.status == Status::failed) return conclude(Verdict::failed, outcome.reason), false;
     }
     conclude(Verdict::ok, "");
-    measure(PointMeasure::geometry_us) = us;
-    measure(PointMeasure::incision_error_h) = error / before_.mean_edge();
+    measure("geometry_us") = us;
+    measure("incision_error_h") = error / before_.mean_edge();
     measure_sheet(judged.sheet, *make());
     return true;
   }
 
   void measure_sheet(const Sheet& sheet, const CuttingMethod& method) {
     const Assessment a = assess(before_, sheet, {}, {});
-    measure(PointMeasure::triangles) = to_double(sheet.triangle_count());
-    measure(PointMeasure::vertices_added) = to_double(a.vertices_added);
+    measure("triangles") = to_double(sheet.triangle_count());
+    measure("vertices_added") = to_double(a.vertices_added);
     if (a.cut.triangles > 0) {
-      measure(PointMeasure::ar_max_cut) = a.cut.ar_max;
-      measure(PointMeasure::altitude_min_h_cut) = a.cut.altitude_min;
+      measure("ar_max_cut") = a.cut.ar_max;
+      measure("altitude_min_h_cut") = a.cut.altitude_min;
     }
     if (!trial_.point->eigenvalue) return;
     at("the eigenvalue");
     const Constraints constraints = constraints_of(method, before_, sheet);
-    measure(PointMeasure::eigenvalue_ratio) =
+    measure("eigenvalue_ratio") =
         largest_eigenvalue(sheet, constraints, with_mass({}, scene_)) / largest_eigenvalue(before_);
     Scene scene = scene_;
     if (constraints.phantoms > 0) scene.physics.bending = BendingKind::none;  // phantom nodes do not bend
-    measure(PointMeasure::explicit_step_ratio) = explicit_step_of(scene, sheet, constraints) / trial_.uncut_step_s;
+    measure("explicit_step_ratio") = explicit_step_of(scene, sheet, constraints) / trial_.uncut_step_s;
     conclude(Verdict::ok, "");
   }
 
@@ -150,7 +158,7 @@ class Point {
 
   void note_steps(const Simulation& motion) {
     const auto& steps = motion.steps();
-    measure(PointMeasure::steps) = to_double(steps.size());
+    measure("steps") = to_double(steps.size());
     if (steps.empty()) return;
     std::vector<double> us;
     double iterations = 0, residual = 0, cut_update = 0;
@@ -160,16 +168,15 @@ class Point {
       iterations += s.step.iterations;
       residual = std::max(residual, s.step.residual);
     }
-    measure(PointMeasure::cut_update_us) = cut_update;
-    measure(PointMeasure::first_step_us) = us.front();
+    measure("cut_update_us") = cut_update;
+    measure("first_step_us") = us.front();
     std::nth_element(us.begin(), us.begin() + to_index(us.size() / 2), us.end());
-    measure(PointMeasure::step_us) = us[us.size() / 2];
-    measure(PointMeasure::iterations) = iterations / to_double(steps.size());
-    measure(PointMeasure::residual) = residual;
+    measure("step_us") = us[us.size() / 2];
+    measure("iterations") = iterations / to_double(steps.size());
+    measure("residual") = residual;
     if (!motion.budget()) return;
     const EnergyBudget::Gains gains = motion.budget()->gains();
-    measure(PointMeasure::energy_gain) =
-        scene_.integrator == Integrator::symplectic_euler ? gains.unexplained : gains.remainder;
+    measure("energy_gain") = scene_.integrator == Integrator::symplectic_euler ? gains.unexplained : gains.remainder;
   }
 
   /// How far the fastest vertex is from where a direct solver would have brought it.
@@ -186,7 +193,7 @@ class Point {
       const DeformedIndex d(v);
       if (a.rest_vertex(d).valid()) farthest = std::max(farthest, length(a.position(d) + -1 * b.position(d)));
     }
-    measure(PointMeasure::drift_h) = farthest / before_.mean_edge();
+    measure("drift_h") = farthest / before_.mean_edge();
   }
 
   const Trial& trial_;
@@ -197,6 +204,17 @@ class Point {
 };
 
 }  // namespace
+
+const std::vector<std::string>& point_measures() {
+  static const std::vector<std::string> names = [] {
+    const std::vector<std::string> columns = record_columns("sweep", stability_metrics());
+    const auto reason = std::find(columns.begin(), columns.end(), "reason");
+    std::vector<std::string> behind(reason + 1, columns.end());
+    if (behind.size() > most_point_measures) throw std::logic_error("most_point_measures is too small");
+    return behind;
+  }();
+  return names;
+}
 
 Scene scene_of(const Trial& trial) {
   Scene scene = trial.point->scene;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "harness/cut/cut.h"
 #include "harness/mesh/constraints.h"
@@ -28,52 +29,21 @@ struct Trial {
   double uncut_step_s;  ///< explicit_step_limit() of the uncut sheet, bending included
 };
 
-/// What is measured, in the order of the records' columns.
-struct PointMeasure {
-  enum Kind {
-    triangles,
-    vertices_added,
-    ar_max_cut,
-    altitude_min_h_cut,
-    incision_error_h,
-    geometry_us,
-    eigenvalue_ratio,
-    explicit_step_ratio,
-    steps,
-    cut_update_us,
-    first_step_us,
-    step_us,
-    iterations,
-    residual,
-    energy_gain,
-    drift_h
-  };
-};
-constexpr std::array<const char*, 16> measure_names{"triangles",
-                                                    "vertices_added",
-                                                    "ar_max_cut",
-                                                    "altitude_min_h_cut",
-                                                    "incision_error_h",
-                                                    "geometry_us",
-                                                    "eigenvalue_ratio",
-                                                    "explicit_step_ratio",
-                                                    "steps",
-                                                    "cut_update_us",
-                                                    "first_step_us",
-                                                    "step_us",
-                                                    "iterations",
-                                                    "residual",
-                                                    "energy_gain",
-                                                    "drift_h"};
+/// The names of what is measured at a point: the columns of the table (harness/records/stability_metrics.cpp) behind
+/// `reason`.
+const std::vector<std::string>& point_measures();
+/// Memory for so many of them; point_measures() throws std::logic_error where there are more.
+constexpr std::size_t most_point_measures = 24;
 
 /// In memory that is shared between processes, so that what was found before a crash is not lost.
 struct TrialResult {
   std::array<char, 24> status{}, verdict{};
   std::array<char, 200> reason{};
-  std::array<double, measure_names.size()> measure = filled_with_nan();  ///< NaN: not measured
+  /// In the order of point_measures(). NaN: not measured.
+  std::array<double, most_point_measures> measure = filled_with_nan();
 
-  static constexpr std::array<double, measure_names.size()> filled_with_nan() {
-    std::array<double, measure_names.size()> all{};
+  static constexpr std::array<double, most_point_measures> filled_with_nan() {
+    std::array<double, most_point_measures> all{};
     all.fill(std::numeric_limits<double>::quiet_NaN());
     return all;
   }

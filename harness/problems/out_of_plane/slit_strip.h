@@ -3,21 +3,20 @@
 //
 // Slivers beside the slit stiffen the lip that they lie on: a slit 1e-2, 1e-3, 3e-4 of a square's width from a mesh
 // line (alternating, n = 20, plain split) lifts the end of its half by 0.01, 0.4, 0.75 %. At 1e-5 no solve converges.
+#pragma once
+
 #include <cmath>
 
 #include "harness/mesh/families.h"
 #include "harness/problems/common/members.h"
 #include "harness/problems/out_of_plane/bent_sheet.h"
 #include "harness/problems/out_of_plane/heavy_elastica.h"
-#include "harness/problems/out_of_plane/out_of_plane.h"
 
 namespace cutbench {
 
-namespace {
-
 class SlitStrip : public Problem {
  public:
-  explicit SlitStrip(BendingKind bending) : bending_(bending), elastica_(1, load) {}
+  explicit SlitStrip(BendingKind bending = BendingKind::patches) : bending_(bending), elastica_(1, load) {}
 
   std::string name() const override { return "slit_strip"; }
   std::string effect() const override { return "both halves of a strip slit lengthwise hang like the whole"; }
@@ -116,9 +115,5 @@ class SlitStrip : public Problem {
   BendingKind bending_;
   HeavyElastica elastica_;
 };
-
-}  // namespace
-
-std::unique_ptr<const Problem> slit_strip(BendingKind bending) { return std::make_unique<SlitStrip>(bending); }
 
 }  // namespace cutbench

@@ -21,6 +21,8 @@
 // of 0.1 m is a quarter of the force. Of the rate it changes d / torn. Hence single members scatter (standard deviation
 // on 800 to 3200 triangles) by 3 to 17 % in the force and by 1 to 3 % in the rate, whose means are within 3 % of 2 F:
 // only the mean over members says something, and nothing is extrapolated from forces.
+#pragma once
+
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -29,15 +31,12 @@
 #include "harness/mesh/families.h"
 #include "harness/problems/common/members.h"
 #include "harness/problems/out_of_plane/bent_sheet.h"
-#include "harness/problems/out_of_plane/out_of_plane.h"
 
 namespace cutbench {
 
-namespace {
-
 class TrouserTear : public Problem {
  public:
-  explicit TrouserTear(BendingKind bending) : bending_(bending) {}
+  explicit TrouserTear(BendingKind bending = BendingKind::patches) : bending_(bending) {}
 
   std::string name() const override { return "trouser_tear"; }
   std::string effect() const override { return "a tear between two legs releases what pulls them apart"; }
@@ -156,9 +155,5 @@ class TrouserTear : public Problem {
 
   BendingKind bending_;
 };
-
-}  // namespace
-
-std::unique_ptr<const Problem> trouser_tear(BendingKind bending) { return std::make_unique<TrouserTear>(bending); }
 
 }  // namespace cutbench

@@ -1,4 +1,6 @@
 // A three-sided cut makes a flap in a sheet that is held: it hangs from its fourth side, at any angle to the mesh.
+#pragma once
+
 #include <cmath>
 #include <numbers>
 
@@ -6,15 +8,12 @@
 #include "harness/problems/common/members.h"
 #include "harness/problems/out_of_plane/bent_sheet.h"
 #include "harness/problems/out_of_plane/heavy_elastica.h"
-#include "harness/problems/out_of_plane/out_of_plane.h"
 
 namespace cutbench {
 
-namespace {
-
 class Flap : public Problem {
  public:
-  explicit Flap(BendingKind bending) : bending_(bending), elastica_(length, load) {}
+  explicit Flap(BendingKind bending = BendingKind::patches) : bending_(bending), elastica_(length, load) {}
 
   std::string name() const override { return "flap"; }
   std::string effect() const override { return "a flap cut on three sides hangs from the fourth"; }
@@ -91,9 +90,5 @@ class Flap : public Problem {
   BendingKind bending_;
   HeavyElastica elastica_;
 };
-
-}  // namespace
-
-std::unique_ptr<const Problem> flap(BendingKind bending) { return std::make_unique<Flap>(bending); }
 
 }  // namespace cutbench
