@@ -5,8 +5,8 @@
 #include <string>
 
 #include "harness/cut/cut_all.h"
-#include "harness/fem/model/state.h"
-#include "harness/fem/time/stepper.h"
+#include "harness/fem/model/energy.h"
+#include "harness/fem/time/step_report.h"
 
 namespace cutbench {
 

@@ -10,6 +10,7 @@
 #include "harness/base/conversions.h"
 #include "harness/base/stop_watch.h"
 #include "harness/fem/model/largest_eigenvalue.h"
+#include "harness/fem/time/stepper.h"
 #include "harness/simulation/moving_sheet.h"
 #include "harness/simulation/scene_cuts.h"
 #include "harness/simulation/turned_over.h"

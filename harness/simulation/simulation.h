@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "harness/cut/cut_all.h"
-#include "harness/fem/time/stepper.h"
+#include "harness/fem/time/step_report.h"
 #include "harness/simulation/energy_budget.h"
 #include "harness/simulation/motion_cut.h"
 #include "harness/simulation/scene.h"

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/fem/linear/linear_solver.h"
+#include "harness/fem/linear/solver_options.h"
 #include "harness/mesh/constraints.h"
 #include "harness/mesh/mesh_data.h"
 #include "harness/mesh/sheet.h"
