@@ -79,7 +79,7 @@ class SceneInMotion : public Simulation {
       elasticity.mass_limit = added->limit() * material.density / material.stiffness;
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     if (now_.model.constrained() || scene_.physics.strain == Strain::springs) return {unknown, unknown};
-    const Constraints constraints{.polygons = now_.model.elements().polygons()};
+    const Constraints constraints = now_.model.elements().merged();
     StepLimits limits;
     limits.membrane = explicit_step_limit(largest_eigenvalue(now_.sheet, constraints, elasticity), material);
     elasticity.bending = scene_.physics.bending;
