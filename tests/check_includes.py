@@ -52,7 +52,7 @@ ROOMS = {  # from the ground up: a room (a folder, or one file), its library, an
                         "problems/common", "records", "simulation"]),
     "study/robustness": ("bench", ["base", "mesh", "path", "cut", "cases", "files", "oracle", "judge", "processes",
                                    "programs", "records", "study"]),
-    "study/stability": ("bench", ["base", "mesh", "path", "cut", "cases", "fem", "judge", "processes", "records", "simulation",
+    "study/stability": ("bench", ["base", "mesh", "path", "cut", "cases", "fem", "judge", "records", "simulation",
                                   "study"]),
     "study/run_experiment": ("bench", ["records", "study", "study/robustness", "study/stability"]),
 }

@@ -27,8 +27,8 @@ const std::vector<std::string> cuts_to_make{"straight",      "curved",          
 constexpr Material leather{.density = 2, .stiffness = 1000, .poisson = 0.3, .bending = 0.02};
 
 void merge_as_after_a_cut(Body<3>& body, const Sheet& before, const CuttingMethod& method) {
-  body.model.constrain(body.sheet, method.constraint_source()->next_constraints(before, body.sheet,
-                                                                                body.model.elements().polygons_left()));
+  body.model.constrain(body.sheet, method.constraint_source()->next_constraints(
+                                       before, body.sheet, body.model.elements().left_since_change()));
 }
 
 // --- the model -------------------------------------------------------------------------------------------------------
@@ -46,11 +46,11 @@ TEST(PolygonModel, FollowsCutsAsOneMadeAnew) {
       for (std::size_t number = 0; number < 3; ++number)
         for (const Curve& curve : make_case(cuts, 877, number, before)) {
           if (body.cut(curve, "cut_polygons", 0.7) != Status::ok) continue;
-          kept += body.model.elements().polygons().size();
+          kept += body.model.elements().merged().polygons.size();
           merge_as_after_a_cut(body, before, *method);
-          expect_sound(body.sheet, body.model.elements().polygons());
+          expect_sound(body.sheet, body.model.elements().merged().polygons);
           Model<3> fresh = body.fresh_model();
-          fresh.constrain(body.sheet, {.polygons = body.model.elements().polygons()});
+          fresh.constrain(body.sheet, body.model.elements().merged());
           const Field x = bent(fresh, body.sheet);
           for (Model<3>* const model : {&body.model, &fresh}) {
             model->rotate(x);
@@ -73,8 +73,7 @@ TEST(PolygonBending, PassesThePatchTest) {
   for_each_constrained_cut({cut_polygons}, 12, 1, 877, [&](const ConstrainedCut& cut) {
     const Sheet& sheet = cut.sheet();
     if (count_pieces(sheet) > 1) return;  // a piece may be too small to know a curvature
-    ElementTable elements(sheet);
-    for (const Polygon& polygon : cut.constraints.polygons) elements.add_polygon(sheet, polygon);
+    const ElementTable elements(sheet, cut.constraints);
     const double rigidity = 0.7, poisson = 0.3, xx = 0.4, yy = -0.3, xy = 0.5;
     const Bending plain(sheet, BendingKind::patches, rigidity, poisson),
         merged(sheet, BendingKind::patches, rigidity, poisson, &elements);
@@ -119,13 +118,13 @@ TEST(CutPolygons, FollowTheLastCut) {
     const double y = 0.05 + 0.09 * i;
     ASSERT_EQ(body.cut(line({-0.1, y}, {1.1, y + 0.01}), "cut_polygons", 0.7), Status::ok);
     asked.push_back(0);
-    const PolygonsLeft left = body.model.elements().polygons_left();
+    const PolygonsLeft left = body.model.elements().left_since_change();
     const auto counted = [&](TriangleIndex t) { return ++asked.back(), left.of(t); };
     const Constraints constraints =
         method->constraint_source()->next_constraints(before, body.sheet, {counted, left.freed});
-    const std::size_t old = body.model.elements().polygons().size();
+    const std::size_t old = body.model.elements().merged().polygons.size();
     body.model.constrain(body.sheet, constraints);
-    EXPECT_EQ(body.model.elements().polygons().size(), old + constraints.polygons.size());
+    EXPECT_EQ(body.model.elements().merged().polygons.size(), old + constraints.polygons.size());
   }
   EXPECT_GT(asked.front(), 40u);
   EXPECT_LT(*std::max_element(asked.begin(), asked.end()), 2 * asked.front());
@@ -142,7 +141,7 @@ TEST(CutPolygons, AreAsGoodCutByCutAsAtOnce) {
       for (const Curve& curve : make_case("several", 877, i, before))
         if (body.cut(curve, "cut_polygons", 0.7) == Status::ok) merge_as_after_a_cut(body, before, *method);
       const double whole = largest_eigenvalue(before),
-                   value = largest_eigenvalue(body.sheet, {.polygons = body.model.elements().polygons()}) / whole,
+                   value = largest_eigenvalue(body.sheet, body.model.elements().merged()) / whole,
                    at_once = largest_eigenvalue(body.sheet, constraints_of(*method, before, body.sheet)) / whole;
       worst = std::max(worst, value);
       worst_at_once = std::max(worst_at_once, at_once);

@@ -11,6 +11,7 @@
 #include "harness/base/errors.h"
 #include "harness/base/names.h"
 #include "harness/base/random.h"
+#include "harness/fem/linear/factor.h"
 #include "harness/fem/solvers/solver_table.h"
 #include "tests/linear_systems.h"
 #include "tests/random_field.h"

@@ -11,6 +11,7 @@
 #include "harness/base/conversions.h"
 #include "harness/base/random.h"
 #include "harness/fem/elements/element_table.h"
+#include "harness/fem/linear/linear_solver.h"
 #include "harness/fem/solvers/solver_table.h"
 
 namespace cutbench {

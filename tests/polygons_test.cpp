@@ -66,8 +66,8 @@ TEST(Polygons, AreElementsOfTheTable) {
     const double area = elements.areas(sheet.deformed_slots()).sum();
     Regrouped regrouped;
     for (const Polygon& polygon : cut.constraints.polygons) {
-      ASSERT_TRUE(elements.merge(sheet, polygon, regrouped));
-      EXPECT_FALSE(elements.merge(sheet, polygon, regrouped)) << "it is there already";
+      ASSERT_EQ(elements.merge(sheet, {.polygons = {polygon}}, regrouped).size(), 1u);
+      EXPECT_TRUE(elements.merge(sheet, {.polygons = {polygon}}, regrouped).empty()) << "it is there already";
       for (const TriangleIndex t : polygon.triangles) {
         const ElementShape shape = elements.shape(t);
         EXPECT_TRUE(std::ranges::equal(shape.corners, polygon.corners));
@@ -76,18 +76,19 @@ TEST(Polygons, AreElementsOfTheTable) {
         EXPECT_LT(squared_length(sum), 1e-18 * squared_length(shape.gradient[0]));
       }
     }
-    EXPECT_EQ(elements.polygons(), cut.constraints.polygons);
+    EXPECT_EQ(elements.merged().polygons, cut.constraints.polygons);
     EXPECT_NEAR(elements.areas(sheet.deformed_slots()).sum(), area, 1e-12 * area);
     elements.begin_change();
     for (const Polygon& polygon : cut.constraints.polygons) {
-      EXPECT_EQ(elements.polygons_left().of(polygon.triangles[0]).size(), polygon.triangles.size());
+      EXPECT_EQ(elements.left_since_change().of(polygon.triangles[0]).size(), polygon.triangles.size());
       elements.release(polygon.triangles[1], regrouped);
       EXPECT_EQ(elements.shape(polygon.triangles[0]).corners.size(), 3u);
-      EXPECT_TRUE(elements.polygons_left().of(polygon.triangles[0]).empty());
-      EXPECT_TRUE(std::ranges::equal(elements.polygons_left().freed.last(polygon.triangles.size()), polygon.triangles));
+      EXPECT_TRUE(elements.left_since_change().of(polygon.triangles[0]).empty());
+      EXPECT_TRUE(
+          std::ranges::equal(elements.left_since_change().freed.last(polygon.triangles.size()), polygon.triangles));
     }
-    EXPECT_TRUE(elements.polygons().empty());
-    EXPECT_EQ(regrouped.triangles.size(), 2 * elements.polygons_left().freed.size());
+    EXPECT_TRUE(elements.merged().polygons.empty());
+    EXPECT_EQ(regrouped.triangles.size(), 2 * elements.left_since_change().freed.size());
     EXPECT_EQ(elements.areas(sheet.deformed_slots()).sum(), area);
   });
 }

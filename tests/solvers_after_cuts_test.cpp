@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "harness/fem/linear/factor.h"
 #include "harness/fem/solvers/solver_table.h"
 #include "harness/fem/time/stepper.h"
 #include "tests/fem_helpers.h"

@@ -1,7 +1,7 @@
 // What the steps of a simulation cost, as `cutbench simulate` prints it and as JSON.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 

@@ -54,6 +54,8 @@ struct Constraints {
   std::vector<double> lumped = {};  ///< the area that stands for each unknown's mass, instead of C^T M C; empty: that
   std::vector<Polygon> polygons = {};  ///< no triangle is in two
   bool empty() const { return constraints.empty() && polygons.empty(); }
+  bool merge_triangles() const { return !polygons.empty(); }
+  Constraints of_merged_triangles() const { return {.polygons = polygons}; }  ///< without those of vertices
 };
 
 }  // namespace cutbench

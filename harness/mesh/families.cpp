@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "harness/base/conversions.h"
+#include "harness/mesh/cgal_kernel.h"
 #include "harness/mesh/predicates.h"
 
 namespace cutbench {

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "harness/base/conversions.h"
+#include "harness/mesh/cgal_kernel.h"
 #include "harness/mesh/mesh_text.h"
-#include "harness/mesh/predicates.h"
 
 namespace cutbench {
 

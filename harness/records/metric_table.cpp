@@ -4,7 +4,10 @@
 #include <utility>
 
 #include "harness/base/conversions.h"
+#include "harness/cut/cut_all.h"
+#include "harness/judge/assessment.h"
 #include "harness/records/metrics.h"
+#include "harness/simulation/motion_cut.h"
 
 namespace cutbench {
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/base/conversions.h"
+#include "harness/records/record.h"
 
 namespace cutbench {
 

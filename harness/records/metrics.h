@@ -10,12 +10,12 @@
 #include <variant>
 #include <vector>
 
-#include "harness/cut/cut_all.h"
-#include "harness/judge/assessment.h"
-#include "harness/records/record.h"
-#include "harness/simulation/simulation.h"
-
 namespace cutbench {
+
+struct Assessment;
+struct CutRun;
+struct MotionCut;
+class Record;
 
 /// Largest eigenvalues over that of the uncut sheet with a lumped mass; negative: not measured.
 struct EigenvalueRatios {

@@ -4,6 +4,8 @@
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 
+#include "harness/cut/cut_all.h"
+#include "harness/judge/assessment.h"
 #include "harness/records/metrics.h"
 
 namespace cutbench {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "harness/base/conversions.h"
+#include "harness/fem/model/state.h"
 
 namespace cutbench {
 

@@ -22,9 +22,14 @@
 #include <string>
 #include <vector>
 
-#include "harness/fem/model/state.h"
+#include "harness/fem/elements/physics.h"
+#include "harness/fem/model/energy.h"
 
 namespace cutbench {
+
+struct State;
+template <int D>
+class Model;
 
 /// After a step; J. The values below the energy are sums from the beginning.
 struct BudgetRow {

@@ -6,8 +6,8 @@
 
 #include "harness/base/verdict.h"
 #include "harness/cut/cut_all.h"
-#include "harness/fem/model/state.h"
-#include "harness/fem/time/stepper.h"
+#include "harness/fem/model/energy.h"
+#include "harness/fem/time/step_report.h"
 
 namespace cutbench {
 

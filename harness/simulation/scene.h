@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "harness/fem/elements/physics.h"
-#include "harness/fem/linear/linear_solver.h"
+#include "harness/fem/linear/solver_options.h"
 #include "harness/mesh/mesh_data.h"
 #include "harness/mesh/sheet.h"
 #include "harness/path/curve.h"

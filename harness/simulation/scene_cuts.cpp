@@ -224,7 +224,7 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, std::span<const Curve> curve
     result.bending_us += watch.lap();
     if (!source) continue;
     const Constraints constraints =
-        source->next_constraints(before_cuts_, moving.sheet, moving.model.elements().polygons_left());
+        source->next_constraints(before_cuts_, moving.sheet, moving.model.elements().left_since_change());
     result.cut.time_us.constrain += watch.lap();
     moving.model.constrain(moving.sheet, constraints);
     for (Field* const field : {&moving.state.x, &moving.state.v}) {  // the state of before the cut need not

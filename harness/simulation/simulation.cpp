@@ -8,6 +8,7 @@
 
 #include "harness/base/conversions.h"
 #include "harness/fem/model/largest_eigenvalue.h"
+#include "harness/fem/time/stepper.h"
 #include "harness/simulation/moving_sheet.h"
 #include "harness/simulation/scene_cuts.h"
 #include "harness/simulation/turned_over.h"
@@ -51,7 +52,7 @@ class SceneInMotion : public Simulation {
       elasticity.mass_limit = added->limit() * material.density / material.stiffness;
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     if (now_.model.constrained() || scene_.physics.strain == Strain::springs) return {unknown, unknown};
-    const Constraints constraints{.polygons = now_.model.elements().polygons()};
+    const Constraints constraints = now_.model.elements().merged();
     StepLimits limits;
     limits.membrane = explicit_step_limit(largest_eigenvalue(now_.sheet, constraints, elasticity), material);
     elasticity.bending = scene_.physics.bending;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "harness/cut/cut_all.h"
-#include "harness/fem/time/stepper.h"
+#include "harness/fem/time/step_report.h"
 #include "harness/simulation/energy_budget.h"
 #include "harness/simulation/motion_cut.h"
 #include "harness/simulation/scene.h"
@@ -52,7 +52,7 @@ class Simulation {
   /// these curves would be made. \return  what came of it. A curve that is refused, or fails (`verdict`), or has
   /// nothing to cut leaves sheet, state and model bit-unchanged; after a failure the curves behind it are not tried.
   /// \param curves  rest space, m; for points in world space see Picker, with posed_sheet()
-  /// \param method  the same in all cuts of a simulation, where it constrains vertices or makes polygons
+  /// \param method  the same in all cuts of a simulation, where it constrains vertices or merges triangles
   /// \throw InputError  before anything is changed: no curve, one that check_curve() refuses, or a scene with an active
   ///                    radius, which has to know all cuts from the start
   virtual MotionCut cut_now(std::span<const Curve> curves, CuttingMethod& method, const CutOptions& options = {}) = 0;

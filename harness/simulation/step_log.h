@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "harness/fem/time/stepper.h"
+#include "harness/fem/time/step_report.h"
 
 namespace cutbench {
 

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 Vector3d area_vector(const ElementTable& elements, TriangleIndex t, const Field& x) {
   const Element& e = elements[t()];
   if (!e.is_triangle()) {
-    const auto f = elements.polygon(to_size(e.polygon)).map<3>(x).gradient;
+    const auto f = elements.linear_part<3>(t, x).gradient;
     return e.area * f.col(0).cross(f.col(1));
   }
   const auto at = [&](std::size_t k) { return Vector3d(x.segment<3>(3 * e.vertex[k].value)); };
@@ -24,7 +24,7 @@ Vector3d area_vector(const ElementTable& elements, TriangleIndex t, const Field&
 
 bool is_turned_in_plane(const ElementTable& elements, TriangleIndex t, const Field& x) {
   const Element& e = elements[t()];
-  if (!e.is_triangle()) return elements.polygon(to_size(e.polygon)).map<2>(x).gradient.determinant() <= 0;
+  if (!e.is_triangle()) return elements.linear_part<2>(t, x).gradient.determinant() <= 0;
   const auto at = [&](std::size_t k) { return Point2{x[2 * e.vertex[k].value], x[2 * e.vertex[k].value + 1]}; };
   return orientation(at(0), at(1), at(2)) <= 0;
 }

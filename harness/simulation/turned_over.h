@@ -13,7 +13,7 @@ struct TurnedOver {
 /// In the plane: the triangles whose corners are not counter-clockwise at x (exactly). In space, where a triangle has
 /// no upper side of its own: those whose area vector points against the sum of those of the triangles that share an
 /// edge with them, incisions aside. At a crease, where a sheet is folded, none does. Looks at everything.
-/// A member of a polygon is where the polygon's linear map has it.
+/// A member of a compound is where the compound's linear part has it.
 /// \param elements  of the sheet
 /// \param x  `dimension` (2 or 3) coordinates for each deformed vertex, m
 TurnedOver turned_over(const Sheet& sheet, const ElementTable& elements, const Field& x, int dimension);

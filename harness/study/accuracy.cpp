@@ -178,7 +178,7 @@ class AccuracyRun : public StudyRun {
       solvable = a.judgement.ok;
     }
     const bool takes_them = (worker.constraints.constraints.empty() || problem.takes_constraints()) &&
-                            (worker.constraints.polygons.empty() || problem.takes_polygons());
+                            (!worker.constraints.merge_triangles() || problem.takes_compounds());
     if (solvable && !takes_them) {
       row.set("status", std::string(name_of(Status::refused)));
       row.set("reason", std::string("vertices are constrained or triangles merged, which the problem does not take"));

@@ -6,6 +6,7 @@
 
 #include "harness/base/conversions.h"
 #include "harness/cut/patch.h"
+#include "harness/mesh/cgal_kernel.h"
 #include "harness/mesh/predicates.h"
 #include "harness/mesh/stamped_table.h"
 

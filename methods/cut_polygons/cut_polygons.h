@@ -2,7 +2,7 @@
 //
 // How it works: the cut is that of conventional_split, incision and triangles alike. For the physics the thin triangles
 // that it made are merged with their neighbours on their own side of the incision (methods/tools/thin_parts.h). Each
-// polygon is a virtual element of lowest order (harness/fem/elements/polygon_element.h, polygon_sheet.h): one
+// polygon is a virtual element of lowest order (harness/fem/elements/polygon_element.h, compound_sheet.h): one
 // deformation gradient, one rotation, a stabilisation, and a mass of area / k at each of its k corners, so the mass
 // stays diagonal and the method is one for explicit integrators, too. Vertices that come to lie inside a polygon are no
 // unknowns; they go along with its linear map. Triangles that are not thin stay what they are.

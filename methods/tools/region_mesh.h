@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "harness/mesh/predicates.h"
+#include "harness/mesh/cgal_kernel.h"
 #include "harness/mesh/stamped_table.h"
 #include "methods/tools/region.h"
 #include "methods/tools/region_mesher.h"

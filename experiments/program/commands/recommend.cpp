@@ -2,6 +2,7 @@
 #include "experiments/advice/recommend.h"
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "experiments/program/commands/command.h"
 #include "experiments/program/commands/method_options.h"

@@ -31,6 +31,10 @@ ElementTable::ElementTable(const Sheet& sheet) : rows_(sheet.triangle_slots()) {
   polygons_of_.resize(sheet.deformed_slots());
 }
 
+ElementTable::ElementTable(const Sheet& sheet, const Constraints& merged) : ElementTable(sheet) {
+  for (const Polygon& polygon : merged.polygons) add(sheet, polygon);
+}
+
 void ElementTable::update(const Sheet& sheet) {
   const EditLog& log = sheet.log();
   rows_.resize(sheet.triangle_slots());
@@ -63,9 +67,9 @@ bool ElementTable::is_inside(TriangleIndex t, DeformedIndex vertex) const {
 
 ElementShape ElementTable::shape(TriangleIndex t) const {
   const Element& e = rows_[t()];
-  if (e.is_triangle()) return {e.vertex, e.gradient};
+  if (e.is_triangle()) return {e.vertex, e.gradient, {}};
   const PolygonElement& polygon = polygons_[to_size(e.polygon)];
-  return {polygon.polygon.corners, polygon.gradient};
+  return {polygon.polygon.corners, polygon.gradient, polygon.offset};
 }
 
 double ElementTable::polygon_area_round(std::size_t vertex) const {
@@ -91,9 +95,9 @@ Field ElementTable::areas(std::size_t vertices) const {
   return all;
 }
 
-// --- elements of several triangles -----------------------------------------------------------------------------------
+// --- compounds: elements of several triangles ------------------------------------------------------------------------
 
-std::size_t ElementTable::add_polygon(const Sheet& sheet, const Polygon& polygon) {
+std::size_t ElementTable::add(const Sheet& sheet, const Polygon& polygon) {
   std::size_t slot = polygons_.size();
   if (free_polygons_.empty()) {
     polygons_.emplace_back();
@@ -107,17 +111,25 @@ std::size_t ElementTable::add_polygon(const Sheet& sheet, const Polygon& polygon
   return slot;
 }
 
-std::optional<std::size_t> ElementTable::merge(const Sheet& sheet, const Polygon& polygon, Regrouped& regrouped) {
+std::vector<TriangleIndex> ElementTable::merge(const Sheet& sheet, const Constraints& merged, Regrouped& regrouped) {
+  std::vector<TriangleIndex> made;
+  for (const Polygon& polygon : merged.polygons)
+    if (merge_one(sheet, polygon, regrouped)) made.push_back(polygon.triangles.front());
+  return made;
+}
+
+/// False: it is there already.
+bool ElementTable::merge_one(const Sheet& sheet, const Polygon& polygon, Regrouped& regrouped) {
   const auto now = members(polygon.triangles.front());
-  if (std::equal(now.begin(), now.end(), polygon.triangles.begin(), polygon.triangles.end())) return {};
+  if (std::equal(now.begin(), now.end(), polygon.triangles.begin(), polygon.triangles.end())) return false;
   for (const TriangleIndex t : polygon.triangles)
     if (const auto old = rows_[t()].polygon; old >= 0) dissolve(to_size(old), regrouped);
-  const std::size_t slot = add_polygon(sheet, polygon);
+  add(sheet, polygon);
   const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   append(regrouped.triangles, polygon.triangles);
   append(regrouped.vertices, polygon.corners);
   append(regrouped.vertices, polygon.inside);
-  return slot;
+  return true;
 }
 
 void ElementTable::release(TriangleIndex t, Regrouped& regrouped) {
@@ -140,14 +152,14 @@ void ElementTable::dissolve(std::size_t polygon, Regrouped& regrouped) {
   free_polygons_.push_back(polygon);
 }
 
-std::vector<Polygon> ElementTable::polygons() const {
-  std::vector<Polygon> all;
+Constraints ElementTable::merged() const {
+  Constraints all;
   for (const PolygonElement& element : polygons_)
-    if (element.alive()) all.push_back(element.polygon);
+    if (element.alive()) all.polygons.push_back(element.polygon);
   return all;
 }
 
-PolygonsLeft ElementTable::polygons_left() const {
+PolygonsLeft ElementTable::left_since_change() const {
   const auto of = [this](TriangleIndex t) {
     return rows_[t()].polygon < 0 ? std::span<const TriangleIndex>{} : members(t);
   };
@@ -164,6 +176,16 @@ void ElementTable::follow(Field& x) const {
   }
 }
 
+template <int D>
+LinearPart<D> ElementTable::linear_part(TriangleIndex t, const Field& x) const {
+  const Element& member = rows_[t()];
+  const PolygonElement& polygon = polygons_[to_size(member.polygon)];
+  const LinearMap<D> map = polygon.map<D>(x);
+  return {map.at(polygon.offset_of(member.vertex[0])), map.gradient};
+}
+
+template LinearPart<2> ElementTable::linear_part<2>(TriangleIndex, const Field&) const;
+template LinearPart<3> ElementTable::linear_part<3>(TriangleIndex, const Field&) const;
 template void ElementTable::follow<2>(Field&) const;
 template void ElementTable::follow<3>(Field&) const;
 

@@ -1,10 +1,10 @@
 // What the physics knows of the mesh: one row per triangle slot, and the polygons that some triangles are members of.
 // To what lies above this room an element is an element: it has corners, gradients and areas, be it a triangle or a
-// polygon. The elements of methods that don't re-mesh may overlap in rest space and be made of material in part only.
+// polygon. An element of several triangles is a compound, and it is a polygon in this table, polygon_element.h and
+// compound_sheet.h alone. The elements of methods that don't re-mesh may overlap in rest space and be made of material in part only.
 #pragma once
 
 #include <array>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,7 +24,8 @@ struct Element {
   double fraction = 1;                  ///< how much of the area is material
 
   bool alive() const { return vertex[0].valid(); }
-  bool is_triangle() const { return alive() && polygon < 0; }  ///< an element by itself
+  bool is_member() const { return polygon >= 0; }               ///< of a compound
+  bool is_triangle() const { return alive() && !is_member(); }  ///< an element by itself
   double material_area() const { return area * fraction; }
 };
 
@@ -32,6 +33,14 @@ struct Element {
 struct ElementShape {
   std::span<const DeformedIndex> corners;
   std::span<const Point2> gradient;  ///< per corner: of its shape function, in the mean over the element, 1/length
+  std::span<const Point2> offset;    ///< of a compound: of each corner from the mean of all
+};
+
+/// A linear field of D values as a triangle has it.
+template <int D>
+struct LinearPart {
+  Eigen::Matrix<double, D, 1> at_first;  ///< vertex of the triangle
+  Eigen::Matrix<double, D, 2> gradient;
 };
 
 /// What became another element, or a part of one.
@@ -44,6 +53,7 @@ class ElementTable final : public CoupledElements {
  public:
   ElementTable() = default;
   explicit ElementTable(const Sheet& sheet);
+  ElementTable(const Sheet& sheet, const Constraints& merged);  ///< with the compounds that they make
   /// Rewrites the rows of the slots that the sheet's log names. The same as a new table. \pre these are members of no
   /// polygon.
   void update(const Sheet& sheet);
@@ -92,26 +102,38 @@ class ElementTable final : public CoupledElements {
   /// Of all vertices: the rest areas that stand for them, all of it material.
   Field areas(std::size_t vertices) const;
 
-  // --- elements of several triangles ---------------------------------------------------------------------------------
-  /// Makes an element of the polygon, after dissolving those that it shares triangles with.
-  /// \return its slot; nothing where it is there already
-  std::optional<std::size_t> merge(const Sheet& sheet, const Polygon& polygon, Regrouped& regrouped);
-  /// Dissolves the polygon that t is a member of, if any.
+  // --- compounds: elements of several triangles ----------------------------------------------------------------------
+  /// Makes the compounds of these constraints, after dissolving those that they share triangles with.
+  /// \return a member of each that was not there already
+  std::vector<TriangleIndex> merge(const Sheet& sheet, const Constraints& merged, Regrouped& regrouped);
+  /// Dissolves the compound that t is a member of, if any.
   void release(TriangleIndex t, Regrouped& regrouped);
   void begin_change() { freed_.clear(); }
-  std::vector<Polygon> polygons() const;
-  PolygonsLeft polygons_left() const;  ///< freed: by release() since begin_change(). Refers to this.
-  /// Gives the vertices inside polygons their values, D per vertex.
+  Constraints merged() const;              ///< that make these compounds
+  PolygonsLeft left_since_change() const;  ///< freed: by release() since begin_change(). Refers to this.
+  /// Gives the vertices inside compounds their values, D per vertex.
   template <int D>
   void follow(Field& x) const;
+  /// Calls visit(vertex, corner) for each vertex inside a compound, with a corner of that.
+  template <class Visit>
+  void for_each_inside(const Visit& visit) const {
+    for (const PolygonElement& element : polygons_)
+      for (const DeformedIndex d : element.polygon.inside) visit(d, element.polygon.corners.front());
+  }
+  /// Of a field with D values per vertex: the linear part that a compound has of it, in member t.
+  template <int D>
+  LinearPart<D> linear_part(TriangleIndex t, const Field& x) const;
 
-  /// Polygons have slots, which are used again. \pre its triangles are alive, and members of none.
-  std::size_t add_polygon(const Sheet& sheet, const Polygon& polygon);
+  // --- for compound_sheet.h ------------------------------------------------------------------------------------------
+  /// Polygons have slots, which are used again.
   std::span<const std::int32_t> polygons_of(std::size_t vertex) const { return polygons_of_[vertex]; }  ///< their slots
   std::size_t polygon_slots() const { return polygons_.size(); }
   const PolygonElement& polygon(std::size_t slot) const { return polygons_[slot]; }
 
  private:
+  /// \pre its triangles are alive, and members of none. \return its slot
+  std::size_t add(const Sheet& sheet, const Polygon& polygon);
+  bool merge_one(const Sheet& sheet, const Polygon& polygon, Regrouped& regrouped);
   void dissolve(std::size_t polygon, Regrouped& regrouped);
   double polygon_area_round(std::size_t vertex) const;
 

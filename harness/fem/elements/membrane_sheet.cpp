@@ -13,9 +13,9 @@ namespace {
 
 const Element no_element;
 
-/// Element `i`, or one without vertices and area: past the end, a free slot, or a member of a polygon.
+/// Element `i`, or one without vertices and area: past the end, a free slot, or a member of a compound.
 const Element& element_at(const ElementTable& elements, std::size_t i) {
-  return i < elements.size() && elements[i].polygon < 0 ? elements[i] : no_element;
+  return i < elements.size() && !elements[i].is_member() ? elements[i] : no_element;
 }
 
 template <class Function>
@@ -160,7 +160,7 @@ void MembraneSheet<D>::clear_slots(std::size_t triangle) {
 template <int D>
 void MembraneSheet<D>::find_slots(const ElementTable& elements, std::size_t vertex, std::span<const HalfEdge> triangles,
                                   const BlockMatrix<D>& blocks) {
-  polygons_.find_slots(elements, vertex, blocks);
+  compounds_.find_slots(elements, vertex, blocks);
   for (const HalfEdge c : triangles) {
     const std::size_t t = triangle_of(c)();
     if (!elements[t].is_triangle()) continue;
@@ -170,14 +170,14 @@ void MembraneSheet<D>::find_slots(const ElementTable& elements, std::size_t vert
 }
 
 template <int D>
-void MembraneSheet<D>::join(const ElementTable& elements, std::size_t polygon) {
-  polygons_.reset(polygon, elements.polygon(polygon));
-  for (const TriangleIndex t : elements.polygon(polygon).polygon.triangles) clear_slots(t());
+void MembraneSheet<D>::join(const ElementTable& elements, TriangleIndex t) {
+  compounds_.reset(elements, t);
+  for (const TriangleIndex member : elements.members(t)) clear_slots(member());
 }
 
 template <int D>
-void MembraneSheet<D>::check_takes(std::span<const Polygon> polygons) const {
-  if (law_.strain == Strain::springs && !polygons.empty())
+void MembraneSheet<D>::check_takes(const Constraints& constraints) const {
+  if (law_.strain == Strain::springs && constraints.merge_triangles())
     throw InputError("a polygon has no springs: take another method than cut_polygons, or another \"strain\"");
 }
 
@@ -191,7 +191,7 @@ void MembraneSheet<D>::rotate(const ElementTable& elements, const Field& x) {
     if (!all_positive(determined)) recompute_collapsed(elements, i, determined, x);
     add_forces(four, strained_[i]);
   }
-  polygons_.rotate(elements, x, force_);
+  compounds_.rotate(elements, x, force_);
 }
 
 /// Elements that collapsed, one by one; where there is none, it is as at rest.
@@ -245,12 +245,12 @@ double MembraneSheet<D>::energy(const ElementTable& elements) const {
     const Lanes xx = strained_[i].xx, yy = strained_[i].yy, xy = strained_[i].xy, trace = xx + yy;
     sum += four.area * (law_.lame.mu * (xx * xx + yy * yy + 2 * (xy * xy)) + law_.lame.lambda / 2 * (trace * trace));
   }
-  return sum[0] + sum[1] + sum[2] + sum[3] + polygons_.energy(elements);
+  return sum[0] + sum[1] + sum[2] + sum[3] + compounds_.energy(elements);
 }
 
 template <int D>
 Deformation<D> MembraneSheet<D>::deformation(const ElementTable& elements, std::size_t element) const {
-  if (const auto polygon = elements[element].polygon; polygon >= 0) return polygons_.deformation(to_size(polygon));
+  if (elements[element].is_member()) return compounds_.deformation(elements[element]);
   return deformation_of<D>(elements[element], lane<D>(strained_[element / lane_count], element % lane_count),
                            law_.strain, law_.lame);
 }
@@ -269,7 +269,7 @@ void MembraneSheet<D>::add_stiffness(const ElementTable& elements, double factor
       }
     }
   }
-  polygons_.add_stiffness(elements, factor, blocks);
+  compounds_.add_stiffness(elements, factor, blocks);
 }
 
 template class MembraneSheet<2>;

@@ -1,20 +1,20 @@
 // All membrane elements of a sheet, four at a time (lanes.h): strains and forces in one pass, stiffness in another.
-// A collapsed element is computed by itself (deformation_of()), and so is each polygon (polygon_sheet.h).
+// A collapsed element is computed by itself (deformation_of()), and so is each compound (compound_sheet.h).
 #pragma once
 
 #include <vector>
 
 #include "harness/fem/algebra/block_matrix.h"
+#include "harness/fem/elements/compound_sheet.h"
 #include "harness/fem/elements/element_stiffness.h"
-#include "harness/fem/elements/polygon_sheet.h"
 
 namespace cutbench {
 
 template <int D>
 class MembraneSheet {
  public:
-  /// \param bends  bending keeps polygons flat (polygon_sheet.h)
-  explicit MembraneSheet(const MembraneLaw& law, bool bends = false) : law_(law), polygons_(law, bends) {}
+  /// \param bends  bending keeps compounds flat (compound_sheet.h)
+  explicit MembraneSheet(const MembraneLaw& law, bool bends = false) : law_(law), compounds_(law, bends) {}
   void resize(std::size_t elements);
   void reserve_spare();
 
@@ -23,10 +23,10 @@ class MembraneSheet {
   void find_slots(const ElementTable& elements, std::size_t vertex, std::span<const HalfEdge> triangles,
                   const BlockMatrix<D>& blocks);
   void clear_slots(std::size_t triangle);  ///< its slot in the table is free
-  /// Takes over an element of several triangles that is new (ElementTable::merge()).
-  void join(const ElementTable& elements, std::size_t polygon);
-  /// Throws InputError where such elements have no answer to the strain.
-  void check_takes(std::span<const Polygon> polygons) const;
+  /// Takes over the compound of t, which is new (ElementTable::merge()).
+  void join(const ElementTable& elements, TriangleIndex t);
+  /// Throws InputError where these make compounds, and such have no answer to the strain.
+  void check_takes(const Constraints& constraints) const;
 
   /// Deformations of all elements at x, and the forces they exert; the functions below refer to this x.
   void rotate(const ElementTable& elements, const Field& x);
@@ -50,7 +50,7 @@ class MembraneSheet {
   std::vector<StrainInFrame<D, Lanes>> strained_;               // per four elements
   std::vector<std::array<std::array<FourSlots, 3>, 3>> slots_;  // per four elements: of their nine blocks
   Field force_;
-  PolygonSheet<D> polygons_;
+  CompoundSheet<D> compounds_;
 };
 
 }  // namespace cutbench

@@ -5,7 +5,7 @@
 // which it is linear along the sides. So the mean gradient is exact, F = sum x_i (x) G_i with G_i the outward normal of
 // X_{i+1} - X_{i-1} times its length, over 2 A. The linear map of the polygon is Pi x (X) = mean(x) + F (X - mean(X)),
 // means over the corners. What the corners depart from it, (I - Pi) x, is zero for every affine x, and is what a
-// stabilisation resists (polygon_sheet.h).
+// stabilisation resists (compound_sheet.h).
 //
 // All of it holds for a polygon that is not convex, and for a slit one: G_i is then the same for the whole boundary,
 // both lips of the slit included, and F the mean gradient of the material. How the slit gapes is in the departure

@@ -1,9 +1,7 @@
 // The linear stiffness of a sheet at rest in its plane, element by element: no matrix is assembled.
 #pragma once
 
-#include <Eigen/Core>
-#include <vector>
-
+#include "harness/fem/elements/compound_sheet.h"
 #include "harness/fem/elements/element_table.h"
 #include "harness/fem/elements/membrane.h"
 
@@ -21,7 +19,7 @@ class RestStiffness {
 
   const ElementTable& elements_;
   Lame lame_;
-  std::vector<Eigen::MatrixXd> polygons_;  // per slot: of the corners, N/m
+  CompoundStiffness compounds_;
 };
 
 }  // namespace cutbench

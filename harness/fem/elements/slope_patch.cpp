@@ -42,18 +42,17 @@ void SlopePatch::begin(const Sheet& sheet, TriangleIndex t) {
   own_ = 3;
 }
 
-void SlopePatch::begin(const Sheet& sheet, const PolygonElement& element) {
+/// \param members  sorted
+void SlopePatch::begin(const Sheet& sheet, const ElementShape& compound, std::span<const TriangleIndex> members) {
   terms_.clear();
   offset_.clear();
   windows_.clear();
-  const auto& corners = element.polygon.corners;
-  centre_ = sheet.rest(sheet.rest_vertex(corners[0])) - element.offset[0];
-  for (std::size_t i = 0; i < corners.size(); ++i) add(corners[i], element.offset[i]);
+  const auto corners = compound.corners;
+  centre_ = sheet.rest(sheet.rest_vertex(corners[0])) - compound.offset[0];
+  for (std::size_t i = 0; i < corners.size(); ++i) add(corners[i], compound.offset[i]);
   own_ = offset_.size();
-  const auto belongs = [&](TriangleIndex t) {
-    return std::binary_search(element.polygon.triangles.begin(), element.polygon.triangles.end(), t);
-  };
-  for (const TriangleIndex t : element.polygon.triangles)
+  const auto belongs = [&](TriangleIndex t) { return std::binary_search(members.begin(), members.end(), t); };
+  for (const TriangleIndex t : members)
     for (int k = 0; k < 3; ++k) {
       const HalfEdge h = half_edge(t, k);
       if (sheet.separates(h) || belongs(triangle_of(sheet.opposite(h)))) continue;
@@ -208,11 +207,10 @@ std::span<const StencilTerm> SlopePatch::terms(const std::array<Point2, 3>& corn
 }
 
 int SlopePatch::fit(const Sheet& sheet, const ElementTable* elements, TriangleIndex t) {
-  const std::int32_t polygon = elements ? (*elements)[t()].polygon : -1;
-  if (polygon < 0)
-    begin(sheet, t);
+  if (elements && (*elements)[t()].is_member())
+    begin(sheet, elements->shape(t), elements->members(t));
   else
-    begin(sheet, elements->polygon(to_size(polygon)));
+    begin(sheet, t);
   int reach = 1;
   for (bool more = widen(sheet, elements, true);; more = widen(sheet, elements, false), ++reach) {
     const bool last = !more || reach == max_reach;

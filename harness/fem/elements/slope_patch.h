@@ -4,7 +4,7 @@
 // near a conic, so that several quadratics fit them, the patch grows ring by ring and the quadratic is the best fit
 // (weighted least squares).
 //
-// An element of several triangles has one patch, which begins with all its corners; vertices inside it are in none.
+// A compound, an element of several triangles, has one patch, which begins with all its corners; vertices inside it are in none.
 // The patch does not contain vertices behind an incision, or out of sight of the triangle's centroid, for example
 // behind a tip.
 #pragma once
@@ -44,7 +44,7 @@ class SlopePatch {
   using Row = std::array<double, 8>;  ///< six columns, and two of zeros that make loops even
 
   void begin(const Sheet& sheet, TriangleIndex t);
-  void begin(const Sheet& sheet, const PolygonElement& polygon);
+  void begin(const Sheet& sheet, const ElementShape& compound, std::span<const TriangleIndex> members);
   bool widen(const Sheet& sheet, const ElementTable* elements, bool first);
   void add(DeformedIndex d, Point2 offset);
   void factorise();

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "harness/fem/linear/solver_options.h"
 #include "harness/fem/linear/system_matrix.h"
 
 namespace cutbench {
@@ -38,8 +39,7 @@ std::unique_ptr<Factor<D>> make_cholmod_factor(FactorOrder order);
 template <int D>
 std::unique_ptr<Factor<D>> make_eigen_factor();
 
-/// What preconditioners are made with: the fastest that this build has, or Eigen's all the same.
-enum class FactorBy { fastest, eigen };
+/// What preconditioners are made with.
 template <int D>
 std::unique_ptr<Factor<D>> make_factor(FactorBy by) {
   if (by == FactorBy::fastest && has_cholmod()) return make_cholmod_factor<D>(FactorOrder::anew);

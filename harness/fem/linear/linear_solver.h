@@ -3,18 +3,11 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
-#include "harness/fem/linear/factor.h"
+#include "harness/fem/linear/solver_options.h"
+#include "harness/fem/linear/system_matrix.h"
 
 namespace cutbench {
-
-struct SolverOptions {
-  std::string name = "cg";  ///< of harness/fem/solvers/solver_table.h
-  double tolerance = 1e-2;  ///< of |b - A x| / |b|; a direct solver ignores it
-  int max_iterations = 10000;
-  FactorBy factor = FactorBy::fastest;  ///< of preconditioners that factor a matrix
-};
 
 struct SolveReport {
   int iterations = 0;   ///< 0 for a direct solver

@@ -29,10 +29,9 @@ class ScaledStiffness {
   ScaledStiffness& operator=(const ScaledStiffness&) = delete;
   ScaledStiffness(const Sheet& sheet, const Constraints& constraints, const Elasticity& elasticity)
       : lame_(lame_of({.stiffness = 1, .poisson = elasticity.poisson}, elasticity.plane)),
-        elements_(sheet),
+        elements_(sheet, constraints),
         constraint_matrix_(constraints, sheet.deformed_slots()),
         ghosts_(constraints.ghosts) {
-    for (const Polygon& polygon : constraints.polygons) elements_.add_polygon(sheet, polygon);
     membrane_.emplace(elements_, lame_);
     lumped_ = elements_.areas(constraint_matrix_.vertices());
     if (elasticity.bending != BendingKind::none)

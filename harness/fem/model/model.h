@@ -13,15 +13,9 @@
 #include "harness/fem/elements/incidence.h"
 #include "harness/fem/elements/membrane_sheet.h"
 #include "harness/fem/linear/system_matrix.h"
+#include "harness/fem/model/energy.h"
 
 namespace cutbench {
-
-/// Joules.
-struct Energy {
-  double membrane = 0, bending = 0, kinetic = 0;
-  double potential = 0;  ///< of gravity and tractions, zero at the origin
-  double total() const { return membrane + bending + kinetic + potential; }
-};
 
 template <int D>
 class Model {

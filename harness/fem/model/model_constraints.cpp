@@ -5,12 +5,10 @@ namespace cutbench {
 
 template <int D>
 void Model<D>::constrain(const Sheet& sheet, const Constraints& constraints) {
-  membrane_.check_takes(constraints.polygons);
+  membrane_.check_takes(constraints);
   begin_marking();
-  for (const Polygon& polygon : constraints.polygons) {
-    if (const auto slot = elements_.merge(sheet, polygon, regrouped_)) membrane_.join(elements_, *slot);
-    mark_regrouped();
-  }
+  for (const TriangleIndex t : elements_.merge(sheet, constraints, regrouped_)) membrane_.join(elements_, t);
+  mark_regrouped();
   refresh_vertices(sheet);
   if (!bending_) refresh_added_mass();
   if (!regrouped_.triangles.empty()) update_bending(sheet);

@@ -29,13 +29,6 @@ void renumber(const std::vector<DeformedIndex>& deformed, int dimension, State& 
 template <int D>
 void hold_where_it_is(const Model<D>& model, State& state);
 
-/// Energies, momenta and residual force, recorded before and after a cut.
-struct Balance {
-  Energy energy;
-  Point3 momentum;          ///< kg m/s
-  Point3 angular_momentum;  ///< kg m2/s, about the origin
-  double residual = 0;      ///< N: norm of internal and external force on the unknowns that are not held
-};
 /// Rotates the model's elements to the state.
 template <int D>
 Balance balance_of(Model<D>& model, const State& state);

@@ -1,6 +1,7 @@
 // Direct solution by a factor (harness/fem/linear/factor.h).
 #pragma once
 
+#include "harness/fem/linear/factor.h"
 #include "harness/fem/linear/linear_solver.h"
 
 namespace cutbench {

@@ -92,10 +92,12 @@ void SliverBlocks<D>::apply(const Field& r, Field& z) {
   for (const Group& group : groups_) {
     const auto n = to_index(group.vertices.size());
     auto gathered = gathered_.head(D * n);
-    for (Eigen::Index k = 0; k < n; ++k) gathered.template segment<D>(D * k) = r.segment<D>(D * group.vertices[to_size(k)]);
+    for (Eigen::Index k = 0; k < n; ++k)
+      gathered.template segment<D>(D * k) = r.segment<D>(D * group.vertices[to_size(k)]);
     group.factor.matrixL().solveInPlace(gathered);
     group.factor.matrixU().solveInPlace(gathered);
-    for (Eigen::Index k = 0; k < n; ++k) z.segment<D>(D * group.vertices[to_size(k)]) = gathered.template segment<D>(D * k);
+    for (Eigen::Index k = 0; k < n; ++k)
+      z.segment<D>(D * group.vertices[to_size(k)]) = gathered.template segment<D>(D * k);
   }
 }
 

@@ -5,9 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "harness/fem/linear/linear_solver.h"
+#include "harness/fem/linear/solver_options.h"
 
 namespace cutbench {
+
+template <int D>
+class LinearSolver;
 
 /// Of the solvers that this build has: those by CHOLMOD only where it is there.
 const std::vector<std::string>& solver_names();

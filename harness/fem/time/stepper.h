@@ -21,10 +21,10 @@
 #include <memory>
 #include <string>
 
-#include "harness/base/verdict.h"
 #include "harness/fem/linear/linear_solver.h"
 #include "harness/fem/linear/mass_solver.h"
 #include "harness/fem/model/state.h"
+#include "harness/fem/time/step_report.h"
 #include "harness/fem/time/xpbd.h"
 
 namespace cutbench {
@@ -35,29 +35,6 @@ struct StepOptions {
   int newton = 1;           ///< linear solves per step; equilibrium: at most
   int sweeps = 1;           ///< of xpbd, per step
   SolverOptions solver;
-};
-
-/// Microseconds (steady clock), summed over the Newton iterations.
-struct StepTimes {
-  double rotate = 0;    ///< deformations, forces and right-hand side
-  double assemble = 0;  ///< element matrices into the system
-  double setup = 0;     ///< preconditioner or factorisation
-  double solve = 0;
-  double total() const { return rotate + assemble + setup + solve; }
-};
-
-struct StepReport {
-  Verdict verdict = Verdict::ok;  ///< or solver_stalled, newton_failed, not_finite
-  std::string reason;
-  int newton = 0;       ///< linear solves
-  int iterations = 0;   ///< of the linear solver, summed; of xpbd the sweeps
-  double residual = 0;  ///< the largest that a linear solve left
-  int fallbacks = 0;    ///< solves that another preconditioner ended (SolveReport::fell_back)
-  /// Equilibrium: |f| over the scale of the forces. A step of three solves or more: the size of the last Newton step
-  /// over that of the one before, in the norm of A; newton_failed where it is not smaller, and no rounding error. The
-  /// first one is linearised elsewhere than the others and does not compare.
-  double newton_residual = 0;
-  StepTimes time_us;
 };
 
 template <int D>

@@ -13,6 +13,7 @@
 
 #include "harness/base/conversions.h"
 #include "harness/cut/open.h"
+#include "harness/mesh/cgal_kernel.h"
 #include "harness/mesh/predicates.h"
 #include "harness/problems/common/problem.h"
 

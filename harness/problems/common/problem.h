@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "harness/base/verdict.h"
-#include "harness/fem/linear/linear_solver.h"
+#include "harness/fem/linear/solver_options.h"
 #include "harness/mesh/constraints.h"
 #include "harness/mesh/mesh_data.h"
 #include "harness/mesh/sheet.h"
@@ -73,15 +73,15 @@ class Problem {
   virtual bool takes_budgets() const { return true; }  ///< false: several linear solves, solved directly only
   /// False: it bends, which it does at the sheet's own vertices alone.
   virtual bool takes_constraints() const { return takes_budgets(); }
-  virtual bool in_motion() const { return false; }      ///< not at rest: "all" of an experiment leaves it out
-  virtual bool takes_polygons() const { return true; }  ///< false: it changes the cut sheet once more
+  virtual bool in_motion() const { return false; }       ///< not at rest: "all" of an experiment leaves it out
+  virtual bool takes_compounds() const { return true; }  ///< false: it changes the cut sheet once more
 
   /// Member `index` on a sheet of `family` (sheet_families()) with 2 n^2 triangles; depends on the arguments alone.
   virtual Specimen specimen(const std::string& family, int n, std::uint64_t seed, std::size_t index) const = 0;
   /// Loads the opened sheet, solves it once per budget, and compares. One assembly serves all budgets.
   /// \pre `sheet` is that of `specimen` with its cuts made, by whatever method, or body_fitted() to them; `constraints`
-  /// are those of the method: no vertex is constrained unless takes_constraints(), and no polygon in them unless
-  /// takes_polygons().
+  /// are those of the method: no vertex is constrained unless takes_constraints(), and no triangles merged unless
+  /// takes_compounds().
   virtual std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
                                      const Constraints& constraints) const = 0;
   std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets) const {

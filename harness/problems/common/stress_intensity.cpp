@@ -36,13 +36,11 @@ Eigen::Matrix2d displacement_gradient(const Element& element, const Field& displ
   return gradient;
 }
 
-LinearDisplacement displacement_in(const ElementTable& elements, std::size_t triangle, const Field& displacement) {
+LinearPart<2> displacement_in(const ElementTable& elements, std::size_t triangle, const Field& displacement) {
   const Element& element = elements[triangle];
   if (element.is_triangle())
     return {displacement.segment<2>(2 * element.vertex[0].value), displacement_gradient(element, displacement)};
-  const PolygonElement& polygon = elements.polygon(to_size(element.polygon));
-  const LinearMap<2> map = polygon.map<2>(displacement);
-  return {map.at(polygon.offset_of(element.vertex[0])), map.gradient};
+  return elements.linear_part<2>(TriangleIndex(triangle), displacement);
 }
 
 std::optional<StressIntensity> intensity_of_coefficients(const TipFunctions& functions, const Eigen::VectorXd& c,

@@ -35,12 +35,8 @@ struct Ring {
 
 /// d u_i / d x_j in an element. \pre displacement has two values per slot.
 Eigen::Matrix2d displacement_gradient(const Element& element, const Field& displacement);
-/// The displacement in a triangle: its own linear field, or that of the polygon of which it is a member.
-struct LinearDisplacement {
-  Eigen::Vector2d at_corner;  ///< 0
-  Eigen::Matrix2d gradient;
-};
-LinearDisplacement displacement_in(const ElementTable& elements, std::size_t triangle, const Field& displacement);
+/// The displacement in a triangle: its own linear field, or the linear part of the compound's.
+LinearPart<2> displacement_in(const ElementTable& elements, std::size_t triangle, const Field& displacement);
 
 /// K at the end of a cut from the coefficients of the tip functions there: sin(theta/2) alone jumps across the cut, and
 /// the lips are 8 K / E sqrt(r / 2 pi) apart (Williams 1957), so K = E sqrt(2 pi) / 4 c_0, K1 normal to the cut and K2

@@ -19,7 +19,7 @@ const Physics in_the_plane{.dimension = 2, .strain = Strain::linear, .bending = 
 
 StaticSolve::StaticSolve(const Sheet& sheet, const Elastic& elastic, const Constraints& constraints)
     : sheet_(sheet), model_(sheet, {.stiffness = elastic.young, .poisson = elastic.poisson}, in_the_plane, {}, {}) {
-  if (!constraints.polygons.empty()) model_.constrain(sheet, {.polygons = constraints.polygons});
+  if (constraints.merge_triangles()) model_.constrain(sheet, constraints.of_merged_triangles());
   if (!constraints.constraints.empty()) constrained_.emplace(constraints, model_.vertices());
   held_ = model_.held();
   given_ = force_ = Field::Zero(to_index(held_.size()));
@@ -82,8 +82,7 @@ void StaticSolve::hold_loose_pieces() {
     if (held) continue;
     for (const std::size_t v : piece) loose_[v] = held_[2 * v] = held_[2 * v + 1] = 1;
   }
-  for (const Polygon& polygon : model_.elements().polygons())
-    for (const DeformedIndex d : polygon.inside) loose_[d()] = loose_[polygon.corners.front()()];
+  model_.elements().for_each_inside([this](DeformedIndex d, DeformedIndex corner) { loose_[d()] = loose_[corner()]; });
 }
 
 void StaticSolve::make_tip_functions(std::span<const Budget> budgets) {

@@ -55,7 +55,7 @@ class BendingPatchSlit : public Problem {
       if (!bent.solve_to_equilibrium(budget.solver, answer)) continue;
       double squares = 0, mass = 0, largest = 0;
       for (const DeformedIndex d : vertices_in_use(sheet)) {
-        if (bent.held(d) || bent.mass(d) == 0) continue;  // no unknown: inside a polygon
+        if (bent.held(d) || bent.mass(d) == 0) continue;  // no unknown: inside a compound
         const Point3 e = bent.position(d) + -1 * exact(d);
         const double square = e.x * e.x + e.y * e.y + e.z * e.z;
         squares += bent.mass(d) * square;

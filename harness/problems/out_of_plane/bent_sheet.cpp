@@ -25,7 +25,7 @@ BentSheet::BentSheet(const Sheet& sheet, const Material& material, BendingKind b
                      const std::function<Start(DeformedIndex)>& start, const Constraints& constraints)
     : model_(sheet, material, {.bending = bending, .gravity = {0, 0, -gravity}}, pins_for(sheet, start), {}),
       state_(initial_state(model_, sheet)) {
-  if (!constraints.polygons.empty()) model_.constrain(sheet, constraints);
+  if (constraints.merge_triangles()) model_.constrain(sheet, constraints);
   for (const DeformedIndex d : vertices_in_use(sheet)) {
     const Point3 p = start(d).position;
     state_.x.segment<3>(3 * d.value) << p.x, p.y, p.z;

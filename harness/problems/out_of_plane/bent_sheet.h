@@ -27,7 +27,7 @@ struct Start {
 class BentSheet {
  public:
   /// One pin for each held rest vertex, so `start` must hold all copies of it or none on an axis. Gravity pulls along
-  /// -z. Of `constraints` the polygons count. \pre fewer than 32767 held rest vertices.
+  /// -z. Of `constraints` the merged triangles count. \pre fewer than 32767 held rest vertices.
   BentSheet(const Sheet& sheet, const Material& material, BendingKind bending, double gravity,
             const std::function<Start(DeformedIndex)>& start, const Constraints& constraints = {});
 

@@ -45,7 +45,7 @@ class TrouserTear : public Problem {
   }
   std::vector<std::string> measures() const override { return {"release_rate", "force_after"}; }
   bool takes_budgets() const override { return false; }
-  bool takes_polygons() const override { return false; }
+  bool takes_compounds() const override { return false; }
 
   /// A strip of 4 x 1 m: four sheets of `family`, of 2 (n / 2)^2 triangles each, mirrored in turns so that they fit.
   Specimen specimen(const std::string& family, int n, std::uint64_t seed, std::size_t index) const override {

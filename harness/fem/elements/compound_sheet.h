@@ -1,4 +1,5 @@
-// The polygons of a sheet as membrane elements (polygon_element.h), in the plane or in space.
+// The compounds of a sheet, elements of several triangles, as membrane elements, in the plane or in space. They are
+// polygons (polygon_element.h).
 //
 // Energy of one with k corners: A W(F) + tau E / 2 sum |d_i|^2, with the mean gradient F, the energy W of a membrane
 // triangle (membrane.h), the departure d = (I - Pi) x of its corners, Young's modulus E (N/m) and tau = 1/2. The second
@@ -20,26 +21,41 @@
 
 namespace cutbench {
 
-/// What the stabilisation of a polygon is multiplied with: tau E, N/m, of its plane and across it.
+/// What the stabilisation is multiplied with: tau E, N/m, in the element's plane and across it.
 struct Stabilisation {
   double in_plane, across;
 };
 Stabilisation stabilisation_of(const Lame& lame, bool bends);
 
-template <int D>
-class PolygonSheet {
+/// Their linear stiffness at rest in the plane.
+class CompoundStiffness {
  public:
-  PolygonSheet(const MembraneLaw& law, bool bends) : law_(law), stabilisation_(stabilisation_of(law.lame, bends)) {}
+  CompoundStiffness(const ElementTable& elements, const Lame& lame);
+  /// force += K moved, for two values per vertex. \param elements  as they were
+  void add_force(const ElementTable& elements, const Field& moved, Field& force) const;
 
-  /// For polygon `slot`, new or of another shape.
-  void reset(std::size_t slot, const PolygonElement& polygon);
-  /// Where the blocks of the polygons that have this corner are in its row of the matrix.
+ private:
+  std::vector<Eigen::MatrixXd> stiffness_;  // per slot: of the corners, N/m
+};
+
+template <int D>
+class CompoundSheet {
+ public:
+  /// \param bends  bending keeps them flat
+  CompoundSheet(const MembraneLaw& law, bool bends) : law_(law), stabilisation_(stabilisation_of(law.lame, bends)) {}
+
+  /// For the compound of t, new or of another shape.
+  void reset(const ElementTable& elements, TriangleIndex t);
+  /// Where the blocks of the compounds that have this corner are in its row of the matrix.
   void find_slots(const ElementTable& elements, std::size_t vertex, const BlockMatrix<D>& blocks);
 
-  /// Deformations of all polygons at x; adds the forces they exert. The functions below refer to this x.
+  /// Deformations of all at x; adds the forces they exert. The functions below refer to this x.
   void rotate(const ElementTable& elements, const Field& x, Field& force);
   double energy(const ElementTable& elements) const;
-  const Deformation<D>& deformation(std::size_t slot) const { return states_[slot].deformation; }
+  /// Of a member.
+  const Deformation<D>& deformation(const Element& member) const {
+    return states_[to_size(member.polygon)].deformation;
+  }
   void add_stiffness(const ElementTable& elements, double factor, BlockMatrix<D>& blocks) const;
 
  private:

@@ -1,4 +1,4 @@
-#include "harness/fem/elements/polygon_sheet.h"
+#include "harness/fem/elements/compound_sheet.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -25,6 +25,33 @@ Eigen::Vector2d gradient(const PolygonElement& polygon, Eigen::Index corner) {
   return {x, y};
 }
 
+/// 2 k x 2 k, N/m.
+Eigen::MatrixXd stiffness_of(const PolygonElement& polygon, const Lame& lame) {
+  const auto k = to_index(polygon.size());
+  StrainInFrame<2, double> at_rest{};
+  at_rest.frame[0][0] = at_rest.frame[1][1] = 1;
+  const ElementStiffness<2> stiffness({}, polygon.area, at_rest, {Strain::linear, StressStiffness::none, lame});
+  const Eigen::MatrixXd stabilisation =
+      stabilisation_of(lame, false).in_plane * polygon.departure.transpose() * polygon.departure;
+  Eigen::MatrixXd matrix(2 * k, 2 * k);
+  for (Eigen::Index i = 0; i < k; ++i)
+    for (Eigen::Index j = 0; j < k; ++j) {
+      const auto block = stiffness.block(vector(polygon.gradient[to_size(i)]), vector(polygon.gradient[to_size(j)]));
+      matrix.block<2, 2>(2 * i, 2 * j) =
+          Eigen::Map<const Eigen::Matrix2d>(block.data()) + stabilisation(i, j) * Eigen::Matrix2d::Identity();
+    }
+  return matrix;
+}
+
+void add_force(const PolygonElement& polygon, const Eigen::MatrixXd& stiffness, const Field& moved, Field& force) {
+  Field at_corners(stiffness.rows());
+  Eigen::Index next = 0;
+  for (const auto d : polygon.polygon.corners) at_corners.segment<2>(2 * next++) = moved.segment<2>(2 * d.value);
+  const Field pull = stiffness * at_corners;
+  next = 0;
+  for (const auto d : polygon.polygon.corners) force.segment<2>(2 * d.value) += pull.segment<2>(2 * next++);
+}
+
 }  // namespace
 
 Stabilisation stabilisation_of(const Lame& lame, bool bends) {
@@ -33,15 +60,27 @@ Stabilisation stabilisation_of(const Lame& lame, bool bends) {
   return {tau * young, bends ? 0 : tau * young};
 }
 
+CompoundStiffness::CompoundStiffness(const ElementTable& elements, const Lame& lame) {
+  for (std::size_t p = 0; p < elements.polygon_slots(); ++p)
+    stiffness_.push_back(stiffness_of(elements.polygon(p), lame));
+}
+
+void CompoundStiffness::add_force(const ElementTable& elements, const Field& moved, Field& force) const {
+  for (std::size_t p = 0; p < stiffness_.size(); ++p)
+    cutbench::add_force(elements.polygon(p), stiffness_[p], moved, force);
+}
+
 template <int D>
-void PolygonSheet<D>::reset(std::size_t slot, const PolygonElement& polygon) {
+void CompoundSheet<D>::reset(const ElementTable& elements, TriangleIndex t) {
+  const std::size_t slot = to_size(elements[t()].polygon);
+  const PolygonElement& polygon = elements.polygon(slot);
   if (slot >= states_.size()) states_.resize(slot + 1);
   states_[slot].stabilisation = polygon.departure.transpose() * polygon.departure;
   states_[slot].slots.assign(polygon.size() * polygon.size(), -1);
 }
 
 template <int D>
-void PolygonSheet<D>::find_slots(const ElementTable& elements, std::size_t vertex, const BlockMatrix<D>& blocks) {
+void CompoundSheet<D>::find_slots(const ElementTable& elements, std::size_t vertex, const BlockMatrix<D>& blocks) {
   for (const std::int32_t p : elements.polygons_of(vertex)) {
     const auto slot = to_size(p);
     const auto& corners = elements.polygon(slot).polygon.corners;
@@ -52,13 +91,13 @@ void PolygonSheet<D>::find_slots(const ElementTable& elements, std::size_t verte
 }
 
 template <int D>
-void PolygonSheet<D>::rotate(const ElementTable& elements, const Field& x, Field& force) {
+void CompoundSheet<D>::rotate(const ElementTable& elements, const Field& x, Field& force) {
   for (std::size_t p = 0; p < elements.polygon_slots(); ++p)
     if (elements.polygon(p).alive()) rotate(elements.polygon(p), x, states_[p], force);
 }
 
 template <int D>
-void PolygonSheet<D>::rotate(const PolygonElement& polygon, const Field& x, State& state, Field& force) const {
+void CompoundSheet<D>::rotate(const PolygonElement& polygon, const Field& x, State& state, Field& force) const {
   const LinearMap<D> map = polygon.map<D>(x);
   state.deformation = deformation_of<D>(map.gradient, law_.strain, law_.lame);
   const auto k = to_index(polygon.size());
@@ -91,7 +130,7 @@ void PolygonSheet<D>::rotate(const PolygonElement& polygon, const Field& x, Stat
 }
 
 template <int D>
-double PolygonSheet<D>::energy(const ElementTable& elements) const {
+double CompoundSheet<D>::energy(const ElementTable& elements) const {
   double sum = 0;
   for (std::size_t p = 0; p < elements.polygon_slots(); ++p) {
     if (!elements.polygon(p).alive()) continue;
@@ -105,7 +144,7 @@ double PolygonSheet<D>::energy(const ElementTable& elements) const {
 }
 
 template <int D>
-void PolygonSheet<D>::add_stiffness(const ElementTable& elements, double factor, BlockMatrix<D>& blocks) const {
+void CompoundSheet<D>::add_stiffness(const ElementTable& elements, double factor, BlockMatrix<D>& blocks) const {
   const double less = stabilisation_.in_plane - stabilisation_.across;
   for (std::size_t p = 0; p < elements.polygon_slots(); ++p) {
     const PolygonElement& polygon = elements.polygon(p);
@@ -130,7 +169,7 @@ void PolygonSheet<D>::add_stiffness(const ElementTable& elements, double factor,
   }
 }
 
-template class PolygonSheet<2>;
-template class PolygonSheet<3>;
+template class CompoundSheet<2>;
+template class CompoundSheet<3>;
 
 }  // namespace cutbench
