@@ -1,7 +1,10 @@
 // What the updates of a running simulation save: the same made anew after a cut, timed.
 #pragma once
 
+#include <vector>
+
 #include "harness/records/metrics.h"
+#include "harness/simulation/scene.h"
 
 namespace cutbench {
 
