@@ -47,7 +47,7 @@ double lowest(const Simulation& simulation) {
 
 int main() {
   const auto simulation = Simulation::start(hanging());  // throws InputError
-  const MethodRow& row = find_method("warp_and_split");
+  const MethodRow& row = find_method("warp_and_refine");
   const auto method = row.make(row.parameter.value);  // the same one in all cuts of a simulation
   const Curve slit{Curve::Kind::polyline, false, {{0.2, 0.55}, {0.83, 0.5}}};  // m, on the sheet at rest
   for (int i = 0; i < 240; ++i) {
