@@ -9,20 +9,20 @@ namespace cutbench {
 
 namespace {
 
-using Run = bool (*)(const Experiment&, const std::vector<MethodRow>&, const Context&, const RunOptions&);
+using StudyFunction = bool (*)(const Experiment&, const std::vector<MethodRow>&, const Context&, const RunOptions&);
 
 struct RunOfKind {
-  Run operator()(const CutStudy&) const { return run_methods; }
-  Run operator()(const AccuracyStudy&) const { return run_accuracy; }
-  Run operator()(const RobustnessStudy&) const { return run_robustness; }
-  Run operator()(const StabilityStudy&) const { return run_stability; }
+  StudyFunction operator()(const CutStudy&) const { return run_methods; }
+  StudyFunction operator()(const AccuracyStudy&) const { return run_accuracy; }
+  StudyFunction operator()(const RobustnessStudy&) const { return run_robustness; }
+  StudyFunction operator()(const StabilityStudy&) const { return run_stability; }
 };
 
 }  // namespace
 
 bool run_experiment(const Experiment& experiment, const std::vector<MethodRow>& methods, const Context& context,
                     const RunOptions& options) {
-  const Run run = std::visit(RunOfKind(), experiment.study);
+  const StudyFunction run = std::visit(RunOfKind(), experiment.study);
   return run(experiment, methods, context, options);
 }
 
