@@ -11,6 +11,7 @@
 #include "harness/fem/time/stepper.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/predicates.h"
+#include "harness/problems/common/add_step.h"
 #include "harness/problems/common/lips.h"
 #include "harness/problems/common/members.h"
 #include "harness/problems/out_of_plane/bent_sheet.h"
@@ -189,13 +190,7 @@ class HangingSheet : public Problem {
     read();
     for (int step = 0; step < std::lround(duration_ * squares); ++step) {
       const StepReport report = stepper.step(model, state);
-      answer.assemble_us += report.time_us.rotate + report.time_us.assemble;
-      answer.setup_us += report.time_us.setup;
-      answer.solve_us += report.time_us.solve;
-      answer.iterations += report.newton;
-      answer.residual = std::max(answer.residual, report.residual);
-      answer.verdict = report.verdict;
-      answer.reason = report.reason;
+      add_step(report, answer);
       if (answer.verdict != Verdict::ok) return motion;
       read();
     }

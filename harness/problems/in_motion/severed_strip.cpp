@@ -9,6 +9,7 @@
 #include "harness/base/conversions.h"
 #include "harness/fem/time/stepper.h"
 #include "harness/mesh/families.h"
+#include "harness/problems/common/add_step.h"
 #include "harness/problems/common/members.h"
 #include "harness/problems/out_of_plane/bent_sheet.h"
 
@@ -154,13 +155,7 @@ class SeveredStrip : public Problem {
     const double end = 4 * std::max(cut, 1 - cut);
     while (state.time < end) {
       const StepReport report = stepper.step(model, state);
-      answer.assemble_us += report.time_us.rotate + report.time_us.assemble;
-      answer.setup_us += report.time_us.setup;
-      answer.solve_us += report.time_us.solve;
-      answer.iterations += report.newton;
-      answer.residual = std::max(answer.residual, report.residual);
-      answer.verdict = report.verdict;
-      answer.reason = report.reason;
+      add_step(report, answer);
       if (answer.verdict != Verdict::ok) return;
       read(sheet, model, state, bars);
     }

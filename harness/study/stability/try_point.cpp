@@ -107,9 +107,18 @@ class Point {
       put(name_of(outcome.status), result_.status);
       us += outcome.time_us.total();
       error = std::max(error, judged.judgement.incision_error);
-      if (!finding.ok()) return conclude(finding.verdict, finding.reason), false;
-      if (outcome.status == Status::refused) return conclude(Verdict::refused, outcome.reason), false;
-      if (outcome.status == Status::failed) return conclude(Verdict::failed, outcome.reason), false;
+      if (!finding.ok()) {
+        conclude(finding.verdict, finding.reason);
+        return false;
+      }
+      if (outcome.status == Status::refused) {
+        conclude(Verdict::refused, outcome.reason);
+        return false;
+      }
+      if (outcome.status == Status::failed) {
+        conclude(Verdict::failed, outcome.reason);
+        return false;
+      }
     }
     conclude(Verdict::ok, "");
     measure("geometry_us") = us;
