@@ -4,7 +4,7 @@ one below; no arrow goes up.
 And no two files define a type of one name: the linker keeps one of their functions for both, and says nothing.
 The graphs in docs/architecture.md are drawn from the same table, what links what is compared with CMake's words.
 usage: tests/check_includes.py [--draw]
-  exit code 1 and a line per include that breaks the order, per leave that no file needs, and per second type
+  exit code 1 and a line per include that breaks the order, per entry of the table that no file needs, and per second type
   --draw  puts the graphs into docs/architecture.md"""
 
 import pathlib
@@ -115,7 +115,7 @@ for file in sorted([*root.glob("harness/**/*.[hc]*"), *root.glob("methods/**/*.[
 for room, (_, allowed) in ROOMS.items():
     for name in allowed:
         if not any((room, other) in used for other in ROOMS if covers([name], other)):
-            fault(f"the table: {room} may use {name}, but no file of it does; take the leave away")
+            fault(f"the table: {room} may use {name}, but no file of it does; take the entry away")
 
 # A library has the files of its rooms, and links those that the table says.
 sources = (root / "harness/CMakeLists.txt").read_text()
