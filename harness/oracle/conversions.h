@@ -1,12 +1,11 @@
 #pragma once
 
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
-/// Conversions between kinds of numbers, with names short enough for an index. Precondition: the value fits the kind asked
-/// for, as with static_cast.
+/// As harness/base/conversions.h: the oracle shares no code with what it judges. Precondition: the value fits the kind
+/// asked for.
 namespace cutbench::oracle {
 
 template <typename T>
@@ -18,7 +17,7 @@ constexpr std::int32_t to_int32(Number auto n) { return static_cast<std::int32_t
 constexpr std::int64_t to_int64(Number auto n) { return static_cast<std::int64_t>(n); }
 constexpr double to_double(Number auto n) { return static_cast<double>(n); }
 
-/// An index of Eigen, or a distance between iterators: both are std::ptrdiff_t.
+/// A distance between iterators.
 constexpr std::ptrdiff_t to_index(Number auto n) { return static_cast<std::ptrdiff_t>(n); }
 
 }  // namespace cutbench::oracle
