@@ -9,8 +9,8 @@
 #include "harness/base/conversions.h"
 #include "harness/fem/time/stepper.h"
 #include "harness/mesh/families.h"
-#include "harness/problems/common/add_step.h"
 #include "harness/problems/common/members.h"
+#include "harness/problems/in_motion/add_step.h"
 #include "harness/problems/out_of_plane/bent_sheet.h"
 
 namespace cutbench {
