@@ -150,6 +150,7 @@ TEST_F(BadInput, Experiments) {
 
   // What only the program knows: methods, their parameters, and the command line.
   write(folder_ / "e.toml", text);
+  write(folder_ / "robust.toml", robustness);
   write(folder_ / "twice.toml", with("[0, 1]", "[0, 0]"));
   write(folder_ / "parameter.toml", with("[0, 1]", "[0, 0.5]"));
   write(folder_ / "parameterless.toml",
@@ -163,6 +164,7 @@ TEST_F(BadInput, Experiments) {
               {"run e.toml --out r --methods cross_check", 2, "--methods cross_check is not in the experiment"},
               {"run e.toml --out r --sweeps vertex", 2, "--sweeps is for an experiment that has [[sweeps]]"},
               {"run e.toml --out r --cases 0", 2, "--cases"},
+              {"run robust.toml --out r --repetitions 3", 2, "--repetitions is for an experiment of cut families"},
               {"run e.toml --out r --repetitions 0", 2, "--repetitions"}});
 }
 

@@ -20,7 +20,9 @@ std::string cut(oracle::Mesh& mesh, const oracle::Curve& curve, int* pieces = nu
   const oracle::CrossCheckResult result = oracle::cgal_whole_sheet_cut(mesh, curve, flattening);
   if (result.refused) return "refused: " + result.reason;
   const double tolerance = curve.bezier ? flattening : 1e-14;  // paths begin several sheets away
-  const oracle::Request request{.before = mesh, .cuts = {curve}, .tolerance = tolerance, .vertex_tolerance = tolerance};
+  // Its crossings are rounded to the length of the path.
+  const oracle::Request request{
+      .before = mesh, .cuts = {curve}, .tolerance = tolerance, .snap = 1e-14, .vertex_tolerance = tolerance};
   const oracle::Judgement judgement = oracle::judge(request, result.mesh);
   if (pieces) *pieces = judgement.pieces;
   mesh = result.mesh;

@@ -4,9 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <cstdlib>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <set>
+#include <utility>
 
 #include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
@@ -278,6 +282,124 @@ TEST(Findings, AllTrianglesReversedAreFlipped) {
   ASSERT_EQ(a.findings.size(), 1u);
   EXPECT_EQ(a.findings.front().cause, "flipped");
   EXPECT_NE(a.findings.front().text.find("every triangle"), std::string::npos);
+}
+
+/// The pieces of a result, by its vertices; the first has number 0.
+std::vector<int> piece_of_vertices(const MeshData& mesh) {
+  std::vector<int> piece(mesh.rest.size());
+  std::iota(piece.begin(), piece.end(), 0);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const auto& t : mesh.triangles) {
+      const int least = std::min({piece[to_size(t[0])], piece[to_size(t[1])], piece[to_size(t[2])]});
+      for (const auto v : t) changed |= std::exchange(piece[to_size(v)], least) != least;
+    }
+  }
+  return piece;
+}
+
+Finding only_finding(const Made& made) {
+  const Assessment a = assess_result(made.before, made.result, made.cuts, promises_of_everybody, {});
+  EXPECT_FALSE(a.judgement.ok);
+  EXPECT_EQ(a.findings.size(), 1u);
+  return a.findings.empty() ? Finding{} : a.findings.front();
+}
+
+TEST(Findings, PiecesMovedApartAreNamed) {
+  for (const Point2 by : {Point2{0, -0.3}, Point2{0.125, 0}, Point2{-3, 2}}) {
+    auto made = cut_across();
+    ASSERT_TRUE(made);
+    const std::vector<int> piece = piece_of_vertices(made->result);
+    for (std::size_t v = 0; v < piece.size(); ++v)
+      if (piece[v] == 0) made->result.rest[v] = made->result.rest[v] + by;
+    const Finding f = only_finding(*made);
+    EXPECT_EQ(f.cause, "moved_apart") << f.text;
+    EXPECT_EQ(f.text.find("the sheet's vertices are not at their rest places: "), 0u) << f.text;
+    EXPECT_NE(f.text.find("is moved by ("), std::string::npos) << f.text;
+  }
+}
+
+TEST(Findings, APieceThatRunsClockwiseIsNamed) {
+  auto made = cut_across();
+  ASSERT_TRUE(made);
+  const std::vector<int> piece = piece_of_vertices(made->result);
+  for (auto& t : made->result.triangles)
+    if (piece[to_size(t[0])] == 0) std::swap(t[0], t[1]);
+  const Finding f = only_finding(*made);
+  EXPECT_EQ(f.cause, "flipped") << f.text;
+  EXPECT_NE(f.text.find("every triangle of the piece round "), std::string::npos) << f.text;
+}
+
+/// The first triangle at a lip's vertex that shares it with others gets a copy.
+TEST(Findings, DoubledVerticesAtTheCutAreNamed) {
+  auto made = cut_across();
+  ASSERT_TRUE(made);
+  MeshData& mesh = made->result;
+  const MeshData right = mesh;
+  const auto places = vertices_by_place(mesh);
+  const auto copy = to_int32(mesh.rest.size());
+  bool done = false;
+  for (auto& t : mesh.triangles)
+    for (auto& v : t) {
+      const Point2 p = rest(mesh, v);
+      if (done || p.x < 0.3 || p.x > 0.7 || places.at({p.x, p.y}).size() != 2) continue;
+      mesh.rest.push_back(Point2(p));
+      mesh.deformed.push_back({p.x, p.y, 0});
+      v = copy;
+      done = true;
+    }
+  ASSERT_TRUE(done);
+  EXPECT_EQ(only_finding(*made).cause, "doubled") << only_finding(*made).text;
+
+  mesh = right;
+  for (std::size_t v = made->before.vertex_count(); v < right.rest.size(); ++v) {
+    mesh.rest.push_back(right.rest[v]);
+    mesh.deformed.push_back(right.deformed[v]);
+  }
+  EXPECT_EQ(only_finding(*made).cause, "doubled") << only_finding(*made).text;
+}
+
+double with_digits(double x, int digits) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*g", digits, x);
+  return std::strtod(text, nullptr);
+}
+
+/// Written with few digits most right results are wrong, and right when read with as many; a wrong one stays wrong.
+TEST(Findings, FewDigitsAreAllowedWhereAskedFor) {
+  Random random(5);
+  Promises asked = promises_of_everybody;
+  asked.keeps_vertices = true;
+  std::size_t right = 0, strictly_wrong = 0;
+  for (std::size_t i = 0; i < scaled(100); ++i) {
+    Made made = random_cut(random);
+    SCOPED_TRACE(text_of(made.cuts.front()));
+    const int digits = 6 + to_int(random.below(8));
+    for (Point2& p : made.result.rest) p = {with_digits(p.x, digits), with_digits(p.y, digits)};
+    strictly_wrong += !assess_result(made.before, made.result, made.cuts, asked, {}).judgement.ok;
+    const Assessment a = assess_result(made.before, made.result, made.cuts, asked, {}, digits);
+    right += a.judgement.ok;
+    if (!a.judgement.ok) {
+      EXPECT_EQ(a.judgement.verdict, Verdict::rounded) << a.judgement.problems.front();
+      continue;
+    }
+    EXPECT_LT(a.read.farthest, a.read.unit);
+    for (const Way& way : ways()) {
+      if (way.name == "RoundedToFloat" || way.name == "LipsNotBitEqual") continue;
+      Made wrong = made;
+      if (!way.spoil(wrong, random)) continue;
+      if (way.name == "LipNotOpened") drop_unused(wrong.result);
+      EXPECT_FALSE(assess_result(made.before, wrong.result, made.cuts, asked, {}, digits).judgement.ok) << way.name;
+    }
+  }
+  EXPECT_GT(right, scaled(100) / 2);
+  EXPECT_GT(strictly_wrong, scaled(100) / 2);
+}
+
+TEST(Findings, DigitsThatMixUpVerticesAreRefused) {
+  const auto made = cut_across();
+  ASSERT_TRUE(made);
+  EXPECT_THROW(assess_result(made->before, made->result, made->cuts, promises_of_everybody, {}, 1), InputError);
 }
 
 /// A flat triangle beside the incision that has vertices of its own is a piece more.

@@ -11,6 +11,7 @@
 #include "harness/cases/cut_families.h"
 #include "harness/cut/constraint_source.h"
 #include "harness/judge/oracle_request.h"
+#include "harness/judge/same_sheet.h"
 #include "harness/mesh/families.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
@@ -175,6 +176,27 @@ TEST(JudgeOneByOne, ALaterCutMeetsTheIncisionNotTheCurve) {
   const Judgement another =
       judge_one_by_one(before, before, cuts, row.promises, row.make(row.parameter.value), options);
   EXPECT_EQ(another.verdict, Verdict::not_reproduced);
+}
+
+/// The default of every part of a method: the Delaunay split.
+class SplitAlone : public CuttingMethod {};
+
+/// The path runs past a row of vertices so closely that refinement gives up.
+TEST(Methods, OneThatGivesUpSaysThatNothingWasImproved) {
+  const Sheet before(make_sheet("grid", 4));
+  const auto cut = [&](CuttingMethod& method, Sheet& sheet) {
+    Locator locator(sheet);
+    Cutter cutter;
+    return cutter.cut(sheet, locator, {Curve::Kind::polyline, false, {{-0.1, 0.501}, {1.1, 0.5017}}}, method, {});
+  };
+  const MethodRow& row = find_method("cgal_refine");
+  Sheet refined = before, split = before;
+  const CutOutcome outcome = cut(*row.make(row.parameter.value), refined);
+  SplitAlone alone;
+  cut(alone, split);
+  ASSERT_EQ(outcome.status, Status::ok);
+  EXPECT_EQ(difference(refined, split), "") << "or else something was improved: the test needs another path";
+  EXPECT_EQ(outcome.reason.find("no triangle was improved"), 0u) << outcome.reason;
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 // deformed corners are known is somewhere in space, and picked there it must come back.
 #include "harness/path/pick.h"
 
+#include <map>
+#include <utility>
+
 #include "harness/base/conversions.h"
 #include "harness/files/mesh_file.h"
 #include "harness/files/scene_file.h"
@@ -198,6 +201,81 @@ polyline = [[0.73, 0.5, 0.1], {origin = [5.33, 0.5, 1], direction = [0, 0, -3]}]
   EXPECT_EQ(files(), whole);
   EXPECT_EQ(read(folder_ / "f/frames.pvd"), series);
   EXPECT_EQ(read(folder_ / "f/frame_0003.vtu"), frame);
+}
+
+/// A strip of squares of 1 m along x, sewn in space of panels that lie `gap` apart at rest; the vertices of each square
+/// are its own. Rolled up to a tube, the last square meets the first.
+MeshData sewn_strip(int squares, int per_panel, double gap, bool rolled) {
+  MeshData mesh;
+  const double radius = to_double(squares) / (2 * std::acos(-1.0));
+  for (int i = 0; i < squares; ++i) {
+    const auto first = to_int32(mesh.rest.size());
+    for (const auto [x, y] : {std::pair{i, 0}, std::pair{i + 1, 0}, std::pair{i + 1, 1}, std::pair{i, 1}}) {
+      const double turn = to_double(x % squares) / radius;
+      mesh.rest.push_back({x + gap * (i / per_panel), to_double(y)});
+      mesh.deformed.push_back(rolled ? Point3{radius * std::cos(turn), radius * std::sin(turn), to_double(y)}
+                                     : Point3{to_double(x), to_double(y), 0});
+    }
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.triangles.push_back({first, first + 2, first + 3});
+  }
+  return mesh;
+}
+
+/// Where vertices of one panel have equal rest positions they are one.
+Sheet sheet_of(const MeshData& mesh) {
+  MeshData joined;
+  std::map<std::pair<double, double>, std::int32_t> number;
+  for (auto triangle : mesh.triangles) {
+    for (auto& v : triangle) {
+      const Point2 p = mesh.rest[to_size(v)];
+      const auto [place, is_new] = number.try_emplace({p.x, p.y}, to_int32(joined.rest.size()));
+      if (is_new) {
+        joined.rest.push_back(p);
+        joined.deformed.push_back(mesh.deformed[to_size(v)]);
+      }
+      v = place->second;
+    }
+    joined.triangles.push_back(triangle);
+  }
+  return Sheet(joined);
+}
+
+PickedCurve line_at(std::initializer_list<Point3> points, bool closed = false) {
+  PickedCurve curve{Curve::Kind::polyline, closed, {}};
+  for (const Point3& p : points) curve.picks.push_back({p, {}});
+  return curve;
+}
+
+TEST(Pick, AWayOverASeamIsRefused) {
+  const auto crosses = [](const Sheet& sheet, const PickedCurve& curve) {
+    try {
+      Picker(sheet).rest_curve(curve, "it");
+      return false;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("crosses a seam"), std::string::npos) << error.what();
+      return true;
+    }
+  };
+  const Sheet panels = sheet_of(sewn_strip(6, 2, 3, false)), whole = sheet_of(sewn_strip(6, 6, 0, false));
+  EXPECT_TRUE(crosses(panels, line_at({{1.5, 0.5, 0}, {2.5, 0.5, 0}})));
+  EXPECT_TRUE(crosses(panels, line_at({{0.5, 0.5, 0}, {1.5, 0.2, 0}, {5.5, 0.5, 0}})));
+  EXPECT_FALSE(crosses(panels, line_at({{2.2, 0.5, 0}, {3.9, 0.1, 0}})));
+  EXPECT_FALSE(crosses(whole, line_at({{0.5, 0.5, 0}, {5.5, 0.5, 0}})));
+
+  const Sheet tube = sheet_of(sewn_strip(12, 12, 0, true));
+  const MeshData data = tube.to_mesh_data();
+  const auto at = [&](int square) {  // the middle of its diagonal
+    const auto corner = [&](double x, double y) {
+      for (std::size_t v = 0; v < data.rest.size(); ++v)
+        if (data.rest[v] == Point2{x, y}) return data.deformed[v];
+      return Point3{};
+    };
+    return 0.5 * (corner(square, 0) + corner(square + 1, 1));
+  };
+  EXPECT_TRUE(crosses(tube, line_at({at(1), at(4), at(7), at(10)}, true)));
+  EXPECT_FALSE(crosses(tube, line_at({at(1), at(4), at(7), at(10)})));
+  EXPECT_TRUE(crosses(tube, line_at({at(0), at(11)})));
 }
 
 TEST_F(PickedScene, APathFileMayBeInWorldSpace) {

@@ -461,5 +461,16 @@ TEST_F(Score, BadInputIsRefused) {
   expect_refused("--mesh sheet.obj --path path.json", "--result");
 }
 
+TEST_F(Score, FewDigitsWhereAskedFor) {
+  MeshData result = make_result(inside, "conventional_split");
+  for (Point2& p : result.rest) p = {std::round(1e7 * p.x) / 1e7, std::round(1e7 * p.y) / 1e7};
+  expect_verdict(result, "rounded");
+  EXPECT_NE(out_.find("--digits 8"), std::string::npos) << out_;
+  expect_ok(result, "--keeps-vertices --digits 7");
+  EXPECT_NE(out_.find("\nread with 7 digits: "), std::string::npos) << out_;
+  EXPECT_EQ(json::parse(read(folder_ / "score.json"))["read"]["digits"], 7);
+  expect_refused("--mesh sheet.obj --path path.json --result result.obj --report score.json --digits 0", "--digits 0");
+}
+
 }  // namespace
 }  // namespace cutbench

@@ -472,5 +472,30 @@ TEST(Sheet, WeldsTheLipsOfIncisions) {
   EXPECT_EQ(count_pieces(again), count_pieces(sheet));
 }
 
+/// A vertex with a triangle of hardly any height beside it moves onto the far edge of that: in an undeformed sheet
+/// deformed positions stay rest positions.
+TEST(Sheet, MovesInThinTrianglesKeepTheUndeformedSheet) {
+  for (const double height : {1e-3, 1e-6, 6e-12, 3e-14, 1e-16})
+    for (const double at : {0.31, 0.5, 0.77}) {
+      MeshData mesh{{{0.1, 0.2}, {0.9, 0.4}, {0.4, 0.9}, {0.3, -0.4}, {0, 0}}, {}, {}, {}};
+      const Point2 a = mesh.rest[0], b = mesh.rest[1], along = b - a;
+      mesh.rest[4] = a + at * along + height * Point2{-along.y, along.x};
+      mesh.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 0, 4}, {1, 0, 3}};
+      for (const Point2 p : mesh.rest) mesh.deformed.push_back({p.x, p.y, 0});
+      bool sound = true;
+      for (const auto& t : mesh.triangles)
+        sound &= orientation(mesh.rest[to_size(t[0])], mesh.rest[to_size(t[1])], mesh.rest[to_size(t[2])]) > 0;
+      if (!sound) continue;
+      Sheet sheet(mesh);
+      sheet.begin_cut();
+      const Point2 to = mesh.rest[4] + 0.37 * height * Point2{along.x, along.y};
+      const bool moved = sheet.move(VertexIndex(4), to);
+      const Point2 p = sheet.rest(VertexIndex(4));
+      const Point3 x = sheet.position(DeformedIndex(4));
+      EXPECT_NEAR(x.x, p.x, 1e-15) << height << ' ' << at << ' ' << moved;
+      EXPECT_NEAR(x.y, p.y, 1e-15) << height << ' ' << at << ' ' << moved;
+    }
+}
+
 }  // namespace
 }  // namespace cutbench

@@ -110,6 +110,36 @@ TEST(Verdict, InvertedInSpace) {
   EXPECT_GT(turned.area, 0);
 }
 
+/// Triangles that share one edge are folded on each other without strain, or with it; so is a strip along each edge.
+TEST(Verdict, AFoldIsNotInverted) {
+  const MeshData pair{
+      {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}, {}};
+  const Sheet sheet(pair);
+  Field x(12);
+  for (const double stretch : {1.0, 3.0}) {
+    x << 0, 0, 0, stretch, 0, 0, stretch, stretch, 0, 0.95 * stretch, 0.05 * stretch, 0.1 * stretch;
+    EXPECT_EQ(turned_over(sheet, ElementTable(sheet), x, 3).triangles, 0u) << stretch;
+  }
+  MeshData strip;
+  for (int i = 0; i < 8; ++i) {
+    strip.rest.push_back({i / 2.0, i % 2 == 0 ? 0.0 : 1.0});
+    if (i < 2) continue;
+    if (i % 2 == 0)
+      strip.triangles.push_back({i - 2, i, i - 1});
+    else
+      strip.triangles.push_back({i - 2, i - 1, i});
+  }
+  for (const Point2 p : strip.rest) strip.deformed.push_back({p.x, p.y, 0});
+  const Sheet zigzag(strip);
+  Field y(24);
+  // All triangles on one: each vertex is at one of three corners.
+  for (int i = 0; i < 8; ++i) {
+    const Point2 p = strip.rest[to_size(i % 3)];
+    y.segment<3>(3 * i) = Eigen::Vector3d(p.x, p.y, 0);
+  }
+  EXPECT_EQ(turned_over(zigzag, ElementTable(zigzag), y, 3).triangles, 0u);
+}
+
 TEST(Verdict, SolverStalled) {
   for (const Integrator integrator : {Integrator::backward_euler, Integrator::midpoint}) {
     Scene scene = falling(integrator, 0.01, 10);

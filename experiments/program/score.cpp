@@ -52,6 +52,7 @@ void print_why_another_number(const Judgement& j, std::size_t cuts) {
 void print(const Assessment& a, double h, std::size_t cuts) {
   const Judgement& j = a.judgement;
   std::cout << (j.ok ? "ok" : "failed: " + std::string(name_of(j.verdict))) << '\n';
+  if (a.read.digits > 0) std::cout << a.read.text() << '\n';
   print_findings(a, cuts);
   for (const std::string& problem : j.problems)
     if (a.findings.empty() || problem != a.findings.front().cause + ": " + a.findings.front().text)
@@ -76,14 +77,16 @@ void print(const Assessment& a, double h, std::size_t cuts) {
 
 bool score(const ScoreArguments& arguments, const CutOptions& options) {
   const std::vector<Curve> cuts = read_path(arguments.path);
-  const MeshData data = read_mesh(arguments.mesh);
+  const MeshData data = read_mesh(arguments.mesh, arguments.reading);
   for (const auto& note : data.notes) std::cerr << "note: " << note << '\n';
-  const MeshData result = read_mesh_as_is(arguments.result);
+  const bool texture = leaves_vt(arguments.mesh, arguments.reading);
+  const MeshReading of_result{texture ? RestFrom::automatic : RestFrom::vt, arguments.reading.triangulate};
+  const MeshData result = read_mesh_as_is(arguments.result, of_result);
   const Sheet before(data);
   Promises asked = promises_of_everybody;
   if (arguments.deletes) asked = find_method("element_deletion").promises;
   asked.keeps_vertices = arguments.keeps_vertices;
-  const Assessment a = assess_result(before, result, cuts, asked, options);
+  const Assessment a = assess_result(before, result, cuts, asked, options, arguments.digits);
   const double h = before.mean_edge();
   if (!arguments.report.empty()) WholeFile(arguments.report, score_as_json(a, h)).place();
   if (!arguments.svg.empty()) WholeFile(arguments.svg, result_as_svg(before, result, cuts, a.findings)).place();

@@ -29,7 +29,8 @@ CutRun cut_all(Sheet& sheet, Locator& locator, Cutter& cutter, std::span<const C
     run.recovered_segments += outcome.recovered_segments;
     run.carefully |= outcome.carefully;
     run.verdict = outcome.verdict;
-    if (outcome.status != Status::noop || run.status == Status::noop) run.reason = outcome.reason;
+    const bool says_more = !outcome.reason.empty() || run.status == Status::noop;
+    if (says_more && (outcome.status != Status::noop || run.status == Status::noop)) run.reason = outcome.reason;
     if (outcome.status != Status::noop) run.status = outcome.status;
     if (run.status == Status::failed || run.status == Status::refused) break;
     if (after_cut && outcome.status != Status::noop) after_cut();

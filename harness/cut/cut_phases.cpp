@@ -109,7 +109,10 @@ bool CutUnderWay::follow() {
 }
 
 void CutUnderWay::finish() {
-  if (notes_.stopped_early) outcome.reason = "the triangles were improved in part only, up to the method's limit";
+  if (notes_.stopped_early)
+    outcome.reason = notes_.improved_nothing
+                         ? "no triangle was improved: the method met its limit and left all as the split made them"
+                         : "the triangles were improved in part only, up to the method's limit";
   if (outcome.deviation > line_tolerance * sheet_.snap()) {
     outcome.status = Status::deviated;
     outcome.reason = "a crossing was moved out of a wedge between older cuts that is too thin for doubles";

@@ -23,8 +23,9 @@ class CutProgram;        // harness/cut/cut_program.h
 
 /// What a method may tell about the cut under way; new for every cut.
 struct MethodNotes {
-  int recovered_segments = 0;  ///< path segments that the method's triangulation lacked, and flips brought in
-  bool stopped_early = false;  ///< improve() met a limit of its own, and left the remaining triangles as they were
+  int recovered_segments = 0;     ///< path segments that the method's triangulation lacked, and flips brought in
+  bool stopped_early = false;     ///< improve() met a limit of its own, and left the remaining triangles as they were
+  bool improved_nothing = false;  ///< with stopped_early: these are all
 };
 
 class CuttingMethod {

@@ -17,7 +17,7 @@ std::string lower_case_extension(const std::filesystem::path& path) {
   return extension;
 }
 
-MeshData read_unchecked(const std::filesystem::path& path, bool as_is) {
+MeshData read_unchecked(const std::filesystem::path& path, bool as_is, const MeshReading& reading) {
   const std::string name = path.filename().string();
   const std::string extension = lower_case_extension(path);
   if (extension != ".obj" && extension != ".off" && extension != ".ply")
@@ -27,9 +27,11 @@ MeshData read_unchecked(const std::filesystem::path& path, bool as_is) {
   if (!std::filesystem::is_regular_file(path, error) || access(path.c_str(), R_OK) != 0)
     throw InputError(path.string() + ": no such file, or it can't be read; check the path");
   const std::string text = text_of(path);
-  if (extension == ".off") return read_off(text, name);
-  if (extension == ".ply") return read_ply(text, name);
-  return read_obj(text, name, as_is);
+  if (extension == ".obj") return read_obj(text, name, as_is, reading);
+  if (reading.rest == RestFrom::vt && !as_is)
+    throw InputError(name + ": no vt, so they can't be the rest positions; leave --rest vt out");
+  if (extension == ".off") return read_off(text, name, reading.triangulate);
+  return read_ply(text, name, reading.triangulate);
 }
 
 using Format = std::string (*)(const MeshData&);
@@ -44,15 +46,20 @@ Format format_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-MeshData read_mesh(const std::filesystem::path& path) {
-  MeshData mesh = read_unchecked(path, false);
-  check_and_repair(mesh, path.filename().string());
+MeshData read_mesh(const std::filesystem::path& path, const MeshReading& reading) {
+  MeshData mesh = read_unchecked(path, false, reading);
+  check_and_repair(mesh, path.filename().string(), !mesh.rest.empty());
   return mesh;
 }
 
-MeshData read_mesh_as_is(const std::filesystem::path& path) {
+bool leaves_vt(const std::filesystem::path& path, const MeshReading& reading) {
+  if (lower_case_extension(path) != ".obj" || !read_unchecked(path, true, reading).rest.empty()) return false;
+  return !read_unchecked(path, true, {RestFrom::vt, reading.triangulate}).rest.empty();
+}
+
+MeshData read_mesh_as_is(const std::filesystem::path& path, const MeshReading& reading) {
   const std::string name = path.filename().string();
-  MeshData mesh = read_unchecked(path, true);
+  MeshData mesh = read_unchecked(path, true, reading);
   if (mesh.triangles.empty()) throw InputError(name + ": no triangles; the file is empty, cut short or holds no mesh");
   if (mesh.rest.empty()) take_rest_from_plane(mesh, name);
   return mesh;

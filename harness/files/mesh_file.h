@@ -7,6 +7,7 @@
 #include "harness/files/whole_file.h"
 #include "harness/mesh/check_and_repair.h"
 #include "harness/mesh/mesh_data.h"
+#include "harness/mesh/rest_choice.h"
 
 namespace cutbench {
 
@@ -16,18 +17,24 @@ namespace cutbench {
 /// `v` used with several different `vt` becomes as many vertices, the first keeping its number. OFF, PLY: CGAL's
 /// readers, text or binary; colours, normals and texture coordinates are ignored.
 ///
-/// Rest positions are the `vt` of the OBJ, else see check_and_repair. Positions are taken as written, without a unit.
+/// Rest positions are the `vt` of the OBJ or the plane it lies in, as `reading` and harness/mesh/rest_choice.h say;
+/// without `vt` see check_and_repair. `vt` that are not taken are dropped, with a note. Positions are taken as written,
+/// without a unit.
 /// \throw InputError naming the file, the element (counted from 1; lines in an OBJ) and what to do: no such file,
 /// unknown extension, cut short or not of its format, faces that aren't triangles, and all that check_and_repair
 /// refuses.
-MeshData read_mesh(const std::filesystem::path& path);
+MeshData read_mesh(const std::filesystem::path& path, const MeshReading& reading = {});
+
+/// An OBJ whose `vt` are not taken as rest positions.
+bool leaves_vt(const std::filesystem::path& path, const MeshReading& reading);
 
 /// Reads a mesh that somebody is to judge: nothing is repaired, refused or merged that a list of triangles can hold, so
 /// indices may be out of range and coordinates NaN (in an OBJ; CGAL's readers refuse such files themselves). Rest
-/// positions as above, from the vertices that triangles have and that are finite.
+/// positions are the `vt` where there are any, or as `reading` says, of the vertices that triangles have and that are
+/// finite.
 /// \throw InputError as above for what can't be read as triangles at all, for no triangles, and a curved mesh without
 /// rest positions.
-MeshData read_mesh_as_is(const std::filesystem::path& path);
+MeshData read_mesh_as_is(const std::filesystem::path& path, const MeshReading& reading = {RestFrom::vt, false});
 
 /// Writes by extension (lower case), numbers with the fewest digits that read back bit for bit (17 at most):
 /// - .obj: `v` deformed, `vt` rest, one per vertex, `f v/vt`; read_mesh gives it back unchanged.

@@ -47,8 +47,10 @@ Box read_box(const TomlReader& reader) {
   return {points[0], points[1]};
 }
 
-void read_sheet(const TomlReader& file, const std::filesystem::path& folder, Scene& scene) {
-  const TomlReader reader = file.section("sheet", {"family", "file", "size", "resolution"});
+/// How the sheet's file is read, where it has one.
+MeshReading read_sheet(const TomlReader& file, const std::filesystem::path& folder, Scene& scene) {
+  const TomlReader reader = file.section("sheet", {"family", "file", "size", "resolution", "rest", "triangulate"});
+  MeshReading reading;
   if (reader.has("file")) {
     exclude(reader, "\"file\"", {"family", "size", "resolution"});
     scene.family.clear();
@@ -56,8 +58,11 @@ void read_sheet(const TomlReader& file, const std::filesystem::path& folder, Sce
     if (std::error_code ignored; !std::filesystem::is_regular_file(mesh, ignored))
       reader.refuse("there is no file " + mesh.string() + "; \"file\" is relative to the scene's folder");
     scene.mesh_file = mesh.string();
-    return;
+    reading.rest = reader.choice<RestFrom>("rest", reading.rest, rest_names);
+    reading.triangulate = reader.value<bool>("triangulate", false);
+    return reading;
   }
+  exclude(reader, "\"family\"", {"rest", "triangulate"});
   scene.family = reader.value<std::string>("family", scene.family);
   check_names({scene.family}, sheet_families(), reader.where + ": sheet");
   scene.size = reader.positive("size", scene.size);
@@ -67,6 +72,7 @@ void read_sheet(const TomlReader& file, const std::filesystem::path& folder, Sce
   } catch (const InputError& error) {
     reader.refuse(error.what());
   }
+  return reading;
 }
 
 void read_physics(const TomlReader& file, Scene& scene) {
@@ -312,7 +318,7 @@ Scene read_scene(const std::filesystem::path& file) {
   if (scene.effect.empty()) reader.refuse("\"effect\" is empty; say what the scene shows");
   if (scene.truth.empty()) reader.refuse("\"truth\" is empty; say what the scene is measured against");
   scene.duration = reader.positive("duration", scene.duration);
-  read_sheet(reader, file.parent_path(), scene);
+  const MeshReading reading = read_sheet(reader, file.parent_path(), scene);
   read_physics(reader, scene);
   scene.material = read_material(reader, scene.physics);
   for (const auto& pin : reader.sections("pins", "pin", {"near", "box", "axes", "displacement", "velocity"}))
@@ -326,7 +332,7 @@ Scene read_scene(const std::filesystem::path& file) {
     scene.cuts.push_back(read_cut(cut));
   check_times(scene, reader.where);
   check_scene_suits_active_radius(scene, reader.where);
-  if (!scene.mesh_file.empty()) scene.mesh = read_mesh(scene.mesh_file);
+  if (!scene.mesh_file.empty()) scene.mesh = read_mesh(scene.mesh_file, reading);
   return scene;
 }
 

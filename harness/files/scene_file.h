@@ -1,7 +1,8 @@
 // Scene files: TOML.
 //
 //   effect = "..."     truth = "..."     duration = 1.0
-//   [sheet]       family, size, resolution | file
+//   [sheet]       family, size, resolution | file, rest = "auto"|"vt"|"plane" (harness/mesh/rest_choice.h),
+//                 triangulate = false (true: faces of more than three corners are read, too)
 //   [material]    density, stiffness, poisson, bending, mass_damping, stiffness_damping
 //   [physics]     dimension = 2|3, plane = "stress"|"strain", strain = "corotational"|"linear"|"green"|"springs",
 //                 stress_stiffness = "none"|"positive"|"full" (default: positive), bending = of bending_names,

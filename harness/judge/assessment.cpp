@@ -141,10 +141,14 @@ struct Exam {
   Assessment assessment;
 
   Exam(const Sheet& before, const MeshData& result, std::span<const Curve> cuts, const Promises& asked,
-       const CutOptions& options)
+       const CutOptions& options, int digits)
       : request(request_for(before, cuts, asked, options, true)) {
     for (Point2 p : result.rest) mesh.rest.push_back({p.x, p.y});
     mesh.triangles = result.triangles;
+    if (digits > 0) {
+      assessment.read = put_back(mesh, request.before, digits);
+      request.rounding = assessment.read.rounding;
+    }
     Judgement& judgement = assessment.judgement;
     try {
       judgement = oracle::judge(request, mesh);
@@ -162,12 +166,12 @@ struct Exam {
 
 Assessment judge_result(const Sheet& before, const MeshData& result, std::span<const Curve> cuts, const Promises& asked,
                         const CutOptions& options) {
-  return Exam(before, result, cuts, asked, options).assessment;
+  return Exam(before, result, cuts, asked, options, 0).assessment;
 }
 
 Assessment assess_result(const Sheet& before, const MeshData& result, std::span<const Curve> cuts,
-                         const Promises& asked, const CutOptions& options) {
-  Exam exam(before, result, cuts, asked, options);
+                         const Promises& asked, const CutOptions& options, int digits) {
+  Exam exam(before, result, cuts, asked, options, digits);
   Assessment& a = exam.assessment;
   if (!a.measured) return a;
   const oracle::Mesh &mesh = exam.mesh, &was = exam.request.before;

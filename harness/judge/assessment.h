@@ -6,6 +6,7 @@
 
 #include "harness/cut/cut.h"
 #include "harness/cut/method_row.h"
+#include "harness/judge/few_digits.h"
 #include "harness/judge/findings.h"
 #include "harness/mesh/quality.h"
 #include "harness/oracle/forced_zones.h"
@@ -19,6 +20,7 @@ struct Assessment {
   std::vector<Finding> findings;  ///< of a wrong result, by assess_result()
   bool connected = true;  ///< false: the triangles fit together so badly that pieces and incision error are unknown
   bool measured = true;   ///< false: the result is too broken for the numbers below, which stay 0
+  FewDigits read;         ///< of assess_result(): how the coordinates were read
   Quality all, cut;       ///< over the whole sheet, and over the triangles the cut made or changed; altitude in h
   std::size_t forced_corners = 0;
   int corner_triangles = 0, wedge_triangles = 0;
@@ -34,9 +36,11 @@ Assessment assess(const Sheet& before, const Sheet& after, const Judgement& judg
 /// cut is one whose corners, in their order round it, are not exactly those of a triangle before; rest vertices are
 /// counted by their places. What the result has to keep is the caller's to say (`asked`). Beside the oracle's verdicts
 /// there is `rounded`: rest positions have lost digits (findings.h).
-/// \throw InputError: the oracle can't use the sheet before.
+/// \param digits  significant digits that the result was written with (few_digits.h): vertices of the sheet are put
+///   back, and the others judged with that much room (oracle::Request::rounding). 0: strictly.
+/// \throw InputError: the oracle can't use the sheet before, or so few digits can't tell its vertices apart.
 Assessment assess_result(const Sheet& before, const MeshData& result, std::span<const Curve> cuts,
-                         const Promises& asked, const CutOptions& options);
+                         const Promises& asked, const CutOptions& options, int digits = 0);
 /// The judgement and the findings of assess_result(), without the measures.
 Assessment judge_result(const Sheet& before, const MeshData& result, std::span<const Curve> cuts, const Promises& asked,
                         const CutOptions& options);

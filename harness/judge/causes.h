@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,12 +40,17 @@ class Causes {
   void compare_places();
 
   std::optional<Finding> rounded() const;
+  std::string digits_mend(double off) const;
+  std::optional<Finding> moved_apart() const;
   std::optional<Finding> other_rest() const;
   std::optional<Finding> moved_vertex() const;
   Point centre(int t) const;
   std::string name(int t) const;
   std::optional<Finding> flipped() const;
-  bool every_triangle_turns_back() const;
+  /// A piece all of whose triangles run clockwise, or all of them.
+  std::optional<Finding> clockwise_piece() const;
+  /// So thin that few digits may have turned it over.
+  bool is_lost_in_rounding(int t) const;
   /// A neighbour has an edge in the same direction, or all of its edges are alone.
   bool runs_against_neighbours(int t) const;
 
@@ -53,6 +59,8 @@ class Causes {
   std::optional<Finding> lips_differ() const;
   std::optional<Finding> t_junction() const;
   std::optional<Finding> lost_triangle() const;
+  std::optional<Finding> unused_copy() const;
+  std::optional<Finding> doubled() const;
   std::optional<Finding> one_vertex() const;
   std::vector<Segment> path_of(std::size_t cut) const;
   std::vector<Segment> whole_path() const;
@@ -63,10 +71,20 @@ class Causes {
                                     Counts counts) const;
   std::vector<Segment> older() const;
   std::optional<Finding> beside_path() const;
+  /// Of the places of the path inside the sheet, the one farthest from an open edge, and how far it is.
+  std::pair<double, Point> farthest_from_open() const;
   std::optional<Finding> not_opened() const;
   /// The inner edge between two border vertices that lies nearest to the path for its length; -1: none.
   int closed_edge() const;
 
+  /// The vertices of the sheet that a piece has, by their numbers.
+  struct Moved {
+    std::vector<int> old;      // vertices
+    Point by{};                // what most of them are moved by
+    std::size_t away = 0;      // of old: not where they were
+    std::size_t together = 0;  // of old: moved by this
+  };
+  std::vector<Moved> moves_of_pieces(const std::vector<int>& piece) const;
   struct Piece {
     double area = 0;
     int largest = 0;  // triangle

@@ -83,6 +83,41 @@ std::optional<Finding> Causes::lost_triangle() const {
 
 // --- vertices and the path -------------------------------------------------------------------------------------------
 
+std::optional<Finding> Causes::unused_copy() const {
+  const std::vector<int> unused = oracle::unused_vertices(after_);
+  for (const int v : unused)
+    for (int w = 0; w < to_int(after_.rest.size()); ++w)
+      if (after_.rest[w] == after_.rest[v] && !std::binary_search(unused.begin(), unused.end(), w) &&
+          judgement_.verdict == Verdict::unused_vertex)
+        return Finding{"doubled",
+                       "vertex " + std::to_string(v) + " at " + at(after_.rest[v]) + " is a copy of vertex " +
+                           std::to_string(w) + " that no triangle has",
+                       "leave it out, or give it to the triangles on one side of the path", after_.rest[v]};
+  return {};
+}
+
+/// An edge that is parted though it leads away from the path, from a vertex on it, while the path is opened: the two
+/// triangles have copies of that vertex of their own.
+std::optional<Finding> Causes::doubled() const {
+  if (request_.cuts.empty() || farthest_from_open().first > allowed()) return {};
+  const oracle::SegmentSearch open_before(older()), path(whole_path());
+  const double on = std::min(request_.vertex_tolerance, request_.tolerance) + request_.rounding + 1e-4 * h_;
+  const auto is_on = [&](const Point& p) { return path.distance(p) <= on; };
+  for (const auto& [e, f] : borders_.lips) {
+    const Segment s = segment(after_, e);
+    if (is_on(s[0]) == is_on(s[1]) || open_before.covers(s, request_.snap + 1e-12 * h_)) continue;
+    const bool at_start = is_on(s[0]);
+    const int v = at_start ? from(e) : to(e), w = at_start ? to(f) : from(f);
+    if (v == w) continue;
+    return Finding{"doubled",
+                   "vertices " + std::to_string(v) + " and " + std::to_string(w) + " are both at " +
+                       at(after_.rest[v]) + " on one side of the path: the edge from there to " +
+                       at(s[at_start ? 1 : 0]) + " is parted, which the path does not part",
+                   "give all triangles on one side of the path the same vertex there", after_.rest[v]};
+  }
+  return {};
+}
+
 std::optional<Finding> Causes::one_vertex() const {
   const std::vector<int> constraints = bow_ties(after_, edges_);
   if (constraints.empty()) return {};
@@ -143,13 +178,16 @@ std::optional<Finding> Causes::beside_path() const {
                  "open edges along the path itself; check that it is read in rest positions", place};
 }
 
-std::optional<Finding> Causes::not_opened() const {
+std::pair<double, Point> Causes::farthest_from_open() const {
   std::vector<Segment> open;
   for (std::size_t e = 0; e < edges_.opposite.size(); ++e)
     if (edges_.opposite[e] < 0) open.push_back(segment(after_, to_int(e)));
   const oracle::TriangleSearch sheet(before_);
-  auto [off, place] =
-      farthest(whole_path(), oracle::SegmentSearch(open), [&](const Point& p) { return sheet.holds(p); });
+  return farthest(whole_path(), oracle::SegmentSearch(open), [&](const Point& p) { return sheet.holds(p); });
+}
+
+std::optional<Finding> Causes::not_opened() const {
+  auto [off, place] = farthest_from_open();
   std::string where = "the path at " + at(place) + " is not opened";
   if (off <= allowed()) {
     const int e = closed_edge();

@@ -1,12 +1,14 @@
 #include "harness/judge/findings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <set>
 
 #include "harness/base/conversions.h"
 #include "harness/judge/causes.h"
+#include "harness/judge/few_digits.h"
 #include "harness/judge/lost_digits.h"
 
 namespace cutbench {
@@ -30,11 +32,13 @@ std::vector<Finding> Causes::find() {
   const auto try_one = [&](std::optional<Finding> found) {
     if (found && all.empty()) all.push_back(std::move(*found));
   };
-  try_one(rounded());
+  if (request_.rounding == 0) try_one(rounded());
   if (judgement_.ok) return with_cuts(all);
+  if (all.empty()) try_one(moved_apart());
   try_one(other_rest());
   if (request_.keeps_vertices && all.empty()) try_one(moved_vertex());
   if (all.empty()) try_one(flipped());
+  if (all.empty()) try_one(unused_copy());
   if (!edges_.repeated.empty() && all.empty()) return {other()};
   if (all.empty() && request_.keeps_area) look_at_borders(try_one);
   if (all.empty()) all.push_back(other());
@@ -52,6 +56,7 @@ void Causes::look_at_borders(Try try_one) {
   try_one(lips_differ());
   try_one(t_junction());
   try_one(lost_triangle());
+  try_one(doubled());
   try_one(one_vertex());
   try_one(beside_path());
   try_one(extra_pieces());
@@ -75,7 +80,7 @@ void Causes::compare_places() {
 std::optional<Finding> Causes::rounded() const {
   std::string how;
   Point worst{};
-  double farthest = -1;
+  double farthest = -1, off = 0;
   if (!new_.empty() && 2 * gone_.size() >= places_before_) {
     std::vector<Segment> places;
     for (const Point& p : new_) places.push_back({p, p});
@@ -93,17 +98,29 @@ std::optional<Finding> Causes::rounded() const {
     how = std::to_string(close) + " of " + std::to_string(places_before_) +
           " vertices of the sheet are off their place by up to " + number(farthest, "%.2g") + " (" +
           number(farthest / h_, "%.1g") + " h), the most at " + at(worst);
+    off = farthest;
   } else {
     const std::string digits = lost_digits(new_);
     if (digits.empty()) return {};
     how = "all " + std::to_string(new_.size()) + " new vertices have coordinates " + digits + ", the first at " +
           at(new_.front());
     worst = new_.front();
+    double largest = 0;
+    for (const Point& p : before_.rest) largest = std::max({largest, std::abs(p[0]), std::abs(p[1])});
+    off = digits.starts_with("with ") ? std::pow(10.0, -std::stoi(digits.substr(5))) : 0x1p-24 * largest;
   }
-  return Finding{"rounded", how + ": rest positions were rounded",
-                 "compute and write rest positions in double precision, with 17 digits (%.17g), and leave those of the "
-                 "sheet as they were read",
-                 worst};
+  return Finding{
+      "rounded", how + ": rest positions were rounded",
+      std::string("compute and write rest positions in double precision, with 17 digits (%.17g), and leave those of "
+                  "the sheet as they were read") +
+          digits_mend(off),
+      worst};
+}
+
+std::string Causes::digits_mend(double off) const {
+  const int digits = off > 0 ? digits_that_allow(off, before_) : 0;
+  if (digits < 1) return {};
+  return "; or `cutbench score --digits " + std::to_string(digits) + "`, which allows for it";
 }
 
 std::optional<Finding> Causes::other_rest() const {
@@ -112,7 +129,7 @@ std::optional<Finding> Causes::other_rest() const {
     return {};
   return Finding{
       "other_rest",
-      "of " + std::to_string(places_before_) + " vertices of the sheet " +
+      "the sheet's vertices are not at their rest places: of " + std::to_string(places_before_) + " " +
           std::to_string(places_before_ - gone_.size()) + " are where they were at rest",
       "write the rest positions as `vt`, or a flat mesh whose `v` they are; check that it is a result of this sheet",
       {}};
@@ -149,8 +166,7 @@ std::string Causes::name(int t) const {
 }
 
 std::optional<Finding> Causes::flipped() const {
-  if (every_triangle_turns_back())
-    return Finding{"flipped", "every triangle has its corners in clockwise order", "swap two corners of each", {}};
+  if (auto piece = clockwise_piece()) return piece;
   std::optional<Finding> folded;
   for (int t = 0; t < to_int(after_.triangles.size()); ++t) {
     const auto& [a, b, c] = after_.triangles[t];
@@ -159,19 +175,26 @@ std::optional<Finding> Causes::flipped() const {
     const bool against = turn < 0 && runs_against_neighbours(t);
     if (against)
       return Finding{"flipped", name(t) + " has its corners in clockwise order", "swap two of its corners", centre(t)};
-    if (!folded)
+    if (folded) continue;
+    const std::string how = name(t) + (turn < 0 ? " is turned over" : " has no area") + " at rest";
+    if (is_lost_in_rounding(t))
+      folded = Finding{"rounded", how + ": it is thinner than what its corners are off by the digits that are lost",
+                       "write the result with more digits", centre(t)};
+    else
       folded =
-          Finding{"folded", name(t) + (turn < 0 ? " is turned over" : " has no area") + " at rest",
+          Finding{"folded", how,
                   "a corner of it lies across the opposite edge, or on it: move that corner back, or divide otherwise",
                   centre(t)};
   }
   return folded;
 }
 
-bool Causes::every_triangle_turns_back() const {
-  return std::all_of(after_.triangles.begin(), after_.triangles.end(), [this](const auto& t) {
-    return orientation(after_.rest[t[0]], after_.rest[t[1]], after_.rest[t[2]]) < 0;
-  });
+bool Causes::is_lost_in_rounding(int t) const {
+  const auto& [a, b, c] = after_.triangles[t];
+  const Point &p = after_.rest[a], &q = after_.rest[b], &r = after_.rest[c];
+  const double longest = std::max({distance(p, q), distance(q, r), distance(r, p)});
+  return request_.rounding > 0 &&
+         std::abs(oracle::cross(minus(q, p), minus(r, p))) <= 2 * request_.rounding * longest;
 }
 
 bool Causes::runs_against_neighbours(int t) const {

@@ -20,14 +20,17 @@ struct Finding {
 };
 
 /// The causes that are told apart, the first that is found first:
-///   rounded         rest positions have lost digits: single precision, or a few decimals
+///   rounded         rest positions have lost digits: single precision, or a few decimals; read with few digits
+///                   (oracle::Request::rounding), a triangle that is too thin for them
+///   moved_apart     pieces are whole, but not where they were at rest: moved apart or turned
 ///   other_rest      hardly a vertex of the sheet is where it was: no rest positions (`vt`), or another sheet
 ///   moved_vertex    a vertex of the sheet is not where it was, though asked to stay (keeps_vertices)
-///   flipped         a triangle's corners run clockwise, or those of all
+///   flipped         a triangle's corners run clockwise, or those of a piece, or those of all
 ///   folded          a triangle is turned over or flat, because a corner of it has moved
 ///   lips_differ     the two lips of an incision are nearly, but not bit for bit, at one place
 ///   t_junction      an edge is divided on one side only
 ///   lost_triangle   a part of the sheet has no triangle any more
+///   doubled         triangles on one side of the path have copies of a vertex each, or a copy has no triangle
 ///   one_vertex      two fans of triangles share a vertex where the path parts them
 ///   shifted         the incision lies beside the path
 ///   not_opened      the path is not open where it should be

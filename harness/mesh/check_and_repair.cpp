@@ -8,7 +8,9 @@
 
 #include "harness/base/conversions.h"
 #include "harness/base/union_find.h"
+#include "harness/mesh/overlaps.h"
 #include "harness/mesh/predicates.h"
+#include "harness/mesh/rest_choice.h"
 
 namespace cutbench {
 
@@ -32,7 +34,7 @@ std::size_t next_half_edge(std::size_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
 
 class Repair {
  public:
-  Repair(MeshData& mesh, const std::string& name) : mesh_(mesh), name_(name) {}
+  Repair(MeshData& mesh, const std::string& name, bool of_vt) : mesh_(mesh), name_(name), of_vt_(of_vt) {}
 
   void run() {
     // Vertices are dropped last, so that the numbers in messages are those of the file.
@@ -44,6 +46,7 @@ class Repair {
     weld_by_rest();
     check_duplicates();
     check_edges();
+    check_overlaps();
     split_bow_ties();
     drop_unused_vertices();
   }
@@ -115,7 +118,8 @@ class Repair {
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       auto& [a, b, c] = mesh_.triangles[t];
       const int turn = orientation(mesh_.rest[at(a)], mesh_.rest[at(b)], mesh_.rest[at(c)]);
-      if (turn == 0) fail(triangle_name(t) + " has zero area in rest space; collapse or delete it");
+      if (turn == 0)
+        fail(triangle_name(t) + " has zero area in " + (of_vt_ ? vt_mend() : "rest space; collapse or delete it"));
       if (turn < 0) {
         std::swap(b, c);
         ++reversed;
@@ -125,6 +129,22 @@ class Repair {
     if (reversed > 0)
       note("clockwise triangles reversed: " + (reversed < all ? std::to_string(reversed) + " of " : "all ") +
            std::to_string(all));
+  }
+
+  /// Who reads vt as rest positions has to mend them, not the triangles.
+  std::string vt_mend() const {
+    return std::string("its vt, which are taken as rest positions; correct the vt or, if they are a texture, ") +
+           (plane_of(mesh_).flat() ? "give --rest plane" : "remove them and flatten the mesh, which is not flat");
+  }
+
+  void check_overlaps() const {
+    const std::optional<Overlap> overlap = find_overlap(mesh_);
+    if (!overlap) return;
+    std::ostringstream place;
+    place << '(' << overlap->near.x << ", " << overlap->near.y << ')';
+    fail(triangle_name(overlap->high) + " overlaps triangle " + std::to_string(overlap->low + 1) + " near " +
+         place.str() + " in " +
+         (of_vt_ ? "islands of " + vt_mend() : "rest space, where a sheet covers a place once; move the parts apart"));
   }
 
   /// Vertices with equal rest positions get the same number: a fold must not hide behind doubled vertices.
@@ -154,7 +174,7 @@ class Repair {
     for (std::size_t i = 1; i < sorted.size(); ++i)
       if (sorted[i].first == sorted[i - 1].first)
         fail(triangle_name(sorted[i].second) + " has the same rest corners as triangle " +
-             std::to_string(sorted[i - 1].second + 1) + "; delete one of them");
+             std::to_string(sorted[i - 1].second + 1) + (of_vt_ ? " in " + vt_mend() : "; delete one of them"));
   }
 
   /// All half-edges sorted by edge; `number` gives the number a vertex goes by.
@@ -183,7 +203,8 @@ class Repair {
       const bool third_follows = i + 1 < uses.size() && uses[i + 1].same_edge(uses[i]);
       if (!third_follows && uses[i].forward == uses[i - 1].forward)
         fail(triangle_name(uses[i].triangle()) + " overlaps triangle " + std::to_string(uses[i - 1].triangle() + 1) +
-             " in rest space, on the same side of the edge " + edge_name(uses[i]) + "; unfold the rest positions");
+             " in rest space, on the same side of the edge " + edge_name(uses[i]) +
+             (of_vt_ ? " in " + vt_mend() : "; unfold the rest positions"));
       ++inner_edges;
       together += vertex(uses[i].half_edge) == vertex(next_half_edge(uses[i - 1].half_edge));
     }
@@ -243,6 +264,7 @@ class Repair {
 
   MeshData& mesh_;
   const std::string& name_;
+  bool of_vt_;
   std::vector<bool> used_;            ///< per vertex: it is a corner of a triangle
   std::vector<std::int32_t> welded_;  ///< per used vertex: one vertex number per rest position
 };
@@ -250,30 +272,21 @@ class Repair {
 }  // namespace
 
 void take_rest_from_plane(MeshData& mesh, const std::string& name) {
-  using Axis = double Point3::*;
-  constexpr Axis x = &Point3::x, y = &Point3::y, z = &Point3::z;
-  auto constant = [&mesh](Axis axis) {
-    std::optional<double> first;
-    for (const auto& triangle : mesh.triangles)
-      for (std::int32_t v : triangle) {
-        if (v < 0 || v >= std::ssize(mesh.deformed)) continue;
-        const double c = mesh.deformed[to_size(v)].*axis;
-        if (std::isfinite(c) && c != first.value_or(c)) return false;
-        if (std::isfinite(c)) first = c;
-      }
-    return true;
-  };
-  auto take = [&mesh](Axis u, Axis v) {
-    for (const Point3& p : mesh.deformed) mesh.rest.push_back({p.*u, p.*v});
-  };
-  if (constant(z)) return take(x, y);
-  if (constant(y)) return take(z, x);
-  if (constant(x)) return take(y, z);
-  throw InputError(name +
-                   ": no rest positions: neither x, y nor z is exactly constant; use an OBJ with vt (rest "
-                   "positions), or flatten it");
+  const FlatPlane plane = plane_of(mesh);
+  std::ostringstream off;
+  off << plane.normal << " varies by " << plane.deviation << ", " << plane.deviation / plane.size
+      << " of the mesh's size";
+  if (!plane.flat())
+    throw InputError(name + ": no rest positions: neither x, y nor z is constant (" + off.str() +
+                     "); use an OBJ with vt (rest positions), or flatten it");
+  for (const Point3& p : mesh.deformed) mesh.rest.push_back(plane.rest_of(p));
+  if (plane.normal == 'y')
+    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  const std::string nearly = plane.deviation > 0 ? ", nearly: " + off.str() : "";
+  if (plane.normal != 'z' || !nearly.empty())
+    mesh.notes.push_back(name + ": rest positions are " + plane.text() + nearly);
 }
 
-void check_and_repair(MeshData& mesh, const std::string& name) { Repair(mesh, name).run(); }
+void check_and_repair(MeshData& mesh, const std::string& name, bool of_vt) { Repair(mesh, name, of_vt).run(); }
 
 }  // namespace cutbench

@@ -5,20 +5,25 @@
 #include <string_view>
 
 #include "harness/mesh/mesh_data.h"
+#include "harness/mesh/rest_choice.h"
 
 namespace cutbench {
 
 /// The mesh in the OBJ file `text`, unchecked: indices are in range, all else is left to check_and_repair. `rest` is
-/// empty where no face has a `vt`. `name` begins every note and error.
+/// empty where no face has a `vt`, and where `vt` are not taken (rest_choice.h). Those of a file that begins with
+/// vt_are_rest are, but by RestFrom::plane. `name` begins every note and error.
 /// `as_is`: the file is to be judged, so numbers that aren't finite stay, and a corner that doesn't exist becomes an
 /// index out of range.
-/// \throw InputError with the line's number.
-MeshData read_obj(std::string_view text, const std::string& name, bool as_is = false);
+/// \throw InputError with the line's number; RestFrom::vt and no `vt`, but as is.
+MeshData read_obj(std::string_view text, const std::string& name, bool as_is = false, const MeshReading& reading = {});
 
 /// The same of an OFF or a PLY, text or binary. An index that 32 bits don't hold becomes -1; `rest` is empty.
 /// \throw InputError beginning with `name`: cut short or not of the format, a face that isn't a triangle.
-MeshData read_off(const std::string& text, const std::string& name);
-MeshData read_ply(const std::string& text, const std::string& name);
+MeshData read_off(const std::string& text, const std::string& name, bool triangulated = false);
+MeshData read_ply(const std::string& text, const std::string& name, bool triangulated = false);
+
+/// The first line of an OBJ that says so itself; obj_text() writes it.
+constexpr std::string_view vt_are_rest = "# vt: rest positions";
 
 /// Numbers with the fewest digits that read back bit for bit.
 std::string obj_text(const MeshData& mesh);

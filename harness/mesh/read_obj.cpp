@@ -7,6 +7,7 @@
 #include "harness/base/conversions.h"
 #include "harness/base/number_from_chars.h"
 #include "harness/mesh/mesh_text.h"
+#include "harness/mesh/triangulate.h"
 
 namespace cutbench {
 
@@ -23,13 +24,15 @@ std::string_view next_token(std::string_view& line) {
 
 class ObjReader {
  public:
-  ObjReader(const std::string& name, bool as_is) : name_(name), as_is_(as_is) {}
+  ObjReader(const std::string& name, bool as_is, const MeshReading& reading)
+      : name_(name), as_is_(as_is), reading_(reading) {}
 
   MeshData read(std::string_view text) {
     if (text.find('\0') != std::string_view::npos)
       throw InputError(name_ + ": not a text file, so not an OBJ; check the extension");
     if (constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF"; text.starts_with(byte_order_mark))
       text.remove_prefix(byte_order_mark.size());
+    if (text.starts_with(vt_are_rest) && reading_.rest == RestFrom::automatic) vt_said_ = true;
     std::string line;
     while (!text.empty()) {
       take_line(text, line);
@@ -94,14 +97,18 @@ class ObjReader {
   }
 
   void read_face(std::string_view line) {
-    Face face;
-    face.line = line_;
-    std::size_t corners = 0;
-    for (std::string_view token = next_token(line); !token.empty(); token = next_token(line), ++corners)
-      if (corners < 3) face.corners[corners] = read_corner(token);
-    if (corners != 3)
-      fail(line_, "a face with " + std::to_string(corners) + " corners; only triangles are read: triangulate the mesh");
-    faces_.push_back(face);
+    std::vector<Corner> corners;
+    for (std::string_view token = next_token(line); !token.empty(); token = next_token(line))
+      corners.push_back(read_corner(token));
+    if (corners.size() == 3) {
+      faces_.push_back({{corners[0], corners[1], corners[2]}, line_});
+    } else if (corners.size() > 3 && reading_.triangulate) {
+      polygons_.push_back({faces_.size(), line_, std::move(corners)});
+    } else {
+      fail(line_, "a face with " + std::to_string(corners.size()) +
+                      " corners; only triangles are read: triangulate the mesh" +
+                      (corners.size() > 3 ? ", or give --triangulate" : ""));
+    }
   }
 
   Corner read_corner(std::string_view token) const {
@@ -127,35 +134,69 @@ class ObjReader {
     return resolved;
   }
 
+  /// In the place of each polygon its triangles; after all lines, since a face may come before its vertices.
+  void triangulate_polygons(MeshData& mesh) {
+    std::vector<Face> all;
+    std::size_t next = 0;
+    for (const Polygon& polygon : polygons_) {
+      all.insert(all.end(), faces_.begin() + to_index(next), faces_.begin() + to_index(polygon.before));
+      next = polygon.before;
+      std::vector<Point3> corners;
+      for (const Corner& c : polygon.corners) {
+        if (!exists(c.v, positions_.size())) fail_missing(polygon.line);
+        corners.push_back(positions_[to_size(c.v - 1)]);
+      }
+      const auto triangles = triangulate(corners);
+      if (triangles.empty())
+        fail(polygon.line, "a face that can't be triangulated: it crosses itself, or has no area; correct it");
+      for (const auto& [a, b, c] : triangles)
+        all.push_back({{polygon.corners[a], polygon.corners[b], polygon.corners[c]}, polygon.line});
+    }
+    all.insert(all.end(), faces_.begin() + to_index(next), faces_.end());
+    const std::size_t others = faces_.size();
+    faces_ = std::move(all);
+    mesh.notes.push_back(name_ + ": faces triangulated: " + std::to_string(polygons_.size()) + " of " +
+                         std::to_string(polygons_.size() + others));
+  }
+
+  [[noreturn]] void fail_missing(std::size_t line) const {
+    fail(line, "a corner beyond the " + std::to_string(positions_.size()) + " v and " +
+                   std::to_string(textures_.size()) + " vt of the file, which may be cut short");
+  }
+
   [[noreturn]] void fail_corner(std::string_view shown) const {
     fail(line_, "'" + std::string(shown) + "' is not a face corner; write v, v/vt, v//vn or v/vt/vn, counted from 1");
   }
 
-  MeshData build() const {
+  MeshData build() {
+    MeshData mesh;
+    if (!polygons_.empty()) triangulate_polygons(mesh);
     bool any_vt = false;
-    for (const Face& face : faces_)
-      for (const Corner& c : face.corners) {
+    for (Face& face : faces_)
+      for (Corner& c : face.corners) {
+        if (textures_.empty() && !as_is_) c.vt = 0;  // some programs write numbers of vt and no vt
         any_vt = any_vt || c.vt != 0;
-        if (!as_is_ && (c.v > std::ssize(positions_) || c.vt > std::ssize(textures_)))
-          fail(face.line, "a corner beyond the " + std::to_string(positions_.size()) + " v and " +
-                              std::to_string(textures_.size()) + " vt of the file, which may be cut short");
+        if (!as_is_ && (c.v > std::ssize(positions_) || c.vt > std::ssize(textures_))) fail_missing(face.line);
       }
-    return any_vt ? with_rest() : without_rest();
+    if (!any_vt && reading_.rest == RestFrom::vt && !as_is_)
+      throw InputError(name_ + ": no vt, so they can't be the rest positions; leave --rest vt out");
+    const bool by_vt = any_vt && reading_.rest != RestFrom::plane && with_rest(mesh);
+    if (!by_vt) without_rest(mesh);
+    return mesh;
   }
 
-  MeshData without_rest() const {
-    MeshData mesh;
+  void without_rest(MeshData& mesh) const {
     mesh.deformed = positions_;
     for (const Face& face : faces_) {
       auto& triangle = mesh.triangles.emplace_back();
       for (std::size_t k = 0; k < 3; ++k) triangle[k] = to_int32(face.corners[k].v - 1);
     }
-    return mesh;
   }
 
   /// The first `vt` a `v` is used with keeps the number of the `v`; others, compared by value because some programs
   /// write one `vt` per corner, get numbers after the last `v`.
-  MeshData with_rest() const {
+  /// False, and no more than a note, where the `vt` are not to be taken.
+  bool with_rest(MeshData& result) const {
     MeshData mesh;
     mesh.deformed = positions_;
     mesh.rest.resize(positions_.size());
@@ -185,29 +226,44 @@ class ObjReader {
       auto& triangle = mesh.triangles.emplace_back();
       for (std::size_t k = 0; k < 3; ++k) {
         if (face.corners[k].vt == 0)
-          fail(face.line, "a corner without vt in a mesh with vt; give every corner a vt, or none");
+          fail(face.line, "a corner without vt in a mesh with vt; give every corner a vt, or none, or --rest plane");
         triangle[k] = vertex_of(face.corners[k]);
       }
     }
+    const bool said = vt_said_ || reading_.rest == RestFrom::vt;
+    const RestDecision decision = said ? RestDecision{true, ""} : decide_rest(mesh);
+    if (!decision.note.empty()) result.notes.push_back(name_ + ": " + decision.note);
+    if (!decision.vt) return false;
     if (!copies.empty())
-      mesh.notes.push_back(name_ + ": vertices added where one v has several vt: " + std::to_string(copies.size()));
-    return mesh;
+      result.notes.push_back(name_ + ": vertices added where one v has several vt: " + std::to_string(copies.size()));
+    mesh.notes = std::move(result.notes);
+    result = std::move(mesh);
+    return true;
   }
 
   static bool exists(std::int64_t number, std::size_t count) { return number >= 1 && number <= to_int64(count); }
 
+  struct Polygon {
+    std::size_t before;  ///< of faces_: the one that follows it
+    std::size_t line;
+    std::vector<Corner> corners;
+  };
+
   const std::string& name_;
   bool as_is_;
+  MeshReading reading_;
+  bool vt_said_ = false;  ///< the file itself says that they are the rest positions
   std::size_t line_ = 0;  ///< of the line being read, from 1; where it was continued, its last
   std::vector<Point3> positions_;
   std::vector<Point2> textures_;
   std::vector<Face> faces_;
+  std::vector<Polygon> polygons_;
 };
 
 }  // namespace
 
-MeshData read_obj(std::string_view text, const std::string& name, bool as_is) {
-  return ObjReader(name, as_is).read(text);
+MeshData read_obj(std::string_view text, const std::string& name, bool as_is, const MeshReading& reading) {
+  return ObjReader(name, as_is, reading).read(text);
 }
 
 }  // namespace cutbench

@@ -8,6 +8,7 @@
 #include "harness/base/conversions.h"
 #include "harness/mesh/cgal_kernel.h"
 #include "harness/mesh/mesh_text.h"
+#include "harness/mesh/triangulate.h"
 
 namespace cutbench {
 
@@ -24,20 +25,66 @@ struct Face : std::vector<std::size_t> {
 };
 using Faces = std::vector<Face>;
 
-MeshData from_soup(const SpacePoints& points, const Faces& faces, const std::string& name) {
+/// The face as triangles of corners in it.
+std::vector<std::array<std::size_t, 3>> parts(const MeshData& mesh, const Face& face, const std::string& where) {
+  if (face.size() == 3) return {{0, 1, 2}};
+  std::vector<Point3> corners;
+  for (std::size_t i : face) {
+    if (i >= mesh.deformed.size()) throw InputError(where + " has a corner that doesn't exist; correct it");
+    corners.push_back(mesh.deformed[i]);
+  }
+  const auto triangles = triangulate(corners);
+  if (triangles.empty())
+    throw InputError(where + " can't be triangulated: it crosses itself, or has no area; correct it");
+  return triangles;
+}
+
+MeshData from_soup(const SpacePoints& points, const Faces& faces, const std::string& name, bool triangulated) {
   MeshData mesh;
   for (const Kernel::Point_3& p : points) mesh.deformed.push_back({p.x(), p.y(), p.z()});
+  std::size_t number = 0, polygons = 0;
   for (const Face& face : faces) {
-    if (face.size() != 3)
-      throw InputError(name + ": face " + std::to_string(mesh.triangles.size() + 1) + " of " +
-                       std::to_string(faces.size()) + " has " + std::to_string(face.size()) +
-                       " corners; only triangles are read: triangulate the mesh");
+    const std::string where = name + ": face " + std::to_string(++number) + " of " + std::to_string(faces.size());
+    if (face.size() < 3 || (face.size() > 3 && !triangulated))
+      throw InputError(where + " has " + std::to_string(face.size()) +
+                       " corners; only triangles are read: triangulate the mesh" +
+                       (face.size() > 3 ? ", or give --triangulate" : ""));
+    polygons += face.size() > 3;
     // check_and_repair looks at the range; here an index too large for 32 bits must only not turn into a good one.
-    auto& triangle = mesh.triangles.emplace_back();
-    std::transform(face.begin(), face.end(), triangle.begin(),
-                   [](std::size_t i) { return i > to_size(INT32_MAX) ? -1 : to_int32(i); });
+    for (const auto& part : parts(mesh, face, where)) {
+      auto& triangle = mesh.triangles.emplace_back();
+      std::transform(part.begin(), part.end(), triangle.begin(),
+                     [&](std::size_t k) { return face[k] > to_size(INT32_MAX) ? -1 : to_int32(face[k]); });
+    }
   }
+  if (polygons > 0)
+    mesh.notes.push_back(name + ": faces triangulated: " + std::to_string(polygons) + " of " +
+                         std::to_string(faces.size()));
   return mesh;
+}
+
+/// Some programs leave the number of edges out, which CGAL insists on.
+std::string with_edge_count(const std::string& text) {
+  std::size_t from = 0;
+  bool keyword = false;
+  while (from < text.size()) {
+    const std::size_t end = std::min(text.find('\n', from), text.size());
+    std::istringstream line(text.substr(from, std::min(text.find('#', from), end) - from));
+    std::vector<std::string> words;
+    for (std::string word; line >> word;) words.push_back(word);
+    if (!words.empty() && !keyword) {
+      if (words.front() != "OFF") return text;
+      keyword = true;
+      words.erase(words.begin());
+    }
+    if (words.size() == 2 && words.front() != "BINARY") {
+      const std::size_t last = text.find(words.back(), text.find(words.front(), from) + words.front().size());
+      return text.substr(0, last + words.back().size()) + " 0" + text.substr(last + words.back().size());
+    }
+    if (!words.empty()) return text;
+    from = end + 1;
+  }
+  return text;
 }
 
 /// CGAL asks for the memory of all the elements an OFF file announces before it reads the first.
@@ -67,8 +114,44 @@ bool has_ply_header(std::istream& in) {
   return sound;
 }
 
+template <class Integer>
+bool read_faces_of(std::istream& in, CGAL::IO::internal::PLY_element& element, Faces& faces, const char* tag) {
+  if (!element.has_property<std::vector<Integer>>(tag)) return false;
+  return CGAL::IO::internal::read_PLY_faces<Integer>(in, element, faces, CGAL::Emptyset_iterator(), tag);
+}
+
+bool read_narrow_faces(std::istream& in, CGAL::IO::internal::PLY_element& element, Faces& faces) {
+  for (const char* tag : {"vertex_indices", "vertex_index"})
+    if (read_faces_of<std::uint16_t>(in, element, faces, tag) || read_faces_of<std::int16_t>(in, element, faces, tag) ||
+        read_faces_of<std::uint8_t>(in, element, faces, tag) || read_faces_of<std::int8_t>(in, element, faces, tag))
+      return true;
+  return false;
+}
+
+/// A PLY whose faces have indices of 8 or 16 bits, which CGAL::IO::read_PLY passes over. False where it has others.
+bool read_narrow_ply(std::istream& in, SpacePoints& points, Faces& faces) {
+  namespace ply = CGAL::IO::internal;
+  ply::PLY_reader reader(false);
+  if (!reader.init(in)) return false;
+  for (std::size_t i = 0; i < reader.number_of_elements(); ++i) {
+    ply::PLY_element& element = reader.element(i);
+    if (element.name() == "face" || element.name() == "faces") return read_narrow_faces(in, element, faces);
+    const bool vertices = element.name() == "vertex" || element.name() == "vertices";
+    for (std::size_t item = 0; item < element.number_of_items(); ++item) {
+      for (std::size_t k = 0; k < element.number_of_properties(); ++k) element.property(k)->get(in);
+      if (in.fail()) return false;
+      std::tuple<Kernel::Point_3> point;
+      if (vertices)
+        ply::process_properties(element, point,
+                                CGAL::make_ply_point_reader(CGAL::make_nth_of_tuple_property_map<0>(point)));
+      if (vertices) points.push_back(std::get<0>(point));
+    }
+  }
+  return false;
+}
+
 template <class Reader>
-MeshData read_soup(std::istream& in, const std::string& name, const char* format, Reader read) {
+MeshData read_soup(std::istream& in, const std::string& name, const char* format, bool triangulated, Reader read) {
   SpacePoints points;
   Faces faces;
   bool complete = false;
@@ -79,23 +162,29 @@ MeshData read_soup(std::istream& in, const std::string& name, const char* format
   if (!complete)
     throw InputError(name + ": not a complete " + format +
                      " file: cut short, a bad number or an index out of range; export it again");
-  return from_soup(points, faces, name);
+  return from_soup(points, faces, name, triangulated);
 }
 
 }  // namespace
 
-MeshData read_off(const std::string& text, const std::string& name) {
-  std::istringstream in(text);
-  return read_soup(in, name, "OFF", [&](std::istream& s, SpacePoints& points, Faces& faces) {
+MeshData read_off(const std::string& text, const std::string& name, bool triangulated) {
+  std::istringstream in(with_edge_count(text));
+  return read_soup(in, name, "OFF", triangulated, [&](std::istream& s, SpacePoints& points, Faces& faces) {
     if (announces_more_than_it_holds(s, text.size())) return false;
     return CGAL::IO::read_OFF(s, points, faces, CGAL::parameters::verbose(false));
   });
 }
 
-MeshData read_ply(const std::string& text, const std::string& name) {
+MeshData read_ply(const std::string& text, const std::string& name, bool triangulated) {
   std::istringstream in(text);
-  return read_soup(in, name, "PLY", [](std::istream& s, SpacePoints& points, Faces& faces) {
-    return has_ply_header(s) && CGAL::IO::read_PLY(s, points, faces, CGAL::parameters::verbose(false));
+  return read_soup(in, name, "PLY", triangulated, [](std::istream& s, SpacePoints& points, Faces& faces) {
+    if (!has_ply_header(s)) return false;
+    if (CGAL::IO::read_PLY(s, points, faces, CGAL::parameters::verbose(false))) return true;
+    points.clear();
+    faces.clear();
+    s.clear();
+    s.seekg(0);
+    return read_narrow_ply(s, points, faces);
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "harness/base/conversions.h"
@@ -12,12 +13,50 @@ namespace cutbench {
 
 namespace {
 
-/// Barycentric coordinates of p in the triangle c (Cramer's rule).
-std::array<double, 3> barycentric(const std::array<Point2, 3>& c, Point2 p) {
-  const double area = cross(c[1] - c[0], c[2] - c[0]);
-  if (!(area > 0)) return {1, 0, 0};  // positive by the exact predicate, but not in doubles
-  const double b = cross(p - c[0], c[2] - c[0]) / area, d = cross(c[1] - c[0], p - c[0]) / area;
-  return {1 - b - d, b, d};
+/// Weights of a triangle's corners, which add up to 1, for a point.
+struct Weights {
+  std::array<double, 3> of{};
+  bool found = false;  ///< the weighted corners are where the point is, but for rounding
+};
+
+double largest_part(Point2 p) { return std::max(std::abs(p.x), std::abs(p.y)); }
+
+/// Of the ends of the longest edge alone, which is all that doubles see of a triangle without an area.
+Weights along_longest_edge(const std::array<Point2, 3>& c, Point2 p, double rounding) {
+  std::size_t from = 0;
+  for (std::size_t k = 1; k < 3; ++k)
+    if (squared_length(c[(k + 1) % 3] - c[k]) > squared_length(c[(from + 1) % 3] - c[from])) from = k;
+  const std::size_t to = (from + 1) % 3;
+  const Point2 along = c[to] - c[from];
+  const double t = dot(p - c[from], along) / squared_length(along);
+  Weights weights;
+  weights.of[from] = 1 - t;
+  weights.of[to] = t;
+  weights.found = largest_part(p - c[from] - t * along) <= rounding;
+  return weights;
+}
+
+/// Barycentric coordinates of p in the triangle c: Cramer's rule. The rounding of an area that is nearly zero is as
+/// large as that, so they are corrected by what they are off, until they say where p is.
+Weights barycentric(const std::array<Point2, 3>& c, Point2 p) {
+  constexpr int most_corrections = 8;
+  const Point2 u = c[1] - c[0], v = c[2] - c[0], q = p - c[0];
+  const double area = cross(u, v);
+  const double rounding =
+      2 * std::numeric_limits<double>::epsilon() * (largest_part(p) + largest_part(u) + largest_part(v));
+  Weights weights;
+  if (area > 0) {  // it is, by the exact predicate, but perhaps not in doubles
+    double b = cross(q, v) / area, d = cross(u, q) / area;
+    for (int i = 0; i < most_corrections && !weights.found; ++i) {
+      const Point2 off = q - b * u - d * v;
+      weights.found = largest_part(off) <= rounding;
+      if (weights.found) continue;
+      b += cross(off, v) / area;
+      d += cross(u, off) / area;
+    }
+    weights.of = {1 - b - d, b, d};
+  }
+  return weights.found ? weights : along_longest_edge(c, p, rounding);
 }
 
 }  // namespace
@@ -191,7 +230,7 @@ VertexIndex Sheet::new_vertex(HalfEdge h, double lambda, Point2 p) {
 VertexIndex Sheet::new_vertex(TriangleIndex t, Point2 p) {
   const VertexIndex v = new_rest_vertex(p);
   work_.pending.push_back(
-      {v, t, {}, new_deformed(v, std::array(triangle(t).deformed), barycentric(corners(t), p)), {}, {}, {}});
+      {v, t, {}, new_deformed(v, std::array(triangle(t).deformed), barycentric(corners(t), p).of), {}, {}, {}});
   return v;
 }
 
@@ -256,13 +295,13 @@ bool Sheet::move(VertexIndex v, Point2 to) {
     touch(triangle_of(h));
     const DeformedIndex d = t.deformed[corner(h)];
     const auto w = barycentric(corners(triangle_of(h)), to);
-    const double depth = std::min({w[0], w[1], w[2]});
+    const double depth = w.found ? std::min({w.of[0], w.of[1], w.of[2]}) : -std::numeric_limits<double>::max();
     auto known =
         std::find_if(carried.begin(), carried.end(), [&](const Work::Carried& c) { return c.from.vertex == d; });
     if (known == carried.end())
-      carried.push_back({{d, t.deformed, w}, depth});
+      carried.push_back({{d, t.deformed, w.of}, depth});
     else if (depth > known->depth)
-      *known = {{d, t.deformed, w}, depth};
+      *known = {{d, t.deformed, w.of}, depth};
   }
   log_.moved.push_back({v, rest(v)});
   rest_[v()] = to;

@@ -8,6 +8,7 @@
 #include "harness/base/union_find.h"
 #include "harness/mesh/mesh_text.h"
 #include "harness/mesh/quality.h"
+#include "harness/mesh/rest_choice.h"
 
 namespace cutbench {
 
@@ -57,26 +58,17 @@ double rest_aspect_ratio(const MeshData& mesh, const std::array<std::int32_t, 3>
   return aspect_ratio(rest(triangle[0]), rest(triangle[1]), rest(triangle[2]));
 }
 
-/// The largest |principal stretch - 1|: of the two singular values of F, which takes the rest triangle to the deformed.
+/// The largest |principal stretch - 1|.
 double largest_strain(const MeshData& mesh, const std::array<std::int32_t, 3>& triangle) {
-  const auto [a, b, c] = triangle;
-  const auto rest = [&](std::int32_t v) { return mesh.rest[to_size(v)]; };
-  const auto side = [&](std::int32_t from, std::int32_t to) {
-    return mesh.deformed[to_size(to)] + -1.0 * mesh.deformed[to_size(from)];
-  };
-  const Point2 u = rest(b) - rest(a), v = rest(c) - rest(a);
-  const Point3 p = side(a, b), q = side(a, c);
-  const double area2 = cross(u, v);
-  const Point3 x = (1 / area2) * (v.y * p + -u.y * q), y = (1 / area2) * (u.x * q + -v.x * p);  // the columns of F
-  const auto dot = [](Point3 s, Point3 t) { return s.x * t.x + s.y * t.y + s.z * t.z; };
-  const double mean = (dot(x, x) + dot(y, y)) / 2, spread = std::hypot((dot(x, x) - dot(y, y)) / 2, dot(x, y));
-  return std::max(std::abs(std::sqrt(mean + spread) - 1), std::abs(std::sqrt(std::max(0.0, mean - spread)) - 1));
+  const Stretch s = stretch_of(mesh, triangle);
+  return std::max(std::abs(s.largest - 1), std::abs(s.smallest - 1));
 }
 
 }  // namespace
 
 std::string obj_text(const MeshData& mesh) {
   Text text;
+  text << vt_are_rest << '\n';
   for (const Point3& p : mesh.deformed) text << "v " << p << '\n';
   for (const Point2& p : mesh.rest) text << "vt " << p << '\n';
   for (const auto& triangle : mesh.triangles) {

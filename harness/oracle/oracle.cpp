@@ -112,7 +112,7 @@ Input examine(const Request& request) {
   Problems problems(findings);
   Input input;
   if (mesh.triangles.empty()) refuse("empty: no triangles");
-  if (!(request.snap >= 0 && request.tolerance >= 0 && request.vertex_tolerance >= 0))
+  if (!(request.snap >= 0 && request.tolerance >= 0 && request.vertex_tolerance >= 0 && request.rounding >= 0))
     refuse("request: negative tolerance");
   if (check_values(mesh, problems)) {
     check_orientation(mesh, problems);
@@ -190,17 +190,17 @@ class Judge {
     for (int e : borders.ambiguous) problems_.add(Verdict::leak, "not just two lips " + name(segment(after_, e)));
     for (int e : borders.single) {
       edges_.push_back(segment(after_, e));
-      if (request_.keeps_area && !outline.covers(edges_.back(), input_.on))
+      if (request_.keeps_area && !outline.covers(edges_.back(), near()))
         problems_.add(Verdict::leak, "border edge " + name(edges_.back()));
     }
     for (const auto& pair : borders.lips) {
       lips.push_back(segment(after_, pair[0]));
-      if (!older.covers(lips.back(), input_.on)) added_.push_back(lips.back());
+      if (!older.covers(lips.back(), near())) added_.push_back(lips.back());
     }
     edges_.insert(edges_.end(), lips.begin(), lips.end());
     const SegmentSearch open(std::move(lips));
     for (const Segment& s : input_.incisions)
-      if (!open.covers(s, input_.on)) healed_.push_back(s);
+      if (!open.covers(s, near())) healed_.push_back(s);
   }
 
   void check_area() {
@@ -208,7 +208,7 @@ class Judge {
     judgement_.area_change = to_double((after - before) / before);
     double perimeter = 0;
     for (const auto& [a, b] : input_.border) perimeter += distance(a, b);
-    const long double allowed = 1e-12L * before + input_.rounding * perimeter;
+    const long double allowed = 1e-12L * before + (input_.rounding + request_.rounding) * perimeter;
     if (request_.keeps_area && std::abs(after - before) > allowed)
       problems_.add(Verdict::area, "relative change " + number(judgement_.area_change));
   }
@@ -295,14 +295,14 @@ class Judge {
     const IncisionError error = incision_error(requested_path(asks_for_nothing()), path, SegmentSearch(edges_), added_,
                                                TriangleSearch(request_.before), 0.02 * input_.lengths.mean);
     judgement_.incision_error = std::max(error.of_path, error.of_edges);
-    const double allowed = allowed_error();
+    const double allowed = allowed_error() + request_.rounding;
     if (error.of_path > allowed) problems_.add(Verdict::incision, "path not opened, off by " + number(error.of_path));
     if (error.of_edges > allowed) problems_.add(Verdict::incision, "edges off the path by " + number(error.of_edges));
     for (const Segment& s : healed_) problems_.add(Verdict::incision, "an older one has closed at " + name(s));
     if (!request_.exact_incision) return;
     for (const Segment& s : added_)
       for (const Point& p : s)
-        if (path.distance(p) > request_.vertex_tolerance + slack())
+        if (path.distance(p) > request_.vertex_tolerance + slack() + request_.rounding)
           problems_.add(Verdict::incision, "a vertex is off the path at " + name(p));
   }
 
@@ -315,6 +315,8 @@ class Judge {
   }
 
   double flattening() const { return 1e-5 * input_.lengths.mean; }
+  /// What lies so near to a segment lies on it, as it is written.
+  double near() const { return input_.on + request_.rounding; }
   double slack() const { return input_.on + (curved() ? flattening() : 0); }
 
   double allowed_error() const { return std::min(request_.tolerance, input_.lengths.longest) + slack(); }

@@ -33,6 +33,15 @@ struct Request {
   /// Allowed distance of the vertices of new opened edges from the path, where the incision is exact. Must leave room
   /// for the flattening of Bezier curves by the code under test.
   double vertex_tolerance = std::numeric_limits<double>::infinity();
+  /// How far a vertex of the result may lie from where it was computed, because its coordinates were written with few
+  /// digits. Every decision stays exact for the places as they are written. The room is given to three distances alone:
+  /// of a border edge from the input's border or an older incision, of the area (this times the length of the border),
+  /// and of the incision from the path. No room is given to what rounding can't excuse: triangles are strictly
+  /// counter-clockwise, neighbours share vertices, lips are bit-equal (equal numbers are written alike), the input's
+  /// vertices, whose places are known, are bit-equal, and pieces are counted by shared edges and expected of the exact
+  /// path. So with this r, right means: there are places within r of those written at which border, area and incision
+  /// are what they would have to be without it.
+  double rounding = 0;
 };
 
 enum class Verdict : std::uint8_t {

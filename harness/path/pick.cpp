@@ -62,13 +62,18 @@ bool finite(Point3 p) {
 struct Picker::Tree {
   DeformedTriangles deformed;
   std::vector<std::array<Point2, 3>> rest;
+  std::vector<TriangleIndex> number;
   Boxes boxes;
+  Seams seams;
 
-  Point2 at_rest(DeformedTriangles::const_iterator triangle, Weights w) const {
-    const auto& [a, b, c] = rest[to_size(triangle - deformed.begin())];
+  explicit Tree(const Sheet& posed) : seams(posed) {}
+
+  PlaceAtRest at_rest(DeformedTriangles::const_iterator triangle, Weights w) const {
+    const std::size_t place = to_size(triangle - deformed.begin());
+    const auto& [a, b, c] = rest[place];
     // Rounding must not carry a pick on the border out of the sheet's triangle.
     const double second = std::clamp(w.second, 0.0, 1.0), third = std::clamp(w.third, 0.0, 1.0 - second);
-    return a + second * (b - a) + third * (c - a);
+    return {number[place], a + second * (b - a) + third * (c - a)};
   }
   /// Of a ray that meets no triangle: it is nearest at an edge, or where it begins.
   double distance(const Kernel::Ray_3& ray) const {
@@ -82,7 +87,7 @@ struct Picker::Tree {
   }
 };
 
-Picker::Picker(const Sheet& posed) : tree_(std::make_unique<Tree>()), tolerance_(tolerance * posed.mean_edge()) {
+Picker::Picker(const Sheet& posed) : tree_(std::make_unique<Tree>(posed)), tolerance_(tolerance * posed.mean_edge()) {
   for (std::size_t i = 0; i < posed.triangle_slots(); ++i) {
     const Triangle& t = posed.triangle(TriangleIndex(i));
     if (!t.alive()) continue;
@@ -91,13 +96,16 @@ Picker::Picker(const Sheet& posed) : tree_(std::make_unique<Tree>()), tolerance_
     if (triangle.is_degenerate()) continue;  // crumpled to a line: no place in it is one place at rest
     tree_->deformed.push_back(triangle);
     tree_->rest.push_back(posed.corners(TriangleIndex(i)));
+    tree_->number.emplace_back(i);
   }
   tree_->boxes.rebuild(tree_->deformed.cbegin(), tree_->deformed.cend());
 }
 
 Picker::~Picker() = default;
 
-Point2 Picker::rest_point(const Pick& pick, const std::string& name) const {
+Point2 Picker::rest_point(const Pick& pick, const std::string& name) const { return place(pick, name).point; }
+
+PlaceAtRest Picker::place(const Pick& pick, const std::string& name) const {
   if (tree_->deformed.empty()) throw InputError(name + ": the sheet is crumpled to lines; pick earlier");
   const Kernel::Point_3 origin = point(pick.origin);
   if (!pick.direction) {
@@ -126,10 +134,24 @@ Point2 Picker::rest_point(const Pick& pick, const std::string& name) const {
   return tree_->at_rest(hit->second, weights_of(triangle, origin, direction));
 }
 
+void Picker::refuse_seams(const std::vector<PlaceAtRest>& places, bool closed, const std::string& name) const {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const std::size_t next = (i + 1) % places.size();
+    if ((closed || next != 0) && tree_->seams.lies_between(places[i], places[next]))
+      throw InputError(name + ", points " + std::to_string(i) + " and " + std::to_string(next) +
+                       ": the way between them crosses a seam, along which the sheet is open at rest; give each panel "
+                       "a path of its own");
+  }
+}
+
 Curve Picker::rest_curve(const PickedCurve& picked, const std::string& name) const {
   Curve curve{picked.kind, picked.closed, {}};
-  for (std::size_t i = 0; i < picked.picks.size(); ++i)
-    curve.points.push_back(rest_point(picked.picks[i], name + ", point " + std::to_string(i)));
+  std::vector<PlaceAtRest> places;
+  for (std::size_t i = 0; i < picked.picks.size(); ++i) {
+    places.push_back(place(picked.picks[i], name + ", point " + std::to_string(i)));
+    curve.points.push_back(places.back().point);
+  }
+  refuse_seams(places, picked.closed, name);
   // Found once is found alike: the first pick again.
   if (curve.closed && curve.kind == Curve::Kind::bezier) curve.points.back() = curve.points.front();
   return curve;

@@ -10,6 +10,7 @@
 
 #include "harness/mesh/sheet.h"
 #include "harness/path/curve.h"
+#include "harness/path/seams.h"
 
 namespace cutbench {
 
@@ -40,10 +41,13 @@ class Picker {
   /// Where in rest space the picked point is. A ray that runs within a triangle's plane meets it where it enters.
   /// Throws InputError, beginning with `name`: a miss, with its distance.
   Point2 rest_point(const Pick& pick, const std::string& name) const;
-  /// Throws InputError, beginning with `name` and the number of the point.
+  /// Throws InputError, beginning with `name` and the number of the point; also where a seam lies between two points.
   Curve rest_curve(const PickedCurve& curve, const std::string& name) const;
 
  private:
+  PlaceAtRest place(const Pick& pick, const std::string& name) const;
+  void refuse_seams(const std::vector<PlaceAtRest>& places, bool closed, const std::string& name) const;
+
   struct Tree;
   std::unique_ptr<Tree> tree_;
   double tolerance_;  // m

@@ -60,12 +60,14 @@ std::string score_as_json(const Assessment& assessment, double h) {
                         {"findings", as_json(assessment.findings)},
                         {"problems", j.problems},
                         {"expected_pieces", j.expected_pieces}};
+  if (const FewDigits& read = assessment.read; read.digits > 0)
+    document["read"] = {{"digits", read.digits}, {"text", read.text()}};
   add(document, {.h = h, .assessment = &assessment}, {Group::size, Group::shape, Group::forced, Group::accuracy});
   if (!assessment.connected)
     for (const char* name : {"expected_pieces", "pieces", "incision_error_h", "area_change"}) document[name] = nullptr;
   if (!assessment.measured)
     for (auto& [key, value] : document.items())
-      if (key != "verdict" && key != "problems" && key != "findings") value = nullptr;
+      if (key != "verdict" && key != "problems" && key != "findings" && key != "read") value = nullptr;
   return document.dump(2) + "\n";
 }
 

@@ -10,9 +10,11 @@ struct TurnedOver {
   double area = 0;  ///< their share of the rest area
 };
 
-/// In the plane: the triangles whose corners are not counter-clockwise at x (exactly). In space, where a triangle has
-/// no upper side of its own: those whose area vector points against the sum of those of the triangles that share an
-/// edge with them, incisions aside. At a crease, where a sheet is folded, none does. Looks at everything.
+/// In the plane: the triangles whose corners are not counter-clockwise at x (exactly). In space a triangle has no upper
+/// side of its own, and a fold turns the other side up and leaves all lengths: turned over is a triangle that points
+/// against two of the triangles that share an edge with it or more, incisions aside, and along fewer, where it or one
+/// of those is longer or shorter than at rest by a quarter. So a crease is none, and neither are two triangles that are
+/// folded on each other, whatever their strain. Looks at everything.
 /// A member of a compound is where the compound's linear part has it.
 /// \param elements  of the sheet
 /// \param x  `dimension` (2 or 3) coordinates for each deformed vertex, m

@@ -183,6 +183,7 @@ void BowyerWatson::improve(Sheet& sheet, MethodNotes& notes) {
     const auto c = sheet.corners(t);
     return sheet.triangle(t).alive() && aspect_ratio(c[0], c[1], c[2]) > options_.max_aspect;
   };
+  const std::size_t embedded = sheet.log().new_vertices.size();
   for (int round = 0; round < options_.rounds; ++round) {
     ill_shaped_.clear();
     for_each_changed(sheet, [&](TriangleIndex t) {
@@ -191,6 +192,7 @@ void BowyerWatson::improve(Sheet& sheet, MethodNotes& notes) {
     for (auto t : ill_shaped_) {
       if (sheet.log().new_vertices.size() > options_.most_vertices) {
         notes.stopped_early = true;
+        notes.improved_nothing = sheet.log().new_vertices.size() == embedded;
         return;
       }
       if (!is_ill_shaped(t)) continue;  // a neighbour's split has improved it

@@ -24,7 +24,8 @@ void CgalRefine::improve(Sheet& sheet, MethodNotes& notes) {
     if (!mesher_.insert(sheet)) break;
     const bool complete = mesher_.refine(sheet, limits) || !refining;
     if (mesher_.divided().empty()) {
-      notes.stopped_early = !mesher_.put_back(sheet) || !complete;
+      notes.improved_nothing = !mesher_.put_back(sheet);
+      notes.stopped_early = notes.improved_nothing || !complete;
       return;
     }
     if (!complete || rings > options_.most_rings) break;
@@ -35,7 +36,7 @@ void CgalRefine::improve(Sheet& sheet, MethodNotes& notes) {
     for (const TriangleIndex t : across_.triangles()) region_.add(t);
     region_.grow(sheet, 0);
   }
-  notes.stopped_early = true;
+  notes.stopped_early = notes.improved_nothing = true;
 }
 
 }  // namespace cutbench

@@ -17,7 +17,7 @@ void GlobalRemesh::improve(Sheet& sheet, MethodNotes& notes) {
                                                       .min_edge = 1e-3 * h,
                                                       .most_vertices = 4 * sheet_.triangles().size() + 1000,
                                                       .wedges = &wedges_});
-  notes.stopped_early = !complete || !mesher_.put_back(sheet);
+  notes.stopped_early = notes.improved_nothing = !complete || !mesher_.put_back(sheet);
 }
 
 }  // namespace cutbench

@@ -27,6 +27,7 @@ struct CutArguments {
   std::string mesh, path, out, report;
   MethodOptions method;
   Misses misses;
+  ReadingOptions reading;
 };
 
 /// --out may be the mesh that was read: it is written over. A report in place of a mesh or path is a mistake.
@@ -65,7 +66,7 @@ Exit cut_sheet(const CutArguments& arguments) {
   check_mesh_place(arguments.out, "--out");
   if (!arguments.report.empty()) check_report_place(arguments);
   const auto path = read_path_with_picks(arguments.path);
-  const MeshData data = read_mesh(arguments.mesh);
+  const MeshData data = read_mesh(arguments.mesh, arguments.reading.reading());
   print_notes(data);
 
   const Sheet before(data);
@@ -94,6 +95,7 @@ Exit cut_sheet(const CutArguments& arguments) {
   std::printf("%s: %zu triangles crossed, %td added, %d pieces, max aspect ratio of changed triangles %s, %.1f us\n",
               name_of(run.status), run.crossed_triangles, a.triangles_added, a.judgement.pieces, worst,
               run.time_us.total());
+  if (!run.reason.empty()) std::cerr << "note: " << run.reason << '\n';
   if (a.judgement.ok) return done;
   for (const auto& problem : a.judgement.problems)
     std::cerr << "failed (" << a.judgement.verdict << "): " << problem << '\n';
@@ -108,6 +110,7 @@ Command add_cut(Options& app) {
   command.add_option("--mesh", arguments->mesh, "the sheet: OBJ, OFF or PLY").required();
   command.add_option("--path", arguments->path, "the path: JSON").required();
   arguments->method.add_to(command);
+  arguments->reading.add_to(command);
   arguments->misses.add_to(command);
   command.add_option("--out", arguments->out, "the sheet after the cut: OBJ, OFF or VTU").required();
   command.add_option("--report", arguments->report, "what was measured, as JSON; none where it is not given");

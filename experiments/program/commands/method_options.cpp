@@ -75,6 +75,17 @@ double MethodOptions::parameter() const {
   return value;
 }
 
+void ReadingOptions::add_to(Options& command) {
+  command
+      .add_option("--rest", rest,
+                  "rest positions of an OBJ with vt: auto (vt where they can be), vt, or the plane the mesh lies in")
+      .shows_default()
+      .one_of({"auto", "vt", "plane"});
+  command.add_flag("--triangulate", triangulate, "read faces of more than three corners, too, as triangles");
+}
+
+MeshReading ReadingOptions::reading() const { return {*value_named(rest_names, rest), triangulate}; }
+
 void set_resolution(Scene& scene, int resolution) {
   if (resolution == 0) return;
   squares_per_side(resolution);

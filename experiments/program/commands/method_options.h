@@ -6,6 +6,7 @@
 
 #include "experiments/program/options.h"
 #include "harness/cut/cut.h"
+#include "harness/mesh/rest_choice.h"
 #include "harness/programs/program.h"
 #include "harness/simulation/scene.h"
 #include "methods/registry.h"
@@ -33,6 +34,15 @@ struct MethodOptions {
   MethodRow row() const;
   /// Throws InputError: not the parameter of the method, or not a number. The method checks the range.
   double parameter() const;
+};
+
+/// How mesh files are read.
+struct ReadingOptions {
+  std::string rest = "auto";
+  bool triangulate = false;
+
+  void add_to(Options& command);
+  MeshReading reading() const;
 };
 
 /// Throws InputError: not 2 n^2, or the scene's sheet is read from a file. \param resolution  0: as it is

@@ -102,6 +102,8 @@ Experiment read_part(const std::string& file, const RunArguments& arguments, con
   Experiment e = read_experiment(file);
   if (!arguments.sweeps.empty() && !std::holds_alternative<StabilityStudy>(e.study))
     throw InputError(file + ": --sweeps is for an experiment that has [[sweeps]]");
+  if (arguments.repetitions > 0 && !std::holds_alternative<CutStudy>(e.study))
+    throw InputError(file + ": --repetitions is for an experiment of cut families; leave it out");
   e.asked += text_of_options(arguments);
   if (e.methods.empty())
     for (const MethodRow& row : all_methods()) e.methods.push_back({row.name, {}});

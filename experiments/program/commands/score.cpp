@@ -5,6 +5,7 @@
 
 #include "experiments/program/commands/command.h"
 #include "experiments/program/commands/method_options.h"
+#include "harness/base/errors.h"
 #include "harness/files/whole_file.h"
 
 namespace cutbench {
@@ -13,6 +14,7 @@ Command add_score(Options& app) {
   struct ScoreOptions {
     ScoreArguments arguments;
     ChordTolerance tolerance;
+    ReadingOptions reading;
   };
   auto options = std::make_shared<ScoreOptions>();
   auto command = app.add_subcommand("score", "judge a cut that any program made");
@@ -23,7 +25,10 @@ Command add_score(Options& app) {
   command.add_option("--svg", options->arguments.svg,
                      "a drawing of the place where something is wrong, or of the whole sheet");
   command.add_flag("--json", options->arguments.json, "print JSON, the same as in the report");
+  options->reading.add_to(command);
   options->tolerance.add_to(command, "allowed incision error in mean rest edges, or inf: the longest edge");
+  auto digits = command.add_option("--digits", options->arguments.digits,
+                                   "significant digits that the result was written with, 1 to 17 (default: strict)");
   command.add_flag("--keeps-vertices", options->arguments.keeps_vertices,
                    "the sheet's vertices must be there with the same numbers and rest positions");
   command.add_flag("--deletes", options->arguments.deletes,
@@ -35,8 +40,12 @@ Command add_score(Options& app) {
       "  0  the result is correct\n"
       "  1  the result is wrong, or the report can't be written\n"
       "  2  bad input: an option or a file");
-  return {command, [options](const std::string&) {
+  return {command, [options, digits](const std::string&) {
+            const int given = options->arguments.digits;
+            if (digits.given() && (given < 1 || given > 17))
+              throw InputError("--digits " + std::to_string(given) + ": must be from 1 to 17");
             const std::string& report = options->arguments.report;
+            options->arguments.reading = options->reading.reading();
             if (!report.empty()) check_writable(report, "--report");
             if (!options->arguments.svg.empty()) check_writable(options->arguments.svg, "--svg");
             return score(options->arguments, options->tolerance.cut_options()) ? done : fell_short;

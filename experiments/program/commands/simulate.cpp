@@ -7,6 +7,7 @@
 #include "experiments/program/commands/command.h"
 #include "experiments/program/commands/method_options.h"
 #include "experiments/program/commands/misses.h"
+#include "harness/base/conversions.h"
 #include "harness/base/errors.h"
 #include "harness/base/names.h"
 #include "harness/fem/solvers/solver_table.h"
@@ -15,6 +16,7 @@
 #include "harness/files/toml_reader.h"
 #include "harness/files/whole_file.h"
 #include "harness/mesh/families.h"
+#include "harness/mesh/rest_choice.h"
 
 namespace cutbench {
 
@@ -27,6 +29,27 @@ struct SimulateArguments {
   int resolution = 0, every = 8;
   double time_limit = 0;
 };
+
+/// Of stiffness times area at rest: as much as of strains of 4.5 %. A sheet that rests holds none.
+constexpr double most_energy_at_first = 1e-3;
+
+/// The energy of the membrane, with a Poisson's ratio of 0; most often rest positions are in other units, or a texture.
+void warn_of_strain(const MeshData& mesh, double stiffness) {
+  double energy = 0, area = 0;
+  for (const auto& triangle : mesh.triangles) {
+    const auto [a, b, c] = triangle;
+    const auto rest = [&](std::int32_t v) { return mesh.rest[to_size(v)]; };
+    const double part = cross(rest(b) - rest(a), rest(c) - rest(a)) / 2;
+    const Stretch s = stretch_of(mesh, triangle);
+    energy += part * ((s.largest - 1) * (s.largest - 1) + (s.smallest - 1) * (s.smallest - 1)) / 2;
+    area += part;
+  }
+  if (energy <= most_energy_at_first * area) return;
+  std::fprintf(stderr,
+               "note: the sheet holds about %.3g J before anything moves, %.2g of stiffness times area: lengths in "
+               "space are %s those at rest; if the vt are a texture, set rest = \"plane\" in [sheet]\n",
+               stiffness * energy, energy / area, stretches_of(mesh).text().c_str());
+}
 
 Exit run_scene(const SimulateArguments& arguments, const std::string& command_line) {
   if (!arguments.out.empty()) check_mesh_place(arguments.out, "--out");
@@ -43,6 +66,7 @@ Exit run_scene(const SimulateArguments& arguments, const std::string& command_li
   }
   const MeshData mesh = mesh_of(scene);
   print_notes(mesh);
+  warn_of_strain(mesh, scene.material.stiffness);
   const Sheet sheet(mesh);
   for (std::size_t i = 0; i < scene.cuts.size(); ++i)
     if (!scene.cuts[i].curve.points.empty())

@@ -1,0 +1,145 @@
+#include "harness/mesh/rest_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "harness/base/conversions.h"
+
+namespace cutbench {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double coordinate(const Point3& p, char axis) { return axis == 'x' ? p.x : axis == 'y' ? p.y : p.z; }
+
+bool in_range(const MeshData& mesh, const std::array<std::int32_t, 3>& triangle) {
+  return std::all_of(triangle.begin(), triangle.end(), [&](std::int32_t v) {
+    return v >= 0 && v < std::ssize(mesh.deformed) && v < std::ssize(mesh.rest);
+  });
+}
+
+std::string digits(const char* format, double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+/// The `vt` are where the plane's coordinates are, to the digits of files.
+bool agrees(const MeshData& mesh, const FlatPlane& plane) {
+  const double near = isometry_tolerance * plane.size;
+  for (const auto& triangle : mesh.triangles)
+    for (std::int32_t v : triangle) {
+      const Point2 vt = mesh.rest[to_size(v)], flat = plane.rest_of(mesh.deformed[to_size(v)]);
+      if (std::abs(vt.x - flat.x) > near || std::abs(vt.y - flat.y) > near) return false;
+    }
+  return true;
+}
+
+}  // namespace
+
+Stretch stretch_of(const MeshData& mesh, const std::array<std::int32_t, 3>& triangle) {
+  const auto [a, b, c] = triangle;
+  const auto rest = [&](std::int32_t v) { return mesh.rest[to_size(v)]; };
+  const auto side = [&](std::int32_t from, std::int32_t to) {
+    return mesh.deformed[to_size(to)] + -1.0 * mesh.deformed[to_size(from)];
+  };
+  const Point2 u = rest(b) - rest(a), v = rest(c) - rest(a);
+  const Point3 p = side(a, b), q = side(a, c);
+  const double area2 = cross(u, v);
+  const Point3 x = (1 / area2) * (v.y * p + -u.y * q), y = (1 / area2) * (u.x * q + -v.x * p);  // the columns of F
+  const auto dot = [](Point3 s, Point3 t) { return s.x * t.x + s.y * t.y + s.z * t.z; };
+  const double mean = (dot(x, x) + dot(y, y)) / 2, spread = std::hypot((dot(x, x) - dot(y, y)) / 2, dot(x, y));
+  return {std::sqrt(mean + spread), std::sqrt(std::max(0.0, mean - spread))};
+}
+
+bool Stretches::isometric() const {
+  return measured && least >= 1 - isometry_tolerance && most <= 1 + isometry_tolerance;
+}
+
+std::string Stretches::text() const {
+  const std::string low = digits("%.3g", least), high = digits("%.3g", most);
+  return (low == high ? low : low + " to " + high) + " times";
+}
+
+Stretches stretches_of(const MeshData& mesh) {
+  Stretch low{infinity, infinity}, high{0, 0};
+  bool measured = !mesh.triangles.empty();
+  for (const auto& triangle : mesh.triangles) {
+    const Stretch s = in_range(mesh, triangle) ? stretch_of(mesh, triangle) : Stretch{infinity, infinity};
+    if (!std::isfinite(s.largest) || !std::isfinite(s.smallest)) {
+      measured = false;
+      continue;
+    }
+    low = {std::min(low.largest, s.largest), std::min(low.smallest, s.smallest)};
+    high = {std::max(high.largest, s.largest), std::max(high.smallest, s.smallest)};
+  }
+  const auto same = [](double a, double b) { return b - a <= isometry_tolerance * b; };
+  const bool even = same(low.largest, high.largest) && same(low.smallest, high.smallest);
+  return {low.smallest, high.largest, measured, even};
+}
+
+bool FlatPlane::flat() const { return deviation <= flatness_tolerance * size; }
+
+std::array<char, 2> FlatPlane::axes() const {
+  if (normal == 'z') return {'x', 'y'};
+  return {normal == 'y' ? 'x' : 'y', 'z'};
+}
+
+Point2 FlatPlane::rest_of(const Point3& p) const {
+  const auto [x, y] = axes();
+  return {coordinate(p, x), coordinate(p, y)};
+}
+
+std::string FlatPlane::text() const {
+  const auto [x, y] = axes();
+  return std::string("the plane ") + normal + " = " + digits("%.6g", at) + ", with " + x + " and " + y + " as x and y";
+}
+
+FlatPlane plane_of(const MeshData& mesh) {
+  std::optional<FlatPlane> best;
+  std::array<double, 3> widths{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const char axis = "zyx"[i];
+    double low = infinity, high = -infinity, first = std::numeric_limits<double>::quiet_NaN();
+    for (const auto& triangle : mesh.triangles)
+      for (std::int32_t v : triangle) {
+        if (v < 0 || v >= std::ssize(mesh.deformed)) continue;
+        const double c = coordinate(mesh.deformed[to_size(v)], axis);
+        if (!std::isfinite(c)) continue;
+        if (std::isnan(first)) first = c + 0.0;  // -0 is 0
+        low = std::min(low, c);
+        high = std::max(high, c);
+      }
+    widths[i] = high > low ? high - low : 0;
+    if (!best || widths[i] < best->deviation) best = FlatPlane{axis, first, widths[i], 0};
+  }
+  best->size = std::hypot(widths[0], widths[1], widths[2]);
+  return *best;
+}
+
+RestDecision decide_rest(const MeshData& mesh) {
+  const Stretches s = stretches_of(mesh);
+  const FlatPlane plane = plane_of(mesh);
+  const bool moderate = s.measured && s.least >= 1 / largest_stretch && s.most <= largest_stretch;
+  const std::string lengths = "lengths in space are " + s.text() + " those in the vt";
+  if (!plane.flat()) {
+    if (moderate || !s.measured) return {true, ""};  // what can't be measured is refused, with its own words
+    return {true, "rest positions are the vt, since the mesh is not flat: " + lengths};
+  }
+  const bool isometric = s.isometric();
+  if (isometric && agrees(mesh, plane)) return {true, ""};
+  if (isometric)
+    return {true, "rest positions are the vt: " + lengths + ", but they are not " + plane.text() +
+                      "; --rest plane takes these"};
+  if (moderate && !s.even)
+    return {true, "rest positions are the vt, as of a sheet that is stretched in its plane: " + lengths +
+                      "; if they are a texture, give --rest plane"};
+  const std::string why = s.measured ? lengths : "some triangles have no area in the vt, but the mesh is flat";
+  return {false, "the vt are taken for a texture, and dropped: " + why + "; rest positions are " + plane.text() +
+                     "; --rest vt takes the vt"};
+}
+
+}  // namespace cutbench

@@ -1,0 +1,78 @@
+// What the rest positions of a mesh are: its texture coordinates (`vt`), or the plane it lies in.
+//
+// `vt` are rest positions in some files and a texture in others; nothing in a file says which. What is known is how
+// much longer things are in space than in the `vt`: the two principal stretches of each triangle. The rule of
+// RestFrom::automatic, where a file does not say it itself (mesh_text.h):
+//   - The mesh is not flat: the `vt`. A bent sheet has no other rest positions here.
+//   - It is flat, and all stretches are 1 within `isometry_tolerance`: the `vt`, the flat sheet itself, perhaps turned.
+//   - It is flat, and the stretches are others, but the same in all triangles: the plane. That is how a texture is laid
+//     onto a sheet; what is held or pulled hardly ever stretches so evenly.
+//   - It is flat, and they differ from triangle to triangle: the `vt` where all lie within `largest_stretch`, as in a
+//     sheet that is pulled in its plane; else the plane.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "harness/base/enum_names.h"
+#include "harness/mesh/mesh_data.h"
+
+namespace cutbench {
+
+enum class RestFrom { automatic, vt, plane };
+constexpr EnumNames<RestFrom, 3> rest_names{
+    {{RestFrom::automatic, "auto"}, {RestFrom::vt, "vt"}, {RestFrom::plane, "plane"}}};
+
+/// Stretches nearer to 1, or to each other, than this are the same: files have coordinates of four digits and more.
+constexpr double isometry_tolerance = 1e-3;
+/// A sheet that is pulled may be twice as long as at rest, or half; beyond that, hardly any is still one.
+constexpr double largest_stretch = 2;
+/// In sizes of the mesh (the diagonal of its box): a mesh this near to a plane is flat. Exporters write six digits.
+constexpr double flatness_tolerance = 1e-6;
+
+/// How a mesh file is read.
+struct MeshReading {
+  RestFrom rest = RestFrom::automatic;
+  bool triangulate = false;  ///< faces of more than three corners
+};
+
+/// The singular values of the map from a rest triangle to the deformed one; infinite or NaN where the rest triangle has
+/// no area.
+struct Stretch {
+  double largest, smallest;
+};
+Stretch stretch_of(const MeshData& mesh, const std::array<std::int32_t, 3>& triangle);
+
+/// The least and the largest stretch of a mesh, of triangles that can be measured.
+struct Stretches {
+  double least, most;
+  bool measured = true;  ///< no triangle has corners out of range, coordinates that aren't finite, or no rest area
+  bool even = true;      ///< the two are the same in all triangles, within isometry_tolerance
+  bool isometric() const;
+  std::string text() const;  ///< "0.33 to 0.43 times"
+};
+Stretches stretches_of(const MeshData& mesh);
+
+/// The plane x, y or z = constant that a mesh lies in. An exact one goes before others, z before y before x.
+struct FlatPlane {
+  char normal;                            ///< 'x', 'y' or 'z'
+  double at;                              ///< the constant, of the vertex that comes first
+  double deviation, size;                 ///< the largest difference of that coordinate; the diagonal of the mesh's box
+  bool flat() const;                      ///< the deviation is at most flatness_tolerance sizes
+  std::array<char, 2> axes() const;       ///< that are x and y at rest: x, y or x, z or y, z
+  Point2 rest_of(const Point3& p) const;  ///< in these axes
+  std::string text() const;               ///< "the plane y = 0, with x and z as x and y"
+};
+/// The flattest of the three. Corners out of range and coordinates that aren't finite are left out.
+FlatPlane plane_of(const MeshData& mesh);
+
+/// What the rule says of a mesh whose `rest` are its `vt`.
+struct RestDecision {
+  bool vt;
+  std::string note;  ///< what was taken and why; empty where there is nothing to say
+};
+RestDecision decide_rest(const MeshData& mesh);
+
+}  // namespace cutbench
