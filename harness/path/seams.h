@@ -1,7 +1,7 @@
 // Seams: where a sheet hangs together in space, but not at rest, as the panels of a garment do.
 //
 // A sheet is open along its seams, since a `v` with several `vt` becomes several vertices. A curve between two points is
-// straight at rest, and would lead through whatever lies between two panels there: such a curve is what is looked for.
+// straight at rest, and may lead through whatever lies between two panels there: such a curve is looked for.
 #pragma once
 
 #include <array>
