@@ -1,8 +1,10 @@
 // Meshes as the text of their files, formats as harness/files/mesh_file.h says.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "harness/mesh/mesh_data.h"
 
@@ -19,6 +21,10 @@ MeshData read_obj(std::string_view text, const std::string& name, bool as_is = f
 /// \throw InputError beginning with `name`: cut short or not of the format, a face that isn't a triangle.
 MeshData read_off(const std::string& text, const std::string& name);
 MeshData read_ply(const std::string& text, const std::string& name);
+
+/// Per triangle, the number of its piece, from 0 in order of the first triangle: triangles that share a vertex are of
+/// one piece.
+std::vector<std::int32_t> pieces_of(const MeshData& mesh);
 
 /// Numbers with the fewest digits that read back bit for bit.
 std::string obj_text(const MeshData& mesh);
