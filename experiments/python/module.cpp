@@ -1,3 +1,34 @@
-#include <pybind11/pybind11.h>
+// The module cutbench._core: what the package in Python (experiments/python/cutbench) is made of, and no more.
+#include "experiments/python/held.h"
+#include "harness/base/errors.h"
 
-PYBIND11_MODULE(_core, m) { m.doc() = "cutbench"; }
+namespace py = pybind11;
+
+namespace {
+
+/// The classes of cutbench/errors.py.
+py::object error_class(const char* name) { return py::module_::import("cutbench.errors").attr(name); }
+
+void translate(std::exception_ptr thrown) {
+  try {
+    if (thrown) std::rethrow_exception(thrown);
+  } catch (const cutbench::InputError& error) {
+    PyErr_SetString(error_class("InputError").ptr(), error.what());
+  } catch (const cutbench::OutputError& error) {
+    PyErr_SetString(error_class("OutputError").ptr(), error.what());
+  } catch (const cutbench::python::CutNotMade& error) {
+    const py::object type = error_class("CutError");
+    PyErr_SetObject(type.ptr(), type(error.what(), name_of(error.status), name_of(error.verdict)).ptr());
+  }
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_core, m) {
+  py::register_exception_translator(translate);
+  cutbench::python::bind_sheets(m);
+  cutbench::python::bind_methods(m);
+  cutbench::python::bind_cuts(m);
+  cutbench::python::bind_simulations(m);
+  cutbench::python::bind_program(m);
+}

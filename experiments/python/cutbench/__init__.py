@@ -1,0 +1,20 @@
+"""cutbench: cut deformable triangle sheets along paths, judge, simulate and compare (docs/python.md).
+
+>>> import cutbench
+>>> sheet = cutbench.Sheet.family("grid", 800)
+>>> cut = sheet.cut([[-0.1, 0.3], [0.6, 0.55]], method="warp_and_refine")
+>>> cut.verdict
+'ok'
+"""
+
+from ._core import cut_families, sheet_families
+from .compare import compare
+from .errors import CutError, InputError, OutputError, Refused, RunError, StepError
+from .method import methods
+from .paths import bezier, polyline, rays, read_path, write_path
+from .score import Finding, Score, score
+from .sheet import Cut, Parents, Sheet, Ties, cut
+
+__all__ = ["Cut", "CutError", "Finding", "InputError", "OutputError", "Parents", "Refused", "RunError", "Score", "Sheet",
+           "StepError", "Ties", "bezier", "compare", "cut", "cut_families", "methods", "polyline", "rays", "read_path",
+           "score", "sheet_families", "write_path"]
