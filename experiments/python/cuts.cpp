@@ -159,7 +159,7 @@ std::vector<std::array<Row, 4>> lips(const HeldSheet& held) {
 }
 
 /// In rows; phantom node i is row n + i of the masters, with n vertices.
-py::dict ties(const HeldCut& cut) {
+py::dict constraints(const HeldCut& cut) {
   const Sheet& after = *cut.after->sheet;
   const Constraints all = constraints_of(*cut.method.make(), *cut.after->uncut, after);
   const std::vector<Row> rows = vertex_rows(after), triangles = triangle_rows(after);
@@ -189,7 +189,7 @@ py::dict ties(const HeldCut& cut) {
   result["vertices"] = array_of<Row>(std::move(vertices));
   result["masters"] = array_of<Row>(std::move(masters));
   result["weights"] = array_of<double>(std::move(weights));
-  result["copies"] = all.phantoms;
+  result["phantoms"] = all.phantoms;
   result["polygons"] = polygons;
   result["polygon_triangles"] = polygon_triangles;
   return result;
@@ -234,7 +234,7 @@ void bind_cuts(py::module_& m) {
       .def_property_readonly("method", [](const HeldCut& c) { return c.method.row.name; })
       .def("times", &times)
       .def("report", &report, Released())
-      .def("ties", &ties)
+      .def("constraints", &constraints)
       .def("parents", [](const HeldCut& c) {
         Parents p = [&] {
           const py::gil_scoped_release others_go_on;

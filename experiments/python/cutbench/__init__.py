@@ -10,11 +10,14 @@
 from ._core import cut_families, sheet_families
 from .compare import compare
 from .errors import CutError, InputError, OutputError, Refused, RunError, StepError
+from .experiments import ablate, recommend, records, run
 from .method import methods
 from .paths import bezier, polyline, rays, read_path, write_path
 from .score import Finding, Score, score
-from .sheet import Cut, Parents, Sheet, Ties, cut
+from .sheet import Constraints, Cut, Parents, Sheet, cut
+from .simulation import Pin, Scene, Simulation
 
-__all__ = ["Cut", "CutError", "Finding", "InputError", "OutputError", "Parents", "Refused", "RunError", "Score", "Sheet",
-           "StepError", "Ties", "bezier", "compare", "cut", "cut_families", "methods", "polyline", "rays", "read_path",
-           "score", "sheet_families", "write_path"]
+__all__ = ["Constraints", "Cut", "CutError", "Finding", "InputError", "OutputError", "Parents", "Pin", "Refused",
+           "RunError", "Scene", "Score", "Sheet", "Simulation", "StepError", "ablate", "bezier", "compare", "cut",
+           "cut_families", "methods", "polyline", "rays", "read_path", "recommend", "records", "run", "score",
+           "sheet_families", "write_path"]

@@ -9,7 +9,7 @@ from .paths import curves_of
 from .sheet import sheet_of
 from .tables import table
 
-SHOWN = ("ar_max", "ar_mean", "angle_min_deg", "triangles_added", "vertices_added", "pieces", "incision_error_h")
+SHOWN = ("ar_max_cut", "ar_mean_cut", "angle_min_deg_cut", "triangles_added", "vertices_added", "pieces", "incision_error_h")
 
 
 def compare(methods=None, sheet=None, path=None, chord_tolerance=0.05):

@@ -143,20 +143,21 @@ class Parents:
         return np.add.reduceat(values[self.vertices] * self.weights.reshape(shape), self.first[:-1], axis=0)
 
 
-class Ties:
+class Constraints:
     """What a method says of a cut sheet beside its triangles: vertices that follow others, and polygons.
 
     Attributes:
         vertices: t ints: vertices that are no unknowns, but follow
         masters: t x 3 ints, three other vertices each, with
         weights: t x 3 floats, of sum 1. -1 with weight 0: no master.
-        copies: masters from n to n + copies - 1 are copies of nodes that are no vertices of the sheet (phantom_node).
+        phantoms: masters from n to n + phantoms - 1 are phantom nodes: copies of nodes that are no vertices of the sheet
+            (phantom_node).
         polygons: a list of arrays: the corners of each element that is made of several triangles, and
         polygon_triangles: these triangles.
     """
 
-    def __init__(self, vertices, masters, weights, copies, polygons, polygon_triangles):
-        self.vertices, self.masters, self.weights, self.copies = vertices, masters, weights, copies
+    def __init__(self, vertices, masters, weights, phantoms, polygons, polygon_triangles):
+        self.vertices, self.masters, self.weights, self.phantoms = vertices, masters, weights, phantoms
         self.polygons, self.polygon_triangles = polygons, polygon_triangles
 
 
@@ -194,11 +195,11 @@ class Cut:
         return Parents(*self._core.parents())
 
     @cached_property
-    def ties(self):
-        """Vertices that follow others, and polygons: Ties."""
-        return Ties(**self._core.ties())
+    def constraints(self):
+        """Vertices that follow others, and polygons: Constraints."""
+        return Constraints(**self._core.constraints())
 
-    polygons = property(lambda self: self.ties.polygons)
+    polygons = property(lambda self: self.constraints.polygons)
 
     @cached_property
     def quality(self):
@@ -252,7 +253,7 @@ def cut(vertices, triangles=None, path=None, method="warp_and_refine", rest="aut
         rest: n x 2 or n x 3 rest positions, or "auto" or "plane"; see Sheet.
         chord_tolerance: largest distance of the incision from a curved path, in mean rest edges, or inf.
         allow_miss: a path that misses the sheet cuts nothing, instead of being an error.
-        **parameters: of the method, such as rounds=2.
+        **parameters: of the method, such as reach=0.3.
 
     Returns:
         Cut: vertices, triangles, rest, what they were before, and what was measured.
