@@ -1,6 +1,7 @@
 // The table of methods, and functions of Python as methods.
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 
@@ -28,7 +29,8 @@ Function shared(py::function function) {
 
 [[noreturn]] void fail(const py::error_already_set& error) {
   if (error.matches(PyExc_KeyboardInterrupt) || error.matches(PyExc_SystemExit)) throw error;
-  const std::string text = py::str(error.value());
+  std::string text = py::str(error.value());
+  std::replace(text.begin(), text.end(), '\n', ' ');
   if (error.matches(py::module_::import("cutbench.errors").attr("Refused"))) throw CutRefused(text);
   const std::string type = py::str(error.type().attr("__name__"));
   throw CutFailed(Verdict::crashed, text.empty() ? type : type + ": " + text);
