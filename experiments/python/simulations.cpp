@@ -90,11 +90,10 @@ std::vector<Point2> rest_of(const Sheet& sheet) {
   return rows;
 }
 
-Pin pin_of(std::array<double, 4> box, std::array<bool, 3> axes, std::array<double, 3> displacement,
-           std::array<double, 3> velocity) {
+Pin pin_of(std::array<double, 4> box, std::array<bool, 3> axes, std::array<double, 3> velocity) {
   return {.where = {{box[0], box[1]}, {box[2], box[3]}},
           .axes = axes,
-          .displacement = {displacement[0], displacement[1], displacement[2]},
+          .displacement = {},
           .velocity = {velocity[0], velocity[1], velocity[2]}};
 }
 

@@ -94,7 +94,7 @@ void EnergyBudget::add_cut(const Balance& before, const Balance& after) {
 }
 
 void EnergyBudget::add_work(const Balance& before, const Balance& after) {
-  rows_.back().pin_work += after.energy.total() - before.energy.total();
+  if (rows_.size() > 1) rows_.back().pin_work += after.energy.total() - before.energy.total();  // else it begins so
   rows_.back().energy = after.energy;
   judge_last();
 }

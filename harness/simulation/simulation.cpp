@@ -114,11 +114,10 @@ class SceneInMotion : public Simulation {
   void hold(const std::vector<Pin>& pins) override {
     change_from_outside([&] {
       now_.pins = pins;
-      for (Pin& pin : now_.pins) pin.displacement = {};
       now_.model.set_pins_and_force(now_.sheet, now_.pins, force_);
+      const Field dv = now_.state.dv;  // no vertex has another number
       hold_where_it_is(now_.model, now_.state);
-      now_.pins = pins;
-      now_.model.set_pins_and_force(now_.sheet, now_.pins, force_);
+      now_.state.dv = dv;
     });
     hold_constrained_vertices(now_.pins, {}, now_.sheet);
   }

@@ -60,8 +60,8 @@ class Simulation {
   /// scene has dimensions, for each slot of a deformed vertex; vertices that later cuts make have none. Empty: none
   /// at all. \throw InputError  another number of them, or one that is not finite
   virtual void pull(std::span<const double> force) = 0;
-  /// From now on these pins hold the sheet, and no others: vertices where they are now, moved by the displacement in
-  /// the next step, and then with the velocity.
+  /// From now on these pins hold the sheet, and no others: vertices where they are now, moved with the velocity. A
+  /// displacement has no effect.
   virtual void hold(const std::vector<Pin>& pins) = 0;
   /// m and m/s: two or three numbers, as the scene has dimensions, for each slot of a deformed vertex. Valid until the
   /// next step or cut.

@@ -131,6 +131,8 @@ def animate(simulation, frames=48, every=4, each=None, elevation=20, azimuth=-70
     ax = figure.add_subplot() if flat else figure.add_subplot(projection="3d")
     low = np.min([np.nanmin(x, axis=0) for _, x, _ in moments], axis=0)
     high = np.max([np.nanmax(x, axis=0) for _, x, _ in moments], axis=0)
+    flat_axes = high - low < 1e-9 * (high - low).max()
+    low, high = low - 0.1 * flat_axes, high + 0.1 * flat_axes
 
     def draw(frame):
         time, x, triangles = moments[frame]

@@ -130,7 +130,8 @@ class Parents:
         first: n + 1 ints; vertex i is a weighted mean of entries first[i] to first[i + 1] - 1 of
         vertices: vertices of the sheet before, with
         weights: floats, of sum 1 for each vertex.
-        triangles: m ints: the triangle before in which each new triangle's centroid lies.
+        triangles: m ints: the triangle before in which each triangle's centroid lies; of several cuts in a row, from cut to
+            cut.
     """
 
     def __init__(self, first, vertices, weights, triangles):

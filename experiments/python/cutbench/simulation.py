@@ -100,19 +100,17 @@ class Pin:
     Args:
         box: [[x0, y0], [x1, y1]], m, at rest.
         axes: those that are held.
-        displacement: m, from where they are now, in the next step.
-        velocity: m/s, from now on.
+        velocity: m/s, from where they are now.
     """
 
-    def __init__(self, box, axes="xyz", displacement=(0, 0, 0), velocity=(0, 0, 0)):
+    def __init__(self, box, axes="xyz", velocity=(0, 0, 0)):
         if not set(axes) <= set("xyz") or not axes:
             raise InputError(f'axes: "{axes}"; give some of x, y and z')
         box = np.asarray(box, dtype=float)
         if box.shape != (2, 2) or not (box[0] <= box[1]).all():
             raise InputError("box: give [[x0, y0], [x1, y1]] with x0 <= x1 and y0 <= y1")
-        motion = [[*arrays.points([v], name, (2, 3))[0], 0.0][:3] for v, name in
-                  ((displacement, "displacement"), (velocity, "velocity"))]
-        self._core = _core.Pin(box.ravel().tolist(), [axis in axes for axis in "xyz"], *motion)
+        velocity = arrays.in_space([velocity], "velocity")[0].tolist()
+        self._core = _core.Pin(box.ravel().tolist(), [axis in axes for axis in "xyz"], velocity)
 
 
 class Simulation:
