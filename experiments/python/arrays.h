@@ -40,7 +40,8 @@ Array<Number> array_of(std::vector<Row> rows) {
 template <class Row, class Number>
 std::vector<Row> rows_of(const Array<Number>& array) {
   const auto* const first = reinterpret_cast<const Row*>(array.data());
-  return {first, first + array.size() * static_cast<py::ssize_t>(sizeof(Number)) / static_cast<py::ssize_t>(sizeof(Row))};
+  return {first,
+          first + array.size() * static_cast<py::ssize_t>(sizeof(Number)) / static_cast<py::ssize_t>(sizeof(Row))};
 }
 
 }  // namespace cutbench::python

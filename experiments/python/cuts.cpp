@@ -127,7 +127,8 @@ Parents parents(const HeldCut& cut) {
       if (t.valid()) t = triangles[t()];
     triangles = std::move(old);
   }
-  const std::vector<Row> old_vertices = vertex_rows(*cut.before->sheet), old_triangles = triangle_rows(*cut.before->sheet);
+  const std::vector<Row> old_vertices = vertex_rows(*cut.before->sheet),
+                         old_triangles = triangle_rows(*cut.before->sheet);
   Parents result;
   for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) {
     if (!sheet.rest_vertex(DeformedIndex(d)).valid()) continue;
@@ -146,7 +147,9 @@ Parents parents(const HeldCut& cut) {
 std::vector<std::array<Row, 4>> lips(const HeldSheet& held) {
   const Sheet& sheet = *held.sheet;
   const std::vector<Row> rows = vertex_rows(sheet);
-  const auto begin_of = [&](HalfEdge h) { return rows[sheet.triangle(triangle_of(h)).deformed[to_size(corner_of(h))]()]; };
+  const auto begin_of = [&](HalfEdge h) {
+    return rows[sheet.triangle(triangle_of(h)).deformed[to_size(corner_of(h))]()];
+  };
   std::vector<std::array<Row, 4>> edges;
   for (std::size_t t = 0; t < sheet.triangle_slots(); ++t)
     for (int k = 0; k < 3; ++k) {
@@ -245,15 +248,16 @@ void bind_cuts(py::module_& m) {
       });
   m.def("lips", [](const HeldSheet& sheet) { return array_of<Row>(lips(sheet)); });
   m.def("cut", &cut, Released());
-  m.def("score", [](const std::shared_ptr<HeldSheet>& before, const std::vector<Curve>& curves,
-                    const Array<double>& vertices, const Array<Row>& triangles, const std::optional<Array<double>>& rest,
-                    double chord_tolerance, bool keeps_vertices, bool deletes) {
-    MeshData result{.rest = {}, .deformed = rows_of<Point3>(vertices), .triangles = {}, .notes = {}};
-    result.triangles = rows_of<std::array<Row, 3>>(triangles);
-    if (rest) result.rest = rows_of<Point2>(*rest);
-    const py::gil_scoped_release others_go_on;
-    return score(before, curves, std::move(result), chord_tolerance, keeps_vertices, deletes);
-  });
+  m.def("score",
+        [](const std::shared_ptr<HeldSheet>& before, const std::vector<Curve>& curves, const Array<double>& vertices,
+           const Array<Row>& triangles, const std::optional<Array<double>>& rest, double chord_tolerance,
+           bool keeps_vertices, bool deletes) {
+          MeshData result{.rest = {}, .deformed = rows_of<Point3>(vertices), .triangles = {}, .notes = {}};
+          result.triangles = rows_of<std::array<Row, 3>>(triangles);
+          if (rest) result.rest = rows_of<Point2>(*rest);
+          const py::gil_scoped_release others_go_on;
+          return score(before, curves, std::move(result), chord_tolerance, keeps_vertices, deletes);
+        });
 }
 
 }  // namespace cutbench::python

@@ -39,7 +39,8 @@ Function shared(py::function function) {
 /// Asks for the whole cut, as a program of its own would be: what it returns is judged, and taken over.
 class FunctionMethod final : public CuttingMethod, public CutProgram {
  public:
-  FunctionMethod(std::string name, Function function) : name_("python: " + std::move(name)), function_(std::move(function)) {}
+  FunctionMethod(std::string name, Function function)
+      : name_("python: " + std::move(name)), function_(std::move(function)) {}
 
   CutProgram* program() override { return this; }
   const std::string& command() const override { return name_; }
@@ -59,7 +60,8 @@ class FunctionMethod final : public CuttingMethod, public CutProgram {
     const py::gil_scoped_acquire interpreter;
     try {
       const auto [vertices, triangles, rest] =
-          (*function_)(sheet, curve, chord_tolerance).cast<std::tuple<Array<double>, Array<std::int32_t>, Array<double>>>();
+          (*function_)(sheet, curve, chord_tolerance)
+              .cast<std::tuple<Array<double>, Array<std::int32_t>, Array<double>>>();
       return {.rest = rows_of<Point2>(rest),
               .deformed = rows_of<Point3>(vertices),
               .triangles = rows_of<std::array<std::int32_t, 3>>(triangles),

@@ -89,7 +89,8 @@ PickedCurve picked_of(bool bezier, const Array<double>& origins, const std::opti
 void bind_sheets(py::module_& m) {
   py::class_<HeldSheet, std::shared_ptr<HeldSheet>>(m, "Sheet")
       .def_property_readonly(
-          "vertices", [](const py::object& self) { return view_of<double>(self.cast<const HeldSheet&>().mesh.deformed, self); })
+          "vertices",
+          [](const py::object& self) { return view_of<double>(self.cast<const HeldSheet&>().mesh.deformed, self); })
       .def_property_readonly(
           "rest", [](const py::object& self) { return view_of<double>(self.cast<const HeldSheet&>().mesh.rest, self); })
       .def_property_readonly("triangles",
@@ -131,14 +132,16 @@ void bind_sheets(py::module_& m) {
         if (line.closed && !line.points.empty()) line.points.push_back(line.points.front());
         return array_of<double>(std::move(line.points));
       });
-  py::class_<PickedCurve>(m, "PickedCurve").def(py::init([](bool bezier, const Array<double>& origins,
-                                                            const std::optional<Array<double>>& directions, bool closed) {
-    PickedCurve curve = picked_of(bezier, origins, directions, closed);
-    check_picks(curve, "path");
-    return curve;
-  }));
+  py::class_<PickedCurve>(m, "PickedCurve")
+      .def(py::init(
+          [](bool bezier, const Array<double>& origins, const std::optional<Array<double>>& directions, bool closed) {
+            PickedCurve curve = picked_of(bezier, origins, directions, closed);
+            check_picks(curve, "path");
+            return curve;
+          }));
   m.def("read_path", [](const std::filesystem::path& file) { return read_path_with_picks(file); });
-  m.def("write_path", [](const std::vector<Curve>& path, const std::filesystem::path& file) { write_path(path, file); });
+  m.def("write_path",
+        [](const std::vector<Curve>& path, const std::filesystem::path& file) { write_path(path, file); });
 }
 
 }  // namespace cutbench::python

@@ -112,12 +112,14 @@ void bind_scenes(py::module_& m) {
              return scene;
            })
       .def("with_resolution", [](Scene scene, int triangles) {
-        if (!scene.mesh_file.empty()) throw InputError("resolution: this scene's sheet is read from a file; leave it out");
+        if (!scene.mesh_file.empty())
+          throw InputError("resolution: this scene's sheet is read from a file; leave it out");
         scene.resolution = triangles;
         return scene;
       });
   m.def("read_scene", [](const std::filesystem::path& file) { return read_scene(file); });
-  m.def("scene_of_text", [](const std::string& text, const std::filesystem::path& name) { return read_scene_text(text, name); });
+  m.def("scene_of_text",
+        [](const std::string& text, const std::filesystem::path& name) { return read_scene_text(text, name); });
 }
 
 }  // namespace
@@ -128,12 +130,13 @@ void bind_simulations(py::module_& m) {
   py::class_<Pin>(m, "Pin").def(py::init(&pin_of));
   py::class_<HeldSimulation>(m, "Simulation")
       .def(py::init<Scene, const HeldMethod&, double, bool>(), Released())
-      .def("step",
-           [](HeldSimulation& s) {
-             const StepReport report = s.step();
-             return std::pair(std::string(name_of(report.verdict)), report.reason);
-           },
-           Released())
+      .def(
+          "step",
+          [](HeldSimulation& s) {
+            const StepReport report = s.step();
+            return std::pair(std::string(name_of(report.verdict)), report.reason);
+          },
+          Released())
       .def("cut",
            [](HeldSimulation& s, const std::vector<AnyCurve>& path) {
              const MotionCut cut = [&] {
@@ -142,35 +145,40 @@ void bind_simulations(py::module_& m) {
              }();
              return dict_of(cut);
            })
-      .def("pull", [](HeldSimulation& s, const Array<double>& force) { s.motion->pull({force.data(), to_size(force.size())}); })
+      .def("pull",
+           [](HeldSimulation& s, const Array<double>& force) {
+             s.motion->pull({force.data(), to_size(force.size())});
+           })
       .def("hold", [](HeldSimulation& s, const std::vector<Pin>& pins) { s.motion->hold(pins); })
-      .def_property_readonly("x", [](const HeldSimulation& s) {
-        return copy_of(s.motion->positions(), s.scene.physics.dimension);
-      })
-      .def_property_readonly("v", [](const HeldSimulation& s) {
-        return copy_of(s.motion->velocities(), s.scene.physics.dimension);
-      })
-      .def_property_readonly("rest", [](const HeldSimulation& s) { return array_of<double>(rest_of(s.motion->sheet())); })
-      .def_property_readonly("triangles", [](const HeldSimulation& s) {
-        return array_of<std::int32_t>(triangles_of(s.motion->sheet()));
-      })
-      .def_property_readonly("sheet", [](const HeldSimulation& s) {
-        return std::make_shared<HeldSheet>(s.motion->posed_sheet(), s.uncut);
-      })
+      .def_property_readonly(
+          "x", [](const HeldSimulation& s) { return copy_of(s.motion->positions(), s.scene.physics.dimension); })
+      .def_property_readonly(
+          "v", [](const HeldSimulation& s) { return copy_of(s.motion->velocities(), s.scene.physics.dimension); })
+      .def_property_readonly("rest",
+                             [](const HeldSimulation& s) { return array_of<double>(rest_of(s.motion->sheet())); })
+      .def_property_readonly(
+          "triangles", [](const HeldSimulation& s) { return array_of<std::int32_t>(triangles_of(s.motion->sheet())); })
+      .def_property_readonly(
+          "sheet",
+          [](const HeldSimulation& s) { return std::make_shared<HeldSheet>(s.motion->posed_sheet(), s.uncut); })
       .def_property_readonly("energy", [](HeldSimulation& s) { return dict_of(s.motion->balance()); })
       .def_property_readonly("time", [](const HeldSimulation& s) { return s.motion->time(); })
-      .def_property_readonly("outcome", [](const HeldSimulation& s) {
-        const SimulationOutcome& outcome = s.motion->outcome();
-        return py::make_tuple(name_of(outcome.verdict), outcome.reason, outcome.time);
-      })
-      .def_property_readonly("cuts", [](const HeldSimulation& s) {
-        py::list cuts;
-        for (const MotionCut& cut : s.motion->made_cuts()) cuts.append(dict_of(cut));
-        return cuts;
-      })
+      .def_property_readonly("outcome",
+                             [](const HeldSimulation& s) {
+                               const SimulationOutcome& outcome = s.motion->outcome();
+                               return py::make_tuple(name_of(outcome.verdict), outcome.reason, outcome.time);
+                             })
+      .def_property_readonly("cuts",
+                             [](const HeldSimulation& s) {
+                               py::list cuts;
+                               for (const MotionCut& cut : s.motion->made_cuts()) cuts.append(dict_of(cut));
+                               return cuts;
+                             })
       .def("steps_csv", [](const HeldSimulation& s) { return table_of(s.motion->steps(), s.scene.step); })
-      .def("summary_json", [](const HeldSimulation& s) { return summary_of(s.motion->steps(), s.motion->time()).dump(); })
-      .def("budget_csv", [](const HeldSimulation& s) { return s.motion->budget() ? s.motion->budget()->csv() : std::string(); });
+      .def("summary_json",
+           [](const HeldSimulation& s) { return summary_of(s.motion->steps(), s.motion->time()).dump(); })
+      .def("budget_csv",
+           [](const HeldSimulation& s) { return s.motion->budget() ? s.motion->budget()->csv() : std::string(); });
 }
 
 }  // namespace cutbench::python

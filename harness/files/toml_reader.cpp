@@ -13,9 +13,7 @@ std::string quoted(const char* key) { return std::string("\"") + key + "\""; }
 
 }  // namespace
 
-toml::table parse_toml(const std::filesystem::path& file) {
-  return parse_toml_text(text_of(file), file.string());
-}
+toml::table parse_toml(const std::filesystem::path& file) { return parse_toml_text(text_of(file), file.string()); }
 
 toml::table parse_toml_text(const std::string& text, const std::string& name) {
   try {

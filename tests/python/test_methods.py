@@ -49,7 +49,8 @@ class Functions(unittest.TestCase):
 
     def test_compare(self):
         table = cutbench.compare(["example", borrowed, broken, idle, unwilling, wordy, ("warp_and_refine", {"reach": 0.2})])
-        self.assertEqual(list(table.index), ["example", "borrowed", "broken", "idle", "unwilling", "wordy", "warp_and_refine reach=0.2"])
+        names = ["example", "borrowed", "broken", "idle", "unwilling", "wordy", "warp_and_refine reach=0.2"]
+        self.assertEqual(list(table.index), names)
         self.assertEqual(list(table.status), ["ok", "ok", "failed", "failed", "refused", "failed", "ok"])
         self.assertEqual(table.verdict["broken"], "crashed")
         self.assertIn("ZeroDivisionError: one over nothing", table.reason["broken"])
@@ -90,8 +91,8 @@ class Experiments(unittest.TestCase):
         self.out = folder.name
 
     def test_measured(self):
-        rows = cutbench.run(ROOT / "experiments/method_comparison.toml", ["conventional_split", borrowed, broken], cases=1,
-                            repetitions=1, resolutions=[800], out=self.out, quiet=True)
+        rows = cutbench.run(ROOT / "experiments/method_comparison.toml", ["conventional_split", borrowed, broken],
+                            cases=1, repetitions=1, resolutions=[800], out=self.out, quiet=True)
         self.assertEqual(set(rows.method), {"conventional_split", "borrowed", "broken"})
         self.assertEqual(set(rows.verdict[rows.method != "broken"]), {"ok"})
         self.assertEqual(set(rows.verdict[rows.method == "broken"]), {"crashed"})
@@ -101,8 +102,8 @@ class Experiments(unittest.TestCase):
         self.assertTrue(again.equals(rows))
 
     def test_in_processes_of_their_own(self):
-        rows = cutbench.run(ROOT / "experiments/robustness.toml", ["conventional_split", borrowed], cases=5, resolutions=[800],
-                            out=self.out, quiet=True)
+        rows = cutbench.run(ROOT / "experiments/robustness.toml", ["conventional_split", borrowed], cases=5,
+                            resolutions=[800], out=self.out, quiet=True)
         self.assertEqual(set(rows.method), {"conventional_split", "borrowed"})
 
     def test_bad(self):
@@ -117,7 +118,8 @@ class Experiments(unittest.TestCase):
         scene = ROOT / "experiments/scenes/falling_piece.toml"
         table = cutbench.ablate(scene, resolution=200, quiet=True)
         self.assertIn("bending", set(table.without))
-        advice = cutbench.recommend(scene, max_error=0.5, methods=["conventional_split"], solvers=["cg"], time_limit=5, quiet=True)
+        advice = cutbench.recommend(scene, max_error=0.5, methods=["conventional_split"], solvers=["cg"], time_limit=5,
+                                    quiet=True)
         self.assertIn("chosen", advice)
 
 

@@ -12,7 +12,8 @@ class Cuts(unittest.TestCase):
     def compare(self, sheet, mesh, path, method, folder):
         theirs, mine = folder / "theirs.obj", folder / "mine.obj"
         theirs.unlink(missing_ok=True)
-        code, said, errors = program("cut", "--mesh", mesh, "--path", folder / "path.json", "--method", method, "--out", theirs)
+        code, said, errors = program("cut", "--mesh", mesh, "--path", folder / "path.json", "--method", method, "--out",
+                                     theirs)
         try:
             made = sheet.cut(path, method)
         except (cutbench.CutError, cutbench.InputError) as error:
@@ -47,7 +48,8 @@ class Cuts(unittest.TestCase):
         cutbench.write_path([cutbench.polyline(first), cutbench.polyline(second)], folder / "path.json")
         for method in METHODS:
             with self.subTest(method=method):
-                code, _, errors = program("cut", "--mesh", mesh, "--path", folder / "path.json", "--method", method, "--out", out)
+                code, _, errors = program("cut", "--mesh", mesh, "--path", folder / "path.json", "--method", method,
+                                          "--out", out)
                 self.assertEqual(code, 0, errors)
                 both = folder / "both.obj"
                 sheet.cut(first, method).cut(second).sheet.write(both)

@@ -45,8 +45,9 @@ class Scores(unittest.TestCase):
         nan[0, 0] = np.nan
         beyond = t.copy()
         beyond[0, 0] = 10**6
-        for cause, after in {"not_opened": sheet, "shifted": shifted, "flipped": (v, turned, r), "lips_differ": (v, t, moved),
-                             "lost_triangle": (v, t[1:], r), "rounded": (v, t, r.astype(np.float32))}.items():
+        for cause, after in {"not_opened": sheet, "shifted": shifted, "flipped": (v, turned, r),
+                             "lips_differ": (v, t, moved), "lost_triangle": (v, t[1:], r),
+                             "rounded": (v, t, r.astype(np.float32))}.items():
             with self.subTest(cause):
                 score = cutbench.score(sheet, SLIT, after)
                 self.assertFalse(score.ok)

@@ -30,7 +30,8 @@ class Scenes(unittest.TestCase):
         file = ROOT / "experiments/scenes/slit_strip.toml"
         held = tomllib.loads(file.read_text())
         wanted = cutbench.Simulation(file).run().x
-        for scene in (cutbench.Scene(file), cutbench.Scene(held), cutbench.Scene(**held), cutbench.Scene(file, effect="other")):
+        ways = cutbench.Scene(file), cutbench.Scene(held), cutbench.Scene(**held), cutbench.Scene(file, effect="other")
+        for scene in ways:
             self.assertTrue(np.array_equal(cutbench.Simulation(scene).run().x, wanted))
 
     def test_of_arrays(self):

@@ -191,9 +191,10 @@ Command add_run(Options& app) {
                   "only these of the experiment, and names of --command, comma-separated")
       .comma_separated();
   command
-      .add_option("--more-methods", arguments->more_methods,
-                  "methods beside those of the experiment, comma-separated; NAME=VERSION: rows of another version of it "
-                  "are not taken over")
+      .add_option(
+          "--more-methods", arguments->more_methods,
+          "methods beside those of the experiment, comma-separated; NAME=VERSION: rows of another version of it "
+          "are not taken over")
       .comma_separated();
   command.add_option("--command", arguments->commands,
                      "NAME=COMMAND: a program as one more method, such as: mine=python3 mine.py {mesh} {path} {out}");

@@ -28,8 +28,12 @@ def _child(arguments, methods, terminal, output):
     os._exit(code)
 
 
-def _program(arguments, methods=(), say=print, progress=None):
-    """Runs the program with the arguments. Its output is said at the end. Returns the exit code: 0, or 1 where a result is not as it should be."""
+def _run_program(arguments, methods=(), say=print, progress=None):
+    """Runs the program with the arguments. Its output is said at the end.
+
+    Returns:
+        The exit code: 0, or 1 where a result is not as it should be; and the lines that it wrote to standard error.
+    """
     reader, terminal = pty.openpty()
     with tempfile.TemporaryFile() as output:
         child = multiprocessing.get_context("fork").Process(
@@ -130,7 +134,7 @@ def run(experiment, methods=None, cases=None, resolutions=None, repetitions=None
     stem = Path(experiment).stem
     bar = None if quiet else _Bar(stem)
     try:
-        code, errors = _program(arguments, functions, say=None if quiet else print, progress=bar)
+        code, errors = _run_program(arguments, functions, say=None if quiet else print, progress=bar)
     finally:
         if bar:
             bar.close()
@@ -164,7 +168,7 @@ def records(folder):
 def _report(arguments, methods=(), quiet=False):
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "report.json"
-        _program([*arguments, "--report", str(file)], methods, say=None if quiet else print)
+        _run_program([*arguments, "--report", str(file)], methods, say=None if quiet else print)
         if not file.exists():
             raise RunError("the run wrote no report")
         return json.loads(file.read_text())

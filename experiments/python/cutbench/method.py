@@ -28,7 +28,8 @@ def _answer(function, result):
         if len(rest) != len(vertices):
             raise InputError(f"rest: {len(rest)} rows; give as many as there are vertices, {len(vertices)}")
         return vertices, arrays.indices(result[1], "triangles", len(vertices)), np.ascontiguousarray(rest)
-    raise InputError(f"{function.__name__}: returned a {type(result).__name__}; return a Sheet, a Cut, or (vertices, triangles, rest)")
+    raise InputError(f"{function_name(function)}: returned a {type(result).__name__}; return a Sheet, a Cut, or "
+                     "(vertices, triangles, rest)")
 
 
 def function_name(function):

@@ -71,7 +71,8 @@ def curves_of(path):
     if isinstance(path, np.ndarray):
         return [polyline(path)]
     if not isinstance(path, (list, tuple)):
-        raise InputError(f"path: is a {type(path).__name__}; give points (k x 2 or k x 3), cutbench.bezier(...), or a list of these")
+        raise InputError(f"path: is a {type(path).__name__}; give points (k x 2 or k x 3), cutbench.bezier(...), or a list "
+                         "of these")
     if len(path) == 0:
         raise InputError("path: is empty; give at least two points")
     if any(isinstance(one, (Curve, PickedCurve, np.ndarray)) and np.ndim(one) != 1 for one in path):

@@ -21,10 +21,12 @@ REST_WORDS = {  # the words of --rest, for arrays: how rest positions are found
 def _rest(rest, vertices):
     if isinstance(rest, str):
         if rest not in REST_WORDS:
-            raise InputError(f'rest: "{rest}" is not known; known are {", ".join(REST_WORDS)}, or an array n x 2 or n x 3')
+            known = ", ".join(REST_WORDS)
+            raise InputError(f'rest: "{rest}" is not known; known are {known}, or an array n x 2 or n x 3')
         return REST_WORDS[rest](vertices)
     if np.ndim(rest) == 3:
-        raise InputError("rest: a position per corner (m x 3 x 2) can't be used; give one per vertex, n x 2, and divide vertices at seams")
+        raise InputError("rest: a position per corner (m x 3 x 2) can't be used; give one per vertex, n x 2, and divide "
+                         "vertices at seams")
     rest = arrays.points(rest, "rest", (2, 3))
     if len(rest) != len(vertices):
         raise InputError(f"rest: {len(rest)} rows; give as many as there are vertices, {len(vertices)}")
@@ -105,8 +107,8 @@ class Sheet:
     def cut(self, path, method="warp_and_refine", chord_tolerance=0.05, allow_miss=False, **parameters):
         """Cuts the sheet; see cutbench.cut()."""
         maker = method_of(method, parameters)
-        made = _core.cut(self._core, curves_of(path), maker, arrays.number(chord_tolerance, "chord_tolerance"), bool(allow_miss))
-        return Cut(self, made)
+        tolerance = arrays.number(chord_tolerance, "chord_tolerance")
+        return Cut(self, _core.cut(self._core, curves_of(path), maker, tolerance, bool(allow_miss)))
 
     def plot(self, ax=None, **how):
         """Draws the sheet at rest; see cutbench.pictures.plot()."""
@@ -227,7 +229,8 @@ class Cut:
         return self.sheet.to_meshio()
 
     def __repr__(self):
-        return f"<cutbench.Cut: {self.status}, by {self.method}, {self.crossed_triangles} triangles crossed, {len(self.triangles)} now>"
+        return (f"<cutbench.Cut: {self.status}, by {self.method}, {self.crossed_triangles} triangles crossed, "
+                f"{len(self.triangles)} now>")
 
 
 def sheet_of(anything):
