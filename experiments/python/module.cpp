@@ -1,4 +1,6 @@
 // The module cutbench._core: what the package in Python (experiments/python/cutbench) is made of, and no more.
+#include <malloc.h>
+
 #include "experiments/python/held.h"
 #include "harness/base/errors.h"
 
@@ -22,9 +24,17 @@ void translate(std::exception_ptr thrown) {
   }
 }
 
+/// A cut frees some MB that the next one needs again. glibc would hand them to the system and ask for them anew, page by
+/// page: a quarter of the time at 12,800 triangles.
+void keep_freed_memory() {
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_TRIM_THRESHOLD, 64 << 20);
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_core, m) {
+  keep_freed_memory();
   py::register_exception_translator(translate);
   cutbench::python::bind_sheets(m);
   cutbench::python::bind_methods(m);

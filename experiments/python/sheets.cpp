@@ -3,6 +3,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <optional>
+#include <utility>
 
 #include "experiments/python/arrays.h"
 #include "experiments/python/held.h"
@@ -42,13 +43,38 @@ std::vector<Curve> in_rest_space(const std::vector<AnyCurve>& path, const Sheet&
 
 namespace {
 
+std::vector<Point3> in_space(const Array<double>& points) {
+  if (points.shape(1) == 3) return rows_of<Point3>(points);
+  std::vector<Point3> rows;
+  rows.reserve(to_size(points.shape(0)));
+  for (const Point2 p : rows_of<Point2>(points)) rows.push_back({p.x, p.y, 0});
+  return rows;
+}
+
+std::vector<std::array<std::int32_t, 3>> corners_of(const Array<std::int32_t>& triangles) {
+  return rows_of<std::array<std::int32_t, 3>>(triangles);
+}
+
+/// What 32 bits do not hold is -1.
+std::vector<std::array<std::int32_t, 3>> corners_of(const Array<std::int64_t>& triangles) {
+  std::vector<std::array<std::int32_t, 3>> rows(to_size(triangles.shape(0)));
+  const std::int64_t* next = triangles.data();
+  for (auto& row : rows)
+    for (std::int32_t& corner : row) {
+      corner = std::in_range<std::int32_t>(*next) ? static_cast<std::int32_t>(*next) : -1;
+      ++next;
+    }
+  return rows;
+}
+
 /// Where rest positions come from: positions of their own, two or three numbers each, or the plane that the sheet lies
 /// in.
-MeshData mesh_of(const Array<double>& vertices, const Array<std::int32_t>& triangles,
+template <class Number>
+MeshData mesh_of(const Array<double>& vertices, const Array<Number>& triangles,
                  const std::optional<Array<double>>& rest) {
   MeshData mesh;
-  mesh.deformed = rows_of<Point3>(vertices);
-  mesh.triangles = rows_of<std::array<std::int32_t, 3>>(triangles);
+  mesh.deformed = in_space(vertices);
+  mesh.triangles = corners_of(triangles);
   if (!rest) return mesh;
   if (rest->shape(1) == 2) {
     mesh.rest = rows_of<Point2>(*rest);
@@ -60,7 +86,11 @@ MeshData mesh_of(const Array<double>& vertices, const Array<std::int32_t>& trian
   return mesh;
 }
 
-SheetPointer checked(MeshData mesh) {
+template <class Number>
+std::shared_ptr<HeldSheet> sheet_of(const Array<double>& vertices, const Array<Number>& triangles,
+                                    const std::optional<Array<double>>& rest) {
+  MeshData mesh = mesh_of(vertices, triangles, rest);
+  const py::gil_scoped_release others_go_on;
   check_and_repair(mesh, "sheet");
   return std::make_shared<HeldSheet>(std::move(mesh));
 }
@@ -104,12 +134,8 @@ void bind_sheets(py::module_& m) {
       .def("random_cut", [](const HeldSheet& s, const std::string& family, std::uint64_t seed, std::size_t i) {
         return make_case(family, seed, i, *s.sheet);
       });
-  m.def("sheet", [](const Array<double>& vertices, const Array<std::int32_t>& triangles,
-                    const std::optional<Array<double>>& rest) {
-    MeshData mesh = mesh_of(vertices, triangles, rest);
-    const py::gil_scoped_release others_go_on;
-    return std::const_pointer_cast<HeldSheet>(checked(std::move(mesh)));
-  });
+  m.def("sheet", &sheet_of<std::int32_t>);
+  m.def("sheet", &sheet_of<std::int64_t>);
   m.def("read_sheet", [](const std::filesystem::path& file) { return std::make_shared<HeldSheet>(read_mesh(file)); });
   m.def("family_sheet", [](const std::string& family, std::int64_t triangles, double size) {
     return std::make_shared<HeldSheet>(family_of(family, triangles, size));

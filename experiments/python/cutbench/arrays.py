@@ -29,33 +29,45 @@ def _shape(array):
     return " x ".join(map(str, array.shape)) or "of a single number"
 
 
-def points(values, name, widths):
-    """Numbers, n x one of `widths`; finite."""
+def of_points(values, name, widths):
+    """Numbers, n x one of `widths`, which may be NaN."""
     array = _rows(_array(values, name, "fiu", "numbers"), name, widths)
     if len(array) == 0:
         raise InputError(f"{name}: is empty; give at least one row")
-    array = np.ascontiguousarray(array, dtype=np.float64)
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def check_finite(array, name):
     if not np.isfinite(array).all():
         row = int(np.argwhere(~np.isfinite(array))[0][0])
         raise InputError(f"{name}: row {row} has a number that is not finite, {array[row].tolist()}; correct it")
+
+
+def points(values, name, widths):
+    """Numbers, n x one of `widths`; finite."""
+    array = of_points(values, name, widths)
+    check_finite(array, name)
     return array
 
 
 def in_space(values, name):
-    """Points of two or three numbers, as three: z is 0 where it is not given."""
+    """Points of two or three finite numbers, as three: z is 0 where it is not given."""
     array = points(values, name, (2, 3))
     return array if array.shape[1] == 3 else np.column_stack([array, np.zeros(len(array))])
 
 
-def indices(values, name, count):
-    """Whole numbers from 0 to count - 1, m x 3."""
+def of_indices(values, name):
+    """Whole numbers, m x 3, of 32 or 64 bits, which may be out of range."""
     array = _rows(_array(values, name, "iu", "whole numbers"), name, (3,))
     if len(array) == 0:
         raise InputError(f"{name}: is empty; give at least one row")
+    return np.ascontiguousarray(array, dtype=np.int32 if array.dtype == np.int32 else np.int64)
+
+
+def check_indices(array, name, count):
     if array.min() < 0 or array.max() >= count:
         row, corner = (int(i) for i in np.argwhere((array < 0) | (array >= count))[0])
         raise InputError(f"{name}: row {row} has the corner {array[row, corner]}, but there are {count} vertices, from 0")
-    return np.ascontiguousarray(array, dtype=np.int32)
 
 
 def number(value, name):

@@ -27,7 +27,9 @@ def _answer(function, result):
         rest = vertices[:, :2] if len(result) == 2 else arrays.points(result[2], "rest", (2,))
         if len(rest) != len(vertices):
             raise InputError(f"rest: {len(rest)} rows; give as many as there are vertices, {len(vertices)}")
-        return vertices, arrays.indices(result[1], "triangles", len(vertices)), np.ascontiguousarray(rest)
+        triangles = arrays.of_indices(result[1], "triangles")
+        arrays.check_indices(triangles, "triangles", len(vertices))
+        return vertices, triangles.astype(np.int32), np.ascontiguousarray(rest)
     raise InputError(f"{function_name(function)}: returned a {type(result).__name__}; return a Sheet, a Cut, or "
                      "(vertices, triangles, rest)")
 

@@ -52,9 +52,15 @@ class Sheet:
     """
 
     def __init__(self, vertices, triangles, rest="auto"):
-        positions = arrays.in_space(vertices, "vertices")
-        corners = arrays.indices(triangles, "triangles", len(positions))
-        self._core = _core.sheet(positions, corners, _rest(rest, positions))
+        positions = arrays.of_points(vertices, "vertices", (2, 3))
+        corners = arrays.of_indices(triangles, "triangles")
+        flat = _rest(rest, positions)
+        try:
+            self._core = _core.sheet(positions, corners, flat)
+        except InputError:
+            arrays.check_finite(positions, "vertices")  # may have better words for it
+            arrays.check_indices(corners, "triangles", len(positions))
+            raise
         for note in self._core.notes:
             warnings.warn(note, stacklevel=2)
 
