@@ -1,6 +1,7 @@
 """Methods: those of the table, and functions of one's own."""
 
 import warnings
+from functools import lru_cache
 
 import numpy as np
 
@@ -38,13 +39,20 @@ def function_name(function):
     return getattr(function, "__name__", type(function).__name__).strip("<>")
 
 
+@lru_cache
+def _named(name):
+    return _core.named_method(name, {})
+
+
 def method_of(method, parameters):
     """The core's method of a name or a function, with parameters."""
-    from .sheet import Sheet
+    if isinstance(method, str):
+        if not parameters:
+            return _named(method)
+        return _core.named_method(method, {key: arrays.number(value, key) for key, value in parameters.items()})
     if isinstance(method, _core.Method):
         return method
-    if isinstance(method, str):
-        return _core.named_method(method, {key: arrays.number(value, key) for key, value in parameters.items()})
+    from .sheet import Sheet
     if not callable(method):
         raise InputError(f"method: is a {type(method).__name__}; give a name of cutbench.methods(), or a function")
     name = function_name(method)

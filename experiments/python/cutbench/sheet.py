@@ -185,11 +185,13 @@ class Cut:
     """
 
     def __init__(self, before, core):
-        self._core = core
-        self.before, self.sheet = before, Sheet._of(core.after)
-        self.method, self.status, self.reason = core.method, core.status, core.reason
-        self.crossed_triangles = core.crossed_triangles
+        self.before, self._core = before, core
 
+    sheet = cached_property(lambda self: Sheet._of(self._core.after))
+    method = property(lambda self: self._core.method)
+    status = property(lambda self: self._core.status)
+    reason = property(lambda self: self._core.reason)
+    crossed_triangles = property(lambda self: self._core.crossed_triangles)
     vertices = property(lambda self: self.sheet.vertices)
     triangles = property(lambda self: self.sheet.triangles)
     rest = property(lambda self: self.sheet.rest)
