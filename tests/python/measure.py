@@ -36,13 +36,13 @@ def in_python(vertices, triangles, times):
 
 
 def overhead(program):
-    print("triangles  C++ us  Python us  more us   more %  (processor time, medians of 5 alternating runs)")
+    print("triangles  C++ us  Python us  more us   more %  (processor time, medians of 8 alternating runs)")
     for resolution in (200, 800, 3200, 12800):
         sheet = cutbench.Sheet.family("grid", resolution)
         vertices, triangles = sheet.vertices.copy(), sheet.triangles.astype(np.int64)
         times = max(20, 200000 // resolution)
         cpp, python = [], []
-        for _ in range(5):
+        for _ in range(8):
             us, count = in_cpp(program, sheet, times)
             cpp += us
             us, same = in_python(vertices, triangles, times)

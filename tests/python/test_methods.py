@@ -42,6 +42,10 @@ class Functions(unittest.TestCase):
             self.assertEqual(mine.quality["ar_max_cut"], theirs.quality["ar_max_cut"])
             self.assertEqual((mine.verdict, mine.method), ("ok", "borrowed"))
 
+    def test_once_more(self):
+        made = cutbench.Sheet.family().cut([[-0.1, 0.3], [0.6, 0.55]], borrowed).cut([[0.3, -0.1], [0.45, 1.1]])
+        self.assertEqual((made.method, made.verdict, made.quality["pieces"]), ("borrowed", "ok", 3))
+
     def test_parameters(self):
         sheet = cutbench.Sheet.family("delaunay", 200)
         one, other = (len(sheet.cut(sheet.random_cut(), tuned, reach=reach).triangles) for reach in (0.0, 0.4))

@@ -38,7 +38,7 @@ class Pictures(unittest.TestCase):
         self.assertEqual(ax.get_title(), "not_opened")
         broken = (np.full((4, 3), np.nan), [[0, 1, 9], [0, 1, 2]], np.full((4, 2), np.nan))
         self.drawn(cutbench.score(sheet, CURVE, broken).plot())
-        self.assertIn("<svg", cutbench.score(sheet, CURVE, sheet)._repr_svg_())
+        self.assertIn("<svg", cutbench.score(sheet, CURVE, sheet).svg)
 
     def test_simulations(self):
         for dimension in (2, 3):

@@ -107,6 +107,8 @@ def show(simulation, ax=None, elevation=20, azimuth=-70):
         ax = pyplot.figure(figsize=(5, 5)).add_subplot(projection="3d")
     ax.plot_trisurf(x[:, 0], x[:, 2], x[:, 1], triangles=triangles, cmap="viridis", linewidth=0.1, edgecolor="#00000040")
     ax.view_init(elevation, azimuth)
+    ax.set_aspect("equal")
+    ax.locator_params(nbins=3)
     ax.set_title(f"{simulation.time:.3f} s")
     return ax
 

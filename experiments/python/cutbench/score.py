@@ -38,6 +38,7 @@ class Score:
         findings: the causes, as Finding objects, the most telling first.
         problems: the oracle's own words.
         quality: all measures, as `cutbench score --json` gives them (results/README.md).
+        svg: a drawing of the place, or of the whole sheet, as `cutbench score --svg` writes it.
     """
 
     def __init__(self, before, path, result, report, svg):
@@ -51,9 +52,6 @@ class Score:
         """Draws the place of the first finding, eight mean edges wide, or the whole result."""
         from . import pictures
         return pictures.plot_score(self, ax=ax, **how)
-
-    def _repr_svg_(self):
-        return self.svg
 
     def __repr__(self):
         causes = ", ".join(finding.cause for finding in self.findings)

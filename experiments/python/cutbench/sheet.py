@@ -114,7 +114,7 @@ class Sheet:
         """Cuts the sheet; see cutbench.cut()."""
         maker = method_of(method, parameters)
         tolerance = arrays.number(chord_tolerance, "chord_tolerance")
-        return Cut(self, _core.cut(self._core, curves_of(path), maker, tolerance, bool(allow_miss)))
+        return Cut(self, _core.cut(self._core, curves_of(path), maker, tolerance, bool(allow_miss)), maker)
 
     def plot(self, ax=None, **how):
         """Draws the sheet at rest; see cutbench.pictures.plot()."""
@@ -184,8 +184,8 @@ class Cut:
         times: microseconds by phase (docs/measuring.md), and in `total`.
     """
 
-    def __init__(self, before, core):
-        self.before, self._core = before, core
+    def __init__(self, before, core, maker):
+        self.before, self._core, self._maker = before, core, maker
 
     sheet = cached_property(lambda self: Sheet._of(self._core.after))
     method = property(lambda self: self._core.method)
@@ -225,7 +225,7 @@ class Cut:
 
     def cut(self, path, method=None, chord_tolerance=0.05, allow_miss=False, **parameters):
         """Cuts the result once more, by the same method where no other is named."""
-        return self.sheet.cut(path, self.method if method is None else method, chord_tolerance, allow_miss, **parameters)
+        return self.sheet.cut(path, self._maker if method is None else method, chord_tolerance, allow_miss, **parameters)
 
     def plot(self, ax=None, **how):
         """Draws the result at rest; see cutbench.pictures.plot()."""
