@@ -202,14 +202,6 @@ std::vector<MethodRow>& table() {
 
 const std::vector<MethodRow>& all_methods() { return table(); }
 
-void add_methods(const std::vector<MethodRow>& more) {
-  for (const MethodRow& row : more) {
-    if (std::any_of(table().begin(), table().end(), [&](const MethodRow& r) { return r.name == row.name; }))
-      throw InputError("method \"" + row.name + "\" is in the table; choose another name");
-    table().push_back(row);
-  }
-}
-
 const std::vector<MethodRow>& ablation_methods() {
   using Before = WarpAndRefine::Before;
   using After = WarpAndRefine::After;
@@ -245,8 +237,10 @@ const std::vector<MethodRow>& ablation_methods() {
   return rows;
 }
 
-const std::vector<MethodRow>& nameable_methods() {
-  static const auto rows = [] {
+namespace {
+
+std::vector<MethodRow>& nameable_table() {
+  static auto rows = [] {
     std::vector<MethodRow> all = all_methods();
     all.insert(all.end(), ablation_methods().begin(), ablation_methods().end());
     all.push_back({"phantom_node:lumped_mass", "phantom_node with a lumped mass", {}, exact_split, [](double) {
@@ -255,6 +249,20 @@ const std::vector<MethodRow>& nameable_methods() {
     return all;
   }();
   return rows;
+}
+
+}  // namespace
+
+const std::vector<MethodRow>& nameable_methods() { return nameable_table(); }
+
+void add_methods(const std::vector<MethodRow>& more) {
+  std::vector<MethodRow>& nameable = nameable_table();
+  for (const MethodRow& row : more) {
+    if (std::any_of(table().begin(), table().end(), [&](const MethodRow& r) { return r.name == row.name; }))
+      throw InputError("method \"" + row.name + "\" is in the table; choose another name");
+    table().push_back(row);
+    nameable.push_back(row);
+  }
 }
 
 const MethodRow& find_method(const std::string& name) {

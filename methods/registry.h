@@ -9,7 +9,7 @@ namespace cutbench {
 
 const std::vector<MethodRow>& all_methods();
 
-/// Adds rows of methods that are not in this tree. To be called before anything asks for the table. Throws InputError:
+/// Adds rows of methods that are not in this tree. To be called while nobody keeps a row of the table. Throws InputError:
 /// a name that is there.
 void add_methods(const std::vector<MethodRow>& more);
 

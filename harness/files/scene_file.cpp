@@ -302,10 +302,7 @@ void check_scene_suits_active_radius(const Scene& scene, const std::string& name
                      ": \"active_radius\" needs to know all cuts from the start; give them with space = \"rest\"");
 }
 
-}  // namespace
-
-Scene read_scene(const std::filesystem::path& file) {
-  const toml::table table = parse_toml(file);
+Scene read_scene(const toml::table& table, const std::filesystem::path& file) {
   const TomlReader reader{table, file.string()};
   check_keys(table,
              {"effect", "truth", "duration", "sheet", "material", "physics", "pins", "tractions", "integrator",
@@ -334,6 +331,14 @@ Scene read_scene(const std::filesystem::path& file) {
   check_scene_suits_active_radius(scene, reader.where);
   if (!scene.mesh_file.empty()) scene.mesh = read_mesh(scene.mesh_file, reading);
   return scene;
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& file) { return read_scene(parse_toml(file), file); }
+
+Scene read_scene_text(const std::string& text, const std::filesystem::path& name) {
+  return read_scene(parse_toml_text(text, name.string()), name);
 }
 
 }  // namespace cutbench

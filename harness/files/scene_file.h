@@ -24,6 +24,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "harness/simulation/scene.h"
 
@@ -32,5 +33,8 @@ namespace cutbench {
 /// Throws InputError: unreadable, not TOML, unknown keys (with the nearest known one), values out of range,
 /// contradictions; and what read_mesh() refuses in a sheet from a file.
 Scene read_scene(const std::filesystem::path& file);
+/// The same from the text of such a file. \param name  begins every error; its stem is the scene's, and its folder that
+/// which the sheet's file is relative to
+Scene read_scene_text(const std::string& text, const std::filesystem::path& name);
 
 }  // namespace cutbench

@@ -1,9 +1,9 @@
 #include "harness/files/toml_reader.h"
 
 #include <cmath>
-#include <fstream>
 
 #include "harness/base/conversions.h"
+#include "harness/files/whole_file.h"
 
 namespace cutbench {
 
@@ -13,13 +13,11 @@ std::string quoted(const char* key) { return std::string("\"") + key + "\""; }
 
 }  // namespace
 
-toml::table parse_toml(const std::filesystem::path& file) {
-  const std::string name = file.string();
-  std::error_code ignored;
-  if (!std::ifstream(file) || std::filesystem::is_directory(file, ignored))
-    throw InputError(name + ": can't be read; check the name and its permissions");
+toml::table parse_toml(const std::filesystem::path& file) { return parse_toml_text(text_of(file), file.string()); }
+
+toml::table parse_toml_text(const std::string& text, const std::string& name) {
   try {
-    return toml::parse_file(name);
+    return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
     throw InputError(name + ", line " + std::to_string(error.source().begin.line) + ": " +
                      std::string(error.description()));

@@ -22,6 +22,8 @@ namespace cutbench {
 
 /// Throws InputError naming the file and, where it is not TOML, the line.
 toml::table parse_toml(const std::filesystem::path& file);
+/// The same from a file's text. \param name  of the file
+toml::table parse_toml_text(const std::string& text, const std::string& name);
 
 /// Throws InputError for a key that is not known, naming the nearest one that is, or all.
 void check_keys(const toml::table& table, const std::vector<std::string>& known, const std::string& where);

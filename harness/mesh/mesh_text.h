@@ -1,8 +1,10 @@
 // Meshes as the text of their files, formats as harness/files/mesh_file.h says.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "harness/mesh/mesh_data.h"
 #include "harness/mesh/rest_choice.h"
@@ -24,6 +26,10 @@ MeshData read_ply(const std::string& text, const std::string& name, bool triangu
 
 /// The first line of an OBJ that says so itself; obj_text() writes it.
 constexpr std::string_view vt_are_rest = "# vt: rest positions";
+
+/// Per triangle, the number of its piece, from 0 in order of the first triangle: triangles that share a vertex are of
+/// one piece.
+std::vector<std::int32_t> pieces_of(const MeshData& mesh);
 
 /// Numbers with the fewest digits that read back bit for bit.
 std::string obj_text(const MeshData& mesh);

@@ -39,20 +39,6 @@ class Text {
   std::string text_;
 };
 
-/// Per triangle, the number of its piece: triangles that share a vertex are of one piece.
-std::vector<std::int32_t> pieces(const MeshData& mesh) {
-  UnionFind joined(mesh.rest.size());
-  for (const auto& [a, b, c] : mesh.triangles) {
-    joined.join(a, b);
-    joined.join(a, c);
-  }
-  std::map<std::size_t, std::int32_t> number;
-  std::vector<std::int32_t> result;
-  for (const auto& triangle : mesh.triangles)
-    result.push_back(number.try_emplace(joined.find(triangle[0]), to_int32(number.size())).first->second);
-  return result;
-}
-
 double rest_aspect_ratio(const MeshData& mesh, const std::array<std::int32_t, 3>& triangle) {
   auto rest = [&](std::int32_t v) { return mesh.rest[to_size(v)]; };
   return aspect_ratio(rest(triangle[0]), rest(triangle[1]), rest(triangle[2]));
@@ -65,6 +51,19 @@ double largest_strain(const MeshData& mesh, const std::array<std::int32_t, 3>& t
 }
 
 }  // namespace
+
+std::vector<std::int32_t> pieces_of(const MeshData& mesh) {
+  UnionFind joined(mesh.rest.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    joined.join(a, b);
+    joined.join(a, c);
+  }
+  std::map<std::size_t, std::int32_t> number;
+  std::vector<std::int32_t> result;
+  for (const auto& triangle : mesh.triangles)
+    result.push_back(number.try_emplace(joined.find(triangle[0]), to_int32(number.size())).first->second);
+  return result;
+}
 
 std::string obj_text(const MeshData& mesh) {
   Text text;
@@ -109,7 +108,7 @@ std::string vtu_text(const MeshData& mesh) {
   text << "</Cells>\n<PointData>\n";
   array("Float64", "rest", 3, mesh.rest, [&](const Point2& p) { text << p << " 0"; });
   text << "</PointData>\n<CellData>\n";
-  array("Int32", "piece", 1, pieces(mesh), [&](std::int32_t piece) { text << piece; });
+  array("Int32", "piece", 1, pieces_of(mesh), [&](std::int32_t piece) { text << piece; });
   array("Float64", "aspect_ratio", 1, mesh.triangles, [&](const auto& t) { text << rest_aspect_ratio(mesh, t); });
   array("Float64", "strain", 1, mesh.triangles, [&](const auto& t) { text << largest_strain(mesh, t); });
   text << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";

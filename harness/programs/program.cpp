@@ -68,9 +68,7 @@ class Program final : public CuttingMethod, public CutProgram {
     if (end.how == ProgramEnd::How::timed_out) throw CutFailed(Verdict::timed_out, end.text());
     if (!end.succeeded()) throw CutFailed(Verdict::crashed, end.text());
     const MeshData result = read_result(files.out);
-    judge(sheet, result, curve, options);
-    adopt(sheet, result);
-    trace.along.clear();  // what the path runs along is open as well
+    take_over(sheet, trace, result, curve, options);
     const double own = reported_us(files.time);
     if (own <= 0 && settings_.command.find("{time}") != std::string::npos) note_no_time();
     return own > 0 ? own : end.us;
@@ -93,14 +91,6 @@ class Program final : public CuttingMethod, public CutProgram {
     } catch (const InputError& error) {
       throw CutFailed(Verdict::no_result, error.what());
     }
-  }
-
-  /// As `cutbench score` does, and in its words.
-  static void judge(const Sheet& sheet, const MeshData& result, const Curve& curve, const CutOptions& options) {
-    const Assessment a = judge_result(sheet, result, {&curve, 1}, promises_of_everybody, options);
-    if (a.judgement.ok) return;
-    const Finding& f = a.findings.front();
-    throw CutFailed(a.judgement.verdict, f.cause + ": " + f.text + "\nmend: " + f.mend);
   }
 
   ProgramSettings settings_;
@@ -130,6 +120,17 @@ MethodRow method_of_program(const ProgramSettings& settings) {
           .parameter = {},
           .promises = promises_of_programs,
           .factory = [settings](double) { return std::make_unique<Program>(settings); }};
+}
+
+void take_over(Sheet& sheet, Subdivision& trace, const MeshData& result, const Curve& curve,
+               const CutOptions& options) {
+  const Assessment a = judge_result(sheet, result, {&curve, 1}, promises_of_everybody, options);
+  if (!a.judgement.ok) {
+    const Finding& f = a.findings.front();
+    throw CutFailed(a.judgement.verdict, f.cause + ": " + f.text + "\nmend: " + f.mend);
+  }
+  adopt(sheet, result);
+  trace.along.clear();  // what the path runs along is open as well
 }
 
 std::string fingerprint_of_program(const ProgramSettings& settings) {

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "harness/cut/cut.h"
 #include "harness/cut/method_row.h"
+#include "harness/mesh/mesh_data.h"
 #include "harness/processes/subprocess.h"
 
 namespace cutbench {
@@ -33,6 +35,11 @@ MethodRow method_of_program(const ProgramSettings& settings);
 
 /// By this exit code a program refuses a cut. Not 2, by which interpreters say that they can't open a script.
 constexpr int exit_refused = 3;
+
+/// What a program does with its result, for whoever makes results in this process: the sheet takes `result` over, as
+/// adopt() does, once the oracle accepts it as `cutbench score` would. Throws CutFailed with the oracle's verdict and
+/// the mend, and CutRefused. \pre begin_cut()
+void take_over(Sheet& sheet, Subdivision& trace, const MeshData& result, const Curve& curve, const CutOptions& options);
 
 /// The command and what it runs, for telling one version of a program from another: names, sizes and times of the files
 /// that the command names.

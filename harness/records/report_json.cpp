@@ -44,14 +44,19 @@ ordered_json as_json(const std::vector<Finding>& findings) {
 
 }  // namespace
 
-WholeFile report_file(const std::filesystem::path& file, const std::string& method, const CutRun& run, double pick_us,
-                      const Assessment& assessment, double h) {
+std::string cut_as_json(const std::string& method, const CutRun& run, double pick_us, const Assessment& assessment,
+                        double h) {
   ordered_json document{{"method", method}};
   add(document, {.h = h, .cut = &run, .judged = true, .assessment = &assessment},
       {Group::outcome, Group::size, Group::shape, Group::forced, Group::accuracy, Group::time});
   document["pick_us"] = pick_us;
   document["embedded_carefully"] = run.carefully;
-  return {file, document.dump(2) + "\n"};
+  return document.dump(2) + "\n";
+}
+
+WholeFile report_file(const std::filesystem::path& file, const std::string& method, const CutRun& run, double pick_us,
+                      const Assessment& assessment, double h) {
+  return {file, cut_as_json(method, run, pick_us, assessment, h)};
 }
 
 std::string score_as_json(const Assessment& assessment, double h) {

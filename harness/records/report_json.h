@@ -11,8 +11,11 @@
 
 namespace cutbench {
 
-/// The report of `cutbench cut`, in its place after place(). \param h  mean rest edge of the uncut sheet
-/// \param pick_us  time to find the path in rest space. Throws OutputError where it can't be written.
+/// The report of `cutbench cut`. \param h  mean rest edge of the uncut sheet
+/// \param pick_us  time to find the path in rest space
+std::string cut_as_json(const std::string& method, const CutRun& run, double pick_us, const Assessment& assessment,
+                        double h);
+/// The same as a file, in its place after place(). Throws OutputError where it can't be written.
 [[nodiscard]] WholeFile report_file(const std::filesystem::path& file, const std::string& method, const CutRun& run,
                                     double pick_us, const Assessment& assessment, double h);
 

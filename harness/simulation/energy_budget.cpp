@@ -93,6 +93,12 @@ void EnergyBudget::add_cut(const Balance& before, const Balance& after) {
   judge_last();
 }
 
+void EnergyBudget::add_work(const Balance& before, const Balance& after) {
+  if (rows_.size() > 1) rows_.back().pin_work += after.energy.total() - before.energy.total();  // else it begins so
+  rows_.back().energy = after.energy;
+  judge_last();
+}
+
 void EnergyBudget::judge_last() {
   const BudgetRow& row = rows_.back();
   // Potential energy has rounding errors of its own size.

@@ -35,7 +35,7 @@ class Model;
 struct BudgetRow {
   double time = 0;  ///< s
   Energy energy;
-  double pin_work = 0;        ///< done by what moves the pins
+  double pin_work = 0;        ///< done by what moves the pins, and by forces that were set
   double damping = 0;         ///< lost
   double numerical_loss = 0;  ///< lost by the integrator
   double jumps = 0;           ///< of the total at cuts
@@ -71,6 +71,8 @@ class EnergyBudget {
   template <int D>
   void add_step(Model<D>& model, const State& before, const State& after, double step);
   void add_cut(const Balance& before, const Balance& after);
+  /// After other pins or forces were set: what that changes is work of theirs.
+  void add_work(const Balance& before, const Balance& after);
 
   const std::vector<BudgetRow>& rows() const { return rows_; }
   Gains gains() const;

@@ -1,5 +1,6 @@
 #include "harness/simulation/simulation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -100,6 +101,30 @@ class SceneInMotion : public Simulation {
     return cuts_.make_now(curves, method, options, budget_ ? &*budget_ : nullptr);
   }
 
+  void pull(std::span<const double> force) override {
+    const auto finite = [](double f) { return std::isfinite(f); };
+    if (!force.empty() && force.size() != D * now_.model.vertices())
+      throw InputError(scene_.stem + ": " + std::to_string(force.size()) + " forces; give " + std::to_string(D) +
+                       " for each of the " + std::to_string(now_.model.vertices()) + " vertices");
+    if (!std::ranges::all_of(force, finite)) throw InputError(scene_.stem + ": a force is not finite");
+    force_.assign(force.begin(), force.end());
+    change_from_outside([&] { now_.model.set_pins_and_force(now_.sheet, now_.pins, force_); });
+  }
+
+  void hold(const std::vector<Pin>& pins) override {
+    change_from_outside([&] {
+      now_.pins = pins;
+      now_.model.set_pins_and_force(now_.sheet, now_.pins, force_);
+      const Field dv = now_.state.dv;  // no vertex has another number
+      hold_where_it_is(now_.model, now_.state);
+      now_.state.dv = dv;
+    });
+    hold_constrained_vertices(now_.pins, {}, now_.sheet);
+  }
+
+  std::span<const double> positions() const override { return span_of(now_.state.x); }
+  std::span<const double> velocities() const override { return span_of(now_.state.v); }
+
   MotionCut try_cut(const std::vector<Curve>& cuts, Cutter& cutter, CuttingMethod& method,
                     const CutOptions& options) override {
     trial_ = now_;  // into the room that is there
@@ -123,6 +148,17 @@ class SceneInMotion : public Simulation {
  private:
   static StepOptions options_of(const Scene& scene) {
     return {scene.integrator, scene.step, scene.newton, scene.sweeps, scene.solver};
+  }
+
+  static std::span<const double> span_of(const Field& field) { return {field.data(), to_size(field.size())}; }
+
+  /// By the user, who may set other pins and forces.
+  template <class Change>
+  void change_from_outside(Change change) {
+    if (!budget_) return change();
+    const Balance before = balance();
+    change();
+    budget_->add_work(before, balance());
   }
 
   void end_where_bad(const StepReport& report) {
@@ -164,6 +200,7 @@ class SceneInMotion : public Simulation {
   SimulationOutcome outcome_;
   double time_limit_ = 0, stop_at_ = std::numeric_limits<double>::infinity();  // s; ticks of std::clock()
   std::vector<LoggedStep> steps_;
+  std::vector<double> force_;  // of pull()
 };
 
 }  // namespace

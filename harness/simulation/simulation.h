@@ -56,6 +56,17 @@ class Simulation {
   /// \throw InputError  before anything is changed: no curve, one that check_curve() refuses, or a scene with an active
   ///                    radius, which has to know all cuts from the start
   virtual MotionCut cut_now(std::span<const Curve> curves, CuttingMethod& method, const CutOptions& options = {}) = 0;
+  /// From now on forces pull at the vertices besides the scene's loads. \param force  N: two or three numbers, as the
+  /// scene has dimensions, for each slot of a deformed vertex; vertices that later cuts make have none. Empty: none
+  /// at all. \throw InputError  another number of them, or one that is not finite
+  virtual void pull(std::span<const double> force) = 0;
+  /// From now on these pins hold the sheet, and no others: vertices where they are now, moved with the velocity. A
+  /// displacement has no effect.
+  virtual void hold(const std::vector<Pin>& pins) = 0;
+  /// m and m/s: two or three numbers, as the scene has dimensions, for each slot of a deformed vertex. Valid until the
+  /// next step or cut.
+  virtual std::span<const double> positions() const = 0;
+  virtual std::span<const double> velocities() const = 0;
   /// Makes one step, the cuts, and one more step, and then restores the state before.
   virtual MotionCut try_cut(const std::vector<Curve>& cuts, Cutter& cutter, CuttingMethod& method,
                             const CutOptions& options) = 0;

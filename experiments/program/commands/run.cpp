@@ -22,7 +22,7 @@ namespace cutbench {
 namespace {
 
 struct RunArguments {
-  std::vector<std::string> experiments, methods, commands, sweeps;
+  std::vector<std::string> experiments, methods, more_methods, commands, sweeps;
   std::vector<int> resolutions;
   int cases = 0, repetitions = 0, jobs = 0;
   std::string seed, out = "results", shard = "1/1";
@@ -73,9 +73,9 @@ ProgramSettings program_in(const std::string& text) {
 
 /// The options that rows depend on. All are named here, so that a new one can't be forgotten.
 std::string text_of_options(const RunArguments& arguments) {
-  const auto& [experiments, methods, commands, sweeps, resolutions, cases, repetitions, jobs, seed, out, shard] =
-      arguments;
-  return nlohmann::json{methods, commands, sweeps, resolutions, cases, repetitions, seed}.dump();
+  const auto& [experiments, methods, more_methods, commands, sweeps, resolutions, cases, repetitions, jobs, seed, out,
+               shard] = arguments;
+  return nlohmann::json{methods, more_methods, commands, sweeps, resolutions, cases, repetitions, seed}.dump();
 }
 
 void set_cases(AccuracyStudy& study, int cases) {
@@ -110,15 +110,20 @@ Experiment read_part(const std::string& file, const RunArguments& arguments, con
   std::vector<std::string> methods = arguments.methods;
   const bool with_cross_check =
       std::holds_alternative<RobustnessStudy>(e.study) && std::erase(methods, "cross_check") > 0;
-  std::vector<Experiment::Entry> programs;  // they run whether --methods names them or not
+  std::vector<Experiment::Entry> more;  // they run whether --methods names them or not
   for (const std::string& command : arguments.commands) {
     e.programs.push_back(program_in(command));
-    programs.push_back({e.programs.back().name, {}});
-    std::erase(methods, programs.back().method);
+    more.push_back({e.programs.back().name, {}});
   }
+  for (const std::string& name : arguments.more_methods) more.push_back({name.substr(0, name.find('=')), {}});
+  for (const auto& [name, values] : more) std::erase(methods, name);
+  std::erase_if(e.methods, [&](const auto& m) {
+    return std::ranges::any_of(arguments.more_methods,
+                               [&](const std::string& name) { return name.substr(0, name.find('=')) == m.method; });
+  });
   restrict_to(e.methods, methods, "--methods", [](const auto& m) { return m.method; });
   if (methods.empty() && !arguments.methods.empty()) e.methods.clear();
-  e.methods.insert(e.methods.end(), programs.begin(), programs.end());
+  e.methods.insert(e.methods.end(), more.begin(), more.end());
   restrict_to(e.resolutions, arguments.resolutions, "--resolutions", [](int r) { return r; });
   apply_to_study(e, arguments, with_cross_check);
   if (arguments.seed == "commit")
@@ -186,6 +191,12 @@ Command add_run(Options& app) {
   command
       .add_option("--methods", arguments->methods,
                   "only these of the experiment, and names of --command, comma-separated")
+      .comma_separated();
+  command
+      .add_option(
+          "--more-methods", arguments->more_methods,
+          "methods beside those of the experiment, comma-separated; NAME=VERSION: rows of another version of it "
+          "are not taken over")
       .comma_separated();
   command.add_option("--command", arguments->commands,
                      "NAME=COMMAND: a program as one more method, such as: mine=python3 mine.py {mesh} {path} {out}");

@@ -39,6 +39,10 @@ class Model {
   /// follow() moves them.
   /// \pre `sheet` is that of the last update().
   void constrain(const Sheet& sheet, const Constraints& constraints);
+  /// From now on other pins hold the sheet, and forces pull at its vertices besides the scene's loads.
+  /// \param force  N, per unknown; vertices that later cuts make have none. Empty: none at all
+  /// \pre `sheet` is that of the last update().
+  void set_pins_and_force(const Sheet& sheet, std::vector<Pin> pins, std::vector<double> force);
   /// Gives the vertices inside elements their values, positions or velocities.
   void follow(Field& x) const { elements_.template follow<D>(x); }
 
@@ -103,6 +107,7 @@ class Model {
   Physics physics_;
   std::vector<Pin> pins_;
   std::vector<Traction> tractions_;
+  std::vector<double> force_;  // of set_pins_and_force()
 
   ElementTable elements_;
   Incidence incidence_;  // of all triangles

@@ -120,6 +120,7 @@ void Model<D>::refresh_loads(const Sheet& sheet, std::size_t v) {
   const auto gravity = coordinates(physics_.gravity);
   for (std::size_t k = 0; k < D; ++k) {
     external_[D * v + k] = mass_[v] * gravity[k];
+    if (D * v + k < force_.size()) external_[D * v + k] += force_[D * v + k];
     held_[D * v + k] = 1;
     pin_of_[D * v + k] = -1;
   }
@@ -144,6 +145,18 @@ void Model<D>::refresh_loads(const Sheet& sheet, std::size_t v) {
     }
 }
 
+template <int D>
+void Model<D>::set_pins_and_force(const Sheet& sheet, std::vector<Pin> pins, std::vector<double> force) {
+  pins_ = std::move(pins);
+  force_ = std::move(force);
+  const std::vector<std::uint8_t> held_before = held_;
+  for (std::size_t v = 0; v < vertices(); ++v) refresh_loads(sheet, v);
+  if (held_ == held_before) return;
+  history_.begin_change();
+  for (std::size_t v = 0; v < vertices(); ++v)
+    if (!std::equal(&held_[D * v], &held_[D * v] + D, &held_before[D * v])) history_.mark(v);
+}
+
 // What the other files call; model.cpp instantiates the rest of the class.
 template void Model<2>::update(const Sheet&);
 template void Model<2>::update_bending(const Sheet&);
@@ -152,6 +165,7 @@ template void Model<2>::mark(std::span<const DeformedIndex>);
 template void Model<2>::mark_regrouped();
 template void Model<2>::refresh_vertices(const Sheet&);
 template void Model<2>::refresh_added_mass();
+template void Model<2>::set_pins_and_force(const Sheet&, std::vector<Pin>, std::vector<double>);
 template void Model<3>::update(const Sheet&);
 template void Model<3>::update_bending(const Sheet&);
 template void Model<3>::begin_marking();
@@ -159,5 +173,6 @@ template void Model<3>::mark(std::span<const DeformedIndex>);
 template void Model<3>::mark_regrouped();
 template void Model<3>::refresh_vertices(const Sheet&);
 template void Model<3>::refresh_added_mass();
+template void Model<3>::set_pins_and_force(const Sheet&, std::vector<Pin>, std::vector<double>);
 
 }  // namespace cutbench

@@ -1,0 +1,45 @@
+"""What can go wrong, as exceptions. Each has the program's own line: what is wrong, where, and what to do."""
+
+
+class InputError(ValueError):
+    """An argument or a file that can't be used."""
+
+
+class OutputError(OSError):
+    """A file that can't be written."""
+
+
+class CutError(RuntimeError):
+    """A cut that was not made; the sheet is as it was.
+
+    Attributes:
+        status: "refused" (known before the cut) or "failed".
+        verdict: of a failure, such as "inverted" or "crashed" (results/README.md, column `verdict`).
+    """
+
+    def __init__(self, message, status="failed", verdict="failed"):
+        super().__init__(message)
+        self.status, self.verdict = status, verdict
+
+
+class Refused(CutError):
+    """To be raised by a method of one's own: it can't make this cut, and says why in one line."""
+
+    def __init__(self, message):
+        super().__init__(message, "refused", "refused")
+
+
+class StepError(RuntimeError):
+    """A step that ended a simulation.
+
+    Attributes:
+        verdict: such as "solver_stalled" (results/README.md, column `verdict`).
+    """
+
+    def __init__(self, message, verdict):
+        super().__init__(message)
+        self.verdict = verdict
+
+
+class RunError(RuntimeError):
+    """A run in a process of its own that ended without a result."""

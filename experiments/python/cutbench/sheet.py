@@ -1,0 +1,287 @@
+"""Sheets, and their cuts."""
+
+import json
+import os
+import warnings
+from functools import cached_property
+
+import numpy as np
+
+from . import _core, arrays
+from .errors import InputError
+from .method import method_of
+from .paths import curves_of
+
+REST_WORDS = {  # the words of --rest, for arrays: how rest positions are found
+    "auto": lambda vertices: None,  # the plane that the sheet lies in
+    "plane": lambda vertices: None,
+}
+
+
+def _rest(rest, vertices):
+    if isinstance(rest, str):
+        if rest not in REST_WORDS:
+            known = ", ".join(REST_WORDS)
+            raise InputError(f'rest: "{rest}" is not known; known are {known}, or an array n x 2 or n x 3')
+        return REST_WORDS[rest](vertices)
+    if np.ndim(rest) == 3:
+        raise InputError("rest: a position per corner (m x 3 x 2) can't be used; give one per vertex, n x 2, and divide "
+                         "vertices at seams")
+    rest = arrays.points(rest, "rest", (2, 3))
+    if len(rest) != len(vertices):
+        raise InputError(f"rest: {len(rest)} rows; give as many as there are vertices, {len(vertices)}")
+    return rest
+
+
+class Sheet:
+    """A triangle sheet, as it is at rest in the plane and as it is in space. It never changes; cut() makes another one.
+
+    Args:
+        vertices: n x 3 or n x 2 (then z = 0), positions in space.
+        triangles: m x 3, vertices from 0, in either order round the triangle.
+        rest: n x 2, positions at rest; or n x 3, in a plane; or "auto" or "plane": those in the plane that `vertices`
+            lie in. Two borders at equal rest positions are an incision.
+
+    Positions have any unit; what is said in h is in mean rest edges. What had to be repaired (triangles reversed,
+    unused vertices dropped, ...) is a warning.
+
+    Attributes (read-only arrays that share the sheet's memory):
+        vertices: n x 3 floats, positions in space.
+        rest: n x 2 floats, positions at rest; the two lips of an incision have equal ones.
+        triangles: m x 3 ints, counter-clockwise at rest.
+    """
+
+    def __init__(self, vertices, triangles, rest="auto"):
+        positions = arrays.of_points(vertices, "vertices", (2, 3))
+        corners = arrays.of_indices(triangles, "triangles")
+        flat = _rest(rest, positions)
+        try:
+            self._core = _core.sheet(positions, corners, flat)
+        except InputError:
+            arrays.check_finite(positions, "vertices")  # may have better words for it
+            arrays.check_indices(corners, "triangles", len(positions))
+            raise
+        for note in self._core.notes:
+            warnings.warn(note, stacklevel=2)
+
+    @classmethod
+    def _of(cls, core):
+        sheet = cls.__new__(cls)
+        sheet._core = core
+        return sheet
+
+    @classmethod
+    def read(cls, file):
+        """The sheet of an OBJ, OFF or PLY file."""
+        return cls._of(_core.read_sheet(os.fspath(file)))
+
+    @classmethod
+    def family(cls, name="grid", triangles=800, size=1.0):
+        """A square sheet of the benchmark.
+
+        Args:
+            name: "grid", "alternating", "delaunay" or "graded".
+            triangles: 2 k^2 for some k.
+            size: length of its sides.
+        """
+        return cls._of(_core.family_sheet(name, int(triangles), arrays.number(size, "size")))
+
+    def write(self, file):
+        """Writes an OBJ, OFF or VTU file, numbers to the last bit."""
+        self._core.write(os.fspath(file))
+
+    vertices = cached_property(lambda self: self._core.vertices)
+    rest = cached_property(lambda self: self._core.rest)
+    triangles = cached_property(lambda self: self._core.triangles)
+    mean_edge = property(lambda self: self._core.mean_edge, doc="h: mean rest edge of the sheet before any cut.")
+
+    @property
+    def pieces(self):
+        """m ints: the piece that each triangle is of, from 0."""
+        return self._core.pieces
+
+    @property
+    def incision(self):
+        """e x 2 x 2 ints: the edges of all incisions; of each the two vertices on one lip, and the two at the same rest
+        positions on the other. At a tip the two lips share a vertex."""
+        return _core.lips(self._core).reshape(-1, 2, 2)
+
+    def random_cut(self, family="curved", seed=1, case=0):
+        """Curves of a seeded cut of the benchmark. `family`: one of cutbench.cut_families."""
+        return self._core.random_cut(family, int(seed), int(case))
+
+    def cut(self, path, method="warp_and_refine", chord_tolerance=0.05, allow_miss=False, **parameters):
+        """Cuts the sheet; see cutbench.cut()."""
+        maker = method_of(method, parameters)
+        tolerance = arrays.number(chord_tolerance, "chord_tolerance")
+        return Cut(self, _core.cut(self._core, curves_of(path), maker, tolerance, bool(allow_miss)), maker)
+
+    def plot(self, ax=None, **how):
+        """Draws the sheet at rest; see cutbench.pictures.plot()."""
+        from . import pictures
+        return pictures.plot(self, ax=ax, **how)
+
+    def to_meshio(self):
+        """The sheet as a meshio.Mesh: positions in space, `rest` with the points, `piece` and `aspect_ratio` with the
+        triangles."""
+        from . import pictures
+        return pictures.to_meshio(self)
+
+    def __repr__(self):
+        return f"<cutbench.Sheet: {len(self.vertices)} vertices, {len(self.triangles)} triangles>"
+
+
+class Parents:
+    """What the vertices and triangles of a cut sheet were before.
+
+    Attributes:
+        first: n + 1 ints; vertex i is a weighted mean of entries first[i] to first[i + 1] - 1 of
+        vertices: vertices of the sheet before, with
+        weights: floats, of sum 1 for each vertex.
+        triangles: m ints: the triangle before in which each triangle's centroid lies; of several cuts in a row, from cut to
+            cut.
+    """
+
+    def __init__(self, first, vertices, weights, triangles):
+        self.first, self.vertices, self.weights, self.triangles = first, vertices, weights, triangles
+
+    def carry(self, values):
+        """Data of the vertices before (n_before x ...), as weighted means at the vertices after (n x ...)."""
+        values = np.asarray(values)
+        shape = (-1,) + (1,) * (values.ndim - 1)
+        return np.add.reduceat(values[self.vertices] * self.weights.reshape(shape), self.first[:-1], axis=0)
+
+
+class Constraints:
+    """What a method says of a cut sheet beside its triangles: vertices that follow others, and polygons.
+
+    Attributes:
+        vertices: t ints: vertices that are no unknowns, but follow
+        masters: t x 3 ints, three other vertices each, with
+        weights: t x 3 floats, of sum 1. -1 with weight 0: no master.
+        phantoms: masters from n to n + phantoms - 1 are phantom nodes: copies of nodes that are no vertices of the sheet
+            (phantom_node).
+        polygons: a list of arrays: the corners of each element that is made of several triangles, and
+        polygon_triangles: these triangles.
+    """
+
+    def __init__(self, vertices, masters, weights, phantoms, polygons, polygon_triangles):
+        self.vertices, self.masters, self.weights, self.phantoms = vertices, masters, weights, phantoms
+        self.polygons, self.polygon_triangles = polygons, polygon_triangles
+
+
+class Cut:
+    """What came of a cut.
+
+    Attributes:
+        before, sheet: the Sheet before and after. The sheet's `vertices`, `triangles`, `rest`, `incision` and `pieces`
+            can be asked of the cut, too.
+        path: the curves in rest space.
+        method: its name.
+        status: "ok"; "noop", nothing was there to cut; "deviated", done otherwise than asked by the method's policy.
+        reason: of a noop, or a note.
+        crossed_triangles: of the sheet before.
+        times: microseconds by phase (docs/measuring.md), and in `total`.
+    """
+
+    def __init__(self, before, core, maker):
+        self.before, self._core, self._maker = before, core, maker
+
+    sheet = cached_property(lambda self: Sheet._of(self._core.after))
+    method = property(lambda self: self._core.method)
+    status = property(lambda self: self._core.status)
+    reason = property(lambda self: self._core.reason)
+    crossed_triangles = property(lambda self: self._core.crossed_triangles)
+    vertices = property(lambda self: self.sheet.vertices)
+    triangles = property(lambda self: self.sheet.triangles)
+    rest = property(lambda self: self.sheet.rest)
+    pieces = property(lambda self: self.sheet.pieces)
+    incision = property(lambda self: self.sheet.incision)
+    path = property(lambda self: self._core.curves)
+    times = property(lambda self: self._core.times())
+
+    @cached_property
+    def parents(self):
+        """What each vertex and triangle was before: Parents."""
+        return Parents(*self._core.parents())
+
+    @cached_property
+    def constraints(self):
+        """Vertices that follow others, and polygons: Constraints."""
+        return Constraints(**self._core.constraints())
+
+    polygons = property(lambda self: self.constraints.polygons)
+
+    @cached_property
+    def quality(self):
+        """A dict of everything that is measured of the cut, under the names of the columns of records
+        (results/README.md): the oracle's verdict, shapes, accuracy. Computed when it is first asked for."""
+        return json.loads(self._core.report())
+
+    @property
+    def verdict(self):
+        """The oracle's verdict: "ok", or what is wrong."""
+        return self.quality["verdict"]
+
+    def cut(self, path, method=None, chord_tolerance=0.05, allow_miss=False, **parameters):
+        """Cuts the result once more, by the same method where no other is named."""
+        return self.sheet.cut(path, self._maker if method is None else method, chord_tolerance, allow_miss, **parameters)
+
+    def plot(self, ax=None, **how):
+        """Draws the result at rest; see cutbench.pictures.plot()."""
+        from . import pictures
+        return pictures.plot(self.sheet, path=self.path, polygons=self.polygons, ax=ax, **how)
+
+    def to_meshio(self):
+        """The sheet after the cut; see Sheet.to_meshio()."""
+        return self.sheet.to_meshio()
+
+    def __repr__(self):
+        return (f"<cutbench.Cut: {self.status}, by {self.method}, {self.crossed_triangles} triangles crossed, "
+                f"{len(self.triangles)} now>")
+
+
+def sheet_of(anything):
+    """A Sheet of a Sheet, a Cut, or a tuple (vertices, triangles) or (vertices, triangles, rest)."""
+    if isinstance(anything, Sheet):
+        return anything
+    if isinstance(anything, Cut):
+        return anything.sheet
+    if isinstance(anything, tuple) and len(anything) in (2, 3):
+        return Sheet(*anything)
+    raise InputError(f"sheet: is a {type(anything).__name__}; give a Sheet, a Cut, or (vertices, triangles, rest)")
+
+
+def cut(vertices, triangles=None, path=None, method="warp_and_refine", rest="auto", chord_tolerance=0.05,
+        allow_miss=False, **parameters):
+    """Cuts a sheet along a path.
+
+    Args:
+        vertices: n x 2 or n x 3 floats; or a Sheet or Cut, with `triangles` left out.
+        triangles: m x 3 ints, vertices from 0.
+        path: a polyline of k x 2 points at rest; cutbench.bezier(...); k x 3 points in space on the sheet;
+            cutbench.rays(...); a path file; or a list of these, cut one after the other.
+        method: a name (cutbench.methods()), or a function (cutbench.method).
+        rest: n x 2 or n x 3 rest positions, or "auto" or "plane"; see Sheet.
+        chord_tolerance: largest distance of the incision from a curved path, in mean rest edges, or inf.
+        allow_miss: a path that misses the sheet cuts nothing, instead of being an error.
+        **parameters: of the method, such as reach=0.3.
+
+    Returns:
+        Cut: vertices, triangles, rest, what they were before, and what was measured.
+
+    Raises:
+        InputError: an array or path that can't be used.
+        CutError: the method refuses the cut, or failed.
+
+    Other threads go on while it cuts.
+
+    >>> square = cutbench.cut([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2], [0, 2, 3]], [[-0.1, 0.4], [1.1, 0.6]])
+    >>> square.pieces.max() + 1
+    2
+    """
+    if triangles is None:
+        return sheet_of(vertices).cut(path, method, chord_tolerance, allow_miss, **parameters)
+    if path is None:
+        raise InputError("path: is not given")
+    return Sheet(vertices, triangles, rest).cut(path, method, chord_tolerance, allow_miss, **parameters)

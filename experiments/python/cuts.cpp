@@ -1,0 +1,263 @@
+// Cuts, their judgement, and what the parts of a cut sheet were before.
+#include <pybind11/stl.h>
+
+#include <algorithm>
+
+#include "experiments/program/commands/misses.h"
+#include "experiments/python/arrays.h"
+#include "experiments/python/held.h"
+#include "harness/base/errors.h"
+#include "harness/base/stop_watch.h"
+#include "harness/cut/constraint_source.h"
+#include "harness/judge/judged_sheet.h"
+#include "harness/judge/result_svg.h"
+#include "harness/mesh/check_and_repair.h"
+#include "harness/mesh/parents.h"
+#include "harness/records/report_json.h"
+#include "methods/registry.h"
+
+namespace cutbench::python {
+
+CutOptions options_of(double chord_tolerance) {
+  if (!(chord_tolerance > 0)) throw InputError("chord_tolerance: must be positive, or inf");
+  CutOptions options;
+  options.chord_tolerance = chord_tolerance;
+  return options;
+}
+
+namespace {
+
+using Row = std::int32_t;
+
+/// The row of each slot in the arrays; -1 where the slot is free.
+std::vector<Row> vertex_rows(const Sheet& sheet) {
+  std::vector<Row> rows(sheet.deformed_slots(), -1);
+  Row next = 0;
+  for (std::size_t d = 0; d < rows.size(); ++d)
+    if (sheet.rest_vertex(DeformedIndex(d)).valid()) rows[d] = next++;
+  return rows;
+}
+
+std::vector<Row> triangle_rows(const Sheet& sheet) {
+  std::vector<Row> rows(sheet.triangle_slots(), -1);
+  Row next = 0;
+  for (std::size_t t = 0; t < rows.size(); ++t)
+    if (sheet.triangle(TriangleIndex(t)).alive()) rows[t] = next++;
+  return rows;
+}
+
+std::shared_ptr<HeldCut> cut(const SheetPointer& before, const std::vector<AnyCurve>& path, const HeldMethod& method,
+                             double chord_tolerance, bool allow_miss) {
+  auto made = std::make_shared<HeldCut>();
+  made->before = before;
+  made->method = method;
+  made->options = options_of(chord_tolerance);
+  const auto maker = method.make();
+  StopWatch watch;
+  made->curves = in_rest_space(path, *before->sheet);
+  made->pick_us = watch.lap();
+  Sheet sheet = *before->sheet;
+  Locator locator(sheet);
+  Cutter cutter;
+  made->run = cut_all(sheet, locator, cutter, made->curves, *maker, made->options);
+  if (made->run.status == Status::noop || made->curves.size() > 1)  // else it has met the sheet
+    for (std::size_t i = 0; i < made->curves.size(); ++i)
+      Misses{allow_miss}.check(*before->sheet, made->curves[i], "path, cut " + std::to_string(i));
+  if (made->run.status == Status::refused)
+    throw CutNotMade(method.row.name + " refuses this cut: " + made->run.reason, made->run.status, Verdict::refused);
+  if (made->run.status == Status::failed)
+    throw CutNotMade("failed (" + std::string(name_of(made->run.verdict)) + "): " + made->run.reason, made->run.status,
+                     made->run.verdict);
+  made->after = std::make_shared<HeldSheet>(std::move(sheet), before->uncut);
+  return made;
+}
+
+std::string report(const HeldCut& cut) {
+  const Sheet &before = *cut.before->sheet, &after = *cut.after->sheet;
+  const Judgement judgement =
+      judge_one_by_one(before, after, cut.curves, cut.method.row.promises, cut.method.make(), cut.options);
+  const Assessment a = assess(before, after, judgement, forced_corners_of(before, cut.curves));
+  return cut_as_json(cut.method.row.name, cut.run, cut.pick_us, a, before.mean_edge());
+}
+
+/// Each vertex of the result as a weighted mean of vertices before all of its cuts: entries first[i] to first[i + 1].
+struct Parents {
+  std::vector<Row> first{0}, vertices;
+  std::vector<double> weights;
+  std::vector<Row> triangles;  ///< per triangle of the result, the one before that holds its centroid
+};
+
+using Parts = std::vector<std::vector<VertexPart>>;
+
+/// `later` refers to vertices that `earlier` says.
+Parts composed(const Parts& earlier, const Parts& later) {
+  Parts all(later.size());
+  for (std::size_t d = 0; d < later.size(); ++d)
+    for (const VertexPart& part : later[d])
+      for (const VertexPart& old : earlier[part.vertex()]) {
+        const auto same = [&](const VertexPart& p) { return p.vertex == old.vertex; };
+        const auto known = std::find_if(all[d].begin(), all[d].end(), same);
+        const double weight = part.weight * old.weight;
+        if (known == all[d].end())
+          all[d].push_back({old.vertex, weight});
+        else
+          known->weight += weight;
+      }
+  return all;
+}
+
+/// Makes the cuts once more, one by one.
+Parents parents(const HeldCut& cut) {
+  Sheet sheet = *cut.before->sheet;
+  Locator locator(sheet);
+  Cutter cutter;
+  const auto method = cut.method.make();
+  Parts parts(sheet.deformed_slots());
+  for (std::size_t d = 0; d < parts.size(); ++d)
+    if (sheet.rest_vertex(DeformedIndex(d)).valid()) parts[d] = {{DeformedIndex(d), 1}};
+  std::vector<TriangleIndex> triangles(sheet.triangle_slots());
+  for (std::size_t t = 0; t < triangles.size(); ++t) triangles[t] = TriangleIndex(t);
+  for (const Curve& curve : cut.curves) {
+    const Sheet before = sheet;
+    const CutOutcome made = cutter.cut(sheet, locator, curve, *method, cut.options);
+    if (made.status == Status::noop) continue;
+    parts = composed(parts, vertex_parents(sheet));
+    std::vector<TriangleIndex> old = triangle_parents(before, sheet);
+    for (TriangleIndex& t : old)
+      if (t.valid()) t = triangles[t()];
+    triangles = std::move(old);
+  }
+  const std::vector<Row> old_vertices = vertex_rows(*cut.before->sheet),
+                         old_triangles = triangle_rows(*cut.before->sheet);
+  Parents result;
+  for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) {
+    if (!sheet.rest_vertex(DeformedIndex(d)).valid()) continue;
+    for (const VertexPart& part : parts[d]) {
+      result.vertices.push_back(old_vertices[part.vertex()]);
+      result.weights.push_back(part.weight);
+    }
+    result.first.push_back(to_int32(result.vertices.size()));
+  }
+  for (std::size_t t = 0; t < sheet.triangle_slots(); ++t)
+    if (sheet.triangle(TriangleIndex(t)).alive()) result.triangles.push_back(old_triangles[triangles[t]()]);
+  return result;
+}
+
+/// Edges of the incision: the two vertices of one lip, and those of the other, at the same rest positions.
+std::vector<std::array<Row, 4>> lips(const HeldSheet& held) {
+  const Sheet& sheet = *held.sheet;
+  const std::vector<Row> rows = vertex_rows(sheet);
+  const auto begin_of = [&](HalfEdge h) {
+    return rows[sheet.triangle(triangle_of(h)).deformed[to_size(corner_of(h))]()];
+  };
+  std::vector<std::array<Row, 4>> edges;
+  for (std::size_t t = 0; t < sheet.triangle_slots(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const HalfEdge h = half_edge(TriangleIndex(t), k);
+      if (!sheet.triangle(TriangleIndex(t)).alive() || sheet.mark(h) != EdgeMark::incision) continue;
+      const HalfEdge o = sheet.opposite(h);
+      if (h < o) edges.push_back({begin_of(h), begin_of(Sheet::next(h)), begin_of(Sheet::next(o)), begin_of(o)});
+    }
+  return edges;
+}
+
+/// In rows; phantom node i is row n + i of the masters, with n vertices.
+py::dict constraints(const HeldCut& cut) {
+  const Sheet& after = *cut.after->sheet;
+  const Constraints all = constraints_of(*cut.method.make(), *cut.after->uncut, after);
+  const std::vector<Row> rows = vertex_rows(after), triangles = triangle_rows(after);
+  const auto row_of = [&](DeformedIndex d) {
+    const auto slots = after.deformed_slots();
+    return d() < slots ? rows[d()] : to_int32(after.deformed_count() + d() - slots);
+  };
+  std::vector<Row> vertices;
+  std::vector<std::array<Row, 3>> masters;
+  std::vector<std::array<double, 3>> weights;
+  for (const Constraint& c : all.constraints) {
+    vertices.push_back(row_of(c.vertex));
+    std::array<Row, 3> three{};
+    for (std::size_t i = 0; i < 3; ++i) three[i] = c.masters[i].valid() ? row_of(c.masters[i]) : -1;
+    masters.push_back(three);
+    weights.push_back(c.weights);
+  }
+  py::list polygons, polygon_triangles;
+  for (const Polygon& p : all.polygons) {
+    std::vector<Row> corners, parts;
+    for (const DeformedIndex d : p.corners) corners.push_back(row_of(d));
+    for (const TriangleIndex t : p.triangles) parts.push_back(triangles[t()]);
+    polygons.append(array_of<Row>(std::move(corners)));
+    polygon_triangles.append(array_of<Row>(std::move(parts)));
+  }
+  py::dict result;
+  result["vertices"] = array_of<Row>(std::move(vertices));
+  result["masters"] = array_of<Row>(std::move(masters));
+  result["weights"] = array_of<double>(std::move(weights));
+  result["phantoms"] = all.phantoms;
+  result["polygons"] = polygons;
+  result["polygon_triangles"] = polygon_triangles;
+  return result;
+}
+
+py::dict times(const HeldCut& cut) {
+  const PhaseTimes& us = cut.run.time_us;
+  py::dict result;
+  for (const auto& [name, value] : {std::pair{"pick", cut.pick_us},
+                                    {"locate", us.locate},
+                                    {"trace", us.trace},
+                                    {"embed", us.embed},
+                                    {"improve", us.improve},
+                                    {"open", us.open},
+                                    {"program", us.program}})
+    result[name] = value;
+  result["total"] = us.total();
+  return result;
+}
+
+/// Of a result that may be broken: nothing is repaired. \return  JSON, and the drawing as SVG
+std::pair<std::string, std::string> score(const SheetPointer& before, const std::vector<Curve>& curves, MeshData result,
+                                          double chord_tolerance, bool keeps_vertices, bool deletes) {
+  Promises asked = deletes ? find_method("element_deletion").promises : promises_of_everybody;
+  asked.keeps_vertices = keeps_vertices;
+  if (result.rest.empty()) take_rest_from_plane(result, "result");
+  const Assessment a = assess_result(*before->sheet, result, curves, asked, options_of(chord_tolerance));
+  return {score_as_json(a, before->sheet->mean_edge()), result_as_svg(*before->sheet, result, curves, a.findings)};
+}
+
+}  // namespace
+
+void bind_cuts(py::module_& m) {
+  using Released = py::call_guard<py::gil_scoped_release>;
+  py::class_<HeldCut, std::shared_ptr<HeldCut>>(m, "Cut")
+      .def_property_readonly("before", [](const HeldCut& c) { return std::const_pointer_cast<HeldSheet>(c.before); })
+      .def_property_readonly("after", [](const HeldCut& c) { return std::const_pointer_cast<HeldSheet>(c.after); })
+      .def_readonly("curves", &HeldCut::curves)
+      .def_property_readonly("status", [](const HeldCut& c) { return name_of(c.run.status); })
+      .def_property_readonly("reason", [](const HeldCut& c) { return c.run.reason; })
+      .def_property_readonly("crossed_triangles", [](const HeldCut& c) { return c.run.crossed_triangles; })
+      .def_property_readonly("method", [](const HeldCut& c) { return c.method.row.name; })
+      .def("times", &times)
+      .def("report", &report, Released())
+      .def("constraints", &constraints)
+      .def("parents", [](const HeldCut& c) {
+        Parents p = [&] {
+          const py::gil_scoped_release others_go_on;
+          return parents(c);
+        }();
+        return py::make_tuple(array_of<Row>(std::move(p.first)), array_of<Row>(std::move(p.vertices)),
+                              array_of<double>(std::move(p.weights)), array_of<Row>(std::move(p.triangles)));
+      });
+  m.def("lips", [](const HeldSheet& sheet) { return array_of<Row>(lips(sheet)); });
+  m.def("cut", &cut, Released());
+  m.def("score",
+        [](const std::shared_ptr<HeldSheet>& before, const std::vector<Curve>& curves, const Array<double>& vertices,
+           const Array<Row>& triangles, const std::optional<Array<double>>& rest, double chord_tolerance,
+           bool keeps_vertices, bool deletes) {
+          MeshData result{.rest = {}, .deformed = rows_of<Point3>(vertices), .triangles = {}, .notes = {}};
+          result.triangles = rows_of<std::array<Row, 3>>(triangles);
+          if (rest) result.rest = rows_of<Point2>(*rest);
+          const py::gil_scoped_release others_go_on;
+          return score(before, curves, std::move(result), chord_tolerance, keeps_vertices, deletes);
+        });
+}
+
+}  // namespace cutbench::python

@@ -1,0 +1,173 @@
+// Sheets and paths.
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <optional>
+#include <utility>
+
+#include "experiments/python/arrays.h"
+#include "experiments/python/held.h"
+#include "harness/base/errors.h"
+#include "harness/cases/cut_families.h"
+#include "harness/files/mesh_file.h"
+#include "harness/files/path_file.h"
+#include "harness/mesh/check_and_repair.h"
+#include "harness/mesh/families.h"
+#include "harness/mesh/mesh_text.h"
+
+namespace cutbench::python {
+
+HeldSheet::HeldSheet(MeshData data) : sheet(std::make_shared<Sheet>(data)), uncut(sheet), mesh(std::move(data)) {}
+
+HeldSheet::HeldSheet(Sheet cut, std::shared_ptr<const Sheet> before_all)
+    : sheet(std::make_shared<Sheet>(std::move(cut))), uncut(std::move(before_all)), mesh(sheet->to_mesh_data()) {}
+
+std::vector<Curve> in_rest_space(const std::vector<AnyCurve>& path, const Sheet& posed) {
+  std::vector<Curve> curves;
+  std::optional<Picker> picker;
+  for (const AnyCurve& one : path) {
+    const std::string name = "path, cut " + std::to_string(curves.size());
+    if (const auto* curve = std::get_if<Curve>(&one)) {
+      check_curve(*curve, name);
+      curves.push_back(*curve);
+      continue;
+    }
+    const auto& picked = std::get<PickedCurve>(one);
+    check_picks(picked, name);
+    if (!picker) picker.emplace(posed);
+    curves.push_back(picker->rest_curve(picked, name));
+  }
+  if (curves.empty()) throw InputError("path: no curve; give at least one");
+  return curves;
+}
+
+namespace {
+
+std::vector<Point3> in_space(const Array<double>& points) {
+  if (points.shape(1) == 3) return rows_of<Point3>(points);
+  std::vector<Point3> rows;
+  rows.reserve(to_size(points.shape(0)));
+  for (const Point2 p : rows_of<Point2>(points)) rows.push_back({p.x, p.y, 0});
+  return rows;
+}
+
+std::vector<std::array<std::int32_t, 3>> corners_of(const Array<std::int32_t>& triangles) {
+  return rows_of<std::array<std::int32_t, 3>>(triangles);
+}
+
+/// What 32 bits do not hold is -1.
+std::vector<std::array<std::int32_t, 3>> corners_of(const Array<std::int64_t>& triangles) {
+  std::vector<std::array<std::int32_t, 3>> rows(to_size(triangles.shape(0)));
+  const std::int64_t* next = triangles.data();
+  for (auto& row : rows)
+    for (std::int32_t& corner : row) {
+      corner = std::in_range<std::int32_t>(*next) ? static_cast<std::int32_t>(*next) : -1;
+      ++next;
+    }
+  return rows;
+}
+
+/// Where rest positions come from: positions of their own, two or three numbers each, or the plane that the sheet lies
+/// in.
+template <class Number>
+MeshData mesh_of(const Array<double>& vertices, const Array<Number>& triangles,
+                 const std::optional<Array<double>>& rest) {
+  MeshData mesh;
+  mesh.deformed = in_space(vertices);
+  mesh.triangles = corners_of(triangles);
+  if (!rest) return mesh;
+  if (rest->shape(1) == 2) {
+    mesh.rest = rows_of<Point2>(*rest);
+    return mesh;
+  }
+  MeshData flat{.rest = {}, .deformed = rows_of<Point3>(*rest), .triangles = mesh.triangles, .notes = {}};
+  take_rest_from_plane(flat, "rest");
+  mesh.rest = std::move(flat.rest);
+  return mesh;
+}
+
+template <class Number>
+std::shared_ptr<HeldSheet> sheet_of(const Array<double>& vertices, const Array<Number>& triangles,
+                                    const std::optional<Array<double>>& rest) {
+  MeshData mesh = mesh_of(vertices, triangles, rest);
+  const py::gil_scoped_release others_go_on;
+  check_and_repair(mesh, "sheet");
+  return std::make_shared<HeldSheet>(std::move(mesh));
+}
+
+MeshData family_of(const std::string& family, std::int64_t triangles, double size) {
+  MeshData mesh = make_sheet(family, squares_per_side(triangles));
+  for (Point2& p : mesh.rest) p = size * p;
+  for (Point3& p : mesh.deformed) p = size * p;
+  return mesh;
+}
+
+Curve::Kind kind_of(bool bezier) { return bezier ? Curve::Kind::bezier : Curve::Kind::polyline; }
+
+PickedCurve picked_of(bool bezier, const Array<double>& origins, const std::optional<Array<double>>& directions,
+                      bool closed) {
+  PickedCurve curve{kind_of(bezier), closed, {}};
+  for (const Point3 p : rows_of<Point3>(origins)) curve.picks.push_back({p, {}});
+  if (!directions) return curve;
+  const auto rays = rows_of<Point3>(*directions);
+  for (std::size_t i = 0; i < rays.size(); ++i) curve.picks[i].direction = rays[i];
+  return curve;
+}
+
+}  // namespace
+
+void bind_sheets(py::module_& m) {
+  py::class_<HeldSheet, std::shared_ptr<HeldSheet>>(m, "Sheet")
+      .def_property_readonly(
+          "vertices",
+          [](const py::object& self) { return view_of<double>(self.cast<const HeldSheet&>().mesh.deformed, self); })
+      .def_property_readonly(
+          "rest", [](const py::object& self) { return view_of<double>(self.cast<const HeldSheet&>().mesh.rest, self); })
+      .def_property_readonly("triangles",
+                             [](const py::object& self) {
+                               return view_of<std::int32_t>(self.cast<const HeldSheet&>().mesh.triangles, self);
+                             })
+      .def_property_readonly("notes", [](const HeldSheet& s) { return s.mesh.notes; })
+      .def_property_readonly("mean_edge", [](const HeldSheet& s) { return s.sheet->mean_edge(); })
+      .def_property_readonly("pieces", [](const HeldSheet& s) { return array_of<std::int32_t>(pieces_of(s.mesh)); })
+      .def("write", [](const HeldSheet& s, const std::filesystem::path& file) { write_mesh(s.mesh, file); })
+      .def("random_cut", [](const HeldSheet& s, const std::string& family, std::uint64_t seed, std::size_t i) {
+        return make_case(family, seed, i, *s.sheet);
+      });
+  m.def("sheet", &sheet_of<std::int32_t>);
+  m.def("sheet", &sheet_of<std::int64_t>);
+  m.def("read_sheet", [](const std::filesystem::path& file) { return std::make_shared<HeldSheet>(read_mesh(file)); });
+  m.def("family_sheet", [](const std::string& family, std::int64_t triangles, double size) {
+    return std::make_shared<HeldSheet>(family_of(family, triangles, size));
+  });
+  m.attr("sheet_families") = std::vector<std::string>(sheet_families().begin(), sheet_families().end());
+  m.attr("cut_families") = std::vector<std::string>(cut_families().begin(), cut_families().end());
+
+  py::class_<Curve>(m, "Curve")
+      .def(py::init([](bool bezier, const Array<double>& points, bool closed) {
+        Curve curve{kind_of(bezier), closed, rows_of<Point2>(points)};
+        check_curve(curve, "path");
+        return curve;
+      }))
+      .def_property_readonly("points", [](const Curve& c) { return array_of<double>(c.points); })
+      .def_property_readonly("bezier", [](const Curve& c) { return c.kind == Curve::Kind::bezier; })
+      .def_readonly("closed", &Curve::closed)
+      .def("flattened", [](const Curve& c, double tolerance) {
+        Polyline line;
+        flatten(c, tolerance, 0, line);
+        if (line.closed && !line.points.empty()) line.points.push_back(line.points.front());
+        return array_of<double>(std::move(line.points));
+      });
+  py::class_<PickedCurve>(m, "PickedCurve")
+      .def(py::init(
+          [](bool bezier, const Array<double>& origins, const std::optional<Array<double>>& directions, bool closed) {
+            PickedCurve curve = picked_of(bezier, origins, directions, closed);
+            check_picks(curve, "path");
+            return curve;
+          }));
+  m.def("read_path", [](const std::filesystem::path& file) { return read_path_with_picks(file); });
+  m.def("write_path",
+        [](const std::vector<Curve>& path, const std::filesystem::path& file) { write_path(path, file); });
+}
+
+}  // namespace cutbench::python

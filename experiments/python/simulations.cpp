@@ -1,0 +1,184 @@
+// Scenes, and simulations that Python steps.
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "experiments/program/step_summary.h"
+#include "experiments/python/arrays.h"
+#include "experiments/python/held.h"
+#include "harness/base/errors.h"
+#include "harness/files/scene_file.h"
+#include "harness/simulation/simulation.h"
+
+namespace cutbench::python {
+
+namespace {
+
+struct HeldSimulation {
+  HeldSimulation(Scene of, const HeldMethod& method, double chord_tolerance, bool watched)
+      : scene(std::move(of)),
+        cutting(method.make()),
+        options(options_of(chord_tolerance)),
+        motion(Simulation::start(scene)),
+        uncut(std::make_shared<Sheet>(motion->sheet())) {
+    if (watched) motion->watch();
+  }
+
+  /// The step that is next, with the cuts that are due before it, as `cutbench simulate` makes it.
+  StepReport step() { return motion->advance(++steps * scene.step, *cutting, options); }
+
+  MotionCut cut(const std::vector<AnyCurve>& path) {
+    return motion->cut_now(in_rest_space(path, motion->posed_sheet()), *cutting, options);
+  }
+
+  Scene scene;
+  std::unique_ptr<CuttingMethod> cutting;
+  CutOptions options;
+  std::unique_ptr<Simulation> motion;
+  std::shared_ptr<const Sheet> uncut;
+  int steps = 0;
+};
+
+py::dict dict_of(const Balance& balance) {
+  py::dict result;
+  const Energy& e = balance.energy;
+  result["membrane"] = e.membrane;
+  result["bending"] = e.bending;
+  result["kinetic"] = e.kinetic;
+  result["potential"] = e.potential;
+  result["total"] = e.total();
+  return result;
+}
+
+py::dict dict_of(const MotionCut& cut) {
+  py::dict result;
+  result["status"] = name_of(cut.cut.status);
+  result["verdict"] = name_of(cut.verdict);
+  result["reason"] = cut.reason;
+  result["crossed_triangles"] = cut.cut.crossed_triangles;
+  result["parts"] = cut.parts;
+  result["energy_before"] = dict_of(cut.before);
+  result["energy_after"] = dict_of(cut.after);
+  result["cut_us"] = cut.cut.time_us.total();
+  result["transfer_us"] = cut.transfer_us;
+  result["pattern_us"] = cut.pattern_us;
+  result["bending_us"] = cut.bending_us;
+  return result;
+}
+
+Array<double> copy_of(std::span<const double> values, int dimension) {
+  const auto rows = std::ssize(values) / dimension;
+  return Array<double>(std::vector<py::ssize_t>{rows, dimension}, values.data());
+}
+
+/// Of the opened sheet, by slots of its vertices.
+std::vector<std::array<std::int32_t, 3>> triangles_of(const Sheet& sheet) {
+  std::vector<std::array<std::int32_t, 3>> rows;
+  for (std::size_t t = 0; t < sheet.triangle_slots(); ++t)
+    if (const Triangle& triangle = sheet.triangle(TriangleIndex(t)); triangle.alive())
+      rows.push_back({triangle.deformed[0].value, triangle.deformed[1].value, triangle.deformed[2].value});
+  return rows;
+}
+
+/// NaN where the slot is free.
+std::vector<Point2> rest_of(const Sheet& sheet) {
+  std::vector<Point2> rows(sheet.deformed_slots(), {std::nan(""), std::nan("")});
+  for (std::size_t d = 0; d < rows.size(); ++d)
+    if (const VertexIndex v = sheet.rest_vertex(DeformedIndex(d)); v.valid()) rows[d] = sheet.rest(v);
+  return rows;
+}
+
+Pin pin_of(std::array<double, 4> box, std::array<bool, 3> axes, std::array<double, 3> velocity) {
+  return {.where = {{box[0], box[1]}, {box[2], box[3]}},
+          .axes = axes,
+          .displacement = {},
+          .velocity = {velocity[0], velocity[1], velocity[2]}};
+}
+
+void bind_scenes(py::module_& m) {
+  py::class_<Scene>(m, "Scene")
+      .def_readonly("stem", &Scene::stem)
+      .def_readonly("step", &Scene::step)
+      .def_readonly("duration", &Scene::duration)
+      .def_property_readonly("dimension", [](const Scene& s) { return s.physics.dimension; })
+      .def_property_readonly("at_rest", [](const Scene& s) { return s.integrator == Integrator::equilibrium; })
+      .def("sheet", [](const Scene& s) { return std::make_shared<HeldSheet>(mesh_of(s)); })
+      .def("with_sheet",
+           [](Scene scene, const HeldSheet& sheet) {
+             scene.family.clear();
+             scene.mesh = sheet.mesh;
+             return scene;
+           })
+      .def("with_resolution", [](Scene scene, int triangles) {
+        if (!scene.mesh_file.empty())
+          throw InputError("resolution: this scene's sheet is read from a file; leave it out");
+        scene.resolution = triangles;
+        return scene;
+      });
+  m.def("read_scene", [](const std::filesystem::path& file) { return read_scene(file); });
+  m.def("scene_of_text",
+        [](const std::string& text, const std::filesystem::path& name) { return read_scene_text(text, name); });
+}
+
+}  // namespace
+
+void bind_simulations(py::module_& m) {
+  bind_scenes(m);
+  using Released = py::call_guard<py::gil_scoped_release>;
+  py::class_<Pin>(m, "Pin").def(py::init(&pin_of));
+  py::class_<HeldSimulation>(m, "Simulation")
+      .def(py::init<Scene, const HeldMethod&, double, bool>(), Released())
+      .def(
+          "step",
+          [](HeldSimulation& s) {
+            const StepReport report = s.step();
+            return std::pair(std::string(name_of(report.verdict)), report.reason);
+          },
+          Released())
+      .def("cut",
+           [](HeldSimulation& s, const std::vector<AnyCurve>& path) {
+             const MotionCut cut = [&] {
+               const py::gil_scoped_release others_go_on;
+               return s.cut(path);
+             }();
+             return dict_of(cut);
+           })
+      .def("pull",
+           [](HeldSimulation& s, const Array<double>& force) {
+             s.motion->pull({force.data(), to_size(force.size())});
+           })
+      .def("hold", [](HeldSimulation& s, const std::vector<Pin>& pins) { s.motion->hold(pins); })
+      .def_property_readonly(
+          "x", [](const HeldSimulation& s) { return copy_of(s.motion->positions(), s.scene.physics.dimension); })
+      .def_property_readonly(
+          "v", [](const HeldSimulation& s) { return copy_of(s.motion->velocities(), s.scene.physics.dimension); })
+      .def_property_readonly("rest",
+                             [](const HeldSimulation& s) { return array_of<double>(rest_of(s.motion->sheet())); })
+      .def_property_readonly(
+          "triangles", [](const HeldSimulation& s) { return array_of<std::int32_t>(triangles_of(s.motion->sheet())); })
+      .def_property_readonly(
+          "sheet",
+          [](const HeldSimulation& s) { return std::make_shared<HeldSheet>(s.motion->posed_sheet(), s.uncut); })
+      .def_property_readonly("energy", [](HeldSimulation& s) { return dict_of(s.motion->balance()); })
+      .def_property_readonly("time", [](const HeldSimulation& s) { return s.motion->time(); })
+      .def_property_readonly("outcome",
+                             [](const HeldSimulation& s) {
+                               const SimulationOutcome& outcome = s.motion->outcome();
+                               return py::make_tuple(name_of(outcome.verdict), outcome.reason, outcome.time);
+                             })
+      .def_property_readonly("cuts",
+                             [](const HeldSimulation& s) {
+                               py::list cuts;
+                               for (const MotionCut& cut : s.motion->made_cuts()) cuts.append(dict_of(cut));
+                               return cuts;
+                             })
+      .def("steps_csv", [](const HeldSimulation& s) { return table_of(s.motion->steps(), s.scene.step); })
+      .def("summary_json",
+           [](const HeldSimulation& s) { return summary_of(s.motion->steps(), s.motion->time()).dump(); })
+      .def("budget_csv",
+           [](const HeldSimulation& s) { return s.motion->budget() ? s.motion->budget()->csv() : std::string(); });
+}
+
+}  // namespace cutbench::python
