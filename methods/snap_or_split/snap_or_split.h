@@ -8,8 +8,8 @@
 // older incision, or leave one; where it would run along the border; where it would close a loop or a corner that is
 // cut off.
 //
-// Source: Steinemann et al., Fast arbitrary splitting of deforming objects, 2006, as others describe it; SOFA's
-// snapping thresholds (TriangleSetTopologyAlgorithms).
+// Source: Steinemann, Harders, Gross and Szekely, Hybrid cutting of deformable solids, IEEE VR 2006 (not read, as others
+// describe it); SOFA's snapping thresholds (TriangleSetTopologyAlgorithms).
 // Promises: area, conforming, no vertex moved; not the exact path. A crossing moves by at most `tolerance` of its edge,
 // which is at most one half, so the incision error is at most half the sheet's longest edge plus the chord tolerance.
 // Where it fails: the incision has kinks. Away from tips and from crossings that may not be snapped, a crossing makes
