@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "experiments/program/drawing.h"
 #include "experiments/program/step_summary.h"
 #include "harness/base/conversions.h"
 #include "harness/cut/cut_all.h"
@@ -164,8 +165,13 @@ void print_outcome(const SimulationOutcome& outcome, const Sheet& sheet) {
 
 bool simulate(const Scene& scene, CuttingMethod& method, const SimulateOptions& options) {
   const auto motion = Simulation::start(scene);
+  std::optional<Drawing> drawing;
+  if (!options.animation.empty())
+    drawing.emplace("--animation", options.animation, std::initializer_list<const char*>{".webp"});
+  std::filesystem::path folder = options.frames;
+  if (folder.empty() && drawing) folder = drawing->folder() / "frames";
   std::optional<FrameWriter> frames;
-  if (!options.frames.empty()) frames.emplace(options.frames);
+  if (!folder.empty()) frames.emplace(folder);
   motion->watch();
   if (options.time_limit > 0) motion->limit_time(options.time_limit);
   const std::size_t triangles_before = motion->sheet().triangle_count();
@@ -183,10 +189,10 @@ bool simulate(const Scene& scene, CuttingMethod& method, const SimulateOptions& 
   print_outcome(outcome, sheet);
   if (frames) {
     frames->finish(sheet);
-    const std::filesystem::path folder = options.frames;
     if (motion->budget()) WholeFile(folder / "energy.csv", motion->budget()->csv()).place();
     WholeFile(folder / "simulation.json", description(scene, *motion, options, triangles_before)).place();
   }
+  if (drawing) drawing->make("animate_frames.py", {"--frames", std::filesystem::absolute(folder).string()});
   if (!options.out.empty()) write_mesh(sheet.to_mesh_data(), options.out);
   if (!options.steps.empty()) WholeFile(options.steps, table_of(motion->steps(), scene.step)).place();
   if (!options.report.empty()) write_report(scene, options, *motion, limits, summary);

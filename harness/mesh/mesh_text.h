@@ -1,8 +1,10 @@
 // Meshes as the text of their files, formats as harness/files/mesh_file.h says.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "harness/mesh/mesh_data.h"
 
@@ -20,9 +22,17 @@ MeshData read_obj(std::string_view text, const std::string& name, bool as_is = f
 MeshData read_off(const std::string& text, const std::string& name);
 MeshData read_ply(const std::string& text, const std::string& name);
 
+/// What a VTU says of each vertex or triangle beside what it always does.
+struct MeshColumn {
+  std::string name;
+  bool of_vertices, whole;  ///< whole: integers
+  int components;
+  std::vector<double> values;  ///< those of the first vertex or triangle, those of the second, ...
+};
+
 /// Numbers with the fewest digits that read back bit for bit.
 std::string obj_text(const MeshData& mesh);
 std::string off_text(const MeshData& mesh);  ///< the deformed positions alone
-std::string vtu_text(const MeshData& mesh);
+std::string vtu_text(const MeshData& mesh, std::span<const MeshColumn> columns);
 
 }  // namespace cutbench

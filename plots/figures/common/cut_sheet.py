@@ -1,0 +1,118 @@
+"""A cut sheet in rest space: triangles by their aspect ratios, the requested path, the incision, and what a method makes of
+the triangles: polygons, vertices that go along with others, copies. Needs numpy and matplotlib alone."""
+
+import json
+
+import numpy as np
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+BANDS = {3: "#fbdca4", 10: "#f29d4b", 30: "#c8551b"}  # colours of aspect ratios above these
+GONE = "#dddddd"  # seen where triangles are gone
+MESH, PATH, INCISION, UNKNOWNS = "#8d8d8d", "#0072b2", "#a50021", "#1b7837"
+
+
+class Details:
+    """What `cutbench cut --parents` says."""
+
+    def __init__(self, file):
+        told = json.loads(file.read_text(encoding="utf-8"))
+        self.incision = [(e["left"] or e["right"])[1:] for e in told["incision"]]
+        self.polygons, self.constraints = told["polygons"], told["constraints"]
+        self.copied = told["copies"]
+
+    def counts(self):
+        """Such as `26 polygons`; empty where the triangles are all there is."""
+        return ", ".join(f"{len(many)} {name}" for many, name in ((self.polygons, "polygons"), (self.constraints, "tied vertices"),
+                                                                (self.copied, "copies")) if many)
+
+
+def read_obj(file):
+    """Rest points and triangles: the `vt`, or the two axes in which a flat mesh lies (x y, z x or y z)."""
+    lines = [line.split() for line in file.read_text(encoding="utf-8").splitlines()]
+    rest = np.array([line[1:3] for line in lines if line[:1] == ["vt"]], float)
+    triangles = np.array([[int(c.split("/")[0]) - 1 for c in line[1:]] for line in lines if line[:1] == ["f"]])
+    return rest, triangles
+
+
+def aspect_ratio(corners):
+    """Longest edge over the height on it."""
+    edges = np.roll(corners, -1, axis=1) - corners
+    twice = np.abs(edges[:, 0, 0] * edges[:, 1, 1] - edges[:, 0, 1] * edges[:, 1, 0])
+    return (edges ** 2).sum(axis=2).max(axis=1) / twice
+
+
+def curve_points(cut):
+    """Points of a cut of a path file."""
+    points = np.array(cut.get("polyline") or cut["bezier"], float)
+    if "polyline" in cut:
+        return np.vstack([points, points[:1]]) if cut.get("closed") else points
+    t = np.linspace(0, 1, 100)[:, None]
+    pieces = [(1 - t) ** 3 * a + 3 * t * (1 - t) ** 2 * b + 3 * t ** 2 * (1 - t) * c + t ** 3 * d
+              for a, b, c, d in zip(points[:-1:3], points[1::3], points[2::3], points[3::3])]
+    return np.vstack(pieces)
+
+
+def outlines(triangles, groups):
+    """(edges, 2): those of the groups of triangles that only one triangle of the group has."""
+    found = []
+    for group in groups:
+        edges = {(int(t[k]), int(t[(k + 1) % 3])) for t in triangles[group] for k in range(3)}
+        found += [e for e in edges if e[::-1] not in edges]
+    return np.array(found, int).reshape(-1, 2)
+
+
+def draw(ax, points, triangles, curves=(), details=None, scale=1.0):
+    """The whole sheet. \\param curves  points of each requested cut  \\param scale  of all lines"""
+    corners = points[triangles]
+    colours = ListedColormap(["white", *BANDS.values()])
+    ax.add_collection(PolyCollection(corners, array=aspect_ratio(corners), cmap=colours, norm=BoundaryNorm([1, *BANDS, 1e300], 4),
+                                     edgecolor=MESH, linewidth=0.5 * scale))
+    for curve in curves:
+        ax.plot(*curve.T, color=PATH, linewidth=5 * scale, alpha=0.35, zorder=2, solid_capstyle="butt")
+    if details:
+        draw_unknowns(ax, points, triangles, details, scale)
+        ax.add_collection(LineCollection([points[e] for e in details.incision], color=INCISION, linewidth=1.5 * scale, capstyle="round",
+                                         zorder=4))
+
+
+def draw_unknowns(ax, points, triangles, details, scale):
+    members = [t for group in details.polygons for t in group]
+    ax.add_collection(PolyCollection(points[triangles[members]].reshape(-1, 3, 2), facecolor="#d9f0d3", edgecolor="#d9f0d3", linewidth=0.7 * scale,
+                                     zorder=1.2))
+    ax.add_collection(LineCollection(points[outlines(triangles, details.polygons)].reshape(-1, 2, 2), color=UNKNOWNS, linewidth=0.9 * scale,
+                                     capstyle="round", zorder=3))
+    tied = points[[vertex for vertex, _ in details.constraints]].reshape(-1, 2)
+    ax.plot(*tied.T, linestyle="", marker="o", markersize=3 * scale, color=UNKNOWNS, markeredgewidth=0, zorder=5)
+
+
+def draw_copies(ax, old_points, details, scale=1.0):
+    """Where the old vertices lie that are there several times."""
+    copied = old_points[sorted(set(details.copied))].reshape(-1, 2)
+    ax.plot(*copied.T, linestyle="", marker="s", markersize=4.5 * scale, markerfacecolor="none", markeredgecolor=UNKNOWNS,
+            markeredgewidth=0.9 * scale, zorder=5)
+
+
+def frame(ax, window):
+    """(x0, x1, y0, y1) is seen, in a box."""
+    ax.set(xlim=window[:2], ylim=window[2:], aspect="equal", xticks=[], yticks=[], facecolor=GONE)
+    ax.spines[:].set_visible(True)
+    ax.spines[:].set_color("#555555")
+    ax.grid(False)
+
+
+def legend_entries(path=True, details=()):
+    """For everything that is drawn; of what a method makes of the triangles, what these have."""
+    entries = [Line2D([], [], color=PATH, alpha=0.35, linewidth=5, label="requested path")] if path else []
+    entries += [Line2D([], [], color=INCISION, linewidth=1.5, label="incision")]
+    entries += [Patch(facecolor=colour, edgecolor=MESH, linewidth=0.5, label=f"AR {low} to {high}" if high else f"AR > {low}")
+                for (low, colour), high in zip(BANDS.items(), [*list(BANDS)[1:], None])]
+    if any(d.polygons for d in details):
+        entries.append(Patch(facecolor="#d9f0d3", edgecolor=UNKNOWNS, linewidth=0.9, label="polygon"))
+    if any(d.constraints for d in details):
+        entries.append(Line2D([], [], color=UNKNOWNS, linestyle="", marker="o", markersize=3, label="tied vertex"))
+    if any(d.copied for d in details):
+        entries.append(Line2D([], [], color=UNKNOWNS, linestyle="", marker="s", markersize=4.5, markerfacecolor="none", label="copied vertex"))
+    return entries
