@@ -70,7 +70,7 @@ void Incisions::add(const Sheet& sheet, std::size_t cut) {
     const Ends ends{sheet.origin(h), sheet.target(h)};
     now[ends] = {sheet.rest(ends.first), sheet.rest(ends.second), to_index(cut)};
   });
-  std::vector<Open> divided;  // that are there no longer, but in pieces
+  std::vector<Open> divided;  // that are there no longer, but in pieces; a border's pieces may be of two of them
   for (const auto& [ends, open] : open_) {
     const auto same = now.find(ends);
     if (same != now.end() && same->second.from == open.from && same->second.to == open.to)
@@ -79,14 +79,17 @@ void Incisions::add(const Sheet& sheet, std::size_t cut) {
       divided.push_back(open);
   }
   const double near = meeting_tolerance * sheet.snap();
+  const auto under = [&](Point2 p, Point2 along) {
+    return std::find_if(divided.begin(), divided.end(), [&](const Open& older) {
+      return dot(along, older.to - older.from) > 0 && squared_distance(p, older.from, older.to) <= near * near;
+    });
+  };
   for (auto& [ends, open] : now) {
     if (open.cut != to_index(cut)) continue;
-    const auto whole = std::find_if(divided.begin(), divided.end(), [&, &open = open](const Open& older) {
-      return dot(open.to - open.from, older.to - older.from) > 0 &&
-             squared_distance(open.from, older.from, older.to) <= near * near &&
-             squared_distance(open.to, older.from, older.to) <= near * near;
-    });
-    if (whole != divided.end()) open.cut = whole->cut;
+    const Point2 along = open.to - open.from;
+    const auto whole = under(0.5 * (open.from + open.to), along);
+    if (whole != divided.end() && under(open.from, along) != divided.end() && under(open.to, along) != divided.end())
+      open.cut = whole->cut;
   }
   open_ = std::move(now);
 }

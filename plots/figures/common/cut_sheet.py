@@ -23,11 +23,6 @@ class Details:
         self.polygons, self.constraints = told["polygons"], told["constraints"]
         self.copied = told["copies"]
 
-    def counts(self):
-        """Such as `26 polygons`; empty where the triangles are all there is."""
-        return ", ".join(f"{len(many)} {name}" for many, name in ((self.polygons, "polygons"), (self.constraints, "tied vertices"),
-                                                                (self.copied, "copies")) if many)
-
 
 def read_obj(file):
     """Rest points and triangles: the `vt`, or the two axes in which a flat mesh lies (x y, z x or y z)."""
@@ -80,8 +75,8 @@ def draw(ax, points, triangles, curves=(), details=None, scale=1.0):
 
 def draw_unknowns(ax, points, triangles, details, scale):
     members = [t for group in details.polygons for t in group]
-    ax.add_collection(PolyCollection(points[triangles[members]].reshape(-1, 3, 2), facecolor="#d9f0d3", edgecolor="#d9f0d3", linewidth=0.7 * scale,
-                                     zorder=1.2))
+    ax.add_collection(PolyCollection(points[triangles[members]].reshape(-1, 3, 2), facecolor="#d9f0d3", edgecolor="#a6dba0",
+                                     linewidth=0.4 * scale, zorder=1.2))
     ax.add_collection(LineCollection(points[outlines(triangles, details.polygons)].reshape(-1, 2, 2), color=UNKNOWNS, linewidth=0.9 * scale,
                                      capstyle="round", zorder=3))
     tied = points[[vertex for vertex, _ in details.constraints]].reshape(-1, 2)
@@ -103,16 +98,17 @@ def frame(ax, window):
     ax.grid(False)
 
 
-def legend_entries(path=True, details=()):
-    """For everything that is drawn; of what a method makes of the triangles, what these have."""
-    entries = [Line2D([], [], color=PATH, alpha=0.35, linewidth=5, label="requested path")] if path else []
-    entries += [Line2D([], [], color=INCISION, linewidth=1.5, label="incision")]
-    entries += [Patch(facecolor=colour, edgecolor=MESH, linewidth=0.5, label=f"AR {low} to {high}" if high else f"AR > {low}")
-                for (low, colour), high in zip(BANDS.items(), [*list(BANDS)[1:], None])]
-    if any(d.polygons for d in details):
-        entries.append(Patch(facecolor="#d9f0d3", edgecolor=UNKNOWNS, linewidth=0.9, label="polygon"))
-    if any(d.constraints for d in details):
-        entries.append(Line2D([], [], color=UNKNOWNS, linestyle="", marker="o", markersize=3, label="tied vertex"))
-    if any(d.copied for d in details):
-        entries.append(Line2D([], [], color=UNKNOWNS, linestyle="", marker="s", markersize=4.5, markerfacecolor="none", label="copied vertex"))
-    return entries
+def legend_entries(details=()):
+    """For everything that is drawn; of what a method makes of the triangles, what these have, counted where they are of one."""
+    def entry(artist, many, name):
+        number = f"{len(many(details[0]))} " if len(details) == 1 else ""
+        artist.set_label(number + name)
+        return [artist] if any(many(d) for d in details) else []
+    return [Line2D([], [], color=PATH, alpha=0.35, linewidth=5, label="requested path"),
+            Line2D([], [], color=INCISION, linewidth=1.5, label="incision"),
+            *(Patch(facecolor=colour, edgecolor=MESH, linewidth=0.5, label=f"AR {low} to {high}" if high else f"AR > {low}")
+              for (low, colour), high in zip(BANDS.items(), [*list(BANDS)[1:], None])),
+            *entry(Patch(facecolor="#d9f0d3", edgecolor=UNKNOWNS, linewidth=0.9), lambda d: d.polygons, "polygons"),
+            *entry(Line2D([], [], color=UNKNOWNS, linestyle="", marker="o", markersize=3), lambda d: d.constraints, "tied vertices"),
+            *entry(Line2D([], [], color=UNKNOWNS, linestyle="", marker="s", markersize=4.5, markerfacecolor="none"), lambda d: d.copied,
+                   "copies, of these vertices")]

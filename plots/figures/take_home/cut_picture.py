@@ -16,7 +16,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 from figures.common import cut_sheet
 
-WIDTH, HEADER, FOOTER, GAP, SIDE = 10.0, 0.42, 0.3, 0.08, 0.06  # inches
+WIDTH, HEADER, FOOTER, GAP, SIDE = 10.0, 0.25, 0.3, 0.08, 0.06  # inches
 INSET = 3.2  # of its side, times the longest edge of the worst triangle
 
 
@@ -38,13 +38,13 @@ def changed(old, new):
 
 
 def worst_window(corners, made):
-    """A square round the worst triangle that the cut made; None where it made none."""
+    """A square round the worst triangle that the cut made, that triangle, and its aspect ratio; None where it made none."""
     if not made.any():
-        return None, None
+        return None, None, None
     ratios = np.where(made, cut_sheet.aspect_ratio(corners), 0)
     worst = corners[ratios.argmax()]
     centre, reach = worst.mean(axis=0), INSET / 2 * np.linalg.norm(worst - np.roll(worst, 1, axis=0), axis=1).max()
-    return (centre[0] - reach, centre[0] + reach, centre[1] - reach, centre[1] + reach), ratios.max()
+    return (centre[0] - reach, centre[0] + reach, centre[1] - reach, centre[1] + reach), worst, ratios.max()
 
 
 def main():
@@ -59,7 +59,7 @@ def main():
     curves = [cut_sheet.curve_points(cut) for cut in json.loads(options.path.read_text(encoding="utf-8"))["cuts"]]
 
     whole = window_of(np.vstack([old, new]))
-    close, ratio = worst_window(new[new_triangles], changed(old[old_triangles], new[new_triangles]))
+    close, worst, ratio = worst_window(new[new_triangles], changed(old[old_triangles], new[new_triangles]))
     aspect = (whole[3] - whole[2]) / (whole[1] - whole[0])
     panels = 3 if close else 2
     # Two panels of the sheet and a square one, all of one height.
@@ -78,15 +78,16 @@ def main():
 
     ax = panel(0, "before", f"{len(old_triangles):,} triangles", whole, wide)
     cut_sheet.draw(ax, old, old_triangles, curves, scale=scale)
-    ax = panel(1, options.title or "after", ", ".join(filter(None, [f"{len(new_triangles):,} triangles", details.counts()])), whole, wide)
+    ax = panel(1, options.title or "after", f"{len(new_triangles):,} triangles", whole, wide)
     cut_sheet.draw(ax, new, new_triangles, details=details, scale=scale)
     cut_sheet.draw_copies(ax, old, details, scale)
     if close:
         ax.add_patch(plt.Rectangle((close[0], close[2]), close[1] - close[0], close[3] - close[2], fill=False, edgecolor="black",
                                    linewidth=1.2, zorder=6))
-        ax = panel(2, f"worst new triangle: AR {ratio:.3g}", f"{close[1] - close[0]:.3g} wide", close, height)
-        cut_sheet.draw(ax, new, new_triangles, curves, details)
+        ax = panel(2, f"its worst triangle: AR {ratio:.3g}", f"{close[1] - close[0]:.3g} wide", close, height)
+        cut_sheet.draw(ax, new, new_triangles, details=details)
         cut_sheet.draw_copies(ax, old, details)
+        ax.add_patch(plt.Polygon(worst, fill=False, edgecolor="black", linewidth=1, joinstyle="round", zorder=7))
     figure.legend(handles=cut_sheet.legend_entries(details=[details]), loc="lower left", ncol=8, fontsize=8, borderaxespad=0.3, handlelength=1.6,
                   columnspacing=1.2, frameon=False)
     figure.savefig(options.out, dpi=160)
