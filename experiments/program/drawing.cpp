@@ -13,11 +13,12 @@ namespace {
 
 constexpr ProgramLimits limits{.time_s = 3600, .memory_mb = 4096};
 
-/// The first that has what the scripts import; empty where none has.
+/// The first that has what the scripts import, as a word for the shell; empty where none has.
 std::string python_that_draws(const std::filesystem::path& folder) {
-  for (const char* const python : {"python3", "/usr/bin/python3"})
-    if (run_program(std::string(python) + " -c 'import matplotlib, numpy, PIL'", folder, limits).succeeded())
-      return python;
+  const char* const given = std::getenv("CUTBENCH_PYTHON");
+  const std::vector<std::string> known{"python3", "/usr/bin/python3"};
+  for (const std::string& python : given ? std::vector{quoted(given)} : known)
+    if (run_program(python + " -c 'import matplotlib, numpy, PIL'", folder, limits).succeeded()) return python;
   return {};
 }
 

@@ -12,8 +12,8 @@ namespace cutbench {
 
 class Drawing {
  public:
-  /// Before the work: finds a Python that has what is needed, and the scripts: in $CUTBENCH_PLOTS, or beside the program,
-  /// installed or in the tree. \param option  begins every error
+  /// Before the work: finds a Python that has what is needed, $CUTBENCH_PYTHON or python3, and the scripts, in
+  /// $CUTBENCH_PLOTS or beside the program, installed or in the tree. \param option  begins every error
   /// \throw InputError: another extension than these, a place that can't be written, no such Python, no scripts.
   Drawing(const std::string& option, const std::filesystem::path& out, std::initializer_list<const char*> extensions);
   /// The folder for what the script reads; gone in the end.

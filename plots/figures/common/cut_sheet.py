@@ -66,10 +66,10 @@ def draw(ax, points, triangles, curves=(), details=None, scale=1.0):
     ax.add_collection(PolyCollection(corners, array=aspect_ratio(corners), cmap=colours, norm=BoundaryNorm([1, *BANDS, 1e300], 4),
                                      edgecolor=MESH, linewidth=0.5 * scale))
     for curve in curves:
-        ax.plot(*curve.T, color=PATH, linewidth=5 * scale, alpha=0.35, zorder=2, solid_capstyle="butt")
+        ax.plot(*curve.T, color=PATH, linewidth=5 * max(scale, 0.6), alpha=0.35, zorder=2, solid_capstyle="butt")
     if details:
         draw_unknowns(ax, points, triangles, details, scale)
-        ax.add_collection(LineCollection([points[e] for e in details.incision], color=INCISION, linewidth=1.5 * scale, capstyle="round",
+        ax.add_collection(LineCollection([points[e] for e in details.incision], color=INCISION, linewidth=1.5 * max(scale, 0.6), capstyle="round",
                                          zorder=4))
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Draws a cut: the sheet before and after in rest space, triangles by their aspect ratios, and the worst triangle of the cut.
-`cutbench cut --picture` calls it. Needs numpy and matplotlib alone."""
+`cutbench cut --picture` calls it. Needs numpy, matplotlib and Pillow alone."""
 
 import argparse
 import json
@@ -12,11 +12,12 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from PIL import Image
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 from figures.common import cut_sheet
 
-WIDTH, HEADER, FOOTER, GAP, SIDE = 10.0, 0.25, 0.3, 0.08, 0.06  # inches
+WIDTH, HIGHEST, HEADER, FOOTER, GAP, SIDE = 10.0, 5.0, 0.25, 0.3, 0.08, 0.06  # inches
 INSET = 3.2  # of its side, times the longest edge of the worst triangle
 
 
@@ -26,9 +27,20 @@ def window_of(points):
     return low[0] - margin, high[0] + margin, low[1] - margin, high[1] + margin
 
 
-def axes_at(figure, left, width, height):
-    total = figure.get_size_inches()
-    return figure.add_axes([left / total[0], FOOTER / total[1], width / total[0], height / total[1]])
+def layout(aspect, has_inset):
+    """(left, bottom, width, height) of the sheet before, after and of a square inset, and the size of the figure, inches: side by
+    side; of a wide sheet one below the other, the inset beside both. \param aspect  height of the sheet over its width"""
+    width = WIDTH - 2 * SIDE - has_inset * GAP
+    if aspect < 0.6:
+        height = (width - has_inset * HEADER) / (1 / aspect + 2 * has_inset)
+        wide, side = height / aspect, 2 * height + HEADER
+        before, after = (SIDE, FOOTER + height + HEADER, wide, height), (SIDE, FOOTER, wide, height)
+        return before, after, (SIDE + wide + GAP, FOOTER, side, side), (WIDTH, FOOTER + side + HEADER)
+    height = min((width - GAP) / (2 / aspect + has_inset), HIGHEST)
+    wide = height / aspect
+    places = [(SIDE + k * (wide + GAP), FOOTER, wide, height) for k in range(2)]
+    inset = (SIDE + 2 * (wide + GAP), FOOTER, height, height)
+    return *places, inset, (2 * SIDE + 2 * wide + GAP + has_inset * (GAP + height), FOOTER + height + HEADER)
 
 
 def changed(old, new):
@@ -60,37 +72,37 @@ def main():
 
     whole = window_of(np.vstack([old, new]))
     close, worst, ratio = worst_window(new[new_triangles], changed(old[old_triangles], new[new_triangles]))
-    aspect = (whole[3] - whole[2]) / (whole[1] - whole[0])
-    panels = 3 if close else 2
-    # Two panels of the sheet and a square one, all of one height.
-    height = (WIDTH - 2 * SIDE - (panels - 1) * GAP) / (2 / aspect + (panels - 2))
-    height = min(height, 5.0)
-    wide = height / aspect
-    figure = plt.figure(figsize=(2 * SIDE + 2 * wide + (panels - 1) * GAP + (panels - 2) * height, HEADER + height + FOOTER))
-    scale = float(np.clip(wide / 3.3 * np.sqrt(800 / len(old_triangles)), 0.25, 1))
+    before, after, inset, size = layout((whole[3] - whole[2]) / (whole[1] - whole[0]), bool(close))
+    figure = plt.figure(figsize=size)
+    scale = float(np.clip(before[2] / 3.3 * np.sqrt(800 / len(old_triangles)), 0.25, 1))
 
-    def panel(number, title, text, window, width):
-        ax = axes_at(figure, SIDE + number * (wide + GAP), width, height)
+    def panel(place, title, text, window):
+        ax = figure.add_axes([place[0] / size[0], place[1] / size[1], place[2] / size[0], place[3] / size[1]])
         cut_sheet.frame(ax, window)
         ax.set_title(title, loc="left", fontsize=9, fontweight="bold", pad=3)
-        ax.set_title(text, loc="right", fontsize=8, color="#555555", pad=3)
+        if place[2] > 2.8:
+            ax.set_title(text, loc="right", fontsize=8, color="#555555", pad=3)
         return ax
 
-    ax = panel(0, "before", f"{len(old_triangles):,} triangles", whole, wide)
+    ax = panel(before, "before", f"{len(old_triangles):,} triangles", whole)
     cut_sheet.draw(ax, old, old_triangles, curves, scale=scale)
-    ax = panel(1, options.title or "after", f"{len(new_triangles):,} triangles", whole, wide)
+    ax = panel(after, options.title or "after", f"{len(new_triangles):,} triangles", whole)
     cut_sheet.draw(ax, new, new_triangles, details=details, scale=scale)
     cut_sheet.draw_copies(ax, old, details, scale)
     if close:
         ax.add_patch(plt.Rectangle((close[0], close[2]), close[1] - close[0], close[3] - close[2], fill=False, edgecolor="black",
                                    linewidth=1.2, zorder=6))
-        ax = panel(2, f"its worst triangle: AR {ratio:.3g}", f"{close[1] - close[0]:.3g} wide", close, height)
+        ax = panel(inset, f"its worst triangle: AR {ratio:.3g}", f"{close[1] - close[0]:.3g} wide", close)
         cut_sheet.draw(ax, new, new_triangles, details=details)
         cut_sheet.draw_copies(ax, old, details)
         ax.add_patch(plt.Polygon(worst, fill=False, edgecolor="black", linewidth=1, joinstyle="round", zorder=7))
     figure.legend(handles=cut_sheet.legend_entries(details=[details]), loc="lower left", ncol=8, fontsize=8, borderaxespad=0.3, handlelength=1.6,
                   columnspacing=1.2, frameon=False)
+    figure.text(1 - SIDE / figure.get_figwidth(), 0.12 / figure.get_figheight(), "AR: longest edge over the height on it", ha="right", va="center",
+                fontsize=8, color="#555555")
     figure.savefig(options.out, dpi=160)
+    if options.out.suffix == ".png":  # a third of the bytes
+        Image.open(options.out).convert("RGB").quantize(64, Image.Quantize.MAXCOVERAGE, kmeans=2, dither=Image.Dither.NONE).save(options.out, optimize=True)
 
 
 if __name__ == "__main__":
