@@ -19,25 +19,25 @@ constexpr int most_halvings = 53;
 
 std::size_t next(std::size_t k) { return to_size(next_corner(to_int(k))); }
 
+constexpr std::array<std::size_t, 3> corners_of_triangle{0, 1, 2};
+
 struct InTriangle {
-  std::array<double, 3> area;   ///< of p and the side opposite each corner, doubled; their sum is the triangle's
-  std::array<bool, 3> on_side;  ///< p lies on that side, but for rounding
-  bool holds() const {
-    return std::all_of(sides.begin(), sides.end(), [this](std::size_t k) { return on_side[k] || area[k] > 0; });
-  }
-  static constexpr std::array<std::size_t, 3> sides{0, 1, 2};
+  std::array<double, 3> area;      ///< of p and the side opposite each corner, doubled; their sum is the triangle's
+  std::array<double, 3> distance;  ///< from that side, below 0 outside
+  double rounding;                 ///< what is nearer lies on a side, or at a corner
+  bool holds() const { return *std::min_element(distance.begin(), distance.end()) >= -rounding; }
 };
 
 InTriangle place_of(Point2 p, const std::array<Point2, 3>& corners) {
-  double largest = 0;
-  for (const Point2 c : corners) largest = std::max({largest, std::abs(c.x), std::abs(c.y)});
-  const double rounding = ulps_off_edge * std::numeric_limits<double>::epsilon() * largest;
   InTriangle place{};
-  for (const std::size_t k : InTriangle::sides) {
+  double largest = 0;
+  for (const std::size_t k : corners_of_triangle) {
     const Point2 from = corners[next(k)], to = corners[next(next(k))];
     place.area[k] = cross(from - p, to - p);
-    place.on_side[k] = std::abs(place.area[k]) <= rounding * length(to - from);
+    place.distance[k] = place.area[k] / length(to - from);
+    largest = std::max({largest, std::abs(from.x), std::abs(from.y)});
   }
+  place.rounding = ulps_off_edge * std::numeric_limits<double>::epsilon() * largest;
   return place;
 }
 
@@ -62,16 +62,21 @@ std::vector<VertexPart> parts_on_edge(const Sheet& before, DeformedIndex a, Defo
 
 std::vector<VertexPart> parts_in(const Sheet& before, TriangleIndex t, Point2 p) {
   const auto& corner = before.triangle(t).deformed;
-  const InTriangle place = place_of(p, before.corners(t));
-  for (const std::size_t k : InTriangle::sides)
-    if (place.on_side[next(k)] && place.on_side[next(next(k))]) return {{corner[k], 1}};
-  for (const std::size_t k : InTriangle::sides)
-    if (place.on_side[k]) return parts_on_edge(before, corner[next(k)], corner[next(next(k))], p);
+  const auto corners = before.corners(t);
+  const InTriangle place = place_of(p, corners);
+  for (const std::size_t k : corners_of_triangle)
+    if (length(p - corners[k]) <= place.rounding) return {{corner[k], 1}};
+  const auto nearer = [&](std::size_t a, std::size_t b) {
+    return std::abs(place.distance[a]) < std::abs(place.distance[b]);
+  };
+  const std::size_t side = *std::min_element(corners_of_triangle.begin(), corners_of_triangle.end(), nearer);
+  if (std::abs(place.distance[side]) <= place.rounding)
+    return parts_on_edge(before, corner[next(side)], corner[next(next(side))], p);
   const double sum = place.area[0] + place.area[1] + place.area[2];
   std::vector<VertexPart> parts;
-  for (const std::size_t k : InTriangle::sides) parts.push_back({corner[k], place.area[k] / sum});
-  const auto heavier = [](const VertexPart& a, const VertexPart& b) { return a.weight < b.weight; };
-  std::max_element(parts.begin(), parts.end(), heavier)->weight +=
+  for (const std::size_t k : corners_of_triangle) parts.push_back({corner[k], place.area[k] / sum});
+  const auto lighter = [](const VertexPart& a, const VertexPart& b) { return a.weight < b.weight; };
+  std::max_element(parts.begin(), parts.end(), lighter)->weight +=
       1 - (parts[0].weight + parts[1].weight + parts[2].weight);
   return parts;
 }

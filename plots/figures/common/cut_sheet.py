@@ -1,62 +1,17 @@
 """A cut sheet in rest space: triangles by their aspect ratios, the requested path, the incision, and what a method makes of
 the triangles: polygons, vertices that go along with others, copies. Needs numpy and matplotlib alone."""
 
-import json
-
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from analysis.cut_result import aspect_ratio, outlines
+
 BANDS = {3: "#fbdca4", 10: "#f29d4b", 30: "#c8551b"}  # colours of aspect ratios above these
 GONE = "#dddddd"  # seen where triangles are gone
 MESH, PATH, INCISION, UNKNOWNS = "#8d8d8d", "#0072b2", "#a50021", "#1b7837"
-
-
-class Details:
-    """What `cutbench cut --parents` says."""
-
-    def __init__(self, file):
-        told = json.loads(file.read_text(encoding="utf-8"))
-        self.incision = [(e["left"] or e["right"])[1:] for e in told["incision"]]
-        self.polygons, self.constraints = told["polygons"], told["constraints"]
-        self.copied = told["copies"]
-
-
-def read_obj(file):
-    """Rest points and triangles: the `vt`, or the two axes in which a flat mesh lies (x y, z x or y z)."""
-    lines = [line.split() for line in file.read_text(encoding="utf-8").splitlines()]
-    rest = np.array([line[1:3] for line in lines if line[:1] == ["vt"]], float)
-    triangles = np.array([[int(c.split("/")[0]) - 1 for c in line[1:]] for line in lines if line[:1] == ["f"]])
-    return rest, triangles
-
-
-def aspect_ratio(corners):
-    """Longest edge over the height on it."""
-    edges = np.roll(corners, -1, axis=1) - corners
-    twice = np.abs(edges[:, 0, 0] * edges[:, 1, 1] - edges[:, 0, 1] * edges[:, 1, 0])
-    return (edges ** 2).sum(axis=2).max(axis=1) / twice
-
-
-def curve_points(cut):
-    """Points of a cut of a path file."""
-    points = np.array(cut.get("polyline") or cut["bezier"], float)
-    if "polyline" in cut:
-        return np.vstack([points, points[:1]]) if cut.get("closed") else points
-    t = np.linspace(0, 1, 100)[:, None]
-    pieces = [(1 - t) ** 3 * a + 3 * t * (1 - t) ** 2 * b + 3 * t ** 2 * (1 - t) * c + t ** 3 * d
-              for a, b, c, d in zip(points[:-1:3], points[1::3], points[2::3], points[3::3])]
-    return np.vstack(pieces)
-
-
-def outlines(triangles, groups):
-    """(edges, 2): those of the groups of triangles that only one triangle of the group has."""
-    found = []
-    for group in groups:
-        edges = {(int(t[k]), int(t[(k + 1) % 3])) for t in triangles[group] for k in range(3)}
-        found += [e for e in edges if e[::-1] not in edges]
-    return np.array(found, int).reshape(-1, 2)
 
 
 def draw(ax, points, triangles, curves=(), details=None, scale=1.0):
@@ -110,5 +65,5 @@ def legend_entries(details=()):
               for (low, colour), high in zip(BANDS.items(), [*list(BANDS)[1:], None])),
             *entry(Patch(facecolor="#d9f0d3", edgecolor=UNKNOWNS, linewidth=0.9), lambda d: d.polygons, "polygons"),
             *entry(Line2D([], [], color=UNKNOWNS, linestyle="", marker="o", markersize=3), lambda d: d.constraints, "tied vertices"),
-            *entry(Line2D([], [], color=UNKNOWNS, linestyle="", marker="s", markersize=4.5, markerfacecolor="none"), lambda d: d.copied,
-                   "copies, of these vertices")]
+            *entry(Line2D([], [], color=UNKNOWNS, linestyle="", marker="s", markersize=4.5, markerfacecolor="none"), lambda d: set(d.copied),
+                   "copied vertices")]

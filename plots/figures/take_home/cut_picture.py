@@ -15,6 +15,7 @@ import numpy as np
 from PIL import Image
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
+from analysis import cut_result
 from figures.common import cut_sheet
 
 WIDTH, HIGHEST, HEADER, FOOTER, GAP, SIDE = 10.0, 5.0, 0.25, 0.3, 0.08, 0.06  # inches
@@ -53,7 +54,7 @@ def worst_window(corners, made):
     """A square round the worst triangle that the cut made, that triangle, and its aspect ratio; None where it made none."""
     if not made.any():
         return None, None, None
-    ratios = np.where(made, cut_sheet.aspect_ratio(corners), 0)
+    ratios = np.where(made, cut_result.aspect_ratio(corners), 0)
     worst = corners[ratios.argmax()]
     centre, reach = worst.mean(axis=0), INSET / 2 * np.linalg.norm(worst - np.roll(worst, 1, axis=0), axis=1).max()
     return (centre[0] - reach, centre[0] + reach, centre[1] - reach, centre[1] + reach), worst, ratios.max()
@@ -65,10 +66,10 @@ def main():
         parser.add_argument(f"--{name}", type=Path, required=True)
     parser.add_argument("--title", default="")
     options = parser.parse_args()
-    old, old_triangles = cut_sheet.read_obj(options.before)
-    new, new_triangles = cut_sheet.read_obj(options.after)
-    details = cut_sheet.Details(options.parents)
-    curves = [cut_sheet.curve_points(cut) for cut in json.loads(options.path.read_text(encoding="utf-8"))["cuts"]]
+    old, old_triangles = cut_result.read_obj(options.before)
+    new, new_triangles = cut_result.read_obj(options.after)
+    details = cut_result.Details(options.parents)
+    curves = [cut_result.curve_points(cut) for cut in json.loads(options.path.read_text(encoding="utf-8"))["cuts"]]
 
     whole = window_of(np.vstack([old, new]))
     close, worst, ratio = worst_window(new[new_triangles], changed(old[old_triangles], new[new_triangles]))
