@@ -42,11 +42,12 @@ def boxes(frames, camera):
     size, all_of_it = (high - low).max(axis=0), high.max(axis=0) - low.min(axis=0)
     middle = (low + high) / 2
     if (all_of_it <= STILL * size.max()).all():
-        size, middle = all_of_it, np.broadcast_to((low.min(axis=0) + high.max(axis=0)) / 2, middle.shape)
+        middle = np.broadcast_to((low.min(axis=0) + high.max(axis=0)) / 2, middle.shape)
     else:
         padded = np.pad(middle, ((SMOOTH // 2, SMOOTH // 2), (0, 0)), "edge")
         middle = np.stack([np.convolve(padded[:, k], np.full(SMOOTH, 1 / SMOOTH), "valid") for k in range(2)], axis=1)
-    half = 0.53 * size + 0.02 * size.max()
+    half = np.maximum(high - middle, middle - low).max(axis=0)
+    half += 0.05 * half.max()
     half = np.array([max(half[0], half[1] / HIGHEST), max(half[1], 0.4 * half[0])])
     return [(*(m[0] + half[0] * np.array([-1, 1])), *(m[1] + half[1] * np.array([-1, 1]))) for m in middle]
 
@@ -75,7 +76,7 @@ def animate(frames, path, caption):
     camera = camera_for(frames)
     pictures = [picture(frame, camera, box, caption) for frame, box in zip(frames, boxes(frames, camera))]
     times = [f.time for f in frames]
-    durations = [round(1000 * (b - a)) for a, b in zip(times, times[1:])] + [LAST]
+    durations = [round(1000 * (b - a)) if len(frames) > 2 else LAST for a, b in zip(times, times[1:])] + [LAST]
     try:
         pictures[0].save(path, save_all=True, append_images=pictures[1:], duration=durations, loop=0, quality=70, method=4)
     except OSError as error:
