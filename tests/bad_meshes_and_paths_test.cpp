@@ -174,7 +174,7 @@ TEST_F(BadInput, ObjOddities) {
 /// Too far out, too few doubles are left to cut with; too small, products of coordinates underflow.
 TEST_F(BadInput, SizesOutOfRange) {
   const auto triangle = [](Point2 at, double side) {
-    MeshData mesh{{at, at + Point2{side, 0}, at + Point2{0, side}}, {{}, {}, {}}, {{0, 1, 2}}, {}};
+    MeshData mesh{{at, at + Point2{side, 0}, at + Point2{0, side}}, {{}, {}, {}}, {{0, 1, 2}}, {}, {}};
     check_and_repair(mesh, "m");
   };
   const double ulp = std::ldexp(1, -52);  // of 1 ... 2; the mean side is 1.138 times the short one

@@ -19,7 +19,7 @@ TEST(CheckAndRepair, RefusalsInMemory) {
   const std::vector<Point3> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}};
   auto check = [&](std::vector<std::array<std::int32_t, 3>> triangles, std::vector<Point3> deformed,
                    std::vector<Point2> rest = {}) {
-    MeshData mesh{std::move(rest), std::move(deformed), std::move(triangles), {}};
+    MeshData mesh{std::move(rest), std::move(deformed), std::move(triangles), {}, {}};
     check_and_repair(mesh, "m");
   };
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();

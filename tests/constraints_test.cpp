@@ -93,7 +93,7 @@ TEST(Constraints, PatchTest) {
     constraint_kind.expand(unknowns, moved);
     moved += given;
     EXPECT_LE((moved - affine).cwiseAbs().maxCoeff(), 1e-8);
-    (cut.constraints.phantoms > 0 ? phantoms : constrained) += cut.constraints.constraints.size();
+    (!cut.constraints.phantoms.empty() ? phantoms : constrained) += cut.constraints.constraints.size();
   });
   EXPECT_GT(constrained, scaled(200));
   EXPECT_GT(phantoms, scaled(800));
@@ -105,7 +105,7 @@ TEST(Constraints, CutsStayOpen) {
     Pieces pieces(cut.sheet());
     EXPECT_EQ(pieces.count(), count_pieces(cut.sheet()));
     const auto first = to_int32(cut.sheet().deformed_slots());
-    pieces.root.resize(to_size(first) + cut.constraints.phantoms, -1);
+    pieces.root.resize(to_size(first) + cut.constraints.phantoms.size(), -1);
     std::vector<std::uint8_t> is_constrained(pieces.root.size());
     for (const Constraint& constraint : cut.constraints.constraints) is_constrained[constraint.vertex()] = 1;
     for (const Constraint& constraint : cut.constraints.constraints)

@@ -13,7 +13,7 @@ namespace cutbench {
 inline Eigen::MatrixXd dense_constraint_matrix(const Constraints& constraints, std::size_t vertices,
                                                Eigen::Index dimension) {
   const auto n = dimension * to_index(vertices);
-  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(n, n + dimension * to_index(constraints.phantoms));
+  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(n, n + dimension * to_index(constraints.phantoms.size()));
   c.leftCols(n).setIdentity();
   for (const Constraint& constraint : constraints.constraints)
     for (Eigen::Index k = 0; k < dimension; ++k) {

@@ -477,6 +477,11 @@ TEST(Findings, LostDigitsAreSeenAndShortNumbersAreNot) {
   EXPECT_EQ(lost_digits({}), "");
   EXPECT_EQ(lost_digits(floats), "in single precision");
   EXPECT_EQ(lost_digits(decimals), "with 6 decimals");
+  const double known = 0.500001;  // of a path along an axis: at every vertex of it
+  EXPECT_EQ(lost_digits({{0.1, known}, {0.2, known}, {0.3, known}, {0.4, known}, {0.5, known}}), "");
+  std::set<double> all_of_them;
+  for (const oracle::Point& p : decimals) all_of_them.insert(p.begin(), p.end());
+  EXPECT_EQ(lost_digits(decimals, all_of_them), "");
   floats.push_back(doubles.front());
   EXPECT_EQ(lost_digits(floats), "");
 }

@@ -256,6 +256,7 @@ TEST_F(MeshIo, ObjRoundTripIsBitEqual) {
   MeshData open{{{0, 0}, {1, 0}, {0, 1}, {1, 0}, {1, 1}, {0, 1}},
                 {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, .1}, {1, 1, .1}, {0, 1, .1}},
                 {{0, 1, 2}, {3, 4, 5}},
+                {},
                 {}};
   write_mesh(open, folder_ / "a.obj");
   expect_bit_equal(open, read_mesh(folder_ / "a.obj"));
@@ -277,6 +278,7 @@ TEST_F(MeshIo, Vtu) {
   const MeshData open{{{0, 0}, {1, 0}, {0, 1}, {1, 0}, {1, 1}, {0, 1}},
                       {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, .5}, {1, 1, .5}, {0, 1, .5}},
                       {{0, 1, 2}, {3, 4, 5}},
+                      {},
                       {}};
   write_mesh(open, folder_ / "a.vtu");
   const std::string text = content_of(folder_ / "a.vtu");

@@ -74,6 +74,7 @@ TEST_F(Programs, EachFailureIsNamed) {
            {"python3 none.py" + unused, "", 1, "can't open file"},
            {"echo first >&2; echo the reason >&2; exit 1" + unused, "", 1, "failed (crashed): exit code 1: the reason"},
            {"kill -SEGV $$" + unused, "", 1, "failed (crashed): ended by signal 11"},
+           {"sh -c \"echo the reason >&2; kill -ABRT \\$\\$\"; exit $?" + unused, "", 1, "6 (Aborted): the reason"},
            {"sleep 60" + unused, "--command-time-limit 0.3", 1, "failed (timed_out): ended at its time limit"},
            {"sleep 60 & while :; do :; done" + unused, "--command-time-limit 0.3", 1, "failed (timed_out): "},
            {"python3 -c \"x = bytearray(10**9)\"" + unused, "--command-memory-limit 200", 1,

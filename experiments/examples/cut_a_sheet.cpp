@@ -42,15 +42,14 @@ void print_lips(const Sheet& sheet) {
 }
 
 void print_parents(const Sheet& before, const Sheet& cut) {
-  const auto vertices = vertex_parents(cut);
-  for (std::size_t d = before.deformed_slots(); d < vertices.size(); ++d) {
+  const Parents parents = parents_of(before, cut);
+  for (std::size_t d = before.deformed_slots(); d < parents.vertices.size(); ++d) {
     std::printf("vertex %zu =", d);
-    for (const VertexPart& part : vertices[d]) std::printf(" %+g * vertex %d", part.weight, part.vertex.value);
+    for (const VertexPart& part : parents.vertices[d]) std::printf(" %+g * vertex %d", part.weight, part.vertex.value);
     std::printf("\n");
   }
-  const auto triangles = triangle_parents(before, cut);
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    if (triangles[t].valid()) std::printf("triangle %zu was in %d\n", t, triangles[t].value);
+  for (std::size_t t = 0; t < parents.triangles.size(); ++t)
+    if (parents.triangles[t].valid()) std::printf("triangle %zu was in %d\n", t, parents.triangles[t].value);
 }
 
 }  // namespace

@@ -15,7 +15,6 @@ Option Option::existing_folder() const { return Option(option_->check(CLI::Exist
 Option Option::one_of(std::initializer_list<const char*> values) const {
   return Option(option_->check(CLI::IsMember(std::vector<std::string>(values.begin(), values.end()))));
 }
-Option Option::needs(Option other) const { return Option(option_->needs(other.option_)); }
 Option Option::excludes(Option other) const { return Option(option_->excludes(other.option_)); }
 bool Option::given() const { return option_->count() > 0; }
 

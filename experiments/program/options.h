@@ -25,7 +25,6 @@ class Option {
   Option comma_separated() const;  ///< the values of a list
   Option existing_folder() const;
   Option one_of(std::initializer_list<const char*> values) const;
-  Option needs(Option other) const;
   Option excludes(Option other) const;
   bool given() const;  ///< on the command line
 

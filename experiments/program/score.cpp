@@ -1,6 +1,7 @@
 #include "experiments/program/score.h"
 
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 
 #include "harness/files/mesh_file.h"
@@ -20,6 +21,11 @@ std::string number(bool measured, const char* format, double value) {
   char text[40];
   std::snprintf(text, sizeof text, format, value);
   return measured ? text : "-";
+}
+
+/// Such as "43 triangles" or "62 fewer triangles".
+std::string more_or_fewer(std::ptrdiff_t count, const char* what) {
+  return std::to_string(std::abs(count)) + (count < 0 ? " fewer " : " ") + what;
 }
 
 void print_shapes(const char* which, const Quality& q) {
@@ -63,8 +69,9 @@ void print(const Assessment& a, double h, std::size_t cuts) {
             << number(a.connected && j.expected_pieces > 0, "%.0f", j.expected_pieces) << " expected), incision error "
             << number(a.connected, "%.4g", j.incision_error / h) << " h, area change "
             << number(a.connected, "%.3g", j.area_change) << '\n';
-  std::cout << "added: " << a.vertices_added << " rest vertices, " << a.deformed_vertices_added
-            << " deformed vertices, " << a.triangles_added << " triangles\n";
+  std::cout << "added: " << more_or_fewer(a.vertices_added, "rest vertices") << ", "
+            << more_or_fewer(a.deformed_vertices_added, "deformed vertices") << ", "
+            << more_or_fewer(a.triangles_added, "triangles") << '\n';
   print_shapes("all", a.all);
   print_shapes("changed", a.cut);
   std::cout << "forced: " << a.forced_corners << " corners with " << a.corner_triangles << " triangles; "

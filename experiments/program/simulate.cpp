@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "experiments/program/drawing.h"
 #include "experiments/program/step_summary.h"
 #include "harness/base/conversions.h"
 #include "harness/cut/cut_all.h"
@@ -22,6 +23,58 @@
 namespace cutbench {
 
 namespace {
+
+/// Of a sheet at rest, SI units.
+struct Size {
+  double width = 0, height = 0, area = 0;
+};
+
+Size size_of(const Sheet& sheet) {
+  Point2 low{1e300, 1e300}, high{-1e300, -1e300};
+  Size size;
+  for (std::size_t t = 0; t < sheet.triangle_slots(); ++t) {
+    if (!sheet.triangle(TriangleIndex(t)).alive()) continue;
+    const auto corners = sheet.corners(TriangleIndex(t));
+    size.area += cross(corners[1] - corners[0], corners[2] - corners[0]) / 2;
+    for (const Point2 p : corners) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+  }
+  size.width = high.x - low.x;
+  size.height = high.y - low.y;
+  return size;
+}
+
+/// What hardly anybody means: most often a unit is wrong.
+void warn_of_units(const Scene& scene, const Size& size) {
+  constexpr double smallest = 0.003, largest = 30, lightest = 1e-3, heaviest = 300;  // m, kg/m2
+  const double longer = std::max(size.width, size.height), density = scene.material.density;
+  const char* const cure =
+      scene.mesh_file.empty() ? "\"size\" is in m" : "\"scale\" of [sheet] makes m of its unit, 0.001 of mm";
+  if (longer > largest || longer < smallest)
+    std::fprintf(stderr, "note: the sheet is %.4g m long; is that meant? %s\n", longer, cure);
+  if (density > heaviest || density < lightest)
+    std::fprintf(stderr,
+                 "note: the sheet weighs %.4g kg/m2, %.4g kg in all; is that meant? \"density\" is that of a "
+                 "volume times the thickness\n",
+                 density, density * size.area);
+}
+
+void print_sheet(const Scene& scene, Simulation& motion) {
+  const Size size = size_of(motion.sheet());
+  std::printf("sheet: %zu triangles, %.4g x %.4g m, h = %.4g m, %.4g kg", motion.sheet().triangle_count(), size.width,
+              size.height, motion.sheet().mean_edge(), scene.material.density * size.area);
+  if (scene.integrator != Integrator::equilibrium) {
+    const StepLimits limits = motion.step_limits();
+    std::printf("; step %.4g s", scene.step);
+    if (std::isfinite(limits.membrane))
+      std::printf(", %.3g times the largest explicit one", scene.step / std::min(limits.membrane, limits.with_bending));
+  }
+  std::printf("\n");
+  std::fflush(stdout);
+  warn_of_units(scene, size);
+}
 
 void print_head(const Scene& scene) {
   std::printf("%s\n  effect: %s\n  truth:  %s\n", scene.stem.c_str(), scene.effect.c_str(), scene.truth.c_str());
@@ -164,11 +217,17 @@ void print_outcome(const SimulationOutcome& outcome, const Sheet& sheet) {
 
 bool simulate(const Scene& scene, CuttingMethod& method, const SimulateOptions& options) {
   const auto motion = Simulation::start(scene);
+  std::optional<Drawing> drawing;
+  if (!options.animation.empty())
+    drawing.emplace("--animation", options.animation, std::initializer_list<const char*>{".webp"});
+  std::filesystem::path folder = options.frames;
+  if (folder.empty() && drawing) folder = drawing->folder() / "frames";
   std::optional<FrameWriter> frames;
-  if (!options.frames.empty()) frames.emplace(options.frames);
+  if (!folder.empty()) frames.emplace(folder);
   motion->watch();
   if (options.time_limit > 0) motion->limit_time(options.time_limit);
   const std::size_t triangles_before = motion->sheet().triangle_count();
+  print_sheet(scene, *motion);
   make_steps(scene, *motion, method, options, frames ? &*frames : nullptr);
   print_cuts(*motion);
   if (motion->budget()) print_budget(*motion->budget());
@@ -183,10 +242,10 @@ bool simulate(const Scene& scene, CuttingMethod& method, const SimulateOptions& 
   print_outcome(outcome, sheet);
   if (frames) {
     frames->finish(sheet);
-    const std::filesystem::path folder = options.frames;
     if (motion->budget()) WholeFile(folder / "energy.csv", motion->budget()->csv()).place();
     WholeFile(folder / "simulation.json", description(scene, *motion, options, triangles_before)).place();
   }
+  if (drawing) drawing->make("animate_frames.py", {"--frames", std::filesystem::absolute(folder).string()});
   if (!options.out.empty()) write_mesh(sheet.to_mesh_data(), options.out);
   if (!options.steps.empty()) WholeFile(options.steps, table_of(motion->steps(), scene.step)).place();
   if (!options.report.empty()) write_report(scene, options, *motion, limits, summary);

@@ -14,6 +14,7 @@ struct SimulateOptions {
   std::string out;        ///< the sheet as it ends up; empty: not written
   std::string frames;     ///< folder of the time series (harness/files/frame_writer.h), with simulation.json and
                           ///< energy.csv (harness/simulation/energy_budget.h); empty: none
+  std::string animation;  ///< WebP of the same frames; empty: none
   int every = 8;          ///< steps from frame to frame
   std::string report;     ///< JSON file of what the steps cost; empty: not written
   std::string steps;      ///< CSV file of what each step cost; empty: not written

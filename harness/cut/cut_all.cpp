@@ -17,7 +17,7 @@ double cpu_time_us() {
 }  // namespace
 
 CutRun cut_all(Sheet& sheet, Locator& locator, Cutter& cutter, std::span<const Curve> cuts, CuttingMethod& method,
-               const CutOptions& options, const std::function<void()>& after_cut) {
+               const CutOptions& options, const std::function<void(std::size_t)>& after_cut) {
   CutRun run;
   run.status = Status::noop;
   for (const Curve& curve : cuts) {
@@ -33,7 +33,7 @@ CutRun cut_all(Sheet& sheet, Locator& locator, Cutter& cutter, std::span<const C
     if (says_more && (outcome.status != Status::noop || run.status == Status::noop)) run.reason = outcome.reason;
     if (outcome.status != Status::noop) run.status = outcome.status;
     if (run.status == Status::failed || run.status == Status::refused) break;
-    if (after_cut && outcome.status != Status::noop) after_cut();
+    if (after_cut && outcome.status != Status::noop) after_cut(to_size(&curve - cuts.data()));
   }
   return run;
 }

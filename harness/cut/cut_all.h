@@ -20,8 +20,8 @@ struct CutRun {
   PhaseTimes time_us;
   double cpu_us = 0;  ///< process CPU time of all cuts
 };
-/// \param after_cut  called after each cut that changed the sheet; may be empty
+/// \param after_cut  called with the number of the cut, from 0, after each that changed the sheet; may be empty
 CutRun cut_all(Sheet& sheet, Locator& locator, Cutter& cutter, std::span<const Curve> cuts, CuttingMethod& method,
-               const CutOptions& options, const std::function<void()>& after_cut = {});
+               const CutOptions& options, const std::function<void(std::size_t)>& after_cut = {});
 
 }  // namespace cutbench

@@ -14,6 +14,14 @@ std::string frame_name(std::size_t number) {
   return name;
 }
 
+/// Per vertex: is it held (Sheet::hold)?
+MeshColumn held_vertices(const Sheet& sheet) {
+  MeshColumn held{"held", true, true, 1, {}};
+  for (std::size_t d = 0; d < sheet.deformed_slots(); ++d)
+    if (const VertexIndex v = sheet.rest_vertex(DeformedIndex(d)); v.valid()) held.values.push_back(sheet.is_held(v));
+  return held;
+}
+
 }  // namespace
 
 FrameWriter::FrameWriter(const std::filesystem::path& folder) : folder_(folder), unfinished_(folder / "unfinished") {
@@ -35,7 +43,8 @@ FrameWriter::~FrameWriter() {
 }
 
 void FrameWriter::add(const Sheet& posed, double time) {
-  write_mesh(posed.to_mesh_data(), unfinished_ / frame_name(times_.size()));
+  const MeshColumn held = held_vertices(posed);
+  mesh_file(posed.to_mesh_data(), unfinished_ / frame_name(times_.size()), {&held, 1}).place();
   times_.push_back(time);
 }
 

@@ -5,8 +5,6 @@
 #include <cctype>
 #include <string>
 
-#include "harness/mesh/mesh_text.h"
-
 namespace cutbench {
 
 namespace {
@@ -34,14 +32,10 @@ MeshData read_unchecked(const std::filesystem::path& path, bool as_is, const Mes
   return read_ply(text, name, reading.triangulate);
 }
 
-using Format = std::string (*)(const MeshData&);
-
-Format format_of(const std::filesystem::path& path) {
+void check_extension(const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
-  if (extension == ".obj") return obj_text;
-  if (extension == ".off") return off_text;
-  if (extension == ".vtu") return vtu_text;
-  throw InputError(path.string() + ": unknown mesh format; use .obj, .off or .vtu");
+  if (extension != ".obj" && extension != ".off" && extension != ".vtu")
+    throw InputError(path.string() + ": unknown mesh format; use .obj, .off or .vtu");
 }
 
 }  // namespace
@@ -66,11 +60,17 @@ MeshData read_mesh_as_is(const std::filesystem::path& path, const MeshReading& r
 }
 
 void check_mesh_place(const std::filesystem::path& path, const std::string& what) {
-  format_of(path);
+  check_extension(path);
   check_writable(path, what);
 }
 
-WholeFile mesh_file(const MeshData& mesh, const std::filesystem::path& path) { return {path, format_of(path)(mesh)}; }
+WholeFile mesh_file(const MeshData& mesh, const std::filesystem::path& path, std::span<const MeshColumn> columns) {
+  check_extension(path);
+  const std::string extension = path.extension().string();
+  if (extension == ".obj") return {path, obj_text(mesh)};
+  if (extension == ".off") return {path, off_text(mesh)};
+  return {path, vtu_text(mesh, columns)};
+}
 
 void write_mesh(const MeshData& mesh, const std::filesystem::path& path) { mesh_file(mesh, path).place(); }
 

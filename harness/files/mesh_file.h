@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "harness/files/whole_file.h"
 #include "harness/mesh/check_and_repair.h"
 #include "harness/mesh/mesh_data.h"
+#include "harness/mesh/mesh_text.h"
 #include "harness/mesh/rest_choice.h"
 
 namespace cutbench {
@@ -46,8 +48,9 @@ MeshData read_mesh_as_is(const std::filesystem::path& path, const MeshReading& r
 /// \throw InputError for an unknown extension, OutputError for a place that can't be written.
 void write_mesh(const MeshData& mesh, const std::filesystem::path& path);
 
-/// The same in two steps: the file is in its place after place().
-[[nodiscard]] WholeFile mesh_file(const MeshData& mesh, const std::filesystem::path& path);
+/// The same in two steps: the file is in its place after place(). \param columns  what a .vtu has beside the above
+[[nodiscard]] WholeFile mesh_file(const MeshData& mesh, const std::filesystem::path& path,
+                                  std::span<const MeshColumn> columns = {});
 
 /// Says before the work what is wrong with a place to write a mesh to. `what` begins the error.
 /// \throw InputError

@@ -11,6 +11,7 @@
 #include "harness/fem/elements/bending_kinds.h"
 #include "harness/fem/solvers/solver_table.h"
 #include "harness/files/mesh_file.h"
+#include "harness/files/path_file.h"
 #include "harness/files/toml_reader.h"
 #include "harness/mesh/families.h"
 #include "harness/path/blade.h"
@@ -47,10 +48,15 @@ Box read_box(const TomlReader& reader) {
   return {points[0], points[1]};
 }
 
-/// How the sheet's file is read, where it has one.
-MeshReading read_sheet(const TomlReader& file, const std::filesystem::path& folder, Scene& scene) {
-  const TomlReader reader = file.section("sheet", {"family", "file", "size", "resolution", "rest", "triangulate"});
+/// How a sheet's file is read.
+struct SheetFile {
   MeshReading reading;
+  double scale = 1;  ///< lengths of the file times this are m
+};
+
+SheetFile read_sheet(const TomlReader& file, const std::filesystem::path& folder, Scene& scene) {
+  const TomlReader reader =
+      file.section("sheet", {"family", "file", "scale", "size", "resolution", "rest", "triangulate"});
   if (reader.has("file")) {
     exclude(reader, "\"file\"", {"family", "size", "resolution"});
     scene.family.clear();
@@ -58,11 +64,11 @@ MeshReading read_sheet(const TomlReader& file, const std::filesystem::path& fold
     if (std::error_code ignored; !std::filesystem::is_regular_file(mesh, ignored))
       reader.refuse("there is no file " + mesh.string() + "; \"file\" is relative to the scene's folder");
     scene.mesh_file = mesh.string();
-    reading.rest = reader.choice<RestFrom>("rest", reading.rest, rest_names);
-    reading.triangulate = reader.value<bool>("triangulate", false);
-    return reading;
+    const RestFrom rest = reader.choice<RestFrom>("rest", RestFrom::automatic, rest_names);
+    return {{rest, reader.value<bool>("triangulate", false)}, reader.positive("scale", 1)};
   }
   exclude(reader, "\"family\"", {"rest", "triangulate"});
+  if (reader.has("scale")) reader.refuse("\"scale\" is for a sheet from a \"file\"; give \"size\"");
   scene.family = reader.value<std::string>("family", scene.family);
   check_names({scene.family}, sheet_families(), reader.where + ": sheet");
   scene.size = reader.positive("size", scene.size);
@@ -72,7 +78,16 @@ MeshReading read_sheet(const TomlReader& file, const std::filesystem::path& fold
   } catch (const InputError& error) {
     reader.refuse(error.what());
   }
-  return reading;
+  return {};
+}
+
+MeshData read_scaled(const std::filesystem::path& file, const SheetFile& how) {
+  MeshData mesh = read_mesh(file, how.reading);
+  if (how.scale == 1) return mesh;
+  for (Point2& p : mesh.rest) p = how.scale * p;
+  for (Point3& p : mesh.deformed) p = how.scale * p;
+  check_and_repair(mesh, file.filename().string() + ", scaled");
+  return mesh;
 }
 
 void read_physics(const TomlReader& file, Scene& scene) {
@@ -188,7 +203,7 @@ Curve read_curve(const TomlReader& reader, bool bezier) {
 
 Scene::Cut read_cut(const TomlReader& reader) {
   const bool bezier = reader.has("bezier"), polyline = reader.has("polyline"), seeded = reader.has("family");
-  if (bezier + polyline + seeded != 1) reader.refuse("give either \"bezier\", \"polyline\" or \"family\"");
+  if (bezier + polyline + seeded != 1) reader.refuse("give either \"bezier\", \"polyline\", \"path\" or \"family\"");
   Scene::Cut cut;
   cut.time = reader.positive_or_zero("time", 0);
   if (!seeded) {
@@ -207,6 +222,22 @@ Scene::Cut read_cut(const TomlReader& reader) {
   if (index < 0) reader.refuse("\"case\" must be positive, or 0");
   cut.index = to_size(index);
   return cut;
+}
+
+/// Those of a path file, whose lengths are in the unit of the sheet's file.
+std::vector<Scene::Cut> read_cuts_of_path(const TomlReader& reader, const std::filesystem::path& folder, double scale) {
+  exclude(reader, "\"path\"", {"space", "bezier", "polyline", "closed", "family", "seed", "case"});
+  std::vector<Scene::Cut> cuts;
+  for (const auto& curve : read_path_with_picks(folder / reader.value<std::string>("path"))) {
+    Scene::Cut& cut = cuts.emplace_back();
+    cut.time = reader.positive_or_zero("time", 0);
+    if (reader.has("speed")) cut.speed = reader.positive("speed", 0);
+    if (const auto* rest = std::get_if<Curve>(&curve)) cut.curve = *rest;
+    if (const auto* picked = std::get_if<PickedCurve>(&curve)) cut.picked = *picked;
+    for (Point2& p : cut.curve.points) p = scale * p;
+    for (Pick& pick : cut.picked.picks) pick.origin = scale * pick.origin;
+  }
+  return cuts;
 }
 
 void read_integrator(const TomlReader& file, Scene& scene) {
@@ -315,7 +346,7 @@ Scene read_scene(const toml::table& table, const std::filesystem::path& file) {
   if (scene.effect.empty()) reader.refuse("\"effect\" is empty; say what the scene shows");
   if (scene.truth.empty()) reader.refuse("\"truth\" is empty; say what the scene is measured against");
   scene.duration = reader.positive("duration", scene.duration);
-  const MeshReading reading = read_sheet(reader, file.parent_path(), scene);
+  const SheetFile sheet_file = read_sheet(reader, file.parent_path(), scene);
   read_physics(reader, scene);
   scene.material = read_material(reader, scene.physics);
   for (const auto& pin : reader.sections("pins", "pin", {"near", "box", "axes", "displacement", "velocity"}))
@@ -325,11 +356,15 @@ Scene read_scene(const toml::table& table, const std::filesystem::path& file) {
   read_integrator(reader, scene);
   scene.solver = read_solver(reader);
   for (const auto& cut : reader.sections(
-           "cuts", "cut", {"time", "speed", "space", "bezier", "polyline", "closed", "family", "seed", "case"}))
-    scene.cuts.push_back(read_cut(cut));
+           "cuts", "cut", {"time", "speed", "space", "path", "bezier", "polyline", "closed", "family", "seed", "case"}))
+    if (!cut.has("path"))
+      scene.cuts.push_back(read_cut(cut));
+    else
+      for (const Scene::Cut& of_file : read_cuts_of_path(cut, file.parent_path(), sheet_file.scale))
+        scene.cuts.push_back(of_file);
   check_times(scene, reader.where);
   check_scene_suits_active_radius(scene, reader.where);
-  if (!scene.mesh_file.empty()) scene.mesh = read_mesh(scene.mesh_file, reading);
+  if (!scene.mesh_file.empty()) scene.mesh = read_scaled(scene.mesh_file, sheet_file);
   return scene;
 }
 

@@ -1,7 +1,8 @@
 // Scene files: TOML.
 //
 //   effect = "..."     truth = "..."     duration = 1.0
-//   [sheet]       family, size, resolution | file, rest = "auto"|"vt"|"plane" (harness/mesh/rest_choice.h),
+//   [sheet]       family, size, resolution | file, scale (lengths of the file times this are m: 0.001 for mm),
+//                 rest = "auto"|"vt"|"plane" (harness/mesh/rest_choice.h),
 //                 triangulate = false (true: faces of more than three corners are read, too)
 //   [material]    density, stiffness, poisson, bending, mass_damping, stiffness_damping
 //   [physics]     dimension = 2|3, plane = "stress"|"strain", strain = "corotational"|"linear"|"green"|"springs",
@@ -17,6 +18,7 @@
 //                 sweeps = 1 (of xpbd, per step; it uses no [solver] and no stress_stiffness)
 //   [solver]      name, tolerance, max_iterations
 //   [[cuts]]      time; bezier | polyline = [[x, y], ...], closed = true, speed | family, seed, case
+//                 path = "path.json", speed: all cuts of a path file, in the unit of the sheet's file (times scale)
 //                 space = "world": the points are picked on the sheet as it is at that time (harness/path/pick.h), each
 //                 [x, y, z], or a ray {origin = [x, y, z], direction = [x, y, z]}
 //

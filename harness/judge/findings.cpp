@@ -100,7 +100,11 @@ std::optional<Finding> Causes::rounded() const {
           number(farthest / h_, "%.1g") + " h), the most at " + at(worst);
     off = farthest;
   } else {
-    const std::string digits = lost_digits(new_);
+    std::set<double> known;  // of the sheet and the path
+    for (const Point& p : before_.rest) known.insert(p.begin(), p.end());
+    for (const oracle::Curve& cut : request_.cuts)
+      for (const Point& p : cut.points) known.insert(p.begin(), p.end());
+    const std::string digits = lost_digits(new_, known);
     if (digits.empty()) return {};
     how = "all " + std::to_string(new_.size()) + " new vertices have coordinates " + digits + ", the first at " +
           at(new_.front());

@@ -30,23 +30,26 @@ Shortened as_decimal(double x, int digits) {
 }
 
 template <class Kind>
-bool all_are(const std::vector<oracle::Point>& points, Kind kind) {
+bool all_are(const std::set<double>& numbers, Kind kind) {
   int surely = 0;
-  for (const oracle::Point& p : points)
-    for (const double x : p) {
-      const Shortened s = kind(x);
-      if (s == Shortened::no) return false;
-      surely += s == Shortened::surely;
-    }
+  for (const double x : numbers) {
+    const Shortened s = kind(x);
+    if (s == Shortened::no) return false;
+    surely += s == Shortened::surely;
+  }
   return surely >= 4;
 }
 
 }  // namespace
 
-std::string lost_digits(const std::vector<oracle::Point>& points) {
-  if (all_are(points, as_float)) return "in single precision";
+std::string lost_digits(const std::vector<oracle::Point>& points, const std::set<double>& known) {
+  std::set<double> numbers;
+  for (const oracle::Point& p : points)
+    for (const double x : p)
+      if (!known.contains(x)) numbers.insert(x);
+  if (all_are(numbers, as_float)) return "in single precision";
   for (const int digits : {5, 6, 7, 8})
-    if (all_are(points, [digits](double x) { return as_decimal(x, digits); }))
+    if (all_are(numbers, [digits](double x) { return as_decimal(x, digits); }))
       return "with " + std::to_string(digits) + " decimals";
   return {};
 }

@@ -1,6 +1,7 @@
 // Numbers that a file holds with fewer digits than a double has.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,8 @@
 namespace cutbench {
 
 /// "in single precision" or "with 6 decimals" where all coordinates of the points are such numbers, and at least four
-/// of them use most of these digits: computed numbers are so by chance about once in 1e30. Else empty.
-std::string lost_digits(const std::vector<oracle::Point>& points);
+/// different ones of them use most of these digits: computed numbers are so by chance about once in 1e30. Else empty.
+/// \param known  numbers that nobody computed, which say nothing
+std::string lost_digits(const std::vector<oracle::Point>& points, const std::set<double>& known = {});
 
 }  // namespace cutbench

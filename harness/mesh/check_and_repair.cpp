@@ -38,6 +38,7 @@ class Repair {
 
   void run() {
     // Vertices are dropped last, so that the numbers in messages are those of the file.
+    number_as_in_file();
     check_indices();
     check_coordinates();
     if (mesh_.rest.empty()) take_rest_from_plane(mesh_, name_);
@@ -61,6 +62,12 @@ class Repair {
 
   std::string triangle_name(std::size_t t) const {
     return "triangle " + std::to_string(t + 1) + " of " + std::to_string(mesh_.triangles.size());
+  }
+
+  void number_as_in_file() {
+    if (mesh_.file_vertices.size() == mesh_.deformed.size()) return;
+    mesh_.file_vertices.resize(mesh_.deformed.size());
+    std::iota(mesh_.file_vertices.begin(), mesh_.file_vertices.end(), 0);
   }
 
   void check_indices() {
@@ -240,6 +247,7 @@ class Repair {
         vertex(c) = to_int32(mesh_.rest.size());
         mesh_.rest.push_back(Point2(mesh_.rest[v]));
         mesh_.deformed.push_back(Point3(mesh_.deformed[v]));
+        mesh_.file_vertices.push_back(std::int32_t{mesh_.file_vertices[v]});
       }
     }
     used_.resize(mesh_.rest.size(), true);
@@ -254,10 +262,12 @@ class Repair {
       if (!used_[v]) continue;
       mesh_.rest[kept] = mesh_.rest[v];
       mesh_.deformed[kept] = mesh_.deformed[v];
+      mesh_.file_vertices[kept] = mesh_.file_vertices[v];
       number[v] = to_int32(kept++);
     }
     mesh_.rest.resize(kept);
     mesh_.deformed.resize(kept);
+    mesh_.file_vertices.resize(kept);
     for (std::size_t c = 0; c < corners(); ++c) vertex(c) = number[at(vertex(c))];
     if (kept < used_.size()) note("vertices without triangles dropped: " + std::to_string(used_.size() - kept));
   }

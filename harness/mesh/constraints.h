@@ -49,7 +49,7 @@ struct PolygonsLeft {
 
 struct Constraints {
   std::vector<Constraint> constraints = {};  ///< each vertex once
-  std::size_t phantoms = 0;                  ///< unknowns that are no vertex of the sheet
+  std::vector<DeformedIndex> phantoms = {};  ///< unknowns that are no vertex: the one before all cuts each is a copy of
   std::vector<GhostEdge> ghosts = {};
   std::vector<double> lumped = {};  ///< the area that stands for each unknown's mass, instead of C^T M C; empty: that
   std::vector<Polygon> polygons = {};  ///< no triangle is in two

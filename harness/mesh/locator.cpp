@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "harness/base/conversions.h"
+#include "harness/mesh/predicates.h"
 
 namespace cutbench {
 
@@ -87,6 +89,28 @@ TriangleIndex Locator::near(const Sheet& sheet, Point2 p) const {
   std::size_t other = 0;  // the cell's triangle was collapsed away: any other will do
   while (!sheet.triangle(TriangleIndex(other)).alive()) ++other;
   return TriangleIndex(other);
+}
+
+TriangleIndex triangle_at(const Sheet& sheet, TriangleIndex start, Point2 p) {
+  const auto step = [&](TriangleIndex t) {  // itself where it holds p, invalid beyond the border
+    const auto c = sheet.corners(t);
+    for (int k = 0; k < 3; ++k)
+      if (const auto i = to_size(k); orientation(c[i], c[(i + 1) % 3], p) < 0) {
+        const HalfEdge o = sheet.opposite(half_edge(t, k));
+        return o.valid() ? triangle_of(o) : TriangleIndex();
+      }
+    return t;
+  };
+  TriangleIndex last, t = start;
+  for (std::size_t i = 0; t.valid() && i < sheet.triangle_slots(); ++i) {
+    const TriangleIndex next = step(t);
+    if (next == t) return t;
+    last = std::exchange(t, next);
+  }
+  // Past a notch of the border.
+  for (std::size_t i = 0; i < sheet.triangle_slots(); ++i)
+    if (sheet.triangle(TriangleIndex(i)).alive() && step(TriangleIndex(i)) == TriangleIndex(i)) return TriangleIndex(i);
+  return last;
 }
 
 }  // namespace cutbench

@@ -76,4 +76,8 @@ void Locator::visit_border(const Sheet& sheet, Point2 a, Point2 b, Visit visit, 
   }
 }
 
+/// The triangle that holds p, by a walk from `start`; p lies inside the sheet, clear of its edges but for rounding.
+/// Where that takes it past the border, the last triangle before it.
+TriangleIndex triangle_at(const Sheet& sheet, TriangleIndex start, Point2 p);
+
 }  // namespace cutbench

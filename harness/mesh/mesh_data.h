@@ -17,6 +17,7 @@ struct MeshData {
   std::vector<Point2> rest;                            ///< per vertex, rest position
   std::vector<Point3> deformed;                        ///< per vertex, deformed position
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< counter-clockwise in rest space
+  std::vector<std::int32_t> file_vertices;             ///< per vertex, its number in the file; empty: its own number
   std::vector<std::string> notes;                      ///< repairs made while reading, one line each
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,9 +32,17 @@ constexpr std::string_view vt_are_rest = "# vt: rest positions";
 /// one piece.
 std::vector<std::int32_t> pieces_of(const MeshData& mesh);
 
+/// What a VTU says of each vertex or triangle beside what it always does.
+struct MeshColumn {
+  std::string name;
+  bool of_vertices, whole;  ///< whole: integers
+  int components;
+  std::vector<double> values;  ///< those of the first vertex or triangle, those of the second, ...
+};
+
 /// Numbers with the fewest digits that read back bit for bit.
 std::string obj_text(const MeshData& mesh);
 std::string off_text(const MeshData& mesh);  ///< the deformed positions alone
-std::string vtu_text(const MeshData& mesh);
+std::string vtu_text(const MeshData& mesh, std::span<const MeshColumn> columns);
 
 }  // namespace cutbench

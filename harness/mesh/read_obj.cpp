@@ -2,6 +2,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 #include "harness/base/conversions.h"
@@ -200,6 +201,8 @@ class ObjReader {
     MeshData mesh;
     mesh.deformed = positions_;
     mesh.rest.resize(positions_.size());
+    mesh.file_vertices.resize(positions_.size());
+    std::iota(mesh.file_vertices.begin(), mesh.file_vertices.end(), 0);
     std::vector<bool> has_rest(positions_.size(), false);
     std::map<std::tuple<std::size_t, double, double>, std::int32_t> copies;
     auto vertex_of = [&](const Corner& corner) {
@@ -219,6 +222,7 @@ class ObjReader {
       if (is_new) {
         mesh.rest.push_back(rest);
         mesh.deformed.push_back(positions_[v]);
+        mesh.file_vertices.push_back(to_int32(v));
       }
       return copy->second;
     };

@@ -86,13 +86,20 @@ std::string off_text(const MeshData& mesh) {
   return text.str();
 }
 
-std::string vtu_text(const MeshData& mesh) {
+std::string vtu_text(const MeshData& mesh, std::span<const MeshColumn> columns) {
   Text text;
   auto array = [&text](std::string_view type, std::string_view name, int components, const auto& values, auto put) {
     text << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\"" << components
          << "\" format=\"ascii\">\n";
     for (const auto& value : values) put(value), text << '\n';
     text << "</DataArray>\n";
+  };
+  auto put_columns = [&](bool of_vertices) {
+    for (const MeshColumn& column : columns) {
+      if (column.of_vertices != of_vertices) continue;
+      array(column.whole ? "Int32" : "Float64", column.name, column.components, column.values,
+            [&](double value) { column.whole ? text << to_int64(value) : text << value; });
+    }
   };
   std::vector<std::size_t> ends(mesh.triangles.size());
   for (std::size_t t = 0; t < ends.size(); ++t) ends[t] = 3 * (t + 1);
@@ -107,10 +114,12 @@ std::string vtu_text(const MeshData& mesh) {
   array("UInt8", "types", 1, mesh.triangles, [&](const auto&) { text << 5; });  // VTK_TRIANGLE
   text << "</Cells>\n<PointData>\n";
   array("Float64", "rest", 3, mesh.rest, [&](const Point2& p) { text << p << " 0"; });
+  put_columns(true);
   text << "</PointData>\n<CellData>\n";
   array("Int32", "piece", 1, pieces_of(mesh), [&](std::int32_t piece) { text << piece; });
   array("Float64", "aspect_ratio", 1, mesh.triangles, [&](const auto& t) { text << rest_aspect_ratio(mesh, t); });
   array("Float64", "strain", 1, mesh.triangles, [&](const auto& t) { text << largest_strain(mesh, t); });
+  put_columns(false);
   text << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
   return text.str();
 }

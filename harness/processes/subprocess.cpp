@@ -123,6 +123,9 @@ ProgramEnd run_program(const std::string& command, const std::filesystem::path& 
   const bool by_signal = code > 128 && code <= 128 + SIGRTMAX;
   end.how = by_signal ? ProgramEnd::How::signalled : ProgramEnd::How::exited;
   end.code = by_signal ? code - 128 : code;
+  const std::string word = by_signal ? strsignal(end.code) : "";
+  if (by_signal && (end.message == word || end.message == word + " (core dumped)"))  // the shell's, after the program's
+    end.message = last_line(said.substr(0, said.rfind(word)));
   return end;
 }
 

@@ -33,7 +33,7 @@ CutRun Worker::measure(const BaseSheet& base, const std::vector<Curve>& cuts, co
 
 CutRun Worker::cut_restored(const BaseSheet& base, const std::vector<Curve>& cuts, const CutOptions& options) {
   double constrain_us = 0;
-  const auto find_constraints = [&] {
+  const auto find_constraints = [&](std::size_t /*cut*/) {
     StopWatch watch;
     constraints = constraints_of(*method, base.sheet, sheet);
     constrain_us += watch.lap();
@@ -43,9 +43,9 @@ CutRun Worker::cut_restored(const BaseSheet& base, const std::vector<Curve>& cut
   const bool makes_polygons = source && source->constraint_kind() == ConstraintKind::polygons;
   const bool anew_after_each = source && !makes_polygons;
   CutRun run = cut_all(sheet, locator_, cutter, cuts, *method, options,
-                       anew_after_each ? std::function<void()>(find_constraints) : nullptr);
+                       anew_after_each ? std::function<void(std::size_t)>(find_constraints) : nullptr);
   // A scene's polygons follow each cut (next_constraints), which takes about as long as all of them at once.
-  if (makes_polygons && (run.status == Status::ok || run.status == Status::deviated)) find_constraints();
+  if (makes_polygons && (run.status == Status::ok || run.status == Status::deviated)) find_constraints(cuts.size());
   run.time_us.constrain = constrain_us;
   return run;
 }

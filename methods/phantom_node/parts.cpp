@@ -4,6 +4,7 @@
 
 #include "harness/base/conversions.h"
 #include "harness/base/union_find.h"
+#include "harness/mesh/locator.h"
 
 namespace cutbench {
 

@@ -69,14 +69,17 @@ class Doubling {
       for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t one = copies_.find(copy(i, k));
         if (one < parts_.vertices().size()) continue;
-        if (auto& number = phantom_[one - parts_.vertices().size()]; number < 0) number = to_int32(phantoms_++);
+        auto& number = phantom_[one - parts_.vertices().size()];
+        if (number >= 0) continue;
+        number = to_int32(phantoms_.size());
+        phantoms_.push_back(parts_.parent(i).deformed[k]);
       }
   }
 
   /// A third of the mass of each part to each copy of its parent's corners, where it is slit to those that its vertices
   /// depend on. Looks at the whole sheet.
   void lump(Constraints& constraints) {
-    constraints.lumped.assign(cut_.deformed_slots() + phantoms_, 0);
+    constraints.lumped.assign(cut_.deformed_slots() + phantoms_.size(), 0);
     std::vector<const Constraint*> constraint_of_vertex(parts_.vertices().size());
     for (const Constraint& constraint : constraints.constraints)
       constraint_of_vertex[parts_.number_of(constraint.vertex)] = &constraint;
@@ -182,9 +185,9 @@ class Doubling {
   const Parts parts_;
   const OpenTips tips_;
   const Sheet& cut_;
-  UnionFind copies_;                   // of vertices, and three for the corners of the parent of each part
-  std::vector<std::int32_t> phantom_;  // per copy that is no vertex: its number
-  std::size_t phantoms_ = 0;
+  UnionFind copies_;                     // of vertices, and three for the corners of the parent of each part
+  std::vector<std::int32_t> phantom_;    // per copy that is no vertex: its number
+  std::vector<DeformedIndex> phantoms_;  // what each is a copy of
 };
 
 }  // namespace

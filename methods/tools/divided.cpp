@@ -1,10 +1,9 @@
 #include "methods/tools/divided.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "harness/base/conversions.h"
-#include "harness/mesh/predicates.h"
+#include "harness/mesh/locator.h"
 
 namespace cutbench {
 
@@ -37,28 +36,6 @@ std::vector<TriangleIndex> last_new_triangles(const Sheet& before, const Sheet& 
   for (std::size_t t = cut.log().triangles_before; t < cut.triangle_slots(); ++t) look_at(TriangleIndex(t));
   std::sort(found.begin(), found.end());
   return found;
-}
-
-TriangleIndex triangle_at(const Sheet& sheet, TriangleIndex start, Point2 p) {
-  const auto step = [&](TriangleIndex t) {  // itself where it holds p, invalid beyond the border
-    const auto c = sheet.corners(t);
-    for (int k = 0; k < 3; ++k)
-      if (const auto i = to_size(k); orientation(c[i], c[(i + 1) % 3], p) < 0) {
-        const HalfEdge o = sheet.opposite(half_edge(t, k));
-        return o.valid() ? triangle_of(o) : TriangleIndex();
-      }
-    return t;
-  };
-  TriangleIndex last, t = start;
-  for (std::size_t i = 0; t.valid() && i < sheet.triangle_slots(); ++i) {
-    const TriangleIndex next = step(t);
-    if (next == t) return t;
-    last = std::exchange(t, next);
-  }
-  // Past a notch of the border.
-  for (std::size_t i = 0; i < sheet.triangle_slots(); ++i)
-    if (sheet.triangle(TriangleIndex(i)).alive() && step(TriangleIndex(i)) == TriangleIndex(i)) return TriangleIndex(i);
-  return last;
 }
 
 TriangleIndex parent_of(const Sheet& before, const Sheet& cut, TriangleIndex part, TriangleIndex start) {

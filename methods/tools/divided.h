@@ -1,5 +1,4 @@
-// Which triangle a point lies in, and which triangles cuts made, found from the vertices that they made: at a cost that
-// does not grow with the sheet.
+// Which triangles cuts made, found from the vertices that they made: at a cost that does not grow with the sheet.
 #pragma once
 
 #include <vector>
@@ -12,10 +11,6 @@ struct DividedTriangle {
   TriangleIndex part;    ///< of the sheet that was cut
   TriangleIndex parent;  ///< of the sheet before its first cut: it holds the part's centroid
 };
-
-/// The triangle that holds p, by a walk from `start`; p lies inside the sheet, clear of its edges but for rounding.
-/// Where that takes it past the border, the last triangle before it.
-TriangleIndex triangle_at(const Sheet& sheet, TriangleIndex start, Point2 p);
 
 /// A triangle that cuts made: one with a vertex that `before` has not. \pre it is alive
 bool is_part(const Sheet& before, const Sheet& cut, TriangleIndex t);

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from analysis import load
+from analysis.stop import stop
 
 
 @dataclass
@@ -17,6 +17,7 @@ class Frame:
     rest: np.ndarray  # (vertices, 2), m
     triangles: np.ndarray  # (triangles, 3)
     cell: dict = field(default_factory=dict)  # per triangle: piece, aspect_ratio, strain
+    held: np.ndarray = None  # (vertices,), is a pin or a load there? None in older files
     sky: np.ndarray = None  # the result of sky_seen() after its first call
 
     def lips(self):
@@ -38,7 +39,7 @@ def read_series(folder):
         entries = xml.parse(folder / "frames.pvd").getroot().iter("DataSet")
         return [(float(e.get("timestep")), folder / e.get("file")) for e in entries]
     except (OSError, xml.ParseError) as error:
-        load.stop(f"{folder / 'frames.pvd'} can't be read: {error}; `cutbench simulate --frames` makes it")
+        stop(f"{folder / 'frames.pvd'} can't be read: {error}; `cutbench simulate --frames` makes it")
 
 
 def read_frame(folder, time):
@@ -54,7 +55,8 @@ def read_vtu(time, file):
     arrays = {a.get("Name"): np.array(a.text.split(), float).reshape(-1, int(a.get("NumberOfComponents")))
               for a in xml.parse(file).getroot().iter("DataArray")}
     return Frame(time, arrays["deformed"], arrays["rest"][:, :2], arrays["connectivity"].astype(int).reshape(-1, 3),
-                 {name: arrays[name][:, 0] for name in ("piece", "aspect_ratio", "strain")})
+                 {name: arrays[name][:, 0] for name in ("piece", "aspect_ratio", "strain")},
+                 arrays["held"][:, 0] > 0 if "held" in arrays else None)
 
 
 def read_description(folder):
@@ -62,4 +64,4 @@ def read_description(folder):
     try:
         return json.loads((folder / "simulation.json").read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
-        load.stop(f"{folder / 'simulation.json'} can't be read: {error}; `cutbench simulate --frames` makes it")
+        stop(f"{folder / 'simulation.json'} can't be read: {error}; `cutbench simulate --frames` makes it")

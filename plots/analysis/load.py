@@ -9,13 +9,14 @@ import json
 import lzma
 import re
 import shlex
-import sys
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
+
+from analysis.stop import stop
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 SUITE_VERSIONS = ["2", "3", "4", "5", "6"]  # that can be read; older column names are renamed on reading
@@ -38,11 +39,6 @@ def family_column(table):
 def cut_columns(table):
     """CUT, with the name that the table has for its second column."""
     return [family_column(table) if c == "cut_family" else c for c in CUT]
-
-
-def stop(message):
-    print(f"{Path(sys.argv[0]).name}: {message}", file=sys.stderr)
-    sys.exit(2)
 
 
 def script_of(stem):

@@ -8,44 +8,27 @@ import sys
 from pathlib import Path
 
 import matplotlib.pyplot as plt
-from matplotlib.collections import LineCollection, PolyCollection
-from matplotlib.colors import BoundaryNorm, ListedColormap
-from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from analysis import load
 from analysis.methods import same_cut
 from analysis.stability import points as stability_points
-from figures.common import style
+from figures.common import cut_sheet, style
 from figures.methods import whole_step
 from figures.stability import panels, stability as stability_page
 
 WIDTH = 9.0  # inches: twice the pixels of a page that is not a high-resolution one
 WINDOW = (0.345, 0.765, 0.355, 0.59)  # of the unit sheet: a stretch between vertices, a bend and the tip
-BANDS = {3: "#fbdca4", 10: "#f29d4b"}  # colours of aspect ratios above these; triangles of more than 30 are lines here
-MESH, PATH, INCISION = "#8d8d8d", "#0072b2", "#a50021"
 
 
 # ---- the gallery
 
 
 def draw_panel(ax, method, result):
-    points, triangles, report = result
-    corners = points[triangles]
-    colours = ListedColormap(["white", *BANDS.values()])
-    norm = BoundaryNorm([1, *BANDS, 1e9], colours.N)
-    ax.set_xlim(WINDOW[:2]), ax.set_ylim(WINDOW[2:])
-    ax.set(aspect="equal", xticks=[], yticks=[])
-    ax.set_facecolor("#dddddd")  # seen where triangles are gone
-    ax.spines[:].set_visible(True)
-    ax.spines[:].set_color("#555555")
-    ax.grid(False)
-    ax.add_collection(PolyCollection(corners, array=same_cut.aspect_ratio(corners), cmap=colours, norm=norm,
-                                     edgecolor=MESH, linewidth=0.5))
-    ax.plot(*same_cut.requested().T, color=PATH, linewidth=5, alpha=0.35, zorder=2, solid_capstyle="butt")
-    ax.add_collection(LineCollection(same_cut.incision(points, triangles), color=INCISION, linewidth=1.5,
-                                     capstyle="round", zorder=3))
+    points, triangles, report, details = result
+    cut_sheet.frame(ax, WINDOW)
+    cut_sheet.draw(ax, points, triangles, [same_cut.requested()], details)
+    cut_sheet.draw_copies(ax, same_cut.sheet_points(), details)
     ratio = report["ar_max_cut"]
     ax.set_title(method["name"], loc="left", fontsize=9.5, fontweight="bold", pad=3)
     ax.set_title((f"AR {load.number(ratio, 2)}, " if ratio else "") + f"{report['vertices_added']:+d}", loc="right",
@@ -57,24 +40,18 @@ def gallery(methods):
     rows = -(-len(methods) // 4)
     aspect = (WINDOW[3] - WINDOW[2]) / (WINDOW[1] - WINDOW[0])
     panel = WIDTH / 4 - 0.12
-    height = rows * (panel * aspect + 0.28) + 0.3
+    height = rows * (panel * aspect + 0.28) + 0.46
     figure, axes = plt.subplots(rows, 4, figsize=(WIDTH, height), squeeze=False)
-    figure.subplots_adjust(left=0.006, right=0.994, top=1 - 0.22 / height, bottom=0.33 / height, wspace=0.05,
+    figure.subplots_adjust(left=0.006, right=0.994, top=1 - 0.22 / height, bottom=0.49 / height, wspace=0.05,
                            hspace=0.28 / (panel * aspect))
     for ax in axes.flat[len(methods):]:
         ax.set_visible(False)
     for ax, method, result in zip(axes.flat, methods, results):
         draw_panel(ax, method, result)
-    limits = [*BANDS, None]
-    entries = [Line2D([], [], color=PATH, alpha=0.35, linewidth=5, label="requested path"),
-               Line2D([], [], color=INCISION, linewidth=1.5, label="incision")]
-    entries += [Patch(facecolor=colour, edgecolor=MESH, linewidth=0.5,
-                      label=f"AR {low} to {high}" if high else f"AR > {low}")
-                for (low, colour), high in zip(BANDS.items(), limits[1:])]
-    figure.legend(handles=entries, loc="lower left", ncol=5, fontsize=8.5, borderaxespad=0.1, handlelength=1.6,
-                  columnspacing=1.4)
-    figure.text(0.994, 0.1 / height, "beside each name: largest aspect ratio AR, vertices added", ha="right", fontsize=8.5,
-                color="#555555")
+    figure.legend(handles=cut_sheet.legend_entries([r[3] for r in results]), loc="lower left", ncol=8, fontsize=8.5, borderaxespad=0.1,
+                  bbox_to_anchor=(0, 0.19 / height), handlelength=1.5, columnspacing=1.1)
+    figure.text(0.006, 0.07 / height, "Beside each name: the largest aspect ratio AR of the triangles that the cut changed, and how many vertices it added",
+                fontsize=8.5, color="#555555")
     return figure
 
 

@@ -1,8 +1,11 @@
 // The options of `cutbench simulate`, whose work is in experiments/program/simulate.cpp.
 #include "experiments/program/simulate.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "experiments/program/commands/command.h"
 #include "experiments/program/commands/method_options.h"
@@ -23,10 +26,11 @@ namespace cutbench {
 namespace {
 
 struct SimulateArguments {
-  std::string scene, out, frames, solver, report, steps;
+  std::string scene, out, frames, animation, solver, report, steps;
   MethodOptions method{.method = "conventional_split", .settings = {}, .chord_tolerance = {}};
   Misses misses;
-  int resolution = 0, every = 8;
+  int resolution = 0;
+  std::optional<int> every;
   double time_limit = 0;
 };
 
@@ -51,7 +55,14 @@ void warn_of_strain(const MeshData& mesh, double stiffness) {
                stiffness * energy, energy / area, stretches_of(mesh).text().c_str());
 }
 
+/// Where nobody says: 8, as ever, in a folder of frames; 30 frames a second where they are for an animation alone.
+int steps_between_frames(const Scene& scene, const SimulateArguments& arguments) {
+  return arguments.frames.empty() ? std::max(1, to_int(std::lround(1 / (30 * scene.step)))) : 8;
+}
+
 Exit run_scene(const SimulateArguments& arguments, const std::string& command_line) {
+  if (arguments.every && arguments.frames.empty() && arguments.animation.empty())
+    throw InputError("--every requires --frames or --animation");
   if (!arguments.out.empty()) check_mesh_place(arguments.out, "--out");
   if (!arguments.report.empty()) check_writable(arguments.report, "--report");
   if (!arguments.steps.empty()) check_writable(arguments.steps, "--steps");
@@ -78,7 +89,8 @@ Exit run_scene(const SimulateArguments& arguments, const std::string& command_li
                                 .command = command_line,
                                 .out = arguments.out,
                                 .frames = arguments.frames,
-                                .every = arguments.every,
+                                .animation = arguments.animation,
+                                .every = arguments.every.value_or(steps_between_frames(scene, arguments)),
                                 .report = arguments.report,
                                 .steps = arguments.steps,
                                 .time_limit = arguments.time_limit,
@@ -97,9 +109,14 @@ Command add_simulate(Options& app) {
   command.add_option("--resolution", arguments->resolution, "triangles of the sheet; otherwise those of the scene")
       .positive();
   command.add_option("--out", arguments->out, "the sheet in the end: OBJ, OFF or VTU; not written otherwise");
-  const Option frames = command.add_option("--frames", arguments->frames,
-                                           "folder for a time series: VTU files, their PVD, and an OBJ in the end");
-  command.add_option("--every", arguments->every, "steps from frame to frame").shows_default().positive().needs(frames);
+  command.add_option("--frames", arguments->frames,
+                     "folder for a time series: VTU files, their PVD, and an OBJ in the end");
+  command.add_option(
+      "--animation", arguments->animation,
+      "WebP at the speed of the simulated time, the camera on what is held (needs Python with matplotlib)");
+  command
+      .add_option("--every", arguments->every, "steps from frame to frame; otherwise 8, for an animation alone 1/30 s")
+      .positive();
   command.add_option("--solver", arguments->solver, "instead of the scene's: " + listed(solver_names()));
   command.add_option("--report", arguments->report, "what the steps cost, as JSON; none where it is not given");
   command.add_option("--steps", arguments->steps, "what each step cost, as CSV; none where it is not given");

@@ -16,7 +16,7 @@ void ConstraintMatrix::set(const Constraints& constraints, std::size_t vertices)
     free(i);
   }
   constrained_.clear();
-  phantoms_ = constraints.phantoms;
+  phantoms_ = constraints.phantoms.size();
   for (const Constraint& constraint : constraints.constraints) {
     Row& row = rows_[constraint.vertex()];
     row.size = 0;

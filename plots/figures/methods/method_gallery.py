@@ -9,8 +9,9 @@ from matplotlib.colors import LogNorm
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 from analysis import load, naming
-from analysis.methods.same_cut import SQUARES, all_methods, aspect_ratio, cut_by_all, incision, requested, title
-from figures.common import style
+from analysis.cut_result import aspect_ratio
+from analysis.methods.same_cut import SQUARES, all_methods, cut_by_all, requested, sheet_points, title
+from figures.common import cut_sheet, style
 
 STEM = "method_comparison"
 WINDOW = (0.36, 0.76, 0.32, 0.58)
@@ -29,13 +30,14 @@ def draw_method(ax, title, result, norm):
     if result is None:
         ax.text(0.5, 0.5, "failed", transform=ax.transAxes, ha="center")
         return None
-    points, triangles, report = result
-    corners = points[triangles]
-    faces = PolyCollection(corners, array=aspect_ratio(corners), cmap=COLOURS, norm=norm, edgecolor="#555555",
+    points, triangles, report, details = result
+    faces = PolyCollection(points[triangles], array=aspect_ratio(points[triangles]), cmap=COLOURS, norm=norm, edgecolor="#555555",
                            linewidth=0.25)
     ax.add_collection(faces)
-    ax.plot(*requested().T, color="#0072b2", linewidth=2.2, alpha=0.45, zorder=2, solid_capstyle="butt")
-    ax.add_collection(LineCollection(incision(points, triangles), color="#b0001e", linewidth=0.7, zorder=3))
+    ax.plot(*requested().T, color=cut_sheet.PATH, linewidth=2.2, alpha=0.45, zorder=2, solid_capstyle="butt")
+    cut_sheet.draw_unknowns(ax, points, triangles, details, 0.5)
+    cut_sheet.draw_copies(ax, sheet_points(), details, 0.5)
+    ax.add_collection(LineCollection(points[details.incision], color=cut_sheet.INCISION, linewidth=0.7, zorder=3))
     ratio = report["ar_max_cut"]
     shapes = f"AR ≤ {load.number(ratio, 2)}" if ratio else "none changed"
     ax.set_xlabel(f"{shapes}, {report['vertices_added']:+d} vertices", fontsize=5.6, labelpad=2)
@@ -67,7 +69,8 @@ def draw(folder, only=None):
     style.finish(figure, [], f"The same cut by {which}, at rest, near the tip of the cut. Each parameter (the number beside "
                  f"the name) has its default. The sheet is the paper's grid of {2 * SQUARES ** 2} triangles; the chord "
                  "tolerance is 0.05 h. Blue: requested path. Red: incision. AR: largest aspect ratio of the triangles that "
-                 f"the cut made or changed. {missing}Constrained vertices are not marked. {naming.AR_DEFINITION} "
+                 f"the cut made or changed. {missing}Green: polygons, and vertices that go "
+                 f"along with others (dots) or are there several times (squares). {naming.AR_DEFINITION} "
                  "Command: plots/figures/methods/method_gallery.py")
     style.save(figure, folder, "method_gallery")
 
