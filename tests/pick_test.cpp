@@ -210,7 +210,7 @@ MeshData sewn_strip(int squares, int per_panel, double gap, bool rolled) {
   const double radius = to_double(squares) / (2 * std::acos(-1.0));
   for (int i = 0; i < squares; ++i) {
     const auto first = to_int32(mesh.rest.size());
-    for (const auto [x, y] : {std::pair{i, 0}, std::pair{i + 1, 0}, std::pair{i + 1, 1}, std::pair{i, 1}}) {
+    for (const auto& [x, y] : {std::pair{i, 0}, std::pair{i + 1, 0}, std::pair{i + 1, 1}, std::pair{i, 1}}) {
       const double turn = to_double(x % squares) / radius;
       mesh.rest.push_back({x + gap * (i / per_panel), to_double(y)});
       mesh.deformed.push_back(rolled ? Point3{radius * std::cos(turn), radius * std::sin(turn), to_double(y)}

@@ -477,7 +477,7 @@ TEST(Sheet, WeldsTheLipsOfIncisions) {
 TEST(Sheet, MovesInThinTrianglesKeepTheUndeformedSheet) {
   for (const double height : {1e-3, 1e-6, 6e-12, 3e-14, 1e-16})
     for (const double at : {0.31, 0.5, 0.77}) {
-      MeshData mesh{{{0.1, 0.2}, {0.9, 0.4}, {0.4, 0.9}, {0.3, -0.4}, {0, 0}}, {}, {}, {}};
+      MeshData mesh{{{0.1, 0.2}, {0.9, 0.4}, {0.4, 0.9}, {0.3, -0.4}, {0, 0}}, {}, {}, {}, {}};
       const Point2 a = mesh.rest[0], b = mesh.rest[1], along = b - a;
       mesh.rest[4] = a + at * along + height * Point2{-along.y, along.x};
       mesh.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 0, 4}, {1, 0, 3}};

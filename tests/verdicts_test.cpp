@@ -113,7 +113,7 @@ TEST(Verdict, InvertedInSpace) {
 /// Triangles that share one edge are folded on each other without strain, or with it; so is a strip along each edge.
 TEST(Verdict, AFoldIsNotInverted) {
   const MeshData pair{
-      {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}, {}};
+      {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}, {}, {}};
   const Sheet sheet(pair);
   Field x(12);
   for (const double stretch : {1.0, 3.0}) {
