@@ -32,9 +32,9 @@ class Mesh:
 
     def __init__(self, file):
         lines = [line.split() for line in file.read_text().splitlines()]
-        points = [line[1:3] for line in lines if line[0] == "vt"] or [line[1:3] for line in lines if line[0] == "v"]
+        points = [line[1:3] for line in lines if line[:1] == ["vt"]] or [line[1:3] for line in lines if line[:1] == ["v"]]
         self.rest = np.array(points, float)
-        self.triangles = np.array([[int(c.split("/")[0]) - 1 for c in line[1:]] for line in lines if line[0] == "f"])
+        self.triangles = np.array([[int(c.split("/")[0]) - 1 for c in line[1:]] for line in lines if line[:1] == ["f"]])
 
     def border(self):
         """Directed edges with one triangle alone, and the number of that."""
@@ -147,19 +147,16 @@ def widest_corners(mesh):
 
 def curve_points(cut):
     if "polyline" in cut:
-        return np.array(cut["polyline"])
-    t = np.linspace(0, 1, 401)[:, None]
-    a, b, c, d = np.array(cut["bezier"])
-    return (1 - t) ** 3 * a + 3 * t * (1 - t) ** 2 * b + 3 * t ** 2 * (1 - t) * c + t ** 3 * d
+        return np.array(cut["polyline"] + cut["polyline"][:1] * cut.get("closed", False))
+    t, p = np.linspace(0, 1, 401)[:, None], np.array(cut["bezier"])
+    return np.concatenate([(1 - t) ** 3 * p[i] + 3 * t * (1 - t) ** 2 * p[i + 1] + 3 * t ** 2 * (1 - t) * p[i + 2] + t ** 3 * p[i + 3]
+                           for i in range(0, len(p) - 1, 3)])
 
 
 def off_pieces(p, a, b):
-    s = (((p - a) * (b - a)).sum(axis=1) / ((b - a) ** 2).sum(axis=1)).clip(0, 1)
-    return np.linalg.norm(a + s[:, None] * (b - a) - p, axis=1).min()
-
-
-def off_curve(p, points):
-    return off_pieces(p, points[:-1], points[1:])
+    """How far p is from each piece."""
+    s = (((p - a) * (b - a)).sum(axis=1) / np.maximum(((b - a) ** 2).sum(axis=1), 1e-300)).clip(0, 1)
+    return np.linalg.norm(a + s[:, None] * (b - a) - p, axis=1)
 
 
 class Check:
@@ -226,17 +223,17 @@ class Check:
             points = curves[edge["cut"]]
             ends = new.rest[(left or right)[1:]]
             if "exact_incision" in self.method["promises"]:
-                self.note("off curve", max(off_curve(p, points) for p in ends) / step)
-                nearest = np.linalg.norm(points - ends.mean(axis=0), axis=1).argmin()
-                along = points[min(nearest + 1, len(points) - 1)] - points[max(nearest - 1, 0)]
-                if len(points) > 4 and along @ (ends[1] - ends[0]) < 0:
+                off = [off_pieces(p, points[:-1], points[1:]) for p in ends]
+                self.note("off curve", max(o.min() for o in off) / step)
+                along = np.diff(points, axis=0)[(off[0] + off[1]).argmin()]
+                if along @ (ends[1] - ends[0]) < 0:
                     self.fault(f"{edge} does not run along its path")
         border = new.border()
         old_border = np.array([[old.mesh.rest[a], old.mesh.rest[b]] for a, b in old.mesh.border()])
         whole = {edge.tobytes() for edge in old_border}
         for (a, b), t in border.items():
             places = [new.rest[a], new.rest[b], (new.rest[a] + new.rest[b]) / 2]
-            on_old = new.rest[[a, b]].tobytes() in whole or all(off_pieces(p, old_border[:, 0], old_border[:, 1]) < 1e-11 for p in places)
+            on_old = new.rest[[a, b]].tobytes() in whole or all(off_pieces(p, old_border[:, 0], old_border[:, 1]).min() < 1e-11 for p in places)
             if on_old == ((a, b) in lips):
                 self.fault(f"border edge {a} {b} is {'' if on_old else 'not '}old, but {'' if on_old else 'not '}on a lip")
             elif (a, b) in lips and lips[a, b] != t:
