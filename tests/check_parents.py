@@ -22,7 +22,7 @@ import numpy as np
 
 CUTS, TOLERANCE = 10, 1e-12
 PLAIN = {"cisamr"}  # cuts structured grids alone, which have no incision yet
-ROUNDED = 16 * 2.0 ** -52  # what is nearer to an edge of the unit sheet lies on it
+ROUNDED = 4 * 2.0 ** -52  # what is nearer to an edge of the unit sheet lies on it
 root = pathlib.Path(__file__).resolve().parents[1]
 faults = []
 
@@ -184,7 +184,7 @@ class Check:
         count = np.array([len(parts) for parts in parents["vertices"]])
         in_triangle = np.array([old.triangle(p, beside[v]) for v, p in enumerate(new.rest)])
         error = np.nanmin(abs(carried[:, None] - old.values(in_triangle, new.rest, attribute)), axis=1)
-        rounded = ROUNDED / 4 * abs(old.corners[in_triangle]).max(axis=(1, 2))
+        rounded = ROUNDED / 2 * abs(old.corners[in_triangle]).max(axis=(1, 2))
         at_corner = np.linalg.norm(old.corners[in_triangle] - new.rest[:, None], axis=2).min(axis=1) <= rounded
         most = np.where(at_corner, 1, np.where(old.sides(in_triangle, new.rest).min(axis=1) <= rounded, 2, 3))
         self.note("sum", max(abs(sum(w for _, w in parts) - 1) for parts in parents["vertices"]))
