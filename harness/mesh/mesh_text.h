@@ -22,10 +22,12 @@ MeshData read_obj(std::string_view text, const std::string& name, bool as_is = f
 MeshData read_off(const std::string& text, const std::string& name);
 MeshData read_ply(const std::string& text, const std::string& name);
 
-/// What a VTU says of each vertex or triangle beside what it always does.
+/// What a VTU says of each vertex or triangle, or of none of them, beside what it always does.
 struct MeshColumn {
+  enum class Of { vertices, triangles, sheet };
   std::string name;
-  bool of_vertices, whole;  ///< whole: integers
+  Of of;
+  bool whole;  ///< integers
   int components;
   std::vector<double> values;  ///< those of the first vertex or triangle, those of the second, ...
 };
