@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What `cutbench cut --parents` says, checked by every method on random cuts, by an oracle that shares no code with it:
-attributes carried over by the parents are those interpolated in the old sheet, on each lip its own. The old sheet has lips
+attributes carried over by the parents are those interpolated in the old sheet to 1e-12, on each lip its own; in old
+triangles thinner than 1e-3, to what the rounding of a place makes of them. The old sheet has lips
 itself. In half of the cases ten cuts are made at once, in the other half one after the other, each in the result of the one
 before. And the example that the documents show is run.
 usage: tests/check_parents.py PROGRAM [--cases N] [--squares N] [--methods A,B] [--seed N]
@@ -185,12 +186,17 @@ class Check:
         in_triangle = np.array([old.triangle(p, beside[v]) for v, p in enumerate(new.rest)])
         error = np.nanmin(abs(carried[:, None] - old.values(in_triangle, new.rest, attribute)), axis=1)
         rounded = ROUNDED / 2 * abs(old.corners[in_triangle]).max(axis=(1, 2))
-        at_corner = np.linalg.norm(old.corners[in_triangle] - new.rest[:, None], axis=2).min(axis=1) <= rounded
-        most = np.where(at_corner, 1, np.where(old.sides(in_triangle, new.rest).min(axis=1) <= rounded, 2, 3))
+        off_corner = np.linalg.norm(old.corners[in_triangle] - new.rest[:, None], axis=2).min(axis=1)
+        on_side = (old.sides(in_triangle, new.rest).min(axis=1) <= rounded) & (off_corner > 1e-13)  # nearer, sides of several triangles are
+        most = np.where(off_corner <= rounded, 1, np.where(on_side, 2, 3))
         self.note("sum", max(abs(sum(w for _, w in parts) - 1) for parts in parents["vertices"]))
         self.note("place", abs(place - new.rest).max())
-        self.note("error", error.max())
-        for v in np.flatnonzero(~(error <= TOLERANCE)):
+        altitude = old.twice[in_triangle] / old.lengths[in_triangle].max(axis=1)
+        allowed = np.maximum(TOLERANCE, ROUNDED / altitude)  # in a thin triangle the rounding of the place itself says more
+        self.note("error", error[allowed == TOLERANCE].max())
+        self.note("in thin ones", error.max())
+        self.count["thin"] += int((allowed > TOLERANCE).sum())
+        for v in np.flatnonzero(~(error <= allowed)):
             self.fault(f"vertex {v} at {new.rest[v]} of {parents['vertices'][v]} is off by {error[v]}")
         for v in np.flatnonzero(count > most):
             self.fault(f"vertex {v} at {new.rest[v]} is of {parents['vertices'][v]}, not of {most[v]} at most")
@@ -266,7 +272,7 @@ class Check:
     def line(self):
         parts = [f"{self.count[f'of {n}']} of {n}" for n in (1, 2, 3)]
         return (f"{self.method['name']:20} {self.count['cuts']:5} cuts, {self.count['refused']} refused, {self.count['failed']} failed; "
-                f"vertices {', '.join(parts)}, {self.count['renumbered']} renumbered; {self.count['polygons']} polygons, "
+                f"vertices {', '.join(parts)}, {self.count['thin']} in thin old triangles, {self.count['renumbered']} renumbered; {self.count['polygons']} polygons, "
                 f"{self.count['constraints']} constraints; " +
                 ", ".join(f"{what} {value:.1e}" for what, value in sorted(self.largest.items())))
 
