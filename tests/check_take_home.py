@@ -78,12 +78,13 @@ def check_pictures():
 
 def check_columns():
     """A VTU says what the JSON says."""
-    for method, name in (("cut_polygons", "polygon"), ("split_and_tie", "masters")):
+    for method, name in (("cut_polygons", "polygon"), ("phantom_node", "copies"), ("split_and_tie", "masters")):
         run(*CUT, method, "--out", "cut.vtu", "--parents", "parents.json")
         columns, told = arrays("cut.vtu"), json.loads(pathlib.Path("parents.json").read_text())
         expect(f"{method}: {name} is there", name in columns)
         parts = [[[int(v), w] for v, w in zip(*row) if v >= 0] for row in zip(columns["parents"], columns["parent_weights"])]
         expect(f"{method}: parents", parts == told["vertices"])
+        expect(f"{method}: copies", columns.get("copies", np.zeros((0, 1)))[:, 0].tolist() == told["copies"])
         expect(f"{method}: parent", columns["parent"][:, 0].tolist() == told["triangles"])
         lips = {(side, edge["cut"], edge[side][0]) for edge in told["incision"] for side in ("left", "right")}
         found = {("left" if lip > 0 else "right", abs(int(lip)) - 1, t) for t, row in enumerate(columns["lips"]) for lip in row if lip}

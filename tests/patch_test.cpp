@@ -162,7 +162,7 @@ Patch random_patch(Sheet& sheet, Subdivision& subdivision, Random& random, std::
   return patch;
 }
 
-MeshData one_triangle() { return {{{0, 0}, {1, 0}, {0, 1}}, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}}; }
+MeshData one_triangle() { return {{{0, 0}, {1, 0}, {0, 1}}, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}, {}}; }
 
 TEST(Patch, DelaunayHasNoPointInsideACircle) {
   Random random(24);

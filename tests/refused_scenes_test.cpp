@@ -84,7 +84,7 @@ TEST_F(SceneFile, SaysWhatIsWrongWithAValue) {
       {"[solver]\ntolerance = 0\n", "\"tolerance\" must be positive"},
       {"[solver]\ntolerance = 1\n", "\"tolerance\" must be below 1"},
       {"[solver]\nmax_iterations = 2.5\n", "\"max_iterations\" has a value of the wrong kind"},
-      {"[[cuts]]\n", ", cut 0: give either \"bezier\", \"polyline\" or \"family\""},
+      {"[[cuts]]\n", ", cut 0: give either \"bezier\", \"polyline\", \"path\" or \"family\""},
       {cut + "family = \"curved\"\n", "give either"},
       {cut + "seed = 1\n", "\"seed\" does not go with a curve"},
       {cut + "time = -1\n", "\"time\" must be positive, or 0"},

@@ -16,7 +16,7 @@ std::string frame_name(std::size_t number) {
 
 /// Per vertex: is it held (Sheet::hold)?
 MeshColumn held_vertices(const Sheet& sheet) {
-  MeshColumn held{"held", true, true, 1, {}};
+  MeshColumn held{"held", MeshColumn::Of::vertices, true, 1, {}};
   for (std::size_t d = 0; d < sheet.deformed_slots(); ++d)
     if (const VertexIndex v = sheet.rest_vertex(DeformedIndex(d)); v.valid()) held.values.push_back(sheet.is_held(v));
   return held;

@@ -52,8 +52,8 @@ ordered_json lip_edge(const Sheet& cut, const Numbers& number, HalfEdge h, bool 
 class PartColumns {
  public:
   PartColumns(const std::string& name, const std::string& weights, int count)
-      : vertices_{name, true, true, 3, std::vector<double>(3 * to_size(count), -1)},
-        weights_{weights, true, false, 3, std::vector<double>(3 * to_size(count), 0)} {}
+      : vertices_{name, MeshColumn::Of::vertices, true, 3, std::vector<double>(3 * to_size(count), -1)},
+        weights_{weights, MeshColumn::Of::vertices, false, 3, std::vector<double>(3 * to_size(count), 0)} {}
   void put(int vertex, const std::vector<std::pair<int, double>>& parts) {
     for (std::size_t k = 0; k < parts.size(); ++k) {
       vertices_.values[3 * to_size(vertex) + k] = parts[k].first;
@@ -116,11 +116,14 @@ std::vector<MeshColumn> details_columns(const CutDetails& details) {
       masters.put(number.of(constraint.vertex), masters_of(constraint, number));
     masters.move_to(columns);
   }
-  MeshColumn parent{"parent", false, true, 1, {}};
+  MeshColumn copies{"copies", MeshColumn::Of::sheet, true, 1, {}};
+  for (const DeformedIndex old : details.constraints.phantoms) copies.values.push_back(in_file(details.read, old));
+  if (!copies.values.empty()) columns.push_back(std::move(copies));
+  MeshColumn parent{"parent", MeshColumn::Of::triangles, true, 1, {}};
   for (std::size_t t = 0; t < number.triangle.size(); ++t)
     if (number.triangle[t] >= 0) parent.values.push_back(details.parents.triangles[t].value);
   columns.push_back(std::move(parent));
-  MeshColumn lips{"lips", false, true, 3, std::vector<double>(3 * to_size(number.triangles))};
+  MeshColumn lips{"lips", MeshColumn::Of::triangles, true, 3, std::vector<double>(3 * to_size(number.triangles))};
   const auto put_lip = [&](HalfEdge h, double value) {
     if (h.valid()) lips.values[to_size(3 * number.triangle[triangle_of(h)()] + corner_of(h))] = value;
   };
@@ -130,7 +133,7 @@ std::vector<MeshColumn> details_columns(const CutDetails& details) {
   }
   columns.push_back(std::move(lips));
   if (details.constraints.polygons.empty()) return columns;
-  MeshColumn polygon{"polygon", false, true, 1, std::vector<double>(to_size(number.triangles), -1)};
+  MeshColumn polygon{"polygon", MeshColumn::Of::triangles, true, 1, std::vector<double>(to_size(number.triangles), -1)};
   for (std::size_t p = 0; p < details.constraints.polygons.size(); ++p)
     for (const TriangleIndex t : details.constraints.polygons[p].triangles)
       polygon.values[to_size(number.triangle[t()])] = to_double(p);

@@ -13,7 +13,7 @@
 //   "constraints"  [vertex, [[master, weight], ...]] of each vertex that is no unknown, but goes along with others
 //
 // A VTU has for each vertex parents and parent_weights (three each; -1 and 0 where there are fewer), and where there are
-// constraints masters and master_weights in the same way; for each triangle parent, and lips: for its edge from corner k
+// constraints masters and master_weights in the same way, with the copies as field data; for each triangle parent, and lips: for its edge from corner k
 // to the next n on the left lip of cut n - 1, -n on its right one, else 0; and where there are polygons the number of its
 // polygon, else -1.
 #pragma once

@@ -32,10 +32,12 @@ constexpr std::string_view vt_are_rest = "# vt: rest positions";
 /// one piece.
 std::vector<std::int32_t> pieces_of(const MeshData& mesh);
 
-/// What a VTU says of each vertex or triangle beside what it always does.
+/// What a VTU says of each vertex or triangle, or of none of them, beside what it always does.
 struct MeshColumn {
+  enum class Of { vertices, triangles, sheet };
   std::string name;
-  bool of_vertices, whole;  ///< whole: integers
+  Of of;
+  bool whole;  ///< integers
   int components;
   std::vector<double> values;  ///< those of the first vertex or triangle, those of the second, ...
 };

@@ -13,13 +13,19 @@ namespace cutbench {
 namespace {
 
 /// A crossing is off its edge by its own rounding, and by that of the piece of the edge that a later cut crosses.
-constexpr double ulps_off_edge = 16;
+constexpr double ulps_off_edge = 4;
 /// Halvings of the way to a vertex: as many as doubles have digits.
 constexpr int most_halvings = 53;
 
 std::size_t next(std::size_t k) { return to_size(next_corner(to_int(k))); }
 
 constexpr std::array<std::size_t, 3> corners_of_triangle{0, 1, 2};
+
+/// cross(u, v) to two ulp (Kahan's difference of products): in a thin triangle the rounding of the two products counts.
+double accurate_cross(Point2 u, Point2 v) {
+  const double product = u.y * v.x;
+  return std::fma(u.x, v.y, -product) + std::fma(-u.y, v.x, product);
+}
 
 struct InTriangle {
   std::array<double, 3> area;      ///< of p and the side opposite each corner, doubled; their sum is the triangle's
@@ -33,7 +39,7 @@ InTriangle place_of(Point2 p, const std::array<Point2, 3>& corners) {
   double largest = 0;
   for (const std::size_t k : corners_of_triangle) {
     const Point2 from = corners[next(k)], to = corners[next(next(k))];
-    place.area[k] = cross(from - p, to - p);
+    place.area[k] = accurate_cross(from - p, to - p);
     place.distance[k] = place.area[k] / length(to - from);
     largest = std::max({largest, std::abs(from.x), std::abs(from.y)});
   }
