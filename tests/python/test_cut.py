@@ -163,5 +163,28 @@ class Threads(unittest.TestCase):
             self.assertTrue(np.array_equal(one.vertices, other))
 
 
+    def test_others_go_on(self):
+        """While one call cuts, judges or steps, another thread of Python runs."""
+        ticks, done = [], threading.Event()
+
+        def tick():
+            while not done.wait(1e-3):
+                ticks.append(None)
+
+        sheet = cutbench.Sheet.family("delaunay", 12800)
+        made = sheet.cut(SLIT)
+        simulation = cutbench.Simulation(cutbench.Scene(sheet=sheet))
+        thread = threading.Thread(target=tick)
+        thread.start()
+        try:
+            for work in (lambda: sheet.cut(SLIT, "global_remesh"), made._core.report, simulation._core.step):
+                before = len(ticks)
+                work()
+                self.assertGreater(len(ticks), before + 2)
+        finally:
+            done.set()
+            thread.join()
+
+
 if __name__ == "__main__":
     unittest.main()
