@@ -1,5 +1,6 @@
 """What a cut says of itself."""
 
+import doctest
 import inspect
 import pickle
 import re
@@ -8,7 +9,7 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from command_line import METHODS
+from command_line import METHODS, ROOT
 
 import cutbench
 from cutbench import _core
@@ -130,6 +131,16 @@ class Results(unittest.TestCase):
         text = inspect.getdoc(cutbench.cut)
         for argument in inspect.signature(cutbench.cut).parameters:
             self.assertIn(argument, text)
+
+    def test_examples_in_docstrings(self):
+        for module in (cutbench, cutbench.sheet):
+            result = doctest.testmod(module)
+            self.assertEqual((result.failed, result.attempted > 0), (0, True))
+
+    def test_version(self):
+        written = (re.search(pattern, (ROOT / name).read_text())[1] for name, pattern in (
+            ("pyproject.toml", r'version = "(.*)"'), ("CMakeLists.txt", r"project\(cutbench VERSION (\S+)")))
+        self.assertEqual(*written)
 
     def test_stubs(self):
         """The stubs name what the module has."""

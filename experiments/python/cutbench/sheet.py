@@ -276,6 +276,7 @@ def cut(vertices, triangles=None, path=None, method="warp_and_refine", rest="aut
 
     Other threads go on while it cuts.
 
+    >>> import cutbench
     >>> square = cutbench.cut([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2], [0, 2, 3]], [[-0.1, 0.4], [1.1, 0.6]])
     >>> square.pieces.max() + 1
     2
