@@ -118,6 +118,13 @@ class Results(unittest.TestCase):
         self.assertGreater(times["total"], 0)
         self.assertAlmostEqual(sum(value for key, value in times.items() if key not in ("total", "pick")), times["total"])
 
+    def test_sheets_can_be_sent(self):
+        made = bent().cut(SLIT).sheet
+        sent = pickle.loads(pickle.dumps(made))
+        for name in ("vertices", "triangles", "rest"):
+            self.assertTrue(np.array_equal(getattr(sent, name), getattr(made, name)))
+        self.assertEqual(len(sent.incision), len(made.incision))
+
     def test_errors_can_be_sent(self):
         for error in (cutbench.InputError("x"), cutbench.CutError("x", "refused", "refused")):
             self.assertEqual(str(pickle.loads(pickle.dumps(error))), "x")
