@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <atomic>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -27,11 +28,32 @@ struct HeldSimulation {
   }
 
   /// The step that is next, with the cuts that are due before it, as `cutbench simulate` makes it.
-  StepReport step() { return motion->advance(++steps * scene.step, *cutting, options); }
+  StepReport step() {
+    const Work work(*this);
+    return motion->advance(++steps * scene.step, *cutting, options);
+  }
 
   MotionCut cut(const std::vector<AnyCurve>& path) {
+    const Work work(*this);
     return motion->cut_now(in_rest_space(path, motion->posed_sheet()), *cutting, options);
   }
+
+  /// For whoever has the interpreter: nothing begins to step meanwhile. Throws InputError while another thread steps.
+  Simulation& idle() const {
+    if (at_work) throw InputError("simulation: is being stepped by another thread, or by this one; wait for it");
+    return *motion;
+  }
+
+  /// A step or cut, without the interpreter.
+  struct Work {
+    explicit Work(HeldSimulation& of) : at_work(of.at_work) {
+      if (at_work.exchange(true)) throw InputError("simulation: is being stepped by another thread; wait for it");
+    }
+    ~Work() { at_work = false; }
+    Work(const Work&) = delete;
+    Work& operator=(const Work&) = delete;
+    std::atomic<bool>& at_work;
+  };
 
   Scene scene;
   std::unique_ptr<CuttingMethod> cutting;
@@ -39,6 +61,7 @@ struct HeldSimulation {
   std::unique_ptr<Simulation> motion;
   std::shared_ptr<const Sheet> uncut;
   int steps = 0;
+  std::atomic<bool> at_work = false;
 };
 
 py::dict dict_of(const Balance& balance) {
@@ -147,38 +170,36 @@ void bind_simulations(py::module_& m) {
            })
       .def("pull",
            [](HeldSimulation& s, const Array<double>& force) {
-             s.motion->pull({force.data(), to_size(force.size())});
+             s.idle().pull({force.data(), to_size(force.size())});
            })
-      .def("hold", [](HeldSimulation& s, const std::vector<Pin>& pins) { s.motion->hold(pins); })
+      .def("hold", [](HeldSimulation& s, const std::vector<Pin>& pins) { s.idle().hold(pins); })
       .def_property_readonly(
-          "x", [](const HeldSimulation& s) { return copy_of(s.motion->positions(), s.scene.physics.dimension); })
+          "x", [](const HeldSimulation& s) { return copy_of(s.idle().positions(), s.scene.physics.dimension); })
       .def_property_readonly(
-          "v", [](const HeldSimulation& s) { return copy_of(s.motion->velocities(), s.scene.physics.dimension); })
+          "v", [](const HeldSimulation& s) { return copy_of(s.idle().velocities(), s.scene.physics.dimension); })
       .def_property_readonly("rest",
-                             [](const HeldSimulation& s) { return array_of<double>(rest_of(s.motion->sheet())); })
+                             [](const HeldSimulation& s) { return array_of<double>(rest_of(s.idle().sheet())); })
       .def_property_readonly(
-          "triangles", [](const HeldSimulation& s) { return array_of<std::int32_t>(triangles_of(s.motion->sheet())); })
+          "triangles", [](const HeldSimulation& s) { return array_of<std::int32_t>(triangles_of(s.idle().sheet())); })
       .def_property_readonly(
-          "sheet",
-          [](const HeldSimulation& s) { return std::make_shared<HeldSheet>(s.motion->posed_sheet(), s.uncut); })
-      .def_property_readonly("energy", [](HeldSimulation& s) { return dict_of(s.motion->balance()); })
-      .def_property_readonly("time", [](const HeldSimulation& s) { return s.motion->time(); })
+          "sheet", [](const HeldSimulation& s) { return std::make_shared<HeldSheet>(s.idle().posed_sheet(), s.uncut); })
+      .def_property_readonly("energy", [](HeldSimulation& s) { return dict_of(s.idle().balance()); })
+      .def_property_readonly("time", [](const HeldSimulation& s) { return s.idle().time(); })
       .def_property_readonly("outcome",
                              [](const HeldSimulation& s) {
-                               const SimulationOutcome& outcome = s.motion->outcome();
+                               const SimulationOutcome& outcome = s.idle().outcome();
                                return py::make_tuple(name_of(outcome.verdict), outcome.reason, outcome.time);
                              })
       .def_property_readonly("cuts",
                              [](const HeldSimulation& s) {
                                py::list cuts;
-                               for (const MotionCut& cut : s.motion->made_cuts()) cuts.append(dict_of(cut));
+                               for (const MotionCut& cut : s.idle().made_cuts()) cuts.append(dict_of(cut));
                                return cuts;
                              })
-      .def("steps_csv", [](const HeldSimulation& s) { return table_of(s.motion->steps(), s.scene.step); })
-      .def("summary_json",
-           [](const HeldSimulation& s) { return summary_of(s.motion->steps(), s.motion->time()).dump(); })
+      .def("steps_csv", [](const HeldSimulation& s) { return table_of(s.idle().steps(), s.scene.step); })
+      .def("summary_json", [](const HeldSimulation& s) { return summary_of(s.idle().steps(), s.idle().time()).dump(); })
       .def("budget_csv",
-           [](const HeldSimulation& s) { return s.motion->budget() ? s.motion->budget()->csv() : std::string(); });
+           [](const HeldSimulation& s) { return s.idle().budget() ? s.idle().budget()->csv() : std::string(); });
 }
 
 }  // namespace cutbench::python

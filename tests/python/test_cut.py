@@ -1,5 +1,6 @@
 """What a cut says of itself."""
 
+import doctest
 import inspect
 import pickle
 import re
@@ -8,7 +9,7 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from command_line import METHODS
+from command_line import METHODS, ROOT
 
 import cutbench
 from cutbench import _core
@@ -117,6 +118,13 @@ class Results(unittest.TestCase):
         self.assertGreater(times["total"], 0)
         self.assertAlmostEqual(sum(value for key, value in times.items() if key not in ("total", "pick")), times["total"])
 
+    def test_sheets_can_be_sent(self):
+        made = bent().cut(SLIT).sheet
+        sent = pickle.loads(pickle.dumps(made))
+        for name in ("vertices", "triangles", "rest"):
+            self.assertTrue(np.array_equal(getattr(sent, name), getattr(made, name)))
+        self.assertEqual(len(sent.incision), len(made.incision))
+
     def test_errors_can_be_sent(self):
         for error in (cutbench.InputError("x"), cutbench.CutError("x", "refused", "refused")):
             self.assertEqual(str(pickle.loads(pickle.dumps(error))), "x")
@@ -130,6 +138,16 @@ class Results(unittest.TestCase):
         text = inspect.getdoc(cutbench.cut)
         for argument in inspect.signature(cutbench.cut).parameters:
             self.assertIn(argument, text)
+
+    def test_examples_in_docstrings(self):
+        for module in (cutbench, cutbench.sheet):
+            result = doctest.testmod(module)
+            self.assertEqual((result.failed, result.attempted > 0), (0, True))
+
+    def test_version(self):
+        written = (re.search(pattern, (ROOT / name).read_text())[1] for name, pattern in (
+            ("pyproject.toml", r'version = "(.*)"'), ("CMakeLists.txt", r"project\(cutbench VERSION (\S+)")))
+        self.assertEqual(*written)
 
     def test_stubs(self):
         """The stubs name what the module has."""
@@ -161,6 +179,29 @@ class Threads(unittest.TestCase):
             thread.join()
         for one, other in zip(made, wanted):
             self.assertTrue(np.array_equal(one.vertices, other))
+
+
+    def test_others_go_on(self):
+        """While one call cuts, judges or steps, another thread of Python runs."""
+        ticks, done = [], threading.Event()
+
+        def tick():
+            while not done.wait(1e-3):
+                ticks.append(None)
+
+        sheet = cutbench.Sheet.family("delaunay", 12800)
+        made = sheet.cut(SLIT)
+        simulation = cutbench.Simulation(cutbench.Scene(sheet=sheet))
+        thread = threading.Thread(target=tick)
+        thread.start()
+        try:
+            for work in (lambda: sheet.cut(SLIT, "global_remesh"), made._core.report, simulation._core.step):
+                before = len(ticks)
+                work()
+                self.assertGreater(len(ticks), before + 2)
+        finally:
+            done.set()
+            thread.join()
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 """Simulations that Python steps, cuts, pulls at and holds."""
 
+import threading
 import unittest
 
 import numpy as np
@@ -78,6 +79,37 @@ class Steps(unittest.TestCase):
         corners = simulation.x[simulation.triangles[[60, 135]]]
         cut = simulation.cut(corners.mean(axis=1))
         self.assertEqual(cut["status"], "ok")
+
+    def test_threads(self):
+        """Only one at a time may step a simulation: the others are told so."""
+        simulation = cutbench.Simulation(cutbench.Scene(sheet=cutbench.Sheet.family("delaunay", 3200)))
+        told, steps = [], []
+
+        def work():
+            for _ in range(30):
+                try:
+                    simulation.step()
+                    steps.append(1)
+                    simulation.x, simulation.energy, simulation.sheet
+                except cutbench.InputError as error:
+                    told.append(str(error))
+
+        threads = [threading.Thread(target=work) for _ in range(3)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(len(simulation.times), len(steps))
+        self.assertTrue(all("being stepped" in line for line in told))
+
+    def test_looked_at_by_its_own_method(self):
+        def curious(sheet, path):
+            return simulation.x
+
+        simulation = cutbench.Simulation(hanging(), curious)
+        cut = simulation.cut([[0.2, 0.55], [0.83, 0.5]])
+        self.assertEqual(cut["verdict"], "crashed")
+        self.assertIn("being stepped", cut["reason"])
 
     def test_failure(self):
         scene = hanging(integrator={"name": "symplectic_euler", "step": 0.05})

@@ -61,8 +61,11 @@ class Sheet:
             arrays.check_finite(positions, "vertices")  # may have better words for it
             arrays.check_indices(corners, "triangles", len(positions))
             raise
+        self._warn()
+
+    def _warn(self):
         for note in self._core.notes:
-            warnings.warn(note, stacklevel=2)
+            warnings.warn(note, stacklevel=3)
 
     @classmethod
     def _of(cls, core):
@@ -73,7 +76,9 @@ class Sheet:
     @classmethod
     def read(cls, file):
         """The sheet of an OBJ, OFF or PLY file."""
-        return cls._of(_core.read_sheet(os.fspath(file)))
+        sheet = cls._of(_core.read_sheet(os.fspath(file)))
+        sheet._warn()
+        return sheet
 
     @classmethod
     def family(cls, name="grid", triangles=800, size=1.0):
@@ -126,6 +131,9 @@ class Sheet:
         triangles."""
         from . import pictures
         return pictures.to_meshio(self)
+
+    def __reduce__(self):  # to be sent to another process
+        return Sheet, (self.vertices, self.triangles, self.rest)
 
     def __repr__(self):
         return f"<cutbench.Sheet: {len(self.vertices)} vertices, {len(self.triangles)} triangles>"
@@ -276,6 +284,7 @@ def cut(vertices, triangles=None, path=None, method="warp_and_refine", rest="aut
 
     Other threads go on while it cuts.
 
+    >>> import cutbench
     >>> square = cutbench.cut([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2], [0, 2, 3]], [[-0.1, 0.4], [1.1, 0.6]])
     >>> square.pieces.max() + 1
     2
