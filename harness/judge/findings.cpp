@@ -197,8 +197,7 @@ bool Causes::is_lost_in_rounding(int t) const {
   const auto& [a, b, c] = after_.triangles[t];
   const Point &p = after_.rest[a], &q = after_.rest[b], &r = after_.rest[c];
   const double longest = std::max({distance(p, q), distance(q, r), distance(r, p)});
-  return request_.rounding > 0 &&
-         std::abs(oracle::cross(minus(q, p), minus(r, p))) <= 2 * request_.rounding * longest;
+  return request_.rounding > 0 && std::abs(oracle::cross(minus(q, p), minus(r, p))) <= 2 * request_.rounding * longest;
 }
 
 bool Causes::runs_against_neighbours(int t) const {
