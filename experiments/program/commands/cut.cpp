@@ -126,9 +126,11 @@ Exit cut_sheet(const CutArguments& arguments) {
   const CutDetails details{data, sheet, parents_of(before, sheet), incisions.edges(sheet, cuts),
                            constraints_of(*method, before, sheet)};
   WholeFile out = mesh_file(sheet.to_mesh_data(), arguments.out, details_columns(details));
-  if (!arguments.parents.empty()) WholeFile(arguments.parents, details_json(details)).place();
+  std::optional<WholeFile> parents;
+  if (!arguments.parents.empty()) parents.emplace(arguments.parents, details_json(details));
   if (!arguments.report.empty())
-    report_file(arguments.report, row.name, run, pick_us, a, before.mean_edge()).place();  // both, or neither
+    report_file(arguments.report, row.name, run, pick_us, a, before.mean_edge()).place();  // all, or none
+  if (parents) parents->place();
   out.place();
   char worst[32] = "-";  // where no triangle was changed
   if (a.cut.triangles > 0) std::snprintf(worst, sizeof worst, "%.3g", a.cut.ar_max);
