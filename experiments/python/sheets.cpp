@@ -14,6 +14,7 @@
 #include "harness/mesh/check_and_repair.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/mesh_text.h"
+#include "harness/mesh/rest_choice.h"
 
 namespace cutbench::python {
 
@@ -136,7 +137,11 @@ void bind_sheets(py::module_& m) {
       });
   m.def("sheet", &sheet_of<std::int32_t>);
   m.def("sheet", &sheet_of<std::int64_t>);
-  m.def("read_sheet", [](const std::filesystem::path& file) { return std::make_shared<HeldSheet>(read_mesh(file)); });
+  m.def("read_sheet", [](const std::filesystem::path& file, const std::string& rest, bool triangulate) {
+    const std::optional<RestFrom> from = value_named(rest_names, rest);
+    if (!from) throw InputError("rest: \"" + rest + "\" is not known; known are auto, vt, plane");
+    return std::make_shared<HeldSheet>(read_mesh(file, {*from, triangulate}));
+  });
   m.def("family_sheet", [](const std::string& family, std::int64_t triangles, double size) {
     return std::make_shared<HeldSheet>(family_of(family, triangles, size));
   });

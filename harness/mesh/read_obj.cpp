@@ -239,7 +239,8 @@ class ObjReader {
     if (!decision.note.empty()) result.notes.push_back(name_ + ": " + decision.note);
     if (!decision.vt) return false;
     if (!copies.empty())
-      result.notes.push_back(name_ + ": vertices added where one v has several vt: " + std::to_string(copies.size()));
+      result.notes.push_back(name_ + ": vertices added where one v has several vt: " + std::to_string(copies.size()) +
+                             "; the sheet is open along these seams");
     mesh.notes = std::move(result.notes);
     result = std::move(mesh);
     return true;

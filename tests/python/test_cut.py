@@ -4,8 +4,10 @@ import doctest
 import inspect
 import pickle
 import re
+import tempfile
 import threading
 import unittest
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -25,6 +27,22 @@ def bent(family="delaunay", triangles=200):
     space = flat.vertices.copy()
     space[:, 2] = 0.2 * np.sin(3 * space[:, 0])
     return cutbench.Sheet(space, flat.triangles, flat.rest)
+
+
+class Files(unittest.TestCase):
+    def test_what_rest_is(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "texture.obj"
+            file.write_text("v 0 0 0\nv 3 0 0\nv 3 5 0\nv 0 5 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n")
+            with self.assertRaisesRegex(cutbench.InputError, "4 corners"):
+                cutbench.Sheet.read(file)
+            for rest, corner in (("auto", [3, 5]), ("vt", [1, 1]), ("plane", [3, 5])):
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore")
+                    sheet = cutbench.Sheet.read(file, rest, triangulate=True)
+                self.assertEqual(sheet.rest[2].tolist(), corner)
+            with self.assertRaisesRegex(cutbench.InputError, 'rest: "space" is not known'):
+                cutbench.Sheet.read(file, "space", triangulate=True)
 
 
 class Results(unittest.TestCase):

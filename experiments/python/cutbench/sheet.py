@@ -74,9 +74,14 @@ class Sheet:
         return sheet
 
     @classmethod
-    def read(cls, file):
-        """The sheet of an OBJ, OFF or PLY file."""
-        sheet = cls._of(_core.read_sheet(os.fspath(file)))
+    def read(cls, file, rest="auto", triangulate=False):
+        """The sheet of an OBJ, OFF or PLY file.
+
+        Args:
+            rest: "auto", "vt" or "plane": what the positions at rest are, as by `cutbench cut --rest`.
+            triangulate: faces of more than three corners are read, too, as triangles.
+        """
+        sheet = cls._of(_core.read_sheet(os.fspath(file), rest, bool(triangulate)))
         sheet._warn()
         return sheet
 
