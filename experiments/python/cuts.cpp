@@ -1,8 +1,6 @@
 // Cuts, their judgement, and what the parts of a cut sheet were before.
 #include <pybind11/stl.h>
 
-#include <algorithm>
-
 #include "experiments/program/commands/misses.h"
 #include "experiments/python/arrays.h"
 #include "experiments/python/held.h"
@@ -13,6 +11,7 @@
 #include "harness/judge/result_svg.h"
 #include "harness/mesh/check_and_repair.h"
 #include "harness/mesh/parents.h"
+#include "harness/mesh/row_numbers.h"
 #include "harness/records/report_json.h"
 #include "methods/registry.h"
 
@@ -28,23 +27,6 @@ CutOptions options_of(double chord_tolerance) {
 namespace {
 
 using Row = std::int32_t;
-
-/// The row of each slot in the arrays; -1 where the slot is free.
-std::vector<Row> vertex_rows(const Sheet& sheet) {
-  std::vector<Row> rows(sheet.deformed_slots(), -1);
-  Row next = 0;
-  for (std::size_t d = 0; d < rows.size(); ++d)
-    if (sheet.rest_vertex(DeformedIndex(d)).valid()) rows[d] = next++;
-  return rows;
-}
-
-std::vector<Row> triangle_rows(const Sheet& sheet) {
-  std::vector<Row> rows(sheet.triangle_slots(), -1);
-  Row next = 0;
-  for (std::size_t t = 0; t < rows.size(); ++t)
-    if (sheet.triangle(TriangleIndex(t)).alive()) rows[t] = next++;
-  return rows;
-}
 
 std::shared_ptr<HeldCut> cut(const SheetPointer& before, const std::vector<AnyCurve>& path, const HeldMethod& method,
                              double chord_tolerance, bool allow_miss) {
@@ -81,74 +63,36 @@ std::string report(const HeldCut& cut) {
 }
 
 /// Each vertex of the result as a weighted mean of vertices before all of its cuts: entries first[i] to first[i + 1].
-struct Parents {
+struct ParentRows {
   std::vector<Row> first{0}, vertices;
   std::vector<double> weights;
   std::vector<Row> triangles;  ///< per triangle of the result, the one before that holds its centroid
 };
 
-using Parts = std::vector<std::vector<VertexPart>>;
-
-/// `later` refers to vertices that `earlier` says.
-Parts composed(const Parts& earlier, const Parts& later) {
-  Parts all(later.size());
-  for (std::size_t d = 0; d < later.size(); ++d)
-    for (const VertexPart& part : later[d])
-      for (const VertexPart& old : earlier[part.vertex()]) {
-        const auto same = [&](const VertexPart& p) { return p.vertex == old.vertex; };
-        const auto known = std::find_if(all[d].begin(), all[d].end(), same);
-        const double weight = part.weight * old.weight;
-        if (known == all[d].end())
-          all[d].push_back({old.vertex, weight});
-        else
-          known->weight += weight;
-      }
-  return all;
-}
-
-/// Makes the cuts once more, one by one.
-Parents parents(const HeldCut& cut) {
-  Sheet sheet = *cut.before->sheet;
-  Locator locator(sheet);
-  Cutter cutter;
-  const auto method = cut.method.make();
-  Parts parts(sheet.deformed_slots());
-  for (std::size_t d = 0; d < parts.size(); ++d)
-    if (sheet.rest_vertex(DeformedIndex(d)).valid()) parts[d] = {{DeformedIndex(d), 1}};
-  std::vector<TriangleIndex> triangles(sheet.triangle_slots());
-  for (std::size_t t = 0; t < triangles.size(); ++t) triangles[t] = TriangleIndex(t);
-  for (const Curve& curve : cut.curves) {
-    const Sheet before = sheet;
-    const CutOutcome made = cutter.cut(sheet, locator, curve, *method, cut.options);
-    if (made.status == Status::noop) continue;
-    parts = composed(parts, vertex_parents(sheet));
-    std::vector<TriangleIndex> old = triangle_parents(before, sheet);
-    for (TriangleIndex& t : old)
-      if (t.valid()) t = triangles[t()];
-    triangles = std::move(old);
-  }
-  const std::vector<Row> old_vertices = vertex_rows(*cut.before->sheet),
-                         old_triangles = triangle_rows(*cut.before->sheet);
-  Parents result;
-  for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) {
-    if (!sheet.rest_vertex(DeformedIndex(d)).valid()) continue;
-    for (const VertexPart& part : parts[d]) {
-      result.vertices.push_back(old_vertices[part.vertex()]);
+ParentRows parents(const HeldCut& cut) {
+  const Sheet &before = *cut.before->sheet, &after = *cut.after->sheet;
+  const Parents parents = parents_of(before, after);
+  const RowNumbers old(before), now(after);
+  ParentRows result;
+  for (std::size_t d = 0; d < now.vertex.size(); ++d) {
+    if (now.vertex[d] < 0) continue;
+    for (const VertexPart& part : parents.vertices[d]) {
+      result.vertices.push_back(old.of(part.vertex));
       result.weights.push_back(part.weight);
     }
     result.first.push_back(to_int32(result.vertices.size()));
   }
-  for (std::size_t t = 0; t < sheet.triangle_slots(); ++t)
-    if (sheet.triangle(TriangleIndex(t)).alive()) result.triangles.push_back(old_triangles[triangles[t]()]);
+  for (std::size_t t = 0; t < now.triangle.size(); ++t)
+    if (now.triangle[t] >= 0) result.triangles.push_back(old.triangle[parents.triangles[t]()]);
   return result;
 }
 
 /// Edges of the incision: the two vertices of one lip, and those of the other, at the same rest positions.
 std::vector<std::array<Row, 4>> lips(const HeldSheet& held) {
   const Sheet& sheet = *held.sheet;
-  const std::vector<Row> rows = vertex_rows(sheet);
+  const RowNumbers rows(sheet);
   const auto begin_of = [&](HalfEdge h) {
-    return rows[sheet.triangle(triangle_of(h)).deformed[to_size(corner_of(h))]()];
+    return rows.of(sheet.triangle(triangle_of(h)).deformed[to_size(corner_of(h))]);
   };
   std::vector<std::array<Row, 4>> edges;
   for (std::size_t t = 0; t < sheet.triangle_slots(); ++t)
@@ -165,26 +109,22 @@ std::vector<std::array<Row, 4>> lips(const HeldSheet& held) {
 py::dict constraints(const HeldCut& cut) {
   const Sheet& after = *cut.after->sheet;
   const Constraints all = constraints_of(*cut.method.make(), *cut.after->uncut, after);
-  const std::vector<Row> rows = vertex_rows(after), triangles = triangle_rows(after);
-  const auto row_of = [&](DeformedIndex d) {
-    const auto slots = after.deformed_slots();
-    return d() < slots ? rows[d()] : to_int32(after.deformed_count() + d() - slots);
-  };
+  const RowNumbers rows(after);
   std::vector<Row> vertices;
   std::vector<std::array<Row, 3>> masters;
   std::vector<std::array<double, 3>> weights;
   for (const Constraint& c : all.constraints) {
-    vertices.push_back(row_of(c.vertex));
+    vertices.push_back(rows.of(c.vertex));
     std::array<Row, 3> three{};
-    for (std::size_t i = 0; i < 3; ++i) three[i] = c.masters[i].valid() ? row_of(c.masters[i]) : -1;
+    for (std::size_t i = 0; i < 3; ++i) three[i] = c.masters[i].valid() ? rows.of(c.masters[i]) : -1;
     masters.push_back(three);
     weights.push_back(c.weights);
   }
   py::list polygons, polygon_triangles;
   for (const Polygon& p : all.polygons) {
     std::vector<Row> corners, parts;
-    for (const DeformedIndex d : p.corners) corners.push_back(row_of(d));
-    for (const TriangleIndex t : p.triangles) parts.push_back(triangles[t()]);
+    for (const DeformedIndex d : p.corners) corners.push_back(rows.of(d));
+    for (const TriangleIndex t : p.triangles) parts.push_back(rows.triangle[t()]);
     polygons.append(array_of<Row>(std::move(corners)));
     polygon_triangles.append(array_of<Row>(std::move(parts)));
   }
@@ -192,7 +132,7 @@ py::dict constraints(const HeldCut& cut) {
   result["vertices"] = array_of<Row>(std::move(vertices));
   result["masters"] = array_of<Row>(std::move(masters));
   result["weights"] = array_of<double>(std::move(weights));
-  result["phantoms"] = all.phantoms;
+  result["phantoms"] = all.phantoms.size();
   result["polygons"] = polygons;
   result["polygon_triangles"] = polygon_triangles;
   return result;
@@ -239,7 +179,7 @@ void bind_cuts(py::module_& m) {
       .def("report", &report, Released())
       .def("constraints", &constraints)
       .def("parents", [](const HeldCut& c) {
-        Parents p = [&] {
+        ParentRows p = [&] {
           const py::gil_scoped_release others_go_on;
           return parents(c);
         }();
@@ -252,7 +192,8 @@ void bind_cuts(py::module_& m) {
         [](const std::shared_ptr<HeldSheet>& before, const std::vector<Curve>& curves, const Array<double>& vertices,
            const Array<Row>& triangles, const std::optional<Array<double>>& rest, double chord_tolerance,
            bool keeps_vertices, bool deletes) {
-          MeshData result{.rest = {}, .deformed = rows_of<Point3>(vertices), .triangles = {}, .notes = {}};
+          MeshData result;
+          result.deformed = rows_of<Point3>(vertices);
           result.triangles = rows_of<std::array<Row, 3>>(triangles);
           if (rest) result.rest = rows_of<Point2>(*rest);
           const py::gil_scoped_release others_go_on;

@@ -55,17 +55,18 @@ class FunctionMethod final : public CuttingMethod, public CutProgram {
   }
 
  private:
-  /// The function, as it is wrapped in cutbench/methods.py, returns vertices, triangles and rest as checked arrays.
+  /// The function, as it is wrapped in cutbench/method.py, returns vertices, triangles and rest as checked arrays.
   MeshData ask(const std::shared_ptr<HeldSheet>& sheet, const Curve& curve, double chord_tolerance) const {
     const py::gil_scoped_acquire interpreter;
     try {
       const auto [vertices, triangles, rest] =
           (*function_)(sheet, curve, chord_tolerance)
               .cast<std::tuple<Array<double>, Array<std::int32_t>, Array<double>>>();
-      return {.rest = rows_of<Point2>(rest),
-              .deformed = rows_of<Point3>(vertices),
-              .triangles = rows_of<std::array<std::int32_t, 3>>(triangles),
-              .notes = {}};
+      MeshData mesh;
+      mesh.rest = rows_of<Point2>(rest);
+      mesh.deformed = rows_of<Point3>(vertices);
+      mesh.triangles = rows_of<std::array<std::int32_t, 3>>(triangles);
+      return mesh;
     } catch (const py::error_already_set& error) {
       fail(error);
     }

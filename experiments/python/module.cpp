@@ -11,6 +11,7 @@ namespace {
 /// The classes of cutbench/errors.py.
 py::object error_class(const char* name) { return py::module_::import("cutbench.errors").attr(name); }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11 asks for this signature
 void translate(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(thrown);

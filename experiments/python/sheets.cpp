@@ -81,7 +81,9 @@ MeshData mesh_of(const Array<double>& vertices, const Array<Number>& triangles,
     mesh.rest = rows_of<Point2>(*rest);
     return mesh;
   }
-  MeshData flat{.rest = {}, .deformed = rows_of<Point3>(*rest), .triangles = mesh.triangles, .notes = {}};
+  MeshData flat;
+  flat.deformed = rows_of<Point3>(*rest);
+  flat.triangles = mesh.triangles;
   take_rest_from_plane(flat, "rest");
   mesh.rest = std::move(flat.rest);
   return mesh;

@@ -20,7 +20,8 @@ class FrameWriter {
   FrameWriter(const FrameWriter&) = delete;
   FrameWriter& operator=(const FrameWriter&) = delete;
 
-  /// frame_0000.vtu and so on: see write_mesh(); with `held`, 1 at vertices that pins or loads act on. \param posed  where the vertices are at that time (s)
+  /// frame_0000.vtu and so on: see write_mesh(); with `held`, 1 at vertices that pins or loads act on.
+  /// \param posed  where the vertices are at that time (s)
   void add(const Sheet& posed, double time);
   /// Puts all in place: the frames, frames.pvd, which names those of this run and no others, and last.obj. Files of
   /// these names are replaced.

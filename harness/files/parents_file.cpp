@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "harness/base/conversions.h"
+#include "harness/mesh/row_numbers.h"
 
 namespace cutbench {
 
@@ -11,28 +12,12 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Numbers of the result's vertices and triangles by their slots, -1 where a slot is free, as Sheet::to_mesh_data()
-/// gives them.
-struct Numbers {
-  explicit Numbers(const Sheet& cut) : vertex(cut.deformed_slots(), -1), triangle(cut.triangle_slots(), -1) {
-    for (std::size_t d = 0; d < vertex.size(); ++d)
-      if (cut.rest_vertex(DeformedIndex(d)).valid()) vertex[d] = vertices++;
-    for (std::size_t t = 0; t < triangle.size(); ++t)
-      if (cut.triangle(TriangleIndex(t)).alive()) triangle[t] = triangles++;
-  }
-  /// Those of phantom nodes come after those of vertices.
-  int of(DeformedIndex d) const { return d() < vertex.size() ? vertex[d()] : vertices + to_int(d() - vertex.size()); }
-
-  std::vector<int> vertex, triangle;
-  int vertices = 0, triangles = 0;
-};
-
 int in_file(const MeshData& read, DeformedIndex old) {
   return read.file_vertices.empty() ? old.value : read.file_vertices[old()];
 }
 
 /// A vertex and its masters, those without weight left out.
-std::vector<std::pair<int, double>> masters_of(const Constraint& constraint, const Numbers& number) {
+std::vector<std::pair<int, double>> masters_of(const Constraint& constraint, const RowNumbers& number) {
   std::vector<std::pair<int, double>> masters;
   for (std::size_t k = 0; k < 3; ++k)
     if (constraint.weights[k] != 0) masters.emplace_back(number.of(constraint.masters[k]), constraint.weights[k]);
@@ -40,7 +25,7 @@ std::vector<std::pair<int, double>> masters_of(const Constraint& constraint, con
 }
 
 /// \param forward  h runs along the path
-ordered_json lip_edge(const Sheet& cut, const Numbers& number, HalfEdge h, bool forward) {
+ordered_json lip_edge(const Sheet& cut, const RowNumbers& number, HalfEdge h, bool forward) {
   if (!h.valid()) return nullptr;
   const auto& corner = cut.triangle(triangle_of(h)).deformed;
   int from = number.of(corner[to_size(corner_of(h))]), to = number.of(corner[to_size(next_corner(corner_of(h)))]);
@@ -79,7 +64,7 @@ std::vector<std::pair<int, double>> parents_of(const CutDetails& details, std::s
 }  // namespace
 
 std::string details_json(const CutDetails& details) {
-  const Numbers number(details.cut);
+  const RowNumbers number(details.cut);
   ordered_json vertices = ordered_json::array(), triangles = vertices, incision = vertices, polygons = vertices,
                copies = vertices, constraints = vertices;
   for (std::size_t d = 0; d < number.vertex.size(); ++d)
@@ -104,7 +89,7 @@ std::string details_json(const CutDetails& details) {
 }
 
 std::vector<MeshColumn> details_columns(const CutDetails& details) {
-  const Numbers number(details.cut);
+  const RowNumbers number(details.cut);
   std::vector<MeshColumn> columns;
   PartColumns parents("parents", "parent_weights", number.vertices);
   for (std::size_t d = 0; d < number.vertex.size(); ++d)

@@ -115,12 +115,12 @@ Experiment read_part(const std::string& file, const RunArguments& arguments, con
     e.programs.push_back(program_in(command));
     more.push_back({e.programs.back().name, {}});
   }
-  for (const std::string& name : arguments.more_methods) more.push_back({name.substr(0, name.find('=')), {}});
+  for (const std::string& one : arguments.more_methods) {
+    const std::string name = one.substr(0, one.find('='));
+    more.push_back({name, {}});
+    std::erase_if(e.methods, [&](const auto& entry) { return entry.method == name; });
+  }
   for (const auto& [name, values] : more) std::erase(methods, name);
-  std::erase_if(e.methods, [&](const auto& m) {
-    return std::ranges::any_of(arguments.more_methods,
-                               [&](const std::string& name) { return name.substr(0, name.find('=')) == m.method; });
-  });
   restrict_to(e.methods, methods, "--methods", [](const auto& m) { return m.method; });
   if (methods.empty() && !arguments.methods.empty()) e.methods.clear();
   e.methods.insert(e.methods.end(), more.begin(), more.end());

@@ -151,8 +151,7 @@ class Parents:
         first: n + 1 ints; vertex i is a weighted mean of entries first[i] to first[i + 1] - 1 of
         vertices: vertices of the sheet before, with
         weights: floats, of sum 1 for each vertex.
-        triangles: m ints: the triangle before in which each triangle's centroid lies; of several cuts in a row, from cut to
-            cut.
+        triangles: m ints: the triangle before in which each triangle's centroid lies.
     """
 
     def __init__(self, first, vertices, weights, triangles):

