@@ -102,7 +102,9 @@ std::vector<MethodRow>& table() {
         "4 area / perimeter over that of the divided triangle, below which a part is thin",
         {.least = 0, .most = 1}},
        exact_split,
-       [](double thinness) { return std::make_unique<CutPolygons>(CutPolygons::Options{.thinness = thinness}); }},
+       [](double thinness) {
+         return std::make_unique<CutPolygons>(CutPolygons::Options{.thin = {.thinness = thinness}});
+       }},
       {"delaunay_refine",
        "local Delaunay refinement round the cut, by off-centres",
        {"bound",
@@ -243,6 +245,25 @@ std::vector<MethodRow>& nameable_table() {
   static auto rows = [] {
     std::vector<MethodRow> all = all_methods();
     all.insert(all.end(), ablation_methods().begin(), ablation_methods().end());
+    all.push_back({"cut_polygons:stabilisation",
+                   "cut_polygons with another stabilisation",
+                   {"tau",
+                    CutPolygons::Options().stabilisation,
+                    "stabilisation of a polygon over Young's modulus, dimensionless: 0.5 makes a square the bilinear "
+                    "quadrilateral, 1.5 as stiff as two triangles",
+                    {.least = 0.01, .most = 10}},
+                   exact_split,
+                   [](double tau) {
+                     return std::make_unique<CutPolygons>(CutPolygons::Options{.thin = {}, .stabilisation = tau});
+                   }});
+    all.push_back({"cut_polygons:all_unknowns",
+                   "cut_polygons without polygons that have a vertex inside",
+                   {"thinness", 0.7, "as that of cut_polygons", {.least = 0, .most = 1}},
+                   exact_split,
+                   [](double thinness) {
+                     return std::make_unique<CutPolygons>(
+                         CutPolygons::Options{.thin = {.thinness = thinness, .all_unknowns = true}});
+                   }});
     all.push_back({"phantom_node:lumped_mass", "phantom_node with a lumped mass", {}, exact_split, [](double) {
                      return std::make_unique<PhantomNode>(PhantomNode::Options{.lumped_mass = true});
                    }});

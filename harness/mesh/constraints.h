@@ -38,6 +38,7 @@ struct Polygon {
   std::vector<DeformedIndex> corners;    ///< along the boundary, counter-clockwise; three or more
   std::vector<TriangleIndex> triangles;  ///< two or more
   std::vector<DeformedIndex> inside;     ///< the other vertices of the triangles: no unknowns, they go along
+  double stabilisation = 0.5;            ///< tau > 0, dimensionless (harness/fem/elements/compound_sheet.h)
   bool operator==(const Polygon&) const = default;
 };
 

@@ -1,7 +1,6 @@
 #include "methods/cut_polygons/cut_polygons.h"
 
 #include "methods/tools/static_split.h"
-#include "methods/tools/thin_parts.h"
 
 namespace cutbench {
 
@@ -9,12 +8,17 @@ void CutPolygons::embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) {
   notes.recovered_segments = embed_by_static_split(sheet, trace, patch_work_);
 }
 
+std::vector<Polygon> CutPolygons::stabilised(std::vector<Polygon> polygons) const {
+  for (Polygon& polygon : polygons) polygon.stabilisation = options_.stabilisation;
+  return polygons;
+}
+
 Constraints CutPolygons::constraints(const Sheet& before, const Sheet& cut) const {
-  return {.polygons = merge_thin_parts(before, cut, options_.thinness)};
+  return {.polygons = stabilised(merge_thin_parts(before, cut, options_.thin))};
 }
 
 Constraints CutPolygons::next_constraints(const Sheet& before, const Sheet& cut, const PolygonsLeft& left) const {
-  return {.polygons = merge_new_thin_parts(before, cut, options_.thinness, left)};
+  return {.polygons = stabilised(merge_new_thin_parts(before, cut, options_.thin, left))};
 }
 
 }  // namespace cutbench

@@ -31,8 +31,8 @@ struct Cell {
 
 class Merging {
  public:
-  Merging(const Sheet& before, const Sheet& cut, double thinness, const PolygonsLeft& left)
-      : before_(before), sheet_(cut), thinness_(thinness), left_(left) {
+  Merging(const Sheet& before, const Sheet& cut, const ThinParts& rules, const PolygonsLeft& left)
+      : before_(before), sheet_(cut), rules_(rules), left_(left) {
     while (!before.triangle(parent_).alive()) ++parent_.value;
   }
 
@@ -135,8 +135,8 @@ class Merging {
 
   bool put_on_list(std::size_t cell) {
     const double ratio = ratio_of(cells_[cell]);
-    if (ratio < thinness_) thin_.push({ratio, cell});
-    return ratio < thinness_;
+    if (ratio < rules_.thinness) thin_.push({ratio, cell});
+    return ratio < rules_.thinness;
   }
 
   /// What other cuts made beside it: it may be thin, too.
@@ -212,6 +212,7 @@ class Merging {
     std::vector<HalfEdge> shared, shared_by_b;
     if (!open_outline(cells_[a], b, merged.outline, shared) || !open_outline(cells_[b], a, merged.outline, shared_by_b))
       return {};
+    if (rules_.all_unknowns && shared.size() > 1) return {};
     std::vector<DeformedIndex> corners;
     for (const HalfEdge h : merged.outline) {
       corners.push_back(origin(h));
@@ -244,7 +245,7 @@ class Merging {
   }
 
   const Sheet &before_, &sheet_;
-  double thinness_;
+  ThinParts rules_;
   const PolygonsLeft& left_;
   TriangleIndex parent_{0};                               // of the last part
   std::vector<Cell> cells_;                               // those that were merged into others have no triangles
@@ -254,16 +255,16 @@ class Merging {
 
 }  // namespace
 
-std::vector<Polygon> merge_thin_parts(const Sheet& before, const Sheet& cut, double thinness) {
-  return Merging(before, cut, thinness, {}).run(new_triangles(before, cut, true));
+std::vector<Polygon> merge_thin_parts(const Sheet& before, const Sheet& cut, const ThinParts& rules) {
+  return Merging(before, cut, rules, {}).run(new_triangles(before, cut, true));
 }
 
-std::vector<Polygon> merge_new_thin_parts(const Sheet& before, const Sheet& cut, double thinness,
+std::vector<Polygon> merge_new_thin_parts(const Sheet& before, const Sheet& cut, const ThinParts& rules,
                                           const PolygonsLeft& left) {
   std::vector<TriangleIndex> parts = last_new_triangles(before, cut);
   for (const TriangleIndex t : left.freed)
     if (cut.triangle(t).alive()) parts.push_back(t);
-  return Merging(before, cut, thinness, left).run(parts);
+  return Merging(before, cut, rules, left).run(parts);
 }
 
 }  // namespace cutbench

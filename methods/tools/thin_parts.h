@@ -9,10 +9,11 @@
 //    (Sheet::is_held()), or be thicker than the thin one by less than a tenth, the neighbour across the next longest
 //    edge is taken. Where there is none, it stays thin until a neighbour has grown: at last strips between two cuts,
 //    and pieces smaller than a triangle.
+//  - Where every vertex is to stay an unknown, a polygon that would have one inside counts as no polygon, too.
 //  - A polygon never reaches across an incision, but it may reach round a tip; the incision is then a slit in it.
 //
-// Source: the merging of cut cells in CutVEM (Rangarajan and Sukumar, arXiv 2508.10570, 2025); there a cell is merged
-// for the ratio of the extreme eigenvalues of its matrix.
+// Source: the merging of cut cells in CutVEM (Rangarajan and Sukumar, arXiv 2508.10570, 2025), abstract read);
+// there a cell is merged for the ratio of the extreme eigenvalues of its matrix, and no unknown is lost.
 #pragma once
 
 #include "harness/mesh/constraints.h"
@@ -20,16 +21,20 @@
 
 namespace cutbench {
 
+struct ThinParts {
+  double thinness = 0.7;      ///< >= 0; 0 merges nothing
+  bool all_unknowns = false;  ///< no vertex comes to lie inside a polygon
+};
+
 /// In the order of their first triangles. Depends on the neighbourhood of the cuts alone, and so does its cost: of all
 /// cuts together, each time.
-/// \param before    the sheet before its first cut
-/// \param thinness  >= 0; 0 merges nothing
-std::vector<Polygon> merge_thin_parts(const Sheet& before, const Sheet& cut, double thinness);
+/// \param before  the sheet before its first cut
+std::vector<Polygon> merge_thin_parts(const Sheet& before, const Sheet& cut, const ThinParts& rules);
 
 /// The same for the parts that the cut of the log of `cut` made, what it freed, and what is thin beside them. What they
 /// join may be a polygon that was there before. Its cost grows with this cut, not with earlier ones.
 /// \return the polygons that are new
-std::vector<Polygon> merge_new_thin_parts(const Sheet& before, const Sheet& cut, double thinness,
+std::vector<Polygon> merge_new_thin_parts(const Sheet& before, const Sheet& cut, const ThinParts& rules,
                                           const PolygonsLeft& left);
 
 }  // namespace cutbench

@@ -32,7 +32,7 @@ Eigen::MatrixXd stiffness_of(const PolygonElement& polygon, const Lame& lame) {
   at_rest.frame[0][0] = at_rest.frame[1][1] = 1;
   const ElementStiffness<2> stiffness({}, polygon.area, at_rest, {Strain::linear, StressStiffness::none, lame});
   const Eigen::MatrixXd stabilisation =
-      stabilisation_of(lame, false).in_plane * polygon.departure.transpose() * polygon.departure;
+      polygon.polygon.stabilisation * young_of(lame) * polygon.departure.transpose() * polygon.departure;
   Eigen::MatrixXd matrix(2 * k, 2 * k);
   for (Eigen::Index i = 0; i < k; ++i)
     for (Eigen::Index j = 0; j < k; ++j) {
@@ -53,12 +53,6 @@ void add_force(const PolygonElement& polygon, const Eigen::MatrixXd& stiffness, 
 }
 
 }  // namespace
-
-Stabilisation stabilisation_of(const Lame& lame, bool bends) {
-  constexpr double tau = 0.5;
-  const double young = young_of(lame);
-  return {tau * young, bends ? 0 : tau * young};
-}
 
 CompoundStiffness::CompoundStiffness(const ElementTable& elements, const Lame& lame) {
   for (std::size_t p = 0; p < elements.polygon_slots(); ++p)
@@ -108,10 +102,11 @@ void CompoundSheet<D>::rotate(const PolygonElement& polygon, const Field& x, Sta
   }
   const auto& d = state.departure;
   Eigen::Matrix<double, D, 2> pull = polygon.area * state.deformation.frame * state.deformation.stress;
-  Eigen::Matrix<double, D, Eigen::Dynamic> resisted = stabilisation_.in_plane * d;
+  const auto [in_plane, less] = stabilisation_of(polygon);
+  Eigen::Matrix<double, D, Eigen::Dynamic> resisted = in_plane * d;
   state.across.setZero(k);
   state.tilt.setZero(D, k);
-  if (const double less = stabilisation_.in_plane - stabilisation_.across; D == 3 && less != 0) {
+  if (D == 3 && less != 0) {
     const Eigen::Matrix<double, D, 1> n = normal_of<D>(state.deformation);
     state.across = d.transpose() * n;
     resisted -= less * n * state.across.transpose();
@@ -134,25 +129,23 @@ double CompoundSheet<D>::energy(const ElementTable& elements) const {
   double sum = 0;
   for (std::size_t p = 0; p < elements.polygon_slots(); ++p) {
     if (!elements.polygon(p).alive()) continue;
-    const double across = states_[p].across.squaredNorm();
+    const auto [in_plane, less] = stabilisation_of(elements.polygon(p));
     sum += elements.polygon(p).area * states_[p].deformation.energy +
-           (stabilisation_.in_plane * states_[p].departure.squaredNorm() -
-            (stabilisation_.in_plane - stabilisation_.across) * across) /
-               2;
+           (in_plane * states_[p].departure.squaredNorm() - less * states_[p].across.squaredNorm()) / 2;
   }
   return sum;
 }
 
 template <int D>
 void CompoundSheet<D>::add_stiffness(const ElementTable& elements, double factor, BlockMatrix<D>& blocks) const {
-  const double less = stabilisation_.in_plane - stabilisation_.across;
   for (std::size_t p = 0; p < elements.polygon_slots(); ++p) {
     const PolygonElement& polygon = elements.polygon(p);
     if (!polygon.alive()) continue;
     const State& state = states_[p];
     const ElementStiffness<D> stiffness({}, factor * polygon.area, strain_of<D>(state.deformation), law_);
     const Eigen::Matrix<double, D, 1> n = normal_of<D>(state.deformation);
-    const Block flat = stabilisation_.in_plane * Block::Identity() - less * n * n.transpose();
+    const auto [in_plane, less] = stabilisation_of(polygon);
+    const Block flat = in_plane * Block::Identity() - less * n * n.transpose();
     const Eigen::VectorXd pulled = polygon.departure.transpose() * state.across;
     const double across = state.across.squaredNorm();
     const auto k = to_index(polygon.size());

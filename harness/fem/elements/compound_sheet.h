@@ -2,9 +2,20 @@
 // polygons (polygon_element.h).
 //
 // Energy of one with k corners: A W(F) + tau E / 2 sum |d_i|^2, with the mean gradient F, the energy W of a membrane
-// triangle (membrane.h), the departure d = (I - Pi) x of its corners, Young's modulus E (N/m) and tau = 1/2. The second
-// term, the stabilisation of Beirao da Veiga et al. (2013), is quadratic and the same however the polygon is turned, so
-// there is one rotation for a polygon, that of F.
+// triangle (membrane.h), the departure d = (I - Pi) x of its corners, Young's modulus E (N/m) and tau, 1/2 where a
+// method does not say otherwise. The second term, the stabilisation of Beirao da Veiga et al. (2013), is quadratic and
+// the same however the polygon is turned, so there is one rotation for a polygon, that of F.
+//
+// Every tau > 0 passes the patch test and converges at the same rate; the theory gives no number. The second term is
+// the energy of the polygon's hourglass modes (Cangiani, Manzini, Russo and Sukumar, Hourglass stabilization and the
+// virtual element method, IJNME 102, 2015; abstract read). So a square says what a tau means. Its hourglass mode, x y
+// along one axis, has the same energy as
+//   pure bending, exactly                                     tau = 1/3
+//   the bilinear quadrilateral, integrated in full            tau = (1 / (1 - nu^2) + 1 / (2 (1 + nu))) / 3
+//   the two linear triangles that a diagonal makes of it      three times that
+// For plane stress the second is 0.5 at nu = 0 and 0.494 at 0.3: tau = 1/2 makes a square the standard four-node
+// element. The third is 1.48 at 0.3: there a square is as stiff as triangles. Scaled by E alone, the stabilisation does
+// not lock as lambda grows. experiments/polygon_stabilisation.toml sweeps tau.
 //
 // In space with bending only the departure in the polygon's plane counts, d - (n d) n with the normal n of F, for what
 // departs from the plane bends (bending.h). n turns with F: with g = sum (n d_i) d_i and the dual basis F^a of F's
@@ -21,12 +32,6 @@
 
 namespace cutbench {
 
-/// What the stabilisation is multiplied with: tau E, N/m, in the element's plane and across it.
-struct Stabilisation {
-  double in_plane, across;
-};
-Stabilisation stabilisation_of(const Lame& lame, bool bends);
-
 /// Their linear stiffness at rest in the plane.
 class CompoundStiffness {
  public:
@@ -42,7 +47,7 @@ template <int D>
 class CompoundSheet {
  public:
   /// \param bends  bending keeps them flat
-  CompoundSheet(const MembraneLaw& law, bool bends) : law_(law), stabilisation_(stabilisation_of(law.lame, bends)) {}
+  CompoundSheet(const MembraneLaw& law, bool bends) : law_(law), young_(young_of(law.lame)), bends_(bends) {}
 
   /// For the compound of t, new or of another shape.
   void reset(const ElementTable& elements, TriangleIndex t);
@@ -68,10 +73,19 @@ class CompoundSheet {
     std::vector<std::int32_t> slots;                     ///< k x k, row by row
   };
   using Block = Eigen::Matrix<double, D, D>;
+  /// What the departure is resisted with: tau E, N/m, in the element's plane, and what is less of it across.
+  struct Stabilisation {
+    double in_plane, less_across;
+  };
+  Stabilisation stabilisation_of(const PolygonElement& polygon) const {
+    const double in_plane = polygon.polygon.stabilisation * young_;
+    return {in_plane, bends_ ? in_plane : 0};
+  }
   void rotate(const PolygonElement& polygon, const Field& x, State& state, Field& force) const;
 
   MembraneLaw law_;
-  Stabilisation stabilisation_;
+  double young_;  // N/m
+  bool bends_;
   std::vector<State> states_;  // per polygon slot
 };
 
