@@ -60,7 +60,11 @@ std::vector<MethodRow>& table() {
         0.2,
         "edge length asked for at the tips, mean rest edges; 0: flips alone",
         {.least = 0.1, .most = 1, .or_zero = true}},
-       {.exact_incision = true, .keeps_area = true, .conforming = true, .keeps_vertices = false},
+       {.exact_incision = false,
+        .keeps_area = true,
+        .conforming = true,
+        .keeps_vertices = false,
+        .incision_bound = {.longest_edges = 0, .chord_tolerances = 1}},
        [](double tip) { return std::make_unique<AdaptiveRemesh>(AdaptiveRemesh::Options{.tip = tip}); }},
       {"bowyer_watson",
        "the paper's method: Bowyer-Watson in each crossed triangle, then local split",
@@ -245,6 +249,13 @@ std::vector<MethodRow>& nameable_table() {
   static auto rows = [] {
     std::vector<MethodRow> all = all_methods();
     all.insert(all.end(), ablation_methods().begin(), ablation_methods().end());
+    all.push_back({"adaptive_remesh:exact_path",
+                   "adaptive_remesh that keeps every crossing of a curved path",
+                   {"tip", 0.2, "as that of adaptive_remesh", {.least = 0.1, .most = 1, .or_zero = true}},
+                   {.exact_incision = true, .keeps_area = true, .conforming = true, .keeps_vertices = false},
+                   [](double tip) {
+                     return std::make_unique<AdaptiveRemesh>(AdaptiveRemesh::Options{.tip = tip, .tolerance = 0});
+                   }});
     all.push_back({"cut_polygons:stabilisation",
                    "cut_polygons with another stabilisation",
                    {"tau",

@@ -33,33 +33,49 @@ struct Meeting {
   bool was_tip() const { return inside && path > 0 && incision == 1; }
 };
 
-/// The origin of h, on a piece of path that goes on along h, may leave the path as it is without it.
-bool is_straight_on(const Sheet& sheet, HalfEdge h) {
+/// On the path from which h goes on: the vertex before the origin of h.
+VertexIndex path_before(const Sheet& sheet, HalfEdge h) {
   VertexIndex before;
-  const VertexIndex v = sheet.origin(h), after = sheet.target(h);
-  for_each_outgoing(sheet, v, [&](HalfEdge o) {
+  for_each_outgoing(sheet, sheet.origin(h), [&](HalfEdge o) {
     if (o != h && sheet.mark(o) == EdgeMark::path) before = sheet.target(o);
   });
-  const Point2 a = sheet.rest(before), b = sheet.rest(after), p = sheet.rest(v);
-  if (dot(p - a, b - p) <= 0) return false;
-  if (std::abs(cross(b - a, p - a)) > straight_border_tolerance * sheet.snap() * std::sqrt(squared_length(b - a)))
-    return false;
-  // A single edge between two tips would not open.
-  return !(Meeting(sheet, before).is_tip() && Meeting(sheet, after).is_tip());
+  return before;
+}
+
+/// a p b is the segment a b, to rounding.
+bool is_straight_at(const Sheet& sheet, Point2 p, Point2 a, Point2 b) {
+  return dot(p - a, b - p) > 0 &&
+         std::abs(cross(b - a, p - a)) <= straight_border_tolerance * sheet.snap() * std::sqrt(squared_length(b - a));
+}
+
+}  // namespace
+
+void AdaptiveRemesh::adapt(Sheet& sheet, Subdivision& trace, const Polyline& path) {
+  curve_.read(sheet, trace, path);
+  if (options_.tolerance > 0) warp_.run(sheet, trace, curve_);
+}
+
+void AdaptiveRemesh::embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) {
+  CuttingMethod::embed(sheet, trace, notes);
+  curve_.find_vertices(sheet, trace);
 }
 
 /// The origin of h may be collapsed along it, as far as borders and incisions are concerned.
-bool may_go(const Sheet& sheet, HalfEdge h) {
+bool AdaptiveRemesh::may_go(const Sheet& sheet, HalfEdge h) const {
   constexpr int widest = 64;  // a vertex with thousands of edges would be looked at once for each
   const VertexIndex v = sheet.origin(h);
   if (sheet.is_held(v)) return false;
   const Meeting at(sheet, v);
   if (!at.inside || at.incision > 0 || at.edges > widest) return false;
   if (at.path == 0) return true;
-  return at.path == 2 && sheet.mark(h) == EdgeMark::path && is_straight_on(sheet, h);
+  if (at.path != 2 || sheet.mark(h) != EdgeMark::path) return false;
+  const VertexIndex before = path_before(sheet, h), after = sheet.target(h);
+  // A single edge between two tips would not open.
+  if (Meeting(sheet, before).is_tip() && Meeting(sheet, after).is_tip()) return false;
+  const Point2 a = sheet.rest(before), b = sheet.rest(after);
+  return is_straight_at(sheet, sheet.rest(v), a, b) ||
+         (tolerance_ > 0 && curve_.may_leave_out(before, v, after, a, b, tolerance_));
 }
-
-}  // namespace
 
 // --- the zone --------------------------------------------------------------------------------------------------------
 
@@ -109,11 +125,21 @@ void AdaptiveRemesh::find_zone(const Sheet& sheet) {
 
 bool AdaptiveRemesh::split(Sheet& sheet, HalfEdge h) {
   const HalfEdge o = sheet.opposite(h);
-  const Point2 middle = 0.5 * sheet.rest(sheet.origin(h)) + 0.5 * sheet.rest(sheet.target(h));
+  const Point2 a = sheet.rest(sheet.origin(h)), b = sheet.rest(sheet.target(h));
+  Point2 middle = 0.5 * a + 0.5 * b;
+  double parameter = -1;
+  if (tolerance_ > 0 && sheet.mark(h) == EdgeMark::path) {
+    const double from = curve_.parameter(sheet.origin(h)), to = curve_.parameter(sheet.target(h));
+    if (curve_.may_divide(from, to, a, b, tolerance_)) {
+      parameter = (from + to) / 2;
+      middle = curve_.at(parameter);
+    }
+  }
   if (!halves_are_positive(sheet, h, middle) || !halves_are_positive(sheet, o, middle)) return false;
   const VertexIndex apex = sheet.origin(Sheet::previous(h));
   const bool left = in_zone_.holds(triangle_of(h)), right = o.valid() && in_zone_.holds(triangle_of(o));
   const VertexIndex v = sheet.split_edge(h, 0.5, middle);
+  if (parameter >= 0) curve_.add(v, parameter);
   in_zone_.grow(sheet.triangle_slots());
   for_each_outgoing(sheet, v, [&](HalfEdge out) {
     const bool is_left = sheet.target(out) == apex || sheet.origin(Sheet::previous(out)) == apex;
@@ -171,21 +197,31 @@ void AdaptiveRemesh::flip(Sheet& sheet) {
 
 // --- collapse --------------------------------------------------------------------------------------------------------
 
-/// The largest aspect ratio after the origin of h went to its target; `refused` where that may not be.
+/// The largest aspect ratio after the origin of h went to its target; `refused` where that may not be. What is there
+/// already, round either end, may be there afterwards; a very short edge may even leave it twice as bad, since in a
+/// cluster of vertices the edges would keep one another (ten times as bad changes nothing more).
 double AdaptiveRemesh::worst_after_collapse(const Sheet& sheet, HalfEdge h) const {
-  constexpr double max_aspect = 3;
+  constexpr double max_aspect = 6, very_short = 0.25, worse = 2;
   if (!may_go(sheet, h)) return refused;
   const VertexIndex b = sheet.target(h);
-  const Point2 to = sheet.rest(b);
-  double before = 0, after = 0;
+  const Point2 from = sheet.rest(sheet.origin(h)), to = sheet.rest(b);
+  double aspect_before = max_aspect, length_before = longest;
+  for (const HalfEdge end : {h, sheet.opposite(h)})
+    for_each_outgoing(sheet, sheet.origin(end), [&](HalfEdge out) {
+      const auto c = sheet.corners(triangle_of(out));
+      aspect_before = std::max(aspect_before, oriented_aspect(c[0], c[1], c[2]));
+    });
+  double aspect = 0, length = 0;
   for_each_outgoing(sheet, sheet.origin(h), [&](HalfEdge out) {
     const VertexIndex c = sheet.target(out), d = sheet.origin(Sheet::previous(out));
     const Point2 p = sheet.rest(c), q = sheet.rest(d);
-    before = std::max(before, oriented_aspect(sheet.rest(sheet.origin(h)), p, q));
-    if (c != b && d != b) after = std::max(after, oriented_aspect(to, p, q));
-    if (c != b && field_.relative_length(to, p) > longest) after = refused;
+    if (c != b && d != b) aspect = std::max(aspect, oriented_aspect(to, p, q));
+    if (c == b) return;
+    length_before = std::max(length_before, field_.relative_length(from, p));
+    length = std::max(length, field_.relative_length(to, p));
   });
-  return after <= std::max(before, max_aspect) ? after : refused;
+  if (field_.relative_length(from, to) < very_short) aspect_before *= worse;
+  return aspect <= aspect_before && length <= length_before ? aspect : refused;
 }
 
 bool AdaptiveRemesh::collapse_short(Sheet& sheet) {
@@ -216,6 +252,7 @@ bool AdaptiveRemesh::collapse_short(Sheet& sheet) {
 void AdaptiveRemesh::improve(Sheet& sheet, MethodNotes& notes) {
   constexpr int most_rounds = 10;
   constexpr std::size_t per_path_vertex = 20, at_least = 1000;
+  tolerance_ = std::min(options_.tolerance * sheet.mean_edge(), curve_.chord_tolerance());
   find_zone(sheet);
   const EditLog& log = sheet.log();
   const std::size_t most_vertices = log.new_vertices.size() + per_path_vertex * log.path_vertices.size() + at_least;

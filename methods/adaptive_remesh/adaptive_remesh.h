@@ -7,23 +7,31 @@
 //    border;
 //  - an edge that separates nothing is flipped where it is not Delaunay (exact in_circle);
 //  - an edge shorter than 1 / sqrt(2) of it is collapsed, where no new edge becomes too long, and no triangle gets an
-//    aspect ratio beyond 3 and beyond those that were there.
+//    aspect ratio beyond 6 and beyond those that were there.
 // The zone is what the split changed, and the triangles in the reach of the path's tips, and of tips of earlier cuts at
 // which the path goes on: behind the blade, where these are tips no more, collapses make the mesh coarse again. The
 // zone does not grow, so that the cost follows the triangles near the cut.
 //
-// Frozen: border, older incisions and the path stay where they are, with their vertices, and so do held vertices
-// (Sheet::hold). The one exception is a vertex inside a straight piece of the path, where the path crossed an edge: it
-// may go, since without it the path is the same to rounding. Sheet::flip and Sheet::collapse refuse by exact predicates
-// what would turn a triangle over, so the area stays.
+// A vertex of the path goes where the edge that replaces its two stays within the tolerance of the curve that was asked
+// for, and an edge of the path is divided at a point of that curve (methods/tools/path_curve.h): the licence that
+// warp_and_refine has. `adaptive_remesh:exact_path` has none: there only a vertex inside a straight piece goes.
 //
-// Source, cited from memory: Narain, Samii and O'Brien, Adaptive anisotropic remeshing for cloth simulation, ACM TOG
-// 31(6), 2012 (split, flip, collapse); Pfaff, Narain, de Joya and O'Brien, Adaptive tearing and cracking of thin
-// sheets, ACM TOG 33(4), 2014 (fine at tips, coarse behind). The bounds sqrt(2) and 1 / sqrt(2), a quasi-unit mesh:
-// Frey and George, Mesh Generation, 2000. Narain's field is a tensor; here it is a number, and nothing is moved.
-// Promises: the exact path, area, conforming; not that vertices stay: those too close together are removed, and what
-// they carried is lost.
-// Where it fails: no aspect ratio is promised. Vertices of curved paths and of older incisions stay, however close
+// Frozen: border and older incisions stay where they are, with their vertices, and so do held vertices (Sheet::hold).
+// Sheet::flip and Sheet::collapse refuse by exact predicates what would turn a triangle over, so the area stays.
+//
+// Source: Narain, Samii and O'Brien, Adaptive anisotropic remeshing for cloth simulation, ACM TOG 31(6), 2012 (split,
+// flip, collapse; not read, but dynamicremesh.cpp of their program ARCSim); Pfaff, Narain, de Joya and O'Brien, Adaptive
+// tearing and cracking of thin sheets, ACM TOG 33(4), 2014 (fine at tips, coarse behind; not read). As in ARCSim a
+// vertex on a border or a marked line goes along it alone, and a triangle may be as thin as 12 sqrt(3) area /
+// perimeter^2 = 0.2, which is an aspect ratio of about 6. Not as there: its field is a tensor with terms of curvature,
+// velocity, compression and obstacles, here it is a number with that of tips; it splits above 1 and makes no edge
+// longer than 0.9 by a collapse, which has no lower bound, here both bounds are those of a quasi-unit mesh (Frey and
+// George, Mesh Generation, 2000; not read), so that the sheet keeps its own resolution; its flips weigh the field, here
+// they are those of Delaunay. Nothing is moved but a vertex on a straight border, onto the end of a path close by,
+// which is the collapse of the edge between the two.
+// Promises: area, conforming, an incision within the chord tolerance of the curve; neither the exact path nor that
+// vertices stay: those too close together are removed, and what they carried is lost.
+// Where it fails: no aspect ratio is promised. Vertices of the border and of older incisions stay, however close
 // together, with short edges and needles between them; behind the blade the lips of the incision stay as fine as they
 // were at the tip. In a graded sheet the mean edge is too large here and too small there. Flips and collapses of old
 // edges change the deformed surface where the sheet is bent. Fine triangles at the tip have eigenvalues of
@@ -37,17 +45,23 @@
 #include "harness/cut/cutting_method.h"
 #include "harness/mesh/stamped_table.h"
 #include "methods/adaptive_remesh/size_field.h"
+#include "methods/tools/path_curve.h"
+#include "methods/tools/warp.h"
 
 namespace cutbench {
 
 class AdaptiveRemesh : public CuttingMethod {
  public:
   struct Options {
-    double tip = 0.2;     ///< h_tip: the field at a tip, mean rest edges, in (0, 1]; 0: flips alone
-    double growth = 0.3;  ///< g: of the field with the distance from the tip
+    double tip = 0.2;         ///< h_tip: the field at a tip, mean rest edges, in (0, 1]; 0: flips alone
+    double growth = 0.3;      ///< g: of the field with the distance from the tip
+    double tolerance = 0.05;  ///< largest distance of the path that was asked for from its edges, mean rest edges; the
+                              ///< chord tolerance where that is smaller; 0: the path keeps every crossing
   };
   explicit AdaptiveRemesh(const Options& options) : options_(options) {}
 
+  void adapt(Sheet& sheet, Subdivision& trace, const Polyline& path) override;
+  void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
   void improve(Sheet& sheet, MethodNotes& notes) override;
 
   static constexpr double longest = std::numbers::sqrt2, shortest = 1 / longest;  ///< edges that fit, over the field
@@ -62,9 +76,13 @@ class AdaptiveRemesh : public CuttingMethod {
   bool split(Sheet& sheet, HalfEdge h);
   void flip(Sheet& sheet);
   bool collapse_short(Sheet& sheet);
+  bool may_go(const Sheet& sheet, HalfEdge h) const;
   double worst_after_collapse(const Sheet& sheet, HalfEdge h) const;
 
   Options options_;
+  PathCurve curve_;
+  Warp warp_{{.reach = 0.35, .border_only = true}};
+  double tolerance_ = 0;  // rest units
   SizeField field_;
   std::vector<TriangleIndex> zone_;
   StampedSet<TriangleIndex> in_zone_;

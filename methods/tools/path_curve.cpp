@@ -136,6 +136,13 @@ bool PathCurve::is_within(double from, double to, Point2 a, Point2 b, double tol
   return true;
 }
 
+bool PathCurve::may_divide(double from, double to, Point2 a, Point2 b, double tolerance) const {
+  if (!is_piece(from, to)) return false;
+  const double s = (from + to) / 2;
+  const Point2 middle = at(s);
+  return stays_near(from, s, a, middle, tolerance) && stays_near(s, to, middle, b, tolerance);
+}
+
 bool PathCurve::stays_near(double from, double to, Point2 a, Point2 b, double tolerance) const {
   if (from > to) std::swap(from, to);
   if (from < 0) return false;

@@ -44,6 +44,13 @@ class PathCurve {
   /// and may be replaced by the segment a b: the trace's nodes there lie within `tolerance` of it (rest units), and the
   /// other points of the curve within the larger of `tolerance` and the chord tolerance.
   bool stays_near(double from, double to, Point2 a, Point2 b, double tolerance) const;
+  /// Whether v, on the path between its neighbours, may be left out: the segment between these, at a and b, stays near.
+  bool may_leave_out(VertexIndex before, VertexIndex v, VertexIndex after, Point2 a, Point2 b, double tolerance) const {
+    const double from = parameter(before), s = parameter(v), to = parameter(after);
+    return s >= 0 && (s - from) * (to - s) > 0 && stays_near(from, to, a, b, tolerance);
+  }
+  /// Whether the path's edge a b may be divided at the curve's point halfway between the ends' parameters.
+  bool may_divide(double from, double to, Point2 a, Point2 b, double tolerance) const;
   /// The same for a piece between the nodes `from` and `to` that may end at a crossing of the path with itself. Where
   /// the points that the trace left out there are not known, the answer is true if there can be none.
   bool stays_near_between_nodes(int from, int to, Point2 a, Point2 b, double tolerance) const;

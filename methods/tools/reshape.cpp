@@ -130,10 +130,8 @@ bool Reshape::may_leave_out(VertexIndex v, HalfEdge towards) const {
   const Freedom how = freedom(v, n);
   if (how != Freedom::along) return how == Freedom::free;
   if (sheet_->mark(towards) != EdgeMark::path) return false;
-  const double from = curve_->parameter(n.before), s = curve_->parameter(v), to = curve_->parameter(n.after);
-  if (s < 0 || (s - from) * (to - s) <= 0) return false;
   if (is_tip(n.before) && is_tip(n.after)) return false;  // a single edge between tips would not open
-  return curve_->stays_near(from, to, sheet_->rest(n.before), sheet_->rest(n.after), tolerance_);
+  return curve_->may_leave_out(n.before, v, n.after, sheet_->rest(n.before), sheet_->rest(n.after), tolerance_);
 }
 
 /// Collapses the shortest edge at path vertex v if it is too short; false where there is none, or it may not be.
@@ -298,14 +296,6 @@ bool Reshape::shorten_in(TriangleIndex t) {
   return true;
 }
 
-/// Whether the edge a b of the path may be divided at the curve's point halfway between the ends' parameters.
-bool Reshape::may_divide(double from, double to, Point2 a, Point2 b) const {
-  if (!curve_->is_piece(from, to)) return false;
-  const double s = (from + to) / 2;
-  const Point2 middle = curve_->at(s);
-  return curve_->stays_near(from, s, a, middle, tolerance_) && curve_->stays_near(s, to, middle, b, tolerance_);
-}
-
 /// Halves the edge of t that leaves the best shapes; a piece of the path at a point of the curve.
 bool Reshape::split_in(TriangleIndex t) {
   HalfEdge best;
@@ -319,7 +309,7 @@ bool Reshape::split_in(TriangleIndex t) {
     double s = -1;
     if (sheet_->mark(h) == EdgeMark::path) {
       const double from = curve_->parameter(sheet_->origin(h)), to = curve_->parameter(sheet_->target(h));
-      if (may_divide(from, to, a, b)) {
+      if (curve_->may_divide(from, to, a, b, tolerance_)) {
         s = (from + to) / 2;
         middle = curve_->at(s);
       }

@@ -82,7 +82,6 @@ class Reshape {
   void find_wedges(bool widen);
   bool smooth_round(TriangleIndex t);
   bool shorten_in(TriangleIndex t);
-  bool may_divide(double from, double to, Point2 a, Point2 b) const;
   bool split_in(TriangleIndex t);
   void improve_one_by_one();
   void note_star(VertexIndex v);

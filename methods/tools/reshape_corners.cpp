@@ -64,7 +64,7 @@ void Reshape::follow_closely(VertexIndex from, VertexIndex to) {
   const double s = curve_->parameter(from), e = curve_->parameter(to);
   if (!h.valid() || sheet_->mark(h) != EdgeMark::path) return;
   const Point2 a = sheet_->rest(from), b = sheet_->rest(to);
-  if (squared_length(b - a) < 0.25 * h_ * h_ || !may_divide(s, e, a, b)) return;
+  if (squared_length(b - a) < 0.25 * h_ * h_ || !curve_->may_divide(s, e, a, b, tolerance_)) return;
   if (const VertexIndex v = split_at(h, curve_->at((s + e) / 2)); v.valid()) curve_->add(v, (s + e) / 2);
 }
 
