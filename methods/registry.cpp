@@ -98,7 +98,7 @@ std::vector<MethodRow>& table() {
         .conforming = true,
         .keeps_vertices = false,
         .incision_bound = {.longest_edges = 0, .chord_tolerances = 1}},
-       [](double) { return std::make_unique<Cisamr>(); }},
+       [](double) { return std::make_unique<Cisamr>(path_tolerance); }},
       {"cut_polygons",
        "conventional split; thin parts and their neighbours are one element together, a polygon",
        {"thinness",
@@ -146,8 +146,12 @@ std::vector<MethodRow>& table() {
       {"global_remesh",
        "the whole sheet is meshed again by CGAL with the path in it",
        {},
-       {.exact_incision = true, .keeps_area = true, .conforming = true, .keeps_vertices = false},
-       [](double) { return std::make_unique<GlobalRemesh>(); }},
+       {.exact_incision = false,
+        .keeps_area = true,
+        .conforming = true,
+        .keeps_vertices = false,
+        .incision_bound = {.longest_edges = 0, .chord_tolerances = 1}},
+       [](double) { return std::make_unique<GlobalRemesh>(path_tolerance); }},
       {"longest_edge",
        "local split by longest-edge propagation, with Delaunay flips",
        {"cap",
@@ -245,17 +249,37 @@ const std::vector<MethodRow>& ablation_methods() {
 
 namespace {
 
+/// The methods that may simplify the path, each with this licence as its parameter.
+void append_tolerances(std::vector<MethodRow>& all) {
+  const Parameter tolerance{
+      "tolerance",
+      path_tolerance,
+      "largest distance of the path that was asked for from the incision's edges, mean rest edges, or "
+      "the chord tolerance where that is smaller; 0: every crossing stays",
+      {.least = 0, .most = 0.5}};
+  const auto append = [&](const char* name, auto make) {
+    const auto row = std::find_if(all.begin(), all.end(), [&](const MethodRow& r) { return r.name == name; });
+    all.push_back(
+        {row->name + ":tolerance", row->name + " with another tolerance for the path", tolerance, row->promises, make});
+  };
+  append("active_node", [](double to) { return std::make_unique<ActiveNode>(ActiveNode::Options{.tolerance = to}); });
+  append("adaptive_remesh",
+         [](double to) { return std::make_unique<AdaptiveRemesh>(AdaptiveRemesh::Options{.tolerance = to}); });
+  append("cisamr", [](double to) { return std::make_unique<Cisamr>(to); });
+  append("global_remesh", [](double to) { return std::make_unique<GlobalRemesh>(to); });
+  append("warp_and_refine", [](double to) {
+    WarpAndRefine::Options options;
+    options.warping.tolerance = to;
+    options.reshaping.tolerance = to;
+    return std::make_unique<WarpAndRefine>(options);
+  });
+}
+
 std::vector<MethodRow>& nameable_table() {
   static auto rows = [] {
     std::vector<MethodRow> all = all_methods();
     all.insert(all.end(), ablation_methods().begin(), ablation_methods().end());
-    all.push_back({"adaptive_remesh:exact_path",
-                   "adaptive_remesh that keeps every crossing of a curved path",
-                   {"tip", 0.2, "as that of adaptive_remesh", {.least = 0.1, .most = 1, .or_zero = true}},
-                   {.exact_incision = true, .keeps_area = true, .conforming = true, .keeps_vertices = false},
-                   [](double tip) {
-                     return std::make_unique<AdaptiveRemesh>(AdaptiveRemesh::Options{.tip = tip, .tolerance = 0});
-                   }});
+    append_tolerances(all);
     all.push_back({"cut_polygons:stabilisation",
                    "cut_polygons with another stabilisation",
                    {"tau",

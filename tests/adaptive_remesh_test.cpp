@@ -22,8 +22,8 @@ Curve line(std::vector<Point2> points) { return {Curve::Kind::polyline, false, s
 
 class Remeshed {
  public:
-  Remeshed(const std::string& family, int n, double tip, const std::string& method = "adaptive_remesh")
-      : sheet(make_sheet(family, n)), method_(find_method(method).make(tip)), locator_(sheet) {}
+  Remeshed(const std::string& family, int n, double parameter, const std::string& method = "adaptive_remesh")
+      : sheet(make_sheet(family, n)), method_(find_method(method).make(parameter)), locator_(sheet) {}
 
   CutOutcome cut(const Curve& curve, const CutOptions& options = {}) {
     return cutter_.cut(sheet, locator_, curve, *method_, options);
@@ -108,8 +108,8 @@ TEST(AdaptiveRemesh, CollapsesMostShortEdges) {
 
 /// Vertices of a curved path may go within the tolerance: against every crossing kept.
 TEST(AdaptiveRemesh, LeavesFewerShortEdgesWhereThePathMayBeSimplified) {
-  const auto short_edges = [](const std::string& method, const std::string& family, std::size_t i) {
-    Remeshed body(family, 20, 0.2, method);
+  const auto short_edges = [](double tolerance, const std::string& family, std::size_t i) {
+    Remeshed body(family, 20, tolerance, "adaptive_remesh:tolerance");
     const double h = body.sheet.mean_edge();
     for (const Curve& curve : make_case("curved", 31, i, body.sheet))
       EXPECT_EQ(body.cut(curve, {.chord_tolerance = 0.05}).status, Status::ok);
@@ -121,8 +121,8 @@ TEST(AdaptiveRemesh, LeavesFewerShortEdgesWhereThePathMayBeSimplified) {
   for (const std::string family : {"grid", "alternating", "delaunay"}) {
     std::size_t exact = 0, simplified = 0;
     for (std::size_t i = 0; i < scaled(20); ++i) {
-      exact += short_edges("adaptive_remesh:exact_path", family, i);
-      simplified += short_edges("adaptive_remesh", family, i);
+      exact += short_edges(0, family, i);
+      simplified += short_edges(0.05, family, i);
     }
     EXPECT_LT(10 * simplified, exact) << family;
   }

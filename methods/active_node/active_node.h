@@ -47,8 +47,12 @@ class ActiveNode : public CuttingMethod {
     double spacing = 1;  ///< between vertices of the path, mean rest edges; 0: every crossing stays
     double near =
         0.35;  ///< a vertex nearer to the node is taken in, mean rest edges; times `spacing` where that is < 1
+    double tolerance = path_tolerance;  ///< of the chords (path_curve.h)
   };
-  explicit ActiveNode(const Options& options) : options_(options) {}
+  explicit ActiveNode(const Options& options)
+      : options_(options),
+        warp_({.reach = 0.35, .tolerance = options.tolerance, .border_only = true}),
+        reshape_({.tolerance = options.tolerance}) {}
 
   void adapt(Sheet& sheet, Subdivision& trace, const Polyline& path) override;
   void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
@@ -67,9 +71,9 @@ class ActiveNode : public CuttingMethod {
   void settle(Sheet& sheet, VertexIndex node);
 
   Options options_;
-  Warp warp_{{.reach = 0.35, .border_only = true}};
+  Warp warp_;
   PathCurve curve_;
-  Reshape reshape_{{}};
+  Reshape reshape_;
   LocalDelaunay delaunay_;
   double spacing_ = 0, near_ = 0;    // rest units
   std::vector<double> node_length_;  // per node of the trace: of the way up to it, rest units

@@ -14,7 +14,7 @@
 //
 // A vertex of the path goes where the edge that replaces its two stays within the tolerance of the curve that was asked
 // for, and an edge of the path is divided at a point of that curve (methods/tools/path_curve.h): the licence that
-// warp_and_refine has. `adaptive_remesh:exact_path` has none: there only a vertex inside a straight piece goes.
+// warp_and_refine has. `adaptive_remesh:tolerance` with 0 has none: there only a vertex inside a straight piece goes.
 //
 // Frozen: border and older incisions stay where they are, with their vertices, and so do held vertices (Sheet::hold).
 // Sheet::flip and Sheet::collapse refuse by exact predicates what would turn a triangle over, so the area stays.
@@ -53,12 +53,12 @@ namespace cutbench {
 class AdaptiveRemesh : public CuttingMethod {
  public:
   struct Options {
-    double tip = 0.2;         ///< h_tip: the field at a tip, mean rest edges, in (0, 1]; 0: flips alone
-    double growth = 0.3;      ///< g: of the field with the distance from the tip
-    double tolerance = 0.05;  ///< largest distance of the path that was asked for from its edges, mean rest edges; the
-                              ///< chord tolerance where that is smaller; 0: the path keeps every crossing
+    double tip = 0.2;                   ///< h_tip: the field at a tip, mean rest edges, in (0, 1]; 0: flips alone
+    double growth = 0.3;                ///< g: of the field with the distance from the tip
+    double tolerance = path_tolerance;  ///< of the path (path_curve.h); 0: it keeps every crossing
   };
-  explicit AdaptiveRemesh(const Options& options) : options_(options) {}
+  explicit AdaptiveRemesh(const Options& options)
+      : options_(options), warp_({.reach = 0.35, .tolerance = options.tolerance, .border_only = true}) {}
 
   void adapt(Sheet& sheet, Subdivision& trace, const Polyline& path) override;
   void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
@@ -81,7 +81,7 @@ class AdaptiveRemesh : public CuttingMethod {
 
   Options options_;
   PathCurve curve_;
-  Warp warp_{{.reach = 0.35, .border_only = true}};
+  Warp warp_;
   double tolerance_ = 0;  // rest units
   SizeField field_;
   std::vector<TriangleIndex> zone_;

@@ -29,15 +29,19 @@ namespace cutbench {
 
 class Cisamr : public CuttingMethod {
  public:
+  /// \param tolerance  of the path between moved vertices, mean rest edges; the chord tolerance where that is smaller
+  explicit Cisamr(double tolerance)
+      : warp_({.reach = 0.5, .max_aspect = 1e6, .tolerance = tolerance}), reshape_({.tolerance = tolerance}) {}
+
   std::optional<std::string> why_unsupported(const Sheet& sheet) const override;
   void adapt(Sheet& sheet, Subdivision& trace, const Polyline& path) override;
   void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
   void improve(Sheet& sheet, MethodNotes&) override;
 
  private:
-  Warp warp_{{.reach = 0.5, .max_aspect = 1e6}};
+  Warp warp_;
   PathCurve curve_;
-  Reshape reshape_{{}};
+  Reshape reshape_;
 };
 
 }  // namespace cutbench

@@ -1,16 +1,47 @@
 #include "methods/global_remesh/global_remesh.h"
 
+#include "harness/mesh/one_ring.h"
+
 namespace cutbench {
+
+void GlobalRemesh::adapt(Sheet& sheet, Subdivision& trace, const Polyline& path) {
+  if (!simplifies_) return;
+  curve_.read(sheet, trace, path);
+  warp_.run(sheet, trace, curve_);
+}
+
+void GlobalRemesh::embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) {
+  CuttingMethod::embed(sheet, trace, notes);
+  if (simplifies_) curve_.find_vertices(sheet, trace);
+}
+
+/// Leaves out vertices of the path, one after the other along it, where the edge that replaces two is not too long.
+void GlobalRemesh::simplify_path(Sheet& sheet, double longest) {
+  reshape_.begin(sheet, curve_);
+  const std::vector<VertexIndex> vertices = sheet.log().path_vertices;
+  for (const VertexIndex v : vertices) {
+    if (!sheet.triangle_of_vertex(v).valid()) continue;
+    std::vector<HalfEdge> pieces;
+    for_each_outgoing(sheet, v, [&](HalfEdge h) {
+      if (sheet.mark(h) == EdgeMark::path) pieces.push_back(h);
+    });
+    if (pieces.size() != 2) continue;
+    const Point2 across = sheet.rest(sheet.target(pieces[1])) - sheet.rest(sheet.target(pieces[0]));
+    if (squared_length(across) > longest * longest || !reshape_.may_leave_out(v, pieces[0])) continue;
+    if (!sheet.collapse(pieces[0])) sheet.collapse(pieces[1]);
+  }
+}
 
 void GlobalRemesh::improve(Sheet& sheet, MethodNotes& notes) {
   // With triangles whose longest edge is at most this, their number comes out near that of the sheet.
   constexpr double longest_edge = 1.5;
+  const double h = sheet.mean_edge();
+  if (simplifies_) simplify_path(sheet, longest_edge * h);
   wedges_.find(sheet);
   sheet_.clear(sheet);
   for (std::size_t t = 0; t < sheet.triangle_slots(); ++t)
     if (sheet.triangle(TriangleIndex(t)).alive()) sheet_.add(TriangleIndex(t));
   mesher_.convert(sheet, sheet_, false);
-  const double h = sheet.mean_edge();
   const bool complete =
       mesher_.insert(sheet) && mesher_.refine(sheet, {.max_aspect = 3,
                                                       .max_edge = longest_edge * h,

@@ -11,6 +11,10 @@
 
 namespace cutbench {
 
+/// How far the edges of the path may leave the curve where a method leaves out vertices or moves them, mean rest edges:
+/// the default of every such method; the chord tolerance where that is smaller.
+constexpr double path_tolerance = 0.05;
+
 /// A point of the curve is given by a parameter: i is node i of the trace, i + f lies between the nodes i and i + 1, at
 /// the fraction f of the curve's length there. Where a Bezier is cut with a finite chord tolerance, the curve between
 /// two nodes is the flattened Bezier, whose points the trace left out; otherwise it is the straight segment. So all

@@ -19,10 +19,9 @@ namespace cutbench {
 class Reshape {
  public:
   struct Options {
-    double short_edge = 0.35;  ///< an edge at the path is too short below it, in mean rest edges
-    double max_aspect = 3;     ///< a triangle at or beyond it is ill-shaped
-    double tolerance = 0.05;   ///< largest distance of the trace's nodes from the edges that replace them, mean rest
-                               ///< edges; the chord tolerance where that is smaller
+    double short_edge = 0.35;           ///< an edge at the path is too short below it, in mean rest edges
+    double max_aspect = 3;              ///< a triangle at or beyond it is ill-shaped
+    double tolerance = path_tolerance;  ///< of the trace's nodes from the edges that replace them (path_curve.h)
     double min_edge =
         shortest_refined_edge;  ///< no piece of path, incision or border shorter than twice that is divided
   };

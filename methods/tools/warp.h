@@ -15,11 +15,10 @@ namespace cutbench {
 class Warp {
  public:
   struct Options {
-    double reach = 0.4;        ///< of an edge, from a vertex to the crossing it moves for
-    double max_aspect = 4;     ///< no triangle round a moved vertex may exceed it
-    double tolerance = 0.05;   ///< largest distance of nodes that are left out from the new path, mean rest edges; the
-                               ///< chord tolerance where that is smaller
-    bool border_only = false;  ///< only vertices on the border move
+    double reach = 0.4;                 ///< of an edge, from a vertex to the crossing it moves for
+    double max_aspect = 4;              ///< no triangle round a moved vertex may exceed it
+    double tolerance = path_tolerance;  ///< of nodes that are left out from the new path (path_curve.h)
+    bool border_only = false;           ///< only vertices on the border move
   };
   explicit Warp(const Options& options) : options_(options) {}
 
