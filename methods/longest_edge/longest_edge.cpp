@@ -56,7 +56,7 @@ void LongestEdge::note_changed(const Sheet& sheet) {
   delaunay_.changed.clear();
 }
 
-void LongestEdge::improve(Sheet& sheet, MethodNotes&) {
+void LongestEdge::improve(Sheet& sheet, MethodNotes& notes) {
   wedges_.find(sheet);
   delaunay_.begin(sheet);
   ill_shaped_.clear();
@@ -68,8 +68,8 @@ void LongestEdge::improve(Sheet& sheet, MethodNotes&) {
   note_changed(sheet);
 
   const double most = options_.cap * to_double(sheet.log().path_vertices.size());
-  std::size_t made = 0;
-  for (std::size_t i = 0; i < ill_shaped_.size() && to_double(made) < most; ++i) {
+  std::size_t made = 0, i = 0;
+  for (; i < ill_shaped_.size() && to_double(made) < most; ++i) {
     const TriangleIndex t = ill_shaped_[i];
     if (!wants_splitting(sheet, t) || !split_terminal_edge(sheet, t)) continue;
     ++made;
@@ -77,6 +77,7 @@ void LongestEdge::improve(Sheet& sheet, MethodNotes&) {
     delaunay_.run(sheet);
     note_changed(sheet);
   }
+  notes.stopped_early = i < ill_shaped_.size();
 }
 
 }  // namespace cutbench
