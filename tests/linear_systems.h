@@ -120,7 +120,7 @@ inline std::vector<SolverOptions> all_solvers() {
   std::vector<SolverOptions> all;
   for (const std::string& name : solver_names()) {
     all.push_back({.name = name});
-    if (name == "multigrid" || name == "cholmod_stale" || name == "local_global")
+    if (name == "multigrid" || name == "cholmod_stale" || name == "constant_factor")
       all.push_back({.name = name, .factor = FactorBy::eigen});
   }
   return all;

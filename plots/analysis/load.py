@@ -24,6 +24,7 @@ TEXT = ["suite_version", "sheet", "method", "parameter", "seed", "cache", "statu
 TEXT_OF_SOME = ["cut_family", "problem", "solver", "primary",  # text in the records that have them
                 "sweep", "cut", "pose", "integrator", "stress_stiffness", "mass", "bending"]
 OLD_METHODS = {"cgal_whole_sheet (peer)": "cgal_whole_sheet (cross-check)", "peer": "cross_check"}
+OLD_SOLVERS = {"local_global": "constant_factor"}
 OPTIONAL = ["process_us"]  # read wherever it is: which methods are programs
 COUNTS = ["resolution", "case", "repetition"]
 OPENERS = {".gz": gzip.open, ".xz": lzma.open}  # of packed records, by the end of their name
@@ -121,6 +122,8 @@ def read_records(path, columns, all_columns=False):
             table = pd.read_csv(file, dtype=str, keep_default_na=False).rename(columns=names)
             if not all_columns:
                 table = table[[*columns, *(c for c in OPTIONAL if c in table and c not in columns)]]
+        if "solver" in table:
+            table["solver"] = table["solver"].replace(OLD_SOLVERS)
         for column in table.columns.difference(TEXT + TEXT_OF_SOME):
             table[column] = table[column].replace("", "nan").astype(float)
         table = table.astype({column: int for column in COUNTS})

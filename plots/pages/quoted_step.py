@@ -16,7 +16,7 @@ from pages.quoted import say, span
 
 SPLIT, WARP = "conventional_split", "warp_and_refine"
 MOTION = [WARP, "snap_or_split", "cgal_cdt", SPLIT, "delaunay_refine", "bowyer_watson"]
-SOLVERS = ["multigrid", "local_global", "cholmod_stale", "cg", "cg_sliver_blocks", "eigen_cg", "eigen_cg_ichol", "cholmod",
+SOLVERS = ["multigrid", "constant_factor", "cholmod_stale", "cg", "cg_sliver_blocks", "eigen_cg", "eigen_cg_ichol", "cholmod",
            "cholmod_same_order", "eigen_ldlt"]
 SIMPLE = ["eigen_cg", "eigen_cg_ichol", "cg", "cg_sliver_blocks"]  # conjugate gradients with simpler preconditioners
 DIRECT = ["cholmod", "cholmod_same_order", "eigen_ldlt"]
@@ -36,7 +36,7 @@ def table(path, first):
 class Solvers:
     def __init__(self, file):
         try:
-            rows = pd.read_csv(file, dtype={"cuts": str})
+            rows = pd.read_csv(file, dtype={"cuts": str}).replace({"solver": load.OLD_SOLVERS})
         except (OSError, ValueError) as error:
             load.stop(f"{file} can't be read: {error}")
         self.rows = rows.assign(step=rows["step"].round(6))
@@ -116,15 +116,15 @@ def ten_solvers(solvers):
     for solver, method in itertools.product(("multigrid", "cg"), (SPLIT, WARP)):
         rows = solvers.of("size", solver=solver, method=method).set_index("resolution")["iterations"]
         say(f"iterations of {solver} at 800 and 51,200, {method}", rows[800], rows[51200])
-    say("iterations of local_global in the sweep of cuts", span(solvers.of("cuts", solver="local_global")["iterations"]))
+    say("iterations of constant_factor in the sweep of cuts", span(solvers.of("cuts", solver="constant_factor")["iterations"]))
     for method in MOTION:
         ms = solvers.each("cuts", method=method, cuts="20")
         failed = {row.solver: row.verdict for row in solvers.of("cuts", method=method, cuts="20").itertuples() if row.verdict != "ok"}
-        say(f"20 cuts by {method}: local_global, multigrid, cg, blocks", *ms[["local_global", "multigrid", "cg", "cg_sliver_blocks"]],
+        say(f"20 cuts by {method}: constant_factor, multigrid, cg, blocks", *ms[["constant_factor", "multigrid", "cg", "cg_sliver_blocks"]],
             *(f"{solver} {verdict}" for solver, verdict in failed.items()))
         say("  eigen_cg_ichol over eigen_cg", ms["eigen_cg_ichol"] / ms["eigen_cg"])
     with_cut = solvers.each("size", "worst_step_with_cut_ms", method=SPLIT, resolution=12800)
-    say("the step with a cut at 12,800, four cuts by conventional_split: local_global, multigrid", *with_cut[["local_global", "multigrid"]])
+    say("the step with a cut at 12,800, four cuts by conventional_split: constant_factor, multigrid", *with_cut[["constant_factor", "multigrid"]])
     stale = solvers.rows[solvers.rows["sweep"].isin(["cuts", "size"]) & (solvers.rows["solver"] == "cholmod_stale")]
     say("iterations of cholmod_stale in the sweeps of sizes and cuts", span(stale["iterations"]))
     say("eigen_ldlt over cholmod at 12,800", *(columns[i]["eigen_ldlt"] / columns[i]["cholmod"] for i in (0, 1)))
@@ -135,7 +135,7 @@ def ten_solvers(solvers):
 def settings(solvers):
     print("Tolerance, step, material")
     four = [("skin", SHORT, 1e-2), ("skin", SHORT, 1e-4), ("skin", LONG, 1e-2), ("cotton", SHORT, 1e-2)]
-    for solver in ("multigrid", "cg", "local_global", "cholmod_stale", "cholmod"):
+    for solver in ("multigrid", "cg", "constant_factor", "cholmod_stale", "cholmod"):
         rows = [solvers.of("settings", method=SPLIT, solver=solver, material=m, step=h, tolerance=t).iloc[0] for m, h, t in four]
         say(solver, *(f"{load.number(row.step_ms)} ({load.number(row.iterations)})" for row in rows))
     for method, tolerance in itertools.product((SPLIT, WARP), (1e-2, 1e-4)):

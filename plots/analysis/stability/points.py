@@ -14,7 +14,7 @@ NAMES = {"conventional_split": "conventional split", "bowyer_watson": "Bowyer-Wa
          "ablation:warp+thin:tie": "warp, thin, tie", "element_deletion": "element deletion"}
 ADDED_MASS = ["stabilised", "scaled"]  # values of `mass` that are remedies
 SOLVERS = {"cg": "CG", "cg_sliver_blocks": "sliver blocks", "multigrid": "multigrid", "cholmod": "CHOLMOD",
-           "local_global": "local-global"}
+           "constant_factor": "constant factor"}
 
 
 def read(folder):

@@ -13,12 +13,12 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 from analysis import load
 from figures.common import style
 
-DASHES = {"cg": "-", "multigrid": "-", "local_global": "-", "cholmod": "-", "eigen_cg": ":", "eigen_ldlt": ":"}
+DASHES = {"cg": "-", "multigrid": "-", "constant_factor": "-", "cholmod": "-", "eigen_cg": ":", "eigen_ldlt": ":"}
 
 
 def read(folder):
     try:
-        return pd.read_csv(folder / "rows.csv")
+        return pd.read_csv(folder / "rows.csv").replace({"solver": load.OLD_SOLVERS})
     except (OSError, ValueError) as error:
         load.stop(f"{folder / 'rows.csv'} can't be read: {error}; experiments/solvers makes it")
 

@@ -56,7 +56,7 @@ OWN_ROWS = {"in_a_row", "explicit", "in_a_row_solvers", "step_poisson"}  # panel
 MAPS = [(integrator, newton, damping) for damping in (0.0, 1e-3) for integrator in INTEGRATORS for newton in (1, 3)]
 SECTIONS = ["a   one cut comes near something: explicit step (bending included), as a share of the uncut sheet's", None,
             "b   after single cuts: time of the cut (without finding polygons or ties), explicit step; after four; explicit runs",
-            "c   implicit steps of 1/240 s; rows of a method, from the top: CG, sliver blocks, multigrid, CHOLMOD, local-global",
+            "c   implicit steps of 1/240 s; rows of a method, from the top: CG, sliver blocks, multigrid, CHOLMOD, constant factor",
             "d   step × stiffness right after a cut by conventional split: verdicts, solved by CHOLMOD",
             "e   solvers cut short, and large deformations (in each method by solvers, or by integrators × Newton iterations)"]
 
