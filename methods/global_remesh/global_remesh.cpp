@@ -1,6 +1,7 @@
 #include "methods/global_remesh/global_remesh.h"
 
 #include "harness/mesh/one_ring.h"
+#include "harness/mesh/quality.h"
 
 namespace cutbench {
 
@@ -15,6 +16,22 @@ void GlobalRemesh::embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) {
   if (simplifies_) curve_.find_vertices(sheet, trace);
 }
 
+namespace {
+
+/// The shape of the triangles if the origin of h went to its target: they stay where the mesh generator fails.
+bool is_sound_after_collapse(const Sheet& sheet, HalfEdge h) {
+  constexpr double thinnest = 100;
+  const VertexIndex b = sheet.target(h);
+  bool sound = true;
+  for_each_outgoing(sheet, sheet.origin(h), [&](HalfEdge out) {
+    const VertexIndex c = sheet.target(out), d = sheet.origin(Sheet::previous(out));
+    if (c != b && d != b) sound &= oriented_aspect(sheet.rest(b), sheet.rest(c), sheet.rest(d)) < thinnest;
+  });
+  return sound;
+}
+
+}  // namespace
+
 /// Leaves out vertices of the path, one after the other along it, where the edge that replaces two is not too long.
 void GlobalRemesh::simplify_path(Sheet& sheet, double longest) {
   reshape_.begin(sheet, curve_);
@@ -28,7 +45,8 @@ void GlobalRemesh::simplify_path(Sheet& sheet, double longest) {
     if (pieces.size() != 2) continue;
     const Point2 across = sheet.rest(sheet.target(pieces[1])) - sheet.rest(sheet.target(pieces[0]));
     if (squared_length(across) > longest * longest || !reshape_.may_leave_out(v, pieces[0])) continue;
-    if (!sheet.collapse(pieces[0])) sheet.collapse(pieces[1]);
+    for (const HalfEdge h : pieces)
+      if (is_sound_after_collapse(sheet, h) && sheet.collapse(h)) break;
   }
 }
 
