@@ -152,9 +152,9 @@ std::vector<MethodRow>& table() {
        [](double cap) { return std::make_unique<LongestEdge>(LongestEdge::Options{.cap = cap}); }},
       {"phantom_node",
        "crossed triangles are doubled with phantom nodes, and the field is linear in each part",
-       {"ghost", 0, "ghost penalty, dimensionless, for statics: usually 0.01 to 1; 0: none", {.least = 0, .most = 100}},
+       {},
        exact_split,
-       [](double ghost) { return std::make_unique<PhantomNode>(PhantomNode::Options{.ghost = ghost}); }},
+       [](double) { return std::make_unique<PhantomNode>(PhantomNode::Options{}); }},
       {"snap_or_split",
        "crossings near a vertex move to the vertex, the others are split",
        {"tolerance", 0.25, "fraction of the edge up to which a crossing goes to the vertex", {.least = 0, .most = 0.5}},
@@ -243,9 +243,15 @@ std::vector<MethodRow>& nameable_table() {
   static auto rows = [] {
     std::vector<MethodRow> all = all_methods();
     all.insert(all.end(), ablation_methods().begin(), ablation_methods().end());
-    all.push_back({"phantom_node:lumped_mass", "phantom_node with a lumped mass", {}, exact_split, [](double) {
-                     return std::make_unique<PhantomNode>(PhantomNode::Options{.lumped_mass = true});
-                   }});
+    all.push_back(
+        {"phantom_node:consistent_mass",
+         "phantom_node with the mass of its linear fields",
+         {"ghost", 0, "ghost penalty, dimensionless, for statics: usually 0.01 to 1; 0: none", {.least = 0, .most = 100}},
+         exact_split,
+         [](double ghost) {
+           return std::make_unique<PhantomNode>(
+               PhantomNode::Options{.mass = PhantomNode::Mass::consistent, .ghost = ghost});
+         }});
     return all;
   }();
   return rows;

@@ -36,7 +36,7 @@ struct ConstrainedCut {
 };
 
 inline const std::vector<ConstrainingMethod> constraining_methods{
-    {"split_and_tie", 0.1}, {"phantom_node", 0}, {"phantom_node", 0.1}};
+    {"split_and_tie", 0.1}, {"phantom_node", 0}, {"phantom_node:consistent_mass", 0}, {"phantom_node:consistent_mass", 0.1}};
 inline const ConstrainingMethod cut_polygons{"cut_polygons", 0.7};
 
 /// `cases` cuts of each kind by each method; the families of sheets take turns.

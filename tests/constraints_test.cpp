@@ -160,7 +160,7 @@ TEST(Constraints, CracksOpenAsTheyDoByTheSplitAlone) {
             << "fewer unknowns are stiffer";
         const double less = (energy(split).value - energy(constrained).value) / energy(split).exact;
         // Phantom nodes lose up to a triangle at a tip whose lips would be too stiff, of a crack of twelve.
-        EXPECT_LE(less, name == "phantom_node" ? 0.25 : 0.1);
+        EXPECT_LE(less, name.starts_with("phantom_node") ? 0.25 : 0.1);
         lost += less;
         ++cases;
       }

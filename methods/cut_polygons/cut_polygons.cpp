@@ -13,7 +13,8 @@ Constraints CutPolygons::constraints(const Sheet& before, const Sheet& cut) cons
   return {.polygons = merge_thin_parts(before, cut, options_.thinness)};
 }
 
-Constraints CutPolygons::next_constraints(const Sheet& before, const Sheet& cut, const PolygonsLeft& left) const {
+Constraints CutPolygons::next_constraints(const Sheet& before, const Sheet& cut, const Constraints& /*last*/,
+                                          const PolygonsLeft& left) const {
   return {.polygons = merge_new_thin_parts(before, cut, options_.thinness, left)};
 }
 

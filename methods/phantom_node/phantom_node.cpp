@@ -19,7 +19,7 @@ namespace {
 class Doubling {
  public:
   Doubling(const Sheet& before, const Sheet& cut, const PhantomNode::Options& options)
-      : options_(options), parts_(before, cut), tips_(parts_, options.lumped_mass), cut_(cut) {
+      : options_(options), parts_(before, cut), tips_(parts_, options.mass == PhantomNode::Mass::lumped), cut_(cut) {
     join_copies();
   }
 
@@ -40,7 +40,8 @@ class Doubling {
           else if (const DeformedIndex one = unknown(parts_.number_of(d)); one != d)
             constraints.constraints.push_back({d, {one, one, one}, {1, 0, 0}});
         }
-    if (options_.lumped_mass) lump(constraints);
+    add_elements(constraints);
+    if (options_.mass == PhantomNode::Mass::lumped) lump(constraints);
     return constraints;
   }
 
@@ -76,38 +77,73 @@ class Doubling {
       }
   }
 
-  /// A third of the mass of each part to each copy of its parent's corners, where it is slit to those that its vertices
-  /// depend on. Looks at the whole sheet.
-  void lump(Constraints& constraints) {
-    constraints.lumped.assign(cut_.deformed_slots() + phantoms_.size(), 0);
-    std::vector<const Constraint*> constraint_of_vertex(parts_.vertices().size());
-    for (const Constraint& constraint : constraints.constraints)
-      constraint_of_vertex[parts_.number_of(constraint.vertex)] = &constraint;
-    for (std::size_t slot = 0; slot < cut_.triangle_slots(); ++slot) {
-      const TriangleIndex t(slot);
-      if (!cut_.triangle(t).alive()) continue;
-      const auto c = cut_.corners(t);
-      const double share = std::max(0.0, cross(c[1] - c[0], c[2] - c[0])) / 6;
-      const std::size_t i = parts_.place_of(t);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const DeformedIndex d = cut_.triangle(t).deformed[k];
-        if (i == parts_.size())
-          constraints.lumped[whole_unknown(d)()] += share;
-        else if (!tips_.is_slit(i))
-          constraints.lumped[unknown(copy(i, k))()] += share;
-        else if (const Constraint* const constraint = constraint_of_vertex[parts_.number_of(d)]; constraint == nullptr)
-          constraints.lumped[d()] += share;
-        else
-          for (std::size_t l = 0; l < 3; ++l)
-            constraints.lumped[constraint->masters[l]()] += share * std::max(0.0, constraint->weights[l]);
+  /// Each part, with what its corners have.
+  void add_elements(Constraints& constraints) {
+    std::vector<std::size_t> element(parts_.size());
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      if (parts_.part(i) == i) {
+        element[i] = constraints.copied.size();
+        const std::array<DeformedIndex, 3> unknowns{unknown(copy(i, 0)), unknown(copy(i, 1)), unknown(copy(i, 2))};
+        const TriangleIndex parent = parts_.parent_slot(i);
+        constraints.copied.push_back({parent, parts_.before().corners(parent), unknowns, 0, {}});
       }
+      CopiedElement& whole = constraints.copied[element[parts_.part(i)]];
+      whole.triangles.push_back(parts_.slot(i));
+      whole.share += twice_area(parts_.cut().corners(parts_.slot(i))) / twice_area(whole.corner);
     }
   }
 
-  /// Of a triangle away from all divided ones.
-  DeformedIndex whole_unknown(DeformedIndex d) {
-    const std::size_t number = parts_.number_of(d);
-    return number < parts_.vertices().size() && parts_.vertices()[number] == d ? unknown(number) : d;
+  /// A third of the mass of each part to each copy of its parent's corners, where it is slit to those that its vertices
+  /// depend on; of all other triangles to their corners.
+  void lump(Constraints& constraints) {
+    std::vector<double> area(parts_.vertices().size() + phantoms_.size());
+    const auto add = [&](DeformedIndex u, double share) { area[place_of(u)] += share; };
+    std::vector<const Constraint*> constraint_of_vertex(parts_.vertices().size());
+    for (const Constraint& constraint : constraints.constraints)
+      constraint_of_vertex[parts_.number_of(constraint.vertex)] = &constraint;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const double share = twice_area(cut_.corners(parts_.slot(i))) / 6;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const DeformedIndex d = parts_.triangle(i).deformed[k];
+        if (!tips_.is_slit(i))
+          add(unknown(copy(i, k)), share);
+        else if (const Constraint* const constraint = constraint_of_vertex[parts_.number_of(d)]; constraint == nullptr)
+          add(d, share);
+        else
+          for (std::size_t l = 0; l < 3; ++l)
+            add(constraint->masters[l], share * std::max(0.0, constraint->weights[l]));
+      }
+    }
+    for (std::size_t number = 0; number < parts_.vertices().size(); ++number)
+      for_each_whole_round(parts_.vertices()[number], [&](TriangleIndex t) {
+        add(unknown(number), twice_area(cut_.corners(t)) / 6);
+      });
+    for (std::size_t number = 0; number < parts_.vertices().size(); ++number)
+      if (const DeformedIndex d = parts_.vertices()[number];
+          !parts_.is_new(cut_.rest_vertex(d)) && unknown(number) == d)
+        constraints.lumped.push_back({d, area[number]});
+    for (std::size_t i = 0; i < phantoms_.size(); ++i)
+      constraints.lumped.push_back({DeformedIndex(cut_.deformed_slots() + i), area[parts_.vertices().size() + i]});
+  }
+
+  /// The triangles away from all divided ones that have this corner.
+  template <class Visit>
+  void for_each_whole_round(DeformedIndex d, const Visit& visit) const {
+    if (parts_.is_new(cut_.rest_vertex(d))) return;
+    const HalfEdge first = cut_.first_outgoing(cut_.rest_vertex(d));
+    HalfEdge h = first;
+    do {
+      const TriangleIndex t = triangle_of(h);
+      if (cut_.triangle(t).deformed[to_size(corner_of(h))] == d && parts_.place_of(t) == parts_.size()) visit(t);
+    } while ((h = cut_.next_outgoing(h)).valid() && h != first);
+  }
+
+  static double twice_area(const std::array<Point2, 3>& c) { return std::max(0.0, cross(c[1] - c[0], c[2] - c[0])); }
+
+  /// Of an unknown: its vertex's number, or behind these.
+  std::size_t place_of(DeformedIndex u) const {
+    return u() < cut_.deformed_slots() ? parts_.number_of(u)
+                                       : parts_.vertices().size() + (u() - cut_.deformed_slots());
   }
 
   /// Across every edge of the sheet at which two parts are joined, one of them of a divided parent.

@@ -18,25 +18,35 @@
 //  - Copies of a vertex of the sheet that belong to the same part are one unknown.
 //  - Supports (pins, border displacements) act on the sheet's own vertices and on crossings of the border.
 //
-// A part with almost no material makes unknowns with almost no stiffness and mass. Two variants, for sheets at rest,
-// bound the consequences:
-//  - `ghost`: a penalty on the jump of the normal derivative across the edges at which the parts of a divided parent
-//    are joined to its neighbours, `ghost` times edge length squared in K, to the fourth power in M.
-//  - a lumped mass, a third of a part's to each corner of its parent: then no part that is not slit has a larger
-//    eigenvalue than its parent (Menouillard, Rethore, Combescure and Bung, IJNME 68 (2006)). A lip in a slit part
-//    stiffens copies whose mass may come from a thin part alone, the one beyond the edge. So the limit that keeps a tip
-//    closed is lower here, by the share that this part has of its parent's area.
+// A part with almost no material makes unknowns with almost no stiffness and mass. What bounds the consequences:
+//  - The mass is lumped, a third of a part's to each corner of its parent: then no part that is not slit has a larger
+//    eigenvalue of the membrane than its parent (Menouillard, Rethore, Combescure and Bung, IJNME 68 (2006); Song,
+//    Areias and Belytschko step explicitly with such a mass). A lip in a slit part stiffens copies whose mass may come
+//    from a thin part alone, the one beyond the edge. So the limit that keeps a tip closed is lower here, by the share
+//    that this part has of its parent's area.
+//  - `phantom_node:consistent_mass` has the mass of the linear fields instead, exact, and no such bound. Its `ghost` is
+//    a penalty, for sheets at rest, on the jump of the normal derivative across the edges at which the parts of a
+//    divided parent are joined to its neighbours: `ghost` times edge length squared in K, to the fourth power in M.
 //
-// Source: Hansbo and Hansbo, CMAME 193 (2004); Molino, Bao and Fedkiw, A virtual node algorithm (2004); Song, Areias
-// and Belytschko, IJNME 67 (2006); Rabczuk, Zi, Gerstenberger and Wall, IJNME 75 (2008), for a jump that vanishes at a
+// In motion: phantom nodes have positions and velocities. A new one begins with those that the element had at that
+// corner which its part was cut from: an element of before, or the sheet's triangle. So what is linear in the element
+// goes on as it was.
+//
+// Bending: that of whole copies, times a part's share of its parent's area (harness/fem/elements/copied_bending.h); a
+// part that is slit bends as a whole. This is this program's reading: no source here has bending. It has no bound for
+// thin parts, since whole neighbours bend against their corners, too.
+//
+// Source: Hansbo and Hansbo, CMAME 193 (2004); Song, Areias and Belytschko, IJNME 67 (2006; not read); Rabczuk, Zi, Gerstenberger and Wall, IJNME 75 (2008), for a jump that vanishes at a
 // tip inside a triangle (cited from memory; theirs is another element); Richardson, Hegemann, Sifakis, Hellrung and
 // Teran, IJNME 88 (2011), for parts and junctions; Burman and Hansbo, Applied Numerical Mathematics 62 (2012), for the
 // ghost penalty.
 // Promises: the exact path, area, conforming, no vertex moved; an affine displacement is reproduced exactly.
 // Where it fails: the opening is too short where the tip rule cannot hold, and at a bend of the path inside a triangle
-// the stress is constant. Without a variant, thin parts are as ill-conditioned as slivers; no penalty reaches a piece
-// smaller than a triangle. The system is assembled again after each cut, not updated.
+// the stress is constant. With a consistent mass, thin parts are as ill-conditioned as slivers; no penalty reaches a
+// piece smaller than a triangle. The system is assembled again after each cut, not updated.
 #pragma once
+
+#include <cstdint>
 
 #include "harness/cut/constraint_source.h"
 
@@ -44,9 +54,10 @@ namespace cutbench {
 
 class PhantomNode : public CuttingMethod, private ConstraintSource {
  public:
+  enum class Mass : std::uint8_t { lumped, consistent };
   struct Options {
-    double ghost = 0;  ///< dimensionless; 0: no penalty
-    bool lumped_mass = false;
+    Mass mass = Mass::lumped;
+    double ghost = 0;  ///< dimensionless; 0: no penalty. Its mass is for a consistent one
   };
   explicit PhantomNode(const Options& options) : options_(options) {}
 
@@ -55,7 +66,7 @@ class PhantomNode : public CuttingMethod, private ConstraintSource {
 
  private:
   ConstraintKind constraint_kind() const override {
-    return options_.ghost > 0 || options_.lumped_mass ? ConstraintKind::phantoms_at_rest : ConstraintKind::phantoms;
+    return options_.ghost > 0 ? ConstraintKind::phantoms_at_rest : ConstraintKind::phantoms;
   }
   Constraints constraints(const Sheet& before, const Sheet& cut) const override;
 
