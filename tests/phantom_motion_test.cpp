@@ -55,7 +55,8 @@ double distance(Point3 a, Point3 b) {
 }
 
 struct Kept {
-  double momentum = 0, angular = 0, energy = 0;  ///< the largest change, over what there is
+  double momentum = 0, angular = 0;  ///< the largest change, over what there is
+  double energy = 0;                 ///< the largest gain
 };
 
 /// Three cuts, one after the other, of a free piece in motion, with ten steps after each.
@@ -91,12 +92,9 @@ TEST(CopiedElementsInMotion, AFreePieceKeepsWhatItHas) {
       for (const std::string& method : copying_methods) {
         SCOPED_TRACE(method + ", " + name_of(integrator_names, integrator) + ", " + name_of(bending));
         const Kept copies = kept_by(method, integrator, bending);
-        std::cout << method << " " << name_of(integrator_names, integrator) << " " << name_of(bending) << ": "
-                  << copies.momentum << " " << copies.angular << " " << copies.energy << " split " << split.momentum
-                  << " " << split.angular << " " << split.energy << "\n";
-        EXPECT_LE(copies.momentum, 1e-8);
-        EXPECT_LE(copies.angular, std::max(1e-8, 2 * split.angular));
-        EXPECT_LE(copies.energy, std::max(1e-3, 2 * split.energy));
+        EXPECT_LE(copies.momentum, 1e-12);
+        EXPECT_LE(copies.angular, integrator == Integrator::midpoint ? 1e-12 : split.angular);
+        EXPECT_LE(copies.energy, std::max(1e-4, split.energy));
       }
     }
 }
@@ -115,7 +113,8 @@ TEST(CopiedElementsInMotion, ACutKeepsMomentumAndMotion) {
                   << cut.before.energy.membrane << " " << cut.after.energy.membrane << " " << cut.before.energy.bending
                   << " " << cut.after.energy.bending << "\n";
         EXPECT_LE(distance(cut.before.momentum, cut.after.momentum), 1e-10 * distance(cut.before.momentum, {}));
-        EXPECT_NEAR(cut.after.energy.kinetic, cut.before.energy.kinetic, 0.02 * cut.before.energy.kinetic);
+        EXPECT_NEAR(cut.after.energy.kinetic, cut.before.energy.kinetic, 1e-3 * cut.before.energy.kinetic);
+        EXPECT_NEAR(cut.after.energy.bending, cut.before.energy.bending, 0.05 * cut.before.energy.bending);
         for (int i = 0; i < 3; ++i) EXPECT_EQ(motion->step().verdict, Verdict::ok);
       }
     }
@@ -191,7 +190,6 @@ TEST(CopiedElementsInMotion, BendAsTheSheetBeforeTheCut) {
       const double whole = energy();
       ASSERT_EQ(body.cut(three_cuts[2], method), Status::ok);
       body.model.constrain(body.sheet, constraints_of(*find_method(method).make(0), before, body.sheet));
-      std::cout << method << " " << name_of(bending) << " bends " << energy() / whole << "\n";
       EXPECT_NEAR(energy(), whole, (bending == BendingKind::patches ? 0.05 : 0.15) * whole);
     }
 }

@@ -100,10 +100,10 @@ TEST(PhantomNode, IsLinearInEachPart) {
 /// A tip that is clear of the edges of its triangle: the lips come apart where they enter it, and only there.
 TEST(PhantomNode, OpensUpToTheTip) {
   const Sheet before(make_sheet("grid", 10));
-  Table table(make_sheet("grid", 10), find_method("phantom_node"), 0);
+  Table table(make_sheet("grid", 10), find_method("phantom_node:consistent_mass"), 0);
   ASSERT_EQ(table.cut(line({0.225, 0.553}, {0.775, 0.553}), 0.05), "");
   const Sheet& sheet = table.sheet;
-  const Constraints constraints = constraints_of(*find_method("phantom_node").make(0), before, sheet);
+  const Constraints constraints = constraints_of(*find_method("phantom_node:consistent_mass").make(0), before, sheet);
   const Eigen::MatrixXd c = dense_constraint_matrix(constraints, sheet.deformed_slots(), 1);
   std::map<VertexIndex, std::set<std::size_t>> copies;
   for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) copies[sheet.rest_vertex(DeformedIndex(d))].insert(d);

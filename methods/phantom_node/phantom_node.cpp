@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
+#include <unordered_map>
 #include <utility>
 
 #include "harness/base/conversions.h"
 #include "harness/base/union_find.h"
 #include "harness/mesh/tolerances.h"
+#include "methods/phantom_node/last_cut.h"
 #include "methods/phantom_node/open_tips.h"
 #include "methods/phantom_node/parts.h"
 #include "methods/tools/static_split.h"
@@ -23,12 +26,29 @@ class Doubling {
     join_copies();
   }
 
+  /// After one more cut than `last`, of which all else stays.
+  Doubling(const Sheet& before, const Sheet& cut, const PhantomNode::Options& options, const LastCut& last_cut,
+           const Constraints& last)
+      : options_(options),
+        parts_(before, cut, last_cut.near()),
+        tips_(parts_, options.mass == PhantomNode::Mass::lumped),
+        cut_(cut),
+        last_cut_(&last_cut),
+        last_(&last) {
+    join_copies();
+    keep_phantoms();
+    keep_unknowns();
+  }
+
   Constraints run() {
+    const std::size_t kept = phantoms_.size();
     number_phantoms();
     Constraints constraints;
     constraints.phantoms = phantoms_;
     if (options_.ghost > 0) add_ghosts(options_.ghost, constraints.ghosts);
+    if (last_) keep_constraints(constraints);
     std::vector<std::uint8_t> seen(parts_.vertices().size());
+    for (std::size_t number = 0; last_ && number < seen.size(); ++number) seen[number] = !is_looked_at_again(number);
     // The slit parts last: where a lip enters one, it goes along with the part that it comes from.
     for (const bool slit : {false, true})
       for (std::size_t i = 0; i < parts_.size(); ++i)
@@ -41,7 +61,7 @@ class Doubling {
             constraints.constraints.push_back({d, {one, one, one}, {1, 0, 0}});
         }
     add_elements(constraints);
-    if (options_.mass == PhantomNode::Mass::lumped) lump(constraints);
+    if (options_.mass == PhantomNode::Mass::lumped) lump(kept, constraints);
     return constraints;
   }
 
@@ -64,12 +84,99 @@ class Doubling {
     });
   }
 
+  // --- what is left of before the last cut ---------------------------------------------------------------------------
+
+  bool stays(VertexIndex v) const { return last_ && !last_cut_->touches(v); }
+  /// Where an unknown of before is now. \pre its corner stays
+  DeformedIndex now(DeformedIndex u) const {
+    const std::size_t first = cut_.log().deformed_before;
+    return u() < first ? u : DeformedIndex(cut_.deformed_slots() + to_size(kept_[u() - first]));
+  }
+
+  void keep_phantoms() {
+    const std::size_t first = cut_.log().deformed_before;
+    kept_.assign(last_->phantoms.size(), -1);
+    for (const CopiedElement& element : last_->copied)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (element.unknown[k]() >= first && stays(parts_.before().triangle(element.parent).vertex[k]))
+          kept_[element.unknown[k]() - first] = 0;
+    for (std::size_t i = 0; i < kept_.size(); ++i)
+      if (kept_[i] == 0) {
+        kept_[i] = to_int32(phantoms_.size());
+        phantoms_.push_back(last_->phantoms[i]);
+      }
+  }
+
+  /// Gives the copies of corners that stay the unknowns that they had.
+  void keep_unknowns() {
+    fixed_.resize(parts_.vertices().size() + 3 * parts_.size());
+    std::vector<DeformedIndex> stands_for = parts_.vertices();
+    for (const Constraint& constraint : last_->constraints)
+      if (const std::size_t number = parts_.number_of(constraint.vertex); parts_.has(number, constraint.vertex))
+        stands_for[number] = constraint.masters[0];
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      if (parts_.part(i) != i) continue;
+      const auto all = elements_of(last_->copied, parts_.parent_slot(i));
+      const auto was = std::find_if(all.begin(), all.end(), [&](const CopiedElement& element) {
+        return element.triangles.front() == parts_.slot(i);
+      });
+      for (std::size_t k = 0; k < 3; ++k)
+        if (const VertexIndex v = parts_.parent(i).vertex[k]; stays(v))
+          fixed_[copies_.find(copy(i, k))] =
+              now(was != all.end() ? was->unknown[k] : stands_for[parts_.number_of(corner_of_whole(i, v))]);
+    }
+  }
+
+  /// Of a triangle that was not divided.
+  DeformedIndex corner_of_whole(std::size_t i, VertexIndex v) const {
+    const auto& corners = parts_.triangle(i).vertex;
+    return parts_.triangle(i).deformed[to_size(std::find(corners.begin(), corners.end(), v) - corners.begin())];
+  }
+
+  /// What it is constrained to may be another: all triangles round a vertex that cuts made are among the parts.
+  bool is_looked_at_again(std::size_t number) const {
+    const DeformedIndex d = parts_.vertices()[number];
+    const VertexIndex v = cut_.rest_vertex(d);
+    if (!parts_.is_new(v)) return last_cut_->touches(v);
+    bool all = true;
+    for_each_round(d, [&](TriangleIndex t) { all &= parts_.place_of(t) < parts_.size(); });
+    return all;
+  }
+
+  void keep_constraints(Constraints& constraints) const {
+    for (Constraint constraint : last_->constraints) {
+      const std::size_t number = parts_.number_of(constraint.vertex);
+      if (parts_.has(number, constraint.vertex) && is_looked_at_again(number)) continue;
+      const auto largest = std::max_element(constraint.weights.begin(), constraint.weights.end());
+      const DeformedIndex first = constraint.masters[to_size(largest - constraint.weights.begin())];
+      for (std::size_t k = 0; k < 3; ++k)  // what is left out may be no more
+        constraint.masters[k] = now(constraint.weights[k] == 0 ? first : constraint.masters[k]);
+      constraints.constraints.push_back(constraint);
+    }
+    for (const CopiedElement& element : last_->copied) {
+      if (last_cut_->reaches(element.parent)) continue;
+      constraints.copied.push_back(element);
+      for (DeformedIndex& u : constraints.copied.back().unknown) u = now(u);
+    }
+    const std::size_t first = cut_.log().deformed_before;
+    for (const auto& [u, area] : last_->lumped)
+      if (u() < first ? stays(cut_.rest_vertex(u)) : kept_[u() - first] >= 0)
+        constraints.lumped.push_back({now(u), area});
+  }
+
+  bool was_lumped(DeformedIndex d) const {
+    return std::binary_search(last_->lumped.begin(), last_->lumped.end(), LumpedArea{d, 0},
+                              [](const LumpedArea& a, const LumpedArea& b) { return a.unknown < b.unknown; });
+  }
+
+  // --- all of it ------------------------------------------------------------------------------------------------------
+
   void number_phantoms() {
     phantom_.assign(3 * parts_.size(), -1);
     for (std::size_t i = 0; i < parts_.size(); ++i)
       for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t one = copies_.find(copy(i, k));
-        if (one < parts_.vertices().size()) continue;
+        if (one < parts_.vertices().size() || is_fixed(one)) continue;
         auto& number = phantom_[one - parts_.vertices().size()];
         if (number >= 0) continue;
         number = to_int32(phantoms_.size());
@@ -91,16 +198,21 @@ class Doubling {
       whole.triangles.push_back(parts_.slot(i));
       whole.share += twice_area(parts_.cut().corners(parts_.slot(i))) / twice_area(whole.corner);
     }
+    std::sort(constraints.copied.begin(), constraints.copied.end(), [](const CopiedElement& a, const CopiedElement& b) {
+      return std::tuple(a.parent, a.triangles.front()) < std::tuple(b.parent, b.triangles.front());
+    });
   }
 
   /// A third of the mass of each part to each copy of its parent's corners, where it is slit to those that its vertices
   /// depend on; of all other triangles to their corners.
-  void lump(Constraints& constraints) {
-    std::vector<double> area(parts_.vertices().size() + phantoms_.size());
-    const auto add = [&](DeformedIndex u, double share) { area[place_of(u)] += share; };
+  /// \param kept  phantom nodes of before, whose mass is known
+  void lump(std::size_t kept, Constraints& constraints) {
+    std::unordered_map<std::int32_t, double> area;
+    const auto add = [&](DeformedIndex u, double share) { area[u.value] += share; };
     std::vector<const Constraint*> constraint_of_vertex(parts_.vertices().size());
     for (const Constraint& constraint : constraints.constraints)
-      constraint_of_vertex[parts_.number_of(constraint.vertex)] = &constraint;
+      if (const std::size_t number = parts_.number_of(constraint.vertex); parts_.has(number, constraint.vertex))
+        constraint_of_vertex[number] = &constraint;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       const double share = twice_area(cut_.corners(parts_.slot(i))) / 6;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -115,36 +227,35 @@ class Doubling {
       }
     }
     for (std::size_t number = 0; number < parts_.vertices().size(); ++number)
-      for_each_whole_round(parts_.vertices()[number], [&](TriangleIndex t) {
-        add(unknown(number), twice_area(cut_.corners(t)) / 6);
-      });
-    for (std::size_t number = 0; number < parts_.vertices().size(); ++number)
-      if (const DeformedIndex d = parts_.vertices()[number];
-          !parts_.is_new(cut_.rest_vertex(d)) && unknown(number) == d)
-        constraints.lumped.push_back({d, area[number]});
-    for (std::size_t i = 0; i < phantoms_.size(); ++i)
-      constraints.lumped.push_back({DeformedIndex(cut_.deformed_slots() + i), area[parts_.vertices().size() + i]});
+      if (const DeformedIndex d = parts_.vertices()[number]; !parts_.is_new(cut_.rest_vertex(d)))
+        for_each_round(d, [&](TriangleIndex t) {
+          if (parts_.place_of(t) == parts_.size()) add(unknown(number), twice_area(cut_.corners(t)) / 6);
+        });
+    for (std::size_t number = 0; number < parts_.vertices().size(); ++number) {
+      const DeformedIndex d = parts_.vertices()[number];
+      const VertexIndex v = cut_.rest_vertex(d);
+      if (!parts_.is_new(v) && unknown(number) == d && !(stays(v) && was_lumped(d)))
+        constraints.lumped.push_back({d, area[d.value]});
+    }
+    for (std::size_t i = kept; i < phantoms_.size(); ++i) {
+      const DeformedIndex u(cut_.deformed_slots() + i);
+      constraints.lumped.push_back({u, area[u.value]});
+    }
+    std::sort(constraints.lumped.begin(), constraints.lumped.end(),
+              [](const LumpedArea& x, const LumpedArea& y) { return x.unknown < y.unknown; });
   }
 
-  /// The triangles away from all divided ones that have this corner.
+  /// The triangles that have this corner.
   template <class Visit>
-  void for_each_whole_round(DeformedIndex d, const Visit& visit) const {
-    if (parts_.is_new(cut_.rest_vertex(d))) return;
+  void for_each_round(DeformedIndex d, const Visit& visit) const {
     const HalfEdge first = cut_.first_outgoing(cut_.rest_vertex(d));
     HalfEdge h = first;
-    do {
-      const TriangleIndex t = triangle_of(h);
-      if (cut_.triangle(t).deformed[to_size(corner_of(h))] == d && parts_.place_of(t) == parts_.size()) visit(t);
-    } while ((h = cut_.next_outgoing(h)).valid() && h != first);
+    do
+      if (cut_.triangle(triangle_of(h)).deformed[to_size(corner_of(h))] == d) visit(triangle_of(h));
+    while ((h = cut_.next_outgoing(h)).valid() && h != first);
   }
 
   static double twice_area(const std::array<Point2, 3>& c) { return std::max(0.0, cross(c[1] - c[0], c[2] - c[0])); }
-
-  /// Of an unknown: its vertex's number, or behind these.
-  std::size_t place_of(DeformedIndex u) const {
-    return u() < cut_.deformed_slots() ? parts_.number_of(u)
-                                       : parts_.vertices().size() + (u() - cut_.deformed_slots());
-  }
 
   /// Across every edge of the sheet at which two parts are joined, one of them of a divided parent.
   void add_ghosts(double factor, std::vector<GhostEdge>& ghosts) {
@@ -192,8 +303,11 @@ class Doubling {
     return ghost;
   }
 
+  /// It is an unknown that stays.
+  bool is_fixed(std::size_t one) const { return last_ && fixed_[one].valid(); }
   DeformedIndex unknown(std::size_t number) {
     const std::size_t one = copies_.find(number), vertices = parts_.vertices().size();
+    if (is_fixed(one)) return fixed_[one];
     if (one < vertices) return parts_.vertices()[one];
     return DeformedIndex(cut_.deformed_slots() + to_size(phantom_[one - vertices]));
   }
@@ -224,6 +338,11 @@ class Doubling {
   UnionFind copies_;                     // of vertices, and three for the corners of the parent of each part
   std::vector<std::int32_t> phantom_;    // per copy that is no vertex: its number
   std::vector<DeformedIndex> phantoms_;  // what each is a copy of
+  // Of the last cut; null where all cuts are looked at.
+  const LastCut* last_cut_ = nullptr;
+  const Constraints* last_ = nullptr;
+  std::vector<std::int32_t> kept_;    // per phantom of before: its number now, -1: none
+  std::vector<DeformedIndex> fixed_;  // per class of copies: its unknown, where that stays
 };
 
 }  // namespace
@@ -234,6 +353,13 @@ void PhantomNode::embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) {
 
 Constraints PhantomNode::constraints(const Sheet& before, const Sheet& cut) const {
   return Doubling(before, cut, options_).run();
+}
+
+Constraints PhantomNode::next_constraints(const Sheet& before, const Sheet& cut, const Constraints& last,
+                                          const PolygonsLeft& /*left*/) const {
+  if (options_.ghost > 0) return constraints(before, cut);  // for sheets at rest
+  const LastCut last_cut(before, cut, last);
+  return Doubling(before, cut, options_, last_cut, last).run();
 }
 
 }  // namespace cutbench

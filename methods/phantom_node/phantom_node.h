@@ -69,6 +69,8 @@ class PhantomNode : public CuttingMethod, private ConstraintSource {
     return options_.ghost > 0 ? ConstraintKind::phantoms_at_rest : ConstraintKind::phantoms;
   }
   Constraints constraints(const Sheet& before, const Sheet& cut) const override;
+  Constraints next_constraints(const Sheet& before, const Sheet& cut, const Constraints& last,
+                               const PolygonsLeft& left) const override;
 
   Options options_;
 };

@@ -62,9 +62,11 @@ class ScaledStiffness {
     force_.setZero(moved_.size());
     membrane_->add_force(moved_, force_);
     // Bending acts on each coordinate alike, so that membrane and bending together are stiffest in the plane.
+    force_.conservativeResize(size());
+    force_.tail(size() - moved_.size()).setZero();
     if (bending_) bend();
     constraint_matrix_.reduce(2, force_.head(moved_.size()), y);
-    y.tail(y.size() - moved_.size()) += force_.tail(force_.size() - moved_.size());
+    y.tail(size() - moved_.size()) += force_.tail(size() - moved_.size());
     for (const GhostEdge& ghost : ghosts_) add_force(ghost, y);
     scaled_ = mass_.permutationP() * Eigen::Map<const TwoPerUnknown>(y.data(), mass_.rows(), 2);
     mass_.matrixL().solveInPlace(scaled_);
@@ -88,8 +90,6 @@ class ScaledStiffness {
     VectorXd all(size());
     all.head(moved_.size()) = moved_;
     for (Eigen::Index u = moved_.size() / 2; u < scaled_.rows(); ++u) all.segment<2>(2 * u) = scaled_.row(u).transpose();
-    force_.conservativeResize(size());
-    force_.tail(size() - moved_.size()).setZero();
     add_product_per_coordinate(bending_->matrix(), 2, 1, all, force_);
   }
 
