@@ -25,7 +25,8 @@ TEST_F(BadInput, MethodsThatDoNotFit) {
   const std::string cut = "[[cuts]]\ntime = 0\npolyline = [[0.2, 0.3], [0.8, 0.6]]\n[sheet]\nresolution = 200\n";
   write(folder_ / "explicit.toml", scene_of("name = \"symplectic_euler\"\n" + cut));
   write(folder_ / "sweeps.toml", scene_of("name = \"xpbd\"\n" + cut));
-  write(folder_ / "bent.toml", scene_of(cut + "[material]\nbending = 1e-4\n[physics]\nbending = \"patches\"\nmass = \"stabilised\"\n"));
+  write(folder_ / "bent.toml",
+        scene_of(cut + "[material]\nbending = 1e-4\n[physics]\nbending = \"patches\"\nmass = \"stabilised\"\n"));
   for (const auto& [arguments, message] :
        {std::pair{"explicit.toml --method split_and_tie", "symplectic_euler does not take"},
         std::pair{"sweeps.toml --method cut_polygons", "xpbd does not take"},

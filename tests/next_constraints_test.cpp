@@ -69,7 +69,8 @@ void expect_same(const Constraints& next, const Constraints& all, std::size_t ve
 }
 
 TEST(NextConstraints, AreThoseOfASearchFromNothing) {
-  const std::vector<ConstrainingMethod> methods{{"phantom_node", 0}, {"phantom_node:consistent_mass", 0}};
+  const std::vector<ConstrainingMethod> methods{
+      {"phantom_node", 0}, {"phantom_node:consistent_mass", 0}, {"virtual_node", 0}};
   std::size_t turn = 0, compared = 0;
   for (const ConstrainingMethod& method : methods)
     for (const std::string& family : families_in_turn(turn))

@@ -18,7 +18,7 @@
 namespace cutbench {
 namespace {
 
-const std::vector<std::string> copying_methods{"phantom_node"};
+const std::vector<std::string> copying_methods{"phantom_node", "virtual_node"};
 
 const std::vector<Curve> three_cuts{line({-0.1, 0.41}, {0.6, 0.52}), line({0.3, -0.1}, {0.44, 0.8}),
                                     line({-0.1, 0.9}, {1.1, 0.85})};
@@ -69,11 +69,10 @@ Kept kept_by(const std::string& method, Integrator integrator, BendingKind bendi
   const auto compare = [&] {
     const Balance now = motion->balance();
     kept.momentum = std::max(kept.momentum, distance(now.momentum, start.momentum) / distance(start.momentum, {}));
-    kept.angular = std::max(kept.angular, distance(now.angular_momentum, start.angular_momentum) /
-                                              distance(start.angular_momentum, {}));
-    kept.energy = std::max(kept.energy, (now.energy.total() + now.energy.kinetic) /
-                                                (start.energy.total() + start.energy.kinetic) -
-                                            1);
+    kept.angular = std::max(
+        kept.angular, distance(now.angular_momentum, start.angular_momentum) / distance(start.angular_momentum, {}));
+    kept.energy = std::max(
+        kept.energy, (now.energy.total() + now.energy.kinetic) / (start.energy.total() + start.energy.kinetic) - 1);
   };
   for (const Curve& curve : three_cuts) {
     const MotionCut cut = motion->cut_now({&curve, 1}, *tool);
@@ -213,7 +212,8 @@ TEST(CopiedElementsInMotion, AHangingSheetCutInMotion) {
           split += measure_of(solved(*problem, specimen, cut_by(specimen, "conventional_split")), measure).error / 3;
         }
         std::cout << problem->name() << " " << method << " " << measure << ": " << copies << " split " << split << "\n";
-        EXPECT_LE(copies, 2 * split);
+        EXPECT_LE(copies,
+                  (method == "virtual_node" ? 2.5 : 2) * split);  // its cut is shorter by what is left of a triangle
       }
   }
 }

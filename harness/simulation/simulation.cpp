@@ -152,9 +152,7 @@ class SceneInMotion : public Simulation {
   }
 
   /// Without phantom nodes.
-  std::span<const double> of_sheet(const Field& field) const {
-    return {field.data(), D * now_.sheet.deformed_slots()};
-  }
+  std::span<const double> of_sheet(const Field& field) const { return {field.data(), D * now_.sheet.deformed_slots()}; }
 
   /// By the user, who may set other pins and forces.
   template <class Change>

@@ -46,20 +46,14 @@
 // piece smaller than a triangle. The system is assembled again after each cut, not updated.
 #pragma once
 
-#include <cstdint>
-
 #include "harness/cut/constraint_source.h"
+#include "methods/tools/copied_elements.h"
 
 namespace cutbench {
 
 class PhantomNode : public CuttingMethod, private ConstraintSource {
  public:
-  enum class Mass : std::uint8_t { lumped, consistent };
-  struct Options {
-    Mass mass = Mass::lumped;
-    double ghost = 0;  ///< dimensionless; 0: no penalty. Its mass is for a consistent one
-  };
-  explicit PhantomNode(const Options& options) : options_(options) {}
+  explicit PhantomNode(const CopyOptions& options) : options_(options) {}
 
   void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
   const ConstraintSource* constraint_source() const override { return this; }
@@ -72,7 +66,7 @@ class PhantomNode : public CuttingMethod, private ConstraintSource {
   Constraints next_constraints(const Sheet& before, const Sheet& cut, const Constraints& last,
                                const PolygonsLeft& left) const override;
 
-  Options options_;
+  CopyOptions options_;
 };
 
 }  // namespace cutbench

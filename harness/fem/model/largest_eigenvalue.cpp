@@ -89,7 +89,8 @@ class ScaledStiffness {
   void bend() {
     VectorXd all(size());
     all.head(moved_.size()) = moved_;
-    for (Eigen::Index u = moved_.size() / 2; u < scaled_.rows(); ++u) all.segment<2>(2 * u) = scaled_.row(u).transpose();
+    for (Eigen::Index u = moved_.size() / 2; u < scaled_.rows(); ++u)
+      all.segment<2>(2 * u) = scaled_.row(u).transpose();
     add_product_per_coordinate(bending_->matrix(), 2, 1, all, force_);
   }
 

@@ -125,7 +125,7 @@ class Model {
   std::optional<BlockMatrix<1>> consistent_mass_;
   std::optional<AddedMass> added_mass_;
   std::optional<ConstrainedSystem<D>> constrained_;
-  bool is_constrained_ = false;                    // since the last update()
+  bool is_constrained_ = false;  // since the last update()
   std::size_t first_phantom_ = 0;
   std::vector<DeformedIndex> phantoms_;
   std::vector<DeformedIndex> own_mass_;            // vertices whose mass is that of copied elements

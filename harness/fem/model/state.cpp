@@ -116,8 +116,8 @@ void begin_phantoms(const Sheet& cut, const Constraints& last, const Constraints
     field->tail(to_index(vertices - first_now) * dimension).setZero();
     for (std::size_t i = 0; i < from.size(); ++i) {
       const std::size_t d = from[i]();
-      const double* const begin = d < first ? field->data() + d * to_size(dimension)
-                                            : old->data() + (d - first) * to_size(dimension);
+      const double* const begin =
+          d < first ? field->data() + d * to_size(dimension) : old->data() + (d - first) * to_size(dimension);
       std::copy_n(begin, dimension, field->data() + (first_now + i) * to_size(dimension));
     }
   }

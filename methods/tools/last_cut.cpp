@@ -1,4 +1,4 @@
-#include "methods/phantom_node/last_cut.h"
+#include "methods/tools/last_cut.h"
 
 #include <algorithm>
 
@@ -37,9 +37,7 @@ LastCut::LastCut(const Sheet& before, const Sheet& cut, const Constraints& last)
 
 bool LastCut::touches(VertexIndex v) const { return holds(corners_, v); }
 bool LastCut::reaches(TriangleIndex parent) const { return holds(reached_, parent); }
-bool LastCut::is_touched(TriangleIndex t) const {
-  return t() >= cut_.log().triangles_before || holds(touched_, t);
-}
+bool LastCut::is_touched(TriangleIndex t) const { return t() >= cut_.log().triangles_before || holds(touched_, t); }
 
 void LastCut::find_touched() {
   for (const auto& touched : cut_.log().touched) touched_.push_back(touched.slot);

@@ -1,4 +1,4 @@
-#include "methods/phantom_node/parts.h"
+#include "methods/tools/parts.h"
 
 #include <algorithm>
 #include <utility>

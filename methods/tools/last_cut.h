@@ -38,10 +38,10 @@ class LastCut {
 
   const Sheet &before_, &cut_;
   const Constraints& last_;
-  std::vector<TriangleIndex> touched_;    // slots, in rising order
-  std::vector<ByParent> touched_parts_;   // of `cut`, alive, in rising order
-  std::vector<VertexIndex> corners_;      // in rising order
-  std::vector<TriangleIndex> reached_;    // in rising order
+  std::vector<TriangleIndex> touched_;   // slots, in rising order
+  std::vector<ByParent> touched_parts_;  // of `cut`, alive, in rising order
+  std::vector<VertexIndex> corners_;     // in rising order
+  std::vector<TriangleIndex> reached_;   // in rising order
   std::vector<DividedTriangle> near_;
 };
 
