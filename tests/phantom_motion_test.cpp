@@ -108,9 +108,6 @@ TEST(CopiedElementsInMotion, ACutKeepsMomentumAndMotion) {
       const auto tool = find_method(method).make(0);
       for (const Curve& curve : three_cuts) {
         const MotionCut cut = motion->cut_now({&curve, 1}, *tool);
-        std::cout << method << " jump " << cut.before.energy.kinetic << " " << cut.after.energy.kinetic << " "
-                  << cut.before.energy.membrane << " " << cut.after.energy.membrane << " " << cut.before.energy.bending
-                  << " " << cut.after.energy.bending << "\n";
         EXPECT_LE(distance(cut.before.momentum, cut.after.momentum), 1e-10 * distance(cut.before.momentum, {}));
         EXPECT_NEAR(cut.after.energy.kinetic, cut.before.energy.kinetic, 1e-3 * cut.before.energy.kinetic);
         EXPECT_NEAR(cut.after.energy.bending, cut.before.energy.bending, 0.05 * cut.before.energy.bending);
