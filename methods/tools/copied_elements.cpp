@@ -23,6 +23,14 @@ OpenTips::Rule tip_rule(const CopyOptions& options) {
   return options.lumped_mass ? OpenTips::Rule::open_for_lumped_mass : OpenTips::Rule::open;
 }
 
+/// Sorts those from `first` on into the others, which are in order.
+template <class T, class Less>
+void merge_in(std::vector<T>& all, std::size_t first, const Less& less) {
+  const auto middle = all.begin() + to_index(first);
+  std::sort(middle, all.end(), less);
+  std::inplace_merge(all.begin(), middle, all.end(), less);
+}
+
 class Doubling {
  public:
   Doubling(const Sheet& before, const Sheet& cut, const CopyOptions& options)
@@ -148,6 +156,9 @@ class Doubling {
   }
 
   void keep_constraints(Constraints& constraints) const {
+    constraints.constraints.reserve(last_->constraints.size() + parts_.vertices().size());
+    constraints.copied.reserve(last_->copied.size() + parts_.size());
+    constraints.lumped.reserve(last_->lumped.size() + parts_.vertices().size());
     for (Constraint constraint : last_->constraints) {
       const std::size_t number = parts_.number_of(constraint.vertex);
       if (parts_.has(number, constraint.vertex) && is_looked_at_again(number)) continue;
@@ -190,6 +201,7 @@ class Doubling {
 
   /// Each part, with what its corners have.
   void add_elements(Constraints& constraints) {
+    const std::size_t kept = constraints.copied.size();
     std::vector<std::size_t> element(parts_.size());
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       if (parts_.part(i) == i) {
@@ -202,7 +214,7 @@ class Doubling {
       whole.triangles.push_back(parts_.slot(i));
       whole.share += twice_area(parts_.cut().corners(parts_.slot(i))) / twice_area(whole.corner);
     }
-    std::sort(constraints.copied.begin(), constraints.copied.end(), [](const CopiedElement& a, const CopiedElement& b) {
+    merge_in(constraints.copied, kept, [](const CopiedElement& a, const CopiedElement& b) {
       return std::tuple(a.parent, a.triangles.front()) < std::tuple(b.parent, b.triangles.front());
     });
   }
@@ -211,6 +223,7 @@ class Doubling {
   /// depend on; of all other triangles to their corners.
   /// \param kept  phantom nodes of before, whose mass is known
   void lump(std::size_t kept, Constraints& constraints) {
+    const std::size_t kept_areas = constraints.lumped.size();
     std::unordered_map<std::int32_t, double> area;
     const auto add = [&](DeformedIndex u, double share) { area[u.value] += share; };
     std::vector<const Constraint*> constraint_of_vertex(parts_.vertices().size());
@@ -245,8 +258,8 @@ class Doubling {
       const DeformedIndex u(cut_.deformed_slots() + i);
       constraints.lumped.push_back({u, area[u.value]});
     }
-    std::sort(constraints.lumped.begin(), constraints.lumped.end(),
-              [](const LumpedArea& x, const LumpedArea& y) { return x.unknown < y.unknown; });
+    merge_in(constraints.lumped, kept_areas,
+             [](const LumpedArea& x, const LumpedArea& y) { return x.unknown < y.unknown; });
   }
 
   /// The triangles that have this corner.
