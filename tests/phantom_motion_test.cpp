@@ -116,6 +116,28 @@ TEST(CopiedElementsInMotion, ACutKeepsMomentumAndMotion) {
     }
 }
 
+/// Steps at the limit of the uncut sheet, with cuts that a plain split does not survive.
+TEST(CopiedElementsInMotion, ExplicitStepsNeedNotShrink) {
+  for (const std::string& method : copying_methods) {
+    SCOPED_TRACE(method);
+    Scene scene = free_piece(Integrator::symplectic_euler, BendingKind::none);
+    scene.newton = 1;
+    scene.step = 0.8 * Simulation::start(scene)->step_limits().membrane;
+    const auto motion = Simulation::start(scene);
+    set_off(*motion);
+    const auto tool = find_method(method).make(0);
+    const Balance start = motion->balance();
+    for (const Curve& curve : three_cuts) {
+      ASSERT_EQ(motion->cut_now({&curve, 1}, *tool).cut.status, Status::ok);
+      for (int i = 0; i < 200; ++i) ASSERT_EQ(motion->step().verdict, Verdict::ok);
+    }
+    const Balance end = motion->balance();
+    EXPECT_LE(distance(end.momentum, start.momentum), 1e-10 * distance(start.momentum, {}));
+    EXPECT_LE(distance(end.angular_momentum, start.angular_momentum), 1e-9 * distance(start.angular_momentum, {}));
+    EXPECT_NEAR(end.energy.total(), start.energy.total(), 0.02 * start.energy.total());
+  }
+}
+
 /// By every solver the same motion.
 TEST(CopiedElementsInMotion, AllSolversAgree) {
   for (const std::string& method : copying_methods) {

@@ -16,6 +16,7 @@ enum class ConstraintKind : std::uint8_t {
   vertices,         ///< constraints of vertices of the sheet to triangles of the sheet
   polygons,         ///< triangles that are one element together
   phantoms,         ///< constraints to triangles with phantom nodes, which are not vertices of the sheet
+  lumped_phantoms,  ///< the same with a mass of the unknowns, for explicit steps, too
   phantoms_at_rest  ///< the same, with a penalty that holds for a sheet at rest only
 };
 

@@ -256,13 +256,16 @@ std::string SceneCuts<D>::why_not(const ConstraintSource* source) const {
     return scene_.physics.bending != BendingKind::none && !row_of(scene_.physics.bending).has_slopes
                ? "the method's polygons have no hinges; set bending to patches, or to none"
                : "";
-  if (scene_.integrator == Integrator::symplectic_euler)
+  const bool is_lumped = constraint_kind == ConstraintKind::lumped_phantoms;
+  const bool adds = adds_mass(scene_.physics.mass);
+  if (scene_.integrator == Integrator::symplectic_euler && is_lumped && adds)
+    return "the method's elements take no added mass in explicit steps; set mass to lumped";
+  if (scene_.integrator == Integrator::symplectic_euler && !is_lumped)
     return "the method constrains vertices to others, which symplectic_euler does not take; choose an implicit "
            "integrator";
   if (constraint_kind == ConstraintKind::phantoms_at_rest)
     return "the method's ghost penalty is for sheets at rest; set ghost=0";
-  if (constraint_kind == ConstraintKind::phantoms && scene_.physics.bending != BendingKind::none &&
-      adds_mass(scene_.physics.mass))
+  if ((is_lumped || constraint_kind == ConstraintKind::phantoms) && scene_.physics.bending != BendingKind::none && adds)
     return "the method's copied elements take no added mass for bending; set mass to lumped";
   return {};
 }

@@ -8,10 +8,9 @@
 // constrained to the corners of their part by their barycentric coordinates (Constraints, harness/mesh/constraints.h).
 // So sums over the triangles of a part are exact integrals over it, for any number of cuts, junctions and loops.
 //  - Tip rule: a part that lies on both sides of an incision, because that ends inside, is slit. It has one copy of
-//  each
-//    corner, but its field is linear in each of its triangles only: where the incision enters, the two lips go along
-//    with the copies beyond the edge, and all other vertices, the tip among them, with the part's own. So the jump goes
-//    linearly to zero from the edge to the tip, and ahead of the tip the field is continuous.
+//    each corner, but its field is linear in each of its triangles only: where the incision enters, the two lips go
+//    along with the copies beyond the edge, and all other vertices, the tip among them, with the part's own. So the
+//    jump goes linearly to zero from the edge to the tip, and ahead of the tip the field is continuous.
 //    Where that cannot be, the incision ends for the unknowns where it enters the part (the lips reach up to the tip,
 //    but coincide): where it enters at a corner, or from another slit part, or where the lips would be too stiff
 //    because the tip is close to the edge at which it enters. At a bend inside the part it ends at the bend.
@@ -36,14 +35,15 @@
 // part that is slit bends as a whole. This is this program's reading: no source here has bending. It has no bound for
 // thin parts, since whole neighbours bend against their corners, too.
 //
-// Source: Hansbo and Hansbo, CMAME 193 (2004); Song, Areias and Belytschko, IJNME 67 (2006; not read); Rabczuk, Zi, Gerstenberger and Wall, IJNME 75 (2008), for a jump that vanishes at a
-// tip inside a triangle (cited from memory; theirs is another element); Richardson, Hegemann, Sifakis, Hellrung and
-// Teran, IJNME 88 (2011), for parts and junctions; Burman and Hansbo, Applied Numerical Mathematics 62 (2012), for the
-// ghost penalty.
+// Source: Hansbo and Hansbo, CMAME 193 (2004); Song, Areias and Belytschko, IJNME 67 (2006; not read); Rabczuk, Zi,
+// Gerstenberger and Wall, IJNME 75 (2008), for a jump that vanishes at a tip inside a triangle (cited from memory;
+// theirs is another element); Richardson, Hegemann, Sifakis, Hellrung and Teran, IJNME 88 (2011), for parts and
+// junctions; Burman and Hansbo, Applied Numerical Mathematics 62 (2012), for the ghost penalty.
 // Promises: the exact path, area, conforming, no vertex moved; an affine displacement is reproduced exactly.
 // Where it fails: the opening is too short where the tip rule cannot hold, and at a bend of the path inside a triangle
 // the stress is constant. With a consistent mass, thin parts are as ill-conditioned as slivers; no penalty reaches a
-// piece smaller than a triangle. The system is assembled again after each cut, not updated.
+// piece smaller than a triangle. Copies are found from the last cut (methods/tools/last_cut.h),
+// but the rows of the system near all cuts are written again after each.
 #pragma once
 
 #include "harness/cut/constraint_source.h"
@@ -60,7 +60,8 @@ class PhantomNode : public CuttingMethod, private ConstraintSource {
 
  private:
   ConstraintKind constraint_kind() const override {
-    return options_.ghost > 0 ? ConstraintKind::phantoms_at_rest : ConstraintKind::phantoms;
+    if (options_.ghost > 0) return ConstraintKind::phantoms_at_rest;
+    return options_.lumped_mass ? ConstraintKind::lumped_phantoms : ConstraintKind::phantoms;
   }
   Constraints constraints(const Sheet& before, const Sheet& cut) const override;
   Constraints next_constraints(const Sheet& before, const Sheet& cut, const Constraints& last,

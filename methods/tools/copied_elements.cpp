@@ -184,7 +184,7 @@ class Doubling {
                               [](const LumpedArea& a, const LumpedArea& b) { return a.unknown < b.unknown; });
   }
 
-  // --- all of it ------------------------------------------------------------------------------------------------------
+  // --- all of it -----------------------------------------------------------------------------------------------------
 
   void number_phantoms() {
     phantom_.assign(3 * parts_.size(), -1);

@@ -2,11 +2,11 @@
 // divide them, each copy with the material of one part.
 //
 // A part has its own copy of its parent's three corners as its unknowns: a corner that belongs to the part is that
-// vertex of the sheet, any other is a phantom node. Parts on the two sides of an edge of the sheet that are joined along
-// it, or along a piece of it, share the copies of its two ends. All vertices that cuts made are constrained to the
-// corners of their part by their barycentric coordinates. So sums over the triangles of a part are exact integrals over
-// it, for any number of cuts, junctions and loops, and where a cut goes through a vertex, too: what counts is what is
-// joined along edges.
+// vertex of the sheet, any other is a phantom node. Parts on the two sides of an edge of the sheet that are joined
+// along it, or along a piece of it, share the copies of its two ends. All vertices that cuts made are constrained to
+// the corners of their part by their barycentric coordinates. So sums over the triangles of a part are exact integrals
+// over it, for any number of cuts, junctions and loops, and where a cut goes through a vertex, too: what counts is what
+// is joined along edges.
 #pragma once
 
 #include "harness/mesh/constraints.h"

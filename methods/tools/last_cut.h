@@ -1,8 +1,8 @@
 // What the last cut may have changed of the copied elements: what a search from nothing would find elsewhere, it would
 // find as it was.
 //
-// A copy of a corner is one unknown with copies of the same corner alone. So all that can have changed are the copies of
-// the corners of those triangles of the sheet before its first cut of which the last cut touched a part.
+// A copy of a corner is one unknown with copies of the same corner alone. So all that can have changed are the copies
+// of the corners of those triangles of the sheet before its first cut of which the last cut touched a part.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// The tip rule of phantom_node.h, or none: which parts are slit, and which copies on the two sides of an incision have nothing
-// in common where it enters a slit part, so that it opens up to its tip.
+// The tip rule of phantom_node.h, or none: which parts are slit, and which copies on the two sides of an incision have
+// nothing in common where it enters a slit part, so that it opens up to its tip.
 #pragma once
 
 #include <cstdint>

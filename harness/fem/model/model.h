@@ -37,8 +37,8 @@ class Model {
   /// share one with a new one. Forces, energies and the matrix remain those of all vertices; a solver solves for the
   /// unknowns of constrained(). Vertices inside such elements are no unknowns: they have no mass and are held, and
   /// follow() moves them.
-  /// Phantom nodes are vertices without triangles of their own: they follow those of the sheet, until the next update().
-  /// Copied elements bend instead of their triangles; where the mass is lumped, they have theirs.
+  /// Phantom nodes are vertices without triangles of their own: they follow those of the sheet, until the next
+  /// update(). Copied elements bend instead of their triangles; where the mass is lumped, they have theirs.
   /// \pre `sheet` is that of the last update().
   void constrain(const Sheet& sheet, const Constraints& constraints);
   /// From now on other pins hold the sheet, and forces pull at its vertices besides the scene's loads.

@@ -1,5 +1,5 @@
-// Constrained vertices of the model, triangles that become one element, phantom nodes, and the copied elements that they
-// are the corners of.
+// Constrained vertices of the model, triangles that become one element, phantom nodes, and the copied elements that
+// they are the corners of.
 #include <utility>
 
 #include "harness/fem/elements/copied_bending.h"
