@@ -25,6 +25,7 @@
 #include "methods/snap_or_split/snap_or_split.h"
 #include "methods/split_and_tie/split_and_tie.h"
 #include "methods/vertex_snap/vertex_snap.h"
+#include "methods/virtual_node/virtual_node.h"
 #include "methods/warp_and_refine/warp_and_refine.h"
 
 namespace cutbench {
@@ -162,9 +163,9 @@ std::vector<MethodRow>& table() {
        [](double cap) { return std::make_unique<LongestEdge>(LongestEdge::Options{.cap = cap}); }},
       {"phantom_node",
        "crossed triangles are doubled with phantom nodes, and the field is linear in each part",
-       {"ghost", 0, "ghost penalty, dimensionless, for statics: usually 0.01 to 1; 0: none", {.least = 0, .most = 100}},
+       {},
        exact_split,
-       [](double ghost) { return std::make_unique<PhantomNode>(PhantomNode::Options{.ghost = ghost}); }},
+       [](double) { return std::make_unique<PhantomNode>(CopyOptions{}); }},
       {"snap_or_split",
        "crossings near a vertex move to the vertex, the others are split",
        {"tolerance", 0.25, "fraction of the edge up to which a crossing goes to the vertex", {.least = 0, .most = 0.5}},
@@ -191,6 +192,11 @@ std::vector<MethodRow>& table() {
         .keeps_vertices = false,
         .incision_bound = {.longest_edges = 1, .chord_tolerances = 1}},
        [](double reach) { return std::make_unique<VertexSnap>(VertexSnap::Options{.reach = reach}); }},
+      {"virtual_node",
+       "crossed triangles are copied whole, each copy with the material of a piece",
+       {},
+       exact_split,
+       [](double) { return std::make_unique<VirtualNode>(); }},
       {"warp_and_refine",
        "vertices near the path move onto it, short edges are removed, flips and smoothing, then refinement",
        {"reach", 0.4, "fraction of the edge over which a vertex comes to a crossing", {.least = 0, .most = 0.5}},
@@ -299,8 +305,15 @@ std::vector<MethodRow>& nameable_table() {
                      return std::make_unique<CutPolygons>(
                          CutPolygons::Options{.thin = {.thinness = thinness, .all_unknowns = true}});
                    }});
-    all.push_back({"phantom_node:lumped_mass", "phantom_node with a lumped mass", {}, exact_split, [](double) {
-                     return std::make_unique<PhantomNode>(PhantomNode::Options{.lumped_mass = true});
+    all.push_back({"phantom_node:consistent_mass",
+                   "phantom_node with the mass of its linear fields",
+                   {"ghost",
+                    0,
+                    "ghost penalty, dimensionless, for statics: usually 0.01 to 1; 0: none",
+                    {.least = 0, .most = 100}},
+                   exact_split,
+                   [](double ghost) {
+                     return std::make_unique<PhantomNode>(CopyOptions{.lumped_mass = false, .ghost = ghost});
                    }});
     return all;
   }();

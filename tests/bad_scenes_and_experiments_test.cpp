@@ -25,11 +25,12 @@ TEST_F(BadInput, MethodsThatDoNotFit) {
   const std::string cut = "[[cuts]]\ntime = 0\npolyline = [[0.2, 0.3], [0.8, 0.6]]\n[sheet]\nresolution = 200\n";
   write(folder_ / "explicit.toml", scene_of("name = \"symplectic_euler\"\n" + cut));
   write(folder_ / "sweeps.toml", scene_of("name = \"xpbd\"\n" + cut));
-  write(folder_ / "bent.toml", scene_of(cut + "[material]\nbending = 1e-4\n[physics]\nbending = \"patches\"\n"));
+  write(folder_ / "bent.toml",
+        scene_of(cut + "[material]\nbending = 1e-4\n[physics]\nbending = \"patches\"\nmass = \"stabilised\"\n"));
   for (const auto& [arguments, message] :
        {std::pair{"explicit.toml --method split_and_tie", "symplectic_euler does not take"},
         std::pair{"sweeps.toml --method cut_polygons", "xpbd does not take"},
-        std::pair{"bent.toml --method phantom_node", "phantom nodes do not bend; set bending to none"}}) {
+        std::pair{"bent.toml --method phantom_node", "take no added mass for bending; set mass to lumped"}}) {
     const Result result = run(std::string("simulate ") + arguments);
     EXPECT_EQ(result.code, 1) << result.error;
     EXPECT_NE(result.out.find("cut: refused"), std::string::npos) << result.out;

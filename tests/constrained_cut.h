@@ -35,8 +35,11 @@ struct ConstrainedCut {
   Constraints constraints;
 };
 
-inline const std::vector<ConstrainingMethod> constraining_methods{
-    {"split_and_tie", 0.1}, {"phantom_node", 0}, {"phantom_node", 0.1}};
+inline const std::vector<ConstrainingMethod> constraining_methods{{"split_and_tie", 0.1},
+                                                                  {"phantom_node", 0},
+                                                                  {"phantom_node:consistent_mass", 0},
+                                                                  {"phantom_node:consistent_mass", 0.1},
+                                                                  {"virtual_node", 0}};
 inline const ConstrainingMethod cut_polygons{"cut_polygons", 0.7};
 
 /// `cases` cuts of each kind by each method; the families of sheets take turns.

@@ -159,12 +159,16 @@ TEST(Constraints, CracksOpenAsTheyDoByTheSplitAlone) {
         EXPECT_LE(energy(constrained).value, energy(split).value - 1e-9 * energy(split).exact)
             << "fewer unknowns are stiffer";
         const double less = (energy(split).value - energy(constrained).value) / energy(split).exact;
-        // Phantom nodes lose up to a triangle at a tip whose lips would be too stiff, of a crack of twelve.
-        EXPECT_LE(less, name == "phantom_node" ? 0.25 : 0.1);
+        // Phantom nodes lose up to a triangle at a tip whose lips would be too stiff, of a crack of twelve; virtual
+        // nodes at every tip.
+        EXPECT_LE(less, constraints.phantoms.empty() ? 0.1 : 0.25);
         lost += less;
         ++cases;
       }
-    EXPECT_LE(lost, 0.08 * to_double(cases));  // the sanitizers' six cases of phantom_node: 0.071
+    // The sanitizers' six cases of a consistent mass: 0.071. A lumped one keeps more tips closed: 0.104; virtual nodes
+    // all: 0.158.
+    const double most = method.name == "virtual_node" ? 0.18 : method.name == "phantom_node" ? 0.11 : 0.08;
+    EXPECT_LE(lost, most * to_double(cases));
   }
 }
 

@@ -150,7 +150,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Kind{"edge_release", 0, 2, BendingKind::none, Integrator::symplectic_euler, "cg"},
                     Kind{"cut_polygons", 0, 3, BendingKind::patches, Integrator::backward_euler, "cg"},
                     Kind{"split_and_tie", 0.1, 3, BendingKind::none, Integrator::backward_euler, "cholmod"},
-                    Kind{"phantom_node", 0, 2, BendingKind::none, Integrator::backward_euler, "cholmod"}));
+                    Kind{"phantom_node", 0, 3, BendingKind::patches, Integrator::backward_euler, "cholmod"},
+                    Kind{"phantom_node", 0, 3, BendingKind::hinges, Integrator::midpoint, "multigrid"},
+                    Kind{"phantom_node:consistent_mass", 0, 2, BendingKind::none, Integrator::backward_euler,
+                         "cholmod"}));
 
 constexpr Kind plain{"conventional_split", 0, 3, BendingKind::none, Integrator::backward_euler, "cg"};
 

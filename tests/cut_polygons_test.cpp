@@ -28,7 +28,7 @@ constexpr Material leather{.density = 2, .stiffness = 1000, .poisson = 0.3, .ben
 
 void merge_as_after_a_cut(Body<3>& body, const Sheet& before, const CuttingMethod& method) {
   body.model.constrain(body.sheet, method.constraint_source()->next_constraints(
-                                       before, body.sheet, body.model.elements().left_since_change()));
+                                       before, body.sheet, {}, body.model.elements().left_since_change()));
 }
 
 // --- the model -------------------------------------------------------------------------------------------------------
@@ -121,7 +121,7 @@ TEST(CutPolygons, FollowTheLastCut) {
     const PolygonsLeft left = body.model.elements().left_since_change();
     const auto counted = [&](TriangleIndex t) { return ++asked.back(), left.of(t); };
     const Constraints constraints =
-        method->constraint_source()->next_constraints(before, body.sheet, {counted, left.freed});
+        method->constraint_source()->next_constraints(before, body.sheet, {}, {counted, left.freed});
     const std::size_t old = body.model.elements().merged().polygons.size();
     body.model.constrain(body.sheet, constraints);
     EXPECT_EQ(body.model.elements().merged().polygons.size(), old + constraints.polygons.size());

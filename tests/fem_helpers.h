@@ -52,7 +52,7 @@ inline Curve polygon(std::vector<Point2> points) { return {Curve::Kind::polyline
 template <int D>
 Field bent(const Model<D>& model, const Sheet& sheet) {
   Field x = Field::Zero(to_index(D * model.vertices()));
-  for (std::size_t v = 0; v < model.vertices(); ++v) {
+  for (std::size_t v = 0; v < sheet.deformed_slots(); ++v) {
     if (!sheet.rest_vertex(DeformedIndex(v)).valid()) continue;
     const auto [a, b] = sheet.rest(sheet.rest_vertex(DeformedIndex(v)));
     const auto i = to_index(D * v);
@@ -60,6 +60,9 @@ Field bent(const Model<D>& model, const Sheet& sheet) {
     x[i + 1] = b - 0.05 * a * b;
     if constexpr (D == 3) x[i + 2] = 0.3 * std::sin(3 * a) * std::cos(2 * b);
   }
+  for (std::size_t i = 0; i < model.phantoms().size(); ++i)
+    x.template segment<D>(to_index(D * (model.first_phantom() + i))) =
+        x.template segment<D>(D * model.phantoms()[i].value);
   return x;
 }
 

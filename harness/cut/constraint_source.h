@@ -16,7 +16,8 @@ enum class ConstraintKind : std::uint8_t {
   vertices,         ///< constraints of vertices of the sheet to triangles of the sheet
   polygons,         ///< triangles that are one element together
   phantoms,         ///< constraints to triangles with phantom nodes, which are not vertices of the sheet
-  phantoms_at_rest  ///< the same, with terms in stiffness or mass that hold for a sheet at rest only
+  lumped_phantoms,  ///< the same with a mass of the unknowns, for explicit steps, too
+  phantoms_at_rest  ///< the same, with a penalty that holds for a sheet at rest only
 };
 
 /// A method that gives constraints derives from this, too, and returns itself as CuttingMethod::constraint_source().
@@ -29,7 +30,9 @@ class ConstraintSource {
   virtual Constraints constraints(const Sheet& before, const Sheet& cut) const = 0;
   /// The same after one more cut, that of the log of `cut`. Returns all constraints, but only the new polygons: an old
   /// polygon stays unless it shares a triangle with a new one. The default returns the polygons of all cuts.
-  virtual Constraints next_constraints(const Sheet& before, const Sheet& cut, const PolygonsLeft& /*left*/) const {
+  /// \param last  what constraints() or this returned before that cut; empty before the first one
+  virtual Constraints next_constraints(const Sheet& before, const Sheet& cut, const Constraints& /*last*/,
+                                       const PolygonsLeft& /*left*/) const {
     return constraints(before, cut);
   }
 

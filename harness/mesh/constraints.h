@@ -42,6 +42,23 @@ struct Polygon {
   bool operator==(const Polygon&) const = default;
 };
 
+/// A triangle of the sheet before all cuts as an element: one of the copies that cuts made of it, with its share of the
+/// material, or a whole one beside these.
+struct CopiedElement {
+  TriangleIndex parent;                  ///< in the sheet before all cuts
+  std::array<Point2, 3> corner;          ///< of the parent, in rest space
+  std::array<DeformedIndex, 3> unknown;  ///< at its corners: vertices, or phantom nodes
+  double share;                          ///< of the parent's area: what is material
+  std::vector<TriangleIndex> triangles;  ///< of the opened sheet, in rising order: its material
+  bool operator==(const CopiedElement&) const = default;
+};
+
+/// The area that stands for the mass of an unknown.
+struct LumpedArea {
+  DeformedIndex unknown;
+  double area;
+};
+
 /// What a cut left of the polygons that there were before. It dissolved those that had a triangle which its log names.
 struct PolygonsLeft {
   std::function<std::span<const TriangleIndex>(TriangleIndex)> of;  ///< that the triangle is in; none: in none
@@ -52,7 +69,9 @@ struct Constraints {
   std::vector<Constraint> constraints = {};  ///< each vertex once
   std::vector<DeformedIndex> phantoms = {};  ///< unknowns that are no vertex: the one before all cuts each is a copy of
   std::vector<GhostEdge> ghosts = {};
-  std::vector<double> lumped = {};  ///< the area that stands for each unknown's mass, instead of C^T M C; empty: that
+  std::vector<CopiedElement> copied = {};  ///< those that bend instead of their triangles, each parent's once or more
+  /// Instead of what C^T M C has for the unknowns of copied elements: each of them once. Empty: that.
+  std::vector<LumpedArea> lumped = {};
   std::vector<Polygon> polygons = {};  ///< no triangle is in two
   bool empty() const { return constraints.empty() && polygons.empty(); }
   bool merge_triangles() const { return !polygons.empty(); }

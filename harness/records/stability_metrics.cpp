@@ -44,8 +44,7 @@ std::vector<Metric> stability_metrics() {
   add("explicit_step_ratio", "", "explicit step, cut / uncut", Direction::higher,
       "Largest stable step of symplectic Euler after the cut over that of the uncut sheet, from the largest "
       "eigenvalues "
-      "with bending and the scene's material; of phantom nodes without bending. A method that constrains vertices has "
-      "the "
+      "with bending and the scene's material. A method that constrains vertices has the "
       "value that an explicit step with its constraints would have; the program makes none.");
   add("steps", "", "steps made", Direction::higher,
       "Steps of the motion that were made; fewer than asked where it ended.");

@@ -37,6 +37,7 @@ struct MovingSheet {
   Locator locator;
   std::vector<Pin> pins;
   Model<D> model;
+  Constraints constraints;  ///< of the last cut
   State state;
 };
 

@@ -203,6 +203,7 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, std::span<const Curve> curve
     return result;
   }
   for (const Curve& curve : curves) {
+    const std::size_t vertices_before = moving.sheet.deformed_slots();
     const CutRun run = cut_all(moving.sheet, moving.locator, cutter, {&curve, 1}, method, options);
     result.cut.status = run.status;
     result.cut.verdict = run.verdict;
@@ -216,6 +217,7 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, std::span<const Curve> curve
     if (run.status == Status::noop || run.status == Status::refused) continue;
     if (run.verdict != Verdict::ok) return result;
     StopWatch watch;
+    const State phantoms = take_phantoms(vertices_before, D, moving.state);
     transfer(moving.sheet.log(), moving.sheet.deformed_slots(), D, moving.state);
     result.transfer_us += watch.lap();
     moving.model.update(moving.sheet);
@@ -223,10 +225,13 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, std::span<const Curve> curve
     moving.model.update_bending(moving.sheet);
     result.bending_us += watch.lap();
     if (!source) continue;
-    const Constraints constraints =
-        source->next_constraints(before_cuts_, moving.sheet, moving.model.elements().left_since_change());
+    Constraints constraints = source->next_constraints(before_cuts_, moving.sheet, moving.constraints,
+                                                       moving.model.elements().left_since_change());
     result.cut.time_us.constrain += watch.lap();
     moving.model.constrain(moving.sheet, constraints);
+    begin_phantoms(moving.sheet, moving.constraints, constraints, vertices_before, phantoms, moving.model.vertices(), D,
+                   moving.state);
+    moving.constraints = std::move(constraints);
     for (Field* const field : {&moving.state.x, &moving.state.v}) {  // the state of before the cut need not
       if (moving.model.constrained()) moving.model.constrained()->satisfy(moving.model.held(), *field);
       moving.model.follow(*field);
@@ -251,13 +256,17 @@ std::string SceneCuts<D>::why_not(const ConstraintSource* source) const {
     return scene_.physics.bending != BendingKind::none && !row_of(scene_.physics.bending).has_slopes
                ? "the method's polygons have no hinges; set bending to patches, or to none"
                : "";
-  if (scene_.integrator == Integrator::symplectic_euler)
+  const bool is_lumped = constraint_kind == ConstraintKind::lumped_phantoms;
+  const bool adds = adds_mass(scene_.physics.mass);
+  if (scene_.integrator == Integrator::symplectic_euler && is_lumped && adds)
+    return "the method's elements take no added mass in explicit steps; set mass to lumped";
+  if (scene_.integrator == Integrator::symplectic_euler && !is_lumped)
     return "the method constrains vertices to others, which symplectic_euler does not take; choose an implicit "
            "integrator";
   if (constraint_kind == ConstraintKind::phantoms_at_rest)
-    return "the method's ghost penalty or lumped mass is for sheets at rest; use phantom_node with ghost=0";
-  if (constraint_kind == ConstraintKind::phantoms && scene_.physics.bending != BendingKind::none)
-    return "the method's phantom nodes do not bend; set bending to none";
+    return "the method's ghost penalty is for sheets at rest; set ghost=0";
+  if ((is_lumped || constraint_kind == ConstraintKind::phantoms) && scene_.physics.bending != BendingKind::none && adds)
+    return "the method's copied elements take no added mass for bending; set mass to lumped";
   return {};
 }
 

@@ -103,9 +103,10 @@ class SceneInMotion : public Simulation {
 
   void pull(std::span<const double> force) override {
     const auto finite = [](double f) { return std::isfinite(f); };
-    if (!force.empty() && force.size() != D * now_.model.vertices())
+    const std::size_t vertices = now_.sheet.deformed_slots();
+    if (!force.empty() && force.size() != D * vertices)
       throw InputError(scene_.stem + ": " + std::to_string(force.size()) + " forces; give " + std::to_string(D) +
-                       " for each of the " + std::to_string(now_.model.vertices()) + " vertices");
+                       " for each of the " + std::to_string(vertices) + " vertices");
     if (!std::ranges::all_of(force, finite)) throw InputError(scene_.stem + ": a force is not finite");
     force_.assign(force.begin(), force.end());
     change_from_outside([&] { now_.model.set_pins_and_force(now_.sheet, now_.pins, force_); });
@@ -122,8 +123,8 @@ class SceneInMotion : public Simulation {
     hold_constrained_vertices(now_.pins, {}, now_.sheet);
   }
 
-  std::span<const double> positions() const override { return span_of(now_.state.x); }
-  std::span<const double> velocities() const override { return span_of(now_.state.v); }
+  std::span<const double> positions() const override { return of_sheet(now_.state.x); }
+  std::span<const double> velocities() const override { return of_sheet(now_.state.v); }
 
   MotionCut try_cut(const std::vector<Curve>& cuts, Cutter& cutter, CuttingMethod& method,
                     const CutOptions& options) override {
@@ -150,7 +151,8 @@ class SceneInMotion : public Simulation {
     return {scene.integrator, scene.step, scene.newton, scene.sweeps, scene.solver};
   }
 
-  static std::span<const double> span_of(const Field& field) { return {field.data(), to_size(field.size())}; }
+  /// Without phantom nodes.
+  std::span<const double> of_sheet(const Field& field) const { return {field.data(), D * now_.sheet.deformed_slots()}; }
 
   /// By the user, who may set other pins and forces.
   template <class Change>

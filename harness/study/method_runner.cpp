@@ -202,8 +202,7 @@ class Runner : public StudyRun {
 
   void fill_eigenvalues(Record& row, const Worker& worker) const {
     Measured measured{.membrane = ratios(worker.sheet, worker.constraints, {}, base_eigenvalue_)};
-    if (worker.constraints.phantoms.empty())  // phantom nodes do not bend
-      measured.bent = ratios(worker.sheet, worker.constraints, bent_skin, base_bending_);
+    measured.bent = ratios(worker.sheet, worker.constraints, bent_skin, base_bending_);
     fill(row, measured, {Group::stability});
   }
 

@@ -17,7 +17,8 @@ Constraints CutPolygons::constraints(const Sheet& before, const Sheet& cut) cons
   return {.polygons = stabilised(merge_thin_parts(before, cut, options_.thin))};
 }
 
-Constraints CutPolygons::next_constraints(const Sheet& before, const Sheet& cut, const PolygonsLeft& left) const {
+Constraints CutPolygons::next_constraints(const Sheet& before, const Sheet& cut, const Constraints& /*last*/,
+                                          const PolygonsLeft& left) const {
   return {.polygons = stabilised(merge_new_thin_parts(before, cut, options_.thin, left))};
 }
 

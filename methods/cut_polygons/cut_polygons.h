@@ -47,7 +47,8 @@ class CutPolygons : public CuttingMethod, private ConstraintSource {
  private:
   ConstraintKind constraint_kind() const override { return ConstraintKind::polygons; }
   Constraints constraints(const Sheet& before, const Sheet& cut) const override;
-  Constraints next_constraints(const Sheet& before, const Sheet& cut, const PolygonsLeft& left) const override;
+  Constraints next_constraints(const Sheet& before, const Sheet& cut, const Constraints& last,
+                               const PolygonsLeft& left) const override;
 
   std::vector<Polygon> stabilised(std::vector<Polygon> polygons) const;
 

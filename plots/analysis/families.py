@@ -16,7 +16,7 @@ class Family:
 FAMILIES = [
     Family("moves vertices", "#0072b2", "o", ("warp_and_refine", "vertex_snap", "cisamr", "active_node")),
     Family("moves the path", "#d55e00", "s", ("snap_or_split", "edge_release")),
-    Family("constrains or doubles vertices", "#7b3294", "D", ("split_and_tie", "cut_polygons", "phantom_node")),
+    Family("constrains or doubles vertices", "#7b3294", "D", ("split_and_tie", "cut_polygons", "phantom_node", "virtual_node")),
     Family("refines", "#009e73", "^", ("delaunay_refine", "cgal_refine", "longest_edge", "global_remesh",
                                        "adaptive_remesh")),
     Family("splits crossed triangles", "#111111", "v", ("conventional_split", "cgal_cdt", "bowyer_watson", "example")),

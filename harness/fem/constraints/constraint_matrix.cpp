@@ -8,7 +8,7 @@
 
 namespace cutbench {
 
-void ConstraintMatrix::set(const Constraints& constraints, std::size_t vertices) {
+void ConstraintMatrix::set(const std::vector<Constraint>& constraints, std::size_t vertices, std::size_t phantoms) {
   const auto free = [&](std::size_t i) { rows_[i] = {{to_int32(i)}, {1}, 1}; };
   for (const std::int32_t v : constrained_) free(to_size(v));
   for (std::size_t i = rows_.size(); i < vertices; ++i) {
@@ -16,8 +16,8 @@ void ConstraintMatrix::set(const Constraints& constraints, std::size_t vertices)
     free(i);
   }
   constrained_.clear();
-  phantoms_ = constraints.phantoms.size();
-  for (const Constraint& constraint : constraints.constraints) {
+  phantoms_ = phantoms;
+  for (const Constraint& constraint : constraints) {
     Row& row = rows_[constraint.vertex()];
     row.size = 0;
     for (std::size_t k = 0; k < 3; ++k)
@@ -47,8 +47,8 @@ void ConstraintMatrix::reduce(int dimension, const Field& f, Field& r) const {
 }
 
 template <int D>
-void ConstrainedSystem<D>::change(const Constraints& constraints, std::size_t vertices) {
-  constraint_matrix_.set(constraints, vertices);
+void ConstrainedSystem<D>::change(const Constraints& constraints, std::size_t vertices, std::size_t phantoms) {
+  constraint_matrix_.set(constraints.constraints, vertices, phantoms);
   ghosts_ = constraints.ghosts;
   is_changed_ = true;
 }

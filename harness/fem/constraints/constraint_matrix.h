@@ -23,9 +23,13 @@ class ConstraintMatrix {
   };
 
   ConstraintMatrix() = default;
-  ConstraintMatrix(const Constraints& constraints, std::size_t vertices) { set(constraints, vertices); }
+  ConstraintMatrix(const Constraints& constraints, std::size_t vertices) {
+    set(constraints.constraints, vertices, constraints.phantoms.size());
+  }
   /// Instead of those of before. \pre `vertices` is no less than then.
-  void set(const Constraints& constraints, std::size_t vertices);
+  /// \param vertices  the sheet's; or with the phantom nodes, which are like vertices then
+  /// \param phantoms  those that are not among the vertices
+  void set(const std::vector<Constraint>& constraints, std::size_t vertices, std::size_t phantoms);
   std::size_t vertices() const { return rows_.size(); }
   std::size_t unknowns() const { return rows_.size() + phantoms_; }
   const Row& row(std::size_t vertex) const { return rows_[vertex]; }
@@ -55,10 +59,16 @@ class ConstraintMatrix {
 template <int D>
 class ConstrainedSystem {
  public:
-  ConstrainedSystem(const Constraints& constraints, std::size_t vertices) { change(constraints, vertices); }
+  ConstrainedSystem(const Constraints& constraints, std::size_t vertices) {
+    change(constraints, vertices, constraints.phantoms.size());
+  }
+  /// Phantom nodes are vertices of A: see ConstraintMatrix::set().
+  ConstrainedSystem(const Constraints& constraints, std::size_t vertices, std::size_t phantoms) {
+    change(constraints, vertices, phantoms);
+  }
   /// The constraints after one more cut. Of all other rows only those follow that the history of A names, where it has
   /// one.
-  void change(const Constraints& constraints, std::size_t vertices);
+  void change(const Constraints& constraints, std::size_t vertices, std::size_t phantoms);
 
   const ConstraintMatrix& constraint_matrix() const { return constraint_matrix_; }
   /// \pre the pattern of `a` and the values of its scalar matrices are those of the first call after a change.

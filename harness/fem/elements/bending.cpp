@@ -1,5 +1,6 @@
 #include "harness/fem/elements/bending.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "harness/base/conversions.h"
@@ -7,8 +8,8 @@
 namespace cutbench {
 
 Bending::Bending(const Sheet& sheet, BendingKind kind, double rigidity, double poisson, const ElementTable* elements)
-    : kind_(&row_of(kind)), rigidity_(rigidity), poisson_(poisson) {
-  resize(sheet);
+    : kind_of_(kind), kind_(&row_of(kind)), rigidity_(rigidity), poisson_(poisson) {
+  resize(sheet.triangle_slots(), sheet.deformed_slots());
   work_.elements = elements;
   ++work_.call;
   for (std::size_t t = 0; t < sheet.triangle_slots(); ++t) mark_stale(TriangleIndex(t), 0);
@@ -24,9 +25,10 @@ void Bending::reserve_spare() {
 }
 
 void Bending::update(const Sheet& sheet, const ElementTable* elements, std::span<const TriangleIndex> regrouped) {
-  resize(sheet);
+  resize(sheet.triangle_slots(), std::max(sheet.deformed_slots(), matrix_.rows()));
   work_.elements = elements;
   ++work_.call;
+  take_replaced_away();
   find_stale(sheet, regrouped);
   rebuild(sheet);
 }
@@ -43,8 +45,7 @@ double Bending::energy(const Field& x, int dimension) const {
   return sum / 2;
 }
 
-void Bending::resize(const Sheet& sheet) {
-  const std::size_t triangles = sheet.triangle_slots(), vertices = sheet.deformed_slots();
+void Bending::resize(std::size_t triangles, std::size_t vertices) {
   slopes_.resize(triangles);
   reach_.resize(triangles);
   stencils_.resize(triangles);
@@ -56,6 +57,27 @@ void Bending::resize(const Sheet& sheet) {
   work_.place.resize(vertices, -1);
   work_.row.resize(vertices);
   work_.stale.clear();
+  work_.rows.clear();
+}
+
+void Bending::replace(const ReplacedStencils& replaced, std::size_t vertices) {
+  resize(stencils_.size(), vertices);
+  ++work_.call;
+  take_replaced_away();
+  for (std::size_t i = 0; i < replaced.slots.size(); ++i) {
+    const auto terms = replaced.rows[i];
+    work_.terms.assign(terms.begin(), terms.end());
+    for (std::size_t k = 0; k < terms.size(); ++k) work_.place[to_size(terms[k].vertex)] = to_int32(k);
+    replace_stencil(replaced.slots[i]());
+  }
+  replaced_ = replaced.slots;
+  for (const std::int32_t vertex : work_.rows) write_row(to_size(vertex));
+}
+
+void Bending::take_replaced_away() {
+  work_.terms.clear();
+  for (const TriangleIndex t : replaced_) replace_stencil(t());
+  replaced_.clear();
 }
 
 // --- what a cut makes stale ------------------------------------------------------------------------------------------
@@ -100,7 +122,6 @@ bool Bending::stencil_is_stale(const Sheet& sheet, TriangleIndex t) const {
 void Bending::rebuild(const Sheet& sheet) {
   for (const auto& [t, distance] : work_.stale)
     if (t == members(t).front() && distance <= reach_[t()]) fit_patch(sheet, t);
-  work_.rows.clear();
   BendingStencil stencil{sheet, rigidity_, poisson_, work_.elements, slopes_, work_.place, work_.terms};
   for (const auto& [t, distance] : work_.stale) {
     if (!stencil_is_stale(sheet, t)) continue;

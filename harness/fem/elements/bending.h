@@ -21,6 +21,12 @@
 
 namespace cutbench {
 
+/// The stencils of elements that are no triangles of the sheet, each in the slot of one.
+struct ReplacedStencils {
+  std::vector<TriangleIndex> slots;  ///< each once
+  GrowingRows<StencilTerm> rows;     ///< per slot
+};
+
 class Bending {
  public:
   /// A stencil that holds a vertex, and its place there; one is like another if the triangle is.
@@ -40,6 +46,13 @@ class Bending {
   void update(const Sheet& sheet, const ElementTable* elements = nullptr,
               std::span<const TriangleIndex> regrouped = {});
 
+  /// From now on these slots have these stencils, until the next update() or replace(), which take them away.
+  /// \param vertices  that there are then: a stencil may hold more than the sheet has
+  void replace(const ReplacedStencils& replaced, std::size_t vertices);
+
+  BendingKind kind() const { return kind_of_; }
+  double rigidity() const { return rigidity_; }
+  double poisson() const { return poisson_; }
   /// N/m. Force = -K x, energy = x K x / 2, for each coordinate. Rows of freed vertices are empty.
   const BlockMatrix<1>& matrix() const { return matrix_; }
   const std::vector<std::int32_t>& written_rows() const { return work_.rows; }  ///< by the last update()
@@ -54,7 +67,8 @@ class Bending {
     TriangleIndex triangle;
     int distance;  ///< in unseparated edges, from the nearest triangle that changed
   };
-  void resize(const Sheet& sheet);
+  void resize(std::size_t triangles, std::size_t vertices);
+  void take_replaced_away();
   void mark_stale(TriangleIndex t, int distance);
   void find_stale(const Sheet& sheet, std::span<const TriangleIndex> regrouped);
   std::span<const TriangleIndex> members(const TriangleIndex& t) const;
@@ -65,6 +79,7 @@ class Bending {
   void put_on_list(std::int32_t vertex);
   void write_row(std::size_t vertex);
 
+  BendingKind kind_of_ = BendingKind::none;
   const BendingRow* kind_ = &row_of(BendingKind::none);
   double rigidity_ = 0, poisson_ = 0;
   GrowingRows<StencilTerm> slopes_;  ///< per triangle slot: SlopePatch::terms(), of a kind with slopes
@@ -73,6 +88,7 @@ class Bending {
   GrowingRows<StencilTerm> stencils_;  ///< per triangle slot: its three rows, in sqrt(N/m)
   GrowingRows<Holder> stencils_of_;    ///< per deformed vertex: the stencils that hold it, in order
   BlockMatrix<1> matrix_;
+  std::vector<TriangleIndex> replaced_;
 
   /// Working storage, kept between calls so that they don't allocate.
   struct Work {

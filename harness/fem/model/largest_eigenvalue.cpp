@@ -12,6 +12,7 @@
 #include "harness/base/conversions.h"
 #include "harness/fem/constraints/constraint_matrix.h"
 #include "harness/fem/elements/added_mass.h"
+#include "harness/fem/elements/copied_bending.h"
 #include "harness/fem/elements/element_table.h"
 #include "harness/fem/elements/membrane.h"
 #include "harness/fem/elements/rest_stiffness.h"
@@ -36,8 +37,12 @@ class ScaledStiffness {
     lumped_ = elements_.areas(constraint_matrix_.vertices());
     if (elasticity.bending != BendingKind::none)
       bending_.emplace(sheet, elasticity.bending, elasticity.bending_length2, elasticity.poisson, &elements_);
+    own_mass_ = VectorXd::Zero(to_index(constraint_matrix_.unknowns()));
+    if (!constraints.lumped.empty()) lump(constraints);
     if (adds_mass(elasticity.mass)) add_mass(elasticity);
-    factor(constraints.lumped);
+    if (bending_ && !constraints.copied.empty())  // no mass is added for how these bend
+      bending_->replace(copied_stencils(sheet, constraints, *bending_), constraint_matrix_.unknowns());
+    factor();
   }
 
   ElementModes modes() const {
@@ -57,8 +62,11 @@ class ScaledStiffness {
     force_.setZero(moved_.size());
     membrane_->add_force(moved_, force_);
     // Bending acts on each coordinate alike, so that membrane and bending together are stiffest in the plane.
-    if (bending_) add_product_per_coordinate(bending_->matrix(), 2, 1, moved_, force_);
-    constraint_matrix_.reduce(2, force_, y);
+    force_.conservativeResize(size());
+    force_.tail(size() - moved_.size()).setZero();
+    if (bending_) bend();
+    constraint_matrix_.reduce(2, force_.head(moved_.size()), y);
+    y.tail(size() - moved_.size()) += force_.tail(size() - moved_.size());
     for (const GhostEdge& ghost : ghosts_) add_force(ghost, y);
     scaled_ = mass_.permutationP() * Eigen::Map<const TwoPerUnknown>(y.data(), mass_.rows(), 2);
     mass_.matrixL().solveInPlace(scaled_);
@@ -67,6 +75,24 @@ class ScaledStiffness {
 
  private:
   using TwoPerUnknown = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+
+  /// The mass of copied elements in place of that of their triangles.
+  void lump(const Constraints& constraints) {
+    for (const Constraint& constraint : constraints.constraints) lumped_[constraint.vertex.value] = 0;
+    for (const auto& [unknown, area] : constraints.lumped) {
+      if (unknown.value < lumped_.size()) lumped_[unknown.value] = 0;
+      own_mass_[unknown.value] = area;
+    }
+  }
+
+  /// The force of vertices and, behind them, that of phantom nodes, which bend as vertices do.
+  void bend() {
+    VectorXd all(size());
+    all.head(moved_.size()) = moved_;
+    for (Eigen::Index u = moved_.size() / 2; u < scaled_.rows(); ++u)
+      all.segment<2>(2 * u) = scaled_.row(u).transpose();
+    add_product_per_coordinate(bending_->matrix(), 2, 1, all, force_);
+  }
 
   void add_mass(const Elasticity& elasticity) {
     Incidence incidence;
@@ -89,14 +115,15 @@ class ScaledStiffness {
     }
   }
 
-  void factor(const std::vector<double>& lumped) {
+  void factor() {
     const auto n = to_index(constraint_matrix_.unknowns());
     if (n == 0) return;
     std::vector<Eigen::Triplet<double>> entries;
     VectorXd diagonal = VectorXd::Zero(n);
-    for (std::size_t u = 0; u < lumped.size(); ++u) entries.emplace_back(u, u, diagonal[to_index(u)] = lumped[u]);
+    for (Eigen::Index u = 0; u < n; ++u)
+      if (own_mass_[u] > 0) entries.emplace_back(to_int(u), to_int(u), diagonal[u] = own_mass_[u]);
     for_each_mass([&](Eigen::Index i, Eigen::Index j, double mass) {
-      if (!lumped.empty()) return;
+      if (mass == 0) return;
       const auto &row = constraint_matrix_.row(to_size(i)), &column = constraint_matrix_.row(to_size(j));
       for (std::size_t k = 0; k < row.size; ++k)
         for (std::size_t l = 0; l < column.size; ++l)
@@ -104,7 +131,7 @@ class ScaledStiffness {
       for (std::size_t k = 0; k < row.size && i == j; ++k) diagonal[row.unknown[k]] += mass;
     });
     for (const GhostEdge& ghost : ghosts_)
-      for (std::size_t k = 0; k < 4 && lumped.empty(); ++k) {
+      for (std::size_t k = 0; k < 4; ++k) {
         for (std::size_t l = 0; l < 4; ++l)
           entries.emplace_back(ghost.unknown[k].value, ghost.unknown[l].value,
                                ghost.mass * ghost.jump[k] * ghost.jump[l]);
@@ -130,7 +157,7 @@ class ScaledStiffness {
   std::optional<RestStiffness> membrane_;
   ConstraintMatrix constraint_matrix_;
   std::vector<GhostEdge> ghosts_;
-  VectorXd lumped_;
+  VectorXd lumped_, own_mass_;  // per vertex; per unknown: of copied elements
   std::optional<Bending> bending_;
   std::optional<AddedMass> added_;
   Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> mass_;

@@ -43,7 +43,7 @@ void Model<D>::reserve_spare() {
 
 template <int D>
 void Model<D>::resize(const Sheet& sheet) {
-  const std::size_t n = sheet.deformed_slots();
+  const std::size_t n = std::max(sheet.deformed_slots(), vertices());  // phantom nodes may leave free slots at the end
   incidence_.resize(n);
   blocks_.resize(n);
   marked_in_.resize(std::max(n, marked_in_.size()));
@@ -70,11 +70,13 @@ const BlockMatrix<1>* Model<D>::mass_matrix() const {
 
 template <int D>
 Field Model<D>::positions(const Sheet& sheet) const {
-  Field x = Field::Zero(to_index(D * sheet.deformed_slots()));
+  Field x = Field::Zero(to_index(D * vertices()));
   for (std::size_t v = 0; v < sheet.deformed_slots(); ++v) {
     const auto p = coordinates(sheet.position(DeformedIndex(v)));
     for (std::size_t k = 0; k < D; ++k) x[to_index(D * v + k)] = p[k];
   }
+  for (std::size_t i = 0; i < phantoms_.size(); ++i)
+    x.template segment<D>(to_index(D * (first_phantom_ + i))) = x.template segment<D>(D * phantoms_[i].value);
   return x;
 }
 

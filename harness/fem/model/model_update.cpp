@@ -14,6 +14,7 @@ void Model<D>::update(const Sheet& sheet) {
   is_constrained_ = false;
   elements_.begin_change();
   begin_marking();
+  leave_phantoms();
   for (const auto& touched : log.touched) {
     if (!touched.before.alive()) continue;
     elements_.release(touched.slot, regrouped_);
@@ -116,12 +117,13 @@ void Model<D>::refresh_added_mass() {
 
 template <int D>
 void Model<D>::refresh_loads(const Sheet& sheet, std::size_t v) {
-  const VertexIndex rest_vertex = sheet.rest_vertex(DeformedIndex(v));
+  const VertexIndex rest_vertex =
+      v < sheet.deformed_slots() ? sheet.rest_vertex(DeformedIndex(v)) : VertexIndex();  // none: a phantom node
   const auto gravity = coordinates(physics_.gravity);
   for (std::size_t k = 0; k < D; ++k) {
     external_[D * v + k] = mass_[v] * gravity[k];
-    if (D * v + k < force_.size()) external_[D * v + k] += force_[D * v + k];
-    held_[D * v + k] = 1;
+    if (rest_vertex.valid() && D * v + k < force_.size()) external_[D * v + k] += force_[D * v + k];
+    held_[D * v + k] = v < first_phantom_ || v >= first_phantom_ + phantoms_.size();
     pin_of_[D * v + k] = -1;
   }
   if (!rest_vertex.valid()) return;

@@ -1,6 +1,7 @@
 #include "harness/fem/model/state.h"
 
 #include <algorithm>
+#include <unordered_map>
 #include <utility>
 
 #include "harness/base/conversions.h"
@@ -36,6 +37,92 @@ void transfer(const EditLog& log, std::size_t deformed_slots, int dimension, Sta
   }
 }
 
+State take_phantoms(std::size_t first, int dimension, State& state) {
+  State taken;
+  const Eigen::Index vertices = to_index(first) * dimension;
+  const std::pair<Field*, Field*> fields[] = {
+      {&state.x, &taken.x}, {&state.v, &taken.v}, {&state.anchor, &taken.anchor}, {&state.dv, &taken.dv}};
+  for (const auto& [from, to] : fields) {
+    if (from->size() <= vertices) continue;
+    *to = from->tail(from->size() - vertices);
+    from->conservativeResize(vertices);
+  }
+  return taken;
+}
+
+namespace {
+
+/// The elements that there were before a cut, by their parents and where they were.
+class ElementsBefore {
+ public:
+  ElementsBefore(const Sheet& cut, const Constraints& last) : cut_(cut) {
+    for (const auto& touched : cut.log().touched) touched_[touched.slot.value] = &touched.before;
+    for (const CopiedElement& element : last.copied) of_parent_[element.parent.value].push_back(&element);
+  }
+
+  /// That the new one is a part of; null: its parent was no copied element.
+  const CopiedElement* find(const CopiedElement& part) const {
+    const auto all = of_parent_.find(part.parent.value);
+    if (all == of_parent_.end()) return nullptr;
+    const auto c = cut_.corners(part.triangles.front());
+    const Point2 middle = 1.0 / 3 * (c[0] + c[1] + c[2]);
+    const auto depth = [&](const CopiedElement* element) { return depth_in(*element, middle); };
+    return *std::max_element(all->second.begin(), all->second.end(), [&](const auto* a, const auto* b) {
+      return all->second.size() > 1 && depth(a) < depth(b);
+    });
+  }
+
+ private:
+  /// The smallest barycentric coordinate, in the triangle that has it largest.
+  double depth_in(const CopiedElement& element, Point2 p) const {
+    double deepest = -1e300;
+    for (const TriangleIndex t : element.triangles) {
+      const auto was = touched_.find(t.value);
+      const Triangle& triangle = was == touched_.end() ? cut_.triangle(t) : *was->second;
+      const Point2 a = cut_.rest(triangle.vertex[0]), b = cut_.rest(triangle.vertex[1]),
+                   c = cut_.rest(triangle.vertex[2]);
+      const double least = std::min({cross(b - a, p - a), cross(c - b, p - b), cross(a - c, p - c)});
+      deepest = std::max(deepest, least / cross(b - a, c - a));
+    }
+    return deepest;
+  }
+
+  const Sheet& cut_;
+  std::unordered_map<std::int32_t, const Triangle*> touched_;
+  std::unordered_map<std::int32_t, std::vector<const CopiedElement*>> of_parent_;
+};
+
+}  // namespace
+
+void begin_phantoms(const Sheet& cut, const Constraints& last, const Constraints& now, std::size_t first,
+                    const State& phantoms, std::size_t vertices, int dimension, State& state) {
+  const std::size_t first_now = cut.deformed_slots();
+  std::vector<DeformedIndex> from(now.phantoms.size());
+  const ElementsBefore before(cut, last);
+  for (const CopiedElement& element : now.copied) {
+    const CopiedElement* was = nullptr;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (element.unknown[k]() < first_now) continue;
+      if (!was) was = before.find(element);
+      const std::size_t i = element.unknown[k]() - first_now;
+      if (!from[i].valid()) from[i] = was ? was->unknown[k] : now.phantoms[i];
+    }
+  }
+  const std::pair<const Field*, Field*> fields[] = {
+      {&phantoms.x, &state.x}, {&phantoms.v, &state.v}, {&phantoms.anchor, &state.anchor}, {&phantoms.dv, &state.dv}};
+  for (const auto& [old, field] : fields) {
+    if (field->size() == 0) continue;
+    field->conservativeResize(to_index(vertices) * dimension);
+    field->tail(to_index(vertices - first_now) * dimension).setZero();
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      const std::size_t d = from[i]();
+      const double* const begin =
+          d < first ? field->data() + d * to_size(dimension) : old->data() + (d - first) * to_size(dimension);
+      std::copy_n(begin, dimension, field->data() + (first_now + i) * to_size(dimension));
+    }
+  }
+}
+
 void renumber(const std::vector<DeformedIndex>& deformed, int dimension, State& state) {
   const auto kept = std::count_if(deformed.begin(), deformed.end(), [](DeformedIndex d) { return d.valid(); });
   for (Field* field : {&state.x, &state.v, &state.anchor, &state.dv}) {
@@ -47,6 +134,12 @@ void renumber(const std::vector<DeformedIndex>& deformed, int dimension, State& 
             field->segment(dimension * to_index(i), dimension);
     *field = std::move(renumbered);
   }
+}
+
+template <int D>
+void place_phantoms(const Model<D>& model, State& state) {
+  for (std::size_t i = 0; i < model.phantoms().size(); ++i)
+    state.x.segment<D>(to_index(D * (model.first_phantom() + i))) = state.x.segment<D>(D * model.phantoms()[i].value);
 }
 
 template <int D>
@@ -92,6 +185,8 @@ Balance balance_of(Model<D>& model, const State& state) {
 
 template State initial_state(const Model<2>&, const Sheet&);
 template State initial_state(const Model<3>&, const Sheet&);
+template void place_phantoms(const Model<2>&, State&);
+template void place_phantoms(const Model<3>&, State&);
 template void hold_where_it_is(const Model<2>&, State&);
 template void hold_where_it_is(const Model<3>&, State&);
 template Balance balance_of(Model<2>&, const State&);

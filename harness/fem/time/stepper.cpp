@@ -217,12 +217,18 @@ void Stepper<D>::explicit_step(Model<D>& model, State& state, StepReport& report
   }
   {
     Clock clock(report.time_us.solve);
+    const ConstrainedSystem<D>* const constrained = model.constrained();
+    if (constrained) {
+      constrained->reduce(model.held(), force_, reduced_);
+      force_ = reduced_;
+    }
     v_ = state.v;
     for (Eigen::Index i = 0; i < v_.size(); ++i) {
       const double mass = model.lumped_mass()[i / D];
       if (mass > 0) v_[i] += h * (force_[i] / mass - alpha * v_[i]);
     }
     hold(model, state, h);
+    if (constrained) constrained->extrapolate(model.held(), v_);
   }
   if (model.added_mass()) solve_added_mass(model, state, report);
   state.v = v_;

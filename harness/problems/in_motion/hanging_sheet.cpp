@@ -163,6 +163,7 @@ class HangingSheet : public Problem {
       state.x.segment<2>(2 * d.value) << p.x, p.y + start(p);
       if (p.x == 1 && p.y == 0) corner = d;
     }
+    place_phantoms(model, state);
     if (!corner.valid()) {
       answer.verdict = Verdict::no_corner;
       answer.reason = "the cut sheet has no vertex at its lower right corner";

@@ -147,6 +147,7 @@ class SeveredStrip : public Problem {
       const Point2 p = sheet.rest(sheet.rest_vertex(d));
       state.x.segment<2>(2 * d.value) << (1 + strain) * p.x, p.y;
     }
+    place_phantoms(model, state);
     for (const std::uint8_t held : model.held()) answer.unknowns += held == 0;
 
     Stepper<2> stepper({.integrator = integrator_, .step = step, .solver = solver});

@@ -13,11 +13,12 @@ ADDED_MASS = {  # columns of the records, and the methods that are shown with su
     "stabilised": ["conventional_split", "delaunay_refine", "warp_and_refine"],
     "scaled": ["conventional_split"],
 }
-NAMES = {"ablation:warp+thin:tie": "warp + thin + tie", "phantom_node:lumped_mass": "phantom node, lumped mass"}
+NAMES = {"ablation:warp+thin:tie": "warp + thin + tie", "phantom_node:lumped_mass": "phantom node, lumped mass",
+         "phantom_node:consistent_mass": "phantom node, consistent mass"}
 
 
 def label(method, parameter, mass=""):
-    several = method == "phantom_node"
+    several = method.startswith("phantom_node") and parameter
     return NAMES.get(method, method.replace("_", " ")) + (f", {parameter}" if several else "") + (f", {mass} mass" if mass else "")
 
 

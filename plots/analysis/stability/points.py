@@ -33,7 +33,7 @@ def read(folder):
 def name_of(method, parameter, mass):
     if mass in ADDED_MASS:  # after a conventional split
         return f"{mass} mass"
-    return f"phantom, ghost {parameter.partition('=')[2]}" if method == "phantom_node" else NAMES.get(method, method.replace("_", " "))
+    return f"phantom, ghost {parameter.partition('=')[2]}" if method.startswith("phantom_node") and parameter else NAMES.get(method, method.replace("_", " "))
 
 
 def on_the_page(rows):

@@ -20,7 +20,7 @@ SERIES = {  # columns, beside the method, that make a series of a sweep; the swe
     "explicit": ([], "step_share"),
 }
 FROM_HARMFUL = {"iterations", "explicit"}  # their values begin where it breaks
-TIED = ["split_and_tie", "ablation:warp+thin:tie", "phantom_node"]  # whose vertices an explicit step does not take
+TIED = ["split_and_tie", "ablation:warp+thin:tie", "phantom_node", "phantom_node:consistent_mass", "virtual_node"]  # whose vertices an explicit step does not take
 WITH_EXPLICIT = {"vertex", "edge", "border", "tip", "angle", "strip", "piece", "in_a_row"}
 
 

@@ -16,6 +16,8 @@ class Parts {
  public:
   /// \param before  the sheet before its first cut; both sheets must outlive this
   Parts(const Sheet& before, const Sheet& cut);
+  /// Of these alone, in any order, each once.
+  Parts(const Sheet& before, const Sheet& cut, std::vector<DividedTriangle> near);
 
   const Sheet& before() const { return before_; }
   const Sheet& cut() const { return cut_; }
@@ -34,6 +36,7 @@ class Parts {
   /// Of all these triangles, ascending; a vertex's number is its place here.
   const std::vector<DeformedIndex>& vertices() const { return vertices_; }
   std::size_t number_of(DeformedIndex d) const;
+  bool has(std::size_t number, DeformedIndex d) const { return number < vertices_.size() && vertices_[number] == d; }
   /// The corner of i's parent that is vertex v; none where it isn't one.
   std::optional<std::size_t> corner_at(std::size_t i, VertexIndex v) const;
 
@@ -50,6 +53,7 @@ class Parts {
 
  private:
   void find_triangles();
+  void join();
   TriangleIndex whole_parent(TriangleIndex t, TriangleIndex beside) const;
 
   const Sheet &before_, &cut_;

@@ -1,6 +1,7 @@
-#include "methods/phantom_node/parts.h"
+#include "methods/tools/parts.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "harness/base/conversions.h"
 #include "harness/base/union_find.h"
@@ -10,6 +11,22 @@ namespace cutbench {
 
 Parts::Parts(const Sheet& before, const Sheet& cut) : before_(before), cut_(cut) {
   find_triangles();
+  join();
+}
+
+Parts::Parts(const Sheet& before, const Sheet& cut, std::vector<DividedTriangle> near)
+    : before_(before), cut_(cut), near_(std::move(near)) {
+  join();
+}
+
+void Parts::join() {
+  std::sort(near_.begin(), near_.end(), [](const auto& a, const auto& b) { return a.part < b.part; });
+  const auto same = [](const auto& a, const auto& b) { return a.part == b.part; };
+  near_.erase(std::unique(near_.begin(), near_.end(), same), near_.end());
+  for (std::size_t i = 0; i < size(); ++i)
+    vertices_.insert(vertices_.end(), triangle(i).deformed.begin(), triangle(i).deformed.end());
+  std::sort(vertices_.begin(), vertices_.end());
+  vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
   UnionFind joined(size());
   for_each_joint([&](std::size_t i, std::size_t j, HalfEdge) {
     if (have_one_parent(i, j)) joined.join(i, j);
@@ -29,13 +46,6 @@ void Parts::find_triangles() {
       if (std::none_of(corners.begin(), corners.end(), [&](VertexIndex v) { return is_new(v); }))
         near_.push_back({u, whole_parent(u, near_[i].parent)});
     }
-  std::sort(near_.begin(), near_.end(), [](const auto& a, const auto& b) { return a.part < b.part; });
-  const auto same = [](const auto& a, const auto& b) { return a.part == b.part; };
-  near_.erase(std::unique(near_.begin(), near_.end(), same), near_.end());
-  for (std::size_t i = 0; i < size(); ++i)
-    vertices_.insert(vertices_.end(), triangle(i).deformed.begin(), triangle(i).deformed.end());
-  std::sort(vertices_.begin(), vertices_.end());
-  vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
 }
 
 /// Its own slot, unless it was made anew beside one that was divided.

@@ -1,4 +1,4 @@
-#include "methods/phantom_node/open_tips.h"
+#include "methods/tools/open_tips.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,9 @@ struct OpenTips::Piece {
   bool operator<(const Piece& b) const { return std::tie(part, far, h) < std::tie(b.part, b.far, b.h); }
 };
 
-OpenTips::OpenTips(const Parts& parts, bool lumped_mass) : parts_(parts), lumped_mass_(lumped_mass) {
+OpenTips::OpenTips(const Parts& parts, Rule rule) : parts_(parts), rule_(rule) {
+  slit_.assign(parts_.size(), 0);
+  if (rule == Rule::closed) return;
   find_slit_parts();
   std::vector<Piece> pieces;
   parts_.for_each_joint([&](std::size_t i, std::size_t j, HalfEdge h) {
@@ -44,7 +46,6 @@ OpenTips::OpenTips(const Parts& parts, bool lumped_mass) : parts_(parts), lumped
 }
 
 void OpenTips::find_slit_parts() {
-  slit_.assign(parts_.size(), 0);
   for (std::size_t i = 0; i < parts_.size(); ++i)
     for (int k = 0; k < 3; ++k)
       if (const HalfEdge h = half_edge(parts_.slot(i), k); parts_.cut().separates(h) && !parts_.cut().on_border(h))
@@ -96,7 +97,7 @@ void OpenTips::open_edge(std::span<Piece> pieces) {
 }
 
 bool OpenTips::is_soft(const Piece& p, DeformedIndex d, double weight) const {
-  const double most = most_stiffness * (lumped_mass_ ? share_of_parent(p.j) : 1);
+  const double most = most_stiffness * (rule_ == Rule::open_for_lumped_mass ? share_of_parent(p.j) : 1);
   for (const std::size_t i : in_slit_parts_)
     for (std::size_t k = 0; k < 3; ++k) {
       if (parts_.part(i) != p.part || parts_.triangle(i).deformed[k] != d) continue;

@@ -1,5 +1,5 @@
-// The tip rule of phantom_node.h: which parts are slit, and which copies on the two sides of an incision have nothing
-// in common where it enters a slit part, so that it opens up to its tip.
+// The tip rule of phantom_node.h, or none: which parts are slit, and which copies on the two sides of an incision have
+// nothing in common where it enters a slit part, so that it opens up to its tip.
 #pragma once
 
 #include <cstdint>
@@ -7,15 +7,19 @@
 #include <utility>
 #include <vector>
 
-#include "methods/phantom_node/parts.h"
+#include "methods/tools/parts.h"
 
 namespace cutbench {
 
 class OpenTips {
  public:
+  enum class Rule : std::uint8_t {
+    open,
+    open_for_lumped_mass,  ///< a lip must not be stiff for the mass that its copies have then, either
+    closed                 ///< no part is slit: where an incision enters its last triangle, it ends
+  };
   /// \param parts  must outlive this
-  /// \param lumped_mass  a lip must not be stiff for the mass that its copies have then, either
-  OpenTips(const Parts& parts, bool lumped_mass);
+  OpenTips(const Parts& parts, Rule rule);
 
   /// An incision ends in the part of i, which lies on both sides of it.
   bool is_slit(std::size_t i) const { return slit_[parts_.part(i)] != 0; }
@@ -32,7 +36,7 @@ class OpenTips {
   DeformedIndex deformed_origin(HalfEdge h) const;
 
   const Parts& parts_;
-  const bool lumped_mass_;
+  const Rule rule_;
   std::vector<std::uint8_t> slit_;  // per part, at its first triangle
   std::vector<std::size_t> in_slit_parts_;
   std::vector<std::pair<HalfEdge, VertexIndex>> apart_;
