@@ -106,7 +106,7 @@ class SceneInMotion : public Simulation {
     if (!force.empty() && force.size() != D * now_.model.vertices())
       throw InputError(scene_.stem + ": " + std::to_string(force.size()) + " forces; give " + std::to_string(D) +
                        " for each of the " + std::to_string(now_.model.vertices()) + " vertices");
-    if (!std::ranges::all_of(force, finite)) throw InputError(scene_.stem + ": a force is not finite");
+    if (!std::all_of(force.begin(), force.end(), finite)) throw InputError(scene_.stem + ": a force is not finite");
     force_.assign(force.begin(), force.end());
     change_from_outside([&] { now_.model.set_pins_and_force(now_.sheet, now_.pins, force_); });
   }
