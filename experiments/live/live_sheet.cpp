@@ -179,15 +179,10 @@ json LiveSheet::cut(const std::string& method, double parameter, const std::vect
   if (method != method_name_) method_ = make_method(row, parameter);
   method_name_ = method;
   release();
-  auto before = std::make_unique<MovingSheet<3>>(now_);
+  if (saved_.size() == most_saved) saved_.erase(saved_.begin());
+  saved_.push_back(std::make_unique<MovingSheet<3>>(now_));
   const std::size_t triangles = now_.sheet.triangle_count();
   const MotionCut made = cuts_.cut(now_, curves, cutter_, *method_, {});
-  const bool is_cut = made.cut.status == Status::ok || made.cut.status == Status::deviated;
-  if (is_cut || now_.sheet.triangle_count() != triangles) {
-    if (saved_.size() == most_saved) saved_.erase(saved_.begin());
-    saved_.push_back(std::move(before));
-    now_.model.reserve_spare();
-  }
   json result = numbers();
   result["status"] = name_of(made.cut.status);
   result["verdict"] = name_of(made.verdict);
