@@ -1,15 +1,23 @@
 // The same work in this build and in another: hashes of a motion with cuts, or times. experiments/live/compare runs both.
 // usage: live_bench motion   a line for each method: hash of all positions after 600 steps with three cuts
 //        live_bench times    ms of warm cuts and of steps, the least of several rounds; a line for each
+//        live_bench verdicts FILE   what the oracle says of the cases in FILE (tests/live/catalogue_cases.cpp) by each method
 #include <algorithm>
 #include <chrono>
 #include <cinttypes>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <fstream>
+#include <limits>
 #include <string>
 
 #include "experiments/live/live_sheet.h"
+#include "harness/base/errors.h"
+#include "harness/judge/judged_sheet.h"
+#include "harness/mesh/check_and_repair.h"
+#include "harness/mesh/mesh_text.h"
+#include "harness/path/path_text.h"
 #include "methods/registry.h"
 
 using namespace cutbench;
@@ -78,15 +86,48 @@ void times() {
   }
 }
 
+void judge(const std::string& name, const Sheet& sheet, const std::vector<Curve>& curves, const CutOptions& options,
+           const MethodRow& row) {
+  JudgedSheet judged(sheet, row.promises, row.make(row.parameter.value));
+  std::printf("%s, %s:", name.c_str(), row.name.c_str());
+  for (const Curve& curve : curves) {
+    const auto finding = judged.cut(curve, options);
+    std::printf(" %s %s %d of %d;", name_of(judged.outcome.status), name_of(finding.verdict), judged.judgement.pieces,
+                judged.judgement.expected_pieces);
+    if (!finding.ok()) break;
+  }
+  std::printf("\n");
+}
+
+void verdicts(const char* file) {
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    const json j = json::parse(line);
+    const std::string name = j.at("name");
+    MeshData mesh = read_obj(j.at("obj").get<std::string>(), name);
+    check_and_repair(mesh, name);
+    CutOptions options;
+    if (j.contains("chord")) options.chord_tolerance = j.at("chord").is_null() ? HUGE_VAL : j.at("chord").get<double>();
+    try {
+      const auto curves = read_path_text(j.at("path"), name);
+      for (const MethodRow& row : all_methods()) judge(name, Sheet(mesh), curves, options, row);
+    } catch (const InputError& e) {
+      std::printf("%s: %s\n", name.c_str(), e.what());
+    }
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string what = argc == 2 ? argv[1] : "";
+  const std::string what = argc >= 2 ? argv[1] : "";
   if (what == "motion")
     motion();
   else if (what == "times")
     times();
+  else if (what == "verdicts" && argc == 3)
+    verdicts(argv[2]);
   else
-    return std::fputs("usage: live_bench motion|times\n", stderr), 2;
+    return 2;
   return 0;
 }

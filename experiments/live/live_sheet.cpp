@@ -389,16 +389,19 @@ json timed(const Scene& scene, const std::string& method, double parameter, cons
   Locator locator(sheet);
   Cutter cutter;
   cut_all(sheet, locator, cutter, std::span(curves).first(curves.size() - 1), *maker, {});
-  const std::size_t repeats = std::max<std::size_t>(4, 100000 / (sheet.triangle_count() + 1));
-  double total = 0, cuts = 0;
-  for (int round = 0; round < 4; ++round) {  // the first is not counted
-    std::vector<Sheet> sheets(std::min<std::size_t>(repeats, 32), sheet);
-    std::vector<Locator> locators(sheets.size(), locator);
+  const std::size_t copies = std::clamp<std::size_t>(100000 / (sheet.triangle_count() + 1), 4, 32);
+  double total = 0, cuts = 0, spent = 0;
+  for (int round = 0; round < 24; ++round) {  // a browser compiles anew what runs often: the first half is not counted
+    std::vector<Sheet> sheets(copies, sheet);
+    std::vector<Locator> locators(copies, locator);
     const double from = milliseconds();
-    for (std::size_t i = 0; i < sheets.size(); ++i) cutter.cut(sheets[i], locators[i], curves.back(), *maker, {});
-    if (round == 0) continue;
-    total += milliseconds() - from;
-    cuts += to_double(sheets.size());
+    for (std::size_t i = 0; i < copies; ++i) cutter.cut(sheets[i], locators[i], curves.back(), *maker, {});
+    const double round_ms = milliseconds() - from;
+    spent += round_ms;
+    if (round < 12 && spent < 400) continue;
+    total += round_ms;
+    cuts += to_double(copies);
+    if (spent > 800) break;
   }
   return {{"ms", total / cuts}, {"cuts", cuts}, {"total_ms", total}};
 }

@@ -184,18 +184,12 @@ async function refresh() {
   if (due.length) told(due)
 }
 
-function addStroke(curve) {
+/** Strokes of the case that were still to come are dropped. While the sheets are at work, it is for the step where they end. */
+async function addStroke(curve) {
   drawing.picks = []
-  const steps = state.strokes.filter(s => s.done)
-  state.strokes = [...steps, { step: time.step + (time.busy ? 0 : 0), curve }]
-  if (time.busy) state.strokes[state.strokes.length - 1].step = -1
-  settle()
-}
-
-/** A stroke drawn while the sheets are at work is made at the step where they end. */
-async function settle() {
+  const mine = round
   while (time.busy) await new Promise(done => setTimeout(done, 2))
-  for (const stroke of state.strokes) if (stroke.step < 0) stroke.step = time.step
+  if (mine === round) state.strokes = [...state.strokes.filter(s => s.done), { step: time.step, curve }]
 }
 
 function told(due) {
@@ -318,7 +312,7 @@ function endStroke({ points, hits }) {
   const few = Math.min(3, places.length - 1)
   if (!hits[0]) places.unshift(beyond(places[0], places[few]))
   if (!hits[hits.length - 1]) places.push(beyond(places[places.length - 1], places[places.length - 1 - few]))
-  addStroke(smooth(places, 0.004))
+  addStroke(smooth(places, 0.006))
 }
 
 function addPoint(hit) {
@@ -435,6 +429,19 @@ function draw(panel) {
     trace([[x - arm, y], [x + arm, y]], 2)
     trace([[x, y - arm], [x, y + arm]], 2)
   }
+  if (state.colour === 1 && view.flat && view.flat.length === view.soup.length) {
+    c.strokeStyle = dark.matches ? '#ff9df0' : '#a3008f'
+    c.lineWidth = 1.5 * ratio
+    const ring = ([x, y], radius) => {
+      c.beginPath()
+      c.arc(x, y, radius * ratio, 0, 7)
+      c.stroke()
+    }
+    for (const { seen, flat } of view.thin(10, view.insetSide && lastCut)) {
+      ring(seen, 4)
+      if (flat && flat[0] > 0 && flat[0] < view.insetSide && flat[1] > 0 && flat[1] < view.insetSide) ring([flat[0], view.over.height - flat[1]], 3)
+    }
+  }
   if (view.insetSide) {
     c.fillStyle = dark.matches ? '#e8e6e1' : '#22252a'
     c.font = `${12 * ratio}px system-ui`
@@ -451,7 +458,7 @@ const waitingFor = (n, value, text) => (n.status === undefined ? '–' : value =
 const rows = [
   ['Last cut', 'What the method did with the last stroke.', 'docs/measuring.md#judgement', ({ numbers: n, stopped }) => stopped ? 'stopped: ' + stopped : n.status === undefined ? 'no cut yet' : n.status === 'ok' ? 'done' : `${n.status}${n.reason ? ': ' + n.reason : ''}`],
   ['Oracle’s verdict', 'An independent judge with exact arithmetic looks at every cut: right, or what is wrong.', 'docs/measuring.md#judgement', ({ numbers: n }) => waitingFor(n, n.oracle, v => v.verdict === 'ok' ? 'right' : v.error || `${v.verdict}: ${v.reason}`)],
-  ['Time of the cut', 'How long the computer cuts, without the motion; warmed up, the mean of many cuts of copies.', 'docs/measuring.md#time', ({ numbers: n }) => waitingFor(n, n.ms, timeText)],
+  ['Time of the cut', 'How long the computer cuts, without the motion: warmed up, the mean of many cuts of copies.', 'docs/measuring.md#time', ({ numbers: n }) => waitingFor(n, n.ms, timeText)],
   ['Time of a step', 'How long the computer takes for 1/240 s of motion; below 4.2 ms it keeps up with real time.', 'docs/step.md', panel => panel.ms ? plain(panel.ms) + ' ms' : '–', 'ms'],
   ['Triangles', 'How many the sheet has now, and how many more than before the cuts.', 'docs/measuring.md#shape', ({ numbers: n }) => n.triangles === undefined ? '–' : `${n.triangles} (+${n.triangles - n.triangles_before})` + (n.polygons ? `, ${n.polygons} polygons` : '')],
   ['Largest aspect ratio', 'How thin the thinnest triangle is: length over height. 2 is good, 100 is a hair.', 'docs/measuring.md#shape', ({ numbers: n }) => plain(n.aspect_ratio)],
@@ -563,7 +570,7 @@ async function compare() {
 
 function keepAddress() {
   if (state.obj) return
-  history.replaceState(null, '', addressOf({ ...state, strokes: state.strokes.filter(s => s.step >= 0) }))
+  history.replaceState(null, '', addressOf(state))
 }
 
 function showControls() {
@@ -574,7 +581,7 @@ function showControls() {
     const row = methods.find(m => m.name === chosen)
     return `<div><label>Method <select data-sheet="${i}" aria-describedby="m${i}">${methods.map(m => `<option${m.name === chosen ? ' selected' : ''}>${m.name}`).join('')}</select></label><p id="m${i}">${row.summary}. <a href="${source}/methods/${chosen}/${chosen}.h">Its page</a></p></div>`
   }).join('')
-  const [from, to] = [['', ''], ['2: good', '100: hair-thin'], ['0 %', '25 %'], ['', '']][state.colour]
+  const [from, to] = [['', ''], ['2: good', '100: hair'], ['0 %', '25 %'], ['', '']][state.colour]
   $('legend').hidden = !from
   $('legend').firstChild.textContent = from
   $('legend').lastChild.textContent = to
@@ -585,11 +592,12 @@ function take(chosen) {
   state.strokes = chosen.strokes.map(({ step, curve }) => ({ step, curve }))
   camera.reset(held[state.pins].view)
   $('says').textContent = chosen.says || presets.play.says
+  $('preset').value = Object.keys(presets).find(key => presets[key].label === chosen.label) || ''
   showControls()
   return restart()
 }
 
-const again = () => restart(state.strokes.filter(s => s.step >= 0).map(({ step, curve }) => ({ step, curve })))
+const again = () => restart(state.strokes.map(({ step, curve }) => ({ step, curve })))
 
 async function takeObj(file) {
   const obj = await file.text()
@@ -621,9 +629,8 @@ const save = (name, text) => {
   setTimeout(() => URL.revokeObjectURL(link.href), 1000)
 }
 async function download(name) {
-  const kept = { ...state, strokes: state.strokes.filter(s => s.step >= 0) }
-  if (name === 'path.json') return save(name, pathOf(kept))
-  if (name === 'scene.toml') return save(name, tomlOf(kept))
+  if (name === 'path.json') return save(name, pathOf(state))
+  if (name === 'scene.toml') return save(name, tomlOf(state))
   if (name === 'cut.obj') return save(name, await panels[0].remote.ask('obj'))
   const uncut = new Remote()
   await uncut.ready
@@ -633,8 +640,10 @@ async function download(name) {
 }
 
 function listenToControls() {
+  if (innerWidth < 700) for (const each of document.querySelectorAll('aside details')) each.open = false
   const options = (id, table) => { $(id).innerHTML = Object.entries(table).map(([key, { label }]) => `<option value="${key}">${label}`).join('') }
   options('preset', presets)
+  $('preset').append(Object.assign(document.createElement('option'), { value: '', textContent: 'From the link', disabled: true }))
   options('pins', held)
   options('material', materials)
   $('preset').onchange = () => take(presets[$('preset').value])

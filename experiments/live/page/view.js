@@ -17,9 +17,9 @@ const fragmentShader = `#version 300 es
 precision highp float; precision highp int;
 in vec3 x, b; flat in float value; flat in int edges; out vec4 c;
 uniform vec3 back, front, behind, line, lip; uniform int mode; uniform float wire, flatly, pixel;
-vec3 scale(float t) {  // cividis: the same to eyes that tell red from green and to those that do not
+vec3 scale(float t) {  // darker is more: also to eyes that don't tell red from green
   t = clamp(t, 0., 1.);
-  return t < .5 ? mix(vec3(.0, .19, .42), vec3(.49, .48, .47), 2. * t) : mix(vec3(.49, .48, .47), vec3(1., .91, .28), 2. * t - 1.);
+  return t < .5 ? mix(vec3(.98, .93, .75), vec3(.93, .55, .25), 2. * t) : mix(vec3(.93, .55, .25), vec3(.29, .06, .42), 2. * t - 1.);
 }
 vec3 piece(int i) {  // Okabe and Ito's colours
   vec3 all[7] = vec3[7](vec3(.34, .71, .91), vec3(.90, .62, .0), vec3(.0, .62, .45), vec3(.94, .89, .26), vec3(.80, .47, .65), vec3(.84, .37, .0), vec3(.0, .45, .70));
@@ -38,7 +38,7 @@ void main() {
     int kind = (edges >> (2 * k)) & 3, far = (k + 2) % 3;
     float away = b[far] / max(w[far], 1e-9);
     float dense = clamp(4. * w[far] - .3, 0., 1.);
-    float wide = kind >= 2 ? 1.6 * pixel : .75 * pixel;
+    float wide = kind >= 2 ? mix(1.6, .9, flatly) * pixel : .75 * pixel;
     float on = 1. - smoothstep(wide - .6, wide + .6, away);
     if (kind == 0) base = mix(base, line, on * wire * .55 * (1. - dense));
     if (kind >= 2) base = mix(base, lip, on * (kind == 2 ? 1. : .7));
@@ -50,7 +50,7 @@ void main() {
 class Camera {
   constructor() { this.reset('front') }
   reset(view) {
-    Object.assign(this, view === 'above' ? { around: 0.35, up: 0.75, far: 2.1, middle: [0.5, 0.5, -0.12] } : { around: 0.25, up: 0.12, far: 2.35, middle: [0.5, 0.1, -0.48] })
+    Object.assign(this, view === 'above' ? { around: 0.35, up: 0.75, far: 1.85, middle: [0.5, 0.5, -0.14] } : { around: 0.25, up: 0.12, far: 2.2, middle: [0.5, 0.05, -0.52] })
   }
   turn(dx, dy) {
     this.around -= dx
@@ -156,6 +156,16 @@ class View {
     gl.bindVertexArray(this.buffers[1].array)
     gl.drawArrays(gl.TRIANGLES, 0, this.buffers[1].length)
   }
+  /** Where the triangles are that are thinner than `least`, while their shape is the colour: on the canvas and in the inset. */
+  thin(least, inset) {
+    const { soup, flat, insetSide } = this, found = []
+    for (let i = 0; i < soup.length && found.length < 400; i += size) {
+      if (soup[i + 3] < least) continue
+      const middle = of => [0, 1, 2].map(k => (of[i + k] + of[i + 5 + k] + of[i + 10 + k]) / 3), p = inset && middle(flat)
+      found.push({ seen: this.onCanvas(middle(soup)), flat: p && [0, 1].map(k => ((p[k] - inset.middle[k]) / inset.half + 1) * insetSide / 2) })
+    }
+    return found
+  }
   /** Through a point of the window: where it starts, and where it goes. */
   ray(clientX, clientY) {
     const r = this.canvas.getBoundingClientRect(), { eye, right, up, back, f, aspect } = this.seen
@@ -219,7 +229,7 @@ function along(curve, each = 16) {
 /** A drawn line as a chain of cubic Beziers: points smoothed, those that say nothing left out, tangents of Catmull and Rom. */
 function smooth(points, tolerance) {
   let line = points
-  for (let round = 0; round < 2; ++round)
+  for (let round = 0; round < 4; ++round)
     line = line.map((p, i) => (i === 0 || i === line.length - 1 ? p : p.map((v, k) => (line[i - 1][k] + 2 * v + line[i + 1][k]) / 4)))
   const thin = (from, to) => {
     let worst = tolerance, place = -1
@@ -234,7 +244,7 @@ function smooth(points, tolerance) {
   const closed = Math.hypot(...[0, 1].map(k => kept[0][k] - kept[kept.length - 1][k])) < 0.035 && kept.length > 4
   if (closed) kept[kept.length - 1] = kept[0]
   const n = kept.length, of = i => (closed ? kept[(i + n - 1) % (n - 1)] : kept[Math.max(0, Math.min(n - 1, i))])
-  const chain = [kept[0]], round = p => p.map(v => +v.toFixed(5))
+  const chain = [kept[0]], round = p => p.map(v => +v.toFixed(4))
   for (let i = 0; i + 1 < n; ++i) {
     const [p, q] = [kept[i], kept[i + 1]], a = of(i - 1), b = of(i + 2)
     chain.push(p.map((v, k) => v + (q[k] - a[k]) / 6), q.map((v, k) => v - (b[k] - p[k]) / 6), q)
