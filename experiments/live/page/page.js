@@ -8,7 +8,13 @@ const time = { step: 0, debt: 0, paused: matchMedia('(prefers-reduced-motion: re
 const drawing = { tool: 'cut', picks: [], stroke: null, cursor: null, grabbed: null }
 const frames = { count: 0, from: performance.now(), rate: 0, drawn: 0 }
 let methods = [], module = null, panels = [], beside = null, fine = null, round = 0, lastCut = null
-window.live = { state, time, frames, camera, get panels() { return panels }, get beside() { return beside } }  // for tests
+// For tests: with run(), the page being paused, all is under their control.
+window.live = { state, time, frames, camera, get panels() { return panels }, get beside() { return beside }, Remote: null, run }
+async function run(steps) {
+  const until = time.step + steps
+  while (time.step < until && running().length) await advance(until - time.step)
+  await refresh()
+}
 
 // --- workers ---------------------------------------------------------------------------------------------------------
 
@@ -42,6 +48,8 @@ class Remote {
     if (this.onBroken) this.onBroken(this.broken)
   }
 }
+
+window.live.Remote = Remote
 
 class Panel {
   constructor(index) {
@@ -447,6 +455,9 @@ function draw(panel) {
     c.font = `${12 * ratio}px system-ui`
     c.textAlign = 'left'
     c.textBaseline = 'top'
+    c.strokeStyle = halo
+    c.lineWidth = 4 * ratio
+    c.strokeText('the cut at rest', 8 * ratio, view.over.height - view.insetSide + 6 * ratio)
     c.fillText('the cut at rest', 8 * ratio, view.over.height - view.insetSide + 6 * ratio)
   }
 }
@@ -581,7 +592,7 @@ function showControls() {
     const row = methods.find(m => m.name === chosen)
     return `<div><label>Method <select data-sheet="${i}" aria-describedby="m${i}">${methods.map(m => `<option${m.name === chosen ? ' selected' : ''}>${m.name}`).join('')}</select></label><p id="m${i}">${row.summary}. <a href="${source}/methods/${chosen}/${chosen}.h">Its page</a></p></div>`
   }).join('')
-  const [from, to] = [['', ''], ['2: good', '100: hair'], ['0 %', '25 %'], ['', '']][state.colour]
+  const [from, to] = [['', ''], ['2: good', '100: a hair; rings: over 10'], ['0 %', '25 %'], ['', '']][state.colour]
   $('legend').hidden = !from
   $('legend').firstChild.textContent = from
   $('legend').lastChild.textContent = to

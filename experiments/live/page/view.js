@@ -160,7 +160,8 @@ class View {
   thin(least, inset) {
     const { soup, flat, insetSide } = this, found = []
     for (let i = 0; i < soup.length && found.length < 400; i += size) {
-      if (soup[i + 3] < least) continue
+      const inPolygon = [1, 4, 16].some(one => Math.floor(soup[i + 4] / one) % 4 === 1)
+      if (soup[i + 3] < least || inPolygon) continue
       const middle = of => [0, 1, 2].map(k => (of[i + k] + of[i + 5 + k] + of[i + 10 + k]) / 3), p = inset && middle(flat)
       found.push({ seen: this.onCanvas(middle(soup)), flat: p && [0, 1].map(k => ((p[k] - inset.middle[k]) / inset.half + 1) * insetSide / 2) })
     }
