@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <exception>
 #include <fstream>
 #include <limits>
 #include <string>
@@ -91,7 +92,13 @@ void judge(const std::string& name, const Sheet& sheet, const std::vector<Curve>
   JudgedSheet judged(sheet, row.promises, row.make(row.parameter.value));
   std::printf("%s, %s:", name.c_str(), row.name.c_str());
   for (const Curve& curve : curves) {
-    const auto finding = judged.cut(curve, options);
+    JudgedSheet::Finding finding;
+    try {
+      finding = judged.cut(curve, options);
+    } catch (const std::exception& e) {
+      std::printf(" %s", e.what());
+      break;
+    }
     std::printf(" %s %s %d of %d;", name_of(judged.outcome.status), name_of(finding.verdict), judged.judgement.pieces,
                 judged.judgement.expected_pieces);
     if (!finding.ok()) break;

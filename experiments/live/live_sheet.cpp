@@ -182,7 +182,13 @@ json LiveSheet::cut(const std::string& method, double parameter, const std::vect
   if (saved_.size() == most_saved) saved_.erase(saved_.begin());
   saved_.push_back(std::make_unique<MovingSheet<3>>(now_));
   const std::size_t triangles = now_.sheet.triangle_count();
-  const MotionCut made = cuts_.cut(now_, curves, cutter_, *method_, {});
+  MotionCut made;
+  try {
+    made = cuts_.cut(now_, curves, cutter_, *method_, {});
+  } catch (...) {  // Boost's numbers refuse the infinite ones that CGAL makes of subnormal coordinates
+    now_ = *saved_.back();
+    throw;
+  }
   json result = numbers();
   result["status"] = name_of(made.cut.status);
   result["verdict"] = name_of(made.verdict);

@@ -301,7 +301,7 @@ const tests = {
       await run(tab, 60)
       const pulled = await place()
       await tab.mouse.up()
-      expect(`it follows the hand: ${before} ${pulled}`, pulled[0] > before[0] + 0.1 && pulled[2] > before[2] + 0.05)
+      expect(`it follows the hand: ${before} ${pulled}`, pulled[0] > before[0] + 0.05 && pulled[2] > before[2] + 0.05)
       await tab.click('[data-tool=poke]')
       await run(tab, 480)
       const calm = await place()

@@ -113,7 +113,7 @@ async function restart(strokes = state.strokes) {
   time.halted = true
   while (time.busy) await new Promise(done => setTimeout(done, 5))
   if (mine !== round) return
-  state.strokes = strokes
+  state.strokes = strokes.map(({ step, curve }) => ({ step, curve }))
   Object.assign(time, { step: 0, debt: 0 })
   Object.assign(drawing, { picks: [], stroke: null, grabbed: null })
   lastCut = null
@@ -608,7 +608,7 @@ function take(chosen) {
   return restart()
 }
 
-const again = () => restart(state.strokes.map(({ step, curve }) => ({ step, curve })))
+const again = () => restart()
 
 async function takeObj(file) {
   const obj = await file.text()
