@@ -214,7 +214,9 @@ class Judge {
   }
 
   void check_vertices() {
-    const auto same_bits = [](const Point& p, const Point& q) { return std::memcmp(p.data(), q.data(), sizeof p) == 0; };
+    const auto same_bits = [](const Point& p, const Point& q) {
+      return std::memcmp(p.data(), q.data(), sizeof p) == 0;
+    };
     for (std::size_t v = 0; v < request_.before.rest.size(); ++v)
       if (v >= after_.rest.size() || !same_bits(after_.rest[v], request_.before.rest[v]))
         problems_.add(Verdict::moved_vertex, std::to_string(v));

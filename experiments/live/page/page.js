@@ -690,7 +690,6 @@ function listenToControls() {
     hint('')
   }
   const showPause = () => {
-    $('pause').setAttribute('aria-pressed', time.paused)
     $('pause').textContent = time.paused ? 'Play' : 'Pause'
   }
   $('pause').onclick = () => {
