@@ -50,7 +50,7 @@ void main() {
 class Camera {
   constructor() { this.reset('front') }
   reset(view) {
-    Object.assign(this, view === 'above' ? { around: 0.35, up: 0.75, far: 1.85, middle: [0.5, 0.5, -0.14] } : { around: 0.25, up: 0.38, far: 2.1, middle: [0.5, 0.15, -0.42] })
+    Object.assign(this, view === 'above' ? { around: 0.35, up: 0.75, far: 1.85, middle: [0.5, 0.5, -0.14] } : { around: 0.25, up: 0.35, far: 2.3, middle: [0.5, 0.1, -0.48] })
   }
   turn(dx, dy) {
     this.around -= dx
