@@ -1,11 +1,13 @@
-// std::from_chars for double, which libc++ has from version 20 on.
+// std::from_chars and std::to_chars for double, which libc++ has from versions 20 and 14 on.
 #pragma once
 
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 namespace cutbench {
 
@@ -29,6 +31,25 @@ inline std::from_chars_result number_from_chars(const char* first, const char* l
   value = read;
   return {first + length, std::errc()};
 #endif
+}
+
+/// The end of the shortest text that reads back the same bits; without std::to_chars by snprintf, which may write
+/// another one of them (1e+06 for 1000000).
+template <class Number>
+char* number_to_chars(char* first, char* last, Number value) {
+#ifndef __cpp_lib_to_chars
+  if constexpr (std::is_floating_point_v<Number>) {
+    int length = 0;
+    double read = 0;
+    for (int digits = 1; digits <= 17; ++digits) {
+      length = std::snprintf(first, static_cast<std::size_t>(last - first), "%.*g", digits, value);
+      number_from_chars(first, first + length, read);
+      if (read == value) break;
+    }
+    return first + length;
+  } else
+#endif
+    return std::to_chars(first, last, value).ptr;
 }
 
 }  // namespace cutbench

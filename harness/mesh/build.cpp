@@ -1,7 +1,7 @@
 // A sheet from plain arrays, back to plain arrays, and without its freed slots.
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <unordered_map>
@@ -15,6 +15,13 @@ namespace cutbench {
 
 namespace {
 
+/// std::bit_cast, which libc++ has from version 14 on.
+std::uint64_t bits_of(double x) {
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &x, sizeof bits);
+  return bits;
+}
+
 struct RestEdge {
   Point2 a, b;
   bool operator==(const RestEdge&) const = default;
@@ -24,7 +31,7 @@ struct RestEdgeHash {
   std::size_t operator()(const RestEdge& e) const {
     std::uint64_t hash = 0;
     for (double c : {e.a.x, e.a.y, e.b.x, e.b.y}) {
-      hash = (hash ^ std::bit_cast<std::uint64_t>(c + 0.0)) * 0x9E3779B97F4A7C15u;
+      hash = (hash ^ bits_of(c + 0.0)) * 0x9E3779B97F4A7C15u;
       hash ^= hash >> 29;
     }
     return hash;

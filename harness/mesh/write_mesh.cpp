@@ -1,10 +1,10 @@
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <string_view>
 
 #include "harness/base/conversions.h"
+#include "harness/base/number_from_chars.h"
 #include "harness/base/union_find.h"
 #include "harness/mesh/mesh_text.h"
 #include "harness/mesh/quality.h"
@@ -28,7 +28,7 @@ class Text {
   template <class Number>
   requires std::is_arithmetic_v<Number> Text& operator<<(Number x) {
     char digits[32];
-    text_.append(digits, std::to_chars(digits, digits + sizeof digits, x).ptr);
+    text_.append(digits, number_to_chars(digits, digits + sizeof digits, x));
     return *this;
   }
   Text& operator<<(const Point2& p) { return *this << p.x << ' ' << p.y; }

@@ -20,7 +20,7 @@ int lowest_bit(double x) {
 Integer as_integer(double x, int exponent) {
   if (x == 0) return 0;
   const int low = lowest_bit(x);
-  Integer result(static_cast<long>(std::ldexp(x, -low)));
+  Integer result(std::ldexp(x, -low));
   result <<= static_cast<unsigned long>(low - exponent);
   return result;
 }

@@ -1,8 +1,8 @@
 #include "harness/oracle/oracle.h"
 
-#include <bit>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -214,9 +214,11 @@ class Judge {
   }
 
   void check_vertices() {
-    const auto bits = [](const Point& p) { return std::bit_cast<std::array<std::uint64_t, 2>>(p); };
+    const auto same_bits = [](const Point& p, const Point& q) {
+      return std::memcmp(p.data(), q.data(), sizeof p) == 0;
+    };
     for (std::size_t v = 0; v < request_.before.rest.size(); ++v)
-      if (v >= after_.rest.size() || bits(after_.rest[v]) != bits(request_.before.rest[v]))
+      if (v >= after_.rest.size() || !same_bits(after_.rest[v], request_.before.rest[v]))
         problems_.add(Verdict::moved_vertex, std::to_string(v));
   }
 

@@ -69,7 +69,8 @@ ActiveRegion active_region(const Sheet& sheet, std::span<const Curve> curves, do
   const std::vector<std::uint8_t> near = vertices_near(sheet, curves, radius);
   const auto kept_by = [&](const std::vector<std::uint8_t>& vertices, std::size_t t) {
     const Triangle& triangle = sheet.triangle(TriangleIndex(t));
-    return triangle.alive() && std::ranges::any_of(triangle.vertex, [&](VertexIndex v) { return vertices[v()] != 0; });
+    const auto is_in = [&](VertexIndex v) { return vertices[v()] != 0; };
+    return triangle.alive() && std::any_of(triangle.vertex.begin(), triangle.vertex.end(), is_in);
   };
   std::vector<std::uint8_t> kept = near;  // and then with one ring, and two
   for (int ring = 0; ring < 2; ++ring) {
@@ -79,10 +80,11 @@ ActiveRegion active_region(const Sheet& sheet, std::span<const Curve> curves, do
         for (const VertexIndex v : sheet.triangle(TriangleIndex(t)).vertex) kept[v()] = 1;
   }
   ActiveRegion region;
-  if (std::ranges::find(near, 1) == near.end()) return region;
+  if (std::find(near.begin(), near.end(), 1) == near.end()) return region;
   for (std::size_t t = 0; t < sheet.triangle_slots(); ++t) {
     const Triangle& triangle = sheet.triangle(TriangleIndex(t));
-    if (triangle.alive() && !std::ranges::all_of(triangle.vertex, [&](VertexIndex v) { return kept[v()] != 0; }))
+    const auto is_kept = [&](VertexIndex v) { return kept[v()] != 0; };
+    if (triangle.alive() && !std::all_of(triangle.vertex.begin(), triangle.vertex.end(), is_kept))
       region.outside.push_back(TriangleIndex(t));
   }
   for (std::size_t v = 0; v < near.size(); ++v) {

@@ -40,7 +40,7 @@ OpenTips::OpenTips(const Parts& parts, Rule rule) : parts_(parts), rule_(rule) {
   for (auto first = pieces.begin(), last = first; first != pieces.end(); first = last) {
     last =
         std::find_if(first, pieces.end(), [&](const Piece& p) { return p.part != first->part || p.far != first->far; });
-    open_edge({first, last});
+    open_edge({&*first, to_size(last - first)});
   }
   std::sort(apart_.begin(), apart_.end());
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "harness/base/conversions.h"
+#include "harness/base/portable_hypot.h"
 
 namespace cutbench {
 
@@ -35,7 +36,7 @@ ElementModes::InPlane ElementModes::membrane(std::size_t triangle) const {
   for (const Point2 g : element.gradient) t += 3 * speed2 * eigen_vector(g) * eigen_vector(g).transpose();
   // The determinant is known without a difference, so that the smaller eigenvalue of a sliver has all its digits.
   const double determinant = 27 * speed2 * speed2 / (4 * element.area * element.area);
-  const double larger = t.trace() / 2 + std::hypot((t(0, 0) - t(1, 1)) / 2, t(0, 1));
+  const double larger = t.trace() / 2 + portable_hypot((t(0, 0) - t(1, 1)) / 2, t(0, 1));
   InPlane modes{{larger, determinant / larger}, Eigen::Vector2d::UnitX()};
   t.diagonal().array() -= modes.eigenvalue[1];
   const Eigen::Vector2d column = t.col(t(0, 0) > t(1, 1) ? 0 : 1);

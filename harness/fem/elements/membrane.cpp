@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "harness/base/conversions.h"
+#include "harness/base/portable_hypot.h"
 
 namespace cutbench {
 
@@ -28,7 +29,7 @@ Vector2d gradient(const Element& element, std::size_t k) { return {element.gradi
 
 /// The rotation nearest to f: never a reflection, the identity where none is nearest.
 Matrix2d nearest_rotation(const Matrix2d& f) {
-  const double c = f(0, 0) + f(1, 1), s = f(1, 0) - f(0, 1), r = std::hypot(c, s);
+  const double c = f(0, 0) + f(1, 1), s = f(1, 0) - f(0, 1), r = portable_hypot(c, s);
   if (!(r > 0)) return Matrix2d::Identity();
   return (Matrix2d() << c / r, -s / r, s / r, c / r).finished();
 }

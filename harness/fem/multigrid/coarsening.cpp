@@ -87,7 +87,7 @@ void Coarsening::update(const LevelRows& fine, const std::vector<Point2>& places
   find_members();
   for (auto first = entries_.begin(), last = first; first != entries_.end(); first = last) {
     last = std::find_if(first, entries_.end(), [&](const Entry& entry) { return entry.node != first->node; });
-    divide(fine, {first, last});
+    divide(fine, {&*first, to_size(last - first)});
   }
   for (const Node node : nodes_)  // that have no members any more
     if (!std::binary_search(entries_.begin(), entries_.end(), Entry{node, 0, 0},
@@ -140,11 +140,12 @@ void Coarsening::place(std::int32_t fine, std::span<const Entry> hats) {
   for (const Weight& parent : parents(v))
     if (parent.other != group) nodes_.push_back(node_[to_size(parent.other)]);
   const auto is_old = [&](const Entry& hat) {
-    return std::ranges::any_of(parents(v), [&](const Weight& parent) {
+    const auto is_hat = [&](const Weight& parent) {
       return node_[to_size(parent.other)] == hat.node && parent.weight == hat.weight;
-    });
+    };
+    return std::any_of(parents(v).begin(), parents(v).end(), is_hat);
   };
-  if (hats.size() + (group < 0 ? 0 : 1) == parents(v).size() && std::ranges::all_of(hats, is_old)) return;
+  if (hats.size() + (group < 0 ? 0 : 1) == parents(v).size() && std::all_of(hats.begin(), hats.end(), is_old)) return;
   const Weight kept{group, 1};
   parents_.set(v, {&kept, group < 0 ? 0u : 1u});
   is_placed_.insert(fine);
@@ -202,7 +203,8 @@ void Coarsening::divide(const LevelRows& fine, std::span<const Entry> members) {
     part_members_.clear();
     for (std::size_t l = k; l < members.size(); ++l)
       if (part_[l] == part_[k]) part_members_.push_back({members[l].fine, members[l].weight});
-    if (std::ranges::equal(this->members(to_size(part_[k])), part_members_, is_same)) continue;
+    const auto before = this->members(to_size(part_[k]));
+    if (std::equal(before.begin(), before.end(), part_members_.begin(), part_members_.end(), is_same)) continue;
     members_.set(to_size(part_[k]), part_members_);
     touch_blocks(part_[k]);
   }

@@ -26,7 +26,7 @@ auto SweepRows::set(std::size_t i, std::span<const std::int32_t> columns) -> Pla
   order_.resize(columns.size());
   ordered_.resize(columns.size());
   for (std::size_t k = 0; k < columns.size(); ++k) ordered_[k] = columns[to_size(order_[k])];
-  const bool is_new = !std::ranges::equal(columns_[i], ordered_);
+  const bool is_new = !std::equal(ordered_.begin(), ordered_.end(), columns_[i].begin(), columns_[i].end());
   if (is_new) columns_.set(i, ordered_);
   return {order_, is_new};
 }

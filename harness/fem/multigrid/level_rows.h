@@ -11,6 +11,13 @@ namespace cutbench {
 /// Rows of column numbers in the order of the sweeps: first those below the row's own, then its own, then those above.
 class SweepRows {
  public:
+  SweepRows() = default;
+  SweepRows(const SweepRows&) = default;
+  SweepRows(SweepRows&&) = default;
+  SweepRows& operator=(const SweepRows&) = default;
+  SweepRows& operator=(SweepRows&&) = default;
+  ~SweepRows() {}  // NOLINT: clang 14 calls one that is defaulted, and does not emit it (WebAssembly)
+
   std::size_t size() const { return columns_.size(); }
   void resize(std::size_t rows) {
     columns_.resize(rows);

@@ -1,0 +1,35 @@
+// The package as others use it: makes, picks, cuts, steps, reads; and says in words what is wrong.
+import assert from 'node:assert'
+import { readFile } from 'node:fs/promises'
+import { load } from 'cutbench'
+
+const cutbench = await load(await readFile(new URL(import.meta.resolve('cutbench/cutbench.wasm'))))
+const sheet = new cutbench.Sheet({ triangles: 800 })
+assert.equal(sheet.step(10), 10)
+const [x, y] = sheet.pick([0.31, 0.42, 1], [0, 0, -1])
+assert(Math.hypot(x - 0.31, y - 0.42) < 0.05)
+const curve = { bezier: [[0.2, 0.5], [0.4, 0.4], [0.6, 0.6], [0.8, 0.5]] }
+const cut = sheet.cut('warp_and_refine', [curve])
+assert.equal(cut.status, 'ok')
+assert.equal(sheet.triangles().length, 3 * cut.triangles)
+assert.equal(sheet.positions().length, 3 * cut.vertices)
+assert.equal(sheet.rest().length, 2 * cut.vertices)
+assert.equal(sheet.draw().length, 15 * cut.triangles)
+const before = sheet.places(Float64Array.of(0.5, 0.9))
+sheet.grab([0.5, 0.9])
+sheet.drag([0.5, 0.9, 0.4])
+sheet.step(60)
+sheet.release()
+assert(sheet.places(Float64Array.of(0.5, 0.9))[2] > before[2])
+assert(sheet.undo())
+assert.equal(sheet.numbers().triangles, 800)
+assert.equal(cutbench.judge({ triangles: 800 }, 'warp_and_refine', [curve]).verdict, 'ok')
+assert.throws(() => sheet.cut('nonsense', [curve]), /unknown method/)
+assert.throws(() => sheet.pick([5, 5, 5], [0, 0, 1]), Error)
+assert.throws(() => new cutbench.Sheet({ triangles: 7 }), /triangles/)
+assert.throws(() => new cutbench.Sheet({ obj: 'v 0 0 0\nf 1 1 1\n' }), Error)
+const copy = new cutbench.Sheet({ obj: sheet.obj() })
+assert.equal(copy.numbers().triangles, 800)
+copy.free()
+assert(cutbench.methods().length > 15)
+console.log('the package does what it should')
