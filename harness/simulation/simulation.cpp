@@ -106,13 +106,8 @@ class SceneInMotion : public Simulation {
     const std::size_t vertices = now_.sheet.deformed_slots();
     if (!force.empty() && force.size() != D * vertices)
       throw InputError(scene_.stem + ": " + std::to_string(force.size()) + " forces; give " + std::to_string(D) +
-<<<<<<< HEAD
                        " for each of the " + std::to_string(vertices) + " vertices");
-    if (!std::ranges::all_of(force, finite)) throw InputError(scene_.stem + ": a force is not finite");
-=======
-                       " for each of the " + std::to_string(now_.model.vertices()) + " vertices");
     if (!std::all_of(force.begin(), force.end(), finite)) throw InputError(scene_.stem + ": a force is not finite");
->>>>>>> live_in
     force_.assign(force.begin(), force.end());
     change_from_outside([&] { now_.model.set_pins_and_force(now_.sheet, now_.pins, force_); });
   }
