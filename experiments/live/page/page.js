@@ -172,7 +172,7 @@ function frame(now) {
     advance(1)
   } else if (!time.paused) {
     time.debt = Math.min(time.debt + passed * rate * (time.slow ? 1 / 16 : 1), 24)
-    const slowest = Math.max(0.01, ...running().map(p => p.ms)), most = Math.max(1, Math.floor(40 / slowest))
+    const slowest = Math.max(0.01, ...running().map(p => p.ms)), most = Math.max(1, Math.floor(Math.max(40, 1000 * passed) / slowest))
     const steps = Math.min(Math.floor(time.debt), most)
     time.debt -= steps
     if (steps || due) advance(steps)
