@@ -143,7 +143,7 @@ TEST(Parameter, IsTakenWithinItsRangeAlone) {
     }
     if (range.or_zero) expect_refused(row, range.least / 2);
   }
-  EXPECT_EQ(parameters, 12u);
+  EXPECT_EQ(parameters, 19u);
 }
 
 TEST(Parameter, ARangeSaysWhatItHas) {

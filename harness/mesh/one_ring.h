@@ -30,6 +30,21 @@ inline bool halves_are_positive(const Sheet& sheet, HalfEdge h, Point2 p) {
   return orientation(sheet.rest(sheet.origin(h)), p, apex) > 0 && orientation(p, sheet.rest(sheet.target(h)), apex) > 0;
 }
 
+/// Splits an edge with a new vertex at p, which may lie beside it: the vertex then moves there from the edge, so that
+/// its deformed position is that of the material. Invalid, unchanged, where a triangle would not stay positive.
+inline VertexIndex split_beside(Sheet& sheet, HalfEdge h, Point2 p) {
+  const Point2 a = sheet.rest(sheet.origin(h)), edge = sheet.rest(sheet.target(h)) - a;
+  const double lambda = dot(p - a, edge) / squared_length(edge);
+  const Point2 on_edge = a + lambda * edge;
+  const HalfEdge o = sheet.opposite(h);
+  if (!(lambda > 0 && lambda < 1)) return {};
+  for (const Point2 q : {on_edge, p})
+    if (!halves_are_positive(sheet, h, q) || !halves_are_positive(sheet, o, q)) return {};
+  const VertexIndex v = sheet.split_edge(h, lambda, on_edge);
+  if (!(on_edge == p)) sheet.move(v, p);
+  return v;
+}
+
 /// The outgoing half-edges of a vertex that have a triangle on their left, counter-clockwise from the first to the
 /// border or once round.
 class OutgoingEdges {

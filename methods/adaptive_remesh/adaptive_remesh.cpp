@@ -135,10 +135,15 @@ bool AdaptiveRemesh::split(Sheet& sheet, HalfEdge h) {
       middle = curve_.at(parameter);
     }
   }
-  if (!halves_are_positive(sheet, h, middle) || !halves_are_positive(sheet, o, middle)) return false;
   const VertexIndex apex = sheet.origin(Sheet::previous(h));
   const bool left = in_zone_.holds(triangle_of(h)), right = o.valid() && in_zone_.holds(triangle_of(o));
-  const VertexIndex v = sheet.split_edge(h, 0.5, middle);
+  const auto halve = [&]() -> VertexIndex {
+    if (parameter >= 0) return split_beside(sheet, h, middle);
+    if (!halves_are_positive(sheet, h, middle) || !halves_are_positive(sheet, o, middle)) return {};
+    return sheet.split_edge(h, 0.5, middle);
+  };
+  const VertexIndex v = halve();
+  if (!v.valid()) return false;
   if (parameter >= 0) curve_.add(v, parameter);
   in_zone_.grow(sheet.triangle_slots());
   for_each_outgoing(sheet, v, [&](HalfEdge out) {

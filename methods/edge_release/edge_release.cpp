@@ -16,7 +16,6 @@ void EdgeRelease::adapt(Sheet& sheet, Subdivision& trace, const Polyline&) {
     const VertexIndex a = sheet.origin(left_over.edge), b = sheet.target(left_over.edge);
     release(crossing.node, crossing.vertex == a ? b : a);
   }
-  for (int n = 0; n < path_.size(); ++n) path_.snap_tip(n, 1);
   path_.write(trace);
 }
 

@@ -5,8 +5,8 @@
 // other edges of the same vertex. The path is then a chain of edges: a staircase on a regular grid. A step is made only
 // where the sheet keeps the pieces that the exact path makes (methods/tools/path_graph.h): where rounding would make
 // the path touch itself, the border or an older incision, or would close a loop or a corner that is cut off, the
-// crossing is split instead. A tip inside a triangle goes to the nearest corner that may be had, or the path ends at the
-// vertex before it; tips on edges stay. embed: the Delaunay split of the triangles that are still crossed.
+// crossing is split instead. Tips inside triangles or on edges stay. embed: the Delaunay split of the triangles that
+// are still crossed.
 //
 // Source: libigl's cut_mesh and cloth tearing, which release edges and nothing else.
 // Promises: area, conforming, no vertex moved; not the exact path. The incision error is at most the sheet's longest

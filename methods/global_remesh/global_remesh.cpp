@@ -20,7 +20,7 @@ namespace {
 
 /// The shape of the triangles if the origin of h went to its target: they stay where the mesh generator fails.
 bool is_sound_after_collapse(const Sheet& sheet, HalfEdge h) {
-  constexpr double thinnest = 100;
+  constexpr double thinnest = 1e5;
   const VertexIndex b = sheet.target(h);
   bool sound = true;
   for_each_outgoing(sheet, sheet.origin(h), [&](HalfEdge out) {

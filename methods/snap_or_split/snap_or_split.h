@@ -2,9 +2,8 @@
 //
 // How it works. adapt: crossings whose distance from an end of their edge is at most `tolerance` of the edge are taken
 // nearest first, each together with its neighbours on the path that cross other edges of the same vertex as near to it;
-// the path goes through the vertex instead (methods/tools/path_graph.h). A tip goes to a corner of its triangle as near
-// as that. embed: the Delaunay split of the triangles that are still crossed. Corners and crossings inside triangles stay
-// where they are. A snap that would change
+// the path goes through the vertex instead (methods/tools/path_graph.h). embed: the Delaunay split of the triangles
+// that are still crossed. Tips, corners and crossings inside triangles stay where they are. A snap that would change
 // the pieces of the sheet is not made, and the crossing is split: where the path would touch itself, the border or an
 // older incision, or leave one; where it would run along the border; where it would close a loop or a corner that is
 // cut off.

@@ -291,69 +291,13 @@ bool PathGraph::straighten(int node) {
   return true;
 }
 
-/// A tip may leave its place for the vertex, a corner of its triangle: nothing lies in between.
-bool PathGraph::may_end_at(int before, int i, int node, VertexIndex vertex) const {
-  const TriangleIndex t = piece(i).triangle;
-  if (trace_->node_at(vertex) >= 0 || std::binary_search(taken_.begin(), taken_.end(), vertex)) return false;
-  for (const HalfEdge h : outgoing_edges(*sheet_, vertex))
-    if (sheet_->separates(h)) return false;
-  for (std::size_t other = 0; other < pieces_.size(); ++other)
-    if (to_int(other) != i && !pieces_[other].gone && pieces_[other].triangle == t) return false;
-  return at(before).degree == 2 && sweep_is_clear(before, i, node, vertex);
-}
-
-/// Takes a tip away whose path comes from a vertex inside the sheet: it ends there.
-bool PathGraph::shorten(int node) {
-  const int last = at(node).piece[0], before = other_end(last, node);
-  Node& end = nodes_[to_size(before)];
-  if (end.place.kind != Place::Kind::vertex || end.degree != 2) return false;
-  for (const HalfEdge h : outgoing_edges(*sheet_, end.place.vertex))
-    if (sheet_->separates(h)) return false;
-  const int kept = end.piece[0] == last ? end.piece[1] : end.piece[0];
-  if (at(other_end(kept, before)).degree == 1) return false;  // a single edge between tips
-  nodes_[to_size(node)].gone = true;
-  pieces_[to_size(last)].gone = true;
-  end.piece = {kept, -1};
-  end.degree = 1;
-  return true;
-}
-
-bool PathGraph::snap_tip(int node, double reach) {
-  const Node& tip = at(node);
-  if (tip.gone || tip.degree != 1 || tip.place.kind != Place::Kind::face) return false;
-  const TriangleIndex t = tip.place.face;
-  const int i = tip.piece[0], before = other_end(i, node);
-  if (piece(i).triangle != t || at(before).degree == 1) return false;
-  std::vector<std::pair<double, VertexIndex>> near;
-  for (int k = 0; k < 3; ++k) {
-    const HalfEdge h = half_edge(t, k);
-    const double distance2 = squared_length(sheet_->rest(sheet_->origin(h)) - point(node));
-    const double edge2 = std::max(squared_length(*sheet_, h), squared_length(*sheet_, Sheet::previous(h)));
-    if (distance2 <= reach * reach * edge2) near.emplace_back(distance2, sheet_->origin(h));
-  }
-  std::sort(near.begin(), near.end());
-  for (const auto& [distance2, vertex] : near) {
-    const Place& from = at(before).place;
-    if (from.kind == Place::Kind::vertex && from.vertex == vertex) {
-      if (shorten(node)) return true;
-    } else if (may_end_at(before, i, node, vertex)) {
-      nodes_[to_size(node)].place = place_at(*sheet_, vertex);
-      taken_.insert(std::lower_bound(taken_.begin(), taken_.end(), vertex), vertex);
-      return true;
-    }
-  }
-  return false;
-}
-
 void snap_to_vertices(const Sheet& sheet, Subdivision& trace, double tolerance, PathGraph& path) {
   path.read(sheet, trace);
   const auto near = path.approaches(tolerance);
   PathGraph::Run run;
   for (const auto& crossing : near)
     if (path.find_run(crossing.node, crossing.vertex, tolerance, run)) path.contract(run);
-  bool changed = !near.empty();
-  for (int n = 0; n < path.size(); ++n) changed |= path.snap_tip(n, tolerance);
-  if (changed) path.write(trace);
+  if (!near.empty()) path.write(trace);
 }
 
 }  // namespace cutbench

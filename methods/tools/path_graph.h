@@ -61,12 +61,6 @@ class PathGraph {
   /// edge of a sliver.
   bool straighten(int node);
 
-  /// Takes the tip `node`, inside a triangle, to the nearest corner of that triangle at most `reach` of the edges there
-  /// away: the path ends there, or goes there from the node before the tip. An isotopy, too. False where no corner
-  /// will do: not one on the border or an older incision, with another node of the path, or behind another piece of it;
-  /// and never where all that were left is a single edge between two tips, which would not open.
-  bool snap_tip(int node, double reach);
-
   int size() const { return to_int(nodes_.size()); }  ///< nodes, those that are gone included
   Point2 point(int node) const { return at(node).place.point; }
   const Place& place(int node) const { return at(node).place; }
@@ -103,8 +97,6 @@ class PathGraph {
   double coincidence() const { return coincidence_tolerance * sheet_->snap(); }
   bool holds_node(TriangleIndex t, const std::array<Point2, 3>& part, std::initializer_list<int> but) const;
   bool sweep_is_clear(int end, int piece, int node, VertexIndex vertex) const;
-  bool may_end_at(int before, int piece, int node, VertexIndex vertex) const;
-  bool shorten(int node);
 
   const Sheet* sheet_ = nullptr;
   const Subdivision* trace_ = nullptr;
@@ -114,8 +106,7 @@ class PathGraph {
 };
 
 /// The path goes through the vertex instead of every crossing at most `tolerance` of its edge from it, the nearest
-/// first, together with its neighbours as near as that; then its tips, as near as that to a corner of their triangle.
-/// `path` is working storage.
+/// first, together with its neighbours as near as that. `path` is working storage.
 void snap_to_vertices(const Sheet& sheet, Subdivision& trace, double tolerance, PathGraph& path);
 
 }  // namespace cutbench

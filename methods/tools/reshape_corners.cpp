@@ -9,18 +9,7 @@
 namespace cutbench {
 
 /// The vertex is made on the edge and then moved, so that its deformed position is interpolated in the old triangles.
-VertexIndex Reshape::split_at(HalfEdge h, Point2 p) {
-  const Point2 a = sheet_->rest(sheet_->origin(h)), edge = sheet_->rest(sheet_->target(h)) - a;
-  const double lambda = dot(p - a, edge) / squared_length(edge);
-  const Point2 on_edge = a + lambda * edge;
-  const HalfEdge o = sheet_->opposite(h);
-  if (!(lambda > 0 && lambda < 1)) return {};
-  for (const Point2 q : {on_edge, p})
-    if (!halves_are_positive(*sheet_, h, q) || !halves_are_positive(*sheet_, o, q)) return {};
-  const VertexIndex v = sheet_->split_edge(h, lambda, on_edge);
-  if (!(on_edge == p)) sheet_->move(v, p);
-  return v;
-}
+VertexIndex Reshape::split_at(HalfEdge h, Point2 p) { return split_beside(*sheet_, h, p); }
 
 /// Turns the first piece of the path, from the apex to v or to a new vertex before v, about the apex, until it encloses
 /// a large enough angle with the other leg. False where that is not allowed.
