@@ -233,11 +233,11 @@ void add_stability_and_accuracy(std::vector<Metric>& t) {
        "C^T M C, with ghost penalties where the method has them; that mass is not lumped, and no explicit "
        "step takes it, except for `phantom_node` and `virtual_node`, whose mass is lumped.",
        of_ratio(&Measured::membrane, &EigenvalueRatios::lumped)});
-  t.push_back(
-      {"bending_eigenvalue_ratio", "", "largest eigenvalue with bending / uncut", Direction::lower, Group::stability,
-       "The same with bending patches, D / (E h) = 4.2e-7 of the sheet's area (2 mm of skin on a side of 1 m) "
-       "and nu = 0.45: by its root the largest stable step shrinks.",
-       of_ratio(&Measured::bent, &EigenvalueRatios::lumped)});
+  t.push_back({"bending_eigenvalue_ratio", "", "largest eigenvalue with bending / uncut", Direction::lower,
+               Group::stability,
+               "The same with bending patches, D / (E h) = 4.2e-7 of the sheet's area (2 mm of skin on a side of 1 m) "
+               "and nu = 0.45: by its root the largest stable step shrinks.",
+               of_ratio(&Measured::bent, &EigenvalueRatios::lumped)});
   t.push_back({"stabilised_eigenvalue_ratio", "", "largest eigenvalue, stabilised mass / uncut", Direction::lower,
                Group::stability,
                "`eigenvalue_ratio` with `mass = \"stabilised\"` (harness/fem/elements/added_mass.h), no element above "
