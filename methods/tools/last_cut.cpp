@@ -25,7 +25,7 @@ std::span<const CopiedElement> elements_of(const std::vector<CopiedElement>& cop
   const auto first = std::lower_bound(copied.begin(), copied.end(), parent,
                                       [](const CopiedElement& e, TriangleIndex p) { return e.parent < p; });
   const auto last = std::find_if(first, copied.end(), [&](const CopiedElement& e) { return e.parent != parent; });
-  return {first, last};
+  return std::span(copied).subspan(to_size(first - copied.begin()), to_size(last - first));
 }
 
 LastCut::LastCut(const Sheet& before, const Sheet& cut, const Constraints& last)
