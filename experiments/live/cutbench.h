@@ -20,7 +20,8 @@ const char* cutbench_step(int sheet, int steps);
 /* Where the ray from x, y, z along dx, dy, dz first meets the sheet: {"rest": [x, y]}. */
 const char* cutbench_pick(int sheet, double x, double y, double z, double dx, double dy, double dz);
 
-/* Cuts. `method`: one of cutbench_methods(); `parameter`: its number, NaN for the usual one; `path`: the text of a path
+/* Cuts. `method`: one of cutbench_methods(), the same for all cuts of a sheet where one makes polygons, constraints or
+ * copies; `parameter`: its number, NaN for the usual one; `path`: the text of a path
  * file, in rest space: {"cuts": [{"bezier": [[x, y], ...]}]}. Says what came of it, and cutbench_numbers(). */
 const char* cutbench_cut(int sheet, const char* method, double parameter, const char* path);
 /* Back to right before the last cut, four times at most: {"undone": true or false}. */

@@ -1,12 +1,12 @@
 #include "experiments/live/live_sheet.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <utility>
 
 #include "harness/base/errors.h"
+#include "harness/base/stop_watch.h"
 #include "harness/cut/constraint_source.h"
 #include "harness/cut/cut_all.h"
 #include "harness/fem/model/largest_eigenvalue.h"
@@ -104,11 +104,6 @@ double strain_of(const std::array<Point2, 3>& rest, const std::array<Point3, 3>&
   return std::max(std::abs(std::sqrt(mean + spread) - 1), std::abs(std::sqrt(std::max(0.0, mean - spread)) - 1));
 }
 
-double milliseconds() {
-  using namespace std::chrono;
-  return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
-}
-
 }  // namespace
 
 Scene scene_of(const json& j) {
@@ -176,7 +171,12 @@ int LiveSheet::step(int steps) {
 json LiveSheet::cut(const std::string& method, double parameter, const std::vector<Curve>& curves) {
   const MethodRow& row = find_method(method);
   for (const Curve& curve : curves) check_curve(curve, "the stroke");
-  if (method != method_name_) method_ = make_method(row, parameter);
+  auto next = make_method(row, parameter);
+  // Constraints are found from those of the cut before: by one method, or none.
+  if (method_ && method != method_name_ && (method_->constraint_source() || next->constraint_source()))
+    throw InputError("the sheet was cut by " + method_name_ + ", and can't be cut on by " + method +
+                     "; make a new one");
+  method_ = std::move(next);
   method_name_ = method;
   release();
   if (saved_.size() == most_saved) saved_.erase(saved_.begin());
@@ -400,9 +400,9 @@ json timed(const Scene& scene, const std::string& method, double parameter, cons
   for (int round = 0; round < 24; ++round) {  // a browser compiles anew what runs often: the first half is not counted
     std::vector<Sheet> sheets(copies, sheet);
     std::vector<Locator> locators(copies, locator);
-    const double from = milliseconds();
+    StopWatch watch;
     for (std::size_t i = 0; i < copies; ++i) cutter.cut(sheets[i], locators[i], curves.back(), *maker, {});
-    const double round_ms = milliseconds() - from;
+    const double round_ms = watch.lap() / 1000;
     spent += round_ms;
     if (round < 12 && spent < 400) continue;
     total += round_ms;

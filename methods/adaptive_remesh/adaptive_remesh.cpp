@@ -43,7 +43,7 @@ VertexIndex path_before(const Sheet& sheet, HalfEdge h) {
 }
 
 /// a p b is the segment a b, to rounding.
-bool is_straight_at(const Sheet& sheet, Point2 p, Point2 a, Point2 b) {
+bool is_on_segment(const Sheet& sheet, Point2 p, Point2 a, Point2 b) {
   return dot(p - a, b - p) > 0 &&
          std::abs(cross(b - a, p - a)) <= straight_border_tolerance * sheet.snap() * std::sqrt(squared_length(b - a));
 }
@@ -73,7 +73,7 @@ bool AdaptiveRemesh::may_go(const Sheet& sheet, HalfEdge h) const {
   // A single edge between two tips would not open.
   if (Meeting(sheet, before).is_tip() && Meeting(sheet, after).is_tip()) return false;
   const Point2 a = sheet.rest(before), b = sheet.rest(after);
-  return is_straight_at(sheet, sheet.rest(v), a, b) ||
+  return is_on_segment(sheet, sheet.rest(v), a, b) ||
          (tolerance_ > 0 && curve_.may_leave_out(before, v, after, a, b, tolerance_));
 }
 

@@ -13,7 +13,8 @@
 // Promises: the exact path, area, conforming, no vertex moved.
 // Where it fails: no bound on the aspect ratio is proved for the midpoint variant, and 3 is not reached in most cuts:
 // it goes on halving edges beside a constrained edge that a new midpoint encroaches upon. Hence the strict cap. It is
-// reached in most cuts, which is reported as stopping early: the cost is then that of the cap. A vertex close to the path costs dozens of vertices,
+// reached in most cuts, which is reported as stopping early: the cost is then that of the cap. A vertex close to the
+// path costs dozens of vertices,
 // and the small distance itself stays. Flips of old edges change the deformed surface where the sheet is bent.
 #pragma once
 

@@ -12,7 +12,7 @@
 //  - Where every vertex is to stay an unknown, a polygon that would have one inside counts as no polygon, too.
 //  - A polygon never reaches across an incision, but it may reach round a tip; the incision is then a slit in it.
 //
-// Source: the merging of cut cells in CutVEM (Rangarajan and Sukumar, arXiv 2508.10570, 2025), abstract read);
+// Source: the merging of cut cells in CutVEM (Rangarajan and Sukumar, arXiv 2508.10570, 2025; abstract read);
 // there a cell is merged for the ratio of the extreme eigenvalues of its matrix, and no unknown is lost.
 #pragma once
 

@@ -13,7 +13,7 @@
 //   pure bending, exactly                                     tau = 1/3
 //   the bilinear quadrilateral, integrated in full            tau = (1 / (1 - nu^2) + 1 / (2 (1 + nu))) / 3
 //   the two linear triangles that a diagonal makes of it      three times that
-// For plane stress the second is 0.5 at nu = 0 and 0.494 at 0.3: tau = 1/2 makes a square the standard four-node
+// For plane stress the second is 0.5 at nu = 0 and 0.4945 at 0.3: tau = 1/2 makes a square the standard four-node
 // element. The third is 1.48 at 0.3: there a square is as stiff as triangles. Scaled by E alone, the stabilisation does
 // not lock as lambda grows. experiments/polygon_stabilisation.toml sweeps tau.
 //
