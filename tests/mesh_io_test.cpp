@@ -119,20 +119,21 @@ TEST_F(MeshIo, ObjWithoutVtTakesThePlane) {
   EXPECT_EQ(joined_notes(z), "");
   EXPECT_EQ(joined_notes(y), "y.obj: rest positions are the plane y = 7, with x and z as x and y|");
   EXPECT_EQ(joined_notes(x), "x.obj: rest positions are the plane x = 7, with y and z as x and y|");
-  expect_refused([&] { read("curved.obj", "v 0 0 0\nv 1 0 1e-300\nv 1 1 0\nv 0 1 1\n" + faces); }, "no rest positions");
+  const MeshData curved = read("curved.obj", "v 0 0 0\nv 1 0 1e-300\nv 1 1 0\nv 0 1 1\n" + faces);
+  EXPECT_EQ(joined_notes(curved),
+            "curved.obj: the rest shape is the mesh itself, unrolled; give paths as places in space|");
 }
 
 TEST_F(MeshIo, SeveralVtOfOneVAreSeveralVertices) {
   // A strip of two triangles, cut open in rest space: v 1 and v 3 lie at two places each.
-  const MeshData mesh =
-      read("seam.obj", two_triangles + "vt 5 0\nvt 6 1\nvt 5 1\nvt 0 0\nf 1/1 2/2 3/3\nf 1/5 3/6 4/7\n");
+  const MeshData mesh = read("seam.obj", "# vt: rest positions\n" + two_triangles +
+                                             "vt 5 0\nvt 6 1\nvt 5 1\nvt 0 0\nf 1/1 2/2 3/3\nf 1/5 3/6 4/7\n");
   EXPECT_EQ(mesh.rest.size(), 6u);
   EXPECT_EQ(mesh.deformed[4], mesh.deformed[0]);
   EXPECT_EQ(mesh.rest[4], (Point2{5, 0}));
-  EXPECT_EQ(
-      joined_notes(mesh),
-      "seam.obj: rest positions are the vt, since the mesh is not flat: lengths in space are 1 to 3.32 times those "
-      "in the vt|seam.obj: vertices added where one v has several vt: 2; the sheet is open along these seams|");
+  EXPECT_EQ(joined_notes(mesh),
+            "seam.obj: vertices added where one v has several vt: 2; the sheet is sewn along these seams|");
+  EXPECT_EQ(mesh.sewn, (std::vector<std::int32_t>{0, 1, 2, 3, 0, 2}));
   expect_sound(mesh);
   // The same place under two numbers is no seam.
   EXPECT_EQ(read("same.obj", two_triangles + "vt 0 0\nf 1/1 2/2 3/3\nf 1/5 3/3 4/4\n").rest.size(), 4u);

@@ -29,6 +29,8 @@ std::vector<Curve> in_rest_space(const std::vector<AnyCurve>& path, const Sheet&
   for (const AnyCurve& one : path) {
     const std::string name = "path, cut " + std::to_string(curves.size());
     if (const auto* curve = std::get_if<Curve>(&one)) {
+      if (posed.unrolled())
+        throw InputError(name + ": the sheet is unrolled, so places at rest mean nothing; give places in space, k x 3");
       check_curve(*curve, name);
       curves.push_back(*curve);
       continue;
@@ -36,7 +38,7 @@ std::vector<Curve> in_rest_space(const std::vector<AnyCurve>& path, const Sheet&
     const auto& picked = std::get<PickedCurve>(one);
     check_picks(picked, name);
     if (!picker) picker.emplace(posed);
-    curves.push_back(picker->rest_curve(picked, name));
+    for (const Curve& curve : picker->rest_curves(picked, name)) curves.push_back(curve);
   }
   if (curves.empty()) throw InputError("path: no curve; give at least one");
   return curves;
@@ -89,11 +91,16 @@ MeshData mesh_of(const Array<double>& vertices, const Array<Number>& triangles,
   return mesh;
 }
 
+/// \param sewn  per vertex, the same number where they are one point of the sheet (MeshData::sewn)
+/// \param from  where rest positions come from without `rest`: one of rest_names
 template <class Number>
 std::shared_ptr<HeldSheet> sheet_of(const Array<double>& vertices, const Array<Number>& triangles,
-                                    const std::optional<Array<double>>& rest) {
+                                    const std::optional<Array<double>>& rest,
+                                    const std::optional<Array<std::int32_t>>& sewn, const std::string& from) {
   MeshData mesh = mesh_of(vertices, triangles, rest);
+  if (sewn) mesh.sewn.assign(sewn->data(), sewn->data() + sewn->size());
   const py::gil_scoped_release others_go_on;
+  if (mesh.rest.empty()) take_rest(mesh, "sheet", *value_named(rest_names, from));
   check_and_repair(mesh, "sheet");
   return std::make_shared<HeldSheet>(std::move(mesh));
 }
@@ -130,6 +137,8 @@ void bind_sheets(py::module_& m) {
                              [](const py::object& self) {
                                return view_of<std::int32_t>(self.cast<const HeldSheet&>().mesh.triangles, self);
                              })
+      .def_property_readonly("sewn",
+                             [](const HeldSheet& s) { return array_of<std::int32_t>(s.mesh.sewn); })
       .def_property_readonly("notes", [](const HeldSheet& s) { return s.mesh.notes; })
       .def_property_readonly("mean_edge", [](const HeldSheet& s) { return s.sheet->mean_edge(); })
       .def_property_readonly("pieces", [](const HeldSheet& s) { return array_of<std::int32_t>(pieces_of(s.mesh)); })
@@ -139,10 +148,11 @@ void bind_sheets(py::module_& m) {
       });
   m.def("sheet", &sheet_of<std::int32_t>);
   m.def("sheet", &sheet_of<std::int64_t>);
-  m.def("read_sheet", [](const std::filesystem::path& file, const std::string& rest, bool triangulate) {
+  m.def("read_sheet", [](const std::filesystem::path& file, const std::string& rest, bool triangulate,
+                         const std::optional<double>& sew) {
     const std::optional<RestFrom> from = value_named(rest_names, rest);
-    if (!from) throw InputError("rest: \"" + rest + "\" is not known; known are auto, vt, plane");
-    return std::make_shared<HeldSheet>(read_mesh(file, {*from, triangulate}));
+    if (!from) throw InputError("rest: \"" + rest + "\" is not known; known are auto, vt, plane, space");
+    return std::make_shared<HeldSheet>(read_mesh(file, {*from, triangulate, sew}));
   });
   m.def("family_sheet", [](const std::string& family, std::int64_t triangles, double size) {
     return std::make_shared<HeldSheet>(family_of(family, triangles, size));

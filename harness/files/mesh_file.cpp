@@ -5,6 +5,8 @@
 #include <cctype>
 #include <string>
 
+#include "harness/mesh/sew.h"
+
 namespace cutbench {
 
 namespace {
@@ -42,7 +44,15 @@ void check_extension(const std::filesystem::path& path) {
 
 MeshData read_mesh(const std::filesystem::path& path, const MeshReading& reading) {
   MeshData mesh = read_unchecked(path, false, reading);
-  check_and_repair(mesh, path.filename().string(), !mesh.rest.empty());
+  const std::string name = path.filename().string();
+  const bool of_vt = !mesh.rest.empty();
+  if (!of_vt && reading.sew && lies_in_space(mesh, reading.rest)) weld_in_space(mesh, *reading.sew, name);
+  if (!of_vt && !mesh.triangles.empty()) take_rest(mesh, name, reading.rest);
+  check_and_repair(mesh, name, of_vt);
+  if (of_vt && reading.sew) sew(mesh, *reading.sew, name);
+  if (const std::size_t count = unsewn(mesh); count > 0)
+    mesh.notes.push_back(name + ": vertices that lie where others do, though apart at rest: " + std::to_string(count) +
+                         "; the sheet is open there, --sew 0 sews it");
   return mesh;
 }
 

@@ -56,7 +56,7 @@ struct SheetFile {
 
 SheetFile read_sheet(const TomlReader& file, const std::filesystem::path& folder, Scene& scene) {
   const TomlReader reader =
-      file.section("sheet", {"family", "file", "scale", "size", "resolution", "rest", "triangulate"});
+      file.section("sheet", {"family", "file", "scale", "size", "resolution", "rest", "triangulate", "sew"});
   if (reader.has("file")) {
     exclude(reader, "\"file\"", {"family", "size", "resolution"});
     scene.family.clear();
@@ -65,9 +65,11 @@ SheetFile read_sheet(const TomlReader& file, const std::filesystem::path& folder
       reader.refuse("there is no file " + mesh.string() + "; \"file\" is relative to the scene's folder");
     scene.mesh_file = mesh.string();
     const RestFrom rest = reader.choice<RestFrom>("rest", RestFrom::automatic, rest_names);
-    return {{rest, reader.value<bool>("triangulate", false)}, reader.positive("scale", 1)};
+    MeshReading reading{rest, reader.value<bool>("triangulate", false)};
+    if (reader.has("sew")) reading.sew = reader.positive_or_zero("sew", 0);
+    return {reading, reader.positive("scale", 1)};
   }
-  exclude(reader, "\"family\"", {"rest", "triangulate"});
+  exclude(reader, "\"family\"", {"rest", "triangulate", "sew"});
   if (reader.has("scale")) reader.refuse("\"scale\" is for a sheet from a \"file\"; give \"size\"");
   scene.family = reader.value<std::string>("family", scene.family);
   check_names({scene.family}, sheet_families(), reader.where + ": sheet");
@@ -134,10 +136,35 @@ Material read_material(const TomlReader& file, const Physics& physics) {
   return m;
 }
 
+/// Three numbers of a place, an array in TOML.
+Point3 read_place(const TomlReader& reader, const toml::array* numbers, const std::string& what) {
+  Point3 p;
+  if (numbers == nullptr || numbers->size() != 3) reader.refuse(what + " is [x, y, z]");
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto x = (*numbers)[i].value<double>();
+    if (!x) reader.refuse(what + " is [x, y, z], three numbers");
+    (i == 0 ? p.x : i == 1 ? p.y : p.z) = *x;
+  }
+  return p;
+}
+
+std::array<Point3, 2> read_space_box(const TomlReader& reader) {
+  const toml::array* const corners = reader.table["box"].as_array();
+  if (corners == nullptr || corners->size() != 2)
+    reader.refuse("with space = \"world\" give \"box\" = [[x0, y0, z0], [x1, y1, z1]]");
+  return {read_place(reader, (*corners)[0].as_array(), "a corner of \"box\""),
+          read_place(reader, (*corners)[1].as_array(), "a corner of \"box\"")};
+}
+
 ScenePin read_pin(const TomlReader& reader, const Physics& physics) {
   ScenePin p;
   if (reader.has("near") == reader.has("box")) reader.refuse("give either \"near\" = [x, y] or \"box\"");
-  p.pin.where = read_box(reader);
+  if (const auto space = reader.value<std::string>("space", "rest"); space == "world")
+    p.in_space = read_space_box(reader);
+  else if (space != "rest")
+    reader.refuse("\"space\" is \"rest\" or \"world\"");
+  else
+    p.pin.where = read_box(reader);
   if (reader.has("near")) {
     const auto at = reader.list<double>("near");
     if (at.size() != 2 || !std::isfinite(at[0]) || !std::isfinite(at[1])) reader.refuse("\"near\" is a point [x, y]");
@@ -159,18 +186,6 @@ ScenePin read_pin(const TomlReader& reader, const Physics& physics) {
 Traction read_traction(const TomlReader& reader, const Physics& physics) {
   if (!reader.has("force")) reader.refuse("\"force\" is missing: N per m of border");
   return {read_box(reader), read_vector(reader, "force", physics)};
-}
-
-/// Three numbers of a pick, an array in TOML.
-Point3 read_place(const TomlReader& reader, const toml::array* numbers, const std::string& what) {
-  Point3 p;
-  if (numbers == nullptr || numbers->size() != 3) reader.refuse(what + " is [x, y, z]");
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto x = (*numbers)[i].value<double>();
-    if (!x) reader.refuse(what + " is [x, y, z], three numbers");
-    (i == 0 ? p.x : i == 1 ? p.y : p.z) = *x;
-  }
-  return p;
 }
 
 PickedCurve read_picks(const TomlReader& reader, const char* key) {
@@ -349,7 +364,7 @@ Scene read_scene(const toml::table& table, const std::filesystem::path& file) {
   const SheetFile sheet_file = read_sheet(reader, file.parent_path(), scene);
   read_physics(reader, scene);
   scene.material = read_material(reader, scene.physics);
-  for (const auto& pin : reader.sections("pins", "pin", {"near", "box", "axes", "displacement", "velocity"}))
+  for (const auto& pin : reader.sections("pins", "pin", {"near", "box", "space", "axes", "displacement", "velocity"}))
     scene.pins.push_back(read_pin(pin, scene.physics));
   for (const auto& traction : reader.sections("tractions", "traction", {"box", "force"}))
     scene.tractions.push_back(read_traction(traction, scene.physics));

@@ -2,7 +2,8 @@
 //
 //   effect = "..."     truth = "..."     duration = 1.0
 //   [sheet]       family, size, resolution | file, scale (lengths of the file times this are m: 0.001 for mm),
-//                 rest = "auto"|"vt"|"plane" (harness/mesh/rest_choice.h),
+//                 rest = "auto"|"vt"|"plane"|"space" (harness/mesh/rest_choice.h),
+//                 sew = 0.001 (in the file's unit: vertices no farther apart in space are one: harness/mesh/sew.h),
 //                 triangulate = false (true: faces of more than three corners are read, too)
 //   [material]    density, stiffness, poisson, bending, mass_damping, stiffness_damping
 //   [physics]     dimension = 2|3, plane = "stress"|"strain", strain = "corotational"|"linear"|"green"|"springs",
@@ -12,7 +13,8 @@
 //                 active_radius (m: from the first cut on, what is farther from all cuts in rest space stays where it
 //                 is, and all but two rings of vertices of it are left out; pins there go on; what a method makes
 //                 between vertices that stay is free)
-//   [[pins]]      near = [x, y] | box = [[x0, y0], [x1, y1]]; axes = "xyz", displacement, velocity = [x, y, z]
+//   [[pins]]      near = [x, y] | box = [[x0, y0], [x1, y1]]; with space = "world" instead the vertices that begin in
+//                 box = [[x0, y0, z0], [x1, y1, z1]]; axes = "xyz", displacement, velocity = [x, y, z]
 //   [[tractions]] box, force = [x, y, z]
 //   [integrator]  name = "backward_euler"|"midpoint"|"symplectic_euler"|"xpbd"|"equilibrium", step, newton,
 //                 sweeps = 1 (of xpbd, per step; it uses no [solver] and no stress_stiffness)

@@ -124,6 +124,7 @@ Assessment assess(const Sheet& before, const Sheet& after, const Judgement& judg
                   std::span<const oracle::ForcedCorner> forced) {
   Assessment result;
   result.judgement = judgement;
+  if (!before.seams().empty()) result.judgement.pieces = to_int(count_pieces(after));  // the oracle knows of no seam
   const oracle::Mesh mesh = for_oracle(after);
   measure(result, mesh, changed_triangles(for_oracle(before), mesh), forced, before.mean_edge());
   result.vertices_added = difference(after.vertex_count(), before.vertex_count());

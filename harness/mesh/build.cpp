@@ -4,7 +4,9 @@
 #include <cstring>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <unordered_map>
+#include <utility>
 
 #include "harness/base/conversions.h"
 #include "harness/base/union_find.h"
@@ -114,6 +116,20 @@ Sheet::Sheet(const MeshData& data) {
   mean_edge_ = total / count;
   size_ = length(high - low);
   snap_ = snap_distance(size_, ulp(largest));
+  if (!data.sewn.empty()) take_seams(data);
+  unrolled_ = data.unrolled;
+}
+
+void Sheet::take_seams(const MeshData& data) {
+  auto seams = seams_of(data);
+  if (seams.empty()) return;
+  std::set<std::pair<double, double>> ends;
+  for (const Seam& seam : seams)
+    for (const auto& side : {seam.first, seam.second})
+      for (const Point2 p : side) ends.emplace(p.x, p.y);
+  for (std::size_t v = 0; v < rest_.size(); ++v)
+    if (ends.contains({rest_[v].x, rest_[v].y})) hold(VertexIndex(v));
+  seams_ = std::make_shared<const std::vector<Seam>>(std::move(seams));
 }
 
 MeshData Sheet::to_mesh_data() const {
@@ -128,6 +144,12 @@ MeshData Sheet::to_mesh_data() const {
   for (const Triangle& t : triangles_)
     if (t.alive())
       data.triangles.push_back({number[t.deformed[0]()], number[t.deformed[1]()], number[t.deformed[2]()]});
+  data.unrolled = unrolled_;
+  if (!seams_) return data;
+  data.sewn.resize(data.rest.size());
+  std::iota(data.sewn.begin(), data.sewn.end(), 0);
+  for (const SeamTie& tie : seam_ties(*this))
+    if (tie.weights[0] == 1) data.sewn[to_size(number[tie.vertex()])] = number[tie.masters[0]()];
   return data;
 }
 

@@ -105,29 +105,4 @@ class Checker {
 
 std::vector<std::string> check(const Sheet& sheet, bool opened) { return Checker(sheet, opened).run(); }
 
-std::size_t count_pieces(const Sheet& sheet) {
-  std::vector<bool> met(sheet.triangle_slots());
-  std::vector<TriangleIndex> front;
-  std::size_t pieces = 0;
-  auto meet = [&](TriangleIndex t) {
-    if (met[t()]) return false;
-    met[t()] = true;
-    front.push_back(t);
-    return true;
-  };
-  for (std::size_t i = 0; i < sheet.triangle_slots(); ++i) {
-    if (!sheet.triangle(TriangleIndex(i)).alive() || !meet(TriangleIndex(i))) continue;
-    ++pieces;
-    while (!front.empty()) {
-      const TriangleIndex t = front.back();
-      front.pop_back();
-      for (int k = 0; k < 3; ++k) {
-        const HalfEdge h = half_edge(t, k);
-        if (!sheet.on_border(h) && sheet.mark(h) == EdgeMark::none) meet(triangle_of(sheet.opposite(h)));
-      }
-    }
-  }
-  return pieces;
-}
-
 }  // namespace cutbench

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <sstream>
@@ -11,6 +12,7 @@
 #include "harness/mesh/overlaps.h"
 #include "harness/mesh/predicates.h"
 #include "harness/mesh/rest_choice.h"
+#include "harness/mesh/unroll.h"
 
 namespace cutbench {
 
@@ -141,7 +143,7 @@ class Repair {
   /// Who reads vt as rest positions has to mend them, not the triangles.
   std::string vt_mend() const {
     return std::string("its vt, which are taken as rest positions; correct the vt or, if they are a texture, ") +
-           (plane_of(mesh_).flat() ? "give --rest plane" : "remove them and flatten the mesh, which is not flat");
+           (plane_of(mesh_).flat() ? "give --rest plane" : "give --rest space");
   }
 
   void check_overlaps() const {
@@ -248,6 +250,7 @@ class Repair {
         mesh_.rest.push_back(Point2(mesh_.rest[v]));
         mesh_.deformed.push_back(Point3(mesh_.deformed[v]));
         mesh_.file_vertices.push_back(std::int32_t{mesh_.file_vertices[v]});
+        if (!mesh_.sewn.empty()) mesh_.sewn.push_back(std::int32_t{mesh_.sewn[v]});
       }
     }
     used_.resize(mesh_.rest.size(), true);
@@ -263,12 +266,17 @@ class Repair {
       mesh_.rest[kept] = mesh_.rest[v];
       mesh_.deformed[kept] = mesh_.deformed[v];
       mesh_.file_vertices[kept] = mesh_.file_vertices[v];
+      if (!mesh_.sewn.empty()) mesh_.sewn[kept] = mesh_.sewn[v];
       number[v] = to_int32(kept++);
     }
     mesh_.rest.resize(kept);
     mesh_.deformed.resize(kept);
     mesh_.file_vertices.resize(kept);
+    if (!mesh_.sewn.empty()) mesh_.sewn.resize(kept);
     for (std::size_t c = 0; c < corners(); ++c) vertex(c) = number[at(vertex(c))];
+    std::map<std::int32_t, std::int32_t> first;  // of those that are sewn together
+    for (std::size_t v = 0; v < mesh_.sewn.size(); ++v)
+      mesh_.sewn[v] = first.try_emplace(mesh_.sewn[v], to_int32(v)).first->second;
     if (kept < used_.size()) note("vertices without triangles dropped: " + std::to_string(used_.size() - kept));
   }
 
@@ -288,13 +296,24 @@ void take_rest_from_plane(MeshData& mesh, const std::string& name) {
       << " of the mesh's size";
   if (!plane.flat())
     throw InputError(name + ": no rest positions: neither x, y nor z is constant (" + off.str() +
-                     "); use an OBJ with vt (rest positions), or flatten it");
+                     "); give --rest space, use an OBJ with vt (rest positions), or flatten it");
   for (const Point3& p : mesh.deformed) mesh.rest.push_back(plane.rest_of(p));
   if (plane.normal == 'y')
     for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
   const std::string nearly = plane.deviation > 0 ? ", nearly: " + off.str() : "";
   if (plane.normal != 'z' || !nearly.empty())
     mesh.notes.push_back(name + ": rest positions are " + plane.text() + nearly);
+}
+
+bool lies_in_space(const MeshData& mesh, RestFrom from) {
+  return from == RestFrom::space || (from == RestFrom::automatic && !mesh.triangles.empty() && !plane_of(mesh).flat());
+}
+
+void take_rest(MeshData& mesh, const std::string& name, RestFrom from) {
+  if (lies_in_space(mesh, from))
+    unroll(mesh, name);
+  else
+    take_rest_from_plane(mesh, name);
 }
 
 void check_and_repair(MeshData& mesh, const std::string& name, bool of_vt) { Repair(mesh, name, of_vt).run(); }

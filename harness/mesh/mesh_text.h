@@ -28,8 +28,8 @@ MeshData read_ply(const std::string& text, const std::string& name, bool triangu
 /// The first line of an OBJ that says so itself; obj_text() writes it.
 constexpr std::string_view vt_are_rest = "# vt: rest positions";
 
-/// Per triangle, the number of its piece, from 0 in order of the first triangle: triangles that share a vertex are of
-/// one piece.
+/// Per triangle, the number of its piece, from 0 in order of the first triangle: triangles that share a vertex, or
+/// vertices that are sewn together, are of one piece.
 std::vector<std::int32_t> pieces_of(const MeshData& mesh);
 
 /// What a VTU says of each vertex or triangle, or of none of them, beside what it always does.

@@ -181,7 +181,8 @@ class ObjReader {
       }
     if (!any_vt && reading_.rest == RestFrom::vt && !as_is_)
       throw InputError(name_ + ": no vt, so they can't be the rest positions; leave --rest vt out");
-    const bool by_vt = any_vt && reading_.rest != RestFrom::plane && with_rest(mesh);
+    const bool by_vt =
+        any_vt && reading_.rest != RestFrom::plane && reading_.rest != RestFrom::space && with_rest(mesh);
     if (!by_vt) without_rest(mesh);
     return mesh;
   }
@@ -238,9 +239,11 @@ class ObjReader {
     const RestDecision decision = said ? RestDecision{true, ""} : decide_rest(mesh);
     if (!decision.note.empty()) result.notes.push_back(name_ + ": " + decision.note);
     if (!decision.vt) return false;
-    if (!copies.empty())
+    if (!copies.empty()) {
+      mesh.sewn = mesh.file_vertices;
       result.notes.push_back(name_ + ": vertices added where one v has several vt: " + std::to_string(copies.size()) +
-                             "; the sheet is open along these seams");
+                             "; the sheet is sewn along these seams");
+    }
     mesh.notes = std::move(result.notes);
     result = std::move(mesh);
     return true;

@@ -126,8 +126,9 @@ RestDecision decide_rest(const MeshData& mesh) {
   const bool moderate = s.measured && s.least >= 1 / largest_stretch && s.most <= largest_stretch;
   const std::string lengths = "lengths in space are " + s.text() + " those in the vt";
   if (!plane.flat()) {
-    if (moderate || !s.measured) return {true, ""};  // what can't be measured is refused, with its own words
-    return {true, "rest positions are the vt, since the mesh is not flat: " + lengths};
+    if (moderate) return {true, ""};
+    const std::string why = s.measured ? lengths : "some triangles have no area in the vt";
+    return {false, "the vt are taken for a texture, and dropped: " + why + "; --rest vt takes the vt"};
   }
   const bool isometric = s.isometric();
   if (isometric && agrees(mesh, plane)) return {true, ""};

@@ -1,9 +1,10 @@
-// What the rest positions of a mesh are: its texture coordinates (`vt`), or the plane it lies in.
+// What the rest positions of a mesh are: its texture coordinates (`vt`), the plane it lies in, or its own shape in space.
 //
 // `vt` are rest positions in some files and a texture in others; nothing in a file says which. What is known is how
 // much longer things are in space than in the `vt`: the two principal stretches of each triangle. The rule of
 // RestFrom::automatic, where a file does not say it itself (mesh_text.h):
-//   - The mesh is not flat: the `vt`. A bent sheet has no other rest positions here.
+//   - The mesh is not flat: the `vt` where all stretches lie within `largest_stretch`, as of a sheet that hangs; else
+//     its own shape (unroll.h).
 //   - It is flat, and all stretches are 1 within `isometry_tolerance`: the `vt`, the flat sheet itself, perhaps turned.
 //   - It is flat, and the stretches are others, but the same in all triangles: the plane. That is how a texture is laid
 //     onto a sheet; what is held or pulled hardly ever stretches so evenly.
@@ -21,9 +22,9 @@
 
 namespace cutbench {
 
-enum class RestFrom { automatic, vt, plane };
-constexpr EnumNames<RestFrom, 3> rest_names{
-    {{RestFrom::automatic, "auto"}, {RestFrom::vt, "vt"}, {RestFrom::plane, "plane"}}};
+enum class RestFrom { automatic, vt, plane, space };
+constexpr EnumNames<RestFrom, 4> rest_names{
+    {{RestFrom::automatic, "auto"}, {RestFrom::vt, "vt"}, {RestFrom::plane, "plane"}, {RestFrom::space, "space"}}};
 
 /// Stretches nearer to 1, or to each other, than this are the same: files have coordinates of four digits and more.
 constexpr double isometry_tolerance = 1e-3;
@@ -36,6 +37,7 @@ constexpr double flatness_tolerance = 1e-6;
 struct MeshReading {
   RestFrom rest = RestFrom::automatic;
   bool triangulate = false;  ///< faces of more than three corners
+  std::optional<double> sew = {};  ///< as far apart in space at most, vertices are sewn together (sew.h)
 };
 
 /// The singular values of the map from a rest triangle to the deformed one; infinite or NaN where the rest triangle has
@@ -70,7 +72,7 @@ FlatPlane plane_of(const MeshData& mesh);
 
 /// What the rule says of a mesh whose `rest` are its `vt`.
 struct RestDecision {
-  bool vt;
+  bool vt;           ///< else the plane, or where it is not flat its own shape
   std::string note;  ///< what was taken and why; empty where there is nothing to say
 };
 RestDecision decide_rest(const MeshData& mesh);

@@ -7,6 +7,7 @@
 // edits.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "harness/mesh/edge_table.h"
 #include "harness/mesh/edit_log.h"
 #include "harness/mesh/mesh_data.h"
+#include "harness/mesh/seams.h"
 #include "harness/mesh/types.h"
 
 namespace cutbench {
@@ -23,7 +25,8 @@ class Sheet {
  public:
   Sheet() = default;
   /// Welds the lips of incisions (border edges with bit-equal rest ends, opposite in direction) into marked edges.
-  /// \pre `data` passed check_and_repair(): oriented, manifold, every triangle positive.
+  /// Vertices that have seams are held. \pre `data` passed check_and_repair(): oriented, manifold, every triangle
+  /// positive.
   explicit Sheet(const MeshData& data);
   /// The opened sheet, deformed vertices in order of their index (freed ones left out).
   MeshData to_mesh_data() const;
@@ -60,6 +63,10 @@ class Sheet {
   HalfEdge previous_outgoing(HalfEdge h) const { return on_border(h) ? HalfEdge() : next(opposite(h)); }
   /// A half-edge out of v; at a border vertex the one with the border on its right, so that next_outgoing() meets all.
   HalfEdge first_outgoing(VertexIndex v) const;
+
+  /// Of the uncut sheet.
+  std::span<const Seam> seams() const { return seams_ ? std::span<const Seam>(*seams_) : std::span<const Seam>(); }
+  bool unrolled() const { return unrolled_; }  ///< MeshData::unrolled
 
   double mean_edge() const { return mean_edge_; }  ///< h: mean rest edge of the sheet as constructed
   double size() const { return size_; }            ///< diagonal of its rest bounding box
@@ -153,6 +160,7 @@ class Sheet {
   void link_by_vertices(HalfEdge h);
   bool was_removed(HalfEdge h) const { return work_.removed_in[triangle_of(h)()] == work_.call; }
   void put_on_path(VertexIndex v);
+  void take_seams(const MeshData& data);
   DeformedIndex pending_deformed(VertexIndex v, TriangleIndex parent) const;
   DeformedIndex pending_deformed_left_of(HalfEdge rightmost) const;
   DeformedIndex old_deformed_beside(HalfEdge h, VertexIndex v, std::span<const TriangleIndex> removed) const;
@@ -169,7 +177,9 @@ class Sheet {
   std::vector<TriangleIndex> free_triangles_, freed_triangles_;
   std::vector<VertexIndex> free_vertices_, freed_vertices_;
   std::vector<DeformedIndex> free_deformed_, freed_deformed_;
-  std::vector<VertexIndex> vertex_of_freed_;  // that freed_deformed_[i] belonged to
+  std::vector<VertexIndex> vertex_of_freed_;        // that freed_deformed_[i] belonged to
+  std::shared_ptr<const std::vector<Seam>> seams_;  // null: none
+  bool unrolled_ = false;
   double mean_edge_ = 0, size_ = 0, snap_ = 0;
   std::uint32_t cuts_begun_ = 0;  // never fewer, not by rollback() either
   EditLog log_;
@@ -216,7 +226,7 @@ class Sheet {
 /// clock. `opened`: the log's path is opened too, so no mark `path` may be left and every fan has its own vertex.
 std::vector<std::string> check(const Sheet& sheet, bool opened = true);
 
-/// Pieces of the opened sheet: triangles connected through unmarked edges. Looks at everything.
+/// Pieces of the opened sheet: triangles connected through unmarked edges and seams. Looks at everything.
 std::size_t count_pieces(const Sheet& sheet);
 
 }  // namespace cutbench

@@ -58,6 +58,7 @@ std::vector<std::int32_t> pieces_of(const MeshData& mesh) {
     joined.join(a, b);
     joined.join(a, c);
   }
+  for (std::size_t v = 0; v < mesh.sewn.size(); ++v) joined.join(v, to_size(mesh.sewn[v]));
   std::map<std::size_t, std::int32_t> number;
   std::vector<std::int32_t> result;
   for (const auto& triangle : mesh.triangles)
@@ -68,11 +69,18 @@ std::vector<std::int32_t> pieces_of(const MeshData& mesh) {
 std::string obj_text(const MeshData& mesh) {
   Text text;
   text << vt_are_rest << '\n';
-  for (const Point3& p : mesh.deformed) text << "v " << p << '\n';
+  std::vector<std::size_t> point(mesh.deformed.size());  // its `v`, from 1: sewn vertices have one
+  std::map<std::int32_t, std::size_t> point_of_sewn;
+  for (std::size_t v = 0; v < point.size(); ++v) {
+    const std::int32_t sewn = mesh.sewn.empty() ? to_int32(v) : mesh.sewn[v];
+    const auto [place, is_new] = point_of_sewn.try_emplace(sewn, point_of_sewn.size() + 1);
+    point[v] = place->second;
+    if (is_new) text << "v " << mesh.deformed[v] << '\n';
+  }
   for (const Point2& p : mesh.rest) text << "vt " << p << '\n';
   for (const auto& triangle : mesh.triangles) {
     text << 'f';
-    for (std::int32_t v : triangle) text << ' ' << v + 1 << '/' << v + 1;
+    for (std::int32_t v : triangle) text << ' ' << point[to_size(v)] << '/' << v + 1;
     text << '\n';
   }
   return text.str();

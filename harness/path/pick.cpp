@@ -64,16 +64,18 @@ struct Picker::Tree {
   std::vector<std::array<Point2, 3>> rest;
   std::vector<TriangleIndex> number;
   Boxes boxes;
-  Seams seams;
+  Router router;
 
-  explicit Tree(const Sheet& posed) : seams(posed) {}
+  explicit Tree(const Sheet& posed) : router(posed) {}
 
   PlaceAtRest at_rest(DeformedTriangles::const_iterator triangle, Weights w) const {
     const std::size_t place = to_size(triangle - deformed.begin());
     const auto& [a, b, c] = rest[place];
     // Rounding must not carry a pick on the border out of the sheet's triangle.
     const double second = std::clamp(w.second, 0.0, 1.0), third = std::clamp(w.third, 0.0, 1.0 - second);
-    return {number[place], a + second * (b - a) + third * (c - a)};
+    const auto& t = *triangle;
+    const auto in_space = t[0] + second * (t[1] - t[0]) + third * (t[2] - t[0]);
+    return {number[place], a + second * (b - a) + third * (c - a), {in_space.x(), in_space.y(), in_space.z()}};
   }
   /// Of a ray that meets no triangle: it is nearest at an edge, or where it begins.
   double distance(const Kernel::Ray_3& ray) const {
@@ -134,27 +136,20 @@ PlaceAtRest Picker::place(const Pick& pick, const std::string& name) const {
   return tree_->at_rest(hit->second, weights_of(triangle, origin, direction));
 }
 
-void Picker::refuse_seams(const std::vector<PlaceAtRest>& places, bool closed, const std::string& name) const {
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const std::size_t next = (i + 1) % places.size();
-    if ((closed || next != 0) && tree_->seams.lies_between(places[i], places[next]))
-      throw InputError(name + ", points " + std::to_string(i) + " and " + std::to_string(next) +
-                       ": the way between them crosses a seam, along which the sheet is open at rest; give each panel "
-                       "a path of its own");
-  }
-}
-
-Curve Picker::rest_curve(const PickedCurve& picked, const std::string& name) const {
+std::vector<Curve> Picker::rest_curves(const PickedCurve& picked, const std::string& name) const {
   Curve curve{picked.kind, picked.closed, {}};
   std::vector<PlaceAtRest> places;
   for (std::size_t i = 0; i < picked.picks.size(); ++i) {
     places.push_back(place(picked.picks[i], name + ", point " + std::to_string(i)));
     curve.points.push_back(places.back().point);
   }
-  refuse_seams(places, picked.closed, name);
+  const bool is_bezier = curve.kind == Curve::Kind::bezier;
   // Found once is found alike: the first pick again.
-  if (curve.closed && curve.kind == Curve::Kind::bezier) curve.points.back() = curve.points.front();
-  return curve;
+  if (curve.closed && is_bezier) curve.points.back() = curve.points.front();
+  std::vector<Curve> curves = tree_->router.route(places, picked.closed && !is_bezier, name);
+  if (!is_bezier) return curves;
+  if (curves.size() > 1) throw InputError(name + ": a Bezier over a seam; give points on it as a polyline");
+  return {curve};
 }
 
 void check_picks(const PickedCurve& curve, const std::string& name) {

@@ -10,7 +10,7 @@
 
 #include "harness/mesh/sheet.h"
 #include "harness/path/curve.h"
-#include "harness/path/seams.h"
+#include "harness/path/route.h"
 
 namespace cutbench {
 
@@ -27,7 +27,7 @@ struct PickedCurve {
   std::vector<Pick> picks;  ///< as many as Curve::points would have
 };
 
-/// The deformed sheet of one moment, in CGAL's tree of bounding boxes. Cost: the whole mesh, once.
+/// The deformed sheet of one moment, to which it refers, in CGAL's tree of bounding boxes. Cost: the whole mesh, once.
 class Picker {
  public:
   /// How far from the sheet a point may be, in mean rest edges: what is written with six digits is still found.
@@ -41,12 +41,13 @@ class Picker {
   /// Where in rest space the picked point is. A ray that runs within a triangle's plane meets it where it enters.
   /// Throws InputError, beginning with `name`: a miss, with its distance.
   Point2 rest_point(const Pick& pick, const std::string& name) const;
-  /// Throws InputError, beginning with `name` and the number of the point; also where a seam lies between two points.
-  Curve rest_curve(const PickedCurve& curve, const std::string& name) const;
+  /// The curve in rest space; where it crosses seams, one for each stretch between two of them (route.h).
+  /// Throws InputError, beginning with `name` and the number of the point: a miss, no way over the seams, and a Bezier
+  /// that crosses one, since it would be another curve on each side.
+  std::vector<Curve> rest_curves(const PickedCurve& curve, const std::string& name) const;
 
  private:
   PlaceAtRest place(const Pick& pick, const std::string& name) const;
-  void refuse_seams(const std::vector<PlaceAtRest>& places, bool closed, const std::string& name) const;
 
   struct Tree;
   std::unique_ptr<Tree> tree_;

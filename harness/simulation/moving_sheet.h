@@ -14,12 +14,15 @@ template <int D>
 struct MovingSheet {
   /// At the scene's first moment. Throws InputError.
   explicit MovingSheet(const Scene& scene)
-      : sheet(mesh_of(scene)),
+      : sheet(sheet_of(scene)),
         locator(sheet),
         pins(pins_of(scene, sheet)),
         model(sheet, scene.material, scene.physics, pins, scene.tractions),
         state(initial_state(model, sheet)) {
     hold_constrained_vertices(pins, scene.tractions, sheet);
+    if (sheet.seams().empty()) return;
+    model.constrain(sheet, constraints);
+    keep_together();
   }
 
   /// The sheet with its vertices where they are now.
@@ -33,11 +36,25 @@ struct MovingSheet {
   }
   Balance balance() { return balance_of(model, state); }
 
+  /// After Model::constrain(): what goes along with other vertices goes where these are.
+  void keep_together() {
+    for (Field* const field : {&state.x, &state.v}) {
+      if (model.constrained()) model.constrained()->satisfy(model.held(), *field);
+      model.follow(*field);
+    }
+  }
+
+  static Sheet sheet_of(const Scene& scene) {
+    Sheet sheet(mesh_of(scene));
+    check_scene_suits_seams(scene, sheet);
+    return sheet;
+  }
+
   Sheet sheet;
   Locator locator;
   std::vector<Pin> pins;
   Model<D> model;
-  Constraints constraints;  ///< of the last cut
+  Constraints constraints;  ///< the method's, of the last cut
   State state;
 };
 

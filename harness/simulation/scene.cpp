@@ -1,6 +1,7 @@
 #include "harness/simulation/scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "harness/cases/cut_families.h"
@@ -26,6 +27,21 @@ Point2 nearest_vertex(const Sheet& sheet, Point2 to) {
   return best;
 }
 
+bool between(const std::array<Point3, 2>& corners, Point3 p) {
+  const auto& [low, high] = corners;
+  return p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y && p.z >= low.z && p.z <= high.z;
+}
+
+void add_pins_in_space(const ScenePin& scene_pin, const Sheet& sheet, std::vector<Pin>& pins) {
+  for (std::size_t i = 0; i < sheet.deformed_slots(); ++i) {
+    const DeformedIndex d(i);
+    if (!sheet.rest_vertex(d).valid() || !between(*scene_pin.in_space, sheet.position(d))) continue;
+    const Point2 at = sheet.rest(sheet.rest_vertex(d));
+    pins.push_back(scene_pin.pin);
+    pins.back().where = {at, at};
+  }
+}
+
 }  // namespace
 
 MeshData mesh_of(const Scene& scene) {
@@ -39,12 +55,30 @@ MeshData mesh_of(const Scene& scene) {
 std::vector<Pin> pins_of(const Scene& scene, const Sheet& sheet) {
   std::vector<Pin> pins;
   for (const ScenePin& p : scene.pins) {
+    if (p.in_space) {
+      add_pins_in_space(p, sheet, pins);
+      continue;
+    }
     pins.push_back(p.pin);
     if (!p.near) continue;
     const Point2 at = nearest_vertex(sheet, *p.near);
     pins.back().where = {at, at};
   }
   return pins;
+}
+
+void check_scene_suits_seams(const Scene& scene, const Sheet& sheet) {
+  if (sheet.unrolled() && scene.physics.bending != BendingKind::none)
+    throw InputError(scene.stem +
+                     ": the sheet is curved at rest, and bending is that of a sheet that is flat at rest; leave "
+                     "\"bending\" out, or give rest = \"vt\"");
+  if (sheet.seams().empty()) return;
+  if (!solves(scene.integrator))
+    throw InputError(scene.stem + ": the sheet has seams, which " +
+                     std::string(name_of(integrator_names, scene.integrator)) +
+                     " does not take; choose an implicit integrator");
+  if (std::isfinite(scene.active_radius))
+    throw InputError(scene.stem + ": the sheet has seams, which an active radius does not know; leave it out");
 }
 
 void hold_constrained_vertices(const std::vector<Pin>& pins, const std::vector<Traction>& tractions, Sheet& sheet) {

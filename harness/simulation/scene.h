@@ -2,6 +2,7 @@
 // gets. SI units; a file names the one effect it shows and its truth.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -19,7 +20,8 @@ namespace cutbench {
 
 /// A pin as written in the file.
 struct ScenePin {
-  std::optional<Point2> near;  ///< holds the vertex nearest to it; `pin.where` is then not yet known
+  std::optional<Point2> near;                     ///< holds the vertex nearest to it; `pin.where` is then not yet known
+  std::optional<std::array<Point3, 2>> in_space = {};  ///< the vertices that begin between these two corners, likewise
   Pin pin;
 };
 
@@ -64,8 +66,12 @@ struct Scene {
 MeshData mesh_of(const Scene& scene);
 
 /// The pins, those near a point as boxes without extent round the vertex nearest to it in rest space, and so round all
-/// its copies on an incision. \pre `sheet` is not cut yet: a cut's own vertices may be nearer.
+/// its copies on an incision; those in space as one such box for each vertex. \pre `sheet` is not cut yet: a cut's own vertices may be nearer.
 std::vector<Pin> pins_of(const Scene& scene, const Sheet& sheet);
+
+/// \throw InputError  the sheet has seams, and what the scene asks for knows none: an integrator without constraints,
+/// an active radius, or bending where the rest shape is curved
+void check_scene_suits_seams(const Scene& scene, const Sheet& sheet);
 
 /// Holds the rest vertices that are pinned, and those on the border that tractions pull at (Sheet::hold).
 void hold_constrained_vertices(const std::vector<Pin>& pins, const std::vector<Traction>& tractions, Sheet& sheet);

@@ -139,9 +139,12 @@ void SceneCuts<D>::begin(DueCut& due, CuttingMethod& method, const CutOptions& o
     const Sheet posed = now_.posed();
     StopWatch watch;
     const auto number = to_size(&due - cuts_.data());
-    curves.push_back(Picker(posed).rest_curve(due.picked, scene_.stem + ", cut " + std::to_string(number)));
+    curves = Picker(posed).rest_curves(due.picked, scene_.stem + ", cut " + std::to_string(number));
     pick_us = watch.lap();
   }
+  if (due.speed > 0 && curves.size() > 1)
+    throw InputError(scene_.stem + ", cut " + std::to_string(&due - cuts_.data()) +
+                     ": a blade can't advance over a seam; leave its speed out, or cut each panel by itself");
   if (due.speed > 0) due.blade.emplace(curves.front());
   due.made = made_.size();
   made_.push_back(due.blade ? MotionCut() : cut_with_balances(curves, method, options, budget));
@@ -224,18 +227,17 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, std::span<const Curve> curve
     result.pattern_us += watch.lap();
     moving.model.update_bending(moving.sheet);
     result.bending_us += watch.lap();
-    if (!source) continue;
-    Constraints constraints = source->next_constraints(before_cuts_, moving.sheet, moving.constraints,
-                                                       moving.model.elements().left_since_change());
+    if (!source && moving.sheet.seams().empty()) continue;
+    Constraints constraints;
+    if (source)
+      constraints = source->next_constraints(before_cuts_, moving.sheet, moving.constraints,
+                                             moving.model.elements().left_since_change());
     result.cut.time_us.constrain += watch.lap();
     moving.model.constrain(moving.sheet, constraints);
     begin_phantoms(moving.sheet, moving.constraints, constraints, vertices_before, phantoms, moving.model.vertices(), D,
                    moving.state);
     moving.constraints = std::move(constraints);
-    for (Field* const field : {&moving.state.x, &moving.state.v}) {  // the state of before the cut need not
-      if (moving.model.constrained()) moving.model.constrained()->satisfy(moving.model.held(), *field);
-      moving.model.follow(*field);
-    }
+    moving.keep_together();  // the state of before the cut need not
     result.pattern_us += watch.lap();
   }
   if (refusal) {

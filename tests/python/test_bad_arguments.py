@@ -78,7 +78,7 @@ BAD_KEYWORDS = {  # what: (keywords of cut(), a part of the message)
     "rest n x 1": ({"rest": V[:, :1]}, "rest: has the shape 4 x 1"),
     "rest with a NaN": ({"rest": changed(V[:, :2], (0, 0), NAN)}, "rest: row 0"),
     "rest in space, curved": ({"rest": changed(V, (2, 2), 0.5)}, "rest"),
-    "rest per corner": ({"rest": np.zeros((2, 3, 2))}, "rest: a position per corner"),
+    "rest per corner": ({"rest": np.zeros((7, 3, 2))}, "rest: has the shape 7 x 3 x 2; a position per corner"),
     "rest by an unknown word": ({"rest": "flat"}, 'rest: "flat" is not known'),
     "rest as None": ({"rest": None}, "rest: has the type object"),
     "rest without area": ({"rest": np.zeros((4, 2))}, "zero area"),

@@ -78,11 +78,16 @@ std::vector<Curve> in_rest_space(const std::vector<std::variant<Curve, PickedCur
   StopWatch watch;
   for (const auto& cut : path) {
     if (const auto* curve = std::get_if<Curve>(&cut)) {
+      if (sheet.unrolled())
+        throw InputError(name + ", cut " + std::to_string(&cut - path.data()) +
+                         ": the sheet is unrolled, so places at rest mean nothing; give places in space: \"space\": "
+                         "\"world\"");
       cuts.push_back(*curve);
       continue;
     }
     if (!picker) picker.emplace(sheet);
-    cuts.push_back(picker->rest_curve(std::get<PickedCurve>(cut), name + ", cut " + std::to_string(cuts.size())));
+    const std::string which = name + ", cut " + std::to_string(&cut - path.data());
+    for (const Curve& curve : picker->rest_curves(std::get<PickedCurve>(cut), which)) cuts.push_back(curve);
   }
   pick_us = picker ? watch.lap() : 0;
   return cuts;

@@ -78,13 +78,24 @@ double MethodOptions::parameter() const {
 void ReadingOptions::add_to(Options& command) {
   command
       .add_option("--rest", rest,
-                  "rest positions of an OBJ with vt: auto (vt where they can be), vt, or the plane the mesh lies in")
+                  "what the rest shape is: vt (of an OBJ), the plane the mesh lies in, the mesh as it lies in space, "
+                  "or auto: the "
+                  "first of these that can be")
       .shows_default()
-      .one_of({"auto", "vt", "plane"});
+      .one_of({"auto", "vt", "plane", "space"});
+  command.add_option(
+      "--sew", sew,
+      "sew vertices together that are no farther apart in space, in the file's unit; never an incision's");
   command.add_flag("--triangulate", triangulate, "read faces of more than three corners, too, as triangles");
 }
 
-MeshReading ReadingOptions::reading() const { return {*value_named(rest_names, rest), triangulate}; }
+MeshReading ReadingOptions::reading() const {
+  MeshReading reading{*value_named(rest_names, rest), triangulate};
+  if (sew.empty()) return reading;
+  reading.sew = number(sew, "--sew");
+  if (!(*reading.sew >= 0)) throw InputError("--sew: must be 0 or more");
+  return reading;
+}
 
 void set_resolution(Scene& scene, int resolution) {
   if (resolution == 0) return;

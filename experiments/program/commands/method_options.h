@@ -39,6 +39,7 @@ struct MethodOptions {
 /// How mesh files are read.
 struct ReadingOptions {
   std::string rest = "auto";
+  std::string sew;  ///< empty: not given
   bool triangulate = false;
 
   void add_to(Options& command);

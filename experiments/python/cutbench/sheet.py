@@ -12,25 +12,43 @@ from .errors import InputError
 from .method import method_of
 from .paths import curves_of
 
-REST_WORDS = {  # the words of --rest, for arrays: how rest positions are found
-    "auto": lambda vertices: None,  # the plane that the sheet lies in
-    "plane": lambda vertices: None,
-}
+REST_WORDS = ("auto", "plane", "space")  # those of --rest that arrays without texture coordinates have
 
 
 def _rest(rest, vertices):
-    if isinstance(rest, str):
-        if rest not in REST_WORDS:
-            known = ", ".join(REST_WORDS)
-            raise InputError(f'rest: "{rest}" is not known; known are {known}, or an array n x 2 or n x 3')
-        return REST_WORDS[rest](vertices)
-    if np.ndim(rest) == 3:
-        raise InputError("rest: a position per corner (m x 3 x 2) can't be used; give one per vertex, n x 2, and divide "
-                         "vertices at seams")
     rest = arrays.points(rest, "rest", (2, 3))
     if len(rest) != len(vertices):
         raise InputError(f"rest: {len(rest)} rows; give as many as there are vertices, {len(vertices)}")
     return rest
+
+
+def _divided(vertices, triangles, rest):
+    """A vertex for each place at rest of each vertex: the first keeps its number, others come after all.
+
+    Returns vertices, triangles, rest (n x 2), and for each vertex the number of the one it is sewn to."""
+    rest = np.asarray(rest, dtype=np.float64)
+    if rest.shape != (len(triangles), 3, 2):
+        raise InputError(f"rest: has the shape {' x '.join(map(str, rest.shape))}; a position per corner is "
+                         f"{len(triangles)} x 3 x 2")
+    if not np.isfinite(rest).all():
+        raise InputError("rest: has a number that is not finite; correct it")
+    arrays.check_indices(triangles, "triangles", len(vertices))
+    corners = np.column_stack([triangles.reshape(-1), rest.reshape(-1, 2)])
+    places, first, which = np.unique(corners, axis=0, return_index=True, return_inverse=True)
+    sewn = places[:, 0].astype(np.int32)
+    order = np.argsort(first, kind="stable")  # as the triangles meet them
+    number = np.empty(len(places), np.int32)
+    own = {}
+    for i in order:
+        number[i] = sewn[i] if own.setdefault(sewn[i], i) == i else -1
+    number[order[number[order] < 0]] = len(vertices) + np.arange(np.count_nonzero(number < 0))
+    count = len(vertices) + len(places) - len(own)
+    all_vertices = np.empty((count, vertices.shape[1]))
+    all_rest = np.zeros((count, 2))
+    all_sewn = np.arange(count, dtype=np.int32)
+    all_vertices[:len(vertices)] = vertices
+    all_vertices[number], all_rest[number], all_sewn[number] = vertices[sewn], places[:, 1:], sewn
+    return all_vertices, number[which.reshape(-1, 3)], all_rest, all_sewn
 
 
 class Sheet:
@@ -39,8 +57,10 @@ class Sheet:
     Args:
         vertices: n x 3 or n x 2 (then z = 0), positions in space.
         triangles: m x 3, vertices from 0, in either order round the triangle.
-        rest: n x 2, positions at rest; or n x 3, in a plane; or "auto" or "plane": those in the plane that `vertices`
-            lie in. Two borders at equal rest positions are an incision.
+        rest: n x 2, positions at rest; or n x 3, in a plane; or m x 3 x 2, one for each corner: where a vertex has
+            several, the sheet is sewn along a seam. Or "plane": the plane that `vertices` lie in; "space": the sheet is at
+            rest as it lies in space, unrolled; "auto": the first of these that can be. Two borders at equal rest positions
+            are an incision.
 
     Positions have any unit; what is said in h is in mean rest edges. What had to be repaired (triangles reversed,
     unused vertices dropped, ...) is a warning.
@@ -49,14 +69,25 @@ class Sheet:
         vertices: n x 3 floats, positions in space.
         rest: n x 2 floats, positions at rest; the two lips of an incision have equal ones.
         triangles: m x 3 ints, counter-clockwise at rest.
+        sewn: for each vertex the number of one that is the same point of the sheet, though apart at rest; empty without
+            seams. A copy.
     """
 
     def __init__(self, vertices, triangles, rest="auto"):
         positions = arrays.of_points(vertices, "vertices", (2, 3))
         corners = arrays.of_indices(triangles, "triangles")
-        flat = _rest(rest, positions)
+        word, flat, sewn = "auto", None, None
+        if isinstance(rest, str):
+            word = rest
+            if word not in REST_WORDS:
+                raise InputError(f'rest: "{rest}" is not known; known are {", ".join(REST_WORDS)}, or an array n x 2, '
+                                 "n x 3 or m x 3 x 2")
+        elif np.ndim(rest) == 3:
+            positions, corners, flat, sewn = _divided(positions, corners, rest)
+        else:
+            flat = _rest(rest, positions)
         try:
-            self._core = _core.sheet(positions, corners, flat)
+            self._core = _core.sheet(positions, corners, flat, sewn, word)
         except InputError:
             arrays.check_finite(positions, "vertices")  # may have better words for it
             arrays.check_indices(corners, "triangles", len(positions))
@@ -74,14 +105,18 @@ class Sheet:
         return sheet
 
     @classmethod
-    def read(cls, file, rest="auto", triangulate=False):
+    def read(cls, file, rest="auto", triangulate=False, sew=None):
         """The sheet of an OBJ, OFF or PLY file.
 
         Args:
-            rest: "auto", "vt" or "plane": what the positions at rest are, as by `cutbench cut --rest`.
+            rest: "auto", "vt", "plane" or "space": what the positions at rest are, as by `cutbench cut --rest`.
             triangulate: faces of more than three corners are read, too, as triangles.
+            sew: vertices of the border that are no farther apart in space, in the file's unit, are sewn together.
         """
-        sheet = cls._of(_core.read_sheet(os.fspath(file), rest, bool(triangulate)))
+        distance = None if sew is None else arrays.number(sew, "sew")
+        if distance is not None and not distance >= 0:
+            raise InputError(f"sew: {sew} is not 0 or more")
+        sheet = cls._of(_core.read_sheet(os.fspath(file), rest, bool(triangulate), distance))
         sheet._warn()
         return sheet
 
@@ -103,6 +138,7 @@ class Sheet:
     vertices = cached_property(lambda self: self._core.vertices)
     rest = cached_property(lambda self: self._core.rest)
     triangles = cached_property(lambda self: self._core.triangles)
+    sewn = cached_property(lambda self: self._core.sewn)
     mean_edge = property(lambda self: self._core.mean_edge, doc="h: mean rest edge of the sheet before any cut.")
 
     @property
@@ -138,10 +174,14 @@ class Sheet:
         return pictures.to_meshio(self)
 
     def __reduce__(self):  # to be sent to another process
-        return Sheet, (self.vertices, self.triangles, self.rest)
+        return _again, (self.vertices, self.triangles, self.rest, self.sewn if len(self.sewn) else None)
 
     def __repr__(self):
         return f"<cutbench.Sheet: {len(self.vertices)} vertices, {len(self.triangles)} triangles>"
+
+
+def _again(vertices, triangles, rest, sewn):
+    return Sheet._of(_core.sheet(vertices, triangles, rest, sewn, "auto"))
 
 
 class Parents:

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "harness/base/conversions.h"
+#include "harness/base/union_find.h"
 
 namespace cutbench {
 
@@ -93,23 +94,21 @@ double Model<D>::held_velocity(std::size_t unknown) const {
 
 template <int D>
 std::size_t Model<D>::unheld_pieces() const {
-  std::vector<std::uint8_t> seen(vertices());
-  std::vector<std::size_t> front;
-  std::size_t unheld = 0;
-  for (std::size_t start = 0; start < vertices(); ++start) {
-    if (seen[start] || blocks_.columns(start).empty()) continue;
-    bool held = false;
-    front.assign(1, start);
-    seen[start] = 1;
-    while (!front.empty()) {
-      const std::size_t v = front.back();
-      front.pop_back();
-      for (std::size_t k = 0; k < D; ++k) held |= held_[D * v + k] != 0;
-      for (const auto j : blocks_.columns(v))
-        if (!std::exchange(seen[to_size(j)], 1)) front.push_back(to_size(j));
-    }
-    unheld += !held;
+  UnionFind pieces(vertices());
+  for (std::size_t v = 0; v < vertices(); ++v)
+    for (const auto j : blocks_.columns(v)) pieces.join(v, to_size(j));
+  if (is_constrained_) {
+    const ConstraintMatrix& matrix = constrained_->constraint_matrix();
+    for (const auto v : matrix.constrained())
+      for (std::size_t k = 0; k < matrix.row(to_size(v)).size; ++k)
+        pieces.join(to_size(v), to_size(matrix.row(to_size(v)).unknown[k]));
   }
+  std::vector<std::uint8_t> is_held(vertices());
+  for (std::size_t v = 0; v < vertices(); ++v)
+    for (std::size_t k = 0; k < D; ++k) is_held[pieces.find(v)] |= held_[D * v + k];
+  std::size_t unheld = 0;
+  for (std::size_t v = 0; v < vertices(); ++v)
+    unheld += pieces.find(v) == v && is_held[v] == 0 && !blocks_.columns(v).empty();
   return unheld;
 }
 

@@ -36,7 +36,7 @@ class Model {
   /// Constraints of before are removed. Such elements of before stay, unless the cut touched their triangles or they
   /// share one with a new one. Forces, energies and the matrix remain those of all vertices; a solver solves for the
   /// unknowns of constrained(). Vertices inside such elements are no unknowns: they have no mass and are held, and
-  /// follow() moves them.
+  /// follow() moves them. Of a sheet with seams it must be called at the beginning, too: it keeps them sewn.
   /// Phantom nodes are vertices without triangles of their own: they follow those of the sheet, until the next
   /// update(). Copied elements bend instead of their triangles; where the mass is lumped, they have theirs.
   /// \pre `sheet` is that of the last update().
@@ -104,6 +104,8 @@ class Model {
   void refresh_added_mass();
   const BlockMatrix<1>* mass_matrix() const;
   void refresh_loads(const Sheet& sheet, std::size_t v);
+  void set_constraints(const Constraints& constraints);
+  std::vector<std::uint8_t> pinned_vertices() const;
   void leave_phantoms();
   void take_phantoms(const Sheet& sheet, const Constraints& constraints);
   void set_own_mass(const Sheet& sheet, std::size_t v, double mass);

@@ -2,6 +2,7 @@
 // they are the corners of.
 #include <utility>
 
+#include "harness/fem/constraints/with_seams.h"
 #include "harness/fem/elements/copied_bending.h"
 #include "harness/fem/model/model.h"
 
@@ -18,11 +19,27 @@ void Model<D>::constrain(const Sheet& sheet, const Constraints& constraints) {
   take_phantoms(sheet, constraints);
   if (!bending_) refresh_added_mass();
   if (!regrouped_.triangles.empty()) update_bending(sheet);
+  if (sheet.seams().empty())
+    set_constraints(constraints);
+  else
+    set_constraints(with_seams(constraints, sheet, pinned_vertices()));
+}
+
+template <int D>
+void Model<D>::set_constraints(const Constraints& constraints) {
   is_constrained_ = !constraints.constraints.empty();
   if (is_constrained_ && constrained_)
     constrained_->change(constraints, vertices(), 0);
   else if (is_constrained_)
     constrained_.emplace(constraints, vertices(), 0);
+}
+
+template <int D>
+std::vector<std::uint8_t> Model<D>::pinned_vertices() const {
+  std::vector<std::uint8_t> result(vertices());
+  for (std::size_t i = 0; i < D * vertices(); ++i)
+    if (pinned(i)) result[i / D] = 1;
+  return result;
 }
 
 /// What the copied elements had is that of the sheet's vertices and triangles again. \pre begin_marking()
@@ -81,6 +98,10 @@ void Model<D>::set_own_mass(const Sheet& sheet, std::size_t v, double mass) {
 // What the other files call; model.cpp instantiates the rest of the class.
 template void Model<2>::constrain(const Sheet&, const Constraints&);
 template void Model<3>::constrain(const Sheet&, const Constraints&);
+template void Model<2>::set_constraints(const Constraints&);
+template void Model<3>::set_constraints(const Constraints&);
+template std::vector<std::uint8_t> Model<2>::pinned_vertices() const;
+template std::vector<std::uint8_t> Model<3>::pinned_vertices() const;
 template void Model<2>::leave_phantoms();
 template void Model<3>::leave_phantoms();
 

@@ -1,0 +1,70 @@
+// The way from one place of a sheet to the next over its seams: straight in every panel, and straight where it crosses a
+// seam when the panels are laid against each other there.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "harness/mesh/seams.h"
+#include "harness/mesh/sheet.h"
+#include "harness/path/curve.h"
+
+namespace cutbench {
+
+/// A place of the sheet.
+struct PlaceAtRest {
+  TriangleIndex triangle;
+  Point2 point;  ///< in it
+  Point3 in_space = {};
+};
+
+/// The seams of the sheet, to which it refers. Cost: the whole sheet, once; of a route the triangles that it could lead through.
+class Router {
+ public:
+  explicit Router(const Sheet& sheet);
+  /// The polyline through the places, in a curve for each stretch between two seams: open, in their order, each ending
+  /// on the border where the next begins. Without seams on the way it is one curve of these points, closed if `closed`.
+  /// \throw InputError, beginning with `name` and the numbers of two places: they are on parts that nothing joins, and
+  /// that don't lie beside each other at rest as in space; or no straight way leads from one to the other
+  std::vector<Curve> route(const std::vector<PlaceAtRest>& places, bool closed, const std::string& name) const;
+  bool has_seams() const { return !edges_.empty(); }
+
+ private:
+  /// A rotation or reflection of the plane, and a shift.
+  struct Laying {
+    Point2 x{1, 0}, y{0, 1}, shift{};
+    Point2 operator()(Point2 p) const { return p.x * x + p.y * y + shift; }
+    Laying after(const Laying& first) const;
+  };
+  /// A step from a triangle into its neighbour, through half-edges of both.
+  struct Step {
+    HalfEdge out, in;
+    std::optional<std::size_t> seam = {};  ///< in edges_: of `out`
+  };
+  /// Where a way leaves a panel and enters the next one; without a seam: a point where it bends.
+  struct Bend {
+    Point2 leaves, enters;
+    bool seam;
+  };
+  struct Walk;
+
+  std::vector<Step> steps_out_of(TriangleIndex t) const;
+  std::vector<Step> way(TriangleIndex from, TriangleIndex to) const;
+  Laying across(const Step& step) const;
+  std::optional<Step> over_seam(HalfEdge out, double share, Bend& bend) const;
+  std::optional<std::vector<Bend>> straight(const PlaceAtRest& from, const PlaceAtRest& to,
+                                            const std::vector<Step>& way) const;
+  bool are_apart(const PlaceAtRest& from, const PlaceAtRest& to) const;
+  bool join(const PlaceAtRest& from, const PlaceAtRest& to, int splits, std::vector<Bend>& bends) const;
+
+  const Sheet& sheet_;
+  std::vector<SewnEdge> edges_;
+  std::vector<std::vector<std::size_t>> partners_;  // per edge: those that it shares more than a point with
+  std::vector<std::size_t> part_;                   // per triangle slot
+  std::vector<std::int32_t> first_edge_;            // per half-edge: the first of edges_ that it is; -1: none
+};
+
+}  // namespace cutbench

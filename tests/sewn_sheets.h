@@ -1,0 +1,71 @@
+// Sheets with seams, made from sheets without.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <utility>
+
+#include "harness/base/conversions.h"
+#include "harness/mesh/check_and_repair.h"
+#include "harness/mesh/families.h"
+#include "harness/mesh/mesh_data.h"
+
+namespace cutbench {
+
+/// `whole`, whose rest positions are taken apart: each triangle belongs to the panel that `panel_of` says of its
+/// centroid, and a panel lies turned and shifted at rest; every third one is turned over, too. In space nothing moves.
+inline MeshData in_panels(const MeshData& whole, const std::function<int(Point2)>& panel_of) {
+  MeshData mesh;
+  std::map<std::pair<std::int32_t, int>, std::int32_t> number;
+  const auto laid = [](Point2 p, int panel) {
+    const double turn = 0.7 * panel, c = std::cos(turn), s = std::sin(turn), x = panel % 3 == 2 ? -p.x : p.x;
+    return Point2{c * x - s * p.y + 4.0 * panel, s * x + c * p.y};
+  };
+  for (auto triangle : whole.triangles) {
+    Point2 middle;
+    for (const auto v : triangle) middle = middle + (1.0 / 3) * whole.rest[to_size(v)];
+    const int panel = panel_of(middle);
+    for (auto& v : triangle) {
+      const auto [place, is_new] = number.try_emplace({v, panel}, to_int32(mesh.rest.size()));
+      if (is_new) {
+        mesh.rest.push_back(laid(whole.rest[to_size(v)], panel));
+        mesh.deformed.push_back(whole.deformed[to_size(v)]);
+        mesh.sewn.push_back(v);
+      }
+      v = place->second;
+    }
+    mesh.triangles.push_back(triangle);
+  }
+  mesh.file_vertices = mesh.sewn;
+  check_and_repair(mesh, "panels");
+  return mesh;
+}
+
+inline int in_quarters(Point2 p) { return (p.x > 0.5 ? 1 : 0) + (p.y > 0.5 ? 2 : 0); }
+
+/// A regular grid of n x m squares, each two triangles, placed in space by `at` of (0..1, 0..1). Where u = 1 is the
+/// place of u = 0, these are the same vertices.
+inline MeshData surface(int n, int m, bool closed, const std::function<Point3(double, double)>& at) {
+  MeshData mesh;
+  const int columns = closed ? n : n + 1;
+  for (int j = 0; j <= m; ++j)
+    for (int i = 0; i < columns; ++i) mesh.deformed.push_back(at(to_double(i) / n, to_double(j) / m));
+  const auto v = [&](int i, int j) { return to_int32(j * columns + i % columns); };
+  for (int j = 0; j < m; ++j)
+    for (int i = 0; i < n; ++i) {
+      mesh.triangles.push_back({v(i, j), v(i + 1, j), v(i + 1, j + 1)});
+      mesh.triangles.push_back({v(i, j), v(i + 1, j + 1), v(i, j + 1)});
+    }
+  return mesh;
+}
+
+/// Of radius 1, round the x axis.
+inline MeshData tube(int round, int along, double length) {
+  return surface(round, along, true, [=](double u, double v) {
+    const double angle = 2 * std::acos(-1.0) * u;
+    return Point3{length * v, std::cos(angle), std::sin(angle)};
+  });
+}
+
+}  // namespace cutbench
