@@ -44,7 +44,7 @@ def numbers(text):
 def measure(text):
     """Words, lengths of sentences, numbers and pictures of a page."""
     found = list(blocks(without_code(text)))
-    sentences = [len(words(s)) for block in found for s in re.split(r"(?<=[.!?:])\)?\s+(?=[A-Z`*(\[0-9])", block)]
+    sentences = [len(words(s)) for block in found for s in re.split(r"(?<=[.!?])\)?\s+", block)]
     return {"words": sum(len(words(b)) for b in found), "sentences": [n for n in sentences if n > 0],
             "numbers": sum(numbers(b) for b in found), "pictures": len(re.findall(r"!\[[^\]]*\]\(", text)) + text.count("```mermaid")}
 
