@@ -1,0 +1,33 @@
+"""Which method? The rows of experiments/which_method.toml with their numbers."""
+
+import tomllib
+
+from analysis import load
+from pages.facts.table import NUMBERS, table
+
+FILE = load.REPOSITORY / "experiments/which_method.toml"
+
+
+def rows():
+    return tomllib.loads(FILE.read_text(encoding="utf-8"))["rows"]
+
+
+def answer(row):
+    return f"`{row['method']}`" + (f" with `{row['setting']}`" if "setting" in row else "")
+
+
+def filled(published, row, interval=False):
+    """The sentence of a row with its number."""
+    return row["says"].format(NUMBERS[row["number"] + (".interval" if interval else "")](published))
+
+
+@table("decision_short")
+def short(published):
+    return ["if", "take", "for"], [[row["if"], answer(row), filled(published, row)] for row in rows()]
+
+
+@table("decision")
+def long(published):
+    return ["if", "take", "for", "because", "runner-up"], [
+        [row["if"], answer(row), filled(published, row, interval=True), row["because"], f"`{row['runner_up']}`: {row['runner_up_because']}"]
+        for row in rows()]

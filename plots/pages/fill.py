@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""Fills the numbers of README.md, CONTRIBUTING.md and docs/ (but the notebook) in from the published records, and draws
+docs/pictures/adversarial.svg. --check writes nothing: a line for each number that is stale and each sentence whose condition no
+longer holds, and exit code 1 if there is any."""
+
+import argparse
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from analysis import load
+from pages import bars
+from pages import facts  # noqa: F401  registers all
+from pages.facts import table
+from pages.facts.published import Published
+
+NUMBER = re.compile(r"<!--=([\w.]+)-->(.*?)<!--/-->", re.S)
+TABLE = re.compile(r"<!--table (\w+)-->\n(.*?)<!--/table-->", re.S)
+SENTENCE = re.compile(r"<!--if (\w+)-->(.*?)<!--/if-->", re.S)
+MARKER = re.compile(r"<!--(?:=|table |if |/)")
+MARKER_AS_CODE = re.compile(r"`<!--[^`\n]*`")
+PICTURE = load.REPOSITORY / "docs/pictures/adversarial.svg"
+
+
+def pages():
+    found = [load.REPOSITORY / "README.md", load.REPOSITORY / "CONTRIBUTING.md", *sorted((load.REPOSITORY / "docs").rglob("*.md"))]
+    return [page for page in found if "notebook" not in page.parts]
+
+
+def markdown(head, rows):
+    return "\n".join("| " + " | ".join(cells) + " |" for cells in [head, ["---"] * len(head), *rows]) + "\n"
+
+
+class Filler:
+    def __init__(self, published):
+        self.published, self.faults, self.known = published, [], {}
+
+    def value(self, kind, name, where):
+        """Of a number, table or condition, computed once."""
+        functions = {"number": table.NUMBERS, "table": table.TABLES, "condition": table.CONDITIONS}[kind]
+        if name not in functions:
+            load.stop(f"{where}: no {kind} is named {name}; plots/pages/facts has them")
+        if (kind, name) not in self.known:
+            self.known[kind, name] = functions[name](self.published)
+        return self.known[kind, name]
+
+    def filled(self, text, where):
+        """The text as the records have it; faults() of what was stale or does not hold."""
+        shown = MARKER_AS_CODE.findall(text)
+        text = MARKER_AS_CODE.sub("\0", text)
+        text = NUMBER.sub(lambda m: self.number(m, where), text)
+        text = TABLE.sub(lambda m: self.table(m, where), text)
+        for sentence in SENTENCE.finditer(text):
+            self.judge(sentence, where)
+        alone = MARKER.search(SENTENCE.sub(" ", TABLE.sub("", NUMBER.sub("", text))))
+        if alone:
+            load.stop(f"{where}: the marker {alone[0]}... has no partner")
+        return re.sub("\0", lambda _: shown.pop(0), text)
+
+    def number(self, match, where):
+        new = self.value("number", match[1], where)
+        if match[2] != new:
+            self.faults.append(f"{where}: {match[1]} is {new}, the page says {match[2]}")
+        return f"<!--={match[1]}-->{new}<!--/-->"
+
+    def table(self, match, where):
+        new = markdown(*self.value("table", match[1], where))
+        if match[2] != new:
+            self.faults.append(f"{where}: the table {match[1]} is stale")
+        return f"<!--table {match[1]}-->\n{new}<!--/table-->"
+
+    def judge(self, match, where):
+        if not self.value("condition", match[1], where):
+            words = " ".join(re.sub(r"<!--.*?-->", "", match[2]).split())
+            self.faults.append(f'{where}: no longer holds: "{words}" It rests on: {table.WORDS[match[1]]}')
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("--results", type=Path, metavar="DIR", default=load.REPOSITORY / "results/reference")
+    options = parser.parse_args()
+    filler = Filler(Published(options.results))
+    for page in pages():
+        where, old = str(page.relative_to(load.REPOSITORY)), page.read_text(encoding="utf-8")
+        new = filler.filled(old, where)
+        if new != old and not options.check:
+            page.write_text(new, encoding="utf-8")
+            print(page)
+    drawn = bars.of_outcomes(filler.published)
+    if not PICTURE.is_file() or PICTURE.read_text(encoding="utf-8") != drawn:
+        filler.faults.append("docs/pictures/adversarial.svg is stale")
+        if not options.check:
+            PICTURE.write_text(drawn, encoding="utf-8")
+    broken = [fault for fault in filler.faults if options.check or "no longer holds" in fault]
+    print("\n".join(broken + (["plots/pages/fill.py writes what is stale"] if options.check and broken else [])), end="\n" if broken else "")
+    return bool(broken)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
