@@ -74,8 +74,28 @@ def methods(published):
         here, errors = of(published, method), published.error_kinds.loc[method]
         eigenvalues, changed = even(here)["eigenvalue_ratio"], here["ar_max_cut_strict"].notna().any()
         low, high = errors["error, its 95 %"].split(" to ")
-        rows.append([f"`{method}`", *idea, plain(eigenvalues.median()), plain(eigenvalues.quantile(0.95)),
+        rows.append([f"`{published.today(method)}`", *idea, plain(eigenvalues.median()), plain(eigenvalues.quantile(0.95)),
                      percent(below_three(here)) if changed else "none changed",
                      f"{signed(errors['error, kinds'])} [{low}, {high}]", signed(errors["error, hole"]),
                      plain(here["vertices_per_crossed"].median()), plain(here["us_per_crossed"].median())])
     return head, rows
+
+
+@condition("refining_keeps_the_eigenvalue", "the median eigenvalue after delaunay_refine and cgal_refine is at least half of that after "
+           "conventional_split")
+def refining_keeps_the_eigenvalue(published):
+    plain_split = even(of(published, SPLIT))["eigenvalue_ratio"].median()
+    return all(even(of(published, m))["eigenvalue_ratio"].median() > plain_split / 2 for m in (REFINED, "cgal_refine"))
+
+
+@condition("polygons_poor_at_a_hole", "cut_polygons errs less than half as much as a fitted mesh at cracks, and more than three times as much "
+           "at a hole")
+def polygons_poor_at_a_hole(published):
+    errors = published.error_kinds.loc["cut_polygons"]
+    return errors["error, crack"] < -50 and errors["error, hole"] > 200
+
+
+@condition("path_movers_poor_at_a_hole", "snap_or_split and edge_release err more than twice as much as conventional_split at a hole")
+def path_movers_poor_at_a_hole(published):
+    errors = 1 + published.error_kinds["error, hole"] / 100
+    return all(errors[m] > 2 * errors[SPLIT] for m in ("snap_or_split", "edge_release"))

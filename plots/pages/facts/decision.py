@@ -23,11 +23,11 @@ def filled(published, row, interval=False):
 
 @table("decision_short")
 def short(published):
-    return ["if", "take", "for"], [[row["if"], answer(row), filled(published, row)] for row in rows()]
+    return ["if", "take", "you get"], [[row["if"], answer(row), filled(published, row)] for row in rows()]
 
 
 @table("decision")
 def long(published):
-    return ["if", "take", "for", "because", "runner-up"], [
+    return ["if", "take", "you get", "because", "runner-up"], [
         [row["if"], answer(row), filled(published, row, interval=True), row["because"], f"`{row['runner_up']}`: {row['runner_up_because']}"]
         for row in rows()]

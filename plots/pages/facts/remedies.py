@@ -19,7 +19,7 @@ def of_remedies(published):
     rows = []
     for row in filter(shown, published.remedies):
         changes = COLUMNS[row[0]] if not row[MASS] else "the mass" if row[0] == "conventional_split" else "mesh and mass"
-        rows.append([remedies.label(row[0], "", row[MASS]), changes, plain(row[MEDIAN]), plain(row[HIGH]),
+        rows.append([remedies.label(published.today(row[0]), "", row[MASS]), changes, plain(row[MEDIAN]), plain(row[HIGH]),
                      f"{signed(row[ERROR])} [{', '.join(signed(end) for end in row[ENDS])}]"])
     return head, rows
 

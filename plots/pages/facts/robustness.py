@@ -31,6 +31,13 @@ def tried(published):
     return f"{own(published)['tried'].sum():,.0f}"
 
 
+@number("robustness.near")
+def near(published):
+    """% of the cases with an event nearer than 1e-9 mean edges."""
+    one = own(published)[own(published)["method"] == "example"]
+    return percent(100 * one["near_event_cases"].sum() / one["cases"].sum())
+
+
 @number("robustness.cross_check_wrong")
 def cross_check_wrong(published):
     rows = cross_check(published)
@@ -40,3 +47,9 @@ def cross_check_wrong(published):
 @condition("none_wrong", "no adversarial cut failed, was wrong, crashed or hung, of half a million or more")
 def none_wrong(published):
     return own(published)[BROKEN].to_numpy().sum() == 0 and own(published)["tried"].sum() >= 500000
+
+
+@condition("cisamr_refuses_most", "over half of the refused cuts are cisamr's")
+def cisamr_refuses_most(published):
+    refused = own(published).groupby("method")["refused"].sum()
+    return refused["cisamr"] > refused.sum() / 2

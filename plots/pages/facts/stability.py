@@ -3,7 +3,7 @@
 import numpy as np
 
 from analysis.stability.points import EXPLICIT
-from pages.facts.table import bracket, drawn_whole, number, plain, table
+from pages.facts.table import bracket, condition, drawn_whole, number, plain, table
 
 NAMES = {"`conventional_split`": "conventional split", "the same, stabilised mass": "stabilised mass", "`cut_polygons`": "cut polygons",
          "`active_node`": "active node", "`edge_release`": "edge release", "`warp_and_refine`": "warp and refine",
@@ -32,6 +32,11 @@ def explicit(published):
                   for label, name in NAMES.items()]
 
 
+@number("stability.step.conventional_split")
+def split(published):
+    return plain(rows_of(published, "conventional split")[EXPLICIT].median())
+
+
 @number("stability.step.stabilised_mass")
 def stabilised(published):
     return plain(rows_of(published, "stabilised mass")[EXPLICIT].median())
@@ -50,3 +55,35 @@ def polygons(published):
 @number("stability.step.cut_polygons.interval")
 def polygons_interval(published):
     return quantile(published, "cut polygons", 0.5)
+
+
+BY_DISTANCE = [f"{sweep}_solvers" for sweep in ("vertex", "edge", "border", "tip", "angle", "strip", "in_a_row")]
+
+
+@condition("polygons_ok_in_implicit_steps", "all points of cut_polygons in the sweeps of solvers over distances, angles and numbers of cuts are ok")
+def polygons_ok_in_implicit_steps(published):
+    rows = published.stability
+    rows = rows[rows["sweep"].isin(BY_DISTANCE) & (rows["name"] == "cut polygons")]
+    return len(rows) > 0 and bool((rows["rank"] == 0).all())
+
+
+@condition("no_solver_past_a_vertex", "after conventional_split past a vertex each solver has a distance at which its point is not ok")
+def no_solver_past_a_vertex(published):
+    rows = rows_of(published, "conventional split", "vertex_solvers")
+    return bool((rows.groupby("solver")["rank"].max() > 0).all())
+
+
+@condition("split_breaks_in_explicit_steps", "the median explicit step after conventional_split, and after delaunay_refine, is surely below a "
+           "twentieth of the uncut sheet's")
+def split_breaks_in_explicit_steps(published):
+    return all(interval(rows_of(published, name), 0.5)[1] < 0.05 for name in ("conventional split", "Delaunay refine"))
+
+
+@condition("everything_for_single_cuts", "cut_polygons: the median explicit step is at least 0.3 of the uncut sheet's, 95 % have at least 0.1, "
+           "after four cuts not; with a stabilised mass both after single and after four cuts")
+def everything_for_single_cuts(published):
+    def long(name, sweep):
+        steps = rows_of(published, name, sweep)[EXPLICIT]
+        return steps.median() >= 0.3 and steps.quantile(0.05) >= 0.1
+    return (long("cut polygons", "single_cuts") and not long("cut polygons", "several_cuts")
+            and all(long("stabilised mass", sweep) for sweep in ("single_cuts", "several_cuts")))

@@ -73,6 +73,11 @@ def refining_is_dear(published):
             and all(interval(ratios(published, m, 20))[1] < 0.6 for m in SHORT))
 
 
+@number("whole_step.error.conventional_split")
+def error_of_split(published):
+    return plain(100 * error(published, SPLIT)["error"])
+
+
 @number("whole_step.error.cut_polygons")
 def error_of_polygons(published):
     return plain(100 * error(published, "cut_polygons")["error"])
