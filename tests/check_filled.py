@@ -15,7 +15,7 @@ sys.path.insert(0, str(ROOT / "plots"))
 from pages import fill
 from pages.facts import table
 
-PAGE = """<!--if made_up-->Two is <!--=made.up-->3<!--/-->.<!--/if--> `<!--=unknown-->`
+PAGE = """A first one. Two is <!--=made.up-->3<!--/-->.<!--if made_up--> `<!--=unknown-->`
 
 <!--table made_up-->
 | a |
@@ -53,7 +53,7 @@ def check_the_check():
     filler.filled(FILLED, "page")
     expect(f"a broken condition: said is {filler.faults}",
            any('"Two is 7."' in fault and "that it is two" in fault for fault in filler.faults))
-    for text in ("<!--=nothing.there-->1<!--/-->", "<!--if made_up-->alone", "1<!--/-->"):
+    for text in ("A <!--=nothing.there-->1<!--/-->", "A <!--=made.up-->1", "A <!--if nothing-->", "1<!--/-->", "- <!--=made.up-->2<!--/-->"):
         expect(f"{text} is taken", stopped(fill.Filler(2), text) is not None)
 
 

@@ -97,7 +97,10 @@ def cut(method, folder):
 
 
 def mesh(rest, triangles):
-    return [polygon([to_panel(*rest[v]) for v in t]) for t in triangles]
+    """Each edge once, as one path."""
+    edges = {tuple(sorted((rest[t[k]], rest[t[(k + 1) % 3]]))) for t in triangles for k in range(3)}
+    ends = [(*to_panel(*a), *to_panel(*b)) for a, b in sorted(edges)]
+    return [f'<path d="{"".join(f"M{a:.0f} {b:.0f}L{c:.0f} {d:.0f}" for a, b, c, d in ends)}" fill="none" stroke="{EDGE}"/>']
 
 
 def lips_apart(rest, triangles, inside, by=0.022):

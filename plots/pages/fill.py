@@ -17,8 +17,9 @@ from pages.facts.published import Published
 
 NUMBER = re.compile(r"<!--=([\w.]+)-->(.*?)<!--/-->", re.S)
 TABLE = re.compile(r"<!--table (\w+)-->\n(.*?)<!--/table-->", re.S)
-SENTENCE = re.compile(r"<!--if (\w+)-->(.*?)<!--/if-->", re.S)
-MARKER = re.compile(r"<!--(?:=|table |if |/)")
+CONDITION = re.compile(r"<!--if (\w+)-->")
+FIRST_IN_LINE = re.compile(r"^ {0,3}(?:[-*] |\d+\. )?<!--(?! *(?:/?table|graph|begin|end))[^>]*>?", re.M)  # GitHub takes such a line for HTML
+MARKER = re.compile(r"<!--(?:=|table |/)")
 MARKER_AS_CODE = re.compile(r"`<!--[^`\n]*`")
 PICTURE = load.REPOSITORY / "docs/pictures/adversarial.svg"
 
@@ -30,6 +31,13 @@ def pages():
 
 def markdown(head, rows):
     return "\n".join("| " + " | ".join(cells) + " |" for cells in [head, ["---"] * len(head), *rows]) + "\n"
+
+
+def sentence_before(text):
+    """The last sentence of a text, in plain words."""
+    block = re.split(r"\n\s*\n|\n *(?:[-*]|\d+\.) ", "\n" + text)[-1]
+    words = " ".join(re.sub(r"<!--.*?-->", "", block, flags=re.S).split())
+    return re.split(r"(?<=[.!?])\**\s+(?=\S)", words)[-1].removeprefix("- ")
 
 
 class Filler:
@@ -51,9 +59,11 @@ class Filler:
         text = MARKER_AS_CODE.sub("\0", text)
         text = NUMBER.sub(lambda m: self.number(m, where), text)
         text = TABLE.sub(lambda m: self.table(m, where), text)
-        for sentence in SENTENCE.finditer(text):
-            self.judge(sentence, where)
-        alone = MARKER.search(SENTENCE.sub(" ", TABLE.sub("", NUMBER.sub("", text))))
+        for found in CONDITION.finditer(text):
+            self.judge(found[1], sentence_before(text[:found.start()]), where)
+        if first := FIRST_IN_LINE.search(text):
+            load.stop(f"{where}: a line begins with {first[0]}, which GitHub takes for HTML: begin it with a word")
+        alone = MARKER.search(CONDITION.sub("", TABLE.sub("", NUMBER.sub("", text))))
         if alone:
             load.stop(f"{where}: the marker {alone[0]}... has no partner")
         return re.sub("\0", lambda _: shown.pop(0), text)
@@ -70,10 +80,9 @@ class Filler:
             self.faults.append(f"{where}: the table {match[1]} is stale")
         return f"<!--table {match[1]}-->\n{new}<!--/table-->"
 
-    def judge(self, match, where):
-        if not self.value("condition", match[1], where):
-            words = " ".join(re.sub(r"<!--.*?-->", "", match[2]).split())
-            self.faults.append(f'{where}: no longer holds: "{words}" It rests on: {table.WORDS[match[1]]}')
+    def judge(self, name, sentence, where):
+        if not self.value("condition", name, where):
+            self.faults.append(f'{where}: no longer holds: "{sentence}" It rests on: {table.WORDS[name]}')
 
 
 def main():

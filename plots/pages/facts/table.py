@@ -26,7 +26,7 @@ def table(name):
 
 
 def condition(name, words):
-    """Of Published: whether the sentence between <!--if name--> and <!--/if--> holds. \\param words  what it rests on"""
+    """Of Published: whether the sentence before <!--if name--> holds. \\param words  what it rests on"""
     WORDS[name] = words
     return lambda function: _named(CONDITIONS, name, function)
 
