@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Fills the numbers of README.md, CONTRIBUTING.md and docs/ (but the notebook) in from the published records, and draws
-docs/pictures/adversarial.svg. --check writes nothing: a line for each number that is stale and each sentence whose condition no
-longer holds, and exit code 1 if there is any."""
+"""Fills the numbers of README.md, CONTRIBUTING.md, docs/ (but the notebook) and experiments/advice/which_method.toml in from the
+published records, and draws docs/pictures/adversarial.svg. --check writes nothing: a line for each number that is stale and each
+sentence whose condition no longer holds, and exit code 1 if there is any."""
 
 import argparse
 import re
@@ -12,7 +12,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from analysis import load
 from pages import bars
 from pages import facts  # noqa: F401  registers all
-from pages.facts import table
+from pages.facts import decision, table
 from pages.facts.published import Published
 
 NUMBER = re.compile(r"<!--=([\w.]+)-->(.*?)<!--/-->", re.S)
@@ -80,6 +80,13 @@ class Filler:
             self.faults.append(f"{where}: the table {match[1]} is stale")
         return f"<!--table {match[1]}-->\n{new}<!--/table-->"
 
+    def made(self, file, text, check):
+        """A file that is made as a whole."""
+        if not file.is_file() or file.read_text(encoding="utf-8") != text:
+            self.faults.append(f"{file.relative_to(load.REPOSITORY)} is stale")
+            if not check:
+                file.write_text(text, encoding="utf-8")
+
     def judge(self, name, sentence, where):
         if not self.value("condition", name, where):
             self.faults.append(f'{where}: no longer holds: "{sentence}" It rests on: {table.WORDS[name]}')
@@ -97,11 +104,9 @@ def main():
         if new != old and not options.check:
             page.write_text(new, encoding="utf-8")
             print(page)
-    drawn = bars.of_outcomes(filler.published)
-    if not PICTURE.is_file() or PICTURE.read_text(encoding="utf-8") != drawn:
-        filler.faults.append("docs/pictures/adversarial.svg is stale")
-        if not options.check:
-            PICTURE.write_text(drawn, encoding="utf-8")
+    choices = decision.FILE.read_text(encoding="utf-8")
+    filler.made(decision.FILE, decision.with_values(filler.published, choices), options.check)
+    filler.made(PICTURE, bars.of_outcomes(filler.published), options.check)
     broken = [fault for fault in filler.faults if options.check or "no longer holds" in fault]
     print("\n".join(broken + (["plots/pages/fill.py writes what is stale"] if options.check and broken else [])), end="\n" if broken else "")
     return bool(broken)

@@ -1,11 +1,12 @@
-"""Which method? The rows of experiments/which_method.toml with their numbers."""
+"""Which method? The rows of experiments/advice/which_method.toml with their numbers."""
 
+import re
 import tomllib
 
 from analysis import load
 from pages.facts.table import NUMBERS, table
 
-FILE = load.REPOSITORY / "experiments/which_method.toml"
+FILE = load.REPOSITORY / "experiments/advice/which_method.toml"
 
 
 def rows():
@@ -19,6 +20,11 @@ def answer(row):
 def filled(published, row, interval=False):
     """The sentence of a row with its number."""
     return row["says"].format(NUMBERS[row["number"] + (".interval" if interval else "")](published))
+
+
+def with_values(published, text):
+    """The text of FILE with the value of each row, which `cutbench recommend` prints."""
+    return re.sub(r'^(number = "(.*)"\nvalue = ").*(")$', lambda m: m[1] + NUMBERS[f"{m[2]}.interval"](published) + m[3], text, flags=re.M)
 
 
 @table("decision_short")
