@@ -181,11 +181,11 @@ TEST_F(Recommend, QuestionsLeadToAMethod) {
     EXPECT_EQ(result.out.find("{}"), std::string::npos) << result.out;
     return result.out;
   };
-  takes("--yes explicit,diagonal", "", "cut_polygons\n");
+  takes("--yes explicit,diagonal", "", "cut_polygons");
   EXPECT_NE(takes("--yes explicit", "n\\n", "conventional_split").find("stabilised"), std::string::npos);
-  takes("", "n\\nno\\nyes\\n", "cut_polygons\n");
-  takes("--no explicit,exact_path,fixed_vertices,many_cuts --yes error_first", "", "adaptive_remesh\n");
-  takes("--no explicit,exact_path,fixed_vertices --yes error_first", "what?\\ny\\n", "active_node\n");
+  takes("", "n\\nno\\nyes\\n", "cut_polygons");
+  takes("--no explicit,exact_path,fixed_vertices,many_cuts --yes error_first", "", "adaptive_remesh");
+  takes("--no explicit,exact_path,fixed_vertices --yes error_first", "what?\\ny\\n", "active_node");
   expect_refused("recommend --no explicit </dev/null", "give --yes exact_path or --no exact_path");
   expect_refused("recommend --yes explicity", "known are explicit");
   expect_refused("recommend --max-error 0.1", "for a scene");

@@ -39,8 +39,7 @@ bool answer(const RecommendArguments& arguments, const Question& question) {
   if (has(arguments.no)) return false;
   std::string line;
   do {
-    std::printf("%s [y/n] ", question.asks.c_str());
-    std::fflush(stdout);
+    std::fprintf(stderr, "%s [y/n] ", question.asks.c_str());
     std::getline(std::cin, line);
     if (line == "y" || line == "yes") return true;
     if (line == "n" || line == "no") return false;
