@@ -2,10 +2,10 @@
 """The rooms of the house: what may include what. A room may include itself and those listed for it, of its own library or
 one below; no arrow goes up.
 And no two files define a type of one name: the linker keeps one of their functions for both, and says nothing.
-The graphs in docs/architecture.md are drawn from the same table, what links what is compared with CMake's words.
+The graphs in docs/reference/architecture.md are drawn from the same table, what links what is compared with CMake's words.
 usage: tests/check_includes.py [--draw]
   exit code 1 and a line per include that breaks the order, per entry of the table that no file needs, and per second type
-  --draw  puts the graphs into docs/architecture.md"""
+  --draw  puts the graphs into docs/reference/architecture.md"""
 
 import pathlib
 import re
@@ -164,18 +164,18 @@ def drawn():
     return {"links": libraries, "includes": rooms + arrows(reduced(all_below(direct)))}
 
 
-architecture = root / "docs/architecture.md"
+architecture = root / "docs/reference/architecture.md"
 text = architecture.read_text()
 for title, graph in drawn().items():
     block = f"<!-- graph: {title} -->\n```mermaid\n{graph}\n```\n"
     text = re.sub(rf"<!-- graph: {title} -->\n```mermaid\n.*?\n```\n", lambda _, block=block: block, text, flags=re.S)
     if block not in text:
-        fault(f"docs/architecture.md has no graph of {title}")
+        fault(f"docs/reference/architecture.md has no graph of {title}")
 if text != architecture.read_text():
     if "--draw" in sys.argv[1:]:
         architecture.write_text(text)
     else:
-        fault("docs/architecture.md: a graph is not what the code is; tests/check_includes.py --draw draws it anew")
+        fault("docs/reference/architecture.md: a graph is not what the code is; tests/check_includes.py --draw draws it anew")
 
 
 def types_of(file):

@@ -309,12 +309,12 @@ def check_method(program, method, options, folder):
 
 
 def check_example(program, folder):
-    """The ten lines that docs/using.md shows."""
+    """The ten lines that docs/how-to/take_a_cut_home.md shows."""
     example = root / "experiments/examples/carry_over.py"
-    shown = (root / "docs/using.md").read_text()
+    shown = (root / "docs/how-to/take_a_cut_home.md").read_text()
     code = example.read_text().partition('"""\n')[2].strip("\n")
     if "".join(f"    {line}".rstrip() + "\n" for line in code.splitlines()) not in shown:
-        faults.append(f"docs/using.md does not show {example.name} as it is")
+        faults.append(f"docs/how-to/take_a_cut_home.md does not show {example.name} as it is")
     sheet = root / "experiments/examples/sheet.obj"
     done = run(program, "cut", "--mesh", sheet, "--path", root / "experiments/examples/path.json", "--method",
                "warp_and_refine", "--out", folder / "cut.obj", "--parents", folder / "parents.json")

@@ -171,6 +171,26 @@ TEST_F(Recommend, UnknownSaysWhy) {
   expect_unknown(command("--max-error 0.1"), "spread");
 }
 
+/// Without a scene: options or lines of standard input answer, and only what decides is asked.
+TEST_F(Recommend, QuestionsLeadToAMethod) {
+  const auto takes = [&](const std::string& arguments, const std::string& input, const std::string& method) {
+    const auto result = run("recommend " + arguments, input.empty() ? "" : "printf '" + input + "' |");
+    EXPECT_EQ(result.code, 0) << result.error;
+    EXPECT_NE(result.out.find("take " + method), std::string::npos) << result.out;
+    EXPECT_NE(result.out.find("--method " + method + "\n"), std::string::npos) << result.out;
+    EXPECT_EQ(result.out.find("{}"), std::string::npos) << result.out;
+    return result.out;
+  };
+  takes("--yes explicit,diagonal", "", "cut_polygons");
+  EXPECT_NE(takes("--yes explicit", "n\\n", "conventional_split").find("stabilised"), std::string::npos);
+  takes("", "n\\nno\\nyes\\n", "cut_polygons");
+  takes("--no explicit,exact_path,fixed_vertices,many_cuts --yes error_first", "", "adaptive_remesh");
+  takes("--no explicit,exact_path,fixed_vertices --yes error_first", "what?\\ny\\n", "active_node");
+  expect_refused("recommend --no explicit </dev/null", "give --yes exact_path or --no exact_path");
+  expect_refused("recommend --yes explicity", "known are explicit");
+  expect_refused("recommend --max-error 0.1", "for a scene");
+}
+
 TEST_F(Recommend, BadInput) {
   expect_refused("recommend missing.toml --max-error 0.1", "missing.toml");
   expect_refused("recommend scene.toml", "--max-error");

@@ -1,4 +1,4 @@
-/* cutbench for other people's programs: sheets that move and are cut, in memory. docs/live.md explains it.
+/* cutbench for other people's programs: sheets that move and are cut, in memory. docs/reference/browser.md explains it.
  *
  * A sheet is a number above 0. Lengths are metres, "rest" is the flat sheet before it moved. Functions that return text
  * return JSON, which is valid until the next call; what went wrong is {"error": "..."}, and nothing has changed then.
@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-/* {"sheet": number}. `scene`: {} is a hanging square of 3,200 triangles; see docs/live.md for its keys. */
+/* {"sheet": number}. `scene`: {} is a hanging square of 3,200 triangles; see docs/reference/browser.md for its keys. */
 const char* cutbench_make(const char* scene);
 void cutbench_free(int sheet);
 

@@ -8,7 +8,7 @@
 namespace cutbench {
 
 /// Parses the command line and does what it says. `more_methods`: beside those of the table, in all lists, experiments
-/// and tests of names. Returns what the shell is to see (docs/using.md, exit codes).
+/// and tests of names. Returns what the shell is to see (docs/reference/commands.md, exit codes).
 int command_line(int argc, char** argv, const std::vector<MethodRow>& more_methods = {});
 
 }  // namespace cutbench

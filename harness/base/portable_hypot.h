@@ -1,4 +1,4 @@
-// A hypotenuse that is the same bits everywhere in a portable build (docs/live.md).
+// A hypotenuse that is the same bits everywhere in a portable build (docs/reference/browser.md).
 #pragma once
 
 #include <cmath>

@@ -12,7 +12,7 @@
 namespace cutbench::oracle {
 namespace {
 
-// In units of h, as docs/measuring.md defines them.
+// In units of h, as docs/explanation/measuring.md defines them.
 constexpr double wedge_width = 0.3, disc_radius = 0.25, wedge_slack = 0.02;
 // Also in units of h: the audit's own resolution.
 constexpr double flattening = 1e-5, step = 0.02, leg_test = 0.05, probe = 1e-4, coincidence = 1e-9;

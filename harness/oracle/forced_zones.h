@@ -1,4 +1,4 @@
-// The audit of forced zones (docs/measuring.md): where the input itself prevents good triangles.
+// The audit of forced zones (docs/explanation/measuring.md): where the input itself prevents good triangles.
 //
 // Computed from the sheet before the cut and the requested path alone; a method does not influence what it is excused
 // for. An aspect ratio below 3 needs every angle above asin(1/3).

@@ -8,7 +8,7 @@
 
 namespace cutbench::oracle {
 
-/// The two one-sided Hausdorff distances of the incision error (docs/measuring.md), rest units.
+/// The two one-sided Hausdorff distances of the incision error (docs/explanation/measuring.md), rest units.
 struct IncisionError {
   double of_path = 0;   ///< from the part of the path inside the sheet to the nearest opened edge
   double of_edges = 0;  ///< from the new opened edges to the path; infinite where there is no path at all

@@ -1,5 +1,5 @@
 // A cutting method that is a program of its own, in any language: it reads the sheet and the path from files and writes
-// the opened sheet to a file. docs/extending.md says what the files hold.
+// the opened sheet to a file. docs/how-to/a_program_as_a_method.md says what the files hold.
 #pragma once
 
 #include <filesystem>

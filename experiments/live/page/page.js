@@ -467,15 +467,15 @@ function draw(panel) {
 const plain = (v, digits = 3) => (v === undefined || v === null || !isFinite(v) ? '–' : v >= 1e5 ? v.toExponential(1) : String(+v.toPrecision(digits)))
 const waitingFor = (n, value, text) => (n.status === undefined ? '–' : value === undefined ? '…' : text(value))
 const rows = [
-  ['Last cut', 'What the method did with the last stroke.', 'docs/measuring.md#judgement', ({ numbers: n, stopped }) => stopped ? 'stopped: ' + stopped : n.status === undefined ? 'no cut yet' : n.status === 'ok' ? 'done' : `${n.status}${n.reason ? ': ' + n.reason : ''}`],
-  ['Oracle’s verdict', 'An independent judge with exact arithmetic looks at every cut: right, or what is wrong.', 'docs/measuring.md#judgement', ({ numbers: n }) => waitingFor(n, n.oracle, v => v.verdict === 'ok' ? 'right' : v.error || `${v.verdict}: ${v.reason}`)],
-  ['Time of the cut', 'How long the computer cuts, without the motion: warmed up, the mean of many cuts of copies.', 'docs/measuring.md#time', ({ numbers: n }) => waitingFor(n, n.ms, timeText)],
-  ['Time of a step', 'How long the computer takes for 1/240 s of motion; below 4.2 ms it keeps up with real time.', 'docs/step.md', panel => panel.ms ? plain(panel.ms) + ' ms' : '–', 'ms'],
-  ['Triangles', 'How many the sheet has now, and how many more than before the cuts.', 'docs/measuring.md#shape', ({ numbers: n }) => n.triangles === undefined ? '–' : `${n.triangles} (+${n.triangles - n.triangles_before})` + (n.polygons ? `, ${n.polygons} polygons` : '')],
-  ['Largest aspect ratio', 'How thin the thinnest triangle is: length over height. 2 is good, 100 is a hair.', 'docs/measuring.md#shape', ({ numbers: n }) => plain(n.aspect_ratio)],
-  ['Pieces', 'Parts that hang together by nothing any more.', 'docs/measuring.md#glossary', ({ numbers: n }) => plain(n.pieces)],
-  ['Eigenvalue ratio', 'How much stiffer the worst spot is than before: simple solvers need smaller steps by its root.', 'docs/measuring.md#stability', ({ numbers: n }) => waitingFor(n, n.eigenvalue_ratio, v => plain(v))],
-  ['Error against a fine sheet', 'How far the sheet is from where a finer one would be now. On request, below.', 'docs/live.md#numbers', ({ numbers: n }) => n.error || '–']
+  ['Last cut', 'What the method did with the last stroke.', 'docs/explanation/measuring.md#judgement', ({ numbers: n, stopped }) => stopped ? 'stopped: ' + stopped : n.status === undefined ? 'no cut yet' : n.status === 'ok' ? 'done' : `${n.status}${n.reason ? ': ' + n.reason : ''}`],
+  ['Oracle’s verdict', 'An independent judge with exact arithmetic looks at every cut: right, or what is wrong.', 'docs/explanation/measuring.md#judgement', ({ numbers: n }) => waitingFor(n, n.oracle, v => v.verdict === 'ok' ? 'right' : v.error || `${v.verdict}: ${v.reason}`)],
+  ['Time of the cut', 'How long the computer cuts, without the motion: warmed up, the mean of many cuts of copies.', 'docs/explanation/measuring.md#time', ({ numbers: n }) => waitingFor(n, n.ms, timeText)],
+  ['Time of a step', 'How long the computer takes for 1/240 s of motion; below 4.2 ms it keeps up with real time.', 'docs/explanation/which_solver.md', panel => panel.ms ? plain(panel.ms) + ' ms' : '–', 'ms'],
+  ['Triangles', 'How many the sheet has now, and how many more than before the cuts.', 'docs/explanation/measuring.md#shape', ({ numbers: n }) => n.triangles === undefined ? '–' : `${n.triangles} (+${n.triangles - n.triangles_before})` + (n.polygons ? `, ${n.polygons} polygons` : '')],
+  ['Largest aspect ratio', 'How thin the thinnest triangle is: length over height. 2 is good, 100 is a hair.', 'docs/explanation/measuring.md#shape', ({ numbers: n }) => plain(n.aspect_ratio)],
+  ['Pieces', 'Parts that hang together by nothing any more.', 'docs/explanation/glossary.md', ({ numbers: n }) => plain(n.pieces)],
+  ['Eigenvalue ratio', 'How much stiffer the worst spot is than before: simple solvers need smaller steps by its root.', 'docs/explanation/measuring.md#stability', ({ numbers: n }) => waitingFor(n, n.eigenvalue_ratio, v => plain(v))],
+  ['Error against a fine sheet', 'How far the sheet is from where a finer one would be now. On request, below.', 'docs/reference/browser.md#numbers', ({ numbers: n }) => n.error || '–']
 ]
 /** "< 0.1 ms": where the timer can't tell more, of as many cuts as were timed. */
 function timeText({ ms, total_ms, cuts, error }) {

@@ -1,9 +1,13 @@
 // The options of `cutbench recommend`, whose work is in experiments/advice/recommend.cpp.
 #include "experiments/advice/recommend.h"
 
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "experiments/advice/which_method.h"
 #include "experiments/program/commands/command.h"
 #include "experiments/program/commands/method_options.h"
 #include "harness/base/errors.h"
@@ -17,6 +21,7 @@ namespace cutbench {
 namespace {
 
 struct RecommendArguments {
+  std::vector<std::string> yes, no;  // answers, where there is no scene
   std::string scene, report, quantity, calibration = "experiments/recommend_calibration.toml";
   bool reference = false;
   ChordTolerance chord_tolerance;
@@ -25,7 +30,38 @@ struct RecommendArguments {
       .solvers = {"cg_sliver_blocks", "cg", "multigrid"}};
 };
 
+/// Of the options, or of the next lines of standard input.
+bool answer(const RecommendArguments& arguments, const Question& question) {
+  const auto has = [&](const std::vector<std::string>& keys) {
+    return std::find(keys.begin(), keys.end(), question.key) != keys.end();
+  };
+  if (has(arguments.yes)) return true;
+  if (has(arguments.no)) return false;
+  std::string line;
+  do {
+    std::fprintf(stderr, "%s [y/n] ", question.asks.c_str());
+    std::getline(std::cin, line);
+    if (line == "y" || line == "yes") return true;
+    if (line == "n" || line == "no") return false;
+  } while (std::cin);
+  throw InputError("\"" + question.asks + "\" has no answer: give --yes " + question.key + " or --no " + question.key);
+}
+
+Exit run_choice(const RecommendArguments& arguments) {
+  if (arguments.options.max_error > 0 || arguments.reference || !arguments.report.empty())
+    throw InputError(
+        "--max-error, --reference and --report are for a scene: give one, or answer questions without them");
+  const WhichMethod table = which_method_table();
+  std::vector<std::string> keys;
+  for (const Question& question : table.questions) keys.push_back(question.key);
+  check_names(arguments.yes, keys, "--yes");
+  check_names(arguments.no, keys, "--no");
+  print_choice(choose_method(table, [&](const Question& question) { return answer(arguments, question); }));
+  return done;
+}
+
 Exit run_recommendation(RecommendArguments& arguments) {
+  if (arguments.scene.empty()) return run_choice(arguments);
   RecommendOptions& options = arguments.options;
   if (!arguments.report.empty()) check_writable(arguments.report, "--report");
   if (!arguments.reference && options.max_error == 0)
@@ -62,9 +98,15 @@ Exit run_recommendation(RecommendArguments& arguments) {
 
 Command add_recommend(Options& app) {
   auto arguments = std::make_shared<RecommendArguments>();
-  auto command = app.add_subcommand(
-      "recommend", "the cheapest method, solver, resolution and step for a scene whose error is small enough");
-  command.add_option("scene", arguments->scene, "scene file (TOML)").required();
+  auto command = app.add_subcommand("recommend",
+                                    "the cheapest method, solver, resolution and step for a scene whose error is small "
+                                    "enough; without a scene: a method");
+  command.add_option("scene", arguments->scene, "scene file (TOML); without one, a few questions lead to a method");
+  command
+      .add_option("--yes", arguments->yes,
+                  "answers, without a scene: explicit, diagonal, exact_path, fixed_vertices, many_cuts, error_first")
+      .comma_separated();
+  command.add_option("--no", arguments->no, "likewise; what is left open is asked").comma_separated();
   command
       .add_option("--max-error", arguments->options.max_error,
                   "relative error of the quantity at the end, against its converged value, such as 0.05")
@@ -98,8 +140,9 @@ Command add_recommend(Options& app) {
   command.footer(
       "example:\n"
       "  cutbench recommend experiments/scenes/fig8_edge_quality_patches.toml --max-error 0.1\n"
+      "  cutbench recommend --yes explicit --no diagonal\n"
       "exit codes:\n"
-      "  0  a choice whose error is small enough for certain\n"
+      "  0  a choice whose error is small enough for certain, or a method without a scene\n"
       "  1  unknown, or a file can't be written\n"
       "  2  bad input: an option or a file");
   return {command, [arguments](const std::string&) { return run_recommendation(*arguments); }};

@@ -1,4 +1,4 @@
-"""cutbench: cut deformable triangle sheets along paths, judge, simulate and compare (docs/python.md).
+"""cutbench: cut deformable triangle sheets along paths, judge, simulate and compare (docs/reference/python.md).
 
 >>> import cutbench
 >>> sheet = cutbench.Sheet.family("grid", 800)

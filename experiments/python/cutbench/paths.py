@@ -52,7 +52,7 @@ def rays(origins, directions, bezier=False, closed=False):
 
 
 def read_path(file):
-    """The curves of a path file (docs/using.md)."""
+    """The curves of a path file (docs/reference/sheets_and_paths.md)."""
     return _core.read_path(os.fspath(file))
 
 

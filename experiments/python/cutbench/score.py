@@ -14,7 +14,7 @@ class Finding:
     """One thing that is wrong with a result.
 
     Attributes:
-        cause: its name (docs/measuring.md), such as "shifted" or "t_junction".
+        cause: its name (docs/explanation/measuring.md), such as "shifted" or "t_junction".
         text: what is wrong and where, one line.
         mend: what to do, one line.
         place: rest position (2 floats) or None.

@@ -233,7 +233,7 @@ class Cut:
         status: "ok"; "noop", nothing was there to cut; "deviated", done otherwise than asked by the method's policy.
         reason: of a noop, or a note.
         crossed_triangles: of the sheet before.
-        times: microseconds by phase (docs/measuring.md), and in `total`.
+        times: microseconds by phase (docs/explanation/measuring.md), and in `total`.
     """
 
     def __init__(self, before, core, maker):

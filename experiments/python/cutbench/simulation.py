@@ -38,7 +38,7 @@ class Scene:
     """A sheet, what it is made of, what holds it and pulls at it, how it is stepped and solved, and its cuts.
 
     Args:
-        scene: a TOML file, or a dict of what one would hold (docs/using.md). Left out: all by keywords.
+        scene: a TOML file, or a dict of what one would hold (docs/reference/scenes.md). Left out: all by keywords.
         sheet: a Sheet, in m, instead of a dict with `family`, `size` and `resolution`.
         **keys: the tables and keys of a scene file, which go before those of `scene`: material=dict(density=0.3, ...),
             physics=..., pins=[dict(box=[[x0, y0], [x1, y1]]), ...], tractions=..., integrator=..., solver=..., cuts=...,

@@ -55,7 +55,7 @@ def rows_of(run, excess):
     for (method, parameter), here in cuts.groupby(["method", "parameter"], sort=False):
         single = here["cut_family"] != "several"
         per_crossed = (here["geometry_us"] / here["crossed_triangles"]).median()
-        for mass in ["", *(m for m, methods in ADDED_MASS.items() if method in methods)]:
+        for mass in ["", *(m for m, methods in ADDED_MASS.items() if method in methods and f"{m}_eigenvalue_ratio" in here)]:
             prefix = f"{mass}_" if mass else ""
             ratio, bends = here[f"{prefix}eigenvalue_ratio"], here[f"{prefix}bending_eigenvalue_ratio"]
             rows.append([method, parameter, *np.quantile(ratio, [0.5, 0.95, 1]), *np.quantile(ratio[single], [0.95, 1]),

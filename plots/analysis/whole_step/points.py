@@ -36,7 +36,7 @@ def _in_plane(table):
 
 
 def _out_of_plane(table):
-    return table["problem"].where(table["problem"] != "trouser_tear")  # it ranks nothing: docs/results.md
+    return table["problem"].where(table["problem"] != "trouser_tear")  # it ranks nothing: docs/notebook/which_method_cuts_best.md
 
 
 def _in_motion(table):

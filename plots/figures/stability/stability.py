@@ -146,7 +146,7 @@ def main():
                "0.3, dotted 0.1; green: above both. b, right: 300 steps of symplectic Euler without damping, ok where the energy stays. d: a row "
                f"is a stiffness, a column a step. e: Euler, midpoint with 1 and 3 Newton iterations each. {len(rows)} points, "
                f"{rows['sweep'].nunique()} sweeps; seed {context.get('seed')}, commit {str(context.get('commit'))[:10]}. How to read "
-               f"it: docs/stability.md. Command: {context.get('command')}")
+               f"it: docs/explanation/stability.md. Command: {context.get('command')}")
     style.save(page(points.on_the_page(rows), caption), folder, "stability")
     for panel in set(CELLS) & set(rows["sweep"]):
         alone(rows, panel, folder)

@@ -108,7 +108,7 @@ def page(results):
         "All verdicts are computed from records; only the descriptions of the paper are written by hand. A line unfolds.</p>",
         claim_lines.lines(results),
         heading("figures", "The paper's figures, and experiments beside them"),
-        f"<p>{escape(naming.AR_DEFINITION)} Other terms: <code>docs/measuring.md</code>.</p>",
+        f"<p>{escape(naming.AR_DEFINITION)} Other terms: <code>docs/explanation/measuring.md</code>.</p>",
         *sections, other_figures(results, used),
         heading("runs", "Runs"), f"<details id=\"all-runs\"><summary>Commands, seeds and commits of all records</summary>"
         f"{provenance(results)}</details>", scripts, "</body></html>", ""])
