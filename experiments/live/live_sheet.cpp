@@ -153,7 +153,7 @@ LiveSheet::LiveSheet(const Scene& scene)
     : scene_(scene),
       now_(scene_),
       cuts_(scene_, now_),
-      stepper_({scene_.integrator, scene_.step, scene_.newton, scene_.sweeps, scene_.solver}),
+      stepper_({scene_.integrator, scene_.step, scene_.newton, scene_.sweeps, scene_.solver, scene_.robust}),
       triangles_before_(now_.sheet.triangle_count()) {
   now_.model.reserve_spare();
 }

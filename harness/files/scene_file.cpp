@@ -256,10 +256,15 @@ std::vector<Scene::Cut> read_cuts_of_path(const TomlReader& reader, const std::f
 }
 
 void read_integrator(const TomlReader& file, Scene& scene) {
-  const TomlReader reader = file.section("integrator", {"name", "step", "newton", "sweeps"});
+  const TomlReader reader = file.section("integrator", {"name", "step", "newton", "sweeps", "robust"});
   scene.integrator = reader.choice<Integrator>("name", scene.integrator, integrator_names);
   scene.step = reader.positive("step", scene.step);
   scene.newton = reader.count("newton", scene.newton);
+  scene.robust = reader.value<bool>("robust", scene.robust);
+  if (scene.robust && (!solves(scene.integrator) || scene.integrator == Integrator::equilibrium))
+    reader.refuse("\"robust\" is for backward_euler and midpoint; leave it out");
+  if (scene.robust && scene.newton > 1)
+    reader.refuse("\"robust\" finds its own number of solves; leave \"newton\" out");
   scene.sweeps = reader.count("sweeps", scene.sweeps);
   if (scene.integrator == Integrator::symplectic_euler && scene.physics.mass == Mass::consistent)
     reader.refuse(

@@ -57,6 +57,7 @@ struct Scene {
   double step = 1.0 / 240;  ///< s
   int newton = 1;           ///< linear solves per step; equilibrium: at most
   int sweeps = 1;           ///< of xpbd, per step
+  bool robust = false;      ///< StepOptions::robust
   SolverOptions solver;
   double duration = 1;  ///< s
   std::vector<Cut> cuts;

@@ -148,7 +148,7 @@ class SceneInMotion : public Simulation {
 
  private:
   static StepOptions options_of(const Scene& scene) {
-    return {scene.integrator, scene.step, scene.newton, scene.sweeps, scene.solver};
+    return {scene.integrator, scene.step, scene.newton, scene.sweeps, scene.solver, scene.robust};
   }
 
   /// Without phantom nodes.

@@ -1,30 +1,17 @@
 #include "harness/fem/time/stepper.h"
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <utility>
 
 #include "harness/base/conversions.h"
 #include "harness/fem/solvers/solver_table.h"
+#include "harness/fem/time/phase_clock.h"
 #include "harness/mesh/mesh_data.h"
 
 namespace cutbench {
 
 namespace {
-
-/// Adds the microseconds of its life to a phase.
-class Clock {
- public:
-  explicit Clock(double& phase) : phase_(phase) {}
-  Clock(const Clock&) = delete;
-  Clock& operator=(const Clock&) = delete;
-  ~Clock() { phase_ += std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  double& phase_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 std::string text(double value) {
   char buffer[32];
@@ -90,7 +77,7 @@ StepReport Stepper<D>::step(Model<D>& model, State& state) {
 /// Deformations at x, and internal and external forces.
 template <int D>
 void Stepper<D>::forces(Model<D>& model, const Field& x, StepReport& report) {
-  Clock clock(report.time_us.rotate);
+  PhaseClock clock(report.time_us.rotate);
   model.rotate(x);
   force_.setZero(x.size());
   model.add_internal_force(x, force_);
@@ -104,16 +91,16 @@ void Stepper<D>::solve(Model<D>& model, const Field& start, StepReport& report) 
   ConstrainedSystem<D>* const constrained = model.constrained();
   project(model, rhs_);
   if (constrained) {
-    Clock clock(report.time_us.assemble);
+    PhaseClock clock(report.time_us.assemble);
     constrained->assemble(a);
     constrained->reduce(model.held(), rhs_, reduced_);
     a = constrained->system();
   }
   {
-    Clock clock(report.time_us.setup);
+    PhaseClock clock(report.time_us.setup);
     solver_->setup(a);
   }
-  Clock clock(report.time_us.solve);
+  PhaseClock clock(report.time_us.solve);
   const SolveReport solved = solver_->solve(constrained ? reduced_ : rhs_, dv_, start);
   if (constrained) {
     reduced_ = dv_;
@@ -150,6 +137,7 @@ template <int D>
 void Stepper<D>::implicit_step(Model<D>& model, State& state, double h, StepReport& report) {
   const double alpha = model.material().mass_damping, beta = model.material().stiffness_damping;
   const double mass_factor = 1 + h * alpha, stiffness_factor = h * beta + h * h;
+  Energy before;
   double before2 = 0, last2 = 0;  // dv'A dv of the last two solves: Newton's decrement, squared
   v_ = state.v;
   hold(model, state, h);
@@ -158,11 +146,12 @@ void Stepper<D>::implicit_step(Model<D>& model, State& state, double h, StepRepo
     x_ = state.x;
     if (!first) x_ += h * v_;
     {
-      Clock clock(report.time_us.rotate);
+      PhaseClock clock(report.time_us.rotate);
       model.rotate(x_);
+      if (options_.robust) before = model.energy(x_, state.v);
     }
     {
-      Clock clock(report.time_us.assemble);
+      PhaseClock clock(report.time_us.assemble);
       model.assemble(mass_factor, stiffness_factor);
     }
     right_hand_side(model, state, h, first, report);
@@ -171,6 +160,7 @@ void Stepper<D>::implicit_step(Model<D>& model, State& state, double h, StepRepo
     v_ += dv_;
     before2 = std::exchange(last2, dv_.dot(rhs_));
   }
+  if (options_.robust && report.verdict == Verdict::ok) finish_robustly(model, state, h, before, report);
   if (options_.newton > 2 && report.verdict == Verdict::ok) judge_newton(model, h, before2, last2, report);
 }
 
@@ -193,7 +183,7 @@ void Stepper<D>::judge_newton(const Model<D>& model, double h, double before2, d
 /// \pre rotations and matrix are of this iteration.
 template <int D>
 void Stepper<D>::right_hand_side(Model<D>& model, const State& state, double h, bool first, StepReport& report) {
-  Clock clock(report.time_us.rotate);
+  PhaseClock clock(report.time_us.rotate);
   const double alpha = model.material().mass_damping, beta = model.material().stiffness_damping;
   rhs_ = h * model.external_force();
   model.add_mass_product(1, state.v, rhs_);
@@ -209,14 +199,14 @@ void Stepper<D>::explicit_step(Model<D>& model, State& state, StepReport& report
   const double h = options_.step, alpha = model.material().mass_damping, beta = model.material().stiffness_damping;
   forces(model, state.x, report);
   if (beta > 0) {
-    Clock clock(report.time_us.assemble);
+    PhaseClock clock(report.time_us.assemble);
     model.assemble(0, beta);
     product_.setZero(state.v.size());
     model.system().add_product(state.v, product_);
     force_ -= product_;
   }
   {
-    Clock clock(report.time_us.solve);
+    PhaseClock clock(report.time_us.solve);
     const ConstrainedSystem<D>* const constrained = model.constrained();
     if (constrained) {
       constrained->reduce(model.held(), force_, reduced_);
@@ -237,7 +227,7 @@ void Stepper<D>::explicit_step(Model<D>& model, State& state, StepReport& report
 
 template <int D>
 void Stepper<D>::position_step(Model<D>& model, State& state, StepReport& report) {
-  Clock clock(report.time_us.solve);
+  PhaseClock clock(report.time_us.solve);
   const double h = options_.step, alpha = model.material().mass_damping;
   v_ = state.v;
   for (Eigen::Index i = 0; i < v_.size(); ++i) {
@@ -256,10 +246,10 @@ void Stepper<D>::position_step(Model<D>& model, State& state, StepReport& report
 template <int D>
 void Stepper<D>::solve_added_mass(const Model<D>& model, const State& state, StepReport& report) {
   if (const std::uint64_t now = model.system().pattern; std::exchange(mass_of_, now) != now) {
-    Clock clock(report.time_us.setup);
+    PhaseClock clock(report.time_us.setup);
     mass_solver_.setup(model.lumped_mass(), model.added_mass()->matrix(), model.held());
   }
-  Clock clock(report.time_us.solve);
+  PhaseClock clock(report.time_us.solve);
   const double h = options_.step, alpha = model.material().mass_damping;
   dv_ = h * alpha * state.v;
   for (Eigen::Index i = 0; i < v_.size(); ++i)
@@ -306,7 +296,7 @@ void Stepper<D>::equilibrium(Model<D>& model, State& state, StepReport& report) 
     if (report.newton_residual <= 1e-10 || last_step <= 1e-13 * state.x.cwiseAbs().maxCoeff()) return;
     if (iteration == options_.newton) break;
     {
-      Clock clock(report.time_us.assemble);
+      PhaseClock clock(report.time_us.assemble);
       model.assemble(0, 1);
     }
     solve(model, Field(), report);

@@ -35,6 +35,9 @@ struct StepOptions {
   int newton = 1;           ///< linear solves per step; equilibrium: at most
   int sweeps = 1;           ///< of xpbd, per step
   SolverOptions solver;
+  /// Of implicit steps: further solves with a line search where the first leaves more energy than it should
+  /// (robust_step.cpp). \pre newton is 1
+  bool robust = false;
 };
 
 template <int D>
@@ -48,6 +51,9 @@ class Stepper {
 
  private:
   void implicit_step(Model<D>& model, State& state, double h, StepReport& report);
+  void finish_robustly(Model<D>& model, const State& state, double h, const Energy& before, StepReport& report);
+  double merit(Model<D>& model, const State& state, double h, const Field& v, const Field& x, Energy& energy);
+  void place_at_end(const Model<D>& model, const State& state, double h, const Field& v, Field& x) const;
   void right_hand_side(Model<D>& model, const State& state, double h, bool first, StepReport& report);
   void explicit_step(Model<D>& model, State& state, StepReport& report);
   void position_step(Model<D>& model, State& state, StepReport& report);
@@ -62,8 +68,8 @@ class Stepper {
   std::unique_ptr<LinearSolver<D>> solver_;
   MassSolver<D> mass_solver_;
   Xpbd<D> xpbd_;
-  std::uint64_t mass_of_ = 0;                           // the change of the model that it was set up after
-  Field v_, x_, force_, rhs_, dv_, product_, reduced_;  // kept between steps
+  std::uint64_t mass_of_ = 0;  // the change of the model that it was set up after
+  Field v_, x_, force_, rhs_, dv_, product_, reduced_, impulse_, trial_;  // kept between steps
 };
 
 }  // namespace cutbench

@@ -1,0 +1,108 @@
+// A step that goes on with Newton's method, with a line search, until its energy is what its linearisation says.
+//
+// The residual r(v) of stepper.h is the gradient of
+//
+//   phi(v) = E(x0 + h v) - f_ext (x0 + h v) + (v - v0)' M (v - v0) / 2 + h (alpha v' M v + beta v' K v) / 2
+//
+// for a given K in the damping (the incremental potential: Kane et al., Variational integrators and the Newmark
+// algorithm, 2000, not read). A step of backward Euler at the minimum of phi gains no energy but from pins.
+#include <cmath>
+#include <utility>
+
+#include "harness/base/conversions.h"
+#include "harness/fem/time/phase_clock.h"
+#include "harness/fem/time/stepper.h"
+
+namespace cutbench {
+
+namespace {
+
+/// Newton's method ends where phi is within this share of the sheet's elastic and kinetic energy of what was expected.
+/// It is what one step may gain: of the bound of the verdict (EnergyBudget::most_remainder) a hundredth.
+constexpr double energy_tolerance = 5e-4;
+constexpr int most_iterations = 20, most_halvings = 12;
+constexpr double sufficient_decrease = 1e-4;  // Nocedal and Wright, Numerical Optimization, 2006, 3.1
+
+}  // namespace
+
+/// Positions after h, exactly those that step() makes.
+template <int D>
+void Stepper<D>::place_at_end(const Model<D>& model, const State& state, double h, const Field& v, Field& x) const {
+  x = state.x + h * v;
+  if (h == options_.step)
+    for (std::size_t i = 0; i < model.held().size(); ++i)
+      if (model.pinned(i))
+        x[to_index(i)] = state.anchor[to_index(i)] + model.held_displacement(i, state.time + options_.step);
+  model.follow(x);
+}
+
+/// phi of v, whose positions x are; `energy` is that of the sheet. Rotates the model to x.
+template <int D>
+double Stepper<D>::merit(Model<D>& model, const State& state, double h, const Field& v, const Field& x,
+                         Energy& energy) {
+  const double alpha = model.material().mass_damping, beta = model.material().stiffness_damping;
+  model.rotate(x);
+  energy = model.energy(x, v);
+  const Field dv = v - state.v;
+  product_.setZero(v.size());
+  model.add_mass_product(1, dv, product_);
+  double phi = energy.membrane + energy.bending + energy.potential + dv.dot(product_) / 2 + h * alpha * energy.kinetic;
+  if (beta == 0) return phi;
+  product_.setZero(v.size());
+  model.system().add_product(v, product_);  // A v, with the K of the last assemble()
+  const double stiffness = (v.dot(product_) - 2 * (1 + h * alpha) * energy.kinetic) / (h * beta + h * h);
+  return phi + h * beta * stiffness / 2;
+}
+
+/// After the first solve, from v_ at the beginning to `v` at its end: does phi change as the linearisation says, and if
+/// not, further solves. \pre rhs_ and dv_ are those of the first solve, and the model is rotated to state.x
+template <int D>
+void Stepper<D>::finish_robustly(Model<D>& model, const State& state, double h, const Energy& before,
+                                 StepReport& report) {
+  const double alpha = model.material().mass_damping, beta = model.material().stiffness_damping;
+  const double mass_factor = 1 + h * alpha, stiffness_factor = h * beta + h * h;
+  Energy energy;
+  {
+    PhaseClock clock(report.time_us.rotate);
+    // The linearisation at x0: phi(0) - b'v + v'A v / 2, with b = h (f + f_ext) + M v0, where A v = b but where held.
+    impulse_.setZero(v_.size());
+    model.add_impulse(h, state.x, 0, v_, impulse_);
+    impulse_ += h * model.external_force();
+    model.add_mass_product(1, state.v, impulse_);
+    product_.setZero(v_.size());
+    model.system().add_product(v_, product_);
+    const double expected =
+        before.membrane + before.bending + before.potential + before.kinetic - v_.dot(impulse_) + v_.dot(product_) / 2;
+    place_at_end(model, state, h, v_, x_);
+    const double phi = merit(model, state, h, v_, x_, energy);
+    if (std::abs(phi - expected) <= energy_tolerance * (energy.membrane + energy.bending + energy.kinetic)) return;
+  }
+  for (int iteration = 1; iteration < most_iterations && report.verdict == Verdict::ok; ++iteration) {
+    {
+      PhaseClock clock(report.time_us.assemble);
+      model.assemble(mass_factor, stiffness_factor);
+    }
+    right_hand_side(model, state, h, false, report);
+    solve(model, Field(), report);
+    if (report.verdict != Verdict::ok) return;
+    PhaseClock clock(report.time_us.rotate);
+    const double start = merit(model, state, h, v_, x_, energy), slope = dv_.dot(rhs_);
+    double share = 1, phi = start;
+    for (int halving = 0;; ++halving, share /= 2) {
+      trial_ = v_ + share * dv_;
+      place_at_end(model, state, h, trial_, x_);
+      phi = merit(model, state, h, trial_, x_, energy);
+      if (phi <= start - sufficient_decrease * share * slope || halving == most_halvings) break;
+    }
+    v_ = trial_;
+    const double expected = start - (share - share * share / 2) * slope;
+    const double scale = energy_tolerance * (energy.membrane + energy.bending + energy.kinetic);
+    if (share == 1 && std::abs(phi - expected) <= scale && slope <= scale) return;
+    if (slope <= 1e-3 * scale) return;
+  }
+}
+
+template void Stepper<2>::finish_robustly(Model<2>&, const State&, double, const Energy&, StepReport&);
+template void Stepper<3>::finish_robustly(Model<3>&, const State&, double, const Energy&, StepReport&);
+
+}  // namespace cutbench
