@@ -79,11 +79,9 @@ int main(int argc, char** argv) {
     const MeshData made = rounded(sheet);
     if (argc > 4) std::ofstream(argv[4]) << "{\"us\": " << std::clock() - start << "}\n";
     write_mesh(made, argv[3]);
-  } catch (const CutRefused& refused) {
-    return std::fprintf(stderr, "%s\n", refused.what()), 3;
-  } catch (const pmp::Corefinement::Self_intersection_exception&) {
-    return std::fprintf(stderr, "the ribbon crosses itself\n"), 3;
-  } catch (const std::exception& error) {
+  } catch (const InputError& error) {
     return std::fprintf(stderr, "%s\n", error.what()), 1;
+  } catch (const std::exception& refused) {  // CGAL's own, too: a ribbon that crosses itself
+    return std::fprintf(stderr, "%s\n", refused.what()), 3;
   }
 }

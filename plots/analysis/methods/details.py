@@ -67,7 +67,7 @@ def altitude_law(table, order):
     rows = []
     for variant in order:
         cuts = of(table, variant)
-        cuts = cuts[(cuts["sheet"] != "graded") & (cuts["eigenvalue_ratio"] > 100)]
+        cuts = cuts[(cuts["sheet"] != "graded") & (cuts["eigenvalue_ratio"] > 100) & ~cuts["failed"]]
         if len(cuts) < 10:
             continue
         product = cuts["eigenvalue_ratio"] * cuts["altitude_min_h_cut"] ** 2
