@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analysis import load
+from analysis import load, shares
 from analysis.accuracy.records import CASE, REFERENCE
 from analysis.load import of
 
@@ -74,11 +74,11 @@ def print_ranking(records, title):
     records = records.ranked()
     if not records.problems:
         return
-    rows, budgets, measure = [], not records.table["direct"].all(), ranked_by(records)
+    rows, last, budgets, measure = [], {}, not records.table["direct"].all(), ranked_by(records)
     by = 4 if measure == EQUAL_UNKNOWNS else 5
     for sheet in [*records.sheets, "all"]:
         chosen = records.table if sheet == "all" else records.rows(sheet=sheet)
-        common = made_by_all(chosen)
+        common, counts = made_by_all(chosen), shares.shares(chosen, chosen["failed"], records.programs)
         for variant, look in records.looks.items():
             made = of(common, variant)
             direct = made[made["direct"]]
@@ -90,9 +90,10 @@ def print_ranking(records, title):
                     done = made[(made["solver"] == solver) & (made["budget"] == records.enough())]
                     cells.append(mean_excess(done, "ratio"))
             tried = table.drop_duplicates(CASE)
-            bad = table[table["failed"]].drop_duplicates(CASE)
-            rows.append([sheet, look.label, str(len(tried)), f"{100 * len(bad) / max(1, len(tried)):.1f}", *cells])
-    rows.sort(key=lambda r: ([*records.sheets, "all"].index(r[0]), np.nan_to_num(r[by], nan=np.inf)))
+            share = counts.get(variant, shares.Share())
+            rows.append([sheet, look.label, str(len(tried)), share.text(), *cells])
+            last[sheet, look.label] = share.is_few
+    rows.sort(key=lambda r: ([*records.sheets, "all"].index(r[0]), last[r[0], r[1]], np.nan_to_num(r[by], nan=np.inf)))
     solvers = records.solvers if budgets else []
     load.print_table(
         f"Ranking, {title} ({', '.join(records.problems)}): geometric mean of the error over the fitted mesh's, minus one, "
@@ -101,5 +102,5 @@ def print_ranking(records, title):
            "many triangles as the uncut sheet, where triangles alone can win" if measure == EQUAL_UNKNOWNS else
            f"{measure.note} Ranked over {measure.fitted}, where triangles alone can win")
         + (f". CG: after {records.enough()} iterations" if budgets else ""),
-        ["sheet", "method", "cases", "failed %", "excess %, equal unknowns", "as many triangles", "more unknowns, %",
+        ["sheet", "method", "cases", "made/refused/wrong %", "excess %, equal unknowns", "as many triangles", "more unknowns, %",
          "median ms", "of it cut", *(f"as many triangles, {s}" for s in solvers)], rows)

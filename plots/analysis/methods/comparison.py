@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from analysis import load
+from analysis import load, shares
 from analysis.load import of
-from analysis.methods import details, distribution, errors, kinds, shares
+from analysis.methods import details, distribution, errors, kinds
 from analysis.methods.distribution import spread
 
 STEM = "method_comparison"
@@ -84,6 +84,7 @@ def measured(run):
     rows.loc[rows["area_change"].abs() > 1e-6, "incision_error_h"] = np.nan  # removed triangles: no incision
     rows["us_per_crossed"] = rows["geometry_us"] / rows["crossed_triangles"]
     failed = run.failed.copy()
+    failed[[c for c in MEASURES if c.startswith("ar_")]] = np.inf
     for m in SHAPES + PRICE:
         failed[m.column] = m.worst
     key = load.cut_columns(rows)  # eigenvalues are computed for some cuts only
@@ -126,7 +127,7 @@ def summary(table, jumps, order, ranks):
             quantiles, worst = spread(cuts[m.column], m.worst)
             row |= {f"{m.column}_median": quantiles[2], f"{m.column}_worst": worst}
         for m in (m for m in SHAPES + PRICE if m.beside in cuts):
-            row[m.beside] = cuts[m.beside].median()
+            row[m.beside] = load.median(cuts[m.beside])
         for kind in ("strict", "outside_wedges"):
             for which in ("max", "p99"):
                 row[f"ar_{which}_cut_{kind}_median"] = spread(cuts[f"ar_{which}_cut_{kind}"])[0][2]

@@ -3,10 +3,10 @@
 import numpy as np
 import pandas as pd
 
+from analysis import shares
 from analysis.accuracy.ranking import at_equal_unknowns, made_by_all, mean_excess, ranked_by
 from analysis.accuracy.records import Records
 from analysis.load import VARIANT, of
-from analysis.methods import shares
 
 STEM = "method_comparison_accuracy"
 WHAT = ("error over that of a body-fitted mesh, minus one: of a mesh with as many triangles as the uncut sheet, or with as "

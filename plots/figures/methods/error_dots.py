@@ -5,10 +5,10 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from analysis import families, load, naming
+from analysis import families, load, naming, shares
 from analysis.accuracy.ranking import ranked_by
 from analysis.load import of
-from analysis.methods import kinds, shares
+from analysis.methods import kinds
 from analysis.methods.errors import BUDGET, STEM, counts_of, summary
 from figures.common import style
 from figures.methods import dots

@@ -8,10 +8,10 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
-from analysis import load, naming
+from analysis import load, naming, shares
 from analysis.accuracy.ranking import at_equal_unknowns
 from analysis.accuracy.records import Records
-from analysis.methods import details, errors, kinds, shares
+from analysis.methods import details, errors, kinds
 from analysis.methods.comparison import (
     AGAINST, ALTITUDE, BY_SHEET, JUMP, JUMPS, OURS, PRICE, SHAPES, STEM, counts_of, jumped, ranking, read_cuts, summary,
     write_tables)
