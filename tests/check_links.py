@@ -7,7 +7,7 @@ import re
 import sys
 
 MOST_WORDS = 600
-SKIPPED = {"build", ".git"}
+SKIPPED = {"build", ".git", "node_modules"}
 root = pathlib.Path(__file__).resolve().parent.parent
 faults = []
 
