@@ -114,6 +114,8 @@ def check_errors(folder):
     counts = errors.counts_of(records)[SHY_ONE]
     expect(f"the program made half of the errors' cuts and more: {counts}", counts.is_few)
     expect(f"it is not last: {list(table['method'])}", table["method"].iloc[-1] == "shy")
+    rows = table.set_index("method")["excess_percent_all"]
+    expect(f"its errors are not those of conventional_split: {dict(rows)}", abs(rows["shy"] - rows["conventional_split"]) < 1e-6)
     others = table[table["method"] != "shy"]
     expect("others lose their cases to it", others["excess_percent_all"].notna().all())
     look = Records(folder).looks[SHY_ONE]

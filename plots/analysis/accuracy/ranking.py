@@ -61,6 +61,22 @@ def mean_excess(table, column):
     return 100 * (np.exp(np.log(ratios).mean()) - 1) if len(ratios) else np.nan
 
 
+def fair_excess(table, variant, column):
+    """mean_excess() of a method. One that made fewer of the cases than shares.BASE gets that one's, times the ratio to it in the
+    cases that both made: easy cases alone would flatter it. \param table  of made_by_all()"""
+    made, base = of(table, variant), of(table, shares.BASE)
+    if base.empty or not is_few(table, variant):
+        return mean_excess(made, column)
+    pairs = made.merge(base, on=[*CASE, "solver", "budget"], suffixes=("", "_base"))
+    pairs = pairs.assign(over_base=pairs[column] / pairs[f"{column}_base"], failed=False)
+    return 100 * ((1 + mean_excess(base, column) / 100) * (1 + mean_excess(pairs, "over_base") / 100) - 1)
+
+
+def is_few(table, variant):
+    """It made under half of the cases that shares.BASE made."""
+    return len(of(table, variant)) < shares.LEAST * len(of(table, shares.BASE))
+
+
 def made_by_all(table):
     """The rows of the cases, solvers and budgets in which nobody failed. Those who failed in over half of theirs do not decide
     which cases these are."""

@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from analysis.accuracy.ranking import made_by_all, mean_excess, ranked_by
+from analysis.accuracy.ranking import fair_excess, made_by_all, mean_excess, ranked_by
 from analysis.accuracy.records import CASE, REFERENCE
 from analysis.load import drawn_means, of
 from analysis.methods.errors import last_if_few
@@ -57,7 +57,8 @@ def table_of(records):
     rows = []
     for variant in records.methods:
         made = of(common, variant)
-        kinds = {kind: mean_excess(made[made["kind"] == kind], measure.column) for kind in KINDS if (made["kind"] == kind).any()}
+        kinds = {kind: fair_excess(common[common["kind"] == kind], variant, measure.column) for kind in KINDS
+                 if (made["kind"] == kind).any()}
         if not kinds:
             continue
         rows.append({"method": variant[0], "parameter": variant[1], "error, kinds": mean_over(kinds),
