@@ -6,7 +6,7 @@ import pathlib
 import re
 import sys
 
-SKIPPED = {"build", ".git"}
+SKIPPED = {"build", ".git", "node_modules"}
 root = pathlib.Path(__file__).resolve().parent.parent
 faults = []
 

@@ -75,7 +75,42 @@ TEST_F(CompareRuns, SlowerWhereTheWholeIntervalIs) {
 }
 
 TEST_F(CompareRuns, FewCasesAreNoFinding) {
-  EXPECT_FALSE(compare_runs(write("a", std::vector<Row>(5)), write("b", std::vector<Row>(5, {.us = 20}))).is_slower());
+  const RunComparison c = compare_runs(write("a", std::vector<Row>(5)), write("b", std::vector<Row>(5, {.us = 20})));
+  EXPECT_FALSE(c.is_slower());
+  EXPECT_TRUE(c.has_too_few_cases());
+}
+
+TEST_F(CompareRuns, TwoCasesAreNotCalledEqual) {
+  const auto two = write("a", std::vector<Row>(2));
+  const RunComparison c = compare_runs(two, two);
+  EXPECT_TRUE(c.has_too_few_cases());
+  EXPECT_TRUE(as_text(c).starts_with("too few cases to say that nothing is slower")) << as_text(c);
+  EXPECT_EQ(as_text(c).find("nothing slower"), std::string::npos);
+  EXPECT_NE(as_markdown(c).find("| none | too few cases |"), std::string::npos) << as_markdown(c);
+  const auto json = nlohmann::json::parse(as_json(c));
+  EXPECT_EQ(json.at("verdict"), "too_few_cases");
+  EXPECT_TRUE(json.at("times")[0].at("would_show").is_null());
+}
+
+/// The very change that it names is found, a smaller one is not.
+TEST_F(CompareRuns, SaysWhatChangeItCouldHaveShown) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0, 0.05);
+  std::vector<Row> base(30), head(30), larger(30), smaller(30);
+  for (Row& row : head) row.us = 10 * std::exp(noise(random));
+  const auto a = write("a", base);
+  const RunComparison c = compare_runs(a, write("b", head));
+  ASSERT_EQ(c.times.size(), 1u);
+  const double shown = c.times[0].shown;
+  EXPECT_GT(shown, 1.01);
+  EXPECT_LT(shown, 1.1);
+  for (std::size_t i = 0; i < base.size(); ++i) {
+    larger[i].us = head[i].us / c.times[0].median * shown * 1.001;
+    smaller[i].us = head[i].us / c.times[0].median * shown * 0.999;
+  }
+  EXPECT_TRUE(compare_runs(a, write("c", larger)).is_slower());
+  EXPECT_FALSE(compare_runs(a, write("d", smaller)).is_slower());
+  EXPECT_NE(as_text(c).find("with these cases a slow-down of +"), std::string::npos) << as_text(c);
 }
 
 TEST_F(CompareRuns, WorseVerdictsAndShapes) {

@@ -60,7 +60,8 @@ TEST_F(Track, ARowHasATime) {
   write(folder_ / "time.py", R"(import pathlib, sys
 sys.path.insert(0, sys.argv[1])
 import tracking
-with tracking.timer(pathlib.Path(sys.argv[2]).parent, "trace/800") as run:
+programs = tracking.Programs(tracking.Tracked(), ".", pathlib.Path(sys.argv[2]).parent)
+with tracking.timer(programs, "trace/800") as run:
     print("time" if run() > 0 else "no time"))");
   const auto timed =
       run_program("/usr/bin/python3", "time.py '" CUTBENCH_EXPERIMENTS "/scripts' '" CUTBENCH_TRACK_PROGRAM "'");

@@ -16,6 +16,7 @@
 #include "harness/files/path_file.h"
 #include "harness/judge/oracle_request.h"
 #include "harness/mesh/families.h"
+#include "harness/records/context.h"
 #include "harness/study/experiment.h"
 #include "methods/registry.h"
 
@@ -147,6 +148,7 @@ bool cut_in_a_row(const MethodRow& row, int n, std::size_t cuts, const std::stri
 
 int main(int argc, char** argv) {
   try {
+    const double load = load_average();
     int triangles = 12800;
     std::size_t cuts = 1000;
     std::vector<std::string> methods;
@@ -170,11 +172,13 @@ int main(int argc, char** argv) {
     bool ok = true;
     for (const MethodRow& row : rows) ok &= cut_in_a_row(row, n, cuts, folder);
     std::printf(
-        "us: geometry per crossed triangle; made: triangles added per crossed triangle; both medians of cuts that "
-        "cross 20 "
+        "us: wall time of the geometry per crossed triangle; made: triangles added per crossed triangle; both medians "
+        "of "
+        "cuts that cross 20 "
         "or more, the first 50 and those in the last tenth (nan: none); the first are timed right after the last, on a "
         "sheet of their own\nbytes: heap per triangle in the end\nanew: the same, where the last tenth of the cuts is "
         "made once more on a sheet begun anew with the mesh before them: what history costs\n");
+    std::fputs(busy_note(load).c_str(), stderr);
     return ok ? 0 : 1;
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';

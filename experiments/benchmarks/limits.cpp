@@ -13,6 +13,7 @@
 #include "harness/fem/model/state.h"
 #include "harness/fem/multigrid/multigrid.h"
 #include "harness/mesh/families.h"
+#include "harness/records/context.h"
 #include "methods/registry.h"
 
 namespace {
@@ -153,6 +154,7 @@ void print_phases(int triangles, const MethodRow& row) {
 
 int main(int argc, char** argv) {
   try {
+    const double load = load_average();
     std::vector<int> sizes{12800, 204800};
     std::string method = "warp_and_refine";
     Options app("Bytes, operations and times of the phases of a step, and what this machine can read");
@@ -161,6 +163,7 @@ int main(int argc, char** argv) {
     if (const auto exit = app.parse(argc, argv)) return *exit;
     print_rates();
     for (const int triangles : sizes) print_phases(triangles, find_method(method));
+    std::fputs(busy_note(load).c_str(), stderr);
     return 0;
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';

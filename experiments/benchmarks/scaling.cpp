@@ -16,6 +16,7 @@
 #include "harness/fem/model/state.h"
 #include "harness/fem/multigrid/multigrid.h"
 #include "harness/mesh/families.h"
+#include "harness/records/context.h"
 #include "methods/registry.h"
 
 namespace {
@@ -149,6 +150,7 @@ void measure_apart(const MethodRow& row, int n) {
 
 int main(int argc, char** argv) {
   try {
+    const double load = load_average();
     std::int64_t largest = 3276800;
     std::vector<std::string> methods{"conventional_split", "cgal_cdt", "warp_and_refine"};
     Options app("One cut of about 200 triangles on larger and larger sheets");
@@ -157,13 +159,15 @@ int main(int argc, char** argv) {
     if (const auto exit = app.parse(argc, argv)) return *exit;
     std::vector<MethodRow> rows;
     for (const std::string& name : methods) rows.push_back(find_method(name));
-    std::printf("us per crossed triangle, medians of %d cuts of a grid; bytes per triangle of the sheet in motion\n",
-                places);
+    std::printf(
+        "wall us per crossed triangle, medians of %d cuts of a grid; bytes per triangle of the sheet in motion\n",
+        places);
     std::printf("%-20s %9s %8s %9s %9s %9s %9s %9s %9s\n", "method", "triangles", "crossed", "geometry", "state",
                 "pattern", "bending", "levels", "bytes");
     std::fflush(stdout);  // or each process would print it again
     for (const MethodRow& row : rows)
       for (int n = 80; 2ll * n * n <= largest; n *= 2) measure_apart(row, n);
+    std::fputs(busy_note(load).c_str(), stderr);
     return 0;
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';

@@ -216,6 +216,7 @@ void print_outcome(const SimulationOutcome& outcome, const Sheet& sheet) {
 }  // namespace
 
 bool simulate(const Scene& scene, CuttingMethod& method, const SimulateOptions& options) {
+  const double load = load_average();
   const auto motion = Simulation::start(scene);
   std::optional<Drawing> drawing;
   if (!options.animation.empty())
@@ -234,7 +235,10 @@ bool simulate(const Scene& scene, CuttingMethod& method, const SimulateOptions& 
   const bool static_solve = scene.integrator == Integrator::equilibrium;
   nlohmann::ordered_json summary, limits;
   if (!motion->steps().empty() && !static_solve) summary = summary_of(motion->steps(), motion->time());
-  if (!summary.is_null()) print_summary(summary);
+  if (!summary.is_null()) {
+    print_summary(summary);
+    std::fputs(busy_note(load).c_str(), stdout);
+  }
   if (scene.integrator == Integrator::symplectic_euler || !options.report.empty()) limits = limits_of(*motion);
   print_limits(limits, scene.step);
   const SimulationOutcome& outcome = motion->outcome();

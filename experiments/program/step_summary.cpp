@@ -84,10 +84,11 @@ void print_summary(const nlohmann::ordered_json& summary) {
   const auto row = [](const std::string& name, const nlohmann::ordered_json& ms) {
     std::printf("  %-9s %9.3f %9.3f\n", name.c_str(), ms["median"].get<double>(), ms["worst"].get<double>());
   };
-  std::printf("%zu steps; %.3g s in %.3g s: real-time factor %.3g\n", summary["steps"].get<std::size_t>(),
-              summary["simulated_s"].get<double>(), summary["computed_s"].get<double>(),
-              summary["real_time_factor"].get<double>());
-  std::printf("ms a step      median     worst\n");
+  std::printf(
+      "%zu steps; %.3g s simulated in %.3g s by the wall clock: real-time factor %.3g, the one over the other\n",
+      summary["steps"].get<std::size_t>(), summary["simulated_s"].get<double>(), summary["computed_s"].get<double>(),
+      summary["real_time_factor"].get<double>());
+  std::printf("wall ms a step median     worst\n");
   for (const auto& [phase, ms] : summary["step_ms"].items()) row(phase, ms);
   const auto& cuts = summary["with_cut"];
   if (cuts["steps"].get<int>() > 0) {

@@ -1,16 +1,20 @@
 """What experiments/track, experiments/history and experiments/track_wall share: builds, counts, files.
 
-A row is one phase, counted by callgrind in build/release/cutbench_track, or one run of the program cutbench from its
-main() to its end: `program/cut/...` and `program/simulate/...`, which older commits can be asked for too."""
+A row is one phase, counted by callgrind in build/release/cutbench_track, or one run of a program from its main() to its end:
+`program/cut/...` and `program/simulate/...`, which older commits can be asked for too. Which rows there are says a TOML file:
+experiments/tracked.toml, or one of a fork's own."""
 
 import hashlib
 import json
 import os
 import random
+import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
 import time
+import tomllib
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
@@ -19,8 +23,6 @@ ROOT = Path(__file__).resolve().parents[2]
 COMPILED = ["CMakeLists.txt", "harness", "methods", "experiments"]  # what the counted programs are made of
 CACHE = ["--I1=32768,8,64", "--D1=32768,8,64", "--LL=8388608,16,64"]  # fixed: the machine's own would vary
 ENVIRONMENT = []  # NAME=VALUE of the programs that are counted, which have no other: variables would move the stack
-PROGRAM_METHODS = ["conventional_split", "bowyer_watson"]  # those that the first commits had
-PROGRAM_SIZES = [800, 12800]
 
 PATH = {"cuts": [{"bezier": [[-0.1, 0.3], [0.4, 0.2], [0.3, 0.9], [1.1, 0.6]]}]}
 SCENE = """effect = "tracking"
@@ -75,16 +77,16 @@ def write(path, text):
 
 
 @contextmanager
-def worktree(reference):
+def worktree(reference, root=ROOT):
     """A checkout of another commit, gone afterwards."""
     with tempfile.TemporaryDirectory() as folder:
         tree = Path(folder) / "tree"
-        subprocess.run(["git", "-C", ROOT, "worktree", "add", "--detach", tree, reference], check=True,
+        subprocess.run(["git", "-C", root, "worktree", "add", "--detach", tree, reference], check=True,
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         try:
             yield tree
         finally:
-            subprocess.run(["git", "-C", ROOT, "worktree", "remove", "--force", tree], check=False,
+            subprocess.run(["git", "-C", root, "worktree", "remove", "--force", tree], check=False,
                            stdout=subprocess.DEVNULL)
 
 
@@ -93,9 +95,9 @@ def has_phases(tree):
     return any((tree / "experiments" / file).exists() for file in ("benchmarks/track.cpp", "track.cpp"))
 
 
-def commit_of(reference):
+def commit_of(reference, root=ROOT):
     try:
-        return text_of(["git", "-C", ROOT, "rev-parse", "--verify", "--quiet", f"{reference}^{{commit}}"]).strip()
+        return text_of(["git", "-C", root, "rev-parse", "--verify", "--quiet", f"{reference}^{{commit}}"]).strip()
     except subprocess.CalledProcessError:
         sys.exit(f"{reference} is no commit of this clone; fetch it first, or clone without --depth")
 
@@ -148,29 +150,95 @@ def write_sheet(path, triangles):
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-def program_rows():
-    cuts = [f"program/cut/{method}/{n}" for n in PROGRAM_SIZES for method in PROGRAM_METHODS]
-    return [*cuts, f"program/simulate/{PROGRAM_METHODS[0]}/{PROGRAM_SIZES[0]}"]  # of 12,800: 1e11 instructions
+class Tracked:
+    """What a TOML file wants to be counted. `root`: the tree that holds it, this or another."""
+
+    def __init__(self, file=ROOT / "experiments/tracked.toml"):
+        try:
+            table = tomllib.loads(Path(file).read_text(encoding="utf-8"))
+        except (OSError, tomllib.TOMLDecodeError) as error:
+            sys.exit(f"{file}: {error}")
+        asked = ["git", "-C", Path(file).resolve().parent, "rev-parse", "--show-toplevel"]
+        said = subprocess.run(asked, capture_output=True, text=True, check=False).stdout.strip()
+        self.root = Path(said) if said else ROOT
+        self.is_here = self.root == ROOT
+        self.methods, self.solvers, self.phases, self.wall = (table.pop(key, []) for key in ("methods", "solvers", "phases", "wall"))
+        self.programs = table.pop("programs", [])
+        for program in self.programs:
+            known = {"build", "cutbench", "methods", "sizes", "simulate"} if "cutbench" in program else {"build", "name", "command", "sizes"}
+            missing = {"methods" if "cutbench" in program else "name"} - set(program)
+            if set(program) - known or missing or not {"cutbench", "command"} & set(program):
+                sys.exit(f"{file}: a program has `cutbench` and `methods`, or `name` and `command`; this one has {', '.join(program)}")
+        if table:
+            sys.exit(f"{file}: no key {', '.join(table)}; there are methods, solvers, phases, wall and programs")
+
+    def has(self, row):
+        """Whether a row of build/release/cutbench_track is wanted."""
+        phase, *of, _ = row.split("/")
+        wanted = {"embed": self.methods, "improve": self.methods, "cut": self.methods, "step": self.solvers}.get(phase, of)
+        return phase in self.phases and set(of) <= set(wanted)
+
+    def builds(self):
+        return [program["build"] for program in self.programs if "build" in program]
+
+    def rows(self):
+        """{row: its program}"""
+        found = {}
+        for program in self.programs:
+            sizes = program.get("sizes", [800])
+            if "command" in program:
+                found |= {f"program/cut/{program['name']}/{n}": program for n in sizes}
+                continue
+            found |= {f"program/cut/{method}/{n}": program for n in sizes for method in program["methods"]}
+            found |= {f"program/simulate/{row}": program for row in program.get("simulate", [])}
+        return found
 
 
-def program_command(cutbench, row, folder):
-    """\\param folder  where its files are written"""
-    _, what, method, triangles = row.split("/")
-    if what == "cut":
-        write_sheet(folder / "sheet.obj", int(triangles))
-        (folder / "path.json").write_text(json.dumps(PATH), encoding="utf-8")
-        command = [cutbench, "cut", "--mesh", "sheet.obj", "--path", "path.json"]
-    else:
-        (folder / "scene.toml").write_text(SCENE.format(triangles=triangles), encoding="utf-8")
-        command = [cutbench, "simulate", "scene.toml"]
-    return [*command, "--method", method, "--out", "out.obj"]
+class Programs:
+    """The programs of one tree. `folder`: where its cutbench_track is, and its cutbench."""
+
+    def __init__(self, tracked, tree, folder=None):
+        self.tracked, self.tree, self.folder = tracked, Path(tree).resolve(), Path(folder or Path(tree) / "build/release").resolve()
+
+    def build(self):
+        for command in self.tracked.builds():
+            subprocess.run(["sh", "-c", command], cwd=self.tree, check=True, stdout=sys.stderr)
+
+    def of(self, cutbench):
+        """A program of the tree; that of build/release is where this tree's was built."""
+        return self.folder / "cutbench" if cutbench == "build/release/cutbench" else self.tree / cutbench
+
+    def rows(self):
+        """All that are wanted and can be counted here."""
+        track = self.folder / "cutbench_track"
+        phases = [row for row in text_of([track, "list"]).split() if self.tracked.has(row)] if track.exists() else []
+        programs = [row for row, program in self.tracked.rows().items() if "command" in program or self.of(program["cutbench"]).exists()]
+        return phases + programs
+
+    def command(self, row, folder):
+        """Of a row of a program. \param folder  where its files are written; it runs there"""
+        _, what, method, triangles = row.split("/")
+        program = self.tracked.rows()[row]
+        if what == "cut":
+            write_sheet(folder / "sheet.obj", int(triangles))
+            (folder / "path.json").write_text(json.dumps(PATH), encoding="utf-8")
+        else:
+            (folder / "scene.toml").write_text(SCENE.format(triangles=triangles), encoding="utf-8")
+        if "command" in program:
+            files = {"{mesh}": "sheet.obj", "{path}": "path.json", "{out}": "out.obj", "{time}": "time.json"}
+            words = [files.get(word, word) for word in shlex.split(program["command"])]
+            words = [str(self.tree / word) if (self.tree / word).is_file() else word for word in words]
+            return [shutil.which(words[0]) or words[0], *words[1:]]
+        start = [self.of(program["cutbench"]), what]
+        start += ["--mesh", "sheet.obj", "--path", "path.json"] if what == "cut" else ["scene.toml"]
+        return [*start, "--method", method, "--out", "out.obj"]
 
 
-def count_program(cutbench, row):
+def count_program(programs, row):
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        command = program_command(cutbench, row, folder)
-        _, instructions, misses, gmp = callgrind(command, ["--toggle-collect=main"], folder)
+        of_main = [] if "command" in programs.tracked.rows()[row] else ["--toggle-collect=main"]
+        _, instructions, misses, gmp = callgrind(programs.command(row, folder), of_main, folder)
         result = hashlib.sha1((folder / "out.obj").read_bytes()).hexdigest()[:16]
     _, what, _, triangles = row.split("/")
     return {"id": row, "phase": f"program {what}", "triangles": int(triangles), "unit": "runs", "units": 1,
@@ -187,21 +255,20 @@ def count_phase(track, row, turns=0):
     return result | {"instructions": instructions, "misses": misses}
 
 
-def count(folder, row):
-    return count_program(folder / "cutbench", row) if row.startswith("program/") else \
-        count_phase(folder / "cutbench_track", row)
+def count(programs, row):
+    return count_program(programs, row) if row.startswith("program/") else count_phase(programs.folder / "cutbench_track", row)
 
 
 @contextmanager
-def timer(folder, row):
+def timer(programs, row):
     """A function that runs the row in a process and returns its time in microseconds."""
     if not row.startswith("program/"):
-        command = [folder / "cutbench_track", "time", f"--benchmark_filter=^{row}/manual_time$", "--benchmark_min_time=0.02",
+        command = [programs.folder / "cutbench_track", "time", f"--benchmark_filter=^{row}/manual_time$", "--benchmark_min_time=0.02",
                    "--benchmark_format=json"]
         yield lambda: json.loads(text_of(command, env={}, stdin=subprocess.DEVNULL))["benchmarks"][0]["real_time"] / 1e3
         return
     with tempfile.TemporaryDirectory() as name:
-        command = program_command(folder / "cutbench", row, Path(name))
+        command = programs.command(row, Path(name))
 
         def run():
             start = time.perf_counter()
@@ -210,43 +277,38 @@ def timer(folder, row):
         yield run
 
 
-def all_rows(folder):
-    phases = text_of([folder / "cutbench_track", "list"]).split() if (folder / "cutbench_track").exists() else []
-    return phases + program_rows()
-
-
 def selected(rows, quick, prefix):
     if quick:
         rows = [row for row in rows if row.endswith("/800")]
     rows = [row for row in rows if row.startswith(prefix or "")]
     if not rows:
-        sys.exit(f"no row begins with {prefix}; build/release/cutbench_track list prints those of phases")
+        sys.exit(f"no row begins with {prefix}; build/release/cutbench_track list prints those of phases" if prefix else "there is no row")
     return rows
 
 
-def about(commit):
-    subject, date = text_of(["git", "-C", ROOT, "show", "-s", "--format=%s%n%cI", commit]).splitlines()[:2]
+def about(commit, root=ROOT):
+    subject, date = text_of(["git", "-C", root, "show", "-s", "--format=%s%n%cI", commit]).splitlines()[:2]
     return {"format": 1, "commit": commit, "subject": subject, "date": date}
 
 
-def tools_of(folder):
+def tools_of(programs):
     tools = {}
-    if (folder / "cutbench_track").exists():  # the first commits have none
-        tools = json.loads(text_of([folder / "cutbench_track", "tools"]))["tools"]
+    if (programs.folder / "cutbench_track").exists():  # the first commits have none
+        tools = json.loads(text_of([programs.folder / "cutbench_track", "tools"]))["tools"]
     return tools | {"valgrind": text_of(["valgrind", "--version"]).strip(), "cache": " ".join(CACHE)}
 
 
-def count_or_say(folder, row):
+def count_or_say(programs, row):
     """Old commits may hold an instruction that valgrind doesn't know: then the row has no counts."""
     try:
-        return count(folder, row)
+        return count(programs, row)
     except RuntimeError as error:
         print(f"not counted: {error}", file=sys.stderr)
         return {"id": row, "counters": {}}
 
 
-def count_all(folder, commit, rows, count=count):
-    """What a file of experiments/track holds. \\param folder  with the programs"""
+def count_all(programs, commit, rows, count=count):
+    """What a file of experiments/track holds. \param programs  of that commit"""
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        counted = list(pool.map(lambda row: count(folder, row), rows))
-    return about(commit) | {"tools": tools_of(folder), "rows": counted}
+        counted = list(pool.map(lambda row: count(programs, row), rows))
+    return about(commit, programs.tracked.root) | {"tools": tools_of(programs), "rows": counted}

@@ -73,6 +73,13 @@ std::string cells(const Change& c, const char* between) {
          between + verdict;
 }
 
+/// What change the rows at hand could have shown.
+std::string would_show(const Comparison& c) {
+  return "in these rows a change above " + percent(c.thresholds.instructions) + " of instructions, " +
+         percent(c.thresholds.misses) + " of misses or " + percent(c.thresholds.counters) +
+         " of a counter would have been found; in others none";
+}
+
 void sort_by_size(std::vector<Change>& changes) {
   const auto key = [](const Change& c) { return std::pair(!c.slower, -std::abs(std::log(std::max(c.ratio(), 1e-9)))); };
   std::stable_sort(changes.begin(), changes.end(), [&](const Change& a, const Change& b) { return key(a) < key(b); });
@@ -192,6 +199,8 @@ Comparison compare(const TrackFile& base, const TrackFile& head, const Threshold
         look(name, before, after->second, t.counters, 0);
   }
   for (const auto& [id, row] : heads) result.added.push_back(id);
+  if (result.rows == 0 && result.not_comparable.empty()) result.not_comparable = "no row is in both";
+  result.thresholds = thresholds.of("");
   sort_by_size(result.changes);
   return result;
 }
@@ -214,6 +223,7 @@ std::string as_text(const Comparison& c, const TrackFile& base, const TrackFile&
   if (const auto worst = second_line(c); !worst.empty()) out << worst << '\n';
   out << "base " << base.name << (base.commit.empty() ? "" : ", commit " + base.commit) << "; head " << head.name
       << (head.commit.empty() ? "" : ", commit " + head.commit) << '\n';
+  if (c.not_comparable.empty()) out << would_show(c) << '\n';
   for (const Change& change : c.changes) out << "  " << cells(change, "  ") << '\n';
   for (const auto& id : c.different) out << "  another result: " << id << '\n';
   for (const auto& id : c.added) out << "  new row: " << id << '\n';
@@ -226,6 +236,7 @@ std::string as_markdown(const Comparison& c, const TrackFile& base, const TrackF
   if (const auto worst = second_line(c); !worst.empty()) out << worst << "\n\n";
   out << "Base " << (base.commit.empty() ? base.name : base.commit) << ", head "
       << (head.commit.empty() ? head.name : head.commit) << ".\n\n";
+  if (c.not_comparable.empty()) out << "I" << would_show(c).substr(1) << ".\n\n";
   if (!c.changes.empty()) {
     out << "| row | what | change | base | head | verdict |\n|---|---|---|---|---|---|\n";
     for (const Change& change : c.changes) out << "| " << cells(change, " | ") << " |\n";

@@ -58,6 +58,7 @@ struct Comparison {
   std::vector<std::string> added;      ///< rows that the base does not have
   std::string not_comparable;          ///< why; empty: they are
   std::size_t rows = 0;
+  Thresholds thresholds;  ///< of most rows: what change would have been found
   bool is_slower() const;
 };
 

@@ -124,9 +124,17 @@ void compare_times(const Pairs& pairs, const std::string& column, double most, R
     for (const auto& [name, log] : cases) means.push_back(std::exp(log.first / log.second));
     std::sort(means.begin(), means.end());
     const auto [low, high] = median_ranks(means.size());
-    TimeRatio ratio{method, column, means.size(), means[means.size() / 2], means[low], means[high], false, false};
-    ratio.slower = means.size() >= 6 && ratio.low > most;
-    ratio.faster = means.size() >= 6 && ratio.high < 1 / most;
+    TimeRatio ratio{.method = method,
+                    .column = column,
+                    .cases = means.size(),
+                    .median = means[means.size() / 2],
+                    .low = means[low],
+                    .high = means[high]};
+    if (ratio.cases >= fewest_cases) {
+      ratio.shown = most * ratio.median / ratio.low;  // the interval of a sheer slow-down is as wide as this one
+      ratio.slower = ratio.low > most;
+      ratio.faster = ratio.high < 1 / most;
+    }
     result.times.push_back(ratio);
   }
 }
@@ -155,7 +163,23 @@ std::string in_percent(double ratio) {
   return text;
 }
 
-std::string verdict_of(const TimeRatio& t) { return t.slower ? "slower" : t.faster ? "faster" : "-"; }
+std::string verdict_of(const TimeRatio& t) {
+  return t.slower ? "slower" : t.faster ? "faster" : t.shown > 0 ? "-" : "too few cases";
+}
+
+std::string shown_by(const TimeRatio& t) { return t.shown > 0 ? in_percent(t.shown) : "none"; }
+
+/// The smallest and the largest change that a time could have shown.
+std::string shown_at_all(const RunComparison& c) {
+  std::vector<double> shown;
+  for (const TimeRatio& t : c.times)
+    if (t.shown > 0) shown.push_back(t.shown);
+  if (shown.empty()) return {};
+  const auto [least, most] = std::minmax_element(shown.begin(), shown.end());
+  return "with these cases a slow-down of " + in_percent(*least) +
+         (*most > *least ? " to " + in_percent(*most) + ", by method and time," : std::string()) +
+         " would have been found";
+}
 
 std::string first_line(const RunComparison& c) {
   if (!c.not_comparable.empty()) return "not comparable: " + c.not_comparable;
@@ -166,6 +190,8 @@ std::string first_line(const RunComparison& c) {
   }
   std::string text = slower ? "SLOWER: " + std::to_string(slower) + " times" : "nothing slower";
   text += " of " + std::to_string(c.times.size()) + ", " + std::to_string(faster) + " faster; ";
+  if (c.has_too_few_cases())
+    text = "too few cases to say that nothing is slower: " + std::to_string(fewest_cases) + " are needed; ";
   text += std::to_string(c.worse.size()) + " verdicts worse; " + std::to_string(c.quality.size()) +
           " quality columns changed; " + std::to_string(c.rows) + " rows";
   return text;
@@ -173,7 +199,7 @@ std::string first_line(const RunComparison& c) {
 
 std::string cells(const TimeRatio& t, const char* between) {
   return t.method + between + t.column + between + in_percent(t.median) + between + "[" + in_percent(t.low) + ", " +
-         in_percent(t.high) + "]" + between + std::to_string(t.cases) + between + verdict_of(t);
+         in_percent(t.high) + "]" + between + std::to_string(t.cases) + between + shown_by(t) + between + verdict_of(t);
 }
 
 std::string cells(const QualityChange& q, const char* between) {
@@ -206,6 +232,10 @@ bool RunComparison::is_slower() const {
   return !worse.empty() || std::any_of(times.begin(), times.end(), [](const TimeRatio& t) { return t.slower; });
 }
 
+bool RunComparison::has_too_few_cases() const {
+  return !times.empty() && std::all_of(times.begin(), times.end(), [](const TimeRatio& t) { return t.shown == 0; });
+}
+
 RunComparison compare_runs(const std::filesystem::path& base, const std::filesystem::path& head, double times) {
   const Run before = read_run(base), after = read_run(head);
   RunComparison result;
@@ -235,8 +265,9 @@ RunComparison compare_runs(const std::filesystem::path& base, const std::filesys
 std::string as_text(const RunComparison& c) {
   std::ostringstream out;
   out << first_line(c) << "\nbase " << c.base << "; head " << c.head << '\n';
+  if (const std::string shown = shown_at_all(c); !shown.empty()) out << shown << '\n';
   for (const WorseVerdict& w : c.worse) out << "  " << w.row << ": " << w.before << ", now " << w.after << '\n';
-  if (!c.times.empty()) out << "  method  time  change  95 %  cases\n";
+  if (!c.times.empty()) out << "  method  time  change  95 %  cases  would show\n";
   for (const TimeRatio& t : c.times) out << "  " << cells(t, "  ") << '\n';
   if (!c.quality.empty()) out << "  method  quality  rows better  worse  of\n";
   for (const QualityChange& q : c.quality) out << "  " << cells(q, "  ") << '\n';
@@ -246,8 +277,10 @@ std::string as_text(const RunComparison& c) {
 std::string as_markdown(const RunComparison& c) {
   std::ostringstream out;
   out << "**" << first_line(c) << "**\n\nBase " << c.base << ", head " << c.head << ".\n\n";
+  if (const std::string shown = shown_at_all(c); !shown.empty()) out << "With" << shown.substr(4) << ".\n\n";
   for (const WorseVerdict& w : c.worse) out << "- " << w.row << ": " << w.before << ", now " << w.after << '\n';
-  if (!c.times.empty()) out << "\n| method | time | change | 95 % | cases | verdict |\n|---|---|---|---|---|---|\n";
+  if (!c.times.empty())
+    out << "\n| method | time | change | 95 % | cases | would show | verdict |\n|---|---|---|---|---|---|---|\n";
   for (const TimeRatio& t : c.times) out << "| " << cells(t, " | ") << " |\n";
   if (!c.quality.empty()) out << "\n| method | quality | rows better | worse | of |\n|---|---|---|---|---|\n";
   for (const QualityChange& q : c.quality) out << "| " << cells(q, " | ") << " |\n";
@@ -257,6 +290,7 @@ std::string as_markdown(const RunComparison& c) {
 std::string as_json(const RunComparison& c) {
   nlohmann::ordered_json json{{"verdict", !c.not_comparable.empty() ? "not_comparable"
                                           : c.is_slower()           ? "slower"
+                                          : c.has_too_few_cases()   ? "too_few_cases"
                                                                     : "ok"},
                               {"not_comparable", c.not_comparable},
                               {"base", c.base},
@@ -271,6 +305,7 @@ std::string as_json(const RunComparison& c) {
                              {"cases", t.cases},
                              {"median", t.median},
                              {"interval", {t.low, t.high}},
+                             {"would_show", t.shown > 0 ? nlohmann::ordered_json(t.shown) : nullptr},
                              {"verdict", verdict_of(t)}});
   for (const QualityChange& q : c.quality)
     json["quality"].push_back(

@@ -13,8 +13,12 @@ struct TimeRatio {
   std::string method, column;
   std::size_t cases = 0;
   double median = 1, low = 1, high = 1;  ///< [low, high] covers the true median in 95 % (order statistics)
+  double shown = 0;                      ///< a slow-down by this ratio would have been found; 0: too few cases for any
   bool slower = false, faster = false;
 };
+
+/// With fewer cases no interval covers the median in 95 %: nothing is said of them, not even that they are equal.
+constexpr std::size_t fewest_cases = 6;
 
 /// A column that says how good a result is.
 struct QualityChange {
@@ -33,6 +37,8 @@ struct RunComparison {
   std::vector<QualityChange> quality;      ///< those that changed
   std::vector<WorseVerdict> worse;
   bool is_slower() const;
+  /// There are times, and of none enough cases.
+  bool has_too_few_cases() const;
 };
 
 /// \param times  a method is slower where the whole interval lies above this ratio

@@ -14,6 +14,7 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "harness/base/conversions.h"
 #include "harness/mesh/mesh_data.h"
@@ -93,8 +94,24 @@ Context gather_context(const std::string& cholmod) {
   const std::time_t now = std::time(nullptr);
   std::strftime(date.data(), date.size(), "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
   context.date = date.data();
-  if (getloadavg(&context.load, 1) != 1) context.load = -1;
+  context.load = load_average();
   return context;
+}
+
+double load_average() {
+  double load = 0;
+  return getloadavg(&load, 1) == 1 ? load : -1;
+}
+
+std::string busy_note(double load) {
+  constexpr double most = 0.75;  // of the cores
+  const auto cores = to_double(std::thread::hardware_concurrency());
+  if (load <= most * cores) return {};
+  char text[128];
+  std::snprintf(text, sizeof text,
+                "note: the machine was busy at the start (load %.1f on %.0f cores): times came out long\n", load,
+                cores);
+  return text;
 }
 
 std::uint64_t seed_of_commit(const Context& context) {

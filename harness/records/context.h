@@ -25,6 +25,13 @@ struct Context {
 /// \param cholmod  version of the library of factors: cholmod_version() (harness/fem/linear/factor.h)
 Context gather_context(const std::string& cholmod);
 
+/// One-minute load average; -1 where it is not known.
+double load_average();
+
+/// What a timed command says at its end of a machine that others used; a whole line, empty where none did.
+/// \param load  load_average() at its start
+std::string busy_note(double load);
+
 /// The seed that a commit's hash stands for. Throws InputError where the commit isn't known.
 std::uint64_t seed_of_commit(const Context& context);
 

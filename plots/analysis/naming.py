@@ -2,10 +2,11 @@
 the order of the sheets, and the sentences at the end of every caption."""
 
 import zlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from analysis import load, shares
 from analysis.load import VARIANT, count, cut_columns, family_column
 
 AR_DEFINITION = ("Aspect ratio AR = longest edge / height on it = l_max² / (2 area): right isosceles 2, "
@@ -20,11 +21,15 @@ class Look:
     line: str = "-"
     width: float = 1.0  # points; curves drawn first are wider, so that one hidden behind another can still be seen
     program: bool = False  # a program of its own, no method of the harness
+    share: str = ""  # of its cuts, beside the label: shares.Share.beside()
+    few: bool = False  # under half of its cuts were made
 
     def drawn(self):
         """Keywords for plot()."""
+        edge = dict(markerfacecolor="white", markeredgewidth=0.7, markeredgecolor=self.colour) if self.few else \
+            dict(markeredgewidth=0.3, markeredgecolor="white")
         return dict(color=self.colour, marker=self.marker, linestyle=self.line, linewidth=self.width,
-                    markersize=2.2 + self.width, markeredgewidth=0.3, markeredgecolor="white")
+                    markersize=2.2 + self.width, **edge)
 
 
 KNOWN = {  # in the order of the legend
@@ -44,10 +49,10 @@ FREE_MARKERS = ["P", "X", "<", ">", "p", "H", "d", "8"]
 SHEETS = {"grid": "the paper's grid", "alternating": "alternating", "delaunay": "Delaunay", "graded": "graded"}
 
 
-def looks(variants, programs=()):
+def looks(variants, programs=(), counts=None):
     """The Look of each (method, parameter), in the order of the legend; those whose method is one of `programs` say so. A method
     that KNOWN does not name gets the free colour its name hashes to (the next one if another method of this figure has
-    it), its parameters lighter shades of it."""
+    it), its parameters lighter shades of it. \param counts  {variant: shares.Share}: those who made few of their cuts come last"""
     chosen = {v: look for v, look in KNOWN.items() if v in variants}
     unknown = sorted(set(variants) - set(KNOWN), key=lambda v: (v[0], natural(v[1])))
     colours = {method: look.colour for (method, _), look in reversed(KNOWN.items())}
@@ -66,7 +71,16 @@ def looks(variants, programs=()):
             line = ("-", "--", "-.", ":")[(i + any(m == method for m, _ in KNOWN)) % 4]
             chosen[method, parameter] = Look(label, lighter(colours[method], min(0.25 * i, 0.6)), marker, line,
                                         program=method in programs)
-    return chosen
+    for variant in counts or {}:
+        if variant in chosen:
+            chosen[variant] = replace(chosen[variant], share=counts[variant].beside(), few=counts[variant].is_few)
+    return dict(sorted(chosen.items(), key=lambda item: item[1].few))
+
+
+def looks_of(run, variants):
+    """looks() with what became of the run's cuts."""
+    programs = load.programs(run.everything(), run.context)
+    return looks(variants, programs, shares.of_run(run, programs))
 
 
 def natural(parameter):

@@ -96,9 +96,12 @@ function open(points, triangles, isOpen) {
   return opened;
 }
 
-function main(mesh, path, out) {
+/// Cuts the sheet by a triangulation of points that keeps edges. \param triangulate  (points, edges) => triangles, which may
+/// lie outside, too. Returns its processor time in microseconds.
+function cut(triangulate, mesh, path, out) {
   const sheet = readObj(mesh), { points } = sheet;
   const lengths = sheet.triangles.flatMap(sides).map(([a, b]) => distance(points[sheet.place[a]], points[sheet.place[b]]));
+  const start = process.cpuUsage();
   const fixed = constraints(sheet), edges = fixed.map(c => c.edge), kinds = fixed.map(c => c.kind);
   const line = flattened(JSON.parse(fs.readFileSync(path, "utf8")).cuts[0], 0.03 * mean(lengths.map(l => [l, 0]))[0]);
   line.forEach((p, i) => {
@@ -111,13 +114,16 @@ function main(mesh, path, out) {
   const onBorder = new Set(border.map(([a, b]) => unordered(a, b)));
   const isOpen = new Set(edges.filter((edge, i) => kinds[i] === OPEN).map(([a, b]) => unordered(a, b)));
   for (const edge of onBorder) isOpen.delete(edge);
-  const triangles = cdt2d(points, edges.filter(([a, b]) => a !== b))
+  const triangles = triangulate(points, edges.filter(([a, b]) => a !== b))
     .map(t => (area(...t.map(v => points[v])) < 0 ? [t[1], t[0], t[2]] : t))
     .filter(t => inside(mean(t.map(v => points[v])), border, points));
   const opened = open(points, triangles, isOpen);
+  const { user, system } = process.cpuUsage(start);
   const used = new Map([...new Set(opened.flat())].map((v, i) => [v, i + 1]));  // what lay outside is gone
   fs.writeFileSync(out, [...used.keys()].map(v => `v ${points[v][0]} ${points[v][1]} 0\n`).join("") +
                         opened.map(t => `f ${t.map(v => used.get(v)).join(" ")}\n`).join(""));
+  return user + system;
 }
 
-main(...process.argv.slice(2));
+module.exports = { cut };
+if (require.main === module) cut(cdt2d, ...process.argv.slice(2));

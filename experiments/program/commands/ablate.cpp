@@ -1,6 +1,7 @@
 // The options of `cutbench ablate`, whose work is in experiments/advice/ablate.cpp.
 #include "experiments/advice/ablate.h"
 
+#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -8,6 +9,7 @@
 #include "experiments/program/commands/method_options.h"
 #include "harness/files/scene_file.h"
 #include "harness/files/whole_file.h"
+#include "harness/records/context.h"
 
 namespace cutbench {
 
@@ -25,8 +27,10 @@ Exit run_ablation(const AblateArguments& arguments) {
   Scene scene = read_scene(arguments.scene);
   set_resolution(scene, arguments.resolution);
   const auto method = arguments.method.row().make(arguments.method.parameter());
+  const double load = load_average();
   const auto rows = ablate(scene, *method, arguments.method.chord_tolerance.cut_options(), arguments.time_limit);
   print_ablations(rows);
+  std::printf("ms/s: wall time of computing for a simulated second; of a solve at rest\n%s", busy_note(load).c_str());
   if (!arguments.report.empty()) WholeFile(arguments.report, json_of(rows).dump(2) + "\n").place();
   return rows.front().verdict == Verdict::ok ? done : fell_short;
 }

@@ -26,7 +26,8 @@ Exit compare_folders(const CompareArguments& arguments) {
   if (!arguments.markdown.empty()) WholeFile(arguments.markdown, as_markdown(comparison)).place();
   if (!arguments.json.empty()) WholeFile(arguments.json, as_json(comparison)).place();
   if (!comparison.not_comparable.empty()) return bad_input;
-  return comparison.is_slower() ? fell_short : done;
+  if (comparison.is_slower()) return fell_short;
+  return comparison.has_too_few_cases() ? bad_input : done;
 }
 
 Exit run_compare(const CompareArguments& arguments) {
@@ -70,7 +71,8 @@ Command add_compare(Options& app) {
       "exit codes:\n"
       "  0  nothing is slower, or what is slower is accepted\n"
       "  1  something is slower, a verdict is worse, or a report can't be written\n"
-      "  2  bad input: an option or a file; or files that don't compare: other tools, or a row that is missing");
+      "  2  bad input: an option or a file; or files that don't compare: other tools, a row that is missing,\n"
+      "     or too few cases to say anything: 6 are needed");
   return {command, [arguments](const std::string&) { return run_compare(*arguments); }};
 }
 

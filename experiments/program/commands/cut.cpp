@@ -22,6 +22,7 @@
 #include "harness/judge/assessment.h"
 #include "harness/judge/judged_sheet.h"
 #include "harness/path/pick.h"
+#include "harness/records/context.h"
 #include "harness/records/report_json.h"
 
 namespace cutbench {
@@ -139,9 +140,11 @@ Exit cut_sheet(const CutArguments& arguments) {
   out.place();
   char worst[32] = "-";  // where no triangle was changed
   if (a.cut.triangles > 0) std::snprintf(worst, sizeof worst, "%.3g", a.cut.ar_max);
-  std::printf("%s: %zu triangles crossed, %td %s, %d pieces, max aspect ratio of changed triangles %s, %.1f us\n",
-              name_of(run.status), run.crossed_triangles, std::abs(a.triangles_added),
-              a.triangles_added < 0 ? "fewer" : "added", a.judgement.pieces, worst, run.time_us.total());
+  std::printf(
+      "%s: %zu triangles crossed, %td %s, %d pieces, max aspect ratio of changed triangles %s, %.1f us wall%s\n",
+      name_of(run.status), run.crossed_triangles, std::abs(a.triangles_added),
+      a.triangles_added < 0 ? "fewer" : "added", a.judgement.pieces, worst, run.time_us.total(),
+      busy_note(load_average()).empty() ? "" : " on a busy machine");
   if (!run.reason.empty()) std::cerr << "note: " << run.reason << '\n';
   print_constraints(row.name, details.constraints);
   if (drawing) draw_cut(*drawing, row.name, before, details, cuts);

@@ -15,6 +15,7 @@
 #include "harness/files/scene_file.h"
 #include "harness/files/toml_reader.h"
 #include "harness/files/whole_file.h"
+#include "harness/records/context.h"
 
 namespace cutbench {
 
@@ -88,8 +89,11 @@ Exit run_recommendation(RecommendArguments& arguments) {
     return converged.missing.empty() ? done : fell_short;
   }
   const Calibration calibration = read_calibration(arguments.calibration);
+  const double load = load_average();
   const Recommendation result = recommend(scene, options, calibration);
   print_recommendation(result, options, calibration);
+  std::printf("ms: processor time of computing for a simulated second; of a solve at rest\n%s",
+              busy_note(load).c_str());
   write(json_of(result));
   return result.chosen ? done : fell_short;
 }

@@ -7,7 +7,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <thread>
 
 #include "experiments/program/commands/command.h"
 #include "harness/base/conversions.h"
@@ -159,10 +158,8 @@ class OneCore {
 bool run_measured(const Experiment& e, const Context& context, const RunOptions& options) {
   const OneCore pinned(options.shard);
   const bool ok = run_experiment(e, nameable_methods(), context, options);
-  const auto cores = to_double(std::thread::hardware_concurrency());
-  if (context.load > 0.75 * cores)
-    std::fprintf(stderr, "%s: note: the machine was busy at the start (load %.1f on %.0f cores): times came out long\n",
-                 e.stem.c_str(), context.load, cores);
+  if (const std::string note = busy_note(context.load); !note.empty())
+    std::fprintf(stderr, "%s: %s", e.stem.c_str(), note.c_str());
   return ok;
 }
 

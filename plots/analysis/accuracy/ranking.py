@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analysis import load
+from analysis import load, shares
 from analysis.accuracy.records import CASE, REFERENCE
 from analysis.load import of
 
@@ -61,10 +61,28 @@ def mean_excess(table, column):
     return 100 * (np.exp(np.log(ratios).mean()) - 1) if len(ratios) else np.nan
 
 
+def fair_excess(table, variant, column):
+    """mean_excess() of a method. One that made fewer of the cases than shares.BASE gets that one's, times the ratio to it in the
+    cases that both made: easy cases alone would flatter it. \param table  of made_by_all()"""
+    made, base = of(table, variant), of(table, shares.BASE)
+    if base.empty or not is_few(table, variant):
+        return mean_excess(made, column)
+    pairs = made.merge(base, on=[*CASE, "solver", "budget"], suffixes=("", "_base"))
+    pairs = pairs.assign(over_base=pairs[column] / pairs[f"{column}_base"], failed=False)
+    return 100 * ((1 + mean_excess(base, column) / 100) * (1 + mean_excess(pairs, "over_base") / 100) - 1)
+
+
+def is_few(table, variant):
+    """It made under half of the cases that shares.BASE made."""
+    return len(of(table, variant)) < shares.LEAST * len(of(table, shares.BASE))
+
+
 def made_by_all(table):
-    """The rows of the cases, solvers and budgets in which nobody failed."""
-    failed = table.groupby([table[c] for c in (*CASE, "solver", "budget")])["failed"].transform("any")
-    return table[~failed]
+    """The rows of the cases, solvers and budgets in which nobody failed. Those who failed in over half of theirs do not decide
+    which cases these are."""
+    few = table["failed"].groupby([table[c] for c in load.VARIANT]).transform("mean") > 0.5
+    failed = (table["failed"] & ~few).groupby([table[c] for c in (*CASE, "solver", "budget")]).transform("any")
+    return table[~failed & ~table["failed"]]
 
 
 def print_ranking(records, title):
@@ -72,11 +90,11 @@ def print_ranking(records, title):
     records = records.ranked()
     if not records.problems:
         return
-    rows, budgets, measure = [], not records.table["direct"].all(), ranked_by(records)
+    rows, last, budgets, measure = [], {}, not records.table["direct"].all(), ranked_by(records)
     by = 4 if measure == EQUAL_UNKNOWNS else 5
     for sheet in [*records.sheets, "all"]:
         chosen = records.table if sheet == "all" else records.rows(sheet=sheet)
-        common = made_by_all(chosen)
+        common, counts = made_by_all(chosen), shares.shares(chosen, chosen["failed"], records.programs)
         for variant, look in records.looks.items():
             made = of(common, variant)
             direct = made[made["direct"]]
@@ -88,9 +106,10 @@ def print_ranking(records, title):
                     done = made[(made["solver"] == solver) & (made["budget"] == records.enough())]
                     cells.append(mean_excess(done, "ratio"))
             tried = table.drop_duplicates(CASE)
-            bad = table[table["failed"]].drop_duplicates(CASE)
-            rows.append([sheet, look.label, str(len(tried)), f"{100 * len(bad) / max(1, len(tried)):.1f}", *cells])
-    rows.sort(key=lambda r: ([*records.sheets, "all"].index(r[0]), np.nan_to_num(r[by], nan=np.inf)))
+            share = counts.get(variant, shares.Share())
+            rows.append([sheet, look.label, str(len(tried)), share.text(), *cells])
+            last[sheet, look.label] = share.is_few
+    rows.sort(key=lambda r: ([*records.sheets, "all"].index(r[0]), last[r[0], r[1]], np.nan_to_num(r[by], nan=np.inf)))
     solvers = records.solvers if budgets else []
     load.print_table(
         f"Ranking, {title} ({', '.join(records.problems)}): geometric mean of the error over the fitted mesh's, minus one, "
@@ -99,5 +118,5 @@ def print_ranking(records, title):
            "many triangles as the uncut sheet, where triangles alone can win" if measure == EQUAL_UNKNOWNS else
            f"{measure.note} Ranked over {measure.fitted}, where triangles alone can win")
         + (f". CG: after {records.enough()} iterations" if budgets else ""),
-        ["sheet", "method", "cases", "failed %", "excess %, equal unknowns", "as many triangles", "more unknowns, %",
+        ["sheet", "method", "cases", "made/refused/wrong %", "excess %, equal unknowns", "as many triangles", "more unknowns, %",
          "median ms", "of it cut", *(f"as many triangles, {s}" for s in solvers)], rows)

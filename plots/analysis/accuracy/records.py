@@ -4,7 +4,7 @@ import copy
 
 import numpy as np
 
-from analysis import load, naming, pareto
+from analysis import load, naming, pareto, shares
 from analysis.load import of
 
 REFERENCE = ("body_fitted (reference)", "")
@@ -32,7 +32,8 @@ class Records:
                                   excess_percent=100 * table["excess_error"], direct=table["budget"] == 0)
         self.run = load.Run(table[~failed], table[failed], load.read_context(folder / context))
         self.programs = load.programs(table, self.run.context)
-        self.looks = naming.looks(set(zip(table["method"], table["parameter"])), self.programs)
+        counts = shares.shares(self.table, self.table["failed"], self.programs)
+        self.looks = naming.looks(set(zip(table["method"], table["parameter"])), self.programs, counts)
         self.methods = {v: look for v, look in self.looks.items() if v != REFERENCE}
         self.sheets = naming.sheet_order(table["sheet"])
         self.problems = list(dict.fromkeys(table["problem"]))

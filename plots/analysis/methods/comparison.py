@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from analysis import load
+from analysis import load, shares
 from analysis.load import of
 from analysis.methods import details, distribution, errors, kinds
 from analysis.methods.distribution import spread
@@ -30,14 +30,22 @@ class Measure:
     linear: bool = False
     limits: tuple = ()  # of the axis; empty: what the values need
     written: Callable = distribution.two_digits  # a median as text
+    short: str = ""  # of the label, where it is drawn over that of shares.BASE
+
+    @property
+    def beside(self):
+        """The column of its values over those of shares.BASE, cut by cut; of a linear measure: minus those."""
+        return f"{self.column}_{'minus' if self.linear else 'over'}_split"
 
 
-SHAPES = [Measure("eigenvalue_ratio", "largest eigenvalue / uncut"),
-          Measure("altitude_min_h_cut", "smallest altitude, h", -np.inf),
-          Measure("angle_max_deg_cut", "largest angle, °", linear=True, limits=(88, 183), written="{:.0f}".format)]
-PRICE = [Measure("us_per_crossed", "µs per crossed triangle"),
-         Measure("incision_error_h", "incision error, h", limits=(0.004, 2)),
-         Measure("vertices_per_crossed", "vertices added per crossed tri.", linear=True)]
+SHAPES = [Measure("eigenvalue_ratio", "largest eigenvalue / uncut", short="largest eigenvalue"),
+          Measure("altitude_min_h_cut", "smallest altitude, h", -np.inf, short="smallest altitude"),
+          Measure("angle_max_deg_cut", "largest angle, °", linear=True, limits=(88, 183), written="{:.0f}".format,
+                  short="largest angle, °")]
+PRICE = [Measure("us_per_crossed", "µs per crossed triangle", short="time"),
+         Measure("incision_error_h", "incision error, h", limits=(0.004, 2), short="incision error"),
+         Measure("vertices_per_crossed", "vertices added per crossed tri.", linear=True,
+                 short="vertices added per crossed tri.")]
 ROUNDING = 1e-12  # relative jumps below it are rounding errors
 
 
@@ -63,6 +71,7 @@ DERIVED = {  # groups of the columns that are computed from those of the records
     "more_unknowns_percent": "accuracy_run", **{f"{name}_jump": "jump" for name in ("membrane", "bending", "residual")},
     **details.GROUPS,
 }
+SHARE = "made/refused/wrong %"
 BLOCKS = [["accuracy_run"], ["stability", "shape"], ["forced"], ["size", "accuracy", "time", "outcome"], ["jump"], ["pairs"]]
 
 
@@ -75,9 +84,12 @@ def measured(run):
     rows.loc[rows["area_change"].abs() > 1e-6, "incision_error_h"] = np.nan  # removed triangles: no incision
     rows["us_per_crossed"] = rows["geometry_us"] / rows["crossed_triangles"]
     failed = run.failed.copy()
+    failed[[c for c in MEASURES if c.startswith("ar_")]] = np.inf
     for m in SHAPES + PRICE:
         failed[m.column] = m.worst
-    failed["eigenvalue_ratio"] = np.nan  # computed for some cuts only
+    key = load.cut_columns(rows)  # eigenvalues are computed for some cuts only
+    asked = pd.MultiIndex.from_frame(rows.loc[rows["eigenvalue_ratio"].notna(), key])
+    failed["eigenvalue_ratio"] = np.where(pd.MultiIndex.from_frame(failed[key]).isin(asked), np.inf, np.nan)
     return pd.concat([rows, failed], ignore_index=True)
 
 
@@ -88,9 +100,9 @@ def jumped(run):
     return rows
 
 
-def ranking(table, sheets):
+def ranking(table, sheets, counts):
     """The variants, best first: by the sum of their ranks in the three measures of shape, each the mean over the sheets
-    of the rank of the median there. Also the ranks."""
+    of the rank of the median there; those that made under half of their cuts (shares.Share) come last. Also the ranks."""
     variants = sorted(set(zip(table["method"], table["parameter"])))
     ranks = pd.DataFrame(index=variants, columns=[m.column for m in SHAPES], dtype=float)
     for m in SHAPES:
@@ -100,7 +112,8 @@ def ranking(table, sheets):
         there = pd.DataFrame({s: {v: len(of(table, v, s)) > 0 for v in variants} for s in sheets})
         ranks[m.column] = per_sheet.where(there).mean(axis=1).reindex(ranks.index)
     ranks["sum"] = ranks.sum(axis=1)
-    return ranks.sort_values("sum", kind="stable")
+    ranks = ranks.sort_values("sum", kind="stable")
+    return ranks.loc[shares.last_if_few(ranks.index, counts)]
 
 
 def summary(table, jumps, order, ranks):
@@ -113,6 +126,8 @@ def summary(table, jumps, order, ranks):
         for m in SHAPES + PRICE:
             quantiles, worst = spread(cuts[m.column], m.worst)
             row |= {f"{m.column}_median": quantiles[2], f"{m.column}_worst": worst}
+        for m in (m for m in SHAPES + PRICE if m.beside in cuts):
+            row[m.beside] = load.median(cuts[m.beside])
         for kind in ("strict", "outside_wedges"):
             for which in ("max", "p99"):
                 row[f"ar_{which}_cut_{kind}_median"] = spread(cuts[f"ar_{which}_cut_{kind}"])[0][2]
@@ -138,7 +153,7 @@ def as_text(name, table):
     shown = table.copy()
     for column in shown.columns[shown.dtypes == float]:
         shown[column] = [f"{x:.3g}" if np.isfinite(x) else "-" for x in shown[column]]
-    of_all = [c for c in ("method", "parameter", "cuts", "failed", "rank") if c in shown]
+    of_all = [c for c in ("method", "parameter", "cuts", SHARE, "outside", "rank") if c in shown]
     what = TITLES.get(name, "medians over the cuts of all families, sheets and sizes; the best shapes first")
     if table.attrs.get("note"):
         what += f". {table.attrs['note']}"
@@ -146,8 +161,21 @@ def as_text(name, table):
                                                for block in blocks(shown[shown.columns.difference(of_all, sort=False)])])
 
 
-def write_tables(folder, stem, tables):
-    """A CSV of each table of {name: table}, and one text of all, STEM.txt."""
+def with_shares(table, counts):
+    """With the share of cuts made beside each method's name, and the number of those outside its domain where there are any."""
+    found = [counts.get(variant, shares.Share()) for variant in table[load.VARIANT].itertuples(index=False, name=None)]
+    if "parameter" not in table or not found:
+        return table
+    table = table.copy()
+    table.insert(2, SHARE, [share.text() for share in found])
+    if any(share.outside for share in found):
+        table.insert(3, "outside", [share.outside for share in found])
+    return table
+
+
+def write_tables(folder, stem, tables, counts):
+    """A CSV of each table of {name: table}, and one text of all, STEM.txt. \param counts  {name: shares.Share by variant}"""
+    tables = {name: with_shares(table, counts[name]) for name, table in tables.items()}
     for name, table in tables.items():
         table.to_csv(folder / f"{name}.csv", index=False, float_format="%.6g")
         print(folder / f"{name}.csv")
@@ -161,10 +189,20 @@ def read_cuts(folder):
 
 
 def cuts_of(run):
-    """Each cut of a run once, as measured(), but for the kinds of sheets that a method refuses altogether."""
+    """Each cut of a run once, as measured(), without those outside a method's domain (shares.is_outside), and with
+    Measure.beside where shares.BASE is there."""
     run = run.first_repetition()
     table = measured(run)
     table["failed"] = (table["verdict"] != "ok") | table["status"].isin(["failed", "refused"])
     # A kind of sheet that a method is not made for says nothing about it.
-    refused = (table["status"] == "refused").groupby([table[c] for c in ("method", "parameter", "sheet")]).transform("all")
-    return run, table[~refused]
+    table = table[~shares.is_outside(table, load.programs(run.everything(), run.context))].copy()
+    for m in SHAPES + PRICE:
+        beside = shares.over_base(table, m.column, m.linear)
+        if beside is not None:
+            table[m.beside] = beside
+    return run, table
+
+
+def counts_of(run):
+    """shares.Share by variant of a run."""
+    return shares.of_run(run, load.programs(run.everything(), run.context))

@@ -4,6 +4,7 @@ against each other one on the same cuts."""
 import numpy as np
 import pandas as pd
 
+from analysis import load
 from analysis.load import of
 
 GROUPS = {  # of the columns below, by the beginning of their names (load.group)
@@ -11,6 +12,11 @@ GROUPS = {  # of the columns below, by the beginning of their names (load.group)
     "time over": "pairs", "error, ": "accuracy_run", "of several cuts": "pairs", "no larger eigenvalue": "pairs",
 }
 KEY = ["cut_family", "sheet", "resolution", "case"]
+
+
+def quantile(values, share):
+    """Of values that may be infinite, for what failed."""
+    return float(load.quantiles(values, [share])[0])
 
 
 def by_sheet_and_family(table, order, sheets):
@@ -32,26 +38,26 @@ def by_sheet_and_family(table, order, sheets):
                 row[f"AR < 3 {name}, {sheet}"] = f"{int(below.sum())}/{len(here)}" if len(here) else "-"
         eigenvalue = cuts["eigenvalue_ratio"]
         for family in families:
-            row[f"eigenvalue, {family}"] = eigenvalue[cuts["cut_family"] == family].median()
+            row[f"eigenvalue, {family}"] = load.median(eigenvalue[cuts["cut_family"] == family])
         first = cuts["sheet"] == sheets[0]
-        row[f"eigenvalue, {sheets[0]}"] = eigenvalue[first].median()
+        row[f"eigenvalue, {sheets[0]}"] = load.median(eigenvalue[first])
         if "curved" in families:
             curved = first & (cuts["cut_family"] == "curved")
-            row[f"eigenvalue, {sheets[0]}, curved"] = eigenvalue[curved].median()
-            row["eigenvalue, of these nothing forced"] = eigenvalue[curved & (cuts["forced_corners"] == 0)].median()
+            row[f"eigenvalue, {sheets[0]}, curved"] = load.median(eigenvalue[curved])
+            row["eigenvalue, of these nothing forced"] = load.median(eigenvalue[curved & (cuts["forced_corners"] == 0)])
         for share in (0.9, 0.95):
-            row[f"eigenvalue, {100 * share:g} %"] = eigenvalue.quantile(share)
+            row[f"eigenvalue, {100 * share:g} %"] = quantile(eigenvalue, share)
         # The graded sheet's largest eigenvalue is that of its fine corner, which most cuts don't meet.
         graded = cuts["sheet"] == "graded"
-        row["eigenvalue, even sheets"] = eigenvalue[~graded].median()
-        row["eigenvalue, even sheets, 95 %"] = eigenvalue[~graded].quantile(0.95)
-        row["eigenvalue, graded"] = eigenvalue[graded].median()
+        row["eigenvalue, even sheets"] = load.median(eigenvalue[~graded])
+        row["eigenvalue, even sheets, 95 %"] = quantile(eigenvalue[~graded], 0.95)
+        row["eigenvalue, graded"] = load.median(eigenvalue[graded])
         for name, column in (("with bending", "bending_eigenvalue_ratio"), ("stabilised mass", "stabilised_eigenvalue_ratio")):
             for share, of_share in ((0.5, ""), (0.95, ", 95 %")):
-                row[f"eigenvalue, {name}{of_share}"] = cuts[column].quantile(share)
+                row[f"eigenvalue, {name}{of_share}"] = quantile(cuts[column], share)
         us = cuts.loc[cuts["resolution"] == largest, "us_per_crossed"]
         for name, share in (("q1", 0.25), ("median", 0.5), ("q3", 0.75)):
-            row[f"us, {largest}, {name}"] = us.quantile(share)
+            row[f"us, {largest}, {name}"] = quantile(us, share)
         timed = cuts[cuts["geometry_us"].notna()]
         row["us, total over total"] = timed["geometry_us"].sum() / timed["crossed_triangles"].sum()
         failed = cuts[cuts["failed"]]
@@ -67,7 +73,7 @@ def altitude_law(table, order):
     rows = []
     for variant in order:
         cuts = of(table, variant)
-        cuts = cuts[(cuts["sheet"] != "graded") & (cuts["eigenvalue_ratio"] > 100)]
+        cuts = cuts[(cuts["sheet"] != "graded") & (cuts["eigenvalue_ratio"] > 100) & ~cuts["failed"]]
         if len(cuts) < 10:
             continue
         product = cuts["eigenvalue_ratio"] * cuts["altitude_min_h_cut"] ** 2

@@ -3,9 +3,10 @@
 import numpy as np
 import pandas as pd
 
-from analysis.accuracy.ranking import made_by_all, mean_excess, ranked_by
+from analysis.accuracy.ranking import fair_excess, made_by_all, mean_excess, ranked_by
 from analysis.accuracy.records import CASE, REFERENCE
 from analysis.load import drawn_means, of
+from analysis.methods.errors import last_if_few
 
 STEM = "method_comparison_accuracy_kinds"
 KINDS = {"crack": ("centre_crack", "inclined_crack"), "arc": ("arc_crack",), "edge crack": ("edge_crack",),
@@ -56,7 +57,8 @@ def table_of(records):
     rows = []
     for variant in records.methods:
         made = of(common, variant)
-        kinds = {kind: mean_excess(made[made["kind"] == kind], measure.column) for kind in KINDS if (made["kind"] == kind).any()}
+        kinds = {kind: fair_excess(common[common["kind"] == kind], variant, measure.column) for kind in KINDS
+                 if (made["kind"] == kind).any()}
         if not kinds:
             continue
         rows.append({"method": variant[0], "parameter": variant[1], "error, kinds": mean_over(kinds),
@@ -66,6 +68,6 @@ def table_of(records):
                         if f"error_{m}" in made}})
     if not rows:
         return pd.DataFrame(columns=["method", "parameter", "error, kinds"])
-    result = pd.DataFrame(rows).sort_values("error, kinds", kind="stable")
+    result = last_if_few(pd.DataFrame(rows).sort_values("error, kinds", kind="stable"), records)
     result.attrs["note"] = measure.note and f"{measure.note} All here are over {measure.fitted}."
     return result

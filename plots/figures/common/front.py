@@ -26,6 +26,7 @@ def draw(ax, points, look, size=1.0):
         ax.hlines(p["y"], *_finite(p["x_q1"], p["x_q3"], p["x"]), **bars)
         ax.vlines(p["x"], *_finite(p["y_q1"], p["y_q3"], p["y"]), **bars)
         ax.plot(p["x"], p["y"], color=look.colour, marker=look.marker, linestyle="", alpha=alpha, zorder=3,
+                markerfacecolor="white" if look.few else look.colour,
                 markersize=size * (3.2 + (p["layer"] == 1)),
                 markeredgecolor="#111111" if p["layer"] == 1 else "white",
                 markeredgewidth=0.5 if p["layer"] == 1 else 0.3)

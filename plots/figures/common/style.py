@@ -126,7 +126,7 @@ def legend_entry(look):
     drawn = look.drawn()
     if look.marker == "*":  # looks smaller than others of its size
         drawn |= dict(markersize=drawn["markersize"] + 2.5, markeredgecolor=look.colour)
-    return Line2D([], [], label=look.label, **drawn)
+    return Line2D([], [], label=look.label + look.share, **drawn)
 
 
 def finish(figure, looks_drawn, caption, extra=()):

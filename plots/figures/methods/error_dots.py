@@ -5,11 +5,11 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from analysis import families, load, naming
+from analysis import families, load, naming, shares
 from analysis.accuracy.ranking import ranked_by
 from analysis.load import of
 from analysis.methods import kinds
-from analysis.methods.errors import BUDGET, STEM, summary
+from analysis.methods.errors import BUDGET, STEM, counts_of, summary
 from figures.common import style
 from figures.methods import dots
 
@@ -32,11 +32,13 @@ def draw(folder, beside):
     stopped, price = f"excess_percent_cg_{BUDGET}", "us_per_crossed_all"
     some_stopped = by_kind[stopped].notna().any()
     order = list(by_kind[load.VARIANT].itertuples(index=False, name=None))
-    figure, axes, variants = dots.table_of_dots(order, [2.2, 1, 1][:2 + some_stopped], records.programs)
+    counts = counts_of(records)
+    figure, axes, variants = dots.table_of_dots(order, [2.2, 1, 1][:2 + some_stopped], records.programs, counts)
     left, right, numbers = axes[0], axes[-1], [{} for _ in axes]
     left.set_ylim(left.get_ylim()[0] + 0.35, left.get_ylim()[1])  # room for what is written at the edge
     for y, variant in variants:
         row, colour = of(by_kind, variant).iloc[0], families.family(variant[0]).colour
+        filled = dots.HOLLOW if counts[variant].is_few else {}
         errors = {kind: row[f"error, {kind}"] for kind in kinds.KINDS
                   if f"error, {kind}" in row and np.isfinite(row[f"error, {kind}"])}
         left.hlines(y, *(1 + kinds.interval(errors) / 100), color=colour, linewidth=2.6, alpha=0.45, zorder=2)
@@ -45,12 +47,12 @@ def draw(folder, beside):
             if 1 + value / 100 > SHOWN:
                 left.annotate(f"{kind} {value:+,.0f} % →", (1, y + 2 * BESIDE), xycoords=left.get_yaxis_transform(),
                               ha="right", va="center", fontsize=7, color="#555555")
-        left.plot(1 + row["error, kinds"] / 100, y, color=colour, **dots.MEDIAN | dict(markersize=5))
+        left.plot(1 + row["error, kinds"] / 100, y, color=colour, **dots.MEDIAN | dict(markersize=5) | filled)
         numbers[0][y] = row["error, kinds"]
         if some_stopped:
             axes[1].plot(1 + row[stopped] / 100, y, color=colour, **dots.APART)
             numbers[1][y] = row[stopped]
-        right.plot(row[price], y, color=colour, **dots.MEDIAN)
+        right.plot(row[price], y, color=colour, **dots.MEDIAN | filled)
         numbers[-1][y] = row[price]
     left.set_xlabel("error, solved directly, %")
     if some_stopped:
@@ -75,7 +77,7 @@ def draw(folder, beside):
         f"Error: of each problem's primary measure, over that of {measure.fitted}, minus one; geometric means over sheets, sizes "
         f"and members.{' ' * bool(measure.note)}{measure.note}{naming.PROGRAM_TIME * bool(records.programs)}"
         + f" After {BUDGET} iterations of conjugate gradients (Jacobi preconditioner): all {len(records.problems)} "
-        "problems." * bool(some_stopped)), entries)
+        "problems." * bool(some_stopped) + f" {shares.HOLLOW}"), entries)
     style.save(figure, folder, STEM)
     return table
 

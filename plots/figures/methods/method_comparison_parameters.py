@@ -10,7 +10,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 from analysis import load, naming
 from analysis.methods import comparison, details, same_cut
-from analysis.methods.comparison import AGAINST, OURS, ranking, read_cuts, summary
+from analysis.methods.comparison import AGAINST, OURS, counts_of, ranking, read_cuts, summary
 from figures.methods import sweeps
 
 STEM = "method_comparison_parameters"
@@ -23,21 +23,22 @@ ABLATION = ("The parts of warp_and_refine: the steps before the split (rows) and
 def main():
     folder = load.results_folder(STEM, __doc__)
     defaults = {(m["name"], f"{m['parameter']['name']}={m['parameter']['default']:g}") for m in same_cut.all_methods() if m["parameter"]}
-    tables = {}
+    tables, counts = {}, {}
     for stem, draw, what in ((STEM, partial(sweeps.draw_parameters, defaults=defaults), PARAMETERS),
                              ("method_comparison_ablation", sweeps.draw_ablation, ABLATION),
                              ("method_comparison_fine", None, "")):
         if stem != STEM and not (folder.with_name(stem) / "records.csv").is_file():
             continue
         run, table = read_cuts(folder.with_name(stem))
-        ranks = ranking(table, naming.sheet_order(table["sheet"]))
+        counts[stem] = counts[f"{AGAINST}_fine"] = counts_of(run)
+        ranks = ranking(table, naming.sheet_order(table["sheet"]), counts[stem])
         order = list(ranks.index)
         if draw:
             draw(folder, table, f"{what} {naming.provenance(run, run.rows, with_crosses=False, per=[])}")
         else:
             tables[f"{AGAINST}_fine"] = details.against(table, next(v for v in order if v[0] == OURS), order)
         tables[stem] = summary(table, None, order, ranks)
-    comparison.write_tables(folder, STEM, tables)
+    comparison.write_tables(folder, STEM, tables, counts)
 
 
 if __name__ == "__main__":

@@ -77,9 +77,9 @@ def columns_asked(table, args):
     return axes
 
 
-def curve_looks(cells, present, programs):
+def curve_looks(cells, present, run):
     """The Look of each curve: the method's, its line by the solver; and the legend's entries of the solvers."""
-    looks = naming.looks(set(zip(cells["method"], cells["parameter"])), programs)
+    looks = naming.looks_of(run, set(zip(cells["method"], cells["parameter"])))
     solvers = list(dict.fromkeys(cells["solver"])) if "solver" in present else []
     lines = dict(zip(solvers, LINES * len(solvers)))
     entries = [Line2D([], [], color="#777777", linestyle=line, linewidth=0.8, label=solver)
@@ -94,7 +94,7 @@ def axis_label(axis):
 
 def figure_of(cells, run, args, x, y, present):
     sheets = naming.sheet_order(cells["sheet"])
-    looks, lines, entries = curve_looks(cells, present, load.programs(run.everything(), run.context))
+    looks, lines, entries = curve_looks(cells, present, run)
     columns = min(2, len(sheets))
     figure, axes = style.panels(-(-len(sheets) // columns), columns, 4.4 if columns > 1 else 6, sharex=True,
                                 sharey=True)

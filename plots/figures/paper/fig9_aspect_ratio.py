@@ -26,7 +26,7 @@ def draw_panel(ax, run, column, looks):
 
 def maximum_figure(run):
     sheets = naming.sheet_order(run.everything()["sheet"])
-    looks = naming.looks(run.variants("ar_max_cut"))
+    looks = naming.looks_of(run, run.variants("ar_max_cut"))
     figure, axes = style.sheet_panels(sheets, run.everything()["resolution"], "sqrt", "maximum aspect ratio")
     for sheet, ax in zip(sheets, axes):
         draw_panel(ax, run.select(sheet=sheet), "ar_max_cut", looks)
@@ -42,7 +42,7 @@ def maximum_figure(run):
 def average_figure(run):
     """A row per sheet: mean on the left, 99th percentile on the right."""
     sheets = naming.sheet_order(run.everything()["sheet"])
-    looks = naming.looks(run.variants("ar_mean_all"))
+    looks = naming.looks_of(run, run.variants("ar_mean_all"))
     figure, axes = style.panels(len(sheets), 2, 3.4, sharey="col", subplot_kw={"yscale": "log"})
     resolutions = run.everything()["resolution"]
     for sheet, row in zip(sheets, axes):

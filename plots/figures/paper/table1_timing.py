@@ -19,7 +19,7 @@ from figures.common import style
 
 
 def time_figure(timings, paper, others):
-    looks = naming.looks(timings.variants)
+    looks = naming.looks_of(timings.run, timings.variants)
     figure, (upper, lower) = style.panels(2, 1, 5.2, subplot_kw={"yscale": "log"})
     upper, lower = upper[0], lower[0]
     for variant, look in looks.items():
@@ -57,7 +57,7 @@ def draw_paper(ax, paper):
 def sheets_figure(run, timings):
     """The cost per crossed triangle, a panel per sheet."""
     variants = set().union(*(t.variants for t in timings))
-    looks = naming.looks(variants)
+    looks = naming.looks_of(run, variants)
     figure, axes = style.sheet_panels([t.sheet for t in timings], run.everything()["resolution"], "sqrt",
                                       "ns per crossed triangle")
     for ax, t in zip(axes, timings):
@@ -74,7 +74,7 @@ def sheets_figure(run, timings):
 def phases_figure(timings):
     """Stacked phases per crossed triangle at the lowest and the highest resolution; None if no method has phases."""
     cuts = timings.cuts.dropna(subset=list(PHASES), how="all")
-    looks = naming.looks(set(zip(cuts["method"], cuts["parameter"])))
+    looks = naming.looks_of(timings.run, set(zip(cuts["method"], cuts["parameter"])))
     resolutions = sorted({cuts["resolution"].min(), cuts["resolution"].max()}) if len(cuts) else []
     if not resolutions:
         return None
@@ -83,7 +83,7 @@ def phases_figure(timings):
         for y, variant in enumerate(looks):
             draw_phases(ax, y, timings.of(variant, resolution, cuts))
         ax.set_title(f"{resolution} triangles", loc="left")
-        ax.set_yticks(range(len(looks)), [look.label for look in looks.values()])
+        ax.set_yticks(range(len(looks)), [look.label + look.share for look in looks.values()])
         ax.set_ylim(len(looks) - 0.4, -0.6)
         ax.grid(visible=False, axis="y")
     axes.flat[-1].set_xlabel("ns per crossed triangle")

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from analysis import load, naming
+from analysis import load, naming, shares
 from analysis.methods import comparison, same_cut
 from analysis.methods.distribution import spread
 from analysis.stability import points as stability_points
@@ -47,7 +47,7 @@ COLUMNS = [
            "Relative error of a direct solve in the energy norm, geometric mean over kinds of problems in plane, of the cases that no "
            "method failed (always the project's own run).", ("sheet", "triangles")),
     Column("eigenvalue_ratio", "largest eigenvalue / uncut", "", "method_comparison", ("eigenvalue_ratio",), HALF),
-    Column("ar_max_cut", "worst aspect ratio", "", "method_comparison", ("ar_max_cut",), "Median over the cuts that did not fail."),
+    Column("ar_max_cut", "worst aspect ratio", "", "method_comparison", ("ar_max_cut",), HALF),
     Column("incision_error_h", "incision error", "h", "method_comparison", ("incision_error_h",), HALF),
     Column("vertices_per_crossed", "vertices added per crossed triangle", "", "method_comparison",
            ("vertices_added", "crossed_triangles"), HALF),
@@ -123,7 +123,7 @@ class Comparison:
         self.results = results
         self.origins, self.variants, self.cells = {}, {}, {}
         self.sheets, self.families, self.sizes, self.setting = [], [], [], ""
-        self.programs = set()
+        self.programs, self.counts = set(), {}
         for stem, read in (("method_comparison", self._cuts), ("whole_step", self._motions), ("robustness", self._robustness),
                            ("stability", self._stability)):
             files = files_of(results, stem)
@@ -141,7 +141,7 @@ class Comparison:
     def _cuts(self, files):
         run, table = comparison.cuts_of(load.run_of(*files, comparison.MEASURES))
         self.variants |= dict(sorted(zip(table["method"], table["parameter"])))
-        self.programs = load.programs(run.everything(), run.context)
+        self.programs, self.counts = load.programs(run.everything(), run.context), comparison.counts_of(run)
         self.sheets = naming.sheet_order(table["sheet"])
         self.families = list(dict.fromkeys(table["cut_family"]))
         self.sizes = sorted(set(table["resolution"]))
@@ -184,9 +184,11 @@ class Comparison:
         for method, parameter in sorted(self.variants.items()):
             text = about.get(method, {})
             of_parameter = text.get("parameter") or {}
+            share = self.counts.get((method, parameter), shares.Share())
             methods.append({"name": method, "parameter": parameter, "summary": text.get("summary", ""), "meaning": of_parameter.get("meaning", ""),
                             "promises": [p.replace("_", " ") for p in text.get("promises", [])],
-                            "program": method in self.programs})
+                            "program": method in self.programs, "share": share.beside().strip(), "few": share.is_few,
+                            "outside": share.outside})
         cells = {column: {choice: [values.get(m["name"]) for m in methods] for choice, values in choices.items()}
                  for column, choices in self.cells.items()}
         return {"columns": [c.as_json() for c in COLUMNS if c.key in cells], "cells": cells, "methods": methods,

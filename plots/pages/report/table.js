@@ -34,7 +34,8 @@ function makeTable(data) {
     const stems = [...new Set(data.columns.map((column) => column.stem))];
     const text = method.summary ? `${method.summary[0].toUpperCase()}${method.summary.slice(1)}.` : "";
     const lines = [text, method.parameter && `Parameter ${method.parameter}${method.meaning ? `: ${method.meaning}` : ""}.`,
-      method.promises.length && `It promises: ${method.promises.join(", ")}.`, method.program && "A program of its own."];
+      method.promises.length && `It promises: ${method.promises.join(", ")}.`, method.program && "A program of its own.", method.share && `Made / refused / wrong: ${method.share}.`,
+      method.outside && `${method.outside} more cuts are on sheets that it declares not to take.`];
     return element("div", { class: "about" }, ...lines.filter(Boolean).map((line) => element("p", {}, line)),
       element("p", {}, element("a", { href: "#" + state.text({ open: method.name, at: `row-${method.name}` }) }, "Link to this row"), "."),
       element("p", {}, "Records: ", ...stems.filter((stem) => data.origins[stem])
@@ -43,7 +44,8 @@ function makeTable(data) {
 
   function rowOf(method, index, best) {
     const open = state.list("open"), isOpen = open.includes(method.name);
-    const button = element("button", { type: "button", "aria-expanded": isOpen }, words(method.name));
+    const button = element("button", { type: "button", "aria-expanded": isOpen }, words(method.name),
+      ...(method.share ? [element("small", {}, ` ${method.share}`)] : []));
     button.addEventListener("click", () => {
       state.set({ open: (isOpen ? open.filter((name) => name !== method.name) : [...open, method.name]).join(","), at: "" });
       document.querySelector(`#row-${CSS.escape(method.name)} button`)?.focus();
@@ -64,7 +66,7 @@ function makeTable(data) {
     const rows = data.methods.map((method, index) => ({ method, index, x: value(column, index) }))
       .filter(({ method }) => words(method.name).includes(part))
       .filter(({ index }) => data.columns.some((c) => value(c, index) !== null));
-    rows.sort((a, b) => (a.x === null) - (b.x === null) || (a.x === b.x ? 0 : sign * (a.x < b.x ? -1 : 1)) ||
+    rows.sort((a, b) => a.method.few - b.method.few || (a.x === null) - (b.x === null) || (a.x === b.x ? 0 : sign * (a.x < b.x ? -1 : 1)) ||
       (a.method.name < b.method.name ? -1 : 1));
     const best = {};
     for (const c of data.columns) {
