@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 
 #include "harness/base/conversions.h"
@@ -29,6 +30,13 @@ Block inverse_of(const Block& block) {
   const bool positive = block(0, 0) > 0 && block.determinant() > 0 && inverse(last, last) > 0;
   if (!positive || !inverse.allFinite()) inverse.setZero();
   return inverse;
+}
+
+template <class S, int D, class From>
+BlockColumns<D, S> converted(const From& columns) {
+  BlockColumns<D, S> all;
+  for (std::size_t c = 0; c < D; ++c) all[c] = __builtin_convertvector(columns[c], Quad<S>);
+  return all;
 }
 
 }  // namespace
@@ -87,9 +95,14 @@ bool Multigrid<D>::read_place(const SystemMatrix<D>& a, std::size_t i) {
 
 template <int D>
 void Multigrid<D>::find_held(const SystemMatrix<D>& a) {
-  has_held_.assign(a.vertices(), 0);
-  for (std::size_t u = 0; u < a.held->size(); ++u)
-    if ((*a.held)[u] && !a.blocks->columns(u / D).empty()) has_held_[u / D] = 1;
+  is_near_held_.assign(a.vertices(), 0);
+  held_.clear();
+  for (std::size_t u = 0; u < a.held->size(); ++u) {
+    if (!(*a.held)[u]) continue;
+    held_.push_back(to_index(u));
+    is_near_held_[u / D] = 1;
+    for (const std::int32_t j : a.blocks->columns(u / D)) is_near_held_[to_size(j)] = 1;
+  }
 }
 
 // --- values ----------------------------------------------------------------------------------------------------------
@@ -122,6 +135,7 @@ void Multigrid<D>::look_at_sizes(const SystemMatrix<D>& a) {
   const auto middle = sorted_.begin() + to_index(sorted_.size() / 2);
   std::nth_element(sorted_.begin(), middle, sorted_.end());
   median_size_ = *middle;
+  widest_ = largest / median_size_;
   in_doubles_ = !(largest < widest_for_floats * median_size_ && largest < 1e30 && median_size_ > 1e-30);
 }
 
@@ -139,81 +153,62 @@ void Multigrid<D>::set_inverse(Level<S>& level, std::size_t i, Block diagonal, c
   for (std::size_t c = 0; c < D; ++c)
     if (const auto k = to_int(c); is_held[c] || inverse(k, k) == 0) {
       inverse(k, k) = 0;
-      level.idle.push_back(D * i + c);
+      level.idle.push_back({i, k});
     }
   level.matrix.set_inverse(i, inverse);
 }
 
-/// The finest level: zero in rows and columns of held unknowns.
+/// The finest level. Rows and columns of held unknowns need not be zero: the sweeps leave these unknowns at zero.
 template <int D>
 template <class S>
 void Multigrid<D>::fill(const SystemMatrix<D>& a, Level<S>& level, bool& is_new) {
   if (is_new) {
-    level.matrix.follow(rows_);
+    level.matrix.follow(rows_, swept_, std::is_same_v<S, float>);
     level.resize();
     is_new = false;
   }
-  const auto held = [&](std::size_t i, int c) { return (*a.held)[D * i + to_size(c)] != 0; };
   level.idle.clear();
+  const auto columns_at = [&](std::size_t slot) { return columns_of<D>(a.blocks->block(slots_[slot]).data()); };
   for (std::size_t i = 0; i < a.vertices(); ++i) {
-    std::size_t k = rows_.blocks.first_slot(i);
-    for (const std::int32_t column : rows_.blocks[i]) {
-      const auto j = to_size(column);
-      Eigen::Map<Eigen::Matrix<S, D, D>> block(level.matrix.block(k));
-      block = a.blocks->block(slots_[k++]).template cast<S>();
-      if (!has_held_[i] && !has_held_[j]) continue;
-      for (int c = 0; c < D; ++c) {
-        if (held(i, c)) block.row(c).setZero();
-        if (held(j, c)) block.col(c).setZero();
-      }
-    }
+    a.blocks->prefetch_row(std::min(i + rows_ahead, a.vertices() - 1));
+    level.matrix.fill_row(i, columns_at);
     if (rows_.blocks[i].empty()) continue;
     std::array<bool, D> is_held{};
-    for (int c = 0; c < D; ++c) is_held[to_size(c)] = held(i, c);
-    set_inverse(level, i, diagonals_[i] + level.matrix.left_out(i) * Block::Identity(), is_held);
+    for (std::size_t c = 0; c < D; ++c) is_held[c] = (*a.held)[D * i + c] != 0;
+    set_inverse(level, i, diagonals_[i] + swept_.left_out(i) * Block::Identity(), is_held);
   }
 }
 
-/// A row of P^T A: the members' rows, each times its weight.
+/// P^T A P, row by row: first that of P^T A, which is the sum of the members' rows, each times its weight; then columns
+/// with the same parent become one. `add_row(v, weight)` adds to fine.part_row; `ask_for(i)` prefetches what a row takes.
 template <int D>
-template <class S>
-void Multigrid<D>::sum_members(Level<S>& fine, std::span<const Coarsening::Weight> members) {
-  const LevelMatrix<D, S>& a = fine.matrix;
-  fine.part_row.clear();
-  for (const auto& member : members) {
-    const auto v = to_size(member.other);
-    const S* block = a.block(a.rows().blocks.first_slot(v));
-    for (const std::int32_t j : a.rows().blocks[v]) {
-      Columns<S>& sum = fine.part_row[j];
-      for (int c = 0; c < D; ++c, block += D)
-        sum.col(c) += S(member.weight) * Eigen::Map<const Eigen::Array<S, 4, 1>>(block);
-    }
-  }
-}
-
-/// P^T A P, row by row: columns of P^T A with the same parent become one.
-template <int D>
-template <class S>
-void Multigrid<D>::fill_coarse(Level<S>& fine, CoarseLevel& level) {
+template <class S, class AskFor, class AddRow>
+void Multigrid<D>::fill_coarse(Level<S>& fine, CoarseLevel& level, const AskFor& ask_for, const AddRow& add_row) {
   std::vector<Columns<S>> sums;
   level.idle.clear();
+  level.blocks.resize(level.rows.blocks.slots());
   place_.resize(std::max(place_.size(), level.from.coarse_size()));
   fine.part_row.resize(level.from.fine_size());
+  const auto columns_at = [&](std::size_t slot) { return level.blocks[slot]; };
   for (std::size_t i = 0; i < level.from.coarse_size(); ++i) {
+    ask_for(std::min(i + 1, level.from.coarse_size() - 1));
     const auto columns = level.rows.blocks[i];
     if (columns.empty()) continue;
     for (std::size_t k = 0; k < columns.size(); ++k) place_[to_size(columns[k])] = to_int32(k);
-    sums.assign(columns.size(), Columns<S>::Zero());
-    sum_members(fine, level.from.members(i));
+    sums.assign(columns.size(), Columns<S>{});
+    fine.part_row.clear();
+    for (const auto& member : level.from.members(i)) add_row(to_size(member.other), S(member.weight));
     const auto fine_columns = fine.part_row.columns();
     const auto part = fine.part_row.sums();
     for (std::size_t k = 0; k < part.size(); ++k)
-      for (const auto& parent : level.from.parents(to_size(fine_columns[k])))
-        sums[to_size(place_[to_size(parent.other)])] += S(parent.weight) * part[k];
-    float* to = level.matrix.block(level.rows.blocks.first_slot(i));
-    for (const Columns<S>& sum : sums)
-      for (int c = 0; c < D; ++c)
-        for (int k = 0; k < D; ++k) *to++ = static_cast<float>(sum(k, c));
+      for (const auto& parent : level.from.parents(to_size(fine_columns[k]))) {
+        Columns<S>& sum = sums[to_size(place_[to_size(parent.other)])];
+        const S weight(parent.weight);
+        for (std::size_t c = 0; c < D; ++c) sum[c] += weight * part[k][c];
+      }
+    Columns<float>* to = level.blocks.data() + level.rows.blocks.first_slot(i);
+    for (const Columns<S>& sum : sums) *to++ = converted<float, D>(sum);
+    level.matrix.fill_row(i, columns_at);
     const Block diagonal = level.matrix.diagonal(i);
     std::array<bool, D> is_held{};
     for (int c = 0; c < D; ++c) is_held[to_size(c)] = diagonal(c, c) == 0;  // all its members are
@@ -221,11 +216,51 @@ void Multigrid<D>::fill_coarse(Level<S>& fine, CoarseLevel& level) {
   }
 }
 
+/// From A itself. Rows and columns of held unknowns are zero here.
+template <int D>
+template <class S>
+void Multigrid<D>::fill_first_coarse(const SystemMatrix<D>& a, Level<S>& fine) {
+  const auto hold = [&](std::size_t i, std::size_t j, Columns<S>& columns) {
+    for (std::size_t c = 0; c < D; ++c)
+      for (std::size_t k = 0; k < D; ++k)
+        if ((*a.held)[D * i + k] || (*a.held)[D * j + c]) columns[c][k] = 0;
+  };
+  const auto ask_for = [&](std::size_t i) {
+    for (const auto& member : coarse_.front().from.members(i)) a.blocks->prefetch_row(to_size(member.other));
+  };
+  fill_coarse(fine, coarse_.front(), ask_for, [&](std::size_t v, S weight) {
+    std::size_t slot = rows_.blocks.first_slot(v);
+    for (const std::int32_t j : rows_.blocks[v]) {
+      Columns<S> columns = converted<S, D>(columns_of<D>(a.blocks->block(slots_[slot++]).data()));
+      if (is_near_held_[v]) hold(v, to_size(j), columns);
+      Columns<S>& sum = fine.part_row[j];
+      for (std::size_t c = 0; c < D; ++c) sum[c] += weight * columns[c];
+    }
+  });
+}
+
+template <int D>
+Eigen::MatrixXd Multigrid<D>::CoarseLevel::dense() const {
+  const auto n = to_index(D * rows.size());
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n, n);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto at = to_index(D * i);
+    std::size_t slot = rows.blocks.first_slot(i), scalar = rows.scalars.first_slot(i);
+    for (const std::int32_t j : rows.blocks[i]) {
+      for (int c = 0; c < D; ++c)
+        for (int k = 0; k < D; ++k) all(at + k, D * j + c) += to_double(blocks[slot][to_size(c)][k]);
+      ++slot;
+    }
+    for (const std::int32_t j : rows.scalars[i]) all.block<D, D>(at, D * j).diagonal().array() += rows.scalar[scalar++];
+  }
+  return all;
+}
+
 template <int D>
 void Multigrid<D>::factor_coarsest() {
   solves_coarsest_ = false;
   if (coarse_.empty() || coarse_.back().matrix.size() > most_factored) return;
-  Eigen::MatrixXd dense = coarse_.back().matrix.dense();
+  Eigen::MatrixXd dense = coarse_.back().dense();
   for (Eigen::Index u = 0; u < dense.rows(); ++u)  // all its members are held
     if (dense(u, u) == 0) dense(u, u) = 1;
   coarsest_.compute(dense);
@@ -267,19 +302,26 @@ void Multigrid<D>::setup(const SystemMatrix<D>& a) {
   // Every other time the coarse matrices of the last time do: rotations change them little. They leave the trace alone,
   // so another trace shows another step or material.
   coarse_are_old_ = changed_.empty() && !coarse_are_old_ && std::abs(trace_ - coarse_trace_) <= 0.01 * coarse_trace_;
-  if (!coarse_are_old_) fill_coarse_levels();
+  if (!coarse_are_old_) fill_coarse_levels(a);
 }
 
 template <int D>
-void Multigrid<D>::fill_coarse_levels() {
+void Multigrid<D>::fill_coarse_levels(const SystemMatrix<D>& a) {
   coarse_trace_ = trace_;
-  for (std::size_t l = 0; l < coarse_.size(); ++l)
-    if (l > 0)
-      fill_coarse(static_cast<Level<float>&>(coarse_[l - 1]), coarse_[l]);
-    else if (in_doubles_)
-      fill_coarse(finest_in_doubles_, coarse_[l]);
-    else
-      fill_coarse(finest_, coarse_[l]);
+  if (coarse_.empty()) return factor_coarsest();
+  in_doubles_ ? fill_first_coarse(a, finest_in_doubles_) : fill_first_coarse(a, finest_);
+  for (std::size_t l = 1; l < coarse_.size(); ++l) {
+    CoarseLevel& fine = coarse_[l - 1];
+    const auto ask_for = [](std::size_t) {};  // these are small
+    fill_coarse(static_cast<Level<float>&>(fine), coarse_[l], ask_for, [&](std::size_t v, float weight) {
+      const Columns<float>* block = fine.blocks.data() + fine.rows.blocks.first_slot(v);
+      for (const std::int32_t j : fine.rows.blocks[v]) {
+        Columns<float>& sum = fine.part_row[j];
+        for (std::size_t c = 0; c < D; ++c) sum[c] += weight * (*block)[c];
+        ++block;
+      }
+    });
+  }
   factor_coarsest();
 }
 
@@ -287,7 +329,7 @@ template <int D>
 auto Multigrid<D>::entries() const -> Entries {
   Entries all;
   const auto add = [&](const auto& level) {
-    for (std::size_t i = 0; i < level.matrix.size(); ++i) all.blocks += to_double(level.matrix.rows().blocks[i].size());
+    all.blocks += to_double(level.matrix.block_count());
     all.scalars += to_double(level.matrix.scalar_count());
   };
   in_doubles_ ? add(finest_in_doubles_) : add(finest_);

@@ -16,7 +16,7 @@
 
 #include "harness/fem/linear/preconditioner.h"
 #include "harness/fem/multigrid/coarsening.h"
-#include "harness/fem/multigrid/level_matrix.h"
+#include "harness/fem/multigrid/packed_rows.h"
 #include "harness/fem/multigrid/stiff_clusters.h"
 
 namespace cutbench {
@@ -29,10 +29,13 @@ class Multigrid final : public Preconditioner<D> {
   /// trace of `a` have changed.
   void setup(const SystemMatrix<D>& a) override;
   void apply(const Field& r, Field& z) override;
+  /// By the finest level, in floats.
+  bool multiply_roughly(const Field& x, Field& y) override;
   std::size_t levels() const { return coarse_.size() + 1; }
   /// Microseconds that the last setup() took for the rows of all levels, without their values.
   double rows_us() const { return rows_us_; }
-  /// Entries that a cycle reads, each twice, of all levels. \pre setup() was called
+  /// Entries beside the diagonal that a cycle reads, each three times, of all levels; with those that fill up pairs.
+  /// \pre setup() was called
   struct Entries {
     double blocks = 0, scalars = 0;
   };
@@ -40,27 +43,33 @@ class Multigrid final : public Preconditioner<D> {
 
  private:
   using Block = typename BlockMatrix<D>::Block;
-  /// The columns of a block, each with values behind it that nobody looks at: so they are read four by four.
   template <class S>
-  using Columns = Eigen::Array<S, 4, D>;
+  using Columns = BlockColumns<D, S>;
   /// A matrix with a right side, a solution and a residual.
   template <class S>
   struct Level {
-    LevelMatrix<D, S> matrix;
-    typename LevelMatrix<D, S>::Vector r, z, t;
-    std::vector<std::size_t> idle;                    // unknowns that are held, or whose block is not positive definite
-    RowSum<Columns<S>> part_row{Columns<S>::Zero()};  // of P^T A, with A this matrix
-    void set_idle_zero(typename LevelMatrix<D, S>::Vector& field) const {
-      for (const std::size_t u : idle) field[u] = 0;
+    PackedRows<D, S> matrix;
+    PackedVector<S> r, z, t;
+    struct Unknown {
+      std::size_t vertex;
+      int coordinate;
+    };
+    std::vector<Unknown> idle;                  // unknowns that are held, or whose block is not positive definite
+    RowSum<Columns<S>> part_row{Columns<S>{}};  // of P^T A, with A this matrix
+    void set_idle_zero(PackedVector<S>& field) const {
+      for (const Unknown& u : idle) field[u.vertex][u.coordinate] = 0;
     }
     void resize() {
-      for (auto* field : {&r, &z, &t}) field->resize(D * matrix.rows().size() + LevelMatrix<D, S>::padding);
+      for (auto* field : {&r, &z, &t}) field->resize(matrix.size());
     }
   };
   struct CoarseLevel : Level<float> {
     explicit CoarseLevel(double spacing) : from(spacing) {}
     Coarsening from;  // the next finer level
     LevelRows rows;
+    SweptScalars swept;                  // of rows
+    std::vector<Columns<float>> blocks;  // per slot of rows.blocks
+    Eigen::MatrixXd dense() const;       // with all scalars
   };
 
   bool find_changed(const SystemMatrix<D>& a);
@@ -75,29 +84,33 @@ class Multigrid final : public Preconditioner<D> {
   void update(CoarseLevel& level, const LevelRows& fine, const std::vector<Point2>& places, const RowChanges& changes,
               const Coarsening::Regrouping& regrouping);
   void look_at_sizes(const SystemMatrix<D>& a);
-  void fill_coarse_levels();
+  void fill_coarse_levels(const SystemMatrix<D>& a);
   template <class S>
   void fill(const SystemMatrix<D>& a, Level<S>& level, bool& is_new);
+  template <class S, class AskFor, class AddRow>
+  void fill_coarse(Level<S>& fine, CoarseLevel& level, const AskFor& ask_for, const AddRow& add_row);
   template <class S>
-  void fill_coarse(Level<S>& fine, CoarseLevel& level);
-  template <class S>
-  void sum_members(Level<S>& fine, std::span<const Coarsening::Weight> members);
+  void fill_first_coarse(const SystemMatrix<D>& a, Level<S>& fine);
   void factor_coarsest();
   template <class S>
   void cycle(Level<S>& level, std::size_t next);
+  void solve_coarsest(Level<float>& level);
   template <class S>
   void correct(Level<S>& level, std::size_t next);
 
   std::uint64_t pattern_ = 0;
-  std::vector<double> factors_;         // of the scalar parts of A
-  std::vector<std::uint8_t> has_held_;  // per vertex: one of its unknowns is held
-  LevelRows rows_;                      // of A
-  std::vector<std::int32_t> slots_;     // per slot of rows_.blocks: where A keeps the block
-  std::vector<Point2> places_;          // per vertex; NaN where no hat is wanted
-  std::vector<std::int32_t> changed_;   // vertices whose rows the levels have not followed yet
-  RowChanges changes_;                  // what is different there
-  std::size_t slots_made_ = 0;          // slots of rows_ when the levels were made
+  std::vector<double> factors_;             // of the scalar parts of A
+  std::vector<std::uint8_t> is_near_held_;  // per vertex: it has a held unknown, or a block with one that has
+  std::vector<Eigen::Index> held_;          // unknowns
+  LevelRows rows_;                          // of A
+  SweptScalars swept_;                      // of rows_
+  std::vector<std::int32_t> slots_;         // per slot of rows_.blocks: where A keeps the block
+  std::vector<Point2> places_;              // per vertex; NaN where no hat is wanted
+  std::vector<std::int32_t> changed_;       // vertices whose rows the levels have not followed yet
+  RowChanges changes_;                      // what is different there
+  std::size_t slots_made_ = 0;              // slots of rows_ when the levels were made
   double rows_us_ = 0;
+  double widest_ = 0;  // the largest diagonal block over the median one
   bool in_doubles_ = false, float_is_new_ = true, double_is_new_ = true;  // new: the rows are to be set
   Level<float> finest_;
   Level<double> finest_in_doubles_;

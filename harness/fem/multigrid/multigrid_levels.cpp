@@ -77,7 +77,8 @@ void Multigrid<D>::update(CoarseLevel& level, const LevelRows& fine, const std::
                           const RowChanges& changes, const Coarsening::Regrouping& regrouping) {
   level.from.update(fine, places, changes, regrouping);
   level.from.multiply(fine, level.rows);
-  level.matrix.follow(level.rows, level.from.changes().rows);
+  level.swept.follow(level.rows, level.from.changes().rows);
+  level.matrix.follow(level.rows, level.swept, level.from.changes().rows);
   level.resize();
 }
 
@@ -86,6 +87,7 @@ void Multigrid<D>::make_levels(const SystemMatrix<D>& a) {
   coarse_.clear();
   float_is_new_ = double_is_new_ = true;
   rows_.reserve_spare();
+  swept_.follow(rows_);
   cutbench::reserve_spare(slots_);
   slots_made_ = rows_.blocks.slots();
   double spacing = first_spacing * median_edge(rows_.blocks, places_);
@@ -100,7 +102,8 @@ void Multigrid<D>::make_levels(const SystemMatrix<D>& a) {
     if (const std::size_t n = level.rows.size(); n == 0 || 10 * n > 8 * fine->size()) return coarse_.pop_back();
     level.from.reserve_spare();
     level.rows.reserve_spare();
-    level.matrix.follow(level.rows);
+    level.swept.follow(level.rows);
+    level.matrix.follow(level.rows, level.swept, false);
     fine = &level.rows;
     places = &level.from.coarse_places();
     all = level.from.changes();
@@ -114,12 +117,13 @@ void Multigrid<D>::update_levels(const SystemMatrix<D>& a) {
   const LevelRows* fine = &rows_;
   const std::vector<Point2>* places = &places_;
   const RowChanges* changes = &changes_;
+  swept_.follow(rows_, changes_.rows);
   if (!float_is_new_) {
-    finest_.matrix.follow(rows_, changes_.rows);
+    finest_.matrix.follow(rows_, swept_, changes_.rows);
     finest_.resize();
   }
   if (!double_is_new_) {
-    finest_in_doubles_.matrix.follow(rows_, changes_.rows);
+    finest_in_doubles_.matrix.follow(rows_, swept_, changes_.rows);
     finest_in_doubles_.resize();
   }
   for (CoarseLevel& level : coarse_) {
