@@ -104,7 +104,7 @@ class Packed : public testing::Test {
     }
     return sum;
   }
-  /// The entries on one side of the diagonal, the farthest first.
+  /// The entries on one side of the diagonal: blocks, the farthest first, and scalars as the rows have them.
   Values sum_side(std::size_t i, bool below, const std::vector<Values>& x) const {
     const auto all = entries(i);
     std::vector<std::pair<std::int32_t, Entry>> side;
@@ -112,8 +112,9 @@ class Packed : public testing::Test {
       if (below ? entry.first < to_int32(i) : entry.first > to_int32(i)) side.push_back(entry);
     if (!below) std::reverse(side.begin(), side.end());
     std::vector<std::pair<std::int32_t, S>> scalars;
-    for (const auto& [j, entry] : side)
-      if (!entry.is_block) scalars.emplace_back(j, entry.block(0));
+    for (const std::int32_t j : swept_.rows()[i])
+      if ((below ? j < to_int32(i) : j > to_int32(i)) && !all.at(j).is_block)
+        scalars.emplace_back(j, all.at(j).block(0));
     const Values by_scalars = sum_scalars(scalars, x);
     Values sum{};
     for (std::size_t k = 0; k < D; ++k) {

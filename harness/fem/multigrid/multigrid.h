@@ -69,7 +69,7 @@ class Multigrid final : public Preconditioner<D> {
     LevelRows rows;
     SweptScalars swept;                  // of rows
     std::vector<Columns<float>> blocks;  // per slot of rows.blocks
-    Eigen::MatrixXd dense() const;       // with all scalars
+    Eigen::MatrixXd dense() const;
   };
 
   bool find_changed(const SystemMatrix<D>& a);
@@ -81,8 +81,15 @@ class Multigrid final : public Preconditioner<D> {
   void set_inverse(Level<S>& level, std::size_t i, Block diagonal, const std::array<bool, D>& is_held);
   void make_levels(const SystemMatrix<D>& a);
   void update_levels(const SystemMatrix<D>& a);
-  void update(CoarseLevel& level, const LevelRows& fine, const std::vector<Point2>& places, const RowChanges& changes,
-              const Coarsening::Regrouping& regrouping);
+  /// What a level is made of.
+  struct Finer {
+    const LevelRows* rows;
+    const SweptScalars* swept;
+    const std::vector<Point2>* places;
+    const RowChanges* changes;
+  };
+  static Finer finer_than_next(const CoarseLevel& level);
+  static void update_rows(CoarseLevel& level, const Finer& fine, const Coarsening::Regrouping& regrouping);
   void look_at_sizes(const SystemMatrix<D>& a);
   void fill_coarse_levels(const SystemMatrix<D>& a);
   template <class S>

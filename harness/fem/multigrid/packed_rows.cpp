@@ -5,16 +5,6 @@
 
 namespace cutbench {
 
-namespace {
-
-/// Two by two; an odd one gets zeros beside it that read the same vertex, so nothing else can make them NaN.
-template <class Item>
-void fill_up_pair(std::vector<Item>& items, Item last) {
-  if (items.size() % 2) items.push_back(last);
-}
-
-}  // namespace
-
 template <int D, class S>
 void PackedRows<D, S>::follow(const LevelRows& rows, const SweptScalars& swept, std::span<const std::int32_t> changed) {
   rows_ = &rows;
@@ -26,6 +16,7 @@ void PackedRows<D, S>::follow(const LevelRows& rows, const SweptScalars& swept, 
   }
   if (keeps_small_) small_.resize(n);
   places_.resize(rows.blocks.slots());
+  slot_of_.resize(n, -1);
   diagonal_.resize(D * n);
   inverse_.resize(D * n);
   for (const std::int32_t row : changed) pack_row(to_size(row));
@@ -49,77 +40,101 @@ void PackedRows<D, S>::follow(const LevelRows& rows, const SweptScalars& swept, 
 
 template <int D, class S>
 void PackedRows<D, S>::pack_row(std::size_t i) {
-  pack_part(below_, i);
-  pack_part(above_, i);
-  if (keeps_small_) pack_small(i);
   const auto& [blocks, scalars, scalar] = *rows_;
-  const S own = scalars[i].empty() ? 0 : static_cast<S>(scalar[scalars.diagonal_slot(i)]);
-  if (!blocks[i].empty()) places_[blocks.diagonal_slot(i)] = {static_cast<std::uint32_t>(D * i), own};
-  for (std::size_t k = D * i; k < D * (i + 1); ++k) diagonal_[k] = inverse_[k] = Quad<S>{};
+  const SweepRows& near = swept_->rows();
+  if (keeps_small_) pack_small(i);
+  if (blocks[i].empty()) {
+    for (std::size_t k = D * i; k < D * (i + 1); ++k) diagonal_[k] = inverse_[k] = Quad<S>{};
+    for (auto* part : {&below_, &above_}) {
+      part->pairs.set(i, {});
+      part->scalars.set(i, {});
+    }
+    return;
+  }
+  for (std::size_t k = 0; k < blocks[i].size(); ++k) {
+    const std::size_t slot = blocks.first_slot(i) + k;
+    slot_of_[to_size(blocks[i][k])] = to_int32(slot);
+    places_[slot].scalar = 0;
+  }
+  if (near[i].empty()) {
+    pack_scalars({}, 0, below_.scalars, i);
+    pack_scalars({}, 0, above_.scalars, i);
+  } else {
+    pack_scalars(near.below(i), near.first_slot(i), below_.scalars, i);
+    pack_scalars(near.above(i), near.diagonal_slot(i) + 1, above_.scalars, i);
+    places_[blocks.diagonal_slot(i)].scalar = static_cast<S>(scalar[scalars.diagonal_slot(i)]);
+  }
+  pack_pairs(blocks.below(i), blocks.first_slot(i), below_, i);
+  pack_pairs(blocks.above(i), blocks.diagonal_slot(i) + 1, above_, i);
+  places_[blocks.diagonal_slot(i)].quad = static_cast<std::uint32_t>(D * i);
+  for (const std::int32_t j : blocks[i]) slot_of_[to_size(j)] = -1;
 }
 
+/// The blocks on one side of the diagonal, the farthest first. An odd one gets zeros beside it that read the same vertex,
+/// so nothing else can make them NaN.
 template <int D, class S>
-void PackedRows<D, S>::pack_part(PackedPart<D, S>& part, std::size_t i) {
+void PackedRows<D, S>::pack_pairs(std::span<const std::int32_t> columns, std::size_t slot, PackedPart<D, S>& part,
+                                  std::size_t i) {
+  blocks_.clear();
+  for (const std::int32_t j : columns) blocks_.push_back({j, to_int32(slot++)});
   const bool is_below = &part == &below_;
-  // The entries of this side, by their columns.
-  const auto collect = [&](const SweepRows& rows, std::vector<Entry>& entries) {
-    entries.clear();
-    if (rows[i].empty()) return;
-    std::size_t slot = is_below ? rows.first_slot(i) : rows.diagonal_slot(i) + 1;
-    for (const std::int32_t j : is_below ? rows.below(i) : rows.above(i)) entries.push_back({j, to_int32(slot++), 0});
-    std::sort(entries.begin(), entries.end(),
-              [&](const Entry& a, const Entry& b) { return is_below ? a.column < b.column : a.column > b.column; });
-  };
-  collect(rows_->blocks, blocks_);
-  collect(swept_->rows(), near_);
-  for (Entry& entry : near_) entry.value = swept_->values()[to_size(entry.slot)];
-  // A scalar in the place of a block is added to it; what is left stands behind.
-  std::size_t left = 0, next = 0;
-  const auto leave = [&](std::size_t k) { near_[left++] = near_[k]; };
-  const auto is_before = [&](std::int32_t a, std::int32_t b) { return is_below ? a < b : a > b; };
-  for (Entry& block : blocks_) {
-    while (next < near_.size() && is_before(near_[next].column, block.column)) leave(next++);
-    if (next < near_.size() && near_[next].column == block.column) block.value = near_[next++].value;
-  }
-  while (next < near_.size()) leave(next++);
-  near_.resize(left);
-
-  if (!blocks_.empty()) fill_up_pair(blocks_, {blocks_.back().column, -1, 0});
-  if (!near_.empty()) fill_up_pair(near_, {near_.back().column, -1, 0});
+  std::sort(blocks_.begin(), blocks_.end(),
+            [&](const Entry& a, const Entry& b) { return is_below ? a.column < b.column : a.column > b.column; });
+  const std::size_t n = blocks_.size();
+  if (n % 2) blocks_.push_back(blocks_.back());
   pairs_.clear();
-  for (std::size_t k = 0; k < blocks_.size(); k += 2)
-    pairs_.push_back({{4 * blocks_[k].column, 4 * blocks_[k + 1].column}});
+  for (std::size_t k = 0; k < n; k += 2) pairs_.push_back({{4 * blocks_[k].column, 4 * blocks_[k + 1].column}});
   part.pairs.set(i, pairs_);
   part.values.resize(D * part.pairs.slots());
   const std::size_t first = part.pairs.begin(i);
-  for (std::size_t k = 0; k < blocks_.size(); ++k) {
-    if (blocks_[k].slot < 0) continue;
-    const std::size_t quad = 2 * D * (first + k / 2) + k % 2;
-    places_[to_size(blocks_[k].slot)] = {static_cast<std::uint32_t>(quad), static_cast<S>(blocks_[k].value)};
-  }
-  for (std::size_t k = 0; k < D * pairs_.size(); ++k) part.values[D * first + k] = {};
-  pack_scalars(near_, part.scalars, i);
+  for (std::size_t k = 0; k < n; ++k)
+    places_[to_size(blocks_[k].slot)].quad = static_cast<std::uint32_t>(2 * D * (first + k / 2) + k % 2);
+  if (n % 2) std::fill_n(part.values.begin() + to_index(D * (first + n / 2)), D, typename PackedPart<D, S>::Values{});
 }
 
+/// The scalars on one side of the diagonal: in the places of blocks, and the others. Which it is is a coin toss, so there
+/// is no branch.
 template <int D, class S>
-void PackedRows<D, S>::pack_scalars(const std::vector<Entry>& entries, GrowingRows<TwoScalars<S>>& to, std::size_t i) {
-  scalars_.clear();
-  for (std::size_t k = 0; k < entries.size(); k += 2)
-    scalars_.push_back({{4 * entries[k].column, 4 * entries[k + 1].column},
-                        {static_cast<S>(entries[k].value), static_cast<S>(entries[k + 1].value)}});
-  to.set(i, scalars_);
+void PackedRows<D, S>::pack_scalars(std::span<const std::int32_t> columns, std::size_t slot,
+                                    GrowingRows<TwoScalars<S>>& to, std::size_t i) {
+  scalars_.resize(columns.size() + 1);
+  std::size_t n = 0;
+  Place nowhere{};
+  for (const std::int32_t j : columns) {
+    const std::int32_t block = slot_of_[to_size(j)];
+    const auto value = static_cast<S>(swept_->values()[slot++]);
+    (block < 0 ? nowhere : places_[to_size(block)]).scalar = value;
+    scalars_[n] = {j, value};
+    n += block < 0;
+  }
+  set_scalars(n, to, i);
+}
+
+/// The first n of scalars_, two by two.
+template <int D, class S>
+void PackedRows<D, S>::set_scalars(std::size_t n, GrowingRows<TwoScalars<S>>& to, std::size_t i) {
+  if (n % 2) {
+    scalars_[n] = {scalars_[n - 1].column, 0};
+    ++n;
+  }
+  two_scalars_.clear();
+  for (std::size_t k = 0; k < n; k += 2)
+    two_scalars_.push_back(
+        {{4 * scalars_[k].column, 4 * scalars_[k + 1].column}, {scalars_[k].value, scalars_[k + 1].value}});
+  to.set(i, two_scalars_);
 }
 
 template <int D, class S>
 void PackedRows<D, S>::pack_small(std::size_t i) {
-  near_.clear();
-  std::size_t slot = rows_->scalars.first_slot(i);
-  for (const std::int32_t j : rows_->scalars[i]) {
+  const auto columns = rows_->scalars[i];
+  scalars_.resize(columns.size() + 1);
+  std::size_t slot = rows_->scalars.first_slot(i), n = 0;
+  for (const std::int32_t j : columns) {
     const double value = rows_->scalar[slot++];
-    if (to_size(j) != i && swept_->is_small(i, to_size(j), value)) near_.push_back({j, 0, value});
+    scalars_[n] = {j, static_cast<S>(value)};
+    n += to_size(j) != i && swept_->is_small(i, to_size(j), value);
   }
-  if (!near_.empty()) fill_up_pair(near_, {near_.back().column, -1, 0});
-  pack_scalars(near_, small_, i);
+  set_scalars(n, small_, i);
 }
 
 template <int D, class S>

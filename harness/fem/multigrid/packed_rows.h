@@ -2,8 +2,8 @@
 //
 // A row has two parts, the entries below its diagonal and those above it, and each part of all rows is a stream of its
 // own. Blocks stand two by two: eight lanes hold a column of the one and a column of the other, each with a zero behind
-// it. A scalar in the place of a block is added to its diagonal; the other scalars stand two by two, too. Below the
-// diagonal columns rise and above it they fall, so that a sweep, either way, needs the row before it last.
+// it. A scalar in the place of a block is added to its diagonal; the other scalars stand two by two, too. The columns of
+// blocks rise below the diagonal and fall above it, so that a sweep, either way, needs the row before it last.
 //
 // The order of all sums follows from this layout (packed_kernel.h), so lanes of four and of eight give the same bits.
 // What a cut touches is packed again row by row; a row that outgrows its room moves to the end.
@@ -154,15 +154,20 @@ class PackedRows {
   };
   struct Entry {
     std::int32_t column, slot;
-    double value;  // of the scalar
   };
+  struct Scalar {
+    std::int32_t column;
+    S value;
+  };
+  using Columns = std::span<const std::int32_t>;
   void pack_row(std::size_t i);
-  void pack_part(PackedPart<D, S>& part, std::size_t i);
-  void pack_scalars(const std::vector<Entry>& entries, GrowingRows<TwoScalars<S>>& to, std::size_t i);
+  void pack_pairs(Columns columns, std::size_t slot, PackedPart<D, S>& part, std::size_t i);
+  void pack_scalars(Columns columns, std::size_t slot, GrowingRows<TwoScalars<S>>& to, std::size_t i);
   void pack_small(std::size_t i);
+  void set_scalars(std::size_t n, GrowingRows<TwoScalars<S>>& to, std::size_t i);
   /// Writes columns `stride` values apart, with a scalar on the diagonal and zeros behind each.
-  template <class Columns>
-  static void pack(const Columns& columns, S scalar, std::size_t stride, S* to) {
+  template <class BlockColumns>
+  static void pack(const BlockColumns& columns, S scalar, std::size_t stride, S* to) {
     using T = std::remove_cvref_t<decltype(columns[0][0])>;
     constexpr std::array<Quad<T>, 3> unit{Quad<T>{1, 0, 0, 0}, Quad<T>{0, 1, 0, 0}, Quad<T>{0, 0, 1, 0}};
     for (std::size_t c = 0; c < D; ++c) {
@@ -187,12 +192,15 @@ class PackedRows {
   PackedPart<D, S> below_, above_;
   bool keeps_small_ = false;
   GrowingRows<TwoScalars<S>> small_;
-  std::vector<Place> places_;         // per slot of the block rows
-  PackedVector<S> diagonal_;          // D columns per row, without the small scalars
-  PackedVector<S> inverse_;           // D columns per row
-  std::vector<Entry> blocks_, near_;  // working storage of pack_part()
+  std::vector<Place> places_;  // per slot of the block rows
+  PackedVector<S> diagonal_;   // D columns per row, without the small scalars
+  PackedVector<S> inverse_;    // D columns per row
+  // Working storage of pack_row().
+  std::vector<std::int32_t> slot_of_;  // per column: of its block in the row at hand, or -1
+  std::vector<Entry> blocks_;
   std::vector<PackedPair> pairs_;
-  std::vector<TwoScalars<S>> scalars_;
+  std::vector<Scalar> scalars_;
+  std::vector<TwoScalars<S>> two_scalars_;
 };
 
 }  // namespace cutbench

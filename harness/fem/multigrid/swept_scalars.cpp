@@ -8,12 +8,6 @@
 
 namespace cutbench {
 
-namespace {
-
-constexpr double small = 0.01;  // of the smaller of two rows' scales
-
-}  // namespace
-
 void SweptScalars::follow(const LevelRows& rows, std::span<const std::int32_t> changed) {
   near_.resize(rows.size());
   left_out_.resize(rows.size());
@@ -58,31 +52,29 @@ void SweptScalars::find_scales(const LevelRows& rows, std::span<const std::int32
   }
 }
 
-bool SweptScalars::is_small(std::size_t i, std::size_t j, double value) const {
-  return std::abs(value) < small * std::min(scale_[i], scale_[j]);
-}
-
+/// Whether a scalar is small is a coin toss, so there is no branch.
 void SweptScalars::take(const LevelRows& rows, std::size_t i) {
-  columns_.clear();
-  taken_.clear();
+  const auto all = rows.scalars[i];
+  columns_.resize(all.size());
+  taken_.resize(all.size());
   double left_out = 0;
-  std::size_t slot = rows.scalars.first_slot(i), own = 0;
-  for (const std::int32_t column : rows.scalars[i]) {
+  std::size_t slot = rows.scalars.first_slot(i), n = 0, own = 0;
+  for (const std::int32_t column : all) {
     const double value = rows.scalar[slot++];
     const auto j = to_size(column);
-    if (j != i && is_small(i, j, value)) {
-      left_out += value;
-      continue;
-    }
-    if (j == i) own = taken_.size();
-    columns_.push_back(column);
-    taken_.push_back(value);
+    const bool leave_out = j != i && is_small(i, j, value);
+    left_out += leave_out ? value : 0;
+    own = j == i ? n : own;
+    columns_[n] = column;
+    taken_[n] = value;
+    n += !leave_out;
   }
-  if (!columns_.empty()) taken_[own] += left_out;
+  columns_.resize(n);
+  if (n > 0) taken_[own] += left_out;
   left_out_[i] = left_out;
-  near_.set(i, columns_);
+  near_.set_in_order(i, columns_, own);
   values_.resize(near_.slots());
-  std::copy(taken_.begin(), taken_.end(), values_.begin() + to_index(near_.first_slot(i)));
+  std::copy_n(taken_.begin(), n, values_.begin() + to_index(near_.first_slot(i)));
 }
 
 }  // namespace cutbench

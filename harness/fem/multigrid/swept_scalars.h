@@ -1,8 +1,12 @@
 // Which scalars the sweeps of a level take.
 //
 // Bending couples each vertex to some 35 others, most of them hardly at all. So the sweeps are those of a matrix without
-// the small scalars. These are added to its diagonal, and a row times a translation stays what it was.
+// the small scalars. These are added to its diagonal, and a row times a translation stays what it was. Coarser levels are
+// made of that matrix, too.
 #pragma once
+
+#include <algorithm>
+#include <cmath>
 
 #include "harness/fem/multigrid/level_rows.h"
 
@@ -22,9 +26,13 @@ class SweptScalars {
   /// What the diagonal of row i has more: the sum of its small scalars.
   double left_out(std::size_t i) const { return left_out_[i]; }
   /// Whether a scalar beside the diagonal is small. Both rows of an entry leave it out, or none does.
-  bool is_small(std::size_t i, std::size_t j, double value) const;
+  bool is_small(std::size_t i, std::size_t j, double value) const {
+    return std::abs(value) < small * std::min(scale_[i], scale_[j]);
+  }
 
  private:
+  static constexpr double small = 0.01;  // of the smaller of two rows' scales
+
   void find_scales(const LevelRows& rows, std::span<const std::int32_t> changed);
   void take(const LevelRows& rows, std::size_t i);
 
