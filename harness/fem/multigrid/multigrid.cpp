@@ -16,8 +16,10 @@ namespace cutbench {
 
 namespace {
 
-constexpr std::size_t most_factored = 200;  // unknowns of a dense factorisation
-constexpr double widest_for_floats = 1e5;   // largest diagonal block over the median one
+constexpr std::size_t most_factored = 200;       // unknowns of a dense factorisation
+constexpr double widest_for_floats = 1e5;        // largest diagonal block over the median one
+constexpr double stiffest_for_floats = 1 << 20;  // diagonal of a free piece over the sum of its entries
+constexpr double same_trace = 0.01;              // a larger change shows another step or material
 
 /// All places that are not finite are alike.
 bool is_same(Point2 a, Point2 b) { return (a.x == b.x && a.y == b.y) || (std::isnan(a.x) && std::isnan(b.x)); }
@@ -30,6 +32,12 @@ Block inverse_of(const Block& block) {
   const bool positive = block(0, 0) > 0 && block.determinant() > 0 && inverse(last, last) > 0;
   if (!positive || !inverse.allFinite()) inverse.setZero();
   return inverse;
+}
+
+template <int D>
+bool is_held_altogether(const SystemMatrix<D>& a, std::size_t i) {
+  const auto held = a.held->begin() + to_index(D * i);
+  return std::find(held, held + D, 0) == held + D;
 }
 
 template <class S, int D, class From>
@@ -86,9 +94,7 @@ void Multigrid<D>::read_row(const SystemMatrix<D>& a, std::size_t i) {
 
 template <int D>
 bool Multigrid<D>::read_place(const SystemMatrix<D>& a, std::size_t i) {
-  const auto held = a.held->begin() + to_index(D * i);
-  const bool needs_no_correction = std::find(held, held + D, 0) == held + D;
-  const bool is_known = a.places && i < a.places->size() && !needs_no_correction;
+  const bool is_known = a.places && i < a.places->size() && !is_held_altogether(a, i);
   const Point2 place = is_known ? (*a.places)[i] : Point2{std::numeric_limits<double>::quiet_NaN(), 0};
   return !is_same(std::exchange(places_[i], place), place);
 }
@@ -114,7 +120,7 @@ void Multigrid<D>::look_at_sizes(const SystemMatrix<D>& a) {
   sizes_.assign(a.vertices(), 0);
   sorted_.clear();
   in_doubles_ = false;
-  trace_ = median_size_ = 0;
+  trace_ = median_size_ = widest_ = 0;
   for (std::size_t i = 0; i < a.vertices(); ++i) {
     if (a.blocks->columns(i).empty()) continue;
     const Block& diagonal = diagonals_[i];
@@ -136,7 +142,43 @@ void Multigrid<D>::look_at_sizes(const SystemMatrix<D>& a) {
   std::nth_element(sorted_.begin(), middle, sorted_.end());
   median_size_ = *middle;
   widest_ = largest / median_size_;
-  in_doubles_ = !(largest < widest_for_floats * median_size_ && largest < 1e30 && median_size_ > 1e-30);
+  if (!changed_.empty() || !(std::abs(trace_ - trace_of_pieces_) <= same_trace * trace_of_pieces_)) {
+    trace_of_pieces_ = trace_;
+    stiffest_piece_ = stiffest_piece(a);
+  }
+  in_doubles_ = !(largest < widest_for_floats * median_size_ && largest < 1e30 && median_size_ > 1e-30 &&
+                  stiffest_piece_ < stiffest_for_floats);
+}
+
+/// The largest diagonal of a free piece over the sum of its entries, which is what the piece weighs: no stiffness resists
+/// a translation.
+template <int D>
+double Multigrid<D>::stiffest_piece(const SystemMatrix<D>& a) const {
+  const std::size_t n = a.vertices();
+  struct Piece {
+    double stiffness = 0, weight = 0;
+    bool is_held = false;
+  };
+  std::vector<Piece> pieces(n);
+  UnionFind joined(n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (const std::int32_t j : rows_.blocks[i]) joined.join(i, to_size(j));
+  for (std::size_t i = 0; i < n; ++i) {
+    if (rows_.blocks[i].empty()) continue;
+    Piece& piece = pieces[joined.find(i)];
+    piece.stiffness += sizes_[i];
+    piece.is_held |= is_held_altogether(a, i);
+    std::int32_t slot = a.blocks->first_slot(i);
+    for (std::size_t k = 0; k < a.blocks->columns(i).size(); ++k) piece.weight += a.blocks->block(slot++).trace();
+    for (std::size_t k = 0; k < rows_.scalars[i].size(); ++k)
+      piece.weight += D * rows_.scalar[rows_.scalars.first_slot(i) + k];
+  }
+  double most = 0;
+  for (const Piece& piece : pieces)
+    if (piece.stiffness > 0 && !piece.is_held)
+      most =
+          std::max(most, piece.weight > 0 ? piece.stiffness / piece.weight : std::numeric_limits<double>::infinity());
+  return most;
 }
 
 /// Zero in rows and columns of held coordinates, and where the block is not positive definite.
@@ -301,7 +343,8 @@ void Multigrid<D>::setup(const SystemMatrix<D>& a) {
   }
   // Every other time the coarse matrices of the last time do: rotations change them little. They leave the trace alone,
   // so another trace shows another step or material.
-  coarse_are_old_ = changed_.empty() && !coarse_are_old_ && std::abs(trace_ - coarse_trace_) <= 0.01 * coarse_trace_;
+  coarse_are_old_ =
+      changed_.empty() && !coarse_are_old_ && std::abs(trace_ - coarse_trace_) <= same_trace * coarse_trace_;
   if (!coarse_are_old_) fill_coarse_levels(a);
 }
 

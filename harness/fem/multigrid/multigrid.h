@@ -4,8 +4,10 @@
 // A is. Vertices that slivers constraint together are one more unknown of the first coarse level, and clusters of stiff
 // vertices are solved exactly (StiffClusters). On the coarsest level a Cholesky factorisation solves.
 //
-// Levels are in floats: a preconditioner need not be accurate, and the time is that of reading the matrix. Where the
-// diagonal blocks of A differ too much for floats (slivers), the finest level is in doubles. Without places of the
+// Levels are in floats: a preconditioner need not be accurate, and the time is that of reading the matrix. The finest level
+// is in doubles where the diagonal blocks of A differ too much for floats (slivers), or where a free piece is so light
+// beside its stiffness that rounding makes another weight of it: its diagonal is over 2^20 times the sum of its entries,
+// so the last of 24 bits is a sixteenth of that. Then the cycle would not be symmetric. Without places of the
 // vertices there is the finest level alone, which is symmetric Gauss-Seidel.
 #pragma once
 
@@ -91,6 +93,7 @@ class Multigrid final : public Preconditioner<D> {
   static Finer finer_than_next(const CoarseLevel& level);
   static void update_rows(CoarseLevel& level, const Finer& fine, const Coarsening::Regrouping& regrouping);
   void look_at_sizes(const SystemMatrix<D>& a);
+  double stiffest_piece(const SystemMatrix<D>& a) const;
   void fill_coarse_levels(const SystemMatrix<D>& a);
   template <class S>
   void fill(const SystemMatrix<D>& a, Level<S>& level, bool& is_new);
@@ -128,6 +131,7 @@ class Multigrid final : public Preconditioner<D> {
   std::vector<Block> diagonals_;  // of A
   std::vector<double> sizes_;     // per vertex: the trace of its diagonal block
   double median_size_ = 0;
+  double stiffest_piece_ = 0, trace_of_pieces_ = 0;
   double trace_ = 0, coarse_trace_ = 0;  // of A, at the last setup() and when the coarse matrices were computed
   bool coarse_are_old_ = true;
   // Working storage.
