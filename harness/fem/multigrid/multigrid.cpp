@@ -40,6 +40,11 @@ bool is_held_altogether(const SystemMatrix<D>& a, std::size_t i) {
   return std::find(held, held + D, 0) == held + D;
 }
 
+void sort_unique(std::vector<std::int32_t>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
 template <class S, int D, class From>
 BlockColumns<D, S> converted(const From& columns) {
   BlockColumns<D, S> all;
@@ -65,8 +70,7 @@ bool Multigrid<D>::find_changed(const SystemMatrix<D>& a) {
     const auto marked = a.history->changed_since(pattern_);
     changed_.assign(marked.begin(), marked.end());
     for (std::size_t i = before; i < n; ++i) changed_.push_back(to_int32(i));
-    std::sort(changed_.begin(), changed_.end());
-    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+    sort_unique(changed_);
     if (2 * changed_.size() < n) return true;
   }
   changed_.resize(n);
@@ -113,14 +117,13 @@ void Multigrid<D>::find_held(const SystemMatrix<D>& a) {
 
 // --- values ----------------------------------------------------------------------------------------------------------
 
-/// The sizes of the diagonal blocks, by what is not held, and whether floats do for the finest level.
+/// The sizes of the diagonal blocks, by what is not held.
 template <int D>
 void Multigrid<D>::look_at_sizes(const SystemMatrix<D>& a) {
   a.diagonals(diagonals_);
   sizes_.assign(a.vertices(), 0);
   sorted_.clear();
-  in_doubles_ = false;
-  trace_ = median_size_ = widest_ = 0;
+  trace_ = median_size_ = largest_size_ = 0;
   for (std::size_t i = 0; i < a.vertices(); ++i) {
     if (a.blocks->columns(i).empty()) continue;
     const Block& diagonal = diagonals_[i];
@@ -137,17 +140,21 @@ void Multigrid<D>::look_at_sizes(const SystemMatrix<D>& a) {
     if (std::isfinite(sizes_[i])) sorted_.push_back(sizes_[i]);  // NaN has no place in an order
   }
   if (sorted_.empty()) return;
-  const double largest = *std::max_element(sorted_.begin(), sorted_.end());
+  largest_size_ = *std::max_element(sorted_.begin(), sorted_.end());
   const auto middle = sorted_.begin() + to_index(sorted_.size() / 2);
   std::nth_element(sorted_.begin(), middle, sorted_.end());
   median_size_ = *middle;
-  widest_ = largest / median_size_;
+}
+
+/// Whether floats do for the finest level.
+template <int D>
+void Multigrid<D>::choose_precision(const SystemMatrix<D>& a) {
   if (!changed_.empty() || !(std::abs(trace_ - trace_of_pieces_) <= same_trace * trace_of_pieces_)) {
     trace_of_pieces_ = trace_;
     stiffest_piece_ = stiffest_piece(a);
   }
-  in_doubles_ = !(largest < widest_for_floats * median_size_ && largest < 1e30 && median_size_ > 1e-30 &&
-                  stiffest_piece_ < stiffest_for_floats);
+  in_doubles_ = median_size_ > 0 && !(largest_size_ < widest_for_floats * median_size_ && largest_size_ < 1e30 &&
+                                      median_size_ > 1e-30 && stiffest_piece_ < stiffest_for_floats);
 }
 
 /// The largest diagonal of a free piece over the sum of its entries, which is what the piece weighs: no stiffness resists
@@ -309,10 +316,26 @@ void Multigrid<D>::factor_coarsest() {
   solves_coarsest_ = coarsest_.info() == Eigen::Success;
 }
 
+/// Adds to the rows that have changed those of vertices that have become twice as stiff or half as stiff, beside the
+/// median: strains stiffen polygons without a cut, and then other vertices move together.
+template <int D>
+void Multigrid<D>::find_restiffened() {
+  std::vector<std::int32_t> found;
+  for (std::size_t i = 0; i < looked_at_.size(); ++i) {
+    const double now = sizes_[i] / median_size_;
+    if (now > 2 * looked_at_[i] || 2 * now < looked_at_[i]) found.push_back(to_int32(i));
+  }
+  if (2 * found.size() >= looked_at_.size()) return;  // another matrix altogether
+  changed_.insert(changed_.end(), found.begin(), found.end());
+  sort_unique(changed_);
+}
+
 template <int D>
 void Multigrid<D>::setup(const SystemMatrix<D>& a) {
-  StopWatch watch;
   const bool follows = find_changed(a);
+  look_at_sizes(a);
+  if (follows) find_restiffened();
+  StopWatch watch;
   if (!changed_.empty()) {
     const std::size_t n = a.vertices();
     if (!follows) {
@@ -323,8 +346,12 @@ void Multigrid<D>::setup(const SystemMatrix<D>& a) {
     places_.resize(n);
     scalars_.resize(n);
     place_in_front_.resize(n, -1);
+    looked_at_.resize(n);
     changes_ = {};
-    for (const std::int32_t i : changed_) read_row(a, to_size(i));
+    for (const std::int32_t i : changed_) {
+      read_row(a, to_size(i));
+      looked_at_[to_size(i)] = sizes_[to_size(i)] / median_size_;
+    }
     if (!follows)
       for (const auto& term : a.scalar) factors_.push_back(term.factor);
     follows ? update_levels(a) : make_levels(a);
@@ -332,8 +359,8 @@ void Multigrid<D>::setup(const SystemMatrix<D>& a) {
   pattern_ = a.pattern;
   rows_us_ = watch.lap();
   find_held(a);
-  look_at_sizes(a);
   if (!changed_.empty()) clusters_.find(sizes_, median_size_, rows_);
+  choose_precision(a);
   if (in_doubles_) {
     fill(a, finest_in_doubles_, double_is_new_);
     clusters_.factor(finest_in_doubles_.matrix, *a.held);

@@ -75,6 +75,7 @@ class Multigrid final : public Preconditioner<D> {
   };
 
   bool find_changed(const SystemMatrix<D>& a);
+  void find_restiffened();
   void read_row(const SystemMatrix<D>& a, std::size_t i);
   bool read_place(const SystemMatrix<D>& a, std::size_t i);  // true: it is another
   Coarsening::Regrouping regroup(const SystemMatrix<D>& a);
@@ -93,6 +94,7 @@ class Multigrid final : public Preconditioner<D> {
   static Finer finer_than_next(const CoarseLevel& level);
   static void update_rows(CoarseLevel& level, const Finer& fine, const Coarsening::Regrouping& regrouping);
   void look_at_sizes(const SystemMatrix<D>& a);
+  void choose_precision(const SystemMatrix<D>& a);
   double stiffest_piece(const SystemMatrix<D>& a) const;
   void fill_coarse_levels(const SystemMatrix<D>& a);
   template <class S>
@@ -120,7 +122,6 @@ class Multigrid final : public Preconditioner<D> {
   RowChanges changes_;                      // what is different there
   std::size_t slots_made_ = 0;              // slots of rows_ when the levels were made
   double rows_us_ = 0;
-  double widest_ = 0;  // the largest diagonal block over the median one
   bool in_doubles_ = false, float_is_new_ = true, double_is_new_ = true;  // new: the rows are to be set
   Level<float> finest_;
   Level<double> finest_in_doubles_;
@@ -130,7 +131,8 @@ class Multigrid final : public Preconditioner<D> {
   bool solves_coarsest_ = false;
   std::vector<Block> diagonals_;  // of A
   std::vector<double> sizes_;     // per vertex: the trace of its diagonal block
-  double median_size_ = 0;
+  double median_size_ = 0, largest_size_ = 0;
+  std::vector<double> looked_at_;  // per vertex: its size over the median when groups and clusters were found there
   double stiffest_piece_ = 0, trace_of_pieces_ = 0;
   double trace_ = 0, coarse_trace_ = 0;  // of A, at the last setup() and when the coarse matrices were computed
   bool coarse_are_old_ = true;

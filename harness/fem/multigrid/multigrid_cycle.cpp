@@ -87,7 +87,7 @@ void Multigrid<D>::apply(const Field& r, Field& z) {
 
 template <int D>
 bool Multigrid<D>::multiply_roughly(const Field& x, Field& y) {
-  if (in_doubles_ || !(widest_ < widest_for_product)) return false;
+  if (in_doubles_ || !(largest_size_ < widest_for_product * median_size_)) return false;
   const double scale = take_scaled<D>(x, finest_.t);
   for (std::size_t i = 0; i < finest_.t.size(); ++i)
     give_scaled<D>(scale, row_product<Widest<float>>(finest_.matrix, i, finest_.t), i, y);
