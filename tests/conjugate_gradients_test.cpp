@@ -18,6 +18,7 @@ const Material skin{.density = 2.2, .stiffness = 1000, .poisson = 0.45, .bending
 /// Counts its set-ups; z = share r, so it is as slow as no preconditioner, and with a share of NaN worse.
 class Poor final : public Preconditioner<3> {
  public:
+  using Preconditioner<3>::setup;
   Poor(int& setups, const double& share) : setups_(setups), share_(share) {}
   void setup(const SystemMatrix<3>&) override { ++setups_; }
   void apply(const Field& r, Field& z) override { z = share_ * r; }

@@ -21,11 +21,12 @@ constexpr double tolerance_for_floats = 1e-3;
 template <int D>
 void ConjugateGradients<D>::setup(const SystemMatrix<D>& a) {
   matrix_ = &a;
-  a.diagonals(inverse_);
+  a.diagonals(diagonals_);
+  inverse_.resize(diagonals_.size());
   positive_blocks_ = true;
-  for (Block& inverse : inverse_) {
-    const Block block = inverse;
-    inverse = block.inverse();
+  for (std::size_t i = 0; i < diagonals_.size(); ++i) {
+    const Block& block = diagonals_[i];
+    const Block inverse = inverse_[i] = block.inverse();
     // Sylvester: the leading minors are positive; that of D - 1 rows is the determinant times the inverse's last entry.
     positive_blocks_ = positive_blocks_ && block(0, 0) > 0 && block.determinant() > 0 && inverse(D - 1, D - 1) > 0;
   }
@@ -38,7 +39,7 @@ void ConjugateGradients<D>::setup(const SystemMatrix<D>& a) {
 template <int D>
 void ConjugateGradients<D>::prepare() {
   if (trial_ == trials_.size() || trials_[trial_].is_set_up) return;
-  trials_[trial_].preconditioner->setup(*matrix_);
+  trials_[trial_].preconditioner->setup(*matrix_, diagonals_);
   trials_[trial_].is_set_up = true;
 }
 

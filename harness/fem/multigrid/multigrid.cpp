@@ -119,14 +119,13 @@ void Multigrid<D>::find_held(const SystemMatrix<D>& a) {
 
 /// The sizes of the diagonal blocks, by what is not held.
 template <int D>
-void Multigrid<D>::look_at_sizes(const SystemMatrix<D>& a) {
-  a.diagonals(diagonals_);
+void Multigrid<D>::look_at_sizes(const SystemMatrix<D>& a, const Blocks& diagonals) {
   sizes_.assign(a.vertices(), 0);
   sorted_.clear();
   trace_ = median_size_ = largest_size_ = 0;
   for (std::size_t i = 0; i < a.vertices(); ++i) {
     if (a.blocks->columns(i).empty()) continue;
-    const Block& diagonal = diagonals_[i];
+    const Block& diagonal = diagonals[i];
     double sum = 0;
     int free = 0;
     for (int c = 0; c < D; ++c)
@@ -210,7 +209,7 @@ void Multigrid<D>::set_inverse(Level<S>& level, std::size_t i, Block diagonal, c
 /// The finest level. Rows and columns of held unknowns need not be zero: the sweeps leave these unknowns at zero.
 template <int D>
 template <class S>
-void Multigrid<D>::fill(const SystemMatrix<D>& a, Level<S>& level, bool& is_new) {
+void Multigrid<D>::fill(const SystemMatrix<D>& a, const Blocks& diagonals, Level<S>& level, bool& is_new) {
   if (is_new) {
     level.matrix.follow(rows_, swept_, std::is_same_v<S, float>);
     level.resize();
@@ -224,7 +223,7 @@ void Multigrid<D>::fill(const SystemMatrix<D>& a, Level<S>& level, bool& is_new)
     if (rows_.blocks[i].empty()) continue;
     std::array<bool, D> is_held{};
     for (std::size_t c = 0; c < D; ++c) is_held[c] = (*a.held)[D * i + c] != 0;
-    set_inverse(level, i, diagonals_[i] + swept_.left_out(i) * Block::Identity(), is_held);
+    set_inverse(level, i, diagonals[i] + swept_.left_out(i) * Block::Identity(), is_held);
   }
 }
 
@@ -332,8 +331,14 @@ void Multigrid<D>::find_restiffened() {
 
 template <int D>
 void Multigrid<D>::setup(const SystemMatrix<D>& a) {
+  a.diagonals(diagonals_);
+  setup(a, diagonals_);
+}
+
+template <int D>
+void Multigrid<D>::setup(const SystemMatrix<D>& a, const Blocks& diagonals) {
   const bool follows = find_changed(a);
-  look_at_sizes(a);
+  look_at_sizes(a, diagonals);
   if (follows) find_restiffened();
   StopWatch watch;
   if (!changed_.empty()) {
@@ -362,10 +367,10 @@ void Multigrid<D>::setup(const SystemMatrix<D>& a) {
   if (!changed_.empty()) clusters_.find(sizes_, median_size_, rows_);
   choose_precision(a);
   if (in_doubles_) {
-    fill(a, finest_in_doubles_, double_is_new_);
+    fill(a, diagonals, finest_in_doubles_, double_is_new_);
     clusters_.factor(finest_in_doubles_.matrix, *a.held);
   } else {
-    fill(a, finest_, float_is_new_);
+    fill(a, diagonals, finest_, float_is_new_);
     clusters_.factor(finest_.matrix, *a.held);
   }
   // Every other time the coarse matrices of the last time do: rotations change them little. They leave the trace alone,

@@ -30,6 +30,8 @@ class Multigrid final : public Preconditioner<D> {
   /// have changed, they are made anew. Their matrices are computed every other time, and wherever the rows or the
   /// trace of `a` have changed.
   void setup(const SystemMatrix<D>& a) override;
+  using typename Preconditioner<D>::Blocks;
+  void setup(const SystemMatrix<D>& a, const Blocks& diagonals) override;
   void apply(const Field& r, Field& z) override;
   /// By the finest level, in floats.
   bool multiply_roughly(const Field& x, Field& y) override;
@@ -93,12 +95,12 @@ class Multigrid final : public Preconditioner<D> {
   };
   static Finer finer_than_next(const CoarseLevel& level);
   static void update_rows(CoarseLevel& level, const Finer& fine, const Coarsening::Regrouping& regrouping);
-  void look_at_sizes(const SystemMatrix<D>& a);
+  void look_at_sizes(const SystemMatrix<D>& a, const Blocks& diagonals);
   void choose_precision(const SystemMatrix<D>& a);
   double stiffest_piece(const SystemMatrix<D>& a) const;
   void fill_coarse_levels(const SystemMatrix<D>& a);
   template <class S>
-  void fill(const SystemMatrix<D>& a, Level<S>& level, bool& is_new);
+  void fill(const SystemMatrix<D>& a, const Blocks& diagonals, Level<S>& level, bool& is_new);
   template <class S, class AskFor, class AddRow>
   void fill_coarse(Level<S>& fine, CoarseLevel& level, const AskFor& ask_for, const AddRow& add_row);
   template <class S>
@@ -129,8 +131,8 @@ class Multigrid final : public Preconditioner<D> {
   std::deque<CoarseLevel> coarse_;  // each refers to rows of its own
   Eigen::LLT<Eigen::MatrixXd> coarsest_;
   bool solves_coarsest_ = false;
-  std::vector<Block> diagonals_;  // of A
-  std::vector<double> sizes_;     // per vertex: the trace of its diagonal block
+  Blocks diagonals_;           // of A, where nobody else has them
+  std::vector<double> sizes_;  // per vertex: the trace of its diagonal block
   double median_size_ = 0, largest_size_ = 0;
   std::vector<double> looked_at_;  // per vertex: its size over the median when groups and clusters were found there
   double stiffest_piece_ = 0, trace_of_pieces_ = 0;
