@@ -1,4 +1,5 @@
-// What smooths on a level of multigrid, against dense matrices: sweeps and stiff clusters.
+// What smooths on a level of multigrid, against dense matrices: sweeps and stiff clusters. (packed_rows_test.cpp compares
+// the sweeps' bits with plain loops.)
 
 #include <gtest/gtest.h>
 
@@ -10,7 +11,7 @@
 
 #include "harness/base/conversions.h"
 #include "harness/base/random.h"
-#include "harness/fem/multigrid/level_matrix.h"
+#include "harness/fem/multigrid/packed_kernel.h"
 #include "harness/fem/multigrid/stiff_clusters.h"
 #include "tests/multigrid_helpers.h"
 #include "tests/random_field.h"
@@ -48,9 +49,14 @@ TYPED_TEST(Sweeps, AreTriangularSolves) {
     rows.blocks.set(to_size(i), blocks);
     rows.set_scalars(to_size(i), scalars, values);
   }
-  LevelMatrix<3, S> a;
-  a.follow(rows);
-  for (std::size_t k = 0; k < 9 * rows.blocks.slots(); ++k) a.block(0)[k] = static_cast<S>(random.between(-1, 1));
+  SweptScalars swept;
+  swept.follow(rows);
+  PackedRows<3, S> a;
+  a.follow(rows, swept, true);
+  std::vector<double> values(9 * rows.blocks.slots());
+  for (double& value : values) value = random.between(-1, 1);
+  for (std::size_t i = 0; i < n; ++i)
+    a.fill_row(i, [&](std::size_t slot) { return columns_of<3>(values.data() + 9 * slot); });
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * n, 3 * n);
   for (int i = 0; i < n; ++i) {
     const auto row = to_size(i);
@@ -58,7 +64,17 @@ TYPED_TEST(Sweeps, AreTriangularSolves) {
                      [&](int j, const auto& block) { all.block<3, 3>(3 * i, 3 * j) += block.template cast<double>(); });
     a.for_each_scalar(row, [&](int j, S value) { all.block<3, 3>(3 * i, 3 * j).diagonal().array() += double(value); });
   }
-  EXPECT_GT((all - a.dense()).cwiseAbs().maxCoeff(), 0.1);                         // small scalars are on the diagonal
+  Eigen::MatrixXd with_small = all;  // which the swept matrix has on its diagonal
+  for (std::size_t i = 0; i < n; ++i) {
+    with_small.block<3, 3>(to_index(3 * i), to_index(3 * i)).diagonal().array() -= swept.left_out(i);
+    std::size_t slot = rows.scalars.first_slot(i);
+    for (const std::int32_t j : rows.scalars[i]) {
+      const double value = rows.scalar[slot++];
+      if (to_size(j) != i && swept.is_small(i, to_size(j), value))
+        with_small.block<3, 3>(to_index(3 * i), 3 * j).diagonal().array() += value;
+    }
+  }
+  EXPECT_GT((all - with_small).cwiseAbs().maxCoeff(), 0.1);
   Eigen::MatrixXd lower = Eigen::MatrixXd::Identity(3 * n, 3 * n), upper = lower;  // with the blocks on the diagonal
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
@@ -69,28 +85,30 @@ TYPED_TEST(Sweeps, AreTriangularSolves) {
   for (std::size_t i = 0; i < n; ++i)
     if (i != 5) a.set_inverse(i, a.diagonal(i).inverse());
 
-  using Vector = typename LevelMatrix<3, S>::Vector;
   const Eigen::Index size = 3 * n;
-  const auto values = [&](const Vector& v) {
-    return Field(Eigen::Map<const Eigen::Matrix<S, Eigen::Dynamic, 1>>(v.data(), size).template cast<double>());
+  const auto flat = [&](const PackedVector<S>& v) {
+    Field field(size);
+    for (Eigen::Index u = 0; u < size; ++u) field[u] = double(v[to_size(u / 3)][u % 3]);
+    return field;
   };
-  Vector r(3 * n + LevelMatrix<3, S>::padding), z = r, t = r;
+  PackedVector<S> r(n), z(n), t(n);
   const Field right = random_field(4, size);
-  for (Eigen::Index u = 0; u < size; ++u) r[to_size(u)] = u / 3 == 5 ? S(0) : static_cast<S>(right[u]);
+  for (Eigen::Index u = 0; u < size; ++u) r[to_size(u / 3)][u % 3] = u / 3 == 5 ? S(0) : static_cast<S>(right[u]);
   const double close = std::is_same_v<S, float> ? 1e-5 : 1e-13;
-  a.sweep_forwards(r, z, t);
-  const Field first = lower.triangularView<Eigen::Lower>().solve(Field::Zero(size)) + lower.lu().solve(values(r));
-  EXPECT_LT((values(z) - first).norm(), close * first.norm());
-  EXPECT_LT((values(t) - (values(r) - all * first)).norm(), 30 * close * values(r).norm());
-  const Field start = values(z);
-  a.sweep_backwards(r, z);
-  const Field second = start + upper.lu().solve(values(r) - all * start);
-  EXPECT_LT((values(z) - second).norm(), close * second.norm());
+  sweep_forwards<Widest<S>>(a, r, z, t);
+  const Field first = lower.lu().solve(flat(r));
+  EXPECT_LT((flat(z) - first).norm(), close * first.norm());
+  EXPECT_LT((flat(t) - (flat(r) - all * first)).norm(), 30 * close * flat(r).norm());
+  const Field start = flat(z);
+  sweep_backwards<Widest<S>>(a, r, z);
+  const Field second = start + upper.lu().solve(flat(r) - all * start);
+  EXPECT_LT((flat(z) - second).norm(), close * second.norm());
+  for (std::size_t i = 0; i < n; ++i) t[i] = row_product<Widest<S>>(a, i, r);
+  EXPECT_LT((flat(t) - with_small * flat(r)).norm(), close * flat(t).norm());
 }
 
-/// Small scalars go to the diagonals of both rows or of none, also where one of them has changed since. The dense
-/// matrix has them all where they were.
-TEST(LevelMatrix, LeavesSmallScalarsOut) {
+/// Small scalars go to the diagonals of both rows or of none, also where one of them has changed since.
+TEST(SweptScalars, LeaveSmallOnesOut) {
   constexpr std::int32_t n = 30;
   Random random(8);
   LevelRows rows;
@@ -112,12 +130,14 @@ TEST(LevelMatrix, LeavesSmallScalarsOut) {
     rows.set_scalars(to_size(i), columns, values);
   };
   for (std::int32_t i = 0; i < n; ++i) set(i);
-  LevelMatrix<2, double> a;
+  SweptScalars a;
   a.follow(rows);
   const auto taken = [&] {
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n, n);
-    for (std::int32_t i = 0; i < n; ++i)
-      a.for_each_scalar(to_size(i), [&](std::int32_t j, double value) { all(i, j) = value; });
+    for (std::int32_t i = 0; i < n; ++i) {
+      std::size_t slot = a.rows().first_slot(to_size(i));
+      for (const std::int32_t j : a.rows()[to_size(i)]) all(i, j) = a.values()[slot++];
+    }
     return all;
   };
   for (std::int32_t i = 0; i < n; ++i) {
@@ -128,7 +148,7 @@ TEST(LevelMatrix, LeavesSmallScalarsOut) {
     EXPECT_NEAR(taken().row(i).sum(), scalars.row(i).sum(), 1e-14);  // a translation is what it was
     EXPECT_NEAR(a.left_out(to_size(i)), taken()(i, i) - scalars(i, i), 1e-14);
   }
-  EXPECT_EQ(a.scalar_count(), to_size(n * n / 2));
+  EXPECT_EQ((taken().array() != 0).count(), n * n / 2);
 
   // A cut makes slivers of one row, and takes most of another.
   scalars(3, 3) *= 1e4;
@@ -139,8 +159,6 @@ TEST(LevelMatrix, LeavesSmallScalarsOut) {
   EXPECT_EQ(taken(), taken().transpose());
   for (const int i : {3, 8}) EXPECT_NEAR(taken().row(i).sum(), scalars.row(i).sum(), 1e-10);
   EXPECT_EQ(taken()(3, 7), scalars(3, 7));
-  for (std::int32_t i = 0; i < n; ++i)
-    for (std::int32_t j = 0; j < n; ++j) EXPECT_EQ(a.dense()(2 * i, 2 * j), scalars(i, j));
 }
 
 // --- stiff clusters --------------------------------------------------------------------------------------------------
@@ -151,12 +169,20 @@ TEST(StiffClusters, AreSolvedExactly) {
   const Body<2> body = cut_body<2>("delaunay", 20, BendingKind::none, "conventional_split");
   const SystemMatrix<2> a = body.model.system();
   const LevelRows rows = rows_of(*a.blocks);
-  LevelMatrix<2, double> matrix;
-  matrix.follow(rows);
-  for (std::size_t i = 0; i < a.vertices(); ++i)
-    for (std::size_t k = 0; k < rows.blocks[i].size(); ++k)
-      Eigen::Map<Eigen::Matrix2d>(matrix.block(rows.blocks.first_slot(i) + k)) =
-          a.blocks->block(a.blocks->find(i, rows.blocks[i][k]));
+  SweptScalars swept;
+  swept.follow(rows);
+  PackedRows<2, double> matrix;
+  matrix.follow(rows, swept, false);
+  const auto n = to_index(2 * a.vertices());
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n, n);
+  for (std::size_t i = 0; i < a.vertices(); ++i) {
+    matrix.fill_row(i, [&](std::size_t slot) {
+      const std::int32_t j = rows.blocks[i][slot - rows.blocks.first_slot(i)];
+      const auto& block = a.blocks->block(a.blocks->find(i, j));
+      all.block<2, 2>(to_index(2 * i), 2 * j) = block;
+      return columns_of<2>(block.data());
+    });
+  }
   const std::vector<std::uint8_t> nothing_held(a.held->size(), 0);
   StiffClusters<2> clusters;
   std::vector<double> sizes(a.vertices());
@@ -167,26 +193,30 @@ TEST(StiffClusters, AreSolvedExactly) {
   ASSERT_GT(clusters.size(), 2u);
   clusters.factor(matrix, nothing_held);
 
-  const auto n = to_index(2 * a.vertices());
-  const Eigen::MatrixXd all = matrix.dense();
   const Field right = random_field(9, n);
-  std::vector<double> r(to_size(n) + 4), z(r.size()), t(r.size());
-  Eigen::Map<Field>(r.data(), n) = right;
-  t = r;
+  const auto packed = [&](const Field& field) {
+    PackedVector<double> vector(a.vertices());
+    for (Eigen::Index u = 0; u < n; ++u) vector[to_size(u / 2)][u % 2] = field[u];
+    return vector;
+  };
+  const auto flat = [&](const PackedVector<double>& vector) {
+    Field field(n);
+    for (Eigen::Index u = 0; u < n; ++u) field[u] = vector[to_size(u / 2)][u % 2];
+    return field;
+  };
+  PackedVector<double> z(a.vertices()), t = packed(right);
   clusters.correct_forwards(matrix, z, t);
-  const Field forwards = Eigen::Map<const Field>(z.data(), n);
-  EXPECT_LT((Eigen::Map<const Field>(t.data(), n) - (right - all * forwards)).norm(), 1e-9 * right.norm());
+  const Field forwards = flat(z);
+  EXPECT_LT((flat(t) - (right - all * forwards)).norm(), 1e-9 * right.norm());
   // Each correction is the best in its space, so the energy that is left falls by half of r.z in the end.
   EXPECT_GT(right.dot(forwards), 0);
   EXPECT_LT(forwards.dot(all * forwards) / 2 - right.dot(forwards), 0);
   // Backwards after forwards is symmetric: B = B^T for the residuals r and q.
   const auto both = [&](const Field& from) {
-    std::vector<double> x(r.size()), left(r.size()), start(r.size());
-    Eigen::Map<Field>(left.data(), n) = from;
-    start = left;
+    PackedVector<double> x(a.vertices()), left = packed(from);
     clusters.correct_forwards(matrix, x, left);
-    clusters.correct_backwards(matrix, start, x);
-    return Field(Eigen::Map<const Field>(x.data(), n));
+    clusters.correct_backwards(matrix, packed(from), x);
+    return flat(x);
   };
   const Field q = random_field(10, n), from_r = both(right), from_q = both(q);
   EXPECT_NEAR(q.dot(from_r), right.dot(from_q), 1e-9 * std::sqrt(q.dot(from_q) * right.dot(from_r)));

@@ -13,17 +13,20 @@ namespace {
 // Rounding lets the residual that the recursion carries along run ahead of the true one; each restart from the true one
 // gains some digits, until the accuracy of doubles is reached.
 constexpr int max_restarts = 5;
+// Where products in floats do until the first restart: their rounding is far below such a residual.
+constexpr double tolerance_for_floats = 1e-3;
 
 }  // namespace
 
 template <int D>
 void ConjugateGradients<D>::setup(const SystemMatrix<D>& a) {
   matrix_ = &a;
-  a.diagonals(inverse_);
+  a.diagonals(diagonals_);
+  inverse_.resize(diagonals_.size());
   positive_blocks_ = true;
-  for (Block& inverse : inverse_) {
-    const Block block = inverse;
-    inverse = block.inverse();
+  for (std::size_t i = 0; i < diagonals_.size(); ++i) {
+    const Block& block = diagonals_[i];
+    const Block inverse = inverse_[i] = block.inverse();
     // Sylvester: the leading minors are positive; that of D - 1 rows is the determinant times the inverse's last entry.
     positive_blocks_ = positive_blocks_ && block(0, 0) > 0 && block.determinant() > 0 && inverse(D - 1, D - 1) > 0;
   }
@@ -36,7 +39,7 @@ void ConjugateGradients<D>::setup(const SystemMatrix<D>& a) {
 template <int D>
 void ConjugateGradients<D>::prepare() {
   if (trial_ == trials_.size() || trials_[trial_].is_set_up) return;
-  trials_[trial_].preconditioner->setup(*matrix_);
+  trials_[trial_].preconditioner->setup(*matrix_, diagonals_);
   trials_[trial_].is_set_up = true;
 }
 
@@ -109,8 +112,10 @@ SolveReport ConjugateGradients<D>::solve(const Field& b, Field& x, const Field& 
     precondition(now);
     p_ = z_;
     bool broken = !positive_blocks_;
+    bool is_rough = restart == 0 && options_.tolerance >= tolerance_for_floats && trial_ < trials_.size();
     while (!broken && (now.rr > enough || now.rdr > enough_rdr) && report.iterations < most) {
-      a.multiply(p_, q_);
+      is_rough = is_rough && trials_[trial_].preconditioner->multiply_roughly(p_, q_);
+      if (!is_rough) a.multiply(p_, q_);
       ++report.iterations;
       const double pap = p_.dot(q_);
       // Not positive definite (A, or the preconditioner), or not finite. Every comparison with NaN is false.
@@ -131,7 +136,8 @@ SolveReport ConjugateGradients<D>::solve(const Field& b, Field& x, const Field& 
     report.fell_back = trial_ > 0;
     if (report.converged && trial_ == 0) pause_ = first_pause;
     if (report.converged || report.iterations >= options_.max_iterations) return report;
-    const bool gives_up = broken || !std::isfinite(rr) || restart == max_restarts || report.iterations >= most;
+    const bool gives_up =
+        (broken && !is_rough) || !std::isfinite(rr) || restart == max_restarts || report.iterations >= most;
     if (gives_up && !(trial_ < trials_.size() && positive_blocks_ && std::isfinite(bb))) return report;
     if (gives_up) {
       give_up();

@@ -1,6 +1,8 @@
 // What conjugate gradients are told of a system beyond its diagonal blocks.
 #pragma once
 
+#include <vector>
+
 #include "harness/fem/linear/system_matrix.h"
 
 namespace cutbench {
@@ -11,9 +13,14 @@ class Preconditioner {
   virtual ~Preconditioner() = default;
   /// `a` must outlive the calls of apply().
   virtual void setup(const SystemMatrix<D>& a) = 0;
+  /// The same for one that already has the blocks on the diagonal, as a.diagonals() gives them.
+  using Blocks = std::vector<typename BlockMatrix<D>::Block>;
+  virtual void setup(const SystemMatrix<D>& a, const Blocks& /*diagonals*/) { setup(a); }
   /// z = B r, with B symmetric and positive definite. On entry z holds the residual times the inverse diagonal blocks.
   /// \pre r is zero where unknowns are held. Then z is, too.
   virtual void apply(const Field& r, Field& z) = 0;
+  /// y = A x as exactly as floats are, and sooner than by `a`; or false, and nothing is done. \pre as apply().
+  virtual bool multiply_roughly(const Field& /*x*/, Field& /*y*/) { return false; }
 };
 
 }  // namespace cutbench

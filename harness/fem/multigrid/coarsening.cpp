@@ -76,7 +76,7 @@ std::int32_t Coarsening::group_of(std::size_t fine) const {
 
 // --- update ----------------------------------------------------------------------------------------------------------
 
-void Coarsening::update(const LevelRows& fine, const std::vector<Point2>& places, const RowChanges& changes,
+void Coarsening::update(const FineRows& fine, const std::vector<Point2>& places, const RowChanges& changes,
                         const Regrouping& regrouping) {
   begin(fine.size());
   regroup(regrouping);
@@ -187,7 +187,7 @@ void Coarsening::find_members() {
 }
 
 /// Makes a coarse unknown of each linked part of a node's members.
-void Coarsening::divide(const LevelRows& fine, std::span<const Entry> members) {
+void Coarsening::divide(const FineRows& fine, std::span<const Entry> members) {
   joined_.reset(members.size());
   for (std::size_t k = 0; k < members.size(); ++k) place_in_node_[to_size(members[k].fine)] = to_int32(k);
   for (std::size_t k = 0; k < members.size(); ++k)
@@ -255,7 +255,7 @@ void Coarsening::free_parts(Node node) {
 
 /// A row of P^T A P depends on its members, on their rows of A, and on the parents of the columns of these. Scalars
 /// reach farther than blocks, so most rows that a cut touches have the blocks that they had.
-void Coarsening::find_touched(const LevelRows& fine, const RowChanges& changes) {
+void Coarsening::find_touched(const FineRows& fine, const RowChanges& changes) {
   for (const std::int32_t v : changes.links) touch_blocks_of_parents(v);
   for (const std::int32_t v : changes.rows) touch_parents(v);
   for (const std::int32_t v : with_new_parents_) {
@@ -294,7 +294,7 @@ void Coarsening::reserve_spare() {
 
 // --- product ---------------------------------------------------------------------------------------------------------
 
-void Coarsening::multiply(const LevelRows& fine, LevelRows& coarse) {
+void Coarsening::multiply(const FineRows& fine, LevelRows& coarse) {
   coarse.resize(coarse_size());
   part_row_.resize(fine_size());
   row_.resize(coarse_size());
@@ -316,7 +316,7 @@ bool Coarsening::multiply_blocks(const SweepRows& fine, std::size_t coarse, Swee
   return rows.set(coarse, row_.columns()).is_new;
 }
 
-bool Coarsening::multiply_scalars(const LevelRows& fine, std::size_t coarse, LevelRows& rows) {
+bool Coarsening::multiply_scalars(const FineRows& fine, std::size_t coarse, LevelRows& rows) {
   part_row_.clear();
   for (const Weight& member : members(coarse)) {
     const auto v = to_size(member.other);

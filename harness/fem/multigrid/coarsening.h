@@ -47,11 +47,11 @@ class Coarsening {
   ///                 are linked
   /// \param places   of the fine unknowns, rest units; one whose place is not finite is in no hat's support
   /// \param changes  since the last call; at the first call, all
-  void update(const LevelRows& fine, const std::vector<Point2>& places, const RowChanges& changes,
+  void update(const FineRows& fine, const std::vector<Point2>& places, const RowChanges& changes,
               const Regrouping& regrouping = {});
   /// Gives the coarse unknowns the rows of P^T A P, with the values of the scalars, where the last update() or the fine
   /// rows may have changed them.
-  void multiply(const LevelRows& fine, LevelRows& coarse);
+  void multiply(const FineRows& fine, LevelRows& coarse);
   /// Of the coarse rows, by the last multiply().
   const RowChanges& changes() const { return changes_; }
   /// Room for half as many unknowns again, before anything has to be copied.
@@ -100,19 +100,19 @@ class Coarsening {
   /// The hats that are not zero there: those of the corners of its lattice triangle. Valid until the next call.
   std::span<const Entry> hats(std::int32_t fine, Point2 place);
   void find_members();
-  void divide(const LevelRows& fine, std::span<const Entry> members);
+  void divide(const FineRows& fine, std::span<const Entry> members);
   void name_parts(std::span<const Entry> members);
   void free_parts(Node node);
   std::int32_t part_of(std::int32_t fine, Node node) const;
   std::int32_t new_coarse(Node node);
   void free_coarse(std::int32_t coarse);
-  void find_touched(const LevelRows& fine, const RowChanges& changes);
+  void find_touched(const FineRows& fine, const RowChanges& changes);
   void touch(std::int32_t coarse);         // its scalars
   void touch_blocks(std::int32_t coarse);  // and its blocks
   void touch_parents(std::int32_t fine);
   void touch_blocks_of_parents(std::int32_t fine);
   bool multiply_blocks(const SweepRows& fine, std::size_t coarse, SweepRows& rows);  // true: it has changed
-  bool multiply_scalars(const LevelRows& fine, std::size_t coarse, LevelRows& rows);
+  bool multiply_scalars(const FineRows& fine, std::size_t coarse, LevelRows& rows);
   void multiply_part_row();
 
   double spacing_;

@@ -33,6 +33,11 @@ class SweepRows {
   };
   /// Gives row i these columns, each once and i among them, or none. The result is valid until the next call.
   Placed set(std::size_t i, std::span<const std::int32_t> columns);
+  /// The same for columns in the order of the sweeps, of which `below` are below i.
+  void set_in_order(std::size_t i, std::span<const std::int32_t> columns, std::size_t below) {
+    columns_.set(i, columns);
+    below_[i] = static_cast<std::uint32_t>(below);
+  }
 
   std::span<const std::int32_t> operator[](std::size_t i) const { return columns_[i]; }
   std::span<const std::int32_t> below(std::size_t i) const { return columns_[i].first(below_[i]); }
@@ -49,12 +54,20 @@ class SweepRows {
   std::vector<std::int32_t> order_, ordered_;
 };
 
+/// Rows of a level, as those of the next coarser one are made of them.
+struct FineRows {
+  const SweepRows &blocks, &scalars;
+  const std::vector<double>& scalar;  // per slot of `scalars`
+  std::size_t size() const { return blocks.size(); }
+};
+
 /// D x D blocks, which couple neighbours, and scalars that act on each coordinate alike, which reach farther. The
 /// scalars are constant between changes of the rows; the blocks' values are kept elsewhere.
 struct LevelRows {
   SweepRows blocks, scalars;
   std::vector<double> scalar;  // per slot of `scalars`
 
+  operator FineRows() const { return {blocks, scalars, scalar}; }
   std::size_t size() const { return blocks.size(); }
   void resize(std::size_t rows) {
     blocks.resize(rows);

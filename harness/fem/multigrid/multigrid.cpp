@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 
 #include "harness/base/conversions.h"
@@ -15,8 +16,10 @@ namespace cutbench {
 
 namespace {
 
-constexpr std::size_t most_factored = 200;  // unknowns of a dense factorisation
-constexpr double widest_for_floats = 1e5;   // largest diagonal block over the median one
+constexpr std::size_t most_factored = 200;       // unknowns of a dense factorisation
+constexpr double widest_for_floats = 1e5;        // largest diagonal block over the median one
+constexpr double stiffest_for_floats = 1 << 20;  // diagonal of a free piece over the sum of its entries
+constexpr double same_trace = 0.01;              // a larger change shows another step or material
 
 /// All places that are not finite are alike.
 bool is_same(Point2 a, Point2 b) { return (a.x == b.x && a.y == b.y) || (std::isnan(a.x) && std::isnan(b.x)); }
@@ -29,6 +32,24 @@ Block inverse_of(const Block& block) {
   const bool positive = block(0, 0) > 0 && block.determinant() > 0 && inverse(last, last) > 0;
   if (!positive || !inverse.allFinite()) inverse.setZero();
   return inverse;
+}
+
+template <int D>
+bool is_held_altogether(const SystemMatrix<D>& a, std::size_t i) {
+  const auto held = a.held->begin() + to_index(D * i);
+  return std::find(held, held + D, 0) == held + D;
+}
+
+void sort_unique(std::vector<std::int32_t>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+template <class S, int D, class From>
+BlockColumns<D, S> converted(const From& columns) {
+  BlockColumns<D, S> all;
+  for (std::size_t c = 0; c < D; ++c) all[c] = __builtin_convertvector(columns[c], Quad<S>);
+  return all;
 }
 
 }  // namespace
@@ -49,8 +70,7 @@ bool Multigrid<D>::find_changed(const SystemMatrix<D>& a) {
     const auto marked = a.history->changed_since(pattern_);
     changed_.assign(marked.begin(), marked.end());
     for (std::size_t i = before; i < n; ++i) changed_.push_back(to_int32(i));
-    std::sort(changed_.begin(), changed_.end());
-    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+    sort_unique(changed_);
     if (2 * changed_.size() < n) return true;
   }
   changed_.resize(n);
@@ -78,33 +98,34 @@ void Multigrid<D>::read_row(const SystemMatrix<D>& a, std::size_t i) {
 
 template <int D>
 bool Multigrid<D>::read_place(const SystemMatrix<D>& a, std::size_t i) {
-  const auto held = a.held->begin() + to_index(D * i);
-  const bool needs_no_correction = std::find(held, held + D, 0) == held + D;
-  const bool is_known = a.places && i < a.places->size() && !needs_no_correction;
+  const bool is_known = a.places && i < a.places->size() && !is_held_altogether(a, i);
   const Point2 place = is_known ? (*a.places)[i] : Point2{std::numeric_limits<double>::quiet_NaN(), 0};
   return !is_same(std::exchange(places_[i], place), place);
 }
 
 template <int D>
 void Multigrid<D>::find_held(const SystemMatrix<D>& a) {
-  has_held_.assign(a.vertices(), 0);
-  for (std::size_t u = 0; u < a.held->size(); ++u)
-    if ((*a.held)[u] && !a.blocks->columns(u / D).empty()) has_held_[u / D] = 1;
+  is_near_held_.assign(a.vertices(), 0);
+  held_.clear();
+  for (std::size_t u = 0; u < a.held->size(); ++u) {
+    if (!(*a.held)[u]) continue;
+    held_.push_back(to_index(u));
+    is_near_held_[u / D] = 1;
+    for (const std::int32_t j : a.blocks->columns(u / D)) is_near_held_[to_size(j)] = 1;
+  }
 }
 
 // --- values ----------------------------------------------------------------------------------------------------------
 
-/// The sizes of the diagonal blocks, by what is not held, and whether floats do for the finest level.
+/// The sizes of the diagonal blocks, by what is not held.
 template <int D>
-void Multigrid<D>::look_at_sizes(const SystemMatrix<D>& a) {
-  a.diagonals(diagonals_);
+void Multigrid<D>::look_at_sizes(const SystemMatrix<D>& a, const Blocks& diagonals) {
   sizes_.assign(a.vertices(), 0);
   sorted_.clear();
-  in_doubles_ = false;
-  trace_ = median_size_ = 0;
+  trace_ = median_size_ = largest_size_ = 0;
   for (std::size_t i = 0; i < a.vertices(); ++i) {
     if (a.blocks->columns(i).empty()) continue;
-    const Block& diagonal = diagonals_[i];
+    const Block& diagonal = diagonals[i];
     double sum = 0;
     int free = 0;
     for (int c = 0; c < D; ++c)
@@ -118,11 +139,52 @@ void Multigrid<D>::look_at_sizes(const SystemMatrix<D>& a) {
     if (std::isfinite(sizes_[i])) sorted_.push_back(sizes_[i]);  // NaN has no place in an order
   }
   if (sorted_.empty()) return;
-  const double largest = *std::max_element(sorted_.begin(), sorted_.end());
+  largest_size_ = *std::max_element(sorted_.begin(), sorted_.end());
   const auto middle = sorted_.begin() + to_index(sorted_.size() / 2);
   std::nth_element(sorted_.begin(), middle, sorted_.end());
   median_size_ = *middle;
-  in_doubles_ = !(largest < widest_for_floats * median_size_ && largest < 1e30 && median_size_ > 1e-30);
+}
+
+/// Whether floats do for the finest level.
+template <int D>
+void Multigrid<D>::choose_precision(const SystemMatrix<D>& a) {
+  if (!changed_.empty() || !(std::abs(trace_ - trace_of_pieces_) <= same_trace * trace_of_pieces_)) {
+    trace_of_pieces_ = trace_;
+    stiffest_piece_ = stiffest_piece(a);
+  }
+  in_doubles_ = median_size_ > 0 && !(largest_size_ < widest_for_floats * median_size_ && largest_size_ < 1e30 &&
+                                      median_size_ > 1e-30 && stiffest_piece_ < stiffest_for_floats);
+}
+
+/// The largest diagonal of a free piece over the sum of its entries, which is what the piece weighs: no stiffness resists
+/// a translation.
+template <int D>
+double Multigrid<D>::stiffest_piece(const SystemMatrix<D>& a) const {
+  const std::size_t n = a.vertices();
+  struct Piece {
+    double stiffness = 0, weight = 0;
+    bool is_held = false;
+  };
+  std::vector<Piece> pieces(n);
+  UnionFind joined(n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (const std::int32_t j : rows_.blocks[i]) joined.join(i, to_size(j));
+  for (std::size_t i = 0; i < n; ++i) {
+    if (rows_.blocks[i].empty()) continue;
+    Piece& piece = pieces[joined.find(i)];
+    piece.stiffness += sizes_[i];
+    piece.is_held |= is_held_altogether(a, i);
+    std::int32_t slot = a.blocks->first_slot(i);
+    for (std::size_t k = 0; k < a.blocks->columns(i).size(); ++k) piece.weight += a.blocks->block(slot++).trace();
+    for (std::size_t k = 0; k < rows_.scalars[i].size(); ++k)
+      piece.weight += D * rows_.scalar[rows_.scalars.first_slot(i) + k];
+  }
+  double most = 0;
+  for (const Piece& piece : pieces)
+    if (piece.stiffness > 0 && !piece.is_held)
+      most =
+          std::max(most, piece.weight > 0 ? piece.stiffness / piece.weight : std::numeric_limits<double>::infinity());
+  return most;
 }
 
 /// Zero in rows and columns of held coordinates, and where the block is not positive definite.
@@ -139,81 +201,62 @@ void Multigrid<D>::set_inverse(Level<S>& level, std::size_t i, Block diagonal, c
   for (std::size_t c = 0; c < D; ++c)
     if (const auto k = to_int(c); is_held[c] || inverse(k, k) == 0) {
       inverse(k, k) = 0;
-      level.idle.push_back(D * i + c);
+      level.idle.push_back({i, k});
     }
   level.matrix.set_inverse(i, inverse);
 }
 
-/// The finest level: zero in rows and columns of held unknowns.
+/// The finest level. Rows and columns of held unknowns need not be zero: the sweeps leave these unknowns at zero.
 template <int D>
 template <class S>
-void Multigrid<D>::fill(const SystemMatrix<D>& a, Level<S>& level, bool& is_new) {
+void Multigrid<D>::fill(const SystemMatrix<D>& a, const Blocks& diagonals, Level<S>& level, bool& is_new) {
   if (is_new) {
-    level.matrix.follow(rows_);
+    level.matrix.follow(rows_, swept_, std::is_same_v<S, float>);
     level.resize();
     is_new = false;
   }
-  const auto held = [&](std::size_t i, int c) { return (*a.held)[D * i + to_size(c)] != 0; };
   level.idle.clear();
+  const auto columns_at = [&](std::size_t slot) { return columns_of<D>(a.blocks->block(slots_[slot]).data()); };
   for (std::size_t i = 0; i < a.vertices(); ++i) {
-    std::size_t k = rows_.blocks.first_slot(i);
-    for (const std::int32_t column : rows_.blocks[i]) {
-      const auto j = to_size(column);
-      Eigen::Map<Eigen::Matrix<S, D, D>> block(level.matrix.block(k));
-      block = a.blocks->block(slots_[k++]).template cast<S>();
-      if (!has_held_[i] && !has_held_[j]) continue;
-      for (int c = 0; c < D; ++c) {
-        if (held(i, c)) block.row(c).setZero();
-        if (held(j, c)) block.col(c).setZero();
-      }
-    }
+    a.blocks->prefetch_row(std::min(i + rows_ahead, a.vertices() - 1));
+    level.matrix.fill_row(i, columns_at);
     if (rows_.blocks[i].empty()) continue;
     std::array<bool, D> is_held{};
-    for (int c = 0; c < D; ++c) is_held[to_size(c)] = held(i, c);
-    set_inverse(level, i, diagonals_[i] + level.matrix.left_out(i) * Block::Identity(), is_held);
+    for (std::size_t c = 0; c < D; ++c) is_held[c] = (*a.held)[D * i + c] != 0;
+    set_inverse(level, i, diagonals[i] + swept_.left_out(i) * Block::Identity(), is_held);
   }
 }
 
-/// A row of P^T A: the members' rows, each times its weight.
+/// P^T A P, row by row: first that of P^T A, which is the sum of the members' rows, each times its weight; then columns
+/// with the same parent become one. `add_row(v, weight)` adds to fine.part_row; `ask_for(i)` prefetches what a row takes.
 template <int D>
-template <class S>
-void Multigrid<D>::sum_members(Level<S>& fine, std::span<const Coarsening::Weight> members) {
-  const LevelMatrix<D, S>& a = fine.matrix;
-  fine.part_row.clear();
-  for (const auto& member : members) {
-    const auto v = to_size(member.other);
-    const S* block = a.block(a.rows().blocks.first_slot(v));
-    for (const std::int32_t j : a.rows().blocks[v]) {
-      Columns<S>& sum = fine.part_row[j];
-      for (int c = 0; c < D; ++c, block += D)
-        sum.col(c) += S(member.weight) * Eigen::Map<const Eigen::Array<S, 4, 1>>(block);
-    }
-  }
-}
-
-/// P^T A P, row by row: columns of P^T A with the same parent become one.
-template <int D>
-template <class S>
-void Multigrid<D>::fill_coarse(Level<S>& fine, CoarseLevel& level) {
+template <class S, class AskFor, class AddRow>
+void Multigrid<D>::fill_coarse(Level<S>& fine, CoarseLevel& level, const AskFor& ask_for, const AddRow& add_row) {
   std::vector<Columns<S>> sums;
   level.idle.clear();
+  level.blocks.resize(level.rows.blocks.slots());
   place_.resize(std::max(place_.size(), level.from.coarse_size()));
   fine.part_row.resize(level.from.fine_size());
+  const auto columns_at = [&](std::size_t slot) { return level.blocks[slot]; };
   for (std::size_t i = 0; i < level.from.coarse_size(); ++i) {
+    ask_for(std::min(i + 1, level.from.coarse_size() - 1));
     const auto columns = level.rows.blocks[i];
     if (columns.empty()) continue;
     for (std::size_t k = 0; k < columns.size(); ++k) place_[to_size(columns[k])] = to_int32(k);
-    sums.assign(columns.size(), Columns<S>::Zero());
-    sum_members(fine, level.from.members(i));
+    sums.assign(columns.size(), Columns<S>{});
+    fine.part_row.clear();
+    for (const auto& member : level.from.members(i)) add_row(to_size(member.other), S(member.weight));
     const auto fine_columns = fine.part_row.columns();
     const auto part = fine.part_row.sums();
     for (std::size_t k = 0; k < part.size(); ++k)
-      for (const auto& parent : level.from.parents(to_size(fine_columns[k])))
-        sums[to_size(place_[to_size(parent.other)])] += S(parent.weight) * part[k];
-    float* to = level.matrix.block(level.rows.blocks.first_slot(i));
-    for (const Columns<S>& sum : sums)
-      for (int c = 0; c < D; ++c)
-        for (int k = 0; k < D; ++k) *to++ = static_cast<float>(sum(k, c));
+      for (const auto& parent : level.from.parents(to_size(fine_columns[k]))) {
+        Columns<S>& sum = sums[to_size(place_[to_size(parent.other)])];
+        const S weight(parent.weight);
+        for (std::size_t c = 0; c < D; ++c) sum[c] += weight * part[k][c];
+      }
+    Columns<float>* to = level.blocks.data() + level.rows.blocks.first_slot(i);
+    for (const Columns<S>& sum : sums) *to++ = converted<float, D>(sum);
+    level.matrix.fill_row(i, columns_at);
     const Block diagonal = level.matrix.diagonal(i);
     std::array<bool, D> is_held{};
     for (int c = 0; c < D; ++c) is_held[to_size(c)] = diagonal(c, c) == 0;  // all its members are
@@ -221,21 +264,83 @@ void Multigrid<D>::fill_coarse(Level<S>& fine, CoarseLevel& level) {
   }
 }
 
+/// From A itself. Rows and columns of held unknowns are zero here.
+template <int D>
+template <class S>
+void Multigrid<D>::fill_first_coarse(const SystemMatrix<D>& a, Level<S>& fine) {
+  const auto hold = [&](std::size_t i, std::size_t j, Columns<S>& columns) {
+    for (std::size_t c = 0; c < D; ++c)
+      for (std::size_t k = 0; k < D; ++k)
+        if ((*a.held)[D * i + k] || (*a.held)[D * j + c]) columns[c][k] = 0;
+  };
+  const auto ask_for = [&](std::size_t i) {
+    for (const auto& member : coarse_.front().from.members(i)) a.blocks->prefetch_row(to_size(member.other));
+  };
+  fill_coarse(fine, coarse_.front(), ask_for, [&](std::size_t v, S weight) {
+    std::size_t slot = rows_.blocks.first_slot(v);
+    for (const std::int32_t j : rows_.blocks[v]) {
+      Columns<S> columns = converted<S, D>(columns_of<D>(a.blocks->block(slots_[slot++]).data()));
+      if (is_near_held_[v]) hold(v, to_size(j), columns);
+      Columns<S>& sum = fine.part_row[j];
+      for (std::size_t c = 0; c < D; ++c) sum[c] += weight * columns[c];
+    }
+  });
+}
+
+template <int D>
+Eigen::MatrixXd Multigrid<D>::CoarseLevel::dense() const {
+  const auto n = to_index(D * rows.size());
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n, n);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto at = to_index(D * i);
+    std::size_t slot = rows.blocks.first_slot(i), scalar = rows.scalars.first_slot(i);
+    for (const std::int32_t j : rows.blocks[i]) {
+      for (int c = 0; c < D; ++c)
+        for (int k = 0; k < D; ++k) all(at + k, D * j + c) += to_double(blocks[slot][to_size(c)][k]);
+      ++slot;
+    }
+    for (const std::int32_t j : rows.scalars[i]) all.block<D, D>(at, D * j).diagonal().array() += rows.scalar[scalar++];
+  }
+  return all;
+}
+
 template <int D>
 void Multigrid<D>::factor_coarsest() {
   solves_coarsest_ = false;
   if (coarse_.empty() || coarse_.back().matrix.size() > most_factored) return;
-  Eigen::MatrixXd dense = coarse_.back().matrix.dense();
+  Eigen::MatrixXd dense = coarse_.back().dense();
   for (Eigen::Index u = 0; u < dense.rows(); ++u)  // all its members are held
     if (dense(u, u) == 0) dense(u, u) = 1;
   coarsest_.compute(dense);
   solves_coarsest_ = coarsest_.info() == Eigen::Success;
 }
 
+/// Adds to the rows that have changed those of vertices that have become twice as stiff or half as stiff, beside the
+/// median: strains stiffen polygons without a cut, and then other vertices move together.
+template <int D>
+void Multigrid<D>::find_restiffened() {
+  std::vector<std::int32_t> found;
+  for (std::size_t i = 0; i < looked_at_.size(); ++i) {
+    const double now = sizes_[i] / median_size_;
+    if (now > 2 * looked_at_[i] || 2 * now < looked_at_[i]) found.push_back(to_int32(i));
+  }
+  if (2 * found.size() >= looked_at_.size()) return;  // another matrix altogether
+  changed_.insert(changed_.end(), found.begin(), found.end());
+  sort_unique(changed_);
+}
+
 template <int D>
 void Multigrid<D>::setup(const SystemMatrix<D>& a) {
-  StopWatch watch;
+  a.diagonals(diagonals_);
+  setup(a, diagonals_);
+}
+
+template <int D>
+void Multigrid<D>::setup(const SystemMatrix<D>& a, const Blocks& diagonals) {
   const bool follows = find_changed(a);
+  look_at_sizes(a, diagonals);
+  if (follows) find_restiffened();
+  StopWatch watch;
   if (!changed_.empty()) {
     const std::size_t n = a.vertices();
     if (!follows) {
@@ -246,8 +351,12 @@ void Multigrid<D>::setup(const SystemMatrix<D>& a) {
     places_.resize(n);
     scalars_.resize(n);
     place_in_front_.resize(n, -1);
+    looked_at_.resize(n);
     changes_ = {};
-    for (const std::int32_t i : changed_) read_row(a, to_size(i));
+    for (const std::int32_t i : changed_) {
+      read_row(a, to_size(i));
+      looked_at_[to_size(i)] = sizes_[to_size(i)] / median_size_;
+    }
     if (!follows)
       for (const auto& term : a.scalar) factors_.push_back(term.factor);
     follows ? update_levels(a) : make_levels(a);
@@ -255,31 +364,39 @@ void Multigrid<D>::setup(const SystemMatrix<D>& a) {
   pattern_ = a.pattern;
   rows_us_ = watch.lap();
   find_held(a);
-  look_at_sizes(a);
   if (!changed_.empty()) clusters_.find(sizes_, median_size_, rows_);
+  choose_precision(a);
   if (in_doubles_) {
-    fill(a, finest_in_doubles_, double_is_new_);
+    fill(a, diagonals, finest_in_doubles_, double_is_new_);
     clusters_.factor(finest_in_doubles_.matrix, *a.held);
   } else {
-    fill(a, finest_, float_is_new_);
+    fill(a, diagonals, finest_, float_is_new_);
     clusters_.factor(finest_.matrix, *a.held);
   }
   // Every other time the coarse matrices of the last time do: rotations change them little. They leave the trace alone,
   // so another trace shows another step or material.
-  coarse_are_old_ = changed_.empty() && !coarse_are_old_ && std::abs(trace_ - coarse_trace_) <= 0.01 * coarse_trace_;
-  if (!coarse_are_old_) fill_coarse_levels();
+  coarse_are_old_ =
+      changed_.empty() && !coarse_are_old_ && std::abs(trace_ - coarse_trace_) <= same_trace * coarse_trace_;
+  if (!coarse_are_old_) fill_coarse_levels(a);
 }
 
 template <int D>
-void Multigrid<D>::fill_coarse_levels() {
+void Multigrid<D>::fill_coarse_levels(const SystemMatrix<D>& a) {
   coarse_trace_ = trace_;
-  for (std::size_t l = 0; l < coarse_.size(); ++l)
-    if (l > 0)
-      fill_coarse(static_cast<Level<float>&>(coarse_[l - 1]), coarse_[l]);
-    else if (in_doubles_)
-      fill_coarse(finest_in_doubles_, coarse_[l]);
-    else
-      fill_coarse(finest_, coarse_[l]);
+  if (coarse_.empty()) return factor_coarsest();
+  in_doubles_ ? fill_first_coarse(a, finest_in_doubles_) : fill_first_coarse(a, finest_);
+  for (std::size_t l = 1; l < coarse_.size(); ++l) {
+    CoarseLevel& fine = coarse_[l - 1];
+    const auto ask_for = [](std::size_t) {};  // these are small
+    fill_coarse(static_cast<Level<float>&>(fine), coarse_[l], ask_for, [&](std::size_t v, float weight) {
+      const Columns<float>* block = fine.blocks.data() + fine.rows.blocks.first_slot(v);
+      for (const std::int32_t j : fine.rows.blocks[v]) {
+        Columns<float>& sum = fine.part_row[j];
+        for (std::size_t c = 0; c < D; ++c) sum[c] += weight * (*block)[c];
+        ++block;
+      }
+    });
+  }
   factor_coarsest();
 }
 
@@ -287,7 +404,7 @@ template <int D>
 auto Multigrid<D>::entries() const -> Entries {
   Entries all;
   const auto add = [&](const auto& level) {
-    for (std::size_t i = 0; i < level.matrix.size(); ++i) all.blocks += to_double(level.matrix.rows().blocks[i].size());
+    all.blocks += to_double(level.matrix.block_count());
     all.scalars += to_double(level.matrix.scalar_count());
   };
   in_doubles_ ? add(finest_in_doubles_) : add(finest_);

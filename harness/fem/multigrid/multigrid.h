@@ -4,8 +4,10 @@
 // A is. Vertices that slivers constraint together are one more unknown of the first coarse level, and clusters of stiff
 // vertices are solved exactly (StiffClusters). On the coarsest level a Cholesky factorisation solves.
 //
-// Levels are in floats: a preconditioner need not be accurate, and the time is that of reading the matrix. Where the
-// diagonal blocks of A differ too much for floats (slivers), the finest level is in doubles. Without places of the
+// Levels are in floats: a preconditioner need not be accurate, and the time is that of reading the matrix. The finest level
+// is in doubles where the diagonal blocks of A differ too much for floats (slivers), or where a free piece is so light
+// beside its stiffness that rounding makes another weight of it: its diagonal is over 2^20 times the sum of its entries,
+// so the last of 24 bits is a sixteenth of that. Then the cycle would not be symmetric. Without places of the
 // vertices there is the finest level alone, which is symmetric Gauss-Seidel.
 #pragma once
 
@@ -16,7 +18,7 @@
 
 #include "harness/fem/linear/preconditioner.h"
 #include "harness/fem/multigrid/coarsening.h"
-#include "harness/fem/multigrid/level_matrix.h"
+#include "harness/fem/multigrid/packed_rows.h"
 #include "harness/fem/multigrid/stiff_clusters.h"
 
 namespace cutbench {
@@ -28,11 +30,16 @@ class Multigrid final : public Preconditioner<D> {
   /// have changed, they are made anew. Their matrices are computed every other time, and wherever the rows or the
   /// trace of `a` have changed.
   void setup(const SystemMatrix<D>& a) override;
+  using typename Preconditioner<D>::Blocks;
+  void setup(const SystemMatrix<D>& a, const Blocks& diagonals) override;
   void apply(const Field& r, Field& z) override;
+  /// By the finest level, in floats.
+  bool multiply_roughly(const Field& x, Field& y) override;
   std::size_t levels() const { return coarse_.size() + 1; }
   /// Microseconds that the last setup() took for the rows of all levels, without their values.
   double rows_us() const { return rows_us_; }
-  /// Entries that a cycle reads, each twice, of all levels. \pre setup() was called
+  /// Entries beside the diagonal that a cycle reads, each three times, of all levels; with those that fill up pairs.
+  /// \pre setup() was called
   struct Entries {
     double blocks = 0, scalars = 0;
   };
@@ -40,30 +47,37 @@ class Multigrid final : public Preconditioner<D> {
 
  private:
   using Block = typename BlockMatrix<D>::Block;
-  /// The columns of a block, each with values behind it that nobody looks at: so they are read four by four.
   template <class S>
-  using Columns = Eigen::Array<S, 4, D>;
+  using Columns = BlockColumns<D, S>;
   /// A matrix with a right side, a solution and a residual.
   template <class S>
   struct Level {
-    LevelMatrix<D, S> matrix;
-    typename LevelMatrix<D, S>::Vector r, z, t;
-    std::vector<std::size_t> idle;                    // unknowns that are held, or whose block is not positive definite
-    RowSum<Columns<S>> part_row{Columns<S>::Zero()};  // of P^T A, with A this matrix
-    void set_idle_zero(typename LevelMatrix<D, S>::Vector& field) const {
-      for (const std::size_t u : idle) field[u] = 0;
+    PackedRows<D, S> matrix;
+    PackedVector<S> r, z, t;
+    struct Unknown {
+      std::size_t vertex;
+      int coordinate;
+    };
+    std::vector<Unknown> idle;                  // unknowns that are held, or whose block is not positive definite
+    RowSum<Columns<S>> part_row{Columns<S>{}};  // of P^T A, with A this matrix
+    void set_idle_zero(PackedVector<S>& field) const {
+      for (const Unknown& u : idle) field[u.vertex][u.coordinate] = 0;
     }
     void resize() {
-      for (auto* field : {&r, &z, &t}) field->resize(D * matrix.rows().size() + LevelMatrix<D, S>::padding);
+      for (auto* field : {&r, &z, &t}) field->resize(matrix.size());
     }
   };
   struct CoarseLevel : Level<float> {
     explicit CoarseLevel(double spacing) : from(spacing) {}
     Coarsening from;  // the next finer level
     LevelRows rows;
+    SweptScalars swept;                  // of rows
+    std::vector<Columns<float>> blocks;  // per slot of rows.blocks
+    Eigen::MatrixXd dense() const;
   };
 
   bool find_changed(const SystemMatrix<D>& a);
+  void find_restiffened();
   void read_row(const SystemMatrix<D>& a, std::size_t i);
   bool read_place(const SystemMatrix<D>& a, std::size_t i);  // true: it is another
   Coarsening::Regrouping regroup(const SystemMatrix<D>& a);
@@ -72,31 +86,43 @@ class Multigrid final : public Preconditioner<D> {
   void set_inverse(Level<S>& level, std::size_t i, Block diagonal, const std::array<bool, D>& is_held);
   void make_levels(const SystemMatrix<D>& a);
   void update_levels(const SystemMatrix<D>& a);
-  void update(CoarseLevel& level, const LevelRows& fine, const std::vector<Point2>& places, const RowChanges& changes,
-              const Coarsening::Regrouping& regrouping);
-  void look_at_sizes(const SystemMatrix<D>& a);
-  void fill_coarse_levels();
+  /// What a level is made of.
+  struct Finer {
+    const LevelRows* rows;
+    const SweptScalars* swept;
+    const std::vector<Point2>* places;
+    const RowChanges* changes;
+  };
+  static Finer finer_than_next(const CoarseLevel& level);
+  static void update_rows(CoarseLevel& level, const Finer& fine, const Coarsening::Regrouping& regrouping);
+  void look_at_sizes(const SystemMatrix<D>& a, const Blocks& diagonals);
+  void choose_precision(const SystemMatrix<D>& a);
+  double stiffest_piece(const SystemMatrix<D>& a) const;
+  void fill_coarse_levels(const SystemMatrix<D>& a);
   template <class S>
-  void fill(const SystemMatrix<D>& a, Level<S>& level, bool& is_new);
+  void fill(const SystemMatrix<D>& a, const Blocks& diagonals, Level<S>& level, bool& is_new);
+  template <class S, class AskFor, class AddRow>
+  void fill_coarse(Level<S>& fine, CoarseLevel& level, const AskFor& ask_for, const AddRow& add_row);
   template <class S>
-  void fill_coarse(Level<S>& fine, CoarseLevel& level);
-  template <class S>
-  void sum_members(Level<S>& fine, std::span<const Coarsening::Weight> members);
+  void fill_first_coarse(const SystemMatrix<D>& a, Level<S>& fine);
   void factor_coarsest();
   template <class S>
   void cycle(Level<S>& level, std::size_t next);
+  void solve_coarsest(Level<float>& level);
   template <class S>
   void correct(Level<S>& level, std::size_t next);
 
   std::uint64_t pattern_ = 0;
-  std::vector<double> factors_;         // of the scalar parts of A
-  std::vector<std::uint8_t> has_held_;  // per vertex: one of its unknowns is held
-  LevelRows rows_;                      // of A
-  std::vector<std::int32_t> slots_;     // per slot of rows_.blocks: where A keeps the block
-  std::vector<Point2> places_;          // per vertex; NaN where no hat is wanted
-  std::vector<std::int32_t> changed_;   // vertices whose rows the levels have not followed yet
-  RowChanges changes_;                  // what is different there
-  std::size_t slots_made_ = 0;          // slots of rows_ when the levels were made
+  std::vector<double> factors_;             // of the scalar parts of A
+  std::vector<std::uint8_t> is_near_held_;  // per vertex: it has a held unknown, or a block with one that has
+  std::vector<Eigen::Index> held_;          // unknowns
+  LevelRows rows_;                          // of A
+  SweptScalars swept_;                      // of rows_
+  std::vector<std::int32_t> slots_;         // per slot of rows_.blocks: where A keeps the block
+  std::vector<Point2> places_;              // per vertex; NaN where no hat is wanted
+  std::vector<std::int32_t> changed_;       // vertices whose rows the levels have not followed yet
+  RowChanges changes_;                      // what is different there
+  std::size_t slots_made_ = 0;              // slots of rows_ when the levels were made
   double rows_us_ = 0;
   bool in_doubles_ = false, float_is_new_ = true, double_is_new_ = true;  // new: the rows are to be set
   Level<float> finest_;
@@ -105,9 +131,11 @@ class Multigrid final : public Preconditioner<D> {
   std::deque<CoarseLevel> coarse_;  // each refers to rows of its own
   Eigen::LLT<Eigen::MatrixXd> coarsest_;
   bool solves_coarsest_ = false;
-  std::vector<Block> diagonals_;  // of A
-  std::vector<double> sizes_;     // per vertex: the trace of its diagonal block
-  double median_size_ = 0;
+  Blocks diagonals_;           // of A, where nobody else has them
+  std::vector<double> sizes_;  // per vertex: the trace of its diagonal block
+  double median_size_ = 0, largest_size_ = 0;
+  std::vector<double> looked_at_;  // per vertex: its size over the median when groups and clusters were found there
+  double stiffest_piece_ = 0, trace_of_pieces_ = 0;
   double trace_ = 0, coarse_trace_ = 0;  // of A, at the last setup() and when the coarse matrices were computed
   bool coarse_are_old_ = true;
   // Working storage.

@@ -73,12 +73,15 @@ Coarsening::Regrouping Multigrid<D>::regroup(const SystemMatrix<D>& a) {
 }
 
 template <int D>
-void Multigrid<D>::update(CoarseLevel& level, const LevelRows& fine, const std::vector<Point2>& places,
-                          const RowChanges& changes, const Coarsening::Regrouping& regrouping) {
-  level.from.update(fine, places, changes, regrouping);
-  level.from.multiply(fine, level.rows);
-  level.matrix.follow(level.rows, level.from.changes().rows);
-  level.resize();
+auto Multigrid<D>::finer_than_next(const CoarseLevel& level) -> Finer {
+  return {&level.rows, &level.swept, &level.from.coarse_places(), &level.from.changes()};
+}
+
+template <int D>
+void Multigrid<D>::update_rows(CoarseLevel& level, const Finer& fine, const Coarsening::Regrouping& regrouping) {
+  const FineRows rows{fine.rows->blocks, fine.swept->rows(), fine.swept->values()};
+  level.from.update(rows, *fine.places, *fine.changes, regrouping);
+  level.from.multiply(rows, level.rows);
 }
 
 template <int D>
@@ -86,24 +89,23 @@ void Multigrid<D>::make_levels(const SystemMatrix<D>& a) {
   coarse_.clear();
   float_is_new_ = double_is_new_ = true;
   rows_.reserve_spare();
+  swept_.follow(rows_);
   cutbench::reserve_spare(slots_);
   slots_made_ = rows_.blocks.slots();
   double spacing = first_spacing * median_edge(rows_.blocks, places_);
   if (!(spacing > 0)) return;
   Coarsening::Regrouping regrouping = regroup(a);
-  const LevelRows* fine = &rows_;
-  const std::vector<Point2>* places = &places_;
-  RowChanges all = changes_;
-  for (; fine->size() > fewest_coarsened; spacing *= 2) {
+  Finer fine{&rows_, &swept_, &places_, &changes_};
+  for (; fine.rows->size() > fewest_coarsened; spacing *= 2) {
     CoarseLevel& level = coarse_.emplace_back(spacing);
-    update(level, *fine, *places, all, regrouping);
-    if (const std::size_t n = level.rows.size(); n == 0 || 10 * n > 8 * fine->size()) return coarse_.pop_back();
+    update_rows(level, fine, regrouping);
+    if (const std::size_t n = level.rows.size(); n == 0 || 10 * n > 8 * fine.rows->size()) return coarse_.pop_back();
     level.from.reserve_spare();
     level.rows.reserve_spare();
-    level.matrix.follow(level.rows);
-    fine = &level.rows;
-    places = &level.from.coarse_places();
-    all = level.from.changes();
+    level.swept.follow(level.rows);
+    level.matrix.follow(level.rows, level.swept, false);
+    level.resize();
+    fine = finer_than_next(level);
     regrouping = {};
   }
 }
@@ -111,22 +113,22 @@ void Multigrid<D>::make_levels(const SystemMatrix<D>& a) {
 template <int D>
 void Multigrid<D>::update_levels(const SystemMatrix<D>& a) {
   Coarsening::Regrouping regrouping = regroup(a);
-  const LevelRows* fine = &rows_;
-  const std::vector<Point2>* places = &places_;
-  const RowChanges* changes = &changes_;
+  swept_.follow(rows_, changes_.rows);
   if (!float_is_new_) {
-    finest_.matrix.follow(rows_, changes_.rows);
+    finest_.matrix.follow(rows_, swept_, changes_.rows);
     finest_.resize();
   }
   if (!double_is_new_) {
-    finest_in_doubles_.matrix.follow(rows_, changes_.rows);
+    finest_in_doubles_.matrix.follow(rows_, swept_, changes_.rows);
     finest_in_doubles_.resize();
   }
+  Finer fine{&rows_, &swept_, &places_, &changes_};
   for (CoarseLevel& level : coarse_) {
-    update(level, *fine, *places, *changes, regrouping);
-    fine = &level.rows;
-    places = &level.from.coarse_places();
-    changes = &level.from.changes();
+    update_rows(level, fine, regrouping);
+    level.swept.follow(level.rows, level.from.changes().rows);
+    level.matrix.follow(level.rows, level.swept, level.from.changes().rows);
+    level.resize();
+    fine = finer_than_next(level);
     regrouping = {};
   }
 }

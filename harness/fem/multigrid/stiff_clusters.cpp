@@ -1,5 +1,6 @@
 #include "harness/fem/multigrid/stiff_clusters.h"
 
+#include <type_traits>
 #include <utility>
 
 #include "harness/base/conversions.h"
@@ -10,6 +11,18 @@ namespace {
 
 constexpr double stiff = 8;                  // diagonal over the median one
 constexpr std::size_t largest_cluster = 48;  // vertices; where more hang together, they are parted
+
+/// The values of a vertex.
+template <int D, class Quads>
+auto values_at(Quads& field, std::int32_t vertex) {
+  auto& quad = field[to_size(vertex)];
+  using S = std::remove_cvref_t<decltype(quad[0])>;
+  using Values = Eigen::Matrix<S, D, 1>;
+  if constexpr (std::is_const_v<Quads>)
+    return Eigen::Map<const Values>(reinterpret_cast<const S*>(&quad));
+  else
+    return Eigen::Map<Values>(reinterpret_cast<S*>(&quad));
+}
 
 }  // namespace
 
@@ -40,7 +53,7 @@ void StiffClusters<D>::find(const std::vector<double>& sizes, double median, con
 
 template <int D>
 template <class S>
-void StiffClusters<D>::factor(const LevelMatrix<D, S>& a, const std::vector<std::uint8_t>& held) {
+void StiffClusters<D>::factor(const PackedRows<D, S>& a, const std::vector<std::uint8_t>& held) {
   for (Cluster& cluster : clusters_) {
     const auto n = to_index(D * cluster.vertices.size());
     cluster.held.clear();
@@ -83,56 +96,52 @@ void StiffClusters<D>::solve(const Cluster& cluster) {
 
 template <int D>
 template <class S>
-void StiffClusters<D>::correct_forwards(const LevelMatrix<D, S>& a, Vector<S>& z, Vector<S>& t) {
+void StiffClusters<D>::correct_forwards(const PackedRows<D, S>& a, Vector<S>& z, Vector<S>& t) {
   using Values = Eigen::Matrix<S, D, 1>;
   for (const Cluster& cluster : clusters_) {
     if (!cluster.is_positive) continue;
     correction_.resize(to_index(D * cluster.vertices.size()));
     for (std::size_t k = 0; k < cluster.vertices.size(); ++k)
-      correction_.segment<D>(to_index(D * k)) =
-          Eigen::Map<const Values>(t.data() + D * cluster.vertices[k]).template cast<double>();
+      correction_.segment<D>(to_index(D * k)) = values_at<D>(t, cluster.vertices[k]).template cast<double>();
     solve(cluster);
     for (std::size_t k = 0; k < cluster.vertices.size(); ++k) {
       const Values by = correction_.segment<D>(to_index(D * k)).template cast<S>();
       const auto v = to_size(cluster.vertices[k]);
-      Eigen::Map<Values>(z.data() + D * v) += by;
+      values_at<D>(z, cluster.vertices[k]) += by;
       a.for_each_block(v, [&](std::int32_t j, const auto& block) {  // the row is the column, transposed
-        Eigen::Map<Values>(t.data() + D * j) -= block.transpose() * by;
+        values_at<D>(t, j) -= block.transpose() * by;
       });
-      a.for_each_scalar(v, [&](std::int32_t j, S value) { Eigen::Map<Values>(t.data() + D * j) -= value * by; });
+      a.for_each_scalar(v, [&](std::int32_t j, S value) { values_at<D>(t, j) -= value * by; });
     }
   }
 }
 
 template <int D>
 template <class S>
-void StiffClusters<D>::correct_backwards(const LevelMatrix<D, S>& a, const Vector<S>& r, Vector<S>& z) {
+void StiffClusters<D>::correct_backwards(const PackedRows<D, S>& a, const Vector<S>& r, Vector<S>& z) {
   using Values = Eigen::Matrix<S, D, 1>;
   for (auto cluster = clusters_.rbegin(); cluster != clusters_.rend(); ++cluster) {
     if (!cluster->is_positive) continue;
     correction_.resize(to_index(D * cluster->vertices.size()));
     for (std::size_t k = 0; k < cluster->vertices.size(); ++k) {
       const auto v = to_size(cluster->vertices[k]);
-      Values left = Eigen::Map<const Values>(r.data() + D * v);
-      a.for_each_block(
-          v, [&](std::int32_t j, const auto& block) { left -= block * Eigen::Map<const Values>(z.data() + D * j); });
-      a.for_each_scalar(v,
-                        [&](std::int32_t j, S value) { left -= value * Eigen::Map<const Values>(z.data() + D * j); });
+      Values left = values_at<D>(r, cluster->vertices[k]);
+      a.for_each_block(v, [&](std::int32_t j, const auto& block) { left -= block * values_at<D>(z, j); });
+      a.for_each_scalar(v, [&](std::int32_t j, S value) { left -= value * values_at<D>(z, j); });
       correction_.segment<D>(to_index(D * k)) = left.template cast<double>();
     }
     solve(*cluster);
     for (std::size_t k = 0; k < cluster->vertices.size(); ++k)
-      Eigen::Map<Values>(z.data() + D * cluster->vertices[k]) +=
-          correction_.segment<D>(to_index(D * k)).template cast<S>();
+      values_at<D>(z, cluster->vertices[k]) += correction_.segment<D>(to_index(D * k)).template cast<S>();
   }
 }
 
 template class StiffClusters<2>;
 template class StiffClusters<3>;
-#define CUTBENCH_CLUSTERS(D, S)                                                                                 \
-  template void StiffClusters<D>::factor(const LevelMatrix<D, S>&, const std::vector<std::uint8_t>&);           \
-  template void StiffClusters<D>::correct_forwards(const LevelMatrix<D, S>&, std::vector<S>&, std::vector<S>&); \
-  template void StiffClusters<D>::correct_backwards(const LevelMatrix<D, S>&, const std::vector<S>&, std::vector<S>&);
+#define CUTBENCH_CLUSTERS(D, S)                                                                                  \
+  template void StiffClusters<D>::factor(const PackedRows<D, S>&, const std::vector<std::uint8_t>&);             \
+  template void StiffClusters<D>::correct_forwards(const PackedRows<D, S>&, PackedVector<S>&, PackedVector<S>&); \
+  template void StiffClusters<D>::correct_backwards(const PackedRows<D, S>&, const PackedVector<S>&, PackedVector<S>&);
 CUTBENCH_CLUSTERS(2, float)
 CUTBENCH_CLUSTERS(2, double)
 CUTBENCH_CLUSTERS(3, float)

@@ -8,7 +8,7 @@
 #include <Eigen/Cholesky>
 #include <vector>
 
-#include "harness/fem/multigrid/level_matrix.h"
+#include "harness/fem/multigrid/packed_rows.h"
 
 namespace cutbench {
 
@@ -21,17 +21,17 @@ class StiffClusters {
   void find(const std::vector<double>& sizes, double median, const LevelRows& rows);
   /// Factors the blocks of the clusters; one that is not positive definite is left out.
   template <class S>
-  void factor(const LevelMatrix<D, S>& a, const std::vector<std::uint8_t>& held);
+  void factor(const PackedRows<D, S>& a, const std::vector<std::uint8_t>& held);
   std::size_t size() const { return clusters_.size(); }
 
   template <class S>
-  using Vector = typename LevelMatrix<D, S>::Vector;
+  using Vector = PackedVector<S>;
   /// z += the corrections from the residual t, one cluster after the other; t stays the residual.
   template <class S>
-  void correct_forwards(const LevelMatrix<D, S>& a, Vector<S>& z, Vector<S>& t);
+  void correct_forwards(const PackedRows<D, S>& a, Vector<S>& z, Vector<S>& t);
   /// z += the corrections from the residual r - A z, in the reverse order.
   template <class S>
-  void correct_backwards(const LevelMatrix<D, S>& a, const Vector<S>& r, Vector<S>& z);
+  void correct_backwards(const PackedRows<D, S>& a, const Vector<S>& r, Vector<S>& z);
 
  private:
   struct Cluster {

@@ -12,6 +12,7 @@ namespace cutbench {
 template <int D>
 class StaleFactor final : public Preconditioner<D> {
  public:
+  using Preconditioner<D>::setup;
   explicit StaleFactor(FactorBy by = FactorBy::fastest) : factor_(make_factor<D>(by)) {}
   void setup(const SystemMatrix<D>& a) override;
   void apply(const Field& r, Field& z) override;
@@ -32,6 +33,7 @@ class StaleFactor final : public Preconditioner<D> {
 template <int D>
 class ConstantFactor final : public Preconditioner<D> {
  public:
+  using Preconditioner<D>::setup;
   explicit ConstantFactor(FactorBy by = FactorBy::fastest) : factor_(make_factor<1>(by)) {}
   void setup(const SystemMatrix<D>& a) override;
   void apply(const Field& r, Field& z) override;

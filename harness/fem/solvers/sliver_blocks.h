@@ -20,6 +20,7 @@ namespace cutbench {
 template <int D>
 class SliverBlocks final : public Preconditioner<D> {
  public:
+  using Preconditioner<D>::setup;
   static constexpr double good_aspect_ratio = 10;  ///< up to here an element costs CG at most a fifth more iterations
   static constexpr std::int32_t largest_group = 32;
 
