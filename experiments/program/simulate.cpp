@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "experiments/program/cures.h"
 #include "experiments/program/drawing.h"
 #include "experiments/program/step_summary.h"
 #include "harness/base/conversions.h"
@@ -244,6 +245,7 @@ bool simulate(const Scene& scene, CuttingMethod& method, const SimulateOptions& 
   const SimulationOutcome& outcome = motion->outcome();
   const Sheet sheet = motion->posed_sheet();
   print_outcome(outcome, sheet);
+  if (outcome.verdict != Verdict::ok) std::printf("try %s\n", cure_of(scene, outcome, motion->step_limits()).c_str());
   if (frames) {
     frames->finish(sheet);
     if (motion->budget()) WholeFile(folder / "energy.csv", motion->budget()->csv()).place();

@@ -260,7 +260,7 @@ void read_integrator(const TomlReader& file, Scene& scene) {
   scene.integrator = reader.choice<Integrator>("name", scene.integrator, integrator_names);
   scene.step = reader.positive("step", scene.step);
   scene.newton = reader.count("newton", scene.newton);
-  scene.robust = reader.value<bool>("robust", scene.robust);
+  scene.robust = reader.value<bool>("robust", scene.integrator == Integrator::backward_euler && !reader.has("newton"));
   if (scene.robust && (!solves(scene.integrator) || scene.integrator == Integrator::equilibrium))
     reader.refuse("\"robust\" is for backward_euler and midpoint; leave it out");
   if (scene.robust && scene.newton > 1)

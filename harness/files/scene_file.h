@@ -17,7 +17,8 @@
 //                 box = [[x0, y0, z0], [x1, y1, z1]]; axes = "xyz", displacement, velocity = [x, y, z]
 //   [[tractions]] box, force = [x, y, z]
 //   [integrator]  name = "backward_euler"|"midpoint"|"symplectic_euler"|"xpbd"|"equilibrium", step, newton,
-//                 robust = false (true: further solves where a step leaves more energy than it should),
+//                 robust (true: further solves where a step leaves more energy than it should; the default of
+//                 backward_euler without "newton"),
 //                 sweeps = 1 (of xpbd, per step; it uses no [solver] and no stress_stiffness)
 //   [solver]      name, tolerance, max_iterations
 //   [[cuts]]      time; bezier | polyline = [[x, y], ...], closed = true, speed | family, seed, case

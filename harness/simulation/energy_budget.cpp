@@ -43,8 +43,8 @@ Field stiffness_times(const Model<D>& model, const Field& w, const Field& mass_w
 
 }  // namespace
 
-EnergyBudget::EnergyBudget(const Balance& first, Integrator integrator, double noise, double time)
-    : integrator_(integrator), scale_(noise) {
+EnergyBudget::EnergyBudget(const Balance& first, Integrator integrator, double noise, double time, bool robust)
+    : integrator_(integrator), exact_loss_(robust && integrator == Integrator::backward_euler), scale_(noise) {
   rows_.push_back({.time = time, .energy = first.energy});
   judge_last();
 }
@@ -71,7 +71,7 @@ void EnergyBudget::add_step(Model<D>& model, const State& before, const State& a
   row.numerical_loss += u.dot(mass_dv) - mean_v.dot(mass_times<D>(model, after.v - before.v));
   if (is_explicit)
     row.numerical_loss += step * u.dot(force_at(model, after.x) - force) / 2;
-  else if (!midpoint)
+  else if (!midpoint && !exact_loss_)
     row.numerical_loss += step * step * u.dot(stiffness_w) / 2;
 
   Field pin_force = mass_dv / step + damping - force;
@@ -81,6 +81,11 @@ void EnergyBudget::add_step(Model<D>& model, const State& before, const State& a
 
   if (midpoint) model.rotate(after.x);
   row.energy = model.energy(after.x, after.v);
+  if (exact_loss_) {
+    const Energy &was = rows_.back().energy, &is = row.energy;
+    row.numerical_loss += was.membrane - is.membrane + was.bending - is.bending + was.potential - is.potential -
+                          (after.x - before.x).dot(force);
+  }
   const double change = row.energy.total() - rows_.front().energy.total();
   row.remainder = change - row.jumps - row.pin_work + row.damping + row.numerical_loss;
   rows_.push_back(row);

@@ -13,6 +13,9 @@
 //                                             - loss                                            numerical loss
 //                                             + remainder
 //
+// A robust step of backward Euler (harness/fem/time/robust_step.cpp) is no linear one: its elastic loss is
+// E(x0) - E(x) - f_int(x)'(x - x0) instead of dx'K dx / 2. It is negative where the energy is not convex on the way.
+//
 // The remainder is the error of the linearisation (with K made positive) and of the linear solver: zero to rounding for
 // a linear sheet and a direct solver. The loss of symplectic Euler has either sign; it is bounded where the step is
 // stable, and a gain without bounds where it is not.
@@ -63,9 +66,10 @@ class EnergyBudget {
 
   /// \param noise  J: energies below it are rounding
   /// \param time   s, of the first moment
+  /// \param robust  the steps are
   /// \pre balance_of() the first moment; the integrator is not equilibrium.
   explicit EnergyBudget(const Balance& first, Integrator integrator = Integrator::backward_euler, double noise = 0,
-                        double time = 0);
+                        double time = 0, bool robust = false);
 
   /// After a step from `before` to `after`: \pre the model's matrix is still that step's.
   template <int D>
@@ -89,6 +93,7 @@ class EnergyBudget {
   void judge_last();
 
   Integrator integrator_;
+  bool exact_loss_;  // of robust steps
   std::vector<BudgetRow> rows_;
   double scale_;
   Rise remainder_, jumps_, unexplained_;

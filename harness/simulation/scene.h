@@ -20,9 +20,9 @@ namespace cutbench {
 
 /// A pin as written in the file.
 struct ScenePin {
-  std::optional<Point2> near;                     ///< holds the vertex nearest to it; `pin.where` is then not yet known
-  std::optional<std::array<Point3, 2>> in_space = {};  ///< the vertices that begin between these two corners, likewise
+  std::optional<Point2> near;  ///< holds the vertex nearest to it; `pin.where` is then not yet known
   Pin pin;
+  std::optional<std::array<Point3, 2>> in_space = {};  ///< the vertices that begin between these two corners, likewise
 };
 
 struct Scene {

@@ -189,7 +189,7 @@ class SceneInMotion : public Simulation {
   void begin_budget() {
     const double noise = 1e-20 * scene_.material.stiffness / scene_.material.density * now_.model.lumped_mass().sum();
     if (watched_ && keeps_budget(scene_.integrator))
-      budget_.emplace(balance(), scene_.integrator, noise, now_.state.time);
+      budget_.emplace(balance(), scene_.integrator, noise, now_.state.time, scene_.robust);
   }
 
   Scene scene_;
