@@ -16,10 +16,11 @@ namespace cutbench {
 
 namespace {
 
-constexpr std::size_t most_factored = 200;       // unknowns of a dense factorisation
-constexpr double widest_for_floats = 1e5;        // largest diagonal block over the median one
-constexpr double stiffest_for_floats = 1 << 20;  // diagonal of a free piece over the sum of its entries
-constexpr double same_trace = 0.01;              // a larger change shows another step or material
+constexpr std::size_t most_factored = 200;                     // unknowns of a dense factorisation
+constexpr double widest_for_floats = 1e5;                      // largest diagonal block over the median one
+constexpr double stiffest_for_floats = 1 << 20;                // diagonal of a free piece over the sum of its entries
+constexpr double smallest_pivot_for_floats = 1.0 / (1 << 20);  // of a stiff cluster, over its diagonal
+constexpr double same_trace = 0.01;                            // a larger change shows another step or material
 
 /// All places that are not finite are alike.
 bool is_same(Point2 a, Point2 b) { return (a.x == b.x && a.y == b.y) || (std::isnan(a.x) && std::isnan(b.x)); }
@@ -227,6 +228,23 @@ void Multigrid<D>::fill(const SystemMatrix<D>& a, const Blocks& diagonals, Level
   }
 }
 
+/// Only its factors tell whether floats do for the clusters; those of the last time mostly do, too.
+template <int D>
+void Multigrid<D>::fill_finest(const SystemMatrix<D>& a, const Blocks& diagonals) {
+  const auto is_soft = [&] { return clusters_.smallest_pivot() < smallest_pivot_for_floats; };
+  in_doubles_ = in_doubles_ || clusters_need_doubles_;
+  if (!in_doubles_) {
+    fill(a, diagonals, finest_, float_is_new_);
+    clusters_.factor(finest_.matrix, *a.held);
+    in_doubles_ = is_soft();
+  }
+  if (in_doubles_) {
+    fill(a, diagonals, finest_in_doubles_, double_is_new_);
+    clusters_.factor(finest_in_doubles_.matrix, *a.held);
+  }
+  clusters_need_doubles_ = is_soft();
+}
+
 /// P^T A P, row by row: first that of P^T A, which is the sum of the members' rows, each times its weight; then columns
 /// with the same parent become one. `add_row(v, weight)` adds to fine.part_row; `ask_for(i)` prefetches what a row takes.
 template <int D>
@@ -366,13 +384,7 @@ void Multigrid<D>::setup(const SystemMatrix<D>& a, const Blocks& diagonals) {
   find_held(a);
   if (!changed_.empty()) clusters_.find(sizes_, median_size_, rows_);
   choose_precision(a);
-  if (in_doubles_) {
-    fill(a, diagonals, finest_in_doubles_, double_is_new_);
-    clusters_.factor(finest_in_doubles_.matrix, *a.held);
-  } else {
-    fill(a, diagonals, finest_, float_is_new_);
-    clusters_.factor(finest_.matrix, *a.held);
-  }
+  fill_finest(a, diagonals);
   // Every other time the coarse matrices of the last time do: rotations change them little. They leave the trace alone,
   // so another trace shows another step or material.
   coarse_are_old_ =

@@ -5,10 +5,13 @@
 // vertices are solved exactly (StiffClusters). On the coarsest level a Cholesky factorisation solves.
 //
 // Levels are in floats: a preconditioner need not be accurate, and the time is that of reading the matrix. The finest level
-// is in doubles where the diagonal blocks of A differ too much for floats (slivers), or where a free piece is so light
-// beside its stiffness that rounding makes another weight of it: its diagonal is over 2^20 times the sum of its entries,
-// so the last of 24 bits is a sixteenth of that. Then the cycle would not be symmetric. Without places of the
-// vertices there is the finest level alone, which is symmetric Gauss-Seidel.
+// is in doubles where floats would not do:
+// - where diagonal blocks of A differ too much (slivers);
+// - where a free piece is light beside its stiffness: its diagonal is over 2^20 times the sum of its entries, so the last
+//   of 24 bits is a sixteenth of what it weighs;
+// - likewise where a pivot of a stiff cluster is below 2^-20 of its diagonal.
+// Else the cycle would not be symmetric, nor positive definite.
+// Without places of the vertices there is the finest level alone, which is symmetric Gauss-Seidel.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -38,7 +41,7 @@ class Multigrid final : public Preconditioner<D> {
   std::size_t levels() const { return coarse_.size() + 1; }
   /// Microseconds that the last setup() took for the rows of all levels, without their values.
   double rows_us() const { return rows_us_; }
-  /// Entries beside the diagonal that a cycle reads, each three times, of all levels; with those that fill up pairs.
+  /// Entries beside the diagonal that a cycle reads, each twice, of all levels; with those that fill up pairs.
   /// \pre setup() was called
   struct Entries {
     double blocks = 0, scalars = 0;
@@ -98,6 +101,7 @@ class Multigrid final : public Preconditioner<D> {
   void look_at_sizes(const SystemMatrix<D>& a, const Blocks& diagonals);
   void choose_precision(const SystemMatrix<D>& a);
   double stiffest_piece(const SystemMatrix<D>& a) const;
+  void fill_finest(const SystemMatrix<D>& a, const Blocks& diagonals);
   void fill_coarse_levels(const SystemMatrix<D>& a);
   template <class S>
   void fill(const SystemMatrix<D>& a, const Blocks& diagonals, Level<S>& level, bool& is_new);
@@ -136,6 +140,7 @@ class Multigrid final : public Preconditioner<D> {
   double median_size_ = 0, largest_size_ = 0;
   std::vector<double> looked_at_;  // per vertex: its size over the median when groups and clusters were found there
   double stiffest_piece_ = 0, trace_of_pieces_ = 0;
+  bool clusters_need_doubles_ = false;
   double trace_ = 0, coarse_trace_ = 0;  // of A, at the last setup() and when the coarse matrices were computed
   bool coarse_are_old_ = true;
   // Working storage.
