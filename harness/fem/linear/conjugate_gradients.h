@@ -54,7 +54,7 @@ class ConjugateGradients final : public LinearSolver<D> {
   int until_first_again_ = 0;  ///< set-ups
   static constexpr int first_pause = 1, longest_pause = 4096;
   const SystemMatrix<D>* matrix_ = nullptr;
-  std::vector<Block> diagonals_;  ///< per vertex
+  std::vector<Block> diagonals_;  ///< per vertex; none without a preconditioner
   std::vector<Block> inverse_;    ///< of these
   bool positive_blocks_ = false;  ///< else A is not positive definite, which the iteration does not always notice
   Field b_, r_, z_, p_, q_;       ///< right-hand side, residual, the same preconditioned, direction, A p
