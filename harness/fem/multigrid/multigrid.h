@@ -100,7 +100,7 @@ class Multigrid final : public Preconditioner<D> {
   static void update_rows(CoarseLevel& level, const Finer& fine, const Coarsening::Regrouping& regrouping);
   void look_at_sizes(const SystemMatrix<D>& a, const Blocks& diagonals);
   void choose_precision(const SystemMatrix<D>& a);
-  double stiffest_piece(const SystemMatrix<D>& a) const;
+  bool has_light_piece(const SystemMatrix<D>& a);
   void fill_finest(const SystemMatrix<D>& a, const Blocks& diagonals);
   void fill_coarse_levels(const SystemMatrix<D>& a);
   template <class S>
@@ -139,14 +139,14 @@ class Multigrid final : public Preconditioner<D> {
   std::vector<double> sizes_;  // per vertex: the trace of its diagonal block
   double median_size_ = 0, largest_size_ = 0;
   std::vector<double> looked_at_;  // per vertex: its size over the median when groups and clusters were found there
-  double stiffest_piece_ = 0, trace_of_pieces_ = 0;
-  bool clusters_need_doubles_ = false;
+  double trace_of_pieces_ = 0;
+  bool has_light_piece_ = false, clusters_need_doubles_ = false;
   double trace_ = 0, coarse_trace_ = 0;  // of A, at the last setup() and when the coarse matrices were computed
   bool coarse_are_old_ = true;
   // Working storage.
   std::vector<std::int32_t> place_;  // per coarse unknown: its place in the row at hand
   RowSum<double> scalars_{0};        // of the row at hand
-  std::vector<double> sorted_;
+  std::vector<double> sorted_, weights_;
   std::vector<std::int32_t> front_, place_in_front_;  // the second: per vertex, or -1
 };
 
