@@ -26,7 +26,9 @@ void ConjugateGradients<D>::setup(const SystemMatrix<D>& a) {
   inverse_.resize(blocks.size());
   positive_blocks_ = true;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const Block block = blocks[i], inverse = inverse_[i] = block.inverse();
+    const Block block = blocks[i];
+    Block& inverse = inverse_[i];
+    inverse = block.inverse();
     // Sylvester: the leading minors are positive; that of D - 1 rows is the determinant times the inverse's last entry.
     positive_blocks_ = positive_blocks_ && block(0, 0) > 0 && block.determinant() > 0 && inverse(D - 1, D - 1) > 0;
   }
