@@ -1,5 +1,5 @@
-// What smooths on a level of multigrid, against dense matrices: sweeps and stiff clusters. (packed_rows_test.cpp compares
-// the sweeps' bits with plain loops.)
+// What smooths on a level of multigrid, against dense matrices: sweeps and stiff clusters. (packed_rows_test.cpp
+// compares the sweeps' bits with plain loops.)
 
 #include <gtest/gtest.h>
 

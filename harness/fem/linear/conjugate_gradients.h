@@ -16,8 +16,8 @@ namespace cutbench {
 ///
 /// Preconditioners are tried in order; the diagonal blocks, which cannot fail, come last. One that was not positive
 /// definite, or took too many iterations, is left out until the next set-up, and for twice as many set-ups each time it
-/// fails again at once: where a sheet is cut to pieces, no cut makes it worth a trial. What follows is set up when it is
-/// first needed.
+/// fails again at once: where a sheet is cut to pieces, no cut makes it worth a trial. What follows is set up when it
+/// is first needed.
 template <int D>
 class ConjugateGradients final : public LinearSolver<D> {
  public:

@@ -157,8 +157,8 @@ void Multigrid<D>::choose_precision(const SystemMatrix<D>& a) {
                                       median_size_ > 1e-30 && !has_light_piece_);
 }
 
-/// Whether a free piece's diagonal exceeds the sum of its entries too far. The sum is what the piece weighs: no stiffness
-/// resists a translation.
+/// Whether a free piece's diagonal exceeds the sum of its entries too far. The sum is what the piece weighs: no
+/// stiffness resists a translation.
 template <int D>
 bool Multigrid<D>::has_light_piece(const SystemMatrix<D>& a) {
   const std::size_t n = a.vertices();
@@ -251,7 +251,8 @@ void Multigrid<D>::fill_finest(const SystemMatrix<D>& a, const Blocks& diagonals
 }
 
 /// P^T A P, row by row: first that of P^T A, which is the sum of the members' rows, each times its weight; then columns
-/// with the same parent become one. `add_row(v, weight)` adds to fine.part_row; `ask_for(i)` prefetches what a row takes.
+/// with the same parent become one. `add_row(v, weight)` adds to fine.part_row; `ask_for(i)` prefetches what a row
+/// takes.
 template <int D>
 template <class S, class AskFor, class AddRow>
 void Multigrid<D>::fill_coarse(Level<S>& fine, CoarseLevel& level, const AskFor& ask_for, const AddRow& add_row) {

@@ -4,14 +4,14 @@
 // A is. Vertices that slivers constraint together are one more unknown of the first coarse level, and clusters of stiff
 // vertices are solved exactly (StiffClusters). On the coarsest level a Cholesky factorisation solves.
 //
-// Levels are in floats: a preconditioner need not be accurate, and the time is that of reading the matrix. The finest level
-// is in doubles where floats would not do:
+// Levels are in floats: a preconditioner need not be accurate, and the time is that of reading the matrix. The finest
+// level is in doubles where floats would not do:
 // - where diagonal blocks of A differ too much (slivers);
-// - where a free piece is light beside its stiffness: its diagonal is over 2^20 times the sum of its entries, so the last
-//   of 24 bits is a sixteenth of what it weighs;
+// - where a free piece is light beside its stiffness: its diagonal is over 2^20 times the sum of its entries, so the
+//   last of 24 bits is a sixteenth of what it weighs;
 // - likewise where a pivot of a stiff cluster is below 2^-20 of its diagonal.
-// Else the cycle would not be symmetric, nor positive definite.
-// Without places of the vertices there is the finest level alone, which is symmetric Gauss-Seidel.
+// Else the cycle would not be symmetric, nor positive definite. Without places of the vertices there is the finest
+// level alone, which is symmetric Gauss-Seidel.
 #pragma once
 
 #include <Eigen/Cholesky>
