@@ -232,8 +232,8 @@ TEST(Multigrid, FollowsTheCuts) {
   }
 }
 
-/// Pentagons cut each other to pieces of a few vertices, which weigh a millionth of what slivers make them stiff. In floats
-/// the cycle loses 7e-4 of its symmetry.
+/// Pentagons cut each other to pieces of a few vertices, which weigh a millionth of what slivers make them stiff. In
+/// floats the cycle loses 7e-4 of its symmetry.
 TEST(Multigrid, FreePiecesTooLightForFloats) {
   constexpr int count = 12;
   Random random(1000 + count);

@@ -1,5 +1,5 @@
-// What smooths on a level of multigrid, against dense matrices: sweeps and stiff clusters. (packed_rows_test.cpp compares
-// the sweeps' bits with plain loops.)
+// What smooths on a level of multigrid, against dense matrices: sweeps and stiff clusters. (packed_rows_test.cpp
+// compares the sweeps' bits with plain loops.)
 
 #include <gtest/gtest.h>
 
@@ -225,6 +225,31 @@ TEST(StiffClusters, AreSolvedExactly) {
   const Field left = right - all * from_r;
   for (Eigen::Index u = 0; u < n; ++u) solved += std::abs(left[u]) < 1e-9 * right.norm() && from_r[u] != 0;
   EXPECT_GE(solved, 4u);
+}
+
+/// Two vertices that hold each other far more than anything holds both: the last pivots are the sum of what does.
+TEST(StiffClusters, SmallestPivot) {
+  constexpr double together = 1e6, apart = 1;
+  LevelRows rows;
+  rows.resize(2);
+  const std::vector<std::int32_t> both{0, 1};
+  for (const std::size_t i : {0, 1}) rows.blocks.set(i, both);
+  SweptScalars swept;
+  swept.follow(rows);
+  PackedRows<2, double> matrix;
+  matrix.follow(rows, swept, false);
+  for (const std::size_t i : {0, 1})
+    matrix.fill_row(i, [&](std::size_t slot) {
+      const bool is_own = slot == rows.blocks.diagonal_slot(i);
+      const Eigen::Matrix2d block = (is_own ? together + apart : -together) * Eigen::Matrix2d::Identity();
+      return columns_of<2>(block.data());
+    });
+  StiffClusters<2> clusters;
+  EXPECT_EQ(clusters.smallest_pivot(), 1);
+  clusters.find({together, together}, apart, rows);
+  ASSERT_EQ(clusters.size(), 1u);
+  clusters.factor(matrix, std::vector<std::uint8_t>(4, 0));
+  EXPECT_NEAR(clusters.smallest_pivot(), 2 * apart / together, 1e-3 * apart / together);
 }
 
 }  // namespace

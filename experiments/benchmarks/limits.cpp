@@ -95,8 +95,8 @@ std::vector<Phase> phases_of(int n, const MethodRow& row, double& working_set) {
   const double matrix = blocks * (9 * sizeof(double) + 4) + scalars * (sizeof(double) + 4);
   multigrid.setup(a);
   const auto levels = multigrid.entries();
-  const double level_blocks = levels.blocks * (9 * sizeof(float) + 4),
-               level_bytes = level_blocks + levels.scalars * (sizeof(float) + 4);
+  const double level_blocks = levels.blocks * (12 * sizeof(float) + 4),  // three columns of four
+      level_bytes = level_blocks + levels.scalars * (sizeof(float) + 4);
   working_set = elements * (per_element + 36) + matrix + level_bytes + 6 * vector;
   std::vector<Phase> phases{
       {"rotate", elements * per_element + 3 * vector, elements * rotate_operations},

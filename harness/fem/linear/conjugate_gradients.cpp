@@ -21,12 +21,14 @@ constexpr double tolerance_for_floats = 1e-3;
 template <int D>
 void ConjugateGradients<D>::setup(const SystemMatrix<D>& a) {
   matrix_ = &a;
-  a.diagonals(diagonals_);
-  inverse_.resize(diagonals_.size());
+  auto& blocks = trials_.empty() ? inverse_ : diagonals_;  // nobody else wants them: inverted in place
+  a.diagonals(blocks);
+  inverse_.resize(blocks.size());
   positive_blocks_ = true;
-  for (std::size_t i = 0; i < diagonals_.size(); ++i) {
-    const Block& block = diagonals_[i];
-    const Block inverse = inverse_[i] = block.inverse();
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const Block block = blocks[i];
+    Block& inverse = inverse_[i];
+    inverse = block.inverse();
     // Sylvester: the leading minors are positive; that of D - 1 rows is the determinant times the inverse's last entry.
     positive_blocks_ = positive_blocks_ && block(0, 0) > 0 && block.determinant() > 0 && inverse(D - 1, D - 1) > 0;
   }

@@ -16,8 +16,8 @@ namespace cutbench {
 ///
 /// Preconditioners are tried in order; the diagonal blocks, which cannot fail, come last. One that was not positive
 /// definite, or took too many iterations, is left out until the next set-up, and for twice as many set-ups each time it
-/// fails again at once: where a sheet is cut to pieces, no cut makes it worth a trial. What follows is set up when it is
-/// first needed.
+/// fails again at once: where a sheet is cut to pieces, no cut makes it worth a trial. What follows is set up when it
+/// is first needed.
 template <int D>
 class ConjugateGradients final : public LinearSolver<D> {
  public:
@@ -54,7 +54,7 @@ class ConjugateGradients final : public LinearSolver<D> {
   int until_first_again_ = 0;  ///< set-ups
   static constexpr int first_pause = 1, longest_pause = 4096;
   const SystemMatrix<D>* matrix_ = nullptr;
-  std::vector<Block> diagonals_;  ///< per vertex
+  std::vector<Block> diagonals_;  ///< per vertex; none without a preconditioner
   std::vector<Block> inverse_;    ///< of these
   bool positive_blocks_ = false;  ///< else A is not positive definite, which the iteration does not always notice
   Field b_, r_, z_, p_, q_;       ///< right-hand side, residual, the same preconditioned, direction, A p

@@ -16,10 +16,11 @@ namespace cutbench {
 
 namespace {
 
-constexpr std::size_t most_factored = 200;       // unknowns of a dense factorisation
-constexpr double widest_for_floats = 1e5;        // largest diagonal block over the median one
-constexpr double stiffest_for_floats = 1 << 20;  // diagonal of a free piece over the sum of its entries
-constexpr double same_trace = 0.01;              // a larger change shows another step or material
+constexpr std::size_t most_factored = 200;                     // unknowns of a dense factorisation
+constexpr double widest_for_floats = 1e5;                      // largest diagonal block over the median one
+constexpr double stiffest_for_floats = 1 << 20;                // diagonal of a free piece over the sum of its entries
+constexpr double smallest_pivot_for_floats = 1.0 / (1 << 20);  // of a stiff cluster, over its diagonal
+constexpr double same_trace = 0.01;                            // a larger change shows another step or material
 
 /// All places that are not finite are alike.
 bool is_same(Point2 a, Point2 b) { return (a.x == b.x && a.y == b.y) || (std::isnan(a.x) && std::isnan(b.x)); }
@@ -150,17 +151,30 @@ template <int D>
 void Multigrid<D>::choose_precision(const SystemMatrix<D>& a) {
   if (!changed_.empty() || !(std::abs(trace_ - trace_of_pieces_) <= same_trace * trace_of_pieces_)) {
     trace_of_pieces_ = trace_;
-    stiffest_piece_ = stiffest_piece(a);
+    has_light_piece_ = has_light_piece(a);
   }
   in_doubles_ = median_size_ > 0 && !(largest_size_ < widest_for_floats * median_size_ && largest_size_ < 1e30 &&
-                                      median_size_ > 1e-30 && stiffest_piece_ < stiffest_for_floats);
+                                      median_size_ > 1e-30 && !has_light_piece_);
 }
 
-/// The largest diagonal of a free piece over the sum of its entries, which is what the piece weighs: no stiffness resists
-/// a translation.
+/// Whether a free piece's diagonal exceeds the sum of its entries too far. The sum is what the piece weighs: no
+/// stiffness resists a translation.
 template <int D>
-double Multigrid<D>::stiffest_piece(const SystemMatrix<D>& a) const {
+bool Multigrid<D>::has_light_piece(const SystemMatrix<D>& a) {
   const std::size_t n = a.vertices();
+  const auto is_light = [](double stiffness, double weight) { return stiffness > stiffest_for_floats * weight; };
+  weights_.assign(n, 0);
+  bool any = false;
+  for (std::size_t i = 0; i < n; ++i) {
+    std::int32_t slot = a.blocks->first_slot(i);
+    double sum = 0;
+    for (std::size_t k = 0; k < a.blocks->columns(i).size(); ++k) sum += a.blocks->block(slot++).trace();
+    std::size_t scalar = rows_.scalars.first_slot(i);
+    for (std::size_t k = 0; k < rows_.scalars[i].size(); ++k) sum += D * rows_.scalar[scalar++];
+    weights_[i] = sum;
+    any |= is_light(sizes_[i], sum);
+  }
+  if (!any) return false;  // nor is a piece whose vertices are not
   struct Piece {
     double stiffness = 0, weight = 0;
     bool is_held = false;
@@ -168,23 +182,15 @@ double Multigrid<D>::stiffest_piece(const SystemMatrix<D>& a) const {
   std::vector<Piece> pieces(n);
   UnionFind joined(n);
   for (std::size_t i = 0; i < n; ++i)
-    for (const std::int32_t j : rows_.blocks[i]) joined.join(i, to_size(j));
+    for (const std::int32_t j : rows_.blocks.below(i)) joined.join(i, to_size(j));
   for (std::size_t i = 0; i < n; ++i) {
-    if (rows_.blocks[i].empty()) continue;
     Piece& piece = pieces[joined.find(i)];
     piece.stiffness += sizes_[i];
+    piece.weight += weights_[i];
     piece.is_held |= is_held_altogether(a, i);
-    std::int32_t slot = a.blocks->first_slot(i);
-    for (std::size_t k = 0; k < a.blocks->columns(i).size(); ++k) piece.weight += a.blocks->block(slot++).trace();
-    for (std::size_t k = 0; k < rows_.scalars[i].size(); ++k)
-      piece.weight += D * rows_.scalar[rows_.scalars.first_slot(i) + k];
   }
-  double most = 0;
-  for (const Piece& piece : pieces)
-    if (piece.stiffness > 0 && !piece.is_held)
-      most =
-          std::max(most, piece.weight > 0 ? piece.stiffness / piece.weight : std::numeric_limits<double>::infinity());
-  return most;
+  return std::any_of(pieces.begin(), pieces.end(),
+                     [&](const Piece& p) { return !p.is_held && is_light(p.stiffness, p.weight); });
 }
 
 /// Zero in rows and columns of held coordinates, and where the block is not positive definite.
@@ -227,14 +233,34 @@ void Multigrid<D>::fill(const SystemMatrix<D>& a, const Blocks& diagonals, Level
   }
 }
 
+/// Only its factors tell whether floats do for the clusters; those of the last time mostly do, too.
+template <int D>
+void Multigrid<D>::fill_finest(const SystemMatrix<D>& a, const Blocks& diagonals) {
+  const auto is_soft = [&] { return clusters_.smallest_pivot() < smallest_pivot_for_floats; };
+  in_doubles_ = in_doubles_ || clusters_need_doubles_;
+  if (!in_doubles_) {
+    fill(a, diagonals, finest_, float_is_new_);
+    clusters_.factor(finest_.matrix, *a.held);
+    in_doubles_ = is_soft();
+  }
+  if (in_doubles_) {
+    fill(a, diagonals, finest_in_doubles_, double_is_new_);
+    clusters_.factor(finest_in_doubles_.matrix, *a.held);
+  }
+  clusters_need_doubles_ = is_soft();
+}
+
 /// P^T A P, row by row: first that of P^T A, which is the sum of the members' rows, each times its weight; then columns
-/// with the same parent become one. `add_row(v, weight)` adds to fine.part_row; `ask_for(i)` prefetches what a row takes.
+/// with the same parent become one. `add_row(v, weight)` adds to fine.part_row; `ask_for(i)` prefetches what a row
+/// takes.
 template <int D>
 template <class S, class AskFor, class AddRow>
 void Multigrid<D>::fill_coarse(Level<S>& fine, CoarseLevel& level, const AskFor& ask_for, const AddRow& add_row) {
   std::vector<Columns<S>> sums;
   level.idle.clear();
+  const bool is_first = level.blocks.empty();
   level.blocks.resize(level.rows.blocks.slots());
+  if (is_first) cutbench::reserve_spare(level.blocks);
   place_.resize(std::max(place_.size(), level.from.coarse_size()));
   fine.part_row.resize(level.from.fine_size());
   const auto columns_at = [&](std::size_t slot) { return level.blocks[slot]; };
@@ -366,13 +392,7 @@ void Multigrid<D>::setup(const SystemMatrix<D>& a, const Blocks& diagonals) {
   find_held(a);
   if (!changed_.empty()) clusters_.find(sizes_, median_size_, rows_);
   choose_precision(a);
-  if (in_doubles_) {
-    fill(a, diagonals, finest_in_doubles_, double_is_new_);
-    clusters_.factor(finest_in_doubles_.matrix, *a.held);
-  } else {
-    fill(a, diagonals, finest_, float_is_new_);
-    clusters_.factor(finest_.matrix, *a.held);
-  }
+  fill_finest(a, diagonals);
   // Every other time the coarse matrices of the last time do: rotations change them little. They leave the trace alone,
   // so another trace shows another step or material.
   coarse_are_old_ =

@@ -4,11 +4,14 @@
 // A is. Vertices that slivers constraint together are one more unknown of the first coarse level, and clusters of stiff
 // vertices are solved exactly (StiffClusters). On the coarsest level a Cholesky factorisation solves.
 //
-// Levels are in floats: a preconditioner need not be accurate, and the time is that of reading the matrix. The finest level
-// is in doubles where the diagonal blocks of A differ too much for floats (slivers), or where a free piece is so light
-// beside its stiffness that rounding makes another weight of it: its diagonal is over 2^20 times the sum of its entries,
-// so the last of 24 bits is a sixteenth of that. Then the cycle would not be symmetric. Without places of the
-// vertices there is the finest level alone, which is symmetric Gauss-Seidel.
+// Levels are in floats: a preconditioner need not be accurate, and the time is that of reading the matrix. The finest
+// level is in doubles where floats would not do:
+// - where diagonal blocks of A differ too much (slivers);
+// - where a free piece is light beside its stiffness: its diagonal is over 2^20 times the sum of its entries, so the
+//   last of 24 bits is a sixteenth of what it weighs;
+// - likewise where a pivot of a stiff cluster is below 2^-20 of its diagonal.
+// Else the cycle would not be symmetric, nor positive definite. Without places of the vertices there is the finest
+// level alone, which is symmetric Gauss-Seidel.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -38,7 +41,7 @@ class Multigrid final : public Preconditioner<D> {
   std::size_t levels() const { return coarse_.size() + 1; }
   /// Microseconds that the last setup() took for the rows of all levels, without their values.
   double rows_us() const { return rows_us_; }
-  /// Entries beside the diagonal that a cycle reads, each three times, of all levels; with those that fill up pairs.
+  /// Entries beside the diagonal that a cycle reads, each twice, of all levels; with those that fill up pairs.
   /// \pre setup() was called
   struct Entries {
     double blocks = 0, scalars = 0;
@@ -97,7 +100,8 @@ class Multigrid final : public Preconditioner<D> {
   static void update_rows(CoarseLevel& level, const Finer& fine, const Coarsening::Regrouping& regrouping);
   void look_at_sizes(const SystemMatrix<D>& a, const Blocks& diagonals);
   void choose_precision(const SystemMatrix<D>& a);
-  double stiffest_piece(const SystemMatrix<D>& a) const;
+  bool has_light_piece(const SystemMatrix<D>& a);
+  void fill_finest(const SystemMatrix<D>& a, const Blocks& diagonals);
   void fill_coarse_levels(const SystemMatrix<D>& a);
   template <class S>
   void fill(const SystemMatrix<D>& a, const Blocks& diagonals, Level<S>& level, bool& is_new);
@@ -135,13 +139,14 @@ class Multigrid final : public Preconditioner<D> {
   std::vector<double> sizes_;  // per vertex: the trace of its diagonal block
   double median_size_ = 0, largest_size_ = 0;
   std::vector<double> looked_at_;  // per vertex: its size over the median when groups and clusters were found there
-  double stiffest_piece_ = 0, trace_of_pieces_ = 0;
+  double trace_of_pieces_ = 0;
+  bool has_light_piece_ = false, clusters_need_doubles_ = false;
   double trace_ = 0, coarse_trace_ = 0;  // of A, at the last setup() and when the coarse matrices were computed
   bool coarse_are_old_ = true;
   // Working storage.
   std::vector<std::int32_t> place_;  // per coarse unknown: its place in the row at hand
   RowSum<double> scalars_{0};        // of the row at hand
-  std::vector<double> sorted_;
+  std::vector<double> sorted_, weights_;
   std::vector<std::int32_t> front_, place_in_front_;  // the second: per vertex, or -1
 };
 

@@ -6,8 +6,8 @@
 // W + W' - W' A W = W' (diagonal of A) W. So it is symmetric, and positive definite where C and the blocks on the
 // diagonal of A are.
 //
-// No sum depends on the width of a processor's lanes. Of each pair of blocks, the first goes to one sum of four lanes and
-// the second to another; columns have sums of their own, and so have the first and the second of two scalars.
+// No sum depends on the width of a processor's lanes. Of each pair of blocks, the first goes to one sum of four lanes
+// and the second to another; columns have sums of their own, and so have the first and the second of two scalars.
 #pragma once
 
 #include <array>

@@ -70,8 +70,8 @@ void PackedRows<D, S>::pack_row(std::size_t i) {
   for (const std::int32_t j : blocks[i]) slot_of_[to_size(j)] = -1;
 }
 
-/// The blocks on one side of the diagonal, the farthest first. An odd one gets zeros beside it that read the same vertex,
-/// so nothing else can make them NaN.
+/// The blocks on one side of the diagonal, the farthest first. An odd one gets zeros beside it that read the same
+/// vertex, so nothing else can make them NaN.
 template <int D, class S>
 void PackedRows<D, S>::pack_pairs(std::span<const std::int32_t> columns, std::size_t slot, PackedPart<D, S>& part,
                                   std::size_t i) {
@@ -92,8 +92,8 @@ void PackedRows<D, S>::pack_pairs(std::span<const std::int32_t> columns, std::si
   if (n % 2) std::fill_n(part.values.begin() + to_index(D * (first + n / 2)), D, typename PackedPart<D, S>::Values{});
 }
 
-/// The scalars on one side of the diagonal: in the places of blocks, and the others. Which it is is a coin toss, so there
-/// is no branch.
+/// The scalars on one side of the diagonal: in the places of blocks, and the others. Which it is is a coin toss, so
+/// there is no branch.
 template <int D, class S>
 void PackedRows<D, S>::pack_scalars(std::span<const std::int32_t> columns, std::size_t slot,
                                     GrowingRows<TwoScalars<S>>& to, std::size_t i) {

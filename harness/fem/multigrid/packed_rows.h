@@ -2,8 +2,8 @@
 //
 // A row has two parts, the entries below its diagonal and those above it, and each part of all rows is a stream of its
 // own. Blocks stand two by two: eight lanes hold a column of the one and a column of the other, each with a zero behind
-// it. A scalar in the place of a block is added to its diagonal; the other scalars stand two by two, too. The columns of
-// blocks rise below the diagonal and fall above it, so that a sweep, either way, needs the row before it last.
+// it. A scalar in the place of a block is added to its diagonal; the other scalars stand two by two, too. The columns
+// of blocks rise below the diagonal and fall above it, so that a sweep, either way, needs the row before it last.
 //
 // The order of all sums follows from this layout (packed_kernel.h), so lanes of four and of eight give the same bits.
 // What a cut touches is packed again row by row; a row that outgrows its room moves to the end.

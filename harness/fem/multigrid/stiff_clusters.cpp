@@ -1,5 +1,6 @@
 #include "harness/fem/multigrid/stiff_clusters.h"
 
+#include <algorithm>
 #include <type_traits>
 #include <utility>
 
@@ -54,6 +55,7 @@ void StiffClusters<D>::find(const std::vector<double>& sizes, double median, con
 template <int D>
 template <class S>
 void StiffClusters<D>::factor(const PackedRows<D, S>& a, const std::vector<std::uint8_t>& held) {
+  smallest_pivot_ = 1;
   for (Cluster& cluster : clusters_) {
     const auto n = to_index(D * cluster.vertices.size());
     cluster.held.clear();
@@ -85,6 +87,8 @@ void StiffClusters<D>::factor(const PackedRows<D, S>& a, const std::vector<std::
     }
     cluster.factor.compute(dense);
     cluster.is_positive = cluster.factor.info() == Eigen::Success;
+    const auto pivots = cluster.factor.matrixLLT().diagonal().array().square() / dense.diagonal().array();
+    smallest_pivot_ = cluster.is_positive ? std::min(smallest_pivot_, pivots.minCoeff()) : 0;
   }
 }
 

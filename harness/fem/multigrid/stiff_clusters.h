@@ -23,6 +23,8 @@ class StiffClusters {
   template <class S>
   void factor(const PackedRows<D, S>& a, const std::vector<std::uint8_t>& held);
   std::size_t size() const { return clusters_.size(); }
+  /// Of all factors, over the matrix's own diagonal: 1 where there are none, 0 where one is not positive definite.
+  double smallest_pivot() const { return smallest_pivot_; }
 
   template <class S>
   using Vector = PackedVector<S>;
@@ -43,6 +45,7 @@ class StiffClusters {
   void solve(const Cluster& cluster);  // in correction_
 
   std::vector<Cluster> clusters_;
+  double smallest_pivot_ = 1;
   // Working storage.
   std::vector<std::int32_t> place_;  // per vertex: in the cluster at hand, or -1
   std::vector<std::uint8_t> is_stiff_;

@@ -1,8 +1,8 @@
 // Which scalars the sweeps of a level take.
 //
-// Bending couples each vertex to some 35 others, most of them hardly at all. So the sweeps are those of a matrix without
-// the small scalars. These are added to its diagonal, and a row times a translation stays what it was. Coarser levels are
-// made of that matrix, too.
+// Bending couples each vertex to some 35 others, most of them hardly at all. So the sweeps are those of a matrix
+// without the small scalars. These are added to its diagonal, and a row times a translation stays what it was. Coarser
+// levels are made of that matrix, too.
 #pragma once
 
 #include <algorithm>
