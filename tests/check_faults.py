@@ -129,7 +129,7 @@ def meshes():
     for name, text, says in [
             ("a.off", "", "not a complete OFF"), ("a.off", "OFF\n", "not a complete OFF"),
             ("a.off", SHEET[:-8], "not a complete OFF"), ("a.off", SHEET.replace("3 0 2 3", "3 0 2 9"), ""),
-            ("a.off", SHEET.replace("1 1 0", "nan 1 0"), ""), ("a.off", SHEET.replace("1 1 0", "1 1 7"), "flat"),
+            ("a.off", SHEET.replace("1 1 0", "nan 1 0"), ""), ("a.off", SHEET.replace("1 1 0", "1 1 7"), "unrolled"),
             ("a.off", SHEET.replace("1 1 0", "1e70 1 0"), ""), ("a.off", SHEET.replace("3 0 1 2", "3 0 0 2"), ""),
             ("a.off", SHEET.replace("3 0 1 2", "4 0 1 2 3"), ""), ("a.obj", "", ""), ("a.obj", "v 0 0 0\n", ""),
             ("a.obj", "v 0 0 0\nf 1 2 3\n", ""), ("a.obj", "f 1 2 3\n", ""), ("a.ply", "ply\n", ""),
