@@ -71,8 +71,9 @@ TEST(RestChoice, SheetsAtRestAndDeformedOnesKeepTheirVt) {
   EXPECT_TRUE(has_note(read(obj_of(pulled)), "stretched in its plane"));
   EXPECT_EQ(read(obj_of(bent)).rest, rest);
   EXPECT_EQ(joined_notes(read(obj_of(bent))), "");
-  EXPECT_EQ(read(obj_of(large)).rest, rest);
-  EXPECT_TRUE(has_note(read(obj_of(large)), "since the mesh is not flat: lengths in space are 7 to 9"));
+  const MeshData texture = read_obj(obj_of(large), "m");
+  EXPECT_TRUE(texture.rest.empty());
+  EXPECT_TRUE(has_note(texture, "taken for a texture, and dropped: lengths in space are 7 to 9"));
 }
 
 TEST(RestChoice, FilesOfOurOwnSayThatVtAreRest) {
@@ -112,11 +113,15 @@ TEST(RestChoice, BadVtAreNamed) {
   const std::string collapsed = "vt 0 0\nvt 0 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
   const std::string equal = "vt 0 0\nf 1/1 2/1 3/1\nf 1/1 3/1 4/1\n";
   for (const std::string& vt : {collapsed, equal}) {
-    expect_refused([&] { read(bent + vt); }, "triangle 1 of 2 has zero area in its vt, which are taken as rest");
-    expect_refused([&] { read(bent + vt); }, "remove them and flatten the mesh, which is not flat");
+    const MeshData dropped = read_obj(bent + vt, "m");
+    EXPECT_TRUE(dropped.rest.empty());
+    EXPECT_TRUE(has_note(dropped, "some triangles have no area in the vt"));
+    expect_refused([&] { read(bent + vt, {RestFrom::vt, false}); },
+                   "triangle 1 of 2 has zero area in its vt, which are taken as rest");
+    expect_refused([&] { read(bent + vt, {RestFrom::vt, false}); }, "give --rest space");
     expect_refused([&] { read(flat + vt, {RestFrom::vt, false}); }, "give --rest plane");
     EXPECT_EQ(read(flat + vt).rest[2], (Point2{1, 1}));
-    EXPECT_EQ(error_of([&] { read(bent + vt); }).find("delete"), std::string::npos);
+    EXPECT_EQ(error_of([&] { read(bent + vt, {RestFrom::vt, false}); }).find("delete"), std::string::npos);
   }
 }
 
