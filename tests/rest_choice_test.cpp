@@ -116,8 +116,11 @@ TEST(RestChoice, BadVtAreNamed) {
     const MeshData dropped = read_obj(bent + vt, "m");
     EXPECT_TRUE(dropped.rest.empty());
     EXPECT_TRUE(has_note(dropped, "some triangles have no area in the vt"));
-    expect_refused([&] { read(bent + vt, {RestFrom::vt, false}); },
-                   "triangle 1 of 2 has zero area in its vt, which are taken as rest");
+    expect_refused(
+        [&] {
+          read(bent + vt, {RestFrom::vt, false});
+        },
+        "triangle 1 of 2 has zero area in its vt, which are taken as rest");
     expect_refused([&] { read(bent + vt, {RestFrom::vt, false}); }, "give --rest space");
     expect_refused([&] { read(flat + vt, {RestFrom::vt, false}); }, "give --rest plane");
     EXPECT_EQ(read(flat + vt).rest[2], (Point2{1, 1}));

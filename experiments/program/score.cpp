@@ -86,8 +86,9 @@ bool score(const ScoreArguments& arguments, const CutOptions& options) {
   const std::vector<Curve> cuts = read_path(arguments.path);
   const MeshData data = read_mesh(arguments.mesh, arguments.reading);
   if (data.unrolled)
-    throw InputError(arguments.mesh +
-                     ": no rest positions, which score judges by; give a flat mesh, or an OBJ with vt (rest positions)");
+    throw InputError(
+        arguments.mesh +
+        ": no rest positions, which score judges by; give a flat mesh, or an OBJ with vt (rest positions)");
   for (const auto& note : data.notes) std::cerr << "note: " << note << '\n';
   const bool texture = leaves_vt(arguments.mesh, arguments.reading);
   const MeshReading of_result{texture ? RestFrom::automatic : RestFrom::vt, arguments.reading.triangulate};

@@ -137,8 +137,7 @@ void bind_sheets(py::module_& m) {
                              [](const py::object& self) {
                                return view_of<std::int32_t>(self.cast<const HeldSheet&>().mesh.triangles, self);
                              })
-      .def_property_readonly("sewn",
-                             [](const HeldSheet& s) { return array_of<std::int32_t>(s.mesh.sewn); })
+      .def_property_readonly("sewn", [](const HeldSheet& s) { return array_of<std::int32_t>(s.mesh.sewn); })
       .def_property_readonly("notes", [](const HeldSheet& s) { return s.mesh.notes; })
       .def_property_readonly("mean_edge", [](const HeldSheet& s) { return s.sheet->mean_edge(); })
       .def_property_readonly("pieces", [](const HeldSheet& s) { return array_of<std::int32_t>(pieces_of(s.mesh)); })

@@ -18,11 +18,11 @@ struct MeshData {
   std::vector<Point3> deformed;                        ///< per vertex, deformed position
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< counter-clockwise in rest space
   std::vector<std::int32_t> file_vertices;             ///< per vertex, its number in the file; empty: its own number
-  std::vector<std::string> notes;  ///< repairs made while reading, one line each
+  std::vector<std::string> notes;                      ///< repairs made while reading, one line each
   /// Per vertex: the number of one of those that are one point of the sheet with it, though apart at rest
   /// (harness/mesh/seams.h), the same for all of them. Empty: none are.
   std::vector<std::int32_t> sewn = {};
-  bool unrolled = false;           ///< rest positions are no coordinates that a user knows (harness/mesh/unroll.h)
+  bool unrolled = false;  ///< rest positions are no coordinates that a user knows (harness/mesh/unroll.h)
 };
 
 }  // namespace cutbench

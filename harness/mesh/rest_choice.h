@@ -36,7 +36,7 @@ constexpr double flatness_tolerance = 1e-6;
 /// How a mesh file is read.
 struct MeshReading {
   RestFrom rest = RestFrom::automatic;
-  bool triangulate = false;  ///< faces of more than three corners
+  bool triangulate = false;        ///< faces of more than three corners
   std::optional<double> sew = {};  ///< as far apart in space at most, vertices are sewn together (sew.h)
 };
 
