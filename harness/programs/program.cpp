@@ -60,7 +60,9 @@ class Program final : public CuttingMethod, public CutProgram {
 
   double run(Sheet& sheet, Subdivision& trace, const Curve& curve, const CutOptions& options) override {
     const Exchange files;
-    write_mesh(sheet.to_mesh_data(), files.mesh);
+    MeshData panels = sheet.to_mesh_data();
+    panels.sewn.clear();  // `v` and `vt` have one number, as programs are told
+    write_mesh(panels, files.mesh);
     write_path({curve}, files.path);
     const ProgramEnd end = run_program(files.filled_in(settings_.command), settings_.folder, settings_.limits);
     if (end.how == ProgramEnd::How::exited && end.code == exit_refused)

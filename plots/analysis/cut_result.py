@@ -15,10 +15,10 @@ class Details:
 
 
 def read_obj(file):
-    """Rest points and triangles of an OBJ with `vt`; those are of the opened sheet."""
+    """Rest points and triangles of an OBJ with `vt`; those are of the opened sheet. At seams a `v` has several `vt`."""
     lines = [line.split() for line in file.read_text(encoding="utf-8").splitlines()]
     rest = np.array([line[1:3] for line in lines if line[:1] == ["vt"]], float)
-    triangles = np.array([[int(c.split("/")[0]) - 1 for c in line[1:]] for line in lines if line[:1] == ["f"]])
+    triangles = np.array([[int(c.split("/")[1]) - 1 for c in line[1:]] for line in lines if line[:1] == ["f"]])
     return rest, triangles
 
 
