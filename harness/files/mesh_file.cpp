@@ -50,7 +50,8 @@ MeshData read_mesh(const std::filesystem::path& path, const MeshReading& reading
   if (!of_vt && !mesh.triangles.empty()) take_rest(mesh, name, reading.rest);
   check_and_repair(mesh, name, of_vt);
   if (of_vt && reading.sew) sew(mesh, *reading.sew, name);
-  if (const std::size_t count = unsewn(mesh); count > 0)
+  // In a plane, what lies at one place in space does so at rest.
+  if (const std::size_t count = of_vt || mesh.unrolled ? unsewn(mesh) : 0; count > 0)
     mesh.notes.push_back(name + ": vertices that lie where others do, though apart at rest: " + std::to_string(count) +
                          "; the sheet is open there, --sew 0 sews it");
   return mesh;

@@ -74,7 +74,26 @@ void weld_in_space(MeshData& mesh, double tolerance, const std::string& name) {
   mesh.notes.push_back(name + ": vertices sewn to others: " + std::to_string(count));
 }
 
+namespace {
+
+/// Do two vertices lie at one place in space, but not at rest? Most meshes have none.
+bool any_apart_at_rest(const MeshData& mesh) {
+  std::vector<std::size_t> order(mesh.deformed.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto before = [&](std::size_t a, std::size_t b) {
+    const Point3 &p = mesh.deformed[a], &q = mesh.deformed[b];
+    return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z;
+  };
+  std::sort(order.begin(), order.end(), before);
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (!before(order[i - 1], order[i]) && mesh.rest[order[i - 1]] != mesh.rest[order[i]]) return true;
+  return false;
+}
+
+}  // namespace
+
 std::size_t unsewn(const MeshData& mesh) {
+  if (!any_apart_at_rest(mesh)) return 0;
   std::vector<char> counted(mesh.deformed.size());
   for_each_pair(mesh, border_vertices(mesh), 0, [&](std::size_t a, std::size_t b) {
     const bool sewn = !mesh.sewn.empty() && mesh.sewn[a] == mesh.sewn[b];
