@@ -78,9 +78,12 @@ std::string obj_text(const MeshData& mesh) {
     if (is_new) text << "v " << mesh.deformed[v] << '\n';
   }
   for (const Point2& p : mesh.rest) text << "vt " << p << '\n';
+  const auto point_of = [&](std::int32_t v) {  // what is broken stays so
+    return v >= 0 && v < std::ssize(point) ? to_int64(point[to_size(v)]) : to_int64(v) + 1;
+  };
   for (const auto& triangle : mesh.triangles) {
     text << 'f';
-    for (std::int32_t v : triangle) text << ' ' << point[to_size(v)] << '/' << v + 1;
+    for (std::int32_t v : triangle) text << ' ' << point_of(v) << '/' << v + 1;
     text << '\n';
   }
   return text.str();
