@@ -41,8 +41,8 @@ class Files(unittest.TestCase):
                     warnings.simplefilter("ignore")
                     sheet = cutbench.Sheet.read(file, rest, triangulate=True)
                 self.assertEqual(sheet.rest[2].tolist(), corner)
-            with self.assertRaisesRegex(cutbench.InputError, 'rest: "space" is not known'):
-                cutbench.Sheet.read(file, "space", triangulate=True)
+            with self.assertRaisesRegex(cutbench.InputError, 'rest: "world" is not known'):
+                cutbench.Sheet.read(file, "world", triangulate=True)
 
 
 class Results(unittest.TestCase):
