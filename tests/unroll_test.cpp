@@ -213,6 +213,9 @@ TEST(Unroll, WhatCurvedSheetsCanNotHaveIsSaid) {
     }
   };
   EXPECT_EQ(error(), "");
+  scene.cuts.emplace_back().curve = {Curve::Kind::polyline, false, {{0, 0}, {1, 1}}};
+  EXPECT_NE(error().find("places at rest mean nothing"), std::string::npos);
+  scene.cuts.clear();
   scene.integrator = Integrator::symplectic_euler;
   EXPECT_NE(error().find("has seams"), std::string::npos);
   scene.integrator = Integrator::backward_euler;

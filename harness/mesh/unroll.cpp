@@ -13,7 +13,6 @@
 #include "harness/base/union_find.h"
 #include "harness/mesh/overlaps.h"
 #include "harness/mesh/predicates.h"
-#include "harness/mesh/rest_choice.h"
 
 namespace cutbench {
 
@@ -64,7 +63,7 @@ class Unrolling {
     for (std::size_t t = 0; t < triangles_.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k)
         if (triangles_[t].meets[k]) {
-          const std::size_t other = neighbour(t, k)->triangle;
+          const std::size_t other = *neighbour(t, k);
           // Corners at the two ends of the edge; the neighbour's run the other way unless one of them is turned over.
           joined.join(corner(t, k), corner_at(other, vertex(t, k)));
           joined.join(corner(t, (k + 1) % 3), corner_at(other, vertex(t, (k + 1) % 3)));
@@ -118,10 +117,6 @@ class Unrolling {
   std::size_t parts() const { return parts_; }
 
  private:
-  /// Half-edge k of triangle t, by the corners of the file.
-  struct Edge {
-    std::size_t triangle, k;
-  };
   struct Laid {
     std::size_t part = 0, turn = 0;  ///< which part; when it was laid, from 1; 0: not yet
     std::array<Point2, 3> place;     ///< of the corners, in the order below
@@ -173,15 +168,11 @@ class Unrolling {
     }
   }
 
-  /// The triangle across edge k of t, and that edge's place in it; none on the border.
-  std::optional<Edge> neighbour(std::size_t t, std::size_t k) const {
-    const std::int32_t a = vertex(t, k), b = vertex(t, (k + 1) % 3);
-    const auto& sides = sides_.at(ends(a, b));
+  /// The triangle across edge k of t; none on the border.
+  std::optional<std::size_t> neighbour(std::size_t t, std::size_t k) const {
+    const auto& sides = sides_.at(ends(vertex(t, k), vertex(t, (k + 1) % 3)));
     if (sides.size() < 2) return {};
-    const std::size_t other = sides[0] == t ? sides[1] : sides[0];
-    for (std::size_t l = 0; l < 3; ++l)
-      if (ends(vertex(other, l), vertex(other, (l + 1) % 3)) == ends(a, b)) return Edge{other, l};
-    return {};
+    return sides[0] == t ? sides[1] : sides[0];
   }
 
   void lay_all() {
@@ -202,9 +193,9 @@ class Unrolling {
       part.push_back(from);
       for (std::size_t k = 0; k < 3; ++k) {
         const auto next = neighbour(from, k);
-        if (!next || triangles_[next->triangle].turn != 0 || begins_.contains(next->triangle)) continue;
-        lay_beside(from, k, next->triangle);
-        waiting.push_back(next->triangle);
+        if (!next || triangles_[*next].turn != 0 || begins_.contains(*next)) continue;
+        lay_beside(from, k, *next);
+        waiting.push_back(*next);
       }
     }
     ++parts_;
@@ -248,11 +239,11 @@ class Unrolling {
     meet(from, t);
     for (std::size_t l = 0; l < 3; ++l) {
       const auto other = neighbour(t, l);
-      if (!other || triangles_[other->triangle].turn == 0 || triangles_[other->triangle].part != laid.part) continue;
+      if (!other || triangles_[*other].turn == 0 || triangles_[*other].part != laid.part) continue;
       const std::int32_t p = vertex(t, l), q = vertex(t, (l + 1) % 3);
       const double gap = unrolled_gap * length(minus(in_space(p), in_space(q)));
-      const auto near = [&](std::int32_t v) { return length(place_at(t, v) - place_at(other->triangle, v)) <= gap; };
-      if (near(p) && near(q) && !runs(other->triangle, p, q)) meet(t, other->triangle);
+      const auto near = [&](std::int32_t v) { return length(place_at(t, v) - place_at(*other, v)) <= gap; };
+      if (near(p) && near(q) && !runs(*other, p, q)) meet(t, *other);
     }
   }
 
@@ -266,7 +257,7 @@ class Unrolling {
   void meet(std::size_t s, std::size_t t) {
     for (const auto& [a, b] : {std::pair(s, t), std::pair(t, s)})
       for (std::size_t k = 0; k < 3; ++k)
-        if (const auto other = neighbour(a, k); other && other->triangle == b) triangles_[a].meets[k] = true;
+        if (const auto other = neighbour(a, k); other && *other == b) triangles_[a].meets[k] = true;
   }
 
   double move_beside(const std::vector<std::size_t>& part, double left) {

@@ -16,7 +16,7 @@ namespace cutbench {
 constexpr double unrolled_gap = 1e-3;
 
 /// Gives `mesh` rest positions, and copies of the vertices on seams; a note says how many edges are seams. Triangles
-/// come out counter-clockwise, also those of a side that a M\"obius strip turns over. Parts that would cover each other
+/// come out counter-clockwise, also those of a side that a Moebius strip turns over. Parts that would cover each other
 /// lie apart. O(n log n) for each part that is laid apart.
 /// \pre `mesh.rest` is empty
 /// \throw InputError, beginning with `name`: a corner beyond the vertices, an edge of three triangles, a triangle without

@@ -68,6 +68,10 @@ std::vector<Pin> pins_of(const Scene& scene, const Sheet& sheet) {
 }
 
 void check_scene_suits_seams(const Scene& scene, const Sheet& sheet) {
+  const auto at_rest = [](const Scene::Cut& cut) { return cut.picked.picks.empty() && cut.family.empty(); };
+  if (sheet.unrolled() && std::any_of(scene.cuts.begin(), scene.cuts.end(), at_rest))
+    throw InputError(scene.stem +
+                     ": the sheet is unrolled, so places at rest mean nothing; give its cuts with space = \"world\"");
   if (sheet.unrolled() && scene.physics.bending != BendingKind::none)
     throw InputError(scene.stem +
                      ": the sheet is curved at rest, and bending is that of a sheet that is flat at rest; leave "
