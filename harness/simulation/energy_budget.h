@@ -13,7 +13,7 @@
 //                                             - loss                                            numerical loss
 //                                             + remainder
 //
-// A robust step of backward Euler (harness/fem/time/robust_step.cpp) is no linear one: its elastic loss is
+// A robust step of backward Euler (harness/fem/time/stepper_robust.cpp) is no linear one: its elastic loss is
 // E(x0) - E(x) - f_int(x)'(x - x0) instead of dx'K dx / 2. It is negative where the energy is not convex on the way.
 //
 // The remainder is the error of the linearisation (with K made positive) and of the linear solver: zero to rounding for

@@ -36,7 +36,7 @@ struct StepOptions {
   int sweeps = 1;           ///< of xpbd, per step
   SolverOptions solver;
   /// Of implicit steps: further solves with a line search where the first leaves more energy than it should
-  /// (robust_step.cpp). \pre newton is 1
+  /// (stepper_robust.cpp). \pre newton is 1
   bool robust = false;
 };
 
