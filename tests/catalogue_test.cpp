@@ -13,6 +13,7 @@
 #include "harness/base/conversions.h"
 #include "harness/judge/assessment.h"
 #include "harness/mesh/tolerances.h"
+#include "harness/path/pick.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 
@@ -80,7 +81,8 @@ void run_member(const CatalogueMember& member, const Trial& trial, double chord)
   std::vector<Curve> cuts;
   const auto read_cuts = [&] {
     cuts = cuts_of(member);
-    if (mesh.unrolled) throw InputError("the sheet is unrolled: places at rest mean nothing");  // as the program says
+    const std::vector<AnyCurve> path(cuts.begin(), cuts.end());
+    cuts = curves_at_rest(path, Sheet(mesh), "path");
   };
   if (is_refused(expect, "path_error", read_cuts)) return;
   std::string notes;

@@ -130,7 +130,7 @@ TEST_F(SceneFile, SaysWhatContradictsItself) {
       {"[physics]\nmass = \"scaled\"\nmass_limit = 0.5\n", "\"mass_limit\" must be 1 or more"},
       {"[integrator]\nname = \"symplectic_euler\"\nnewton = 1\n", "\"newton\" does not go with symplectic_euler"},
       {"[integrator]\nname = \"xpbd\"\nnewton = 1\n", "\"newton\" does not go with xpbd"},
-      {"[integrator]\nsweeps = 2\n", "\"sweeps\" does not go with an integrator other than xpbd"},
+      {"[integrator]\nsweeps = 2\n", "\"sweeps\" does not go with an integrator other than xpbd and vbd"},
       {"[physics]\nmass = \"stabilised\"\n[integrator]\nname = \"xpbd\"\n", "needs mass = \"lumped\""},
       {"[integrator]\nname = \"equilibrium\"\n", "equilibrium needs \"newton\""},
       {equilibrium + "step = 1\n", "\"step\" does not go with equilibrium"},

@@ -159,6 +159,53 @@ TEST(Sewn, RandomCutsOverSeamsGiveThePiecesOfTheWholeSheet) {
   RecordProperty("severed", to_int(severed));
 }
 
+/// Four clicks on different panels, and a ring of two Beziers: the pieces have the areas that the curves enclose.
+TEST(Sewn, ABezierGoesOverSeams) {
+  const MeshData whole = make_sheet("delaunay", 20);
+  const Sheet sewn(in_panels(whole, in_quarters));
+  PickedCurve bow{Curve::Kind::bezier, false, {}};
+  for (const Point3 p : {Point3{0.2, 0.2, 0}, {0.9, 0.1, 0}, {0.1, 0.9, 0}, {0.8, 0.8, 0}})
+    bow.picks.push_back({p, {}});
+  const std::vector<Curve> stretches = Picker(sewn).rest_curves(bow, "bow");
+  EXPECT_GE(stretches.size(), 3u);
+  double along = 0;
+  for (const Curve& curve : stretches)
+    for (std::size_t i = 1; i < curve.points.size(); ++i) along += length(curve.points[i] - curve.points[i - 1]);
+  double expected = 0;
+  const Sheet one(whole);
+  const std::vector<Curve> flat = Picker(one).rest_curves(bow, "bow");
+  ASSERT_EQ(flat.size(), 1u);
+  const auto& b = flat.front().points;
+  Point2 last = b[0];
+  for (int i = 1; i <= 10000; ++i) {
+    const double t = i / 1e4, s = 1 - t;
+    const Point2 p = s * s * s * b[0] + 3 * s * s * t * b[1] + 3 * s * t * t * b[2] + t * t * t * b[3];
+    expected += length(p - last);
+    last = p;
+  }
+  EXPECT_NEAR(along, expected, 0.01 * expected);
+
+  PickedCurve ring{Curve::Kind::bezier, true, {}};
+  for (const Point3 p :
+       {Point3{0.3, 0.5, 0}, {0.3, 0.8, 0}, {0.7, 0.8, 0}, {0.7, 0.5, 0}, {0.7, 0.2, 0}, {0.3, 0.2, 0}, {0.3, 0.5, 0}})
+    ring.picks.push_back({p, {}});
+  const Outcome found = cut_in_space(in_panels(whole, in_quarters), {ring}, "conventional_split");
+  EXPECT_TRUE(found.made);
+  EXPECT_EQ(found.pieces, 2u);
+}
+
+/// Within one panel it stays a Bezier.
+TEST(Sewn, ABezierWithinAPanelIsKept) {
+  const Sheet sewn(in_panels(make_sheet("delaunay", 20), in_quarters));
+  PickedCurve bow{Curve::Kind::bezier, false, {}};
+  for (const Point3 p : {Point3{0.1, 0.1, 0}, {0.2, 0.3, 0}, {0.3, 0.3, 0}, {0.4, 0.1, 0}})
+    bow.picks.push_back({p, {}});
+  const std::vector<Curve> curves = Picker(sewn).rest_curves(bow, "bow");
+  ASSERT_EQ(curves.size(), 1u);
+  EXPECT_EQ(curves.front().kind, Curve::Kind::bezier);
+  EXPECT_EQ(curves.front().points.size(), 4u);
+}
+
 TEST(Sewn, AnObjKeepsItsSeams) {
   const MeshData panels = in_panels(make_sheet("delaunay", 6), in_quarters);
   const Sheet sheet(panels);

@@ -139,7 +139,7 @@ std::vector<AblatedScene> ablations_of(const Scene& scene) {
   const bool in_motion = !at_rest(scene);
   if (in_motion && knows_cuts(scene) && std::isinf(scene.active_radius))
     add("motion far from the cuts", [](Scene& s) { s.active_radius = active_share * longer_side(s); });
-  if (in_motion && scene.integrator != Integrator::xpbd && scene.physics.mass == Mass::lumped)
+  if (in_motion && !sweeps(scene.integrator) && scene.physics.mass == Mass::lumped)
     all.push_back(position_based_scene(scene));
   if (in_motion) add("every second step", [](Scene& s) { set_steps(s, steps_of(s) / 2); });
   if (const int side = scene.family.empty() ? 0 : squares_per_side(scene.resolution) / 2; side > 0)

@@ -5,7 +5,6 @@
 
 #include <memory>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "harness/cut/cut_all.h"
@@ -37,7 +36,6 @@ struct HeldMethod {
   std::unique_ptr<CuttingMethod> make() const { return row.make(parameter); }
 };
 
-using AnyCurve = std::variant<Curve, PickedCurve>;
 
 struct HeldCut {
   SheetPointer before, after;

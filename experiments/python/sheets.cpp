@@ -24,24 +24,15 @@ HeldSheet::HeldSheet(Sheet cut, std::shared_ptr<const Sheet> before_all)
     : sheet(std::make_shared<Sheet>(std::move(cut))), uncut(std::move(before_all)), mesh(sheet->to_mesh_data()) {}
 
 std::vector<Curve> in_rest_space(const std::vector<AnyCurve>& path, const Sheet& posed) {
-  std::vector<Curve> curves;
-  std::optional<Picker> picker;
-  for (const AnyCurve& one : path) {
-    const std::string name = "path, cut " + std::to_string(curves.size());
-    if (const auto* curve = std::get_if<Curve>(&one)) {
-      if (posed.unrolled())
-        throw InputError(name + ": the sheet is unrolled, so places at rest mean nothing; give places in space, k x 3");
+  if (path.empty()) throw InputError("path: no curve; give at least one");
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const std::string name = "path, cut " + std::to_string(i);
+    if (const auto* curve = std::get_if<Curve>(&path[i]))
       check_curve(*curve, name);
-      curves.push_back(*curve);
-      continue;
-    }
-    const auto& picked = std::get<PickedCurve>(one);
-    check_picks(picked, name);
-    if (!picker) picker.emplace(posed);
-    for (const Curve& curve : picker->rest_curves(picked, name)) curves.push_back(curve);
+    else
+      check_picks(std::get<PickedCurve>(path[i]), name);
   }
-  if (curves.empty()) throw InputError("path: no curve; give at least one");
-  return curves;
+  return curves_at_rest(path, posed, "path");
 }
 
 namespace {

@@ -6,7 +6,7 @@ namespace cutbench {
 
 std::vector<Curve> read_path(const std::filesystem::path& file) { return read_path_text(text_of(file), file.string()); }
 
-std::vector<std::variant<Curve, PickedCurve>> read_path_with_picks(const std::filesystem::path& file) {
+std::vector<AnyCurve> read_path_with_picks(const std::filesystem::path& file) {
   return read_path_text_with_picks(text_of(file), file.string());
 }
 

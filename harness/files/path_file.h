@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <variant>
 #include <vector>
 
 #include "harness/path/path_text.h"
@@ -11,7 +10,7 @@ namespace cutbench {
 
 /// \throw InputError
 std::vector<Curve> read_path(const std::filesystem::path& file);
-std::vector<std::variant<Curve, PickedCurve>> read_path_with_picks(const std::filesystem::path& file);
+std::vector<AnyCurve> read_path_with_picks(const std::filesystem::path& file);
 
 /// Whole or not at all. \throw OutputError
 void write_path(const std::vector<Curve>& cuts, const std::filesystem::path& file);

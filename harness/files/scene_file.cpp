@@ -270,12 +270,13 @@ void read_integrator(const TomlReader& file, Scene& scene) {
     reader.refuse(
         "symplectic_euler solves nothing, so it needs mass = \"lumped\", \"stabilised\" or \"scaled\" in [physics]");
   if (scene.integrator == Integrator::symplectic_euler) exclude(reader, "symplectic_euler", {"newton"});
-  if (scene.integrator == Integrator::xpbd) {
-    exclude(reader, "xpbd", {"newton"});
+  const std::string name = name_of(integrator_names, scene.integrator);
+  if (sweeps(scene.integrator)) {
+    exclude(reader, name.c_str(), {"newton"});
     if (scene.physics.mass != Mass::lumped)
-      reader.refuse("xpbd solves no systems, so it needs mass = \"lumped\" in [physics]");
+      reader.refuse(name + " solves no systems, so it needs mass = \"lumped\" in [physics]");
   } else {
-    exclude(reader, "an integrator other than xpbd", {"sweeps"});
+    exclude(reader, "an integrator other than xpbd and vbd", {"sweeps"});
   }
   if (scene.integrator != Integrator::equilibrium) return;
   exclude(reader, "equilibrium, which takes no time", {"step"});

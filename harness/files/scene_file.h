@@ -16,10 +16,10 @@
 //   [[pins]]      near = [x, y] | box = [[x0, y0], [x1, y1]]; with space = "world" instead the vertices that begin in
 //                 box = [[x0, y0, z0], [x1, y1, z1]]; axes = "xyz", displacement, velocity = [x, y, z]
 //   [[tractions]] box, force = [x, y, z]
-//   [integrator]  name = "backward_euler"|"midpoint"|"symplectic_euler"|"xpbd"|"equilibrium", step, newton,
+//   [integrator]  name = "backward_euler"|"midpoint"|"symplectic_euler"|"xpbd"|"vbd"|"equilibrium", step, newton,
 //                 robust (true: further solves where a step leaves more energy than it should; the default of
 //                 backward_euler without "newton"),
-//                 sweeps = 1 (of xpbd, per step; it uses no [solver] and no stress_stiffness)
+//                 sweeps = 1 (of xpbd and vbd, per step; they use no [solver] and no stress_stiffness)
 //   [solver]      name, tolerance, max_iterations
 //   [[cuts]]      time; bezier | polyline = [[x, y], ...], closed = true, speed | family, seed, case
 //                 path = "path.json", speed: all cuts of a path file, in the unit of the sheet's file (times scale)

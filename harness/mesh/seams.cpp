@@ -150,6 +150,20 @@ std::vector<SewnEdge> sewn_edges(const Sheet& sheet) {
   return edges;
 }
 
+std::map<HalfEdge, HalfEdge> edges_across_seams(const Sheet& sheet) {
+  std::map<HalfEdge, HalfEdge> across;
+  const std::vector<SewnEdge> edges = sewn_edges(sheet);
+  const auto join = [&](const SewnEdge& a, const SewnEdge& b) {
+    const double middle = 0.5 * (a.begin + a.end);
+    if (b.low() <= middle && middle <= b.high()) across.try_emplace(a.edge, b.edge);
+  };
+  for_each_pair(edges, [&](const SewnEdge& a, const SewnEdge& b) {
+    join(a, b);
+    join(b, a);
+  });
+  return across;
+}
+
 std::vector<SeamTie> seam_ties(const Sheet& sheet, std::span<const std::uint8_t> rank) {
   std::vector<SeamTie> ties;
   const std::vector<SewnEdge> edges = sewn_edges(sheet);

@@ -52,7 +52,7 @@ Pick read_pick(const json& p, const std::string& where) {
           point(p["direction"], where, "\"direction\" is [x, y, z], three numbers")};
 }
 
-std::variant<Curve, PickedCurve> read_curve(const json& entry, const std::string& where) {
+AnyCurve read_curve(const json& entry, const std::string& where) {
   check_keys(entry, {"bezier", "polyline", "closed", "space"}, where);
   const bool bezier = entry.contains("bezier");
   if (bezier == entry.contains("polyline")) throw InputError(where + ": give either \"bezier\" or \"polyline\"");
@@ -99,15 +99,14 @@ std::vector<Curve> read_path_text(const std::string& text, const std::string& na
   return cuts;
 }
 
-std::vector<std::variant<Curve, PickedCurve>> read_path_text_with_picks(const std::string& text,
-                                                                        const std::string& name) {
+std::vector<AnyCurve> read_path_text_with_picks(const std::string& text, const std::string& name) {
   const json document = parse_json(text, {name, "a path file", R"({"cuts": [{"polyline": [[x, y], ...]}]})"});
   if (document.is_object() && document.contains("space"))
     throw InputError(name + R"(: "space" belongs to each cut, {"cuts": [{"space": "world", "polyline": [...]}]})");
   check_keys(document, {"cuts"}, name);
   if (!document.contains("cuts") || !document["cuts"].is_array())
     throw InputError(name + R"(: "cuts" must be a list, [{"polyline": [[x, y], ...]}])");
-  std::vector<std::variant<Curve, PickedCurve>> cuts;
+  std::vector<AnyCurve> cuts;
   for (const json& entry : document["cuts"])
     cuts.push_back(read_curve(entry, name + ", cut " + std::to_string(cuts.size())));
   if (cuts.empty()) throw InputError(name + ": \"cuts\" is empty; give at least one");

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "harness/path/curve.h"
@@ -17,8 +16,7 @@ std::vector<Curve> read_path_text(const std::string& text, const std::string& na
 /// The same, in which cuts may have "space": "world"; their points are [x, y, z] or {"origin": [x, y, z], "direction":
 /// [x, y, z]}.
 /// \throw InputError
-std::vector<std::variant<Curve, PickedCurve>> read_path_text_with_picks(const std::string& text,
-                                                                        const std::string& name);
+std::vector<AnyCurve> read_path_text_with_picks(const std::string& text, const std::string& name);
 
 /// What read_path_text() gives back unchanged.
 std::string path_text(const std::vector<Curve>& cuts);

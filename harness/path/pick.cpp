@@ -89,7 +89,7 @@ struct Picker::Tree {
   }
 };
 
-Picker::Picker(const Sheet& posed) : tree_(std::make_unique<Tree>(posed)), tolerance_(tolerance * posed.mean_edge()) {
+Picker::Picker(const Sheet& posed) : tree_(std::make_unique<Tree>(posed)), mean_edge_(posed.mean_edge()) {
   for (std::size_t i = 0; i < posed.triangle_slots(); ++i) {
     const Triangle& t = posed.triangle(TriangleIndex(i));
     if (!t.alive()) continue;
@@ -113,9 +113,9 @@ PlaceAtRest Picker::place(const Pick& pick, const std::string& name) const {
   if (!pick.direction) {
     const auto [nearest, triangle] = tree_->boxes.closest_point_and_primitive(origin);
     const double distance = std::sqrt(CGAL::to_double(CGAL::squared_distance(origin, nearest)));
-    if (distance > tolerance_)
-      throw InputError(name + ": the point misses the sheet by " + metres(distance) + " (at most " +
-                       metres(tolerance_) + "); give a ray, or a point on the sheet as it then is");
+    if (const double most = tolerance * mean_edge_; distance > most)
+      throw InputError(name + ": the point misses the sheet by " + metres(distance) + " (at most " + metres(most) +
+                       "); give a ray, or a point on the sheet as it then is");
     return tree_->at_rest(triangle, weights_of(*triangle, nearest));
   }
   const Kernel::Vector_3 direction = vector(*pick.direction);
@@ -146,10 +146,51 @@ std::vector<Curve> Picker::rest_curves(const PickedCurve& picked, const std::str
   const bool is_bezier = curve.kind == Curve::Kind::bezier;
   // Found once is found alike: the first pick again.
   if (curve.closed && is_bezier) curve.points.back() = curve.points.front();
-  std::vector<Curve> curves = tree_->router.route(places, picked.closed && !is_bezier, name);
-  if (!is_bezier) return curves;
-  if (curves.size() > 1) throw InputError(name + ": a Bezier over a seam; give points on it as a polyline");
-  return {curve};
+  if (!is_bezier) return tree_->router.route(places, curve.closed, name);
+  if (!tree_->router.has_seams()) return {curve};
+  std::vector<PlaceAtRest> flat = flattened(places);
+  if (curve.closed) flat.pop_back();
+  std::vector<Curve> curves = tree_->router.route(flat, curve.closed, name + ", flattened");
+  return curves.size() > 1 ? curves : std::vector{curve};
+}
+
+/// A cubic's chords of n equal parts of its parameter are nearer to it than 3/4 of its largest second difference of
+/// control points over n^2 (its second derivative is at most 6 of those; a chord's error, 1/8 of that over n^2).
+std::vector<PlaceAtRest> Picker::flattened(const std::vector<PlaceAtRest>& control_points) const {
+  constexpr double most_parts = 10000;
+  std::vector<PlaceAtRest> places{control_points.front()};
+  for (std::size_t first = 0; first + 3 < control_points.size(); first += 3) {
+    const auto p = [&](std::size_t k) { return control_points[first + k].in_space; };
+    const auto bend = [&](std::size_t k) { return length(p(k) + -2.0 * p(k + 1) + p(k + 2)); };
+    const double parts = std::sqrt(0.75 * std::max(bend(0), bend(1)) / (flatness * mean_edge_));
+    const int n = to_int(std::clamp(std::ceil(parts), 1.0, most_parts));
+    for (int i = 1; i < n; ++i) {
+      const double t = to_double(i) / n, s = 1 - t;
+      const Kernel::Point_3 at =
+          point(s * s * s * p(0) + 3 * s * s * t * p(1) + 3 * s * t * t * p(2) + t * t * t * p(3));
+      const auto [nearest, triangle] = tree_->boxes.closest_point_and_primitive(at);
+      places.push_back(tree_->at_rest(triangle, weights_of(*triangle, nearest)));
+    }
+    places.push_back(control_points[first + 3]);
+  }
+  return places;
+}
+
+std::vector<Curve> curves_at_rest(std::span<const AnyCurve> path, const Sheet& posed, const std::string& name) {
+  std::vector<Curve> curves;
+  std::optional<Picker> picker;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const std::string which = name + ", cut " + std::to_string(i);
+    if (const auto* curve = std::get_if<Curve>(&path[i])) {
+      if (posed.unrolled())
+        throw InputError(which + ": the sheet is unrolled, so places at rest mean nothing; give places in space");
+      curves.push_back(*curve);
+      continue;
+    }
+    if (!picker) picker.emplace(posed);
+    for (const Curve& curve : picker->rest_curves(std::get<PickedCurve>(path[i]), which)) curves.push_back(curve);
+  }
+  return curves;
 }
 
 void check_picks(const PickedCurve& curve, const std::string& name) {

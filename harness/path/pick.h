@@ -5,7 +5,9 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "harness/mesh/sheet.h"
@@ -27,11 +29,14 @@ struct PickedCurve {
   std::vector<Pick> picks;  ///< as many as Curve::points would have
 };
 
+using AnyCurve = std::variant<Curve, PickedCurve>;
+
 /// The deformed sheet of one moment, to which it refers, in CGAL's tree of bounding boxes. Cost: the whole mesh, once.
 class Picker {
  public:
   /// How far from the sheet a point may be, in mean rest edges: what is written with six digits is still found.
   static constexpr double tolerance = 1e-3;
+  static constexpr double flatness = 0.05;
 
   explicit Picker(const Sheet& posed);
   ~Picker();
@@ -41,18 +46,25 @@ class Picker {
   /// Where in rest space the picked point is. A ray that runs within a triangle's plane meets it where it enters.
   /// Throws InputError, beginning with `name`: a miss, with its distance.
   Point2 rest_point(const Pick& pick, const std::string& name) const;
-  /// The curve in rest space; where it crosses seams, one for each stretch between two of them (route.h).
-  /// Throws InputError, beginning with `name` and the number of the point: a miss, no way over the seams, and a Bezier
-  /// that crosses one, since it would be another curve on each side.
+  /// The curve in rest space; where it crosses seams, one for each stretch between two of them (route.h). A Bezier that
+  /// crosses one would be another curve on each side: it is taken as the curve in space of its picked points, and from
+  /// there to the nearest places of the sheet, in chords of `flatness` mean edges.
+  /// Throws InputError, beginning with `name` and the number of the point: a miss, no way over the seams.
   std::vector<Curve> rest_curves(const PickedCurve& curve, const std::string& name) const;
 
  private:
   PlaceAtRest place(const Pick& pick, const std::string& name) const;
+  std::vector<PlaceAtRest> flattened(const std::vector<PlaceAtRest>& control_points) const;
 
   struct Tree;
   std::unique_ptr<Tree> tree_;
-  double tolerance_;  // m
+  double mean_edge_;  // m
 };
+
+/// All of them in rest space. Nothing moves between them, so all picks are made on the same sheet.
+/// Throws InputError, beginning with `name` and the number of the cut: as Picker::rest_curves(), and places at rest of a
+/// sheet that is unrolled, where they mean nothing.
+std::vector<Curve> curves_at_rest(std::span<const AnyCurve> path, const Sheet& posed, const std::string& name);
 
 /// Throws InputError: too few points for the kind, a closed Bezier that doesn't end where it began, no direction, or a
 /// number that is not finite or beyond 1e60. `name` says where the curve comes from.

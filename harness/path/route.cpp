@@ -208,6 +208,17 @@ std::optional<std::vector<Router::Bend>> Router::straight(const PlaceAtRest& fro
   return {};
 }
 
+/// Would a straight line at rest lead over a seam, as where a sheet that is curved leaves a gap between two sides?
+bool Router::meets_seam(Point2 from, Point2 to) const {
+  const auto parts = [](Point2 a, Point2 b, Point2 p, Point2 q) {
+    return orientation(a, b, p) * orientation(a, b, q) < 0;
+  };
+  return std::any_of(edges_.begin(), edges_.end(), [&](const SewnEdge& edge) {
+    const Point2 a = sheet_.rest(sheet_.origin(edge.edge)), b = sheet_.rest(sheet_.target(edge.edge));
+    return parts(from, to, a, b) && parts(a, b, from, to);
+  });
+}
+
 bool Router::join(const PlaceAtRest& from, const PlaceAtRest& to, int splits, std::vector<Bend>& bends) const {
   if (from.triangle == to.triangle) return true;
   const std::vector<Step> steps = way(from.triangle, to.triangle);
@@ -216,10 +227,21 @@ bool Router::join(const PlaceAtRest& from, const PlaceAtRest& to, int splits, st
     bends.insert(bends.end(), found->begin(), found->end());
     return true;
   }
-  // In one panel it is straight at rest, as in a sheet without seams, also over gaps and holes.
-  if (std::none_of(steps.begin(), steps.end(), [](const Step& step) { return step.seam.has_value(); })) return true;
-  if (splits == 0 || steps.size() < 2) return false;
+  // In one panel it is straight at rest, as in a sheet without seams, also over holes.
+  const bool in_one = std::none_of(steps.begin(), steps.end(), [](const Step& step) { return step.seam.has_value(); });
+  if (in_one && !meets_seam(from.point, to.point)) return true;
   // A vertex with other than 360 degrees lies between the two ways: by the middle of the one along the triangles.
+  if (steps.size() == 1) {
+    const Point2 middle = at_share(sheet_, steps.front().out, 0.5);
+    Bend bend{middle, middle, false};
+    if (steps.front().seam) {
+      const auto over = over_seam(steps.front().out, 0.5, bend);
+      if (!over || triangle_of(over->in) != to.triangle) return false;
+    }
+    bends.push_back(bend);
+    return true;
+  }
+  if (splits == 0) return false;
   const TriangleIndex t = triangle_of(steps[steps.size() / 2 - 1].in);
   const PlaceAtRest middle{t, centroid(sheet_, t)};
   if (!join(from, middle, splits - 1, bends)) return false;

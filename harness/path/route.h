@@ -57,6 +57,7 @@ class Router {
   std::optional<Step> over_seam(HalfEdge out, double share, Bend& bend) const;
   std::optional<std::vector<Bend>> straight(const PlaceAtRest& from, const PlaceAtRest& to,
                                             const std::vector<Step>& way) const;
+  bool meets_seam(Point2 from, Point2 to) const;
   bool are_apart(const PlaceAtRest& from, const PlaceAtRest& to) const;
   bool join(const PlaceAtRest& from, const PlaceAtRest& to, int splits, std::vector<Bend>& bends) const;
 

@@ -45,10 +45,10 @@ struct BudgetRow {
   double remainder = 0;       ///< gained, and not explained by the above
 };
 
-/// Of these the energy of each step can be accounted for. At rest there is no step; the forces that sweeps of xpbd
+/// Of these the energy of each step can be accounted for. At rest there is no step; the forces that sweeps
 /// leave over are not known.
 constexpr bool keeps_budget(Integrator integrator) {
-  return integrator != Integrator::equilibrium && integrator != Integrator::xpbd;
+  return integrator != Integrator::equilibrium && !sweeps(integrator);
 }
 
 class EnergyBudget {

@@ -72,10 +72,11 @@ void check_scene_suits_seams(const Scene& scene, const Sheet& sheet) {
   if (sheet.unrolled() && std::any_of(scene.cuts.begin(), scene.cuts.end(), at_rest))
     throw InputError(scene.stem +
                      ": the sheet is unrolled, so places at rest mean nothing; give its cuts with space = \"world\"");
-  if (sheet.unrolled() && scene.physics.bending != BendingKind::none)
-    throw InputError(scene.stem +
-                     ": the sheet is curved at rest, and bending is that of a sheet that is flat at rest; leave "
-                     "\"bending\" out, or give rest = \"vt\"");
+  if (sheet.unrolled() && scene.physics.dimension == 2)
+    throw InputError(scene.stem + ": the sheet is curved at rest, which takes dimension = 3");
+  if (sheet.unrolled() && row_of(scene.physics.bending).has_slopes)
+    throw InputError(scene.stem + ": the sheet is curved at rest, which " + name_of(scene.physics.bending) +
+                     " do not know; set bending to hinges, or to none");
   if (sheet.seams().empty()) return;
   if (!solves(scene.integrator))
     throw InputError(scene.stem + ": the sheet has seams, which " +

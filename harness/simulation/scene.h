@@ -56,7 +56,7 @@ struct Scene {
   Integrator integrator = Integrator::backward_euler;
   double step = 1.0 / 240;  ///< s
   int newton = 1;           ///< linear solves per step; equilibrium: at most
-  int sweeps = 1;           ///< of xpbd, per step
+  int sweeps = 1;           ///< of xpbd and vbd, per step
   bool robust = false;      ///< StepOptions::robust
   SolverOptions solver;
   double duration = 1;  ///< s

@@ -252,12 +252,16 @@ template <int D>
 std::string SceneCuts<D>::why_not(const ConstraintSource* source) const {
   if (!source) return {};
   const ConstraintKind constraint_kind = source->constraint_kind();
-  if (scene_.integrator == Integrator::xpbd)
-    return "the method constrains vertices or makes polygons, which xpbd does not take; choose another integrator";
+  if (sweeps(scene_.integrator))
+    return std::string("the method constrains vertices or makes polygons, which ") +
+           name_of(integrator_names, scene_.integrator) + " does not take; choose another integrator";
   if (constraint_kind == ConstraintKind::polygons)
     return scene_.physics.bending != BendingKind::none && !row_of(scene_.physics.bending).has_slopes
                ? "the method's polygons have no hinges; set bending to patches, or to none"
                : "";
+  if (constraint_kind != ConstraintKind::vertices && before_cuts_.unrolled() &&
+      scene_.physics.bending != BendingKind::none)
+    return "the method's copied elements have no hinges that are curved at rest; set bending to none";
   const bool is_lumped = constraint_kind == ConstraintKind::lumped_phantoms;
   const bool adds = adds_mass(scene_.physics.mass);
   if (scene_.integrator == Integrator::symplectic_euler && is_lumped && adds)

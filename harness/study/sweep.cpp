@@ -53,8 +53,9 @@ constexpr SweepSetting settings[] = {
     {"integrator", [](const SweepPoint& p) -> std::string { return name_of(integrator_names, p.scene.integrator); },
      [](const TomlReader& r, SweepPoint& p) {
        p.scene.integrator = r.choice<Integrator>("integrator", p.scene.integrator, integrator_names);
-       if (p.scene.integrator == Integrator::xpbd)
-         r.refuse("sweeps judge energies, which xpbd does not account for; choose another integrator");
+       if (sweeps(p.scene.integrator))
+         r.refuse("sweeps judge energies, which " + std::string(name_of(integrator_names, p.scene.integrator)) +
+                  " does not account for; choose another integrator");
      }},
     {"step_s", [](const SweepPoint& p) { return text_of(p.scene.step); },
      [](const TomlReader& r, SweepPoint& p) { p.scene.step = r.positive("step_s", 0); }},

@@ -70,30 +70,6 @@ void draw_cut(const Drawing& drawing, const std::string& title, const Sheet& bef
                                   "parents.json", "--title", title});
 }
 
-/// The path in rest space. Nothing moves between the cuts of a file, so all picks can be made on the sheet as it is
-/// read.
-std::vector<Curve> in_rest_space(const std::vector<std::variant<Curve, PickedCurve>>& path, const Sheet& sheet,
-                                 const std::string& name, double& pick_us) {
-  std::vector<Curve> cuts;
-  std::optional<Picker> picker;
-  StopWatch watch;
-  for (const auto& cut : path) {
-    if (const auto* curve = std::get_if<Curve>(&cut)) {
-      if (sheet.unrolled())
-        throw InputError(name + ", cut " + std::to_string(&cut - path.data()) +
-                         ": the sheet is unrolled, so places at rest mean nothing; give places in space: \"space\": "
-                         "\"world\"");
-      cuts.push_back(*curve);
-      continue;
-    }
-    if (!picker) picker.emplace(sheet);
-    const std::string which = name + ", cut " + std::to_string(&cut - path.data());
-    for (const Curve& curve : picker->rest_curves(std::get<PickedCurve>(cut), which)) cuts.push_back(curve);
-  }
-  pick_us = picker ? watch.lap() : 0;
-  return cuts;
-}
-
 Exit cut_sheet(const CutArguments& arguments) {
   const MethodRow row = arguments.method.row();
   const double parameter = arguments.method.parameter();
@@ -111,8 +87,9 @@ Exit cut_sheet(const CutArguments& arguments) {
   print_notes(data);
 
   const Sheet before(data);
-  double pick_us = 0;
-  const std::vector<Curve> cuts = in_rest_space(path, before, arguments.path, pick_us);
+  StopWatch watch;
+  const std::vector<Curve> cuts = curves_at_rest(path, before, arguments.path);
+  const double pick_us = watch.lap();
   for (std::size_t i = 0; i < cuts.size(); ++i)
     arguments.misses.check(before, cuts[i], arguments.path + ", cut " + std::to_string(i));
   Sheet sheet = before;

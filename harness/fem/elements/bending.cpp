@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "harness/base/conversions.h"
+#include "harness/mesh/seams.h"
 
 namespace cutbench {
 
@@ -12,6 +13,7 @@ Bending::Bending(const Sheet& sheet, BendingKind kind, double rigidity, double p
   resize(sheet.triangle_slots(), sheet.deformed_slots());
   work_.elements = elements;
   ++work_.call;
+  find_seams(sheet);
   for (std::size_t t = 0; t < sheet.triangle_slots(); ++t) mark_stale(TriangleIndex(t), 0);
   rebuild(sheet);
 }
@@ -29,8 +31,14 @@ void Bending::update(const Sheet& sheet, const ElementTable* elements, std::span
   work_.elements = elements;
   ++work_.call;
   take_replaced_away();
+  find_seams(sheet);
   find_stale(sheet, regrouped);
   rebuild(sheet);
+}
+
+/// Hinges go over seams; patches end there, as at the border.
+void Bending::find_seams(const Sheet& sheet) {
+  if (!kind_->has_slopes) seams_ = edges_across_seams(sheet);
 }
 
 double Bending::energy(const Field& x, int dimension) const {
@@ -100,6 +108,7 @@ void Bending::find_stale(const Sheet& sheet, std::span<const TriangleIndex> regr
   for (const TriangleIndex t : regrouped) mark_stale(t, 0);
   for (const auto& touched : sheet.log().touched) mark_stale(touched.slot, 0);
   for (std::size_t t = sheet.log().triangles_before; t < sheet.triangle_slots(); ++t) mark_stale(TriangleIndex(t), 0);
+  for (const auto& [side, other] : seams_) mark_stale(triangle_of(side), 0);
   for (std::size_t i = 0; i < work_.stale.size(); ++i) {
     const auto [t, distance] = work_.stale[i];
     if (!sheet.triangle(t).alive() || distance > longest_reach_) continue;
@@ -122,7 +131,7 @@ bool Bending::stencil_is_stale(const Sheet& sheet, TriangleIndex t) const {
 void Bending::rebuild(const Sheet& sheet) {
   for (const auto& [t, distance] : work_.stale)
     if (t == members(t).front() && distance <= reach_[t()]) fit_patch(sheet, t);
-  BendingStencil stencil{sheet, rigidity_, poisson_, work_.elements, slopes_, work_.place, work_.terms};
+  BendingStencil stencil{sheet, rigidity_, poisson_, work_.elements, slopes_, work_.place, work_.terms, seams_};
   for (const auto& [t, distance] : work_.stale) {
     if (!stencil_is_stale(sheet, t)) continue;
     work_.terms.clear();

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "harness/fem/algebra/block_matrix.h"
@@ -59,6 +60,8 @@ class Bending {
   double energy(const Field& x, int dimension) const;
   /// The three rows of a triangle's energy, in sqrt(N/m); none where it is free, or not the first of its element.
   std::span<const StencilTerm> stencil(std::size_t triangle) const { return stencils_[triangle]; }
+  /// Side k of a triangle as the one on its other side has it, also over a seam.
+  HalfEdge across(const Sheet& sheet, TriangleIndex t, std::size_t k) const { return other_side(sheet, seams_, t, k); }
   std::span<const Holder> stencils_of(std::size_t vertex) const { return stencils_of_[vertex]; }
   void reserve_spare();  ///< room to grow by half, before anything has to be copied
 
@@ -67,6 +70,7 @@ class Bending {
     TriangleIndex triangle;
     int distance;  ///< in unseparated edges, from the nearest triangle that changed
   };
+  void find_seams(const Sheet& sheet);
   void resize(std::size_t triangles, std::size_t vertices);
   void take_replaced_away();
   void mark_stale(TriangleIndex t, int distance);
@@ -89,6 +93,7 @@ class Bending {
   GrowingRows<Holder> stencils_of_;    ///< per deformed vertex: the stencils that hold it, in order
   BlockMatrix<1> matrix_;
   std::vector<TriangleIndex> replaced_;
+  std::map<HalfEdge, HalfEdge> seams_;  ///< edges_across_seams(), of a kind without slopes
 
   /// Working storage, kept between calls so that they don't allocate.
   struct Work {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,16 @@
 
 namespace cutbench {
 
+/// Side k of a triangle as the one on its other side has it; invalid on the border or an incision.
+inline HalfEdge other_side(const Sheet& sheet, const std::map<HalfEdge, HalfEdge>& seams, TriangleIndex t,
+                           std::size_t k) {
+  const Triangle& triangle = sheet.triangle(t);
+  if (triangle.opposite[k].valid()) return triangle.mark[k] == EdgeMark::incision ? HalfEdge() : triangle.opposite[k];
+  if (seams.empty()) return {};
+  const auto found = seams.find(half_edge(t, to_int(k)));
+  return found == seams.end() ? HalfEdge() : found->second;
+}
+
 /// The three linear rows of one triangle under way, in sqrt(N/m): what each vertex near it counts in them. The energy
 /// is half the sum of their squares. And what they are made from.
 struct BendingStencil {
@@ -24,6 +35,7 @@ struct BendingStencil {
   const GrowingRows<StencilTerm>& slopes;  ///< per triangle slot: SlopePatch::terms(), of a kind with slopes
   std::vector<std::int32_t>& place;        ///< per deformed vertex: in `terms`; -1: none
   std::vector<StencilTerm>& terms;
+  const std::map<HalfEdge, HalfEdge>& seams;  ///< edges_across_seams()
 
   /// The sums of this vertex, which begin at zero.
   std::array<double, 3>& at(std::int32_t vertex) {
@@ -36,7 +48,9 @@ struct BendingStencil {
   }
   /// The triangles of the element that t belongs to.
   std::span<const TriangleIndex> members(const TriangleIndex& t) const { return members_of(elements, t); }
-  /// The triangle on the other side of side k; invalid where that is on the border or an incision.
+  /// Side k as the triangle on its other side has it, also over a seam; invalid on the border or an incision.
+  HalfEdge across(TriangleIndex t, std::size_t k) const { return other_side(sheet, seams, t, k); }
+  /// The triangle on the other side of side k; invalid where that is on the border, a seam or an incision.
   TriangleIndex neighbour(TriangleIndex t, std::size_t k) const {
     const Triangle& triangle = sheet.triangle(t);
     if (!triangle.opposite[k].valid() || triangle.mark[k] == EdgeMark::incision) return {};

@@ -51,16 +51,19 @@ constexpr EnumNames<Mass, 4> mass_names{{{Mass::lumped, "lumped"},
                                          {Mass::scaled, "scaled"}}};
 constexpr bool adds_mass(Mass mass) { return mass == Mass::stabilised || mass == Mass::scaled; }
 
-enum class Integrator : std::uint8_t { backward_euler, midpoint, symplectic_euler, xpbd, equilibrium };
-constexpr EnumNames<Integrator, 5> integrator_names{{{Integrator::backward_euler, "backward_euler"},
+enum class Integrator : std::uint8_t { backward_euler, midpoint, symplectic_euler, xpbd, vbd, equilibrium };
+constexpr EnumNames<Integrator, 6> integrator_names{{{Integrator::backward_euler, "backward_euler"},
                                                      {Integrator::midpoint, "midpoint"},
                                                      {Integrator::symplectic_euler, "symplectic_euler"},
                                                      {Integrator::xpbd, "xpbd"},
+                                                     {Integrator::vbd, "vbd"},
                                                      {Integrator::equilibrium, "equilibrium"}}};
 
+/// A step sweeps over elements or vertices instead of solving linear systems.
+constexpr bool sweeps(Integrator integrator) { return integrator == Integrator::xpbd || integrator == Integrator::vbd; }
 /// A step solves linear systems.
 constexpr bool solves(Integrator integrator) {
-  return integrator != Integrator::symplectic_euler && integrator != Integrator::xpbd;
+  return integrator != Integrator::symplectic_euler && !sweeps(integrator);
 }
 
 /// A scene builds only what it names.

@@ -26,6 +26,10 @@ Model<D>::Model(const Sheet& sheet, const Material& material, const Physics& phy
   refresh_vertices(sheet);
   if (physics.bending != BendingKind::none)
     bending_.emplace(sheet, physics.bending, material.bending, material.poisson);
+  if (bending_ && D == 3 && sheet.unrolled()) {
+    curved_.emplace();
+    refresh_curved_bending(sheet);
+  }
   if (!adds_mass(physics.mass)) return;
   added_mass_.emplace(physics.mass, material.density, physics.mass_limit * element_modes().largest());
   refresh_added_mass();
@@ -117,17 +121,21 @@ std::size_t Model<D>::unheld_pieces() const {
 template <int D>
 void Model<D>::rotate(const Field& x) {
   membrane_.rotate(elements_, x);
+  if (curved_) curved_->rotate(x);
 }
 
 template <int D>
 void Model<D>::add_internal_force(const Field& x, Field& f) const {
   f += membrane_.force();
-  if (bending_) add_product_per_coordinate(bending_->matrix(), D, -1, x, f);
+  if (curved_) curved_->add_force(1, f);
+  if (const auto* matrix = bending_matrix()) add_product_per_coordinate(*matrix, D, -1, x, f);
 }
 
 template <int D>
 void Model<D>::add_impulse(double h, const Field& x, double factor, const Field& v, Field& y) {
   y += h * membrane_.force();
+  if (curved_) curved_->add_force(h, y);
+  const BlockMatrix<1>* const bending = bending_matrix();
   spread<D>(v, velocity_);
   spread<D>(x, bent_);
   for (std::size_t i = 0; i < vertices(); ++i)  // K_b (h x) and factor stiffness_factor K_b v at once
@@ -135,9 +143,9 @@ void Model<D>::add_impulse(double h, const Field& x, double factor, const Field&
   for (std::size_t i = 0; i < vertices(); ++i) {
     const std::size_t ahead = std::min(i + rows_ahead, vertices() - 1);
     blocks_.prefetch_row(ahead);
-    if (bending_) bending_->matrix().prefetch_row(ahead);
+    if (bending) bending->prefetch_row(ahead);
     Lanes sum = factor * blocks_.row_product(i, velocity_);
-    if (bending_) sum += bending_->matrix().row_product(i, bent_);
+    if (bending) sum += bending->row_product(i, bent_);
     for (std::size_t k = 0; k < D; ++k) y[to_index(D * i + k)] -= sum[k];
   }
   if (const auto* mass = mass_matrix()) add_product_per_coordinate(*mass, D, -factor * mass_factor_, v, y);
@@ -149,6 +157,8 @@ void Model<D>::assemble(double mass_factor, double stiffness_factor) {
   stiffness_factor_ = stiffness_factor;
   blocks_.set_zero();
   membrane_.add_stiffness(elements_, stiffness_factor, blocks_);
+  if constexpr (D == 3)
+    if (curved_) curved_->add_stiffness(stiffness_factor, blocks_);
   if (consistent_mass_) return;
   for (std::size_t v = 0; v < vertices(); ++v)
     if (!blocks_.columns(v).empty()) blocks_.block(blocks_.first_slot(v)).diagonal().array() += mass_factor * mass_[v];
@@ -163,7 +173,7 @@ SystemMatrix<D> Model<D>::system() const {
   a.places = &places_;
   a.pattern = history_.now();
   a.history = &history_;
-  if (bending_) a.scalar.push_back({stiffness_factor_, &bending_->matrix()});
+  if (const auto* matrix = bending_matrix()) a.scalar.push_back({stiffness_factor_, matrix});
   if (const auto* mass = mass_matrix()) a.scalar.push_back({mass_factor_, mass});
   return a;
 }
@@ -182,7 +192,7 @@ template <int D>
 Energy Model<D>::energy(const Field& x, const Field& v) const {
   Energy energy;
   energy.membrane = membrane_.energy(elements_);
-  if (bending_) energy.bending = bending_->energy(x, D);
+  if (bending_) energy.bending = curved_ ? curved_->energy() : bending_->energy(x, D);
   Field momentum = Field::Zero(v.size());
   add_mass_product(1, v, momentum);
   energy.kinetic = v.dot(momentum) / 2;

@@ -10,6 +10,7 @@
 #include "harness/fem/constraints/constraint_matrix.h"
 #include "harness/fem/elements/added_mass.h"
 #include "harness/fem/elements/bending.h"
+#include "harness/fem/elements/curved_bending.h"
 #include "harness/fem/elements/incidence.h"
 #include "harness/fem/elements/membrane_sheet.h"
 #include "harness/fem/linear/system_matrix.h"
@@ -99,7 +100,9 @@ class Model {
   void resize(const Sheet& sheet);
   void refresh_vertices(const Sheet& sheet);
   void refresh_row(std::size_t v);
+  void refresh_curved_bending(const Sheet& sheet);
   void refresh_mass(std::size_t v);
+  const BlockMatrix<1>* bending_matrix() const { return bending_ && !curved_ ? &bending_->matrix() : nullptr; }
   ElementModes element_modes() const;
   void refresh_added_mass();
   const BlockMatrix<1>* mass_matrix() const;
@@ -124,6 +127,7 @@ class Model {
   BlockMatrix<D> blocks_;
   MembraneSheet<D> membrane_;
   std::optional<Bending> bending_;
+  std::optional<CurvedBending> curved_;  // of a sheet that is curved at rest: in the place of bending_'s matrix
   std::optional<BlockMatrix<1>> consistent_mass_;
   std::optional<AddedMass> added_mass_;
   std::optional<ConstrainedSystem<D>> constrained_;

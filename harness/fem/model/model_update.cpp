@@ -42,6 +42,7 @@ void Model<D>::update_bending(const Sheet& sheet) {
   regrouped_.triangles.clear();
   history_.begin_change();
   for (const std::int32_t v : bending_->written_rows()) history_.mark(to_size(v));
+  if (curved_) refresh_curved_bending(sheet);
   if (!added_mass_) return;
   for (const std::int32_t v : bending_->written_rows()) {
     const DeformedIndex d(to_size(v));
@@ -91,8 +92,20 @@ void Model<D>::refresh_row(std::size_t v) {
     for (const auto d : with)
       if (std::find(columns_.begin(), columns_.end(), d.value) == columns_.end()) columns_.push_back(d.value);
   });
+  if (curved_ && v < bending_->matrix().rows()) {  // else its stencils are yet to come
+    for (const auto& [t, place] : bending_->stencils_of(v))
+      for (const StencilTerm& term : bending_->stencil(to_size(t)))
+        if (std::find(columns_.begin(), columns_.end(), term.vertex) == columns_.end()) columns_.push_back(term.vertex);
+  }
   blocks_.set_row(v, columns_);
   membrane_.find_slots(elements_, v, triangles, blocks_);
+}
+
+/// After the bending: its blocks stand among the membrane's.
+template <int D>
+void Model<D>::refresh_curved_bending(const Sheet& sheet) {
+  for (const std::int32_t v : bending_->written_rows()) refresh_row(to_size(v));
+  curved_->update(sheet, *bending_);
 }
 
 template <int D>
@@ -167,6 +180,7 @@ template void Model<2>::mark(std::span<const DeformedIndex>);
 template void Model<2>::mark_regrouped();
 template void Model<2>::refresh_vertices(const Sheet&);
 template void Model<2>::refresh_added_mass();
+template void Model<2>::refresh_curved_bending(const Sheet&);
 template void Model<2>::set_pins_and_force(const Sheet&, std::vector<Pin>, std::vector<double>);
 template void Model<3>::update(const Sheet&);
 template void Model<3>::update_bending(const Sheet&);
@@ -175,6 +189,7 @@ template void Model<3>::mark(std::span<const DeformedIndex>);
 template void Model<3>::mark_regrouped();
 template void Model<3>::refresh_vertices(const Sheet&);
 template void Model<3>::refresh_added_mass();
+template void Model<3>::refresh_curved_bending(const Sheet&);
 template void Model<3>::set_pins_and_force(const Sheet&, std::vector<Pin>, std::vector<double>);
 
 }  // namespace cutbench

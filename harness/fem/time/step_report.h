@@ -20,7 +20,7 @@ struct StepReport {
   Verdict verdict = Verdict::ok;  ///< or solver_stalled, newton_failed, not_finite
   std::string reason;
   int newton = 0;       ///< linear solves
-  int iterations = 0;   ///< of the linear solver, summed; of xpbd the sweeps
+  int iterations = 0;   ///< of the linear solver, summed; of xpbd and vbd the sweeps
   double residual = 0;  ///< the largest that a linear solve left
   int fallbacks = 0;    ///< solves that another preconditioner ended (SolveReport::fell_back)
   /// Equilibrium: |f| over the scale of the forces. A step of three solves or more: the size of the last Newton step

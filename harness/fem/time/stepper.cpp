@@ -1,5 +1,6 @@
 #include "harness/fem/time/stepper.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -52,6 +53,7 @@ StepReport Stepper<D>::step(Model<D>& model, State& state) {
       explicit_step(model, state, report);
       break;
     case Integrator::xpbd:
+    case Integrator::vbd:
       position_step(model, state, report);
       break;
     case Integrator::equilibrium:
@@ -236,10 +238,38 @@ void Stepper<D>::position_step(Model<D>& model, State& state, StepReport& report
   }
   hold(model, state, h);
   x_ = state.x + h * v_;
-  xpbd_.solve(model, h, options_.sweeps, state.x, x_);
+  if (options_.integrator == Integrator::vbd) {
+    const Field inertial = x_;
+    x_ = expected_positions(model, state);
+    for (std::size_t i = 0; i < model.held().size(); ++i)
+      if (model.held()[i]) x_[to_index(i)] = inertial[to_index(i)];
+    vertex_block_descent_.solve(model, h, options_.sweeps, state.x, inertial, x_);
+    state.dv = (x_ - state.x) / h - state.v;
+  } else {
+    xpbd_.solve(model, h, options_.sweeps, state.x, x_);
+  }
   state.v = (x_ - state.x) / h;
   state.x = x_;
   report.iterations = options_.sweeps;
+}
+
+/// Where a step of vertex block descent begins: by velocity, and by as much of the outer acceleration as the last step
+/// had of it, none to all.
+template <int D>
+Field Stepper<D>::expected_positions(const Model<D>& model, const State& state) const {
+  const double h = options_.step;
+  Field x = state.x + h * state.v;
+  for (std::size_t v = 0; v < model.vertices(); ++v) {
+    const double mass = model.lumped_mass()[to_index(v)];
+    const auto at = to_index(D * v);
+    if (!(mass > 0)) continue;
+    const Eigen::Matrix<double, D, 1> outer = model.external_force().template segment<D>(at) / mass;
+    double share = 1;
+    if (state.dv.size() == x.size() && !outer.isZero(0))
+      share = std::clamp(state.dv.template segment<D>(at).dot(outer) / (h * outer.squaredNorm()), 0.0, 1.0);
+    x.template segment<D>(at) += h * h * share * outer;
+  }
+  return x;
 }
 
 /// Corrects the velocities in v_ where vertices have added mass: M dv = h (f - alpha M v0), with dv given where held.

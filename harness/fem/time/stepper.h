@@ -13,6 +13,7 @@
 //   symplectic_euler  v = v0 + h M^-1 f(x0, v0); x = x0 + h v. Explicit: stable below 2 / omega_max. Mass that was
 //                     added to thin elements is factored after each cut (mass_solver.h), all other is lumped.
 //   xpbd              as backward_euler, but by sweeps over the elements instead of a linear solve (xpbd.h)
+//   vbd               as xpbd, but by sweeps over the vertices (vertex_block_descent.h)
 //   equilibrium       f(x) + f_ext = 0 by Newton with a line search on the energy.
 //
 // Where vertices are constrained, x = x0 + C q, the implicit integrators solve C^T A C dq = C^T rhs.
@@ -25,6 +26,7 @@
 #include "harness/fem/linear/mass_solver.h"
 #include "harness/fem/model/state.h"
 #include "harness/fem/time/step_report.h"
+#include "harness/fem/time/vertex_block_descent.h"
 #include "harness/fem/time/xpbd.h"
 
 namespace cutbench {
@@ -33,7 +35,7 @@ struct StepOptions {
   Integrator integrator = Integrator::backward_euler;
   double step = 1.0 / 240;  ///< s
   int newton = 1;           ///< linear solves per step; equilibrium: at most
-  int sweeps = 1;           ///< of xpbd, per step
+  int sweeps = 1;           ///< of xpbd and vbd, per step
   SolverOptions solver;
   /// Of implicit steps: further solves with a line search where the first leaves more energy than it should
   /// (stepper_robust.cpp). \pre newton is 1
@@ -43,9 +45,9 @@ struct StepOptions {
 template <int D>
 class Stepper {
  public:
-  /// Throws InputError for an unknown solver. Symplectic Euler and XPBD take no consistent mass (scenes refuse it), and
+  /// Throws InputError for an unknown solver. Symplectic Euler and sweeps take no consistent mass (scenes refuse it), and
   /// no constrained vertices, except that symplectic Euler takes those whose unknowns have a mass of their own
-  /// (Constraints::lumped), without an added one; XPBD no elements of several triangles and no added mass either.
+  /// (Constraints::lumped), without an added one; sweeps no elements of several triangles and no added mass either.
   explicit Stepper(const StepOptions& options);
   StepReport step(Model<D>& model, State& state);
 
@@ -57,6 +59,7 @@ class Stepper {
   void right_hand_side(Model<D>& model, const State& state, double h, bool first, StepReport& report);
   void explicit_step(Model<D>& model, State& state, StepReport& report);
   void position_step(Model<D>& model, State& state, StepReport& report);
+  Field expected_positions(const Model<D>& model, const State& state) const;
   void solve_added_mass(const Model<D>& model, const State& state, StepReport& report);
   void equilibrium(Model<D>& model, State& state, StepReport& report);
   void solve(Model<D>& model, const Field& start, StepReport& report);
@@ -68,6 +71,7 @@ class Stepper {
   std::unique_ptr<LinearSolver<D>> solver_;
   MassSolver<D> mass_solver_;
   Xpbd<D> xpbd_;
+  VertexBlockDescent<D> vertex_block_descent_;
   std::uint64_t mass_of_ = 0;  // the change of the model that it was set up after
   Field v_, x_, force_, rhs_, dv_, product_, reduced_, impulse_, trial_;  // kept between steps
 };

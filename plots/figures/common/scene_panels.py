@@ -23,6 +23,7 @@ class Shot:
     camera: render.Camera = render.Camera()
     ground: float = -0.6  # m
     box: tuple = ()  # (x0, x1, y0, y1) of the picture, m at the camera's centre; empty: all that moves
+    sheet: str = "1 m square, the skin of paper_table1"
 
 
 def arguments(stem, description):
@@ -50,8 +51,8 @@ def caption(stem, shots, panels, extra, colour=None):
     failed = dict.fromkeys(f"{d['scene']} by {d['method']}: {d['verdict']}" for d in described if d["verdict"] != "ok")
     tolerance = same((d.get("chord_tolerance", "inf") for d in described), "the chord tolerance")
     return " ".join([
-        *extra, f"n = {n} triangles before the cut, 1 m square, the skin of paper_table1; time: {times}. Red: lips of "
-        f"the incision. Backward Euler, {same((1 / d['step_s'] for d in described), 'the step'):.0f} steps per s, "
+        *extra, f"n = {n} triangles before the cut, {same((s.sheet for s in shots), 'the sheet')}; time: {times}. Red: "
+        f"lips of the incision. Backward Euler, {same((1 / d['step_s'] for d in described), 'the step'):.0f} steps per s, "
         f"{solvers(shots, panels)}; chord tolerance {tolerance} h.",
         f"{'Seed: ' + ', '.join(map(str, seeds)) if seeds else 'No seed: the cuts are in the scene files'}; "
         f"{commits(described)}.",
