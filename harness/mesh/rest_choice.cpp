@@ -21,6 +21,17 @@ bool in_range(const MeshData& mesh, const std::array<std::int32_t, 3>& triangle)
   });
 }
 
+/// The finite coordinate that comes first; NaN: there is none.
+double first_of(const MeshData& mesh, char axis) {
+  for (const auto& triangle : mesh.triangles)
+    for (std::int32_t v : triangle) {
+      if (v < 0 || v >= std::ssize(mesh.deformed)) continue;
+      const double c = coordinate(mesh.deformed[to_size(v)], axis);
+      if (std::isfinite(c)) return c + 0.0;  // -0 is 0
+    }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
 std::string digits(const char* format, double value) {
   char text[40];
   std::snprintf(text, sizeof text, format, value);
@@ -106,22 +117,23 @@ std::string FlatPlane::text() const {
 }
 
 FlatPlane plane_of(const MeshData& mesh) {
+  std::vector<std::uint8_t> used(mesh.deformed.size(), 0);
+  for (const auto& triangle : mesh.triangles)
+    for (std::int32_t v : triangle)
+      if (v >= 0 && v < std::ssize(used)) used[to_size(v)] = 1;
   std::optional<FlatPlane> best;
   std::array<double, 3> widths{};
   for (std::size_t i = 0; i < 3; ++i) {
     const char axis = "zyx"[i];
-    double low = infinity, high = -infinity, first = std::numeric_limits<double>::quiet_NaN();
-    for (const auto& triangle : mesh.triangles)
-      for (std::int32_t v : triangle) {
-        if (v < 0 || v >= std::ssize(mesh.deformed)) continue;
-        const double c = coordinate(mesh.deformed[to_size(v)], axis);
-        if (!std::isfinite(c)) continue;
-        if (std::isnan(first)) first = c + 0.0;  // -0 is 0
-        low = std::min(low, c);
-        high = std::max(high, c);
-      }
+    double low = infinity, high = -infinity;
+    for (std::size_t v = 0; v < used.size(); ++v) {
+      const double c = coordinate(mesh.deformed[v], axis);
+      if (!used[v] || !std::isfinite(c)) continue;
+      low = std::min(low, c);
+      high = std::max(high, c);
+    }
     widths[i] = high > low ? high - low : 0;
-    if (!best || widths[i] < best->deviation) best = FlatPlane{axis, first, widths[i], 0};
+    if (!best || widths[i] < best->deviation) best = FlatPlane{axis, first_of(mesh, axis), widths[i], 0};
   }
   best->size = std::hypot(widths[0], widths[1], widths[2]);
   return *best;
