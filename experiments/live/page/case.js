@@ -141,6 +141,7 @@ ${pins.join('\n')}
 [integrator]
 name = "backward_euler"
 step = 0.004166666666666667  # s: 1/240
+newton = 1  # one linear solve a step, as on the page
 
 [solver]
 name = "multigrid"
