@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "harness/cut/patch.h"
@@ -95,9 +94,6 @@ bool RegionMesher::insert(const Sheet& sheet) {
 
 namespace {
 
-/// A triangle of less has no circumcentre to put a vertex at, for doubles: its cross product has lost digits, or all.
-constexpr double least_area2 = std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
-
 /// What CGAL's mesh generator asks of every triangle.
 class ShapeCriteria {
  public:
@@ -112,13 +108,12 @@ class ShapeCriteria {
     CGAL::Mesh_2::Face_badness operator()(const RegionTriangulation::Face_handle& face, Quality& quality) const {
       const std::array<Point2, 3> c{from_cgal(face->vertex(0)->point()), from_cgal(face->vertex(1)->point()),
                                     from_cgal(face->vertex(2)->point())};
-      const double longest =
-          std::sqrt(std::max({squared_length(c[1] - c[0]), squared_length(c[2] - c[1]), squared_length(c[0] - c[2])}));
-      const double area2 = cross(c[1] - c[0], c[2] - c[0]);
-      if (!(area2 > least_area2) || !std::isfinite(longest * longest / area2 * longest)) {
+      if (!(cross(c[1] - c[0], c[2] - c[0]) > 0)) {  // for doubles: it has no circumcentre to put a vertex at
         quality = 1;
         return (*this)(quality);
       }
+      const double longest =
+          std::sqrt(std::max({squared_length(c[1] - c[0]), squared_length(c[2] - c[1]), squared_length(c[0] - c[2])}));
       quality = std::min(limits_.max_edge / longest, limits_.max_aspect / aspect_ratio(c[0], c[1], c[2]));
       if (quality < 1 && (longest < limits_.min_edge || (limits_.wedges && limits_.wedges->hold(c)))) quality = 1;
       return (*this)(quality);
