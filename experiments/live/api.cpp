@@ -3,7 +3,9 @@
 #include <memory>
 
 #include "experiments/live/cutbench.h"
+#include "experiments/live/judged.h"
 #include "experiments/live/live_sheet.h"
+#include "experiments/live/scene_json.h"
 #include "harness/mesh/mesh_text.h"
 #include "harness/path/path_text.h"
 #include "methods/registry.h"

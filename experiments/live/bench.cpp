@@ -13,7 +13,9 @@
 #include <limits>
 #include <string>
 
+#include "experiments/live/judged.h"
 #include "experiments/live/live_sheet.h"
+#include "experiments/live/scene_json.h"
 #include "harness/base/errors.h"
 #include "harness/judge/judged_sheet.h"
 #include "harness/mesh/check_and_repair.h"

@@ -18,7 +18,7 @@ const scripts = [
   `<script id="worker" type="text/plain">${script(worker)}</script>`,
   `<script>const workerAddress = URL.createObjectURL(new Blob([document.getElementById('worker').textContent], { type: 'text/javascript' }))`,
   `const wasmText = '${gzipSync(wasm, { level: 9 }).toString('base64')}'</script>`,
-  `<script>${script(['case', 'view', 'page'].map(name => bare(read(`page/${name}.js`))).join('\n'))}</script>`
+  `<script>${script(['case', 'hands', 'view', 'page'].map(name => bare(read(`page/${name}.js`))).join('\n'))}</script>`
 ]
 const html = read('page/index.html').replace('<!--style-->', () => `<style>${read('page/style.css')}</style>`).replace('<!--scripts-->', () => scripts.join('\n'))
 writeFileSync(page, html.replaceAll('@source@', source))

@@ -2,6 +2,7 @@
 // JSON, as docs/reference/browser.md describes it.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -15,13 +16,6 @@
 #include "harness/simulation/scene_cuts.h"
 
 namespace cutbench::live {
-
-/// What JSON says of a scene; what it leaves out is that of experiments/scenes/paper_table1.toml, solved by multigrid.
-/// \throw InputError, nlohmann::json::exception
-Scene scene_of(const nlohmann::json& json);
-
-/// The sheet before any cut, with its pinned vertices held in rest space as in a simulation.
-Sheet sheet_of(const Scene& scene);
 
 enum class Colour { none, aspect_ratio, strain, piece };
 
@@ -69,10 +63,12 @@ class LiveSheet {
     double weight;       // 1 at the place, 0 at the radius
     Point3 offset;       // m, from the place
   };
-  TriangleIndex triangle_at(Point2 rest) const;
+  TriangleIndex holder_of(Point2 rest) const;
   std::vector<Near> near(Point2 rest, double radius) const;
   void pull();
   bool is_in_polygon(HalfEdge h) const;
+  int edges_of(TriangleIndex t) const;
+  std::array<Point3, 3> corners_in_space(TriangleIndex t) const;
 
   Scene scene_;
   MovingSheet<3> now_;
@@ -89,13 +85,5 @@ class LiveSheet {
   std::string fault_;
   std::size_t triangles_before_;
 };
-
-/// Makes the cuts in the sheet at rest and has each judged by the oracle: the verdict, with its reason, and what the
-/// result is like. The motion has no part in it.
-nlohmann::json judged(const Scene& scene, const std::string& method, double parameter,
-                      const std::vector<Curve>& curves);
-
-/// ms of the last curve's cut, the curves before it being made: the mean over repeats on copies, all of them warm.
-nlohmann::json timed(const Scene& scene, const std::string& method, double parameter, const std::vector<Curve>& curves);
 
 }  // namespace cutbench::live

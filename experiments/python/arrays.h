@@ -18,6 +18,10 @@ namespace py = pybind11;
 template <class Number>
 using Array = py::array_t<Number, py::array::c_style>;
 
+inline void make_read_only(py::array& array) {
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+}
+
 /// Rows of N numbers that stay where they are as long as `owner` lives: read-only, shared, no copy.
 template <class Number, class Row>
 Array<Number> view_of(const std::vector<Row>& rows, const py::handle owner) {
@@ -25,7 +29,7 @@ Array<Number> view_of(const std::vector<Row>& rows, const py::handle owner) {
   std::vector<py::ssize_t> shape{std::ssize(rows)};
   if (width > 1) shape.push_back(width);
   Array<Number> array(shape, reinterpret_cast<const Number*>(rows.data()), owner);
-  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  make_read_only(array);
   return array;
 }
 

@@ -55,7 +55,8 @@ std::vector<std::array<std::int32_t, 3>> corners_of(const Array<std::int64_t>& t
   const std::int64_t* next = triangles.data();
   for (auto& row : rows)
     for (std::int32_t& corner : row) {
-      corner = std::in_range<std::int32_t>(*next) ? static_cast<std::int32_t>(*next) : -1;
+      const auto low = static_cast<std::int32_t>(*next);
+      corner = low == *next ? low : -1;  // without a branch
       ++next;
     }
   return rows;

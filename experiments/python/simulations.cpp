@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -16,6 +17,30 @@
 namespace cutbench::python {
 
 namespace {
+
+/// Rows that arrays of Python look at. They are made when they are first asked for, and brought up to date after each
+/// step as long as somebody looks. After a cut new rows take their place: arrays of before stay as they were.
+class SeenRows {
+ public:
+  Array<double> seen(std::span<const double> now, int dimension) {
+    if (!rows_) rows_ = std::make_shared<std::vector<double>>(now.begin(), now.end());
+    auto* const held = new std::shared_ptr<std::vector<double>>(rows_);
+    const py::capsule owner(held, [](void* p) { delete static_cast<std::shared_ptr<std::vector<double>>*>(p); });
+    Array<double> array(std::vector<py::ssize_t>{std::ssize(now) / dimension, dimension}, rows_->data(), owner);
+    make_read_only(array);
+    return array;
+  }
+  void follow(std::span<const double> now) {
+    if (rows_.use_count() > 1 && rows_->size() == now.size())
+      std::copy(now.begin(), now.end(), rows_->begin());
+    else
+      rows_.reset();
+  }
+  void leave() { rows_.reset(); }
+
+ private:
+  std::shared_ptr<std::vector<double>> rows_;
+};
 
 struct HeldSimulation {
   HeldSimulation(Scene of, const HeldMethod& method, double chord_tolerance, bool watched)
@@ -46,20 +71,40 @@ struct HeldSimulation {
 
   /// A step or cut, without the interpreter.
   struct Work {
-    explicit Work(HeldSimulation& of) : at_work(of.at_work) {
-      if (at_work.exchange(true)) throw InputError("simulation: is being stepped by another thread; wait for it");
+    explicit Work(HeldSimulation& held) : of(held) {
+      if (of.at_work.exchange(true)) throw InputError("simulation: is being stepped by another thread; wait for it");
     }
-    ~Work() { at_work = false; }
+    ~Work() {
+      of.show();
+      of.at_work = false;
+    }
     Work(const Work&) = delete;
     Work& operator=(const Work&) = delete;
-    std::atomic<bool>& at_work;
+    HeldSimulation& of;
   };
+
+  Array<double> seen_x() { return x.seen(idle().positions(), scene.physics.dimension); }
+  Array<double> seen_v() { return v.seen(idle().velocities(), scene.physics.dimension); }
+
+  /// After a step or cut, to whoever looks.
+  void show() {
+    if (motion->made_cuts().size() > cuts_seen) {
+      cuts_seen = motion->made_cuts().size();
+      x.leave();
+      v.leave();
+      return;
+    }
+    x.follow(motion->positions());
+    v.follow(motion->velocities());
+  }
 
   Scene scene;
   std::unique_ptr<CuttingMethod> cutting;
   CutOptions options;
   std::unique_ptr<Simulation> motion;
   std::shared_ptr<const Sheet> uncut;
+  SeenRows x, v;
+  std::size_t cuts_seen = 0;
   int steps = 0;
   std::atomic<bool> at_work = false;
 };
@@ -89,11 +134,6 @@ py::dict dict_of(const MotionCut& cut) {
   result["pattern_us"] = cut.pattern_us;
   result["bending_us"] = cut.bending_us;
   return result;
-}
-
-Array<double> copy_of(std::span<const double> values, int dimension) {
-  const auto rows = std::ssize(values) / dimension;
-  return Array<double>(std::vector<py::ssize_t>{rows, dimension}, values.data());
 }
 
 /// Of the opened sheet, by slots of its vertices.
@@ -173,10 +213,8 @@ void bind_simulations(py::module_& m) {
              s.idle().pull({force.data(), to_size(force.size())});
            })
       .def("hold", [](HeldSimulation& s, const std::vector<Pin>& pins) { s.idle().hold(pins); })
-      .def_property_readonly(
-          "x", [](const HeldSimulation& s) { return copy_of(s.idle().positions(), s.scene.physics.dimension); })
-      .def_property_readonly(
-          "v", [](const HeldSimulation& s) { return copy_of(s.idle().velocities(), s.scene.physics.dimension); })
+      .def_property_readonly("x", &HeldSimulation::seen_x)
+      .def_property_readonly("v", &HeldSimulation::seen_v)
       .def_property_readonly("rest",
                              [](const HeldSimulation& s) { return array_of<double>(rest_of(s.idle().sheet())); })
       .def_property_readonly(

@@ -287,10 +287,7 @@ class Repair {
   std::vector<std::int32_t> welded_;  ///< per used vertex: one vertex number per rest position
 };
 
-}  // namespace
-
-void take_rest_from_plane(MeshData& mesh, const std::string& name) {
-  const FlatPlane plane = plane_of(mesh);
+void take_rest_from(const FlatPlane& plane, MeshData& mesh, const std::string& name) {
   std::ostringstream off;
   off << plane.normal << " varies by " << plane.deviation << ", " << plane.deviation / plane.size
       << " of the mesh's size";
@@ -305,15 +302,19 @@ void take_rest_from_plane(MeshData& mesh, const std::string& name) {
     mesh.notes.push_back(name + ": rest positions are " + plane.text() + nearly);
 }
 
+}  // namespace
+
+void take_rest_from_plane(MeshData& mesh, const std::string& name) { take_rest_from(plane_of(mesh), mesh, name); }
+
 bool lies_in_space(const MeshData& mesh, RestFrom from) {
   return from == RestFrom::space || (from == RestFrom::automatic && !mesh.triangles.empty() && !plane_of(mesh).flat());
 }
 
 void take_rest(MeshData& mesh, const std::string& name, RestFrom from) {
-  if (lies_in_space(mesh, from))
-    unroll(mesh, name);
-  else
-    take_rest_from_plane(mesh, name);
+  if (from == RestFrom::space) return unroll(mesh, name);
+  const FlatPlane plane = plane_of(mesh);  // takes as long as a check: once
+  if (from == RestFrom::automatic && !mesh.triangles.empty() && !plane.flat()) return unroll(mesh, name);
+  take_rest_from(plane, mesh, name);
 }
 
 void check_and_repair(MeshData& mesh, const std::string& name, bool of_vt) { Repair(mesh, name, of_vt).run(); }

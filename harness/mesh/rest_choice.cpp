@@ -21,6 +21,17 @@ bool in_range(const MeshData& mesh, const std::array<std::int32_t, 3>& triangle)
   });
 }
 
+/// The finite coordinate that comes first; NaN: there is none.
+double first_of(const MeshData& mesh, char axis) {
+  for (const auto& triangle : mesh.triangles)
+    for (std::int32_t v : triangle) {
+      if (v < 0 || v >= std::ssize(mesh.deformed)) continue;
+      const double c = coordinate(mesh.deformed[to_size(v)], axis);
+      if (std::isfinite(c)) return c + 0.0;  // -0 is 0
+    }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
 std::string digits(const char* format, double value) {
   char text[40];
   std::snprintf(text, sizeof text, format, value);
@@ -40,19 +51,26 @@ bool agrees(const MeshData& mesh, const FlatPlane& plane) {
 
 }  // namespace
 
-Stretch stretch_of(const MeshData& mesh, const std::array<std::int32_t, 3>& triangle) {
-  const auto [a, b, c] = triangle;
-  const auto rest = [&](std::int32_t v) { return mesh.rest[to_size(v)]; };
-  const auto side = [&](std::int32_t from, std::int32_t to) {
-    return mesh.deformed[to_size(to)] + -1.0 * mesh.deformed[to_size(from)];
-  };
-  const Point2 u = rest(b) - rest(a), v = rest(c) - rest(a);
-  const Point3 p = side(a, b), q = side(a, c);
+double Stretch::strain() const { return std::max(std::abs(largest - 1), std::abs(smallest - 1)); }
+
+Stretch stretch_of(const std::array<Point2, 3>& rest, const std::array<Point3, 3>& deformed) {
+  const Point2 u = rest[1] - rest[0], v = rest[2] - rest[0];
+  const Point3 p = deformed[1] + -1.0 * deformed[0], q = deformed[2] + -1.0 * deformed[0];
   const double area2 = cross(u, v);
   const Point3 x = (1 / area2) * (v.y * p + -u.y * q), y = (1 / area2) * (u.x * q + -v.x * p);  // the columns of F
   const auto dot = [](Point3 s, Point3 t) { return s.x * t.x + s.y * t.y + s.z * t.z; };
   const double mean = (dot(x, x) + dot(y, y)) / 2, spread = std::hypot((dot(x, x) - dot(y, y)) / 2, dot(x, y));
   return {std::sqrt(mean + spread), std::sqrt(std::max(0.0, mean - spread))};
+}
+
+Stretch stretch_of(const MeshData& mesh, const std::array<std::int32_t, 3>& triangle) {
+  std::array<Point2, 3> rest;
+  std::array<Point3, 3> deformed;
+  for (std::size_t k = 0; k < 3; ++k) {
+    rest[k] = mesh.rest[to_size(triangle[k])];
+    deformed[k] = mesh.deformed[to_size(triangle[k])];
+  }
+  return stretch_of(rest, deformed);
 }
 
 bool Stretches::isometric() const {
@@ -99,22 +117,23 @@ std::string FlatPlane::text() const {
 }
 
 FlatPlane plane_of(const MeshData& mesh) {
+  std::vector<std::uint8_t> used(mesh.deformed.size(), 0);
+  for (const auto& triangle : mesh.triangles)
+    for (std::int32_t v : triangle)
+      if (v >= 0 && v < std::ssize(used)) used[to_size(v)] = 1;
   std::optional<FlatPlane> best;
   std::array<double, 3> widths{};
   for (std::size_t i = 0; i < 3; ++i) {
     const char axis = "zyx"[i];
-    double low = infinity, high = -infinity, first = std::numeric_limits<double>::quiet_NaN();
-    for (const auto& triangle : mesh.triangles)
-      for (std::int32_t v : triangle) {
-        if (v < 0 || v >= std::ssize(mesh.deformed)) continue;
-        const double c = coordinate(mesh.deformed[to_size(v)], axis);
-        if (!std::isfinite(c)) continue;
-        if (std::isnan(first)) first = c + 0.0;  // -0 is 0
-        low = std::min(low, c);
-        high = std::max(high, c);
-      }
+    double low = infinity, high = -infinity;
+    for (std::size_t v = 0; v < used.size(); ++v) {
+      const double c = coordinate(mesh.deformed[v], axis);
+      if (!used[v] || !std::isfinite(c)) continue;
+      low = std::min(low, c);
+      high = std::max(high, c);
+    }
     widths[i] = high > low ? high - low : 0;
-    if (!best || widths[i] < best->deviation) best = FlatPlane{axis, first, widths[i], 0};
+    if (!best || widths[i] < best->deviation) best = FlatPlane{axis, first_of(mesh, axis), widths[i], 0};
   }
   best->size = std::hypot(widths[0], widths[1], widths[2]);
   return *best;

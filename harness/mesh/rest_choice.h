@@ -44,7 +44,9 @@ struct MeshReading {
 /// no area.
 struct Stretch {
   double largest, smallest;
+  double strain() const;  ///< the largest |stretch - 1|
 };
+Stretch stretch_of(const std::array<Point2, 3>& rest, const std::array<Point3, 3>& deformed);
 Stretch stretch_of(const MeshData& mesh, const std::array<std::int32_t, 3>& triangle);
 
 /// The least and the largest stretch of a mesh, of triangles that can be measured.

@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <cmath>
 #include <map>
 #include <string_view>
 
@@ -42,12 +40,6 @@ class Text {
 double rest_aspect_ratio(const MeshData& mesh, const std::array<std::int32_t, 3>& triangle) {
   auto rest = [&](std::int32_t v) { return mesh.rest[to_size(v)]; };
   return aspect_ratio(rest(triangle[0]), rest(triangle[1]), rest(triangle[2]));
-}
-
-/// The largest |principal stretch - 1|.
-double largest_strain(const MeshData& mesh, const std::array<std::int32_t, 3>& triangle) {
-  const Stretch s = stretch_of(mesh, triangle);
-  return std::max(std::abs(s.largest - 1), std::abs(s.smallest - 1));
 }
 
 }  // namespace
@@ -136,7 +128,7 @@ std::string vtu_text(const MeshData& mesh, std::span<const MeshColumn> columns) 
   text << "</PointData>\n<CellData>\n";
   array("Int32", "piece", 1, pieces_of(mesh), [&](std::int32_t piece) { text << piece; });
   array("Float64", "aspect_ratio", 1, mesh.triangles, [&](const auto& t) { text << rest_aspect_ratio(mesh, t); });
-  array("Float64", "strain", 1, mesh.triangles, [&](const auto& t) { text << largest_strain(mesh, t); });
+  array("Float64", "strain", 1, mesh.triangles, [&](const auto& t) { text << stretch_of(mesh, t).strain(); });
   put_columns(MeshColumn::Of::triangles);
   text << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
   return text.str();

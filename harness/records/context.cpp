@@ -2,8 +2,6 @@
 
 #include <CGAL/version.h>
 #include <dlfcn.h>
-#include <gmp.h>
-#include <mpfr.h>
 
 #include <Eigen/Core>
 #include <array>
@@ -18,6 +16,13 @@
 
 #include "harness/base/conversions.h"
 #include "harness/mesh/mesh_data.h"
+
+#if CUTBENCH_GMP
+#include <gmp.h>
+#include <mpfr.h>
+#else
+#include <boost/version.hpp>
+#endif
 
 namespace cutbench {
 
@@ -42,6 +47,15 @@ std::string cpu_model() {
 
 std::string dotted(int major, int minor, int patch) {
   return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch);
+}
+
+/// The libraries that CGAL's exact numbers and the oracle's are of.
+std::map<std::string, std::string> exact_numbers() {
+#if CUTBENCH_GMP
+  return {{"GMP", gmp_version}, {"MPFR", mpfr_get_version()}};
+#else
+  return {{"Boost", BOOST_LIB_VERSION}};
+#endif
 }
 
 /// The file of the BLAS that CHOLMOD calls: Debian's alternatives decide which one that is when the program starts. Of
@@ -85,11 +99,13 @@ Context gather_context(const std::string& cholmod) {
   context.flags = CUTBENCH_FLAGS;
   context.build_type = CUTBENCH_BUILD_TYPE;
   context.cpu = cpu_model();
-  context.versions = {
-      {"CGAL", CGAL_VERSION_STR},   {"GMP", gmp_version},
-      {"MPFR", mpfr_get_version()}, {"Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
-      {"CHOLMOD", cholmod},         {"BLAS", blas_in_use()},
-  };
+  context.versions = exact_numbers();
+  context.versions.insert({
+      {"CGAL", CGAL_VERSION_STR},
+      {"Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+      {"CHOLMOD", cholmod},
+      {"BLAS", blas_in_use()},
+  });
   std::array<char, 32> date{};
   const std::time_t now = std::time(nullptr);
   std::strftime(date.data(), date.size(), "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));

@@ -187,9 +187,47 @@ const tests = {
       await run(tab, 140)
       expect('the address gives the same sheet, bit for bit, in motion', (await obj(tab)) === first)
     })
-    await visit('#n=99&c=5b1,2;x;9p.1,.5,.9,.5&k=nonsense&g=-4', desktop, async tab => {
+    await visit('#n=800&h=corners&k=conventional_split', desktop, async tab => {
       await ready(tab)
-      expect('what an address says wrongly is left out', (await strokes(tab)).length === 1 && (await tab.evaluate(() => live.state.gravity)) === 1)
+      await run(tab, 60)
+      await tab.click('[data-tool=pull]')
+      const [[x, y]] = await seen(tab, [[0.5, 0.8]])
+      await tab.mouse.move(x, y)
+      await tab.mouse.down()
+      for (let i = 1; i < 6; ++i) {
+        await tab.mouse.move(x + 20 * i, y - 10 * i)
+        await run(tab, 8)
+      }
+      await tab.mouse.up()
+      await tab.click('[data-tool=poke]')
+      await run(tab, 20)
+      await tab.mouse.click(...(await seen(tab, [[0.4, 0.5]]))[0])
+      await run(tab, 10)
+      await tab.click('[data-tool=cut]')
+      await drag(tab, ...(await seen(tab, [[0.3, 0.3], [0.6, 0.6]])))
+      await cut(tab, 1)
+      await run(tab, 40)
+      link = await tab.evaluate(() => location.hash)
+      expect(`the address holds a pull and a poke: ${link}`, /&u=60g0,[^;]*;120k0,[^;]*$/.test(link))
+      first = await obj(tab)
+      const toml = await tab.evaluate(() => tomlOf(live.state))
+      expect('the scene file says what it leaves out', /2 pulls and pokes are left out/.test(toml))
+    })
+    await visit(link, desktop, async tab => {
+      await ready(tab)
+      await run(tab, 170)
+      expect('with what hands did the motion is the same, too, bit for bit', (await obj(tab)) === first)
+      await tab.click('#undo')
+      await cut(tab, 0)
+      await run(tab, 40)
+      expect('undo leaves the hands before the stroke', (await tab.evaluate(() => live.state.hands.length)) > 3)
+      await tab.click('#undo')
+      await ready(tab)
+      expect('and then takes them back, too', (await tab.evaluate(() => live.state.hands.length + live.time.step)) === 0)
+    })
+    await visit('#n=99&c=5b1,2;x;9p.1,.5,.9,.5&k=nonsense&g=-4&u=3g0,.5;7k0,.5,.5,1,1;9k0,.5,.5,0,1,0;x', desktop, async tab => {
+      await ready(tab)
+      expect('what an address says wrongly is left out', (await strokes(tab)).length === 1 && (await tab.evaluate(() => live.state.gravity)) === 1 && (await tab.evaluate(() => live.state.hands.length)) === 1)
     })
   },
   async files() {
@@ -219,6 +257,7 @@ const tests = {
       })
   },
   async obj() {
+    let link = '', first = ''
     await visit('', desktop, async tab => {
       await ready(tab)
       const n = 12, lines = []
@@ -237,10 +276,29 @@ const tests = {
       await judged(tab)
       expect('a sheet of ones own is cut, rightly', (await numbers(tab))[0].oracle.verdict === 'ok')
       await tab.screenshot({ path: join(shots, 'obj.png') })
+      await run(tab, 20)
+      link = await tab.evaluate(() => location.hash)
+      expect(`the link holds the sheet: ${link}`, /[#&]o=[-\w]{100,}&/.test(link))
+      first = await tab.evaluate(() => live.panels[0].remote.ask('obj'))
       writeFileSync(join(folder, 'bad.obj'), 'v 0 0 0\nv 1 0 0\nf 1 2 3\n')
       await tab.setInputFiles('#obj', join(folder, 'bad.obj'))
       await tab.waitForFunction(() => /bad.obj/.test(document.getElementById('hint').textContent), null, { timeout: 20000 })
       expect('a bad one leaves the sheet as it was', (await numbers(tab))[0].triangles > 288)
+      const noise = Array.from({ length: 4000 }, () => `v ${Math.random()} ${Math.random()} 0`).join('\n')
+      const large = await tab.evaluate(async noise => {
+        const state = { ...live.state, packed: await packed(live.state.obj + noise) }
+        return [addressOf(state), (await unpacked(state.packed)) === live.state.obj + noise]
+      }, noise)
+      expect('a large sheet makes no link', large[0] === null && large[1])
+    })
+    await visit(link, desktop, async tab => {
+      await ready(tab)
+      await run(tab, 80)
+      expect('the link gives the same sheet, bit for bit', (await tab.evaluate(() => live.panels[0].remote.ask('obj'))) === first)
+    })
+    await visit('#o=nonsense&k=conventional_split', desktop, async tab => {
+      await ready(tab)
+      expect('a link whose sheet is broken says so', /can't be read/.test(await tab.textContent('#hint')))
     })
   },
   async failing() {

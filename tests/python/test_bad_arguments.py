@@ -116,6 +116,13 @@ class BadArguments(unittest.TestCase):
             with self.subTest(what):
                 self.refuse(lambda: cutbench.cut(V, T, P, **keywords), part)
 
+    def test_mends_are_keywords(self):
+        """What to do is said in Python's words, not those of the command line."""
+        with self.assertRaisesRegex(cutbench.InputError, r"misses the sheet.*allow_miss=True"):
+            cutbench.cut(V, T, [[5, 5], [6, 6]])
+        with self.assertRaisesRegex(cutbench.InputError, r'give rest="space"'):
+            cutbench.Sheet(changed(V, (2, 2), 0.5), T, "plane")
+
     def test_broken_beziers_and_rays(self):
         self.refuse(lambda: cutbench.bezier(P), "path")
         self.refuse(lambda: cutbench.bezier([[0, 0], [0.2, 1], [0.5, 1], [1, 0.5]], closed=True), "path")

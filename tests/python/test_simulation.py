@@ -59,7 +59,7 @@ class Steps(unittest.TestCase):
         self.assertEqual(simulation.cut([[0.2, 0.55], [0.83, 0.5]])["status"], "ok")
         self.assertEqual(len(simulation.cuts), 1)
         simulation.step(10)
-        self.assertEqual(before.shape, (121, 3))  # a copy: it stays
+        self.assertEqual(before.shape, (121, 3))
         x, rest, triangles = simulation.x, simulation.rest, simulation.triangles
         self.assertEqual(len(x), len(rest))
         self.assertEqual(len(simulation.v), len(x))
@@ -67,6 +67,45 @@ class Steps(unittest.TestCase):
         sheet = simulation.sheet
         self.assertTrue(np.array_equal(sheet.vertices[sheet.triangles], x[triangles]))
         self.assertTrue(np.array_equal(sheet.rest[sheet.triangles], rest[triangles]))
+
+    def test_views(self):
+        """x and v follow the steps, are left behind by a cut, and outlive the simulation."""
+        simulation = cutbench.Simulation(hanging(), "warp_and_refine").step(10)
+        x, v = simulation.x, simulation.v
+        self.assertTrue(np.shares_memory(x, simulation.x) and np.shares_memory(v, simulation.v))
+        self.assertFalse(x.flags.writeable or x.flags.owndata)
+        start = x.copy()
+        simulation.step(5)
+        self.assertFalse(np.array_equal(x, start))
+        self.assertTrue(np.array_equal(x, simulation.x) and np.array_equal(v, simulation.v))
+        last = x.copy()
+        simulation.cut([[0.2, 0.55], [0.83, 0.5]])
+        now = simulation.x
+        self.assertTrue(np.array_equal(x, last) and len(now) > len(x))
+        simulation.step(5)
+        self.assertTrue(np.array_equal(x, last))
+        self.assertTrue(np.array_equal(now, simulation.x))
+        now = now[:2]  # a part holds the whole
+        last = now.copy()
+        del simulation, x
+        self.assertTrue(np.array_equal(now, last))
+
+    def test_views_of_scenes_that_cut(self):
+        scene = hanging(cuts=[dict(time=0.1, polyline=[[0.2, 0.55], [0.83, 0.5]])])
+        simulation = cutbench.Simulation(scene).step(20)
+        x = simulation.x
+        simulation.step(4)
+        last = x.copy()
+        self.assertTrue(np.array_equal(last, simulation.x))
+        simulation.step(20)
+        self.assertTrue(np.array_equal(x, last) and len(simulation.x) > len(x))
+
+    def test_view_before_a_failure(self):
+        simulation = cutbench.Simulation(hanging(), "warp_and_refine").step(3)
+        x = simulation.x
+        with self.assertRaises(cutbench.InputError):
+            simulation.cut([[7, 7, 7], [8, 8, 8]])
+        self.assertTrue(np.array_equal(x, simulation.x))
 
     def test_plane(self):
         scene = hanging(physics={"dimension": 2, "gravity": [0, -9.81]})

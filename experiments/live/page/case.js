@@ -1,4 +1,4 @@
-// A case: the sheet, what holds it, the methods, the strokes; presets; the case as an address and as files.
+// A case: the sheet, what holds it, the methods, strokes and hands; presets; the case as an address and as files.
 const materials = {
   skin: { label: 'skin: soft and heavy', density: 2.2, stiffness: 1000, poisson: 0.45, bending: 4.2e-4 },
   cotton: { label: 'cotton: light and stiff', density: 0.2, stiffness: 4000, poisson: 0.3, bending: 1e-5 },
@@ -59,16 +59,33 @@ function pinsOf(state) {
 const short = v => (+v.toFixed(5)).toString().replace(/^(-?)0\./, '$1.')
 const pointsOf = curve => curve.bezier || curve.polyline
 
+/** Programs that send links on cut longer ones. */
+const longestAddress = 30000
+
+/** Where it would be too long, without the hands; null: even so. */
 function addressOf(state) {
   const strokes = state.strokes.map(({ step, curve }) => step + (curve.bezier ? 'b' : 'p') + (curve.closed ? 'c' : '') + pointsOf(curve).flat().map(short).join(','))
-  const words = { n: state.triangles, f: state.family, h: state.pins, m: state.material, d: state.damping, g: state.gravity, k: state.methods.join(','), q: state.colour, c: strokes.join(';') }
-  return '#' + Object.entries(words).map(([key, value]) => key + '=' + value).join('&')
+  const sheet = state.obj ? { o: state.packed } : { n: state.triangles, f: state.family }
+  const words = { ...sheet, h: state.pins, m: state.material, d: state.damping, g: state.gravity, k: state.methods.join(','), q: state.colour, c: strokes.join(';') }
+  const text = Object.entries(words).map(([key, value]) => key + '=' + value).join('&'), hands = handsText(state.hands)
+  const whole = '#' + text + (hands && '&u=' + hands)
+  return [whole, '#' + text].find(address => address.length <= longestAddress) || null
+}
+
+/** Text as letters of an address, and back. */
+async function packed(text) {
+  const bytes = await new Response(new Blob([text]).stream().pipeThrough(new CompressionStream('deflate-raw'))).arrayBuffer()
+  return btoa(Array.from(new Uint8Array(bytes), b => String.fromCharCode(b)).join('')).replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '')
+}
+async function unpacked(letters) {
+  const bytes = Uint8Array.from(atob(letters.replaceAll('-', '+').replaceAll('_', '/')), c => c.charCodeAt(0))
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate-raw'))).text()
 }
 
 /** \return null where the address holds no case; what is not understood is left out. */
 function caseOf(address, methods) {
   const words = Object.fromEntries(new URLSearchParams(address.replace(/^#/, '')))
-  if (!words.n) return presets[address.slice(1)] ? { ...presets[address.slice(1)] } : null
+  if (!words.n && !words.o) return presets[address.slice(1)] ? { ...presets[address.slice(1)] } : null
   const one = (value, known, usual) => (known.includes(value) ? value : usual)
   const number = (text, usual, most) => (Number.isFinite(+text) && text !== undefined && +text >= 0 && +text <= most ? +text : usual)
   const strokes = (words.c || '').split(';').map(text => {
@@ -84,7 +101,8 @@ function caseOf(address, methods) {
   return {
     label: 'From the address', triangles: +one(words.n, ['800', '3200', '12800'], '3200'), family: one(words.f, ['grid', 'alternating', 'delaunay', 'graded'], 'grid'),
     pins: one(words.h, Object.keys(held), 'corners'), material: one(words.m, Object.keys(materials), 'skin'), damping: number(words.d, 2, 100),
-    gravity: number(words.g, 1, 3), colour: number(words.q, 0, 3), methods: chosen.length ? chosen.slice(0, chosen.length === 3 ? 2 : 4) : undefined, strokes
+    gravity: number(words.g, 1, 3), colour: number(words.q, 0, 3), methods: chosen.length ? chosen.slice(0, chosen.length === 3 ? 2 : 4) : undefined, strokes,
+    hands: handsOf(words.u || ''), packed: words.o || ''
   }
 }
 
@@ -98,8 +116,9 @@ function tomlOf(state) {
   const pins = pinsOf(state).map(pin => '[[pins]]\n' + (pin.near ? `near = [${pin.near.map(number).join(', ')}]` : `box = ${list(pin.box)}`) + '\n')
   const last = Math.max(0, ...state.strokes.map(s => s.step))
   const cuts = state.strokes.map(({ step, curve }) => `[[cuts]]\ntime = ${number(step / 240)}\n${curve.closed ? 'closed = true\n' : ''}${curve.bezier ? 'bezier' : 'polyline'} = ${list(pointsOf(curve))}\n`)
+  const hands = state.hands.filter(h => h.call === 'grab' || h.call === 'poke').length
   return `# A case of cutbench live: cutbench simulate scene.toml --method ${state.methods[0]}
-effect = "drawn on the page cutbench live"
+${hands ? `# ${hands} pulls and pokes are left out: a scene file can't hold them.\n` : ''}effect = "drawn on the page cutbench live"
 truth = "none"
 duration = ${number(last / 240 + 1)}  # s
 
@@ -122,6 +141,7 @@ ${pins.join('\n')}
 [integrator]
 name = "backward_euler"
 step = 0.004166666666666667  # s: 1/240
+newton = 1  # one linear solve a step, as on the page
 
 [solver]
 name = "multigrid"

@@ -2,10 +2,10 @@
 const $ = id => document.getElementById(id)
 const rate = 240  // steps a second
 const source = '@source@'
-const state = { preset: 'play', methods: ['warp_and_refine'], material: 'skin', gravity: 1, colour: 0, wire: true, inset: true, obj: '', box: null, ...presets.play }
+const state = { preset: 'play', methods: ['warp_and_refine'], material: 'skin', gravity: 1, colour: 0, wire: true, inset: true, obj: '', box: null, packed: '', hands: [], ...presets.play }
 const camera = new Camera()
 const time = { step: 0, debt: 0, paused: matchMedia('(prefers-reduced-motion: reduce)').matches, slow: false, busy: false, last: 0, single: false }
-const drawing = { tool: 'cut', picks: [], stroke: null, cursor: null, grabbed: null }
+const drawing = { tool: 'cut', picks: [], stroke: null, cursor: null, grabbed: null, hands: [] }  // hands: said, not yet done
 const frames = { count: 0, from: performance.now(), rate: 0, drawn: 0 }
 let methods = [], module = null, panels = [], beside = null, fine = null, round = 0, lastCut = null
 // For tests: with run(), the page being paused, all is under their control.
@@ -77,9 +77,9 @@ class Panel {
     await this.advance([], 0, true)
     this.over.setAttribute('aria-label', `Sheet cut by ${this.method}. Arrow keys move a cross, Enter sets a point of the cut. Numbers are in the table below.`)
   }
-  async advance(cuts, steps, rest = false) {
+  async advance(due, steps, rest = false) {
     if (this.stopped) return
-    const answer = await this.remote.ask('advance', { cuts: cuts.map(curve => ({ method: this.method, curve })), steps, colour: state.colour, rest })
+    const answer = await this.remote.ask('advance', { method: this.method, due, steps, colour: state.colour, rest })
     this.view.show(answer)
     if (steps) this.ms = this.ms ? 0.9 * this.ms + 0.1 * answer.ms : answer.ms
     for (const made of answer.made) this.numbers = { ...this.numbers, ...made, added: (this.numbers.added || 0) + made.added, ms: undefined, oracle: undefined, eigenvalue_ratio: undefined }
@@ -113,9 +113,10 @@ async function restart(strokes = state.strokes) {
   time.halted = true
   while (time.busy) await new Promise(done => setTimeout(done, 5))
   if (mine !== round) return
-  state.strokes = strokes.map(({ step, curve }) => ({ step, curve }))
+  state.strokes = strokes.map(undone)
+  state.hands = state.hands.map(undone)
   Object.assign(time, { step: 0, debt: 0 })
-  Object.assign(drawing, { picks: [], stroke: null, grabbed: null })
+  Object.assign(drawing, { picks: [], stroke: null, grabbed: null, hands: [] })
   lastCut = null
   while (panels.length > state.methods.length) panels.pop().remove()
   while (panels.length < state.methods.length) panels.push(new Panel(panels.length))
@@ -133,21 +134,31 @@ async function restart(strokes = state.strokes) {
   frames.ready = frames.ready || performance.now()
 }
 
-/** All sheets make so many steps, and the cuts before them; nobody goes ahead. */
+/** What hands have said becomes part of the case, at this step; it takes the place of hands that were still to come. */
+function takeHands() {
+  const held = drawing.grabbed, now = performance.now()
+  if (held && held.to !== held.said && (time.step >= held.step + 8 || now > held.time + 60)) {
+    Object.assign(held, { said: held.to, step: time.step, time: now })
+    drawing.hands.push({ call: 'drag', given: { to: held.to } })
+  }
+  if (!drawing.hands.length) return
+  const after = state.strokes.filter(s => s.done).length, said = drawing.hands.map(hand => ({ step: time.step, after, ...hand }))
+  state.hands = [...state.hands.filter(h => h.done), ...said]
+  drawing.hands = []
+}
+
+/** All sheets do what is due and make so many steps; nobody goes ahead. Without steps they are drawn anew. */
 async function advance(steps) {
   time.busy = true
   try {
-    const due = state.strokes.filter(s => s.step === time.step && !s.done)
-    const next = Math.min(...state.strokes.filter(s => s.step > time.step).map(s => s.step), Infinity)
-    const made = Math.min(steps, next - time.step)
-    due.forEach(s => (s.done = true))
-    const to = drawing.grabbed && drawing.grabbed.to
-    await Promise.all(running().map(panel => {
-      if (to) panel.remote.ask('drag', { to })
-      return panel.advance(due.map(s => s.curve), made)
-    }).map(p => p.catch(() => {})))
+    takeHands()
+    const due = dueAt(state, time.step), made = Math.min(steps, stepAfter(state, time.step) - time.step)
+    due.forEach(deed => (deed.done = true))
+    await Promise.all(running().map(panel => panel.advance(due.map(undone), made, !steps).catch(() => {})))
     time.step += made
-    if (due.length) told(due)
+    const strokes = due.filter(deed => deed.curve)
+    if (strokes.length) told(strokes)
+    else if (due.some(deed => deed.call !== 'drag')) keepAddress()
   } finally {
     time.busy = false
   }
@@ -166,7 +177,7 @@ function frame(now) {
     showTimes()
   }
   if (time.busy || time.halted || !running().length) return
-  const due = state.strokes.some(s => s.step === time.step && !s.done)
+  const due = drawing.hands.length > 0 || dueAt(state, time.step).length > 0
   if (time.single) {
     time.single = false
     advance(1)
@@ -182,22 +193,18 @@ function frame(now) {
   }
 }
 
-/** Draws anew without a step. */
-async function refresh() {
-  time.busy = true
-  const due = state.strokes.filter(s => s.step === time.step && !s.done)
-  due.forEach(s => (s.done = true))
-  await Promise.all(running().map(panel => panel.advance(due.map(s => s.curve), 0, true).catch(() => {})))
-  time.busy = false
-  if (due.length) told(due)
-}
+const refresh = () => advance(0)
 
-/** Strokes of the case that were still to come are dropped. While the sheets are at work, it is for the step where they end. */
+/** Strokes and hands of the case that were still to come are dropped. While the sheets are at work, it is for the step where they end. */
 async function addStroke(curve) {
   drawing.picks = []
   const mine = round
   while (time.busy) await new Promise(done => setTimeout(done, 2))
-  if (mine === round) state.strokes = [...state.strokes.filter(s => s.done), { step: time.step, curve }]
+  if (mine !== round) return
+  takeHands()
+  state.strokes = [...state.strokes.filter(s => s.done), { step: time.step, curve }]
+  state.hands = state.hands.filter(h => h.step <= time.step)
+  drawing.grabbed = null
 }
 
 function told(due) {
@@ -217,10 +224,18 @@ const outcome = n => (n.status === 'refused' || n.status === 'failed' ? `${n.sta
 async function undo() {
   const done = state.strokes.filter(s => s.done)
   if (drawing.picks.length) return void drawing.picks.pop()
-  if (!done.length) return hint('There is no stroke to undo.')
+  if (!done.length && !state.hands.some(h => h.done)) return hint('There is no stroke to undo.')
+  if (!done.length) {
+    state.hands = []
+    await restart()
+    return hint('Pulls and pokes are undone.')
+  }
   while (time.busy) await new Promise(go => setTimeout(go, 2))
   time.busy = true
   const last = done.pop()
+  drawing.hands = []
+  drawing.grabbed = null
+  state.hands = state.hands.filter(h => h.done && h.after <= done.length)
   const answers = await Promise.all(running().map(panel => panel.remote.ask('undo').then(a => (Object.assign(panel.numbers, a.numbers, { added: a.numbers.triangles - a.numbers.triangles_before, ms: undefined, oracle: undefined, eigenvalue_ratio: undefined, status: undefined }), a.undone)).catch(() => false)))
   time.busy = false
   if (answers.length === panels.length && answers.every(Boolean)) {
@@ -231,7 +246,7 @@ async function undo() {
     showNumbers()
     askBeside()
   } else {
-    await restart(done.map(({ step, curve }) => ({ step, curve })))
+    await restart(done)
   }
   hint('The last stroke is undone.')
 }
@@ -332,23 +347,22 @@ function addPoint(hit) {
 
 function grab(panel, hit) {
   if (!hit) return hint('That misses the sheet.')
-  drawing.grabbed = { rest: hit.rest, depth: hit.depth, to: hit.space, panel }
-  for (const each of running()) each.remote.ask('grab', { rest: hit.rest }).catch(() => {})
+  drawing.grabbed = { rest: hit.rest.map(rounded), depth: hit.depth, to: hit.space, said: hit.space, step: -8, time: 0, panel }
+  drawing.hands.push({ call: 'grab', given: { rest: drawing.grabbed.rest } })
 }
 function pullTo(view, [x, y]) {
   if (!drawing.grabbed) return
   const { eye, to } = view.ray(x, y)
-  drawing.grabbed.to = eye.map((e, k) => e + drawing.grabbed.depth * to[k])
+  drawing.grabbed.to = eye.map((e, k) => rounded(e + drawing.grabbed.depth * to[k]))
 }
 function letGo() {
   if (!drawing.grabbed) return
   drawing.grabbed = null
-  for (const each of running()) each.remote.ask('release').catch(() => {})
+  drawing.hands.push({ call: 'release', given: {} })
 }
 function poke(hit, view) {
   if (!hit) return hint('That misses the sheet.')
-  const velocity = view.seen.back.map(v => -5 * v)
-  for (const each of running()) each.remote.ask('poke', { rest: hit.rest, velocity }).catch(() => {})
+  drawing.hands.push({ call: 'poke', given: { rest: hit.rest.map(rounded), velocity: view.seen.back.map(v => rounded(-5 * v)) } })
 }
 
 function keys(event, panel) {
@@ -556,8 +570,8 @@ async function compare() {
   $('compare').disabled = true
   fine = new Remote()
   try {
-    const strokes = state.strokes.filter(s => s.done).map(({ step, curve }) => ({ step, curve }))
-    const best = await fine.ready.then(() => fine.ask('reference', { scene: sceneOf(state), method: 'delaunay_refine', strokes, steps, points }, p => ($('progress').value = p)))
+    const deeds = deedsOf(state)
+    const best = await fine.ready.then(() => fine.ask('reference', { scene: sceneOf(state), method: 'delaunay_refine', deeds, steps, points }, p => ($('progress').value = p)))
     if (mine !== round || time.step !== steps) throw new Error('The sheets have moved on; compare again.')
     const side = state.box ? Math.max(...[0, 1].map(k => state.box[1][k] - state.box[0][k])) : 1
     panels.forEach((panel, i) => {
@@ -580,8 +594,14 @@ async function compare() {
 // --- controls ----------------------------------------------------------------------------------------------------------
 
 function keepAddress() {
-  if (state.obj) return
-  history.replaceState(null, '', addressOf(state))
+  history.replaceState(null, '', addressOf(state) || location.pathname)
+}
+
+/** What a link to this case can't hold, in words. */
+function lacksOfLink() {
+  const address = addressOf(state)
+  if (!address) return 'Your own sheet is too large for a link: download the case. '
+  return state.hands.length && !address.includes('&u=') ? 'Pulls and pokes are too many for a link. ' : ''
 }
 
 function showControls() {
@@ -599,9 +619,10 @@ function showControls() {
 }
 
 function take(chosen) {
-  Object.assign(state, { material: 'skin', gravity: 1, obj: '', box: null, ...chosen, methods: chosen.methods || state.methods, colour: chosen.colour ?? 0 })
-  state.strokes = chosen.strokes.map(({ step, curve }) => ({ step, curve }))
+  Object.assign(state, { material: 'skin', gravity: 1, obj: '', box: null, packed: '', hands: [], ...chosen, methods: chosen.methods || state.methods, colour: chosen.colour ?? 0 })
+  state.strokes = chosen.strokes.map(undone)
   camera.reset(held[state.pins].view)
+  if (state.box) lookAt(state.box)
   $('says').textContent = chosen.says || presets.play.says
   $('preset').value = Object.keys(presets).find(key => presets[key].label === chosen.label) || ''
   showControls()
@@ -610,28 +631,52 @@ function take(chosen) {
 
 const again = () => restart()
 
-async function takeObj(file) {
-  const obj = await file.text()
-  const found = [...obj.matchAll(/^v[ \t]+(\S+)[ \t]+(\S+)[ \t]+(\S+)/gm)].map(m => m.slice(1).map(Number))
+function lookAt([low, high]) {
+  camera.middle = [(low[0] + high[0]) / 2, 0, -(high[1] - low[1]) / 2]
+  camera.far = 2.4 * Math.max(high[0] - low[0], high[1] - low[1])
+}
+
+/** The box at rest of a sheet of one's own. Throws: it is none. */
+async function boxOf(obj) {
   const probe = new Remote()
   try {
     await probe.ready
     await probe.ask('make', { scene: { obj, pins: [] } })
     const given = await probe.ask('obj')
     const rest = [...given.matchAll(/^vt (\S+) (\S+)/gm)].map(m => m.slice(1).map(Number))
-    const box = [Math.min, Math.max].map(f => [0, 1].map(k => rest.reduce((b, p) => f(b, p[k]), rest[0][k])))
-    Object.assign(state, { obj, box, strokes: [] })
-    history.replaceState(null, '', location.pathname)
-    camera.middle = [(box[0][0] + box[1][0]) / 2, 0, -(box[1][1] - box[0][1]) / 2]
-    camera.far = 2.4 * Math.max(box[1][0] - box[0][0], box[1][1] - box[0][1])
-    $('says').textContent = `Your own sheet: ${file.name}, ${found.length} vertices. It is not in the link; download the case to keep it.`
+    return [Math.min, Math.max].map(f => [0, 1].map(k => rest.reduce((b, p) => f(b, p[k]), rest[0][k])))
+  } finally {
+    probe.worker.terminate()
+  }
+}
+
+async function takeObj(file) {
+  try {
+    const obj = await file.text(), box = await boxOf(obj), vertices = [...obj.matchAll(/^v\s/gm)].length
+    Object.assign(state, { obj, box, packed: await packed(obj), strokes: [], hands: [] })
+    lookAt(box)
+    const linked = addressOf(state) ? 'The link holds it.' : 'It is too large for the link; download the case to keep it.'
+    $('preset').value = ''
+    $('says').textContent = `Your own sheet: ${file.name}, ${vertices} vertices. ${linked}`
     showControls()
     await restart()
   } catch (error) {
     hint(`${file.name}: ${error.message}`)
     $('announce').textContent = `${file.name}: ${error.message}`
   }
-  probe.worker.terminate()
+}
+
+/** The case of an address, with the sheet that is in it; what can't be read is said. */
+async function linked(address) {
+  const found = caseOf(address, methods.map(m => m.name))
+  if (!found || !found.packed) return found
+  try {
+    const obj = await unpacked(found.packed)
+    return { ...found, obj, box: await boxOf(obj), says: 'A sheet of its own, from the link.' }
+  } catch (error) {
+    hint(`The sheet in this link can't be read: ${error.message}`)
+    return null
+  }
 }
 
 const save = (name, text) => {
@@ -654,7 +699,7 @@ function listenToControls() {
   if (innerWidth < 700) for (const each of document.querySelectorAll('aside details')) each.open = false
   const options = (id, table) => { $(id).innerHTML = Object.entries(table).map(([key, { label }]) => `<option value="${key}">${label}`).join('') }
   options('preset', presets)
-  $('preset').append(Object.assign(document.createElement('option'), { value: '', textContent: 'From the link', disabled: true }))
+  $('preset').append(Object.assign(document.createElement('option'), { value: '', textContent: 'Another', disabled: true }))
   options('pins', held)
   options('material', materials)
   $('preset').onchange = () => take(presets[$('preset').value])
@@ -713,7 +758,7 @@ function listenToControls() {
   $('share').onclick = async () => {
     keepAddress()
     const copied = await navigator.clipboard.writeText(location.href).then(() => true, () => false)
-    hint(state.obj ? 'Your own sheet is not in the link: download the case instead.' : copied ? 'The link to this case is copied.' : 'The address of this page is the link to this case.')
+    hint(lacksOfLink() + (copied ? 'The link to this case is copied.' : 'The address of this page is the link to this case.'))
   }
   $('files').onclick = ({ target }) => {
     const button = target.closest('button')
@@ -730,8 +775,7 @@ function listenToControls() {
     if (event.dataTransfer.files[0]) takeObj(event.dataTransfer.files[0])
   })
   addEventListener('hashchange', () => {
-    const found = caseOf(location.hash, methods.map(m => m.name))
-    if (found) take(found)
+    linked(location.hash).then(found => found && take(found))
   })
 }
 
@@ -766,7 +810,7 @@ async function begin() {
   listenToControls()
   buildNumbers()
   hint('')
-  const found = caseOf(location.hash, methods.map(m => m.name)) || presets.play
+  const found = (await linked(location.hash)) || presets.play
   requestAnimationFrame(frame)
   await take(found)
 }

@@ -2,6 +2,16 @@
 let cutbench, sheet
 const now = () => performance.now()
 
+/** What came of the cuts. */
+function act(method, deeds) {
+  const made = []
+  for (const { curve, call, given } of deeds) {
+    if (curve) made.push(sheet.cut(method, [curve]))
+    else calls[call](given)
+  }
+  return made
+}
+
 const calls = {
   async load({ module }) {
     cutbench = await load(module)
@@ -13,9 +23,9 @@ const calls = {
     sheet = new cutbench.Sheet(scene)
     return sheet.numbers()
   },
-  /** Cuts that are due, then steps; what is to be drawn comes back. */
-  advance({ cuts, steps, colour, rest }) {
-    const made = cuts.map(({ method, curve }) => sheet.cut(method, [curve]))
+  /** What is due (strokes, or hands' calls of below), then steps; what is to be drawn comes back. */
+  advance({ method, due, steps, colour, rest }) {
+    const made = act(method, due)
     const from = now()
     let stopped = ''
     try {
@@ -37,11 +47,11 @@ const calls = {
   judge: ({ scene, method, cuts }) => cutbench.judge(scene, method, cuts),
   time: ({ scene, method, cuts }) => cutbench.time(scene, method, cuts),
   /** The same motion on a sheet of four times the triangles. */
-  reference({ scene, method, strokes, steps, points }, progress) {
+  reference({ scene, method, deeds, steps, points }, progress) {
     calls.make({ scene: { ...scene, refined: true } })
     let said = now()
     for (let step = 0; step <= steps; ++step) {
-      for (const stroke of strokes) if (stroke.step === step) sheet.cut(method, [stroke.curve])
+      act(method, deeds.filter(deed => deed.step === step))
       if (step < steps) sheet.step()
       if (now() > said + 100) progress(step / steps), (said = now())
     }

@@ -1,8 +1,21 @@
 """What can go wrong, as exceptions. Each has the program's own line: what is wrong, where, and what to do."""
 
+import re
+
+
+def as_keywords(text):
+    """The program's words, with keywords of functions in place of its options."""
+    text = re.sub(r"--rest (auto|vt|plane|space)\b", r'rest="\1"', text)
+    text = re.sub(r"--sew ([\d.]+)", r"sew=\1", text)
+    text = re.sub(r"--(allow-miss|triangulate)\b", lambda found: found[1].replace("-", "_") + "=True", text)
+    return re.sub(r"--(rest|sew)\b", r"\1", text)
+
 
 class InputError(ValueError):
     """An argument or a file that can't be used."""
+
+    def __init__(self, message):
+        super().__init__(as_keywords(message))
 
 
 class OutputError(OSError):

@@ -126,7 +126,7 @@ def animate(simulation, frames=48, every=4, each=None, elevation=20, azimuth=-70
     from matplotlib.animation import FuncAnimation
     moments = []
     for _ in range(frames):
-        moments.append((simulation.time, simulation.x, simulation.triangles))
+        moments.append((simulation.time, simulation.x.copy(), simulation.triangles))
         simulation.step(every, each)
     flat = simulation.scene.dimension == 2
     figure = pyplot.figure(figsize=(4, 4))

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from . import _core, arrays
-from .errors import InputError
+from .errors import InputError, as_keywords
 from .method import method_of
 from .paths import curves_of
 
@@ -96,7 +96,7 @@ class Sheet:
 
     def _warn(self):
         for note in self._core.notes:
-            warnings.warn(note, stacklevel=3)
+            warnings.warn(as_keywords(note), stacklevel=3)
 
     @classmethod
     def _of(cls, core):

@@ -125,6 +125,9 @@ class Simulation:
 
     Rows of `x`, `v` and `rest`, and the numbers in `triangles`, are slots of vertices: a cut may leave some free, and
     adds rows. `sheet` has none that are free.
+
+    `x` and `v` are views, read-only: asked for once, they show each step. A cut, or a try at one, ends that: an array
+    of before stays as it was right before the cut; ask anew. What is to be kept is `simulation.x.copy()`.
     """
 
     def __init__(self, scene, method="conventional_split", chord_tolerance=0.05, watch=True, **parameters):
@@ -181,8 +184,8 @@ class Simulation:
         """From now on these Pins hold the sheet, and none of those before."""
         self._core.hold([pin._core for pin in pins])
 
-    x = property(lambda self: self._core.x, doc="slots x dimension floats: positions now, m (a copy).")
-    v = property(lambda self: self._core.v, doc="slots x dimension floats: velocities now, m/s (a copy).")
+    x = property(lambda self: self._core.x, doc="slots x dimension floats: positions now, m (a view).")
+    v = property(lambda self: self._core.v, doc="slots x dimension floats: velocities now, m/s (a view).")
     rest = property(lambda self: self._core.rest, doc="slots x 2 floats: rest positions, m; NaN where a slot is free.")
     triangles = property(lambda self: self._core.triangles, doc="m x 3 ints: slots of vertices.")
     sheet = property(lambda self: Sheet._of(self._core.sheet), doc="The Sheet as it is now.")
