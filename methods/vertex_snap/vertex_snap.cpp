@@ -41,14 +41,19 @@ std::optional<Point2> VertexSnap::target(const Sheet& sheet) const {
 
 void VertexSnap::adapt(Sheet& sheet, Subdivision& trace, const Polyline&) {
   path_.read(sheet, trace);
-  const auto near = path_.approaches(options_.reach);
+  const auto near = path_.approaches(options_.reach), tips = path_.tips(options_.reach);
+  const auto move_to = [&](Point2 to) {
+    if (worst_aspect(sheet, run_.vertex, to) <= options_.max_aspect && sheet.move(run_.vertex, to))
+      path_.contract(run_);
+  };
+  for (const auto& tip : tips)
+    if (path_.find_tip_run(tip.node, tip.vertex, 1, run_) && path_.has_star_to_itself(run_))
+      move_to(path_.point(tip.node));
   for (const auto& crossing : near) {
     if (!path_.find_run(crossing.node, crossing.vertex, 1, run_) || !path_.has_star_to_itself(run_)) continue;
-    const auto to = target(sheet);
-    if (to && worst_aspect(sheet, run_.vertex, *to) <= options_.max_aspect && sheet.move(run_.vertex, *to))
-      path_.contract(run_);
+    if (const auto to = target(sheet)) move_to(*to);
   }
-  if (!near.empty()) path_.write(trace);
+  if (!near.empty() || !tips.empty()) path_.write(trace);
 }
 
 }  // namespace cutbench
