@@ -92,7 +92,7 @@ std::vector<MethodRow>& table() {
              CgalRefine::Options{.bound = bound == 0 ? std::numeric_limits<double>::infinity() : bound});
        }},
       {"cisamr",
-       "structured grids: vertices near the path move onto it, then one pass of splits and better diagonals",
+       "one phase of CISAMR, on structured grids: vertices near the path move onto it; no refinement, no rule for tips",
        {},
        {.exact_incision = false,
         .keeps_area = true,
