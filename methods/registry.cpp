@@ -255,6 +255,10 @@ const std::vector<MethodRow>& ablation_methods() {
 
 namespace {
 
+const Promises& promises_of(const std::vector<MethodRow>& all, const std::string& name) {
+  return std::find_if(all.begin(), all.end(), [&](const MethodRow& r) { return r.name == name; })->promises;
+}
+
 /// The methods that may simplify the path, each with this licence as its parameter.
 void append_tolerances(std::vector<MethodRow>& all) {
   const Parameter tolerance{
@@ -264,9 +268,8 @@ void append_tolerances(std::vector<MethodRow>& all) {
       "the chord tolerance where that is smaller; 0: every crossing stays",
       {.least = 0, .most = 0.5}};
   const auto append = [&](const char* name, auto make) {
-    const auto row = std::find_if(all.begin(), all.end(), [&](const MethodRow& r) { return r.name == name; });
-    all.push_back(
-        {row->name + ":tolerance", row->name + " with another tolerance for the path", tolerance, row->promises, make});
+    all.push_back({std::string(name) + ":tolerance", std::string(name) + " with another tolerance for the path",
+                   tolerance, promises_of(all, name), make});
   };
   append("active_node", [](double to) { return std::make_unique<ActiveNode>(ActiveNode::Options{.tolerance = to}); });
   append("adaptive_remesh",
@@ -286,6 +289,31 @@ std::vector<MethodRow>& nameable_table() {
     std::vector<MethodRow> all = all_methods();
     all.insert(all.end(), ablation_methods().begin(), ablation_methods().end());
     append_tolerances(all);
+    all.push_back({"adaptive_remesh:angle",
+                   "adaptive_remesh with another term of curvature",
+                   {"angle",
+                    DeformedTerms().angle,
+                    "by which the sheet bends along an edge at most, radians; 0: no such term",
+                    {.least = 0.05, .most = 3, .or_zero = true}},
+                   promises_of(all, "adaptive_remesh"),
+                   [](double angle) {
+                     AdaptiveRemesh::Options options;
+                     options.deformed.angle = angle;
+                     return std::make_unique<AdaptiveRemesh>(options);
+                   }});
+    all.push_back({"adaptive_remesh:compression",
+                   "adaptive_remesh with another term of compression",
+                   {"amplitude",
+                    DeformedTerms().compression,
+                    "amplitude of the buckles for which a compressed sheet is made fine, mean rest edges; 0: no such "
+                    "term",
+                    {.least = 0.01, .most = 10, .or_zero = true}},
+                   promises_of(all, "adaptive_remesh"),
+                   [](double amplitude) {
+                     AdaptiveRemesh::Options options;
+                     options.deformed.compression = amplitude;
+                     return std::make_unique<AdaptiveRemesh>(options);
+                   }});
     all.push_back({"cut_polygons:stabilisation",
                    "cut_polygons with another stabilisation",
                    {"tau",

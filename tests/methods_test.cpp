@@ -187,7 +187,7 @@ TEST(Parameter, IsTakenWithinItsRangeAlone) {
     }
     if (range.or_zero) expect_refused(row, range.least / 2);
   }
-  EXPECT_EQ(parameters, 19u);
+  EXPECT_EQ(parameters, 21u);
 }
 
 TEST(Parameter, ARangeSaysWhatItHas) {
