@@ -10,6 +10,7 @@
 #include "methods/active_node/active_node.h"
 #include "methods/adaptive_remesh/adaptive_remesh.h"
 #include "methods/bowyer_watson/bowyer_watson.h"
+#include "methods/bowyer_watson/split_readings.h"
 #include "methods/cgal_cdt/cgal_cdt.h"
 #include "methods/cgal_refine/cgal_refine.h"
 #include "methods/cisamr/cisamr.h"
@@ -284,11 +285,29 @@ void append_tolerances(std::vector<MethodRow>& all) {
   });
 }
 
+/// The paper's local split, read otherwise.
+void append_split_readings(std::vector<MethodRow>& all) {
+  using Reading = SplitReading::Reading;
+  const Parameter rounds{"rounds", 1, "rounds of the local split", {.least = 0, .most = 6, .whole = true}};
+  const auto append = [&](const char* name, const char* summary, Reading reading) {
+    all.push_back({std::string("bowyer_watson:") + name, summary, rounds, exact_split, [reading](double value) {
+                     return std::make_unique<SplitReading>(reading, BowyerWatson::Options{.rounds = to_int(value)});
+                   }});
+  };
+  append("grouped", "bowyer_watson, midpoints of all that lies in one triangle of the sheet at a time",
+         Reading::grouped);
+  append("region", "bowyer_watson, the local split's Delaunay triangulation over all that the cut changed",
+         Reading::region);
+  append("longest_edge", "bowyer_watson over all that the cut changed, midpoints of the longest edge alone",
+         Reading::longest_edge);
+}
+
 std::vector<MethodRow>& nameable_table() {
   static auto rows = [] {
     std::vector<MethodRow> all = all_methods();
     all.insert(all.end(), ablation_methods().begin(), ablation_methods().end());
     append_tolerances(all);
+    append_split_readings(all);
     all.push_back({"adaptive_remesh:angle",
                    "adaptive_remesh with another term of curvature",
                    {"angle",

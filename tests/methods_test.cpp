@@ -159,6 +159,26 @@ TEST(Tips, OfSnapOrSplitGoToVerticesWithinTheTolerance) {
   }
 }
 
+/// The other readings of the paper's local split keep its promises, and reach its bound as little.
+TEST(SplitReadings, KeepThePathAndNotTheBound) {
+  for (const char* name : {"bowyer_watson:grouped", "bowyer_watson:region", "bowyer_watson:longest_edge"})
+    for (const std::string family : sheet_families())
+      for (const std::string cuts : {"curved", "several", "self_crossing", "cut_out"}) {
+        SCOPED_TRACE(std::string(name) + ", " + family + ", " + cuts);
+        Table table(make_sheet(family, 10), find_method(name), 2);
+        const std::size_t before = table.sheet.vertex_count();
+        for (const Curve& curve : make_case(cuts, seed, 0, Sheet(table.sheet))) EXPECT_EQ(table.cut(curve, 0.05), "");
+        EXPECT_GT(table.sheet.vertex_count(), before);
+        double worst = 0;
+        for (std::size_t t = 0; t < table.sheet.triangle_slots(); ++t)
+          if (table.sheet.triangle(TriangleIndex(t)).alive()) {
+            const auto c = table.sheet.corners(TriangleIndex(t));
+            worst = std::max(worst, oriented_aspect(c[0], c[1], c[2]));
+          }
+        EXPECT_GT(worst, 3);
+      }
+}
+
 void expect_refused(const MethodRow& row, double value) {
   try {
     row.make(value);
@@ -187,7 +207,7 @@ TEST(Parameter, IsTakenWithinItsRangeAlone) {
     }
     if (range.or_zero) expect_refused(row, range.least / 2);
   }
-  EXPECT_EQ(parameters, 21u);
+  EXPECT_EQ(parameters, 24u);
 }
 
 TEST(Parameter, ARangeSaysWhatItHas) {

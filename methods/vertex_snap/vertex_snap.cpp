@@ -39,6 +39,20 @@ std::optional<Point2> VertexSnap::target(const Sheet& sheet) const {
   return best;
 }
 
+/// What the run to a tip leaves out lies as near to the new way as the vertex's reach.
+bool VertexSnap::stays_near(const Sheet& sheet, int tip) const {
+  double longest = 0;
+  for (const HalfEdge h : outgoing_edges(sheet, run_.vertex)) {
+    longest = std::max(longest, squared_length(sheet.rest(sheet.target(h)) - sheet.rest(run_.vertex)));
+  }
+  const double reach = options_.reach * options_.reach * longest;
+  const Point2 to = path_.point(tip), from = path_.point(run_.before);
+  return std::all_of(run_.nodes.begin(), run_.nodes.end(), [&](int n) {
+    const Point2 p = path_.point(n);
+    return squared_length(p - nearest_on_segment(from, to, p)) <= reach;
+  });
+}
+
 void VertexSnap::adapt(Sheet& sheet, Subdivision& trace, const Polyline&) {
   path_.read(sheet, trace);
   const auto near = path_.approaches(options_.reach), tips = path_.tips(options_.reach);
@@ -47,7 +61,8 @@ void VertexSnap::adapt(Sheet& sheet, Subdivision& trace, const Polyline&) {
       path_.contract(run_);
   };
   for (const auto& tip : tips)
-    if (path_.find_tip_run(tip.node, tip.vertex, 1, run_) && path_.has_star_to_itself(run_))
+    if (path_.find_tip_run(tip.node, tip.vertex, 1, run_) && path_.has_star_to_itself(run_) &&
+        stays_near(sheet, tip.node))
       move_to(path_.point(tip.node));
   for (const auto& crossing : near) {
     if (!path_.find_run(crossing.node, crossing.vertex, 1, run_) || !path_.has_star_to_itself(run_)) continue;

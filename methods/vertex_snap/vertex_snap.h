@@ -9,7 +9,8 @@
 // be flat), and where the sheet keeps the pieces that the exact path makes (methods/tools/path_graph.h). A border
 // vertex moves along a straight border to where the path meets it; corners and vertices of older incisions stay. Before
 // the crossings the tips are taken: a vertex of the tip's triangle or edge comes to the tip, the nearest that may, of
-// those for which the tip's barycentric coordinate is at least 1 - `reach`. embed: the Delaunay split of the triangles
+// those for which the tip's barycentric coordinate is at least 1 - `reach`, where the path that is left out on the way
+// lies within `reach` of the longest edge at the vertex from the new way. embed: the Delaunay split of the triangles
 // that are still crossed.
 //
 // Source: Serby, Harders and Szekely, A new approach to cutting into finite element models, 2001; Nienhuys and van der
@@ -44,6 +45,7 @@ class VertexSnap : public CuttingMethod {
 
  private:
   std::optional<Point2> target(const Sheet& sheet) const;
+  bool stays_near(const Sheet& sheet, int tip) const;
 
   Options options_;
   PathGraph path_;
