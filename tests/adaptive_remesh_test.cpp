@@ -242,5 +242,22 @@ TEST(AdaptiveRemesh, TakesItsTermsFromTheDeformedSheet) {
   EXPECT_NEAR(sum / to_double(count), 1 / (r * angle), 0.02 / (r * angle));
 }
 
+/// A long edge of the path that could not be divided drew the vertices beside it nearer in every round: 15 of 1,200
+/// partial cuts of flat sheets had aspect ratios from 4e7 to infinity.
+TEST(AdaptiveRemesh, NoLongEdgeOfThePathDrawsVerticesNearer) {
+  for (const std::string family : sheet_families())
+    for (std::size_t i = 0; i < scaled(300); ++i) {
+      Remeshed body(family, 20, 0.2);
+      for (const Curve& curve : make_case("partial", 1, i, Sheet(body.sheet))) body.cut(curve);
+      double worst = 0;
+      for (std::size_t t = 0; t < body.sheet.triangle_slots(); ++t)
+        if (body.sheet.triangle(TriangleIndex(t)).alive()) {
+          const auto c = body.sheet.corners(TriangleIndex(t));
+          worst = std::max(worst, oriented_aspect(c[0], c[1], c[2]));
+        }
+      EXPECT_LT(worst, 1e4) << family << ", case " << i;
+    }
+}
+
 }  // namespace
 }  // namespace cutbench

@@ -154,25 +154,26 @@ bool AdaptiveRemesh::split(Sheet& sheet, HalfEdge h) {
   const HalfEdge o = sheet.opposite(h);
   const std::array ends{sheet.origin(h), sheet.target(h)};
   const Point2 a = sheet.rest(sheet.origin(h)), b = sheet.rest(sheet.target(h));
-  Point2 middle = 0.5 * a + 0.5 * b;
-  double parameter = -1;
-  if (tolerance_ > 0 && sheet.mark(h) == EdgeMark::path) {
-    const double from = curve_.parameter(sheet.origin(h)), to = curve_.parameter(sheet.target(h));
-    if (curve_.may_divide(from, to, a, b, tolerance_)) {
-      parameter = (from + to) / 2;
-      middle = curve_.at(parameter);
-    }
-  }
   const VertexIndex apex = sheet.origin(Sheet::previous(h));
   const bool left = in_zone_.holds(triangle_of(h)), right = o.valid() && in_zone_.holds(triangle_of(o));
+  // Where the curve's own point is behind a vertex, the middle of the edge does: an edge that stayed for ever would
+  // draw the vertices beside it nearer in every round, since it is the longest of its triangles.
+  const auto split_at_curve = [&]() -> VertexIndex {
+    if (tolerance_ == 0 || sheet.mark(h) != EdgeMark::path) return {};
+    const double from = curve_.parameter(ends[0]), to = curve_.parameter(ends[1]);
+    if (!curve_.may_divide(from, to, a, b, tolerance_)) return {};
+    const VertexIndex v = split_beside(sheet, h, curve_.at((from + to) / 2));
+    if (v.valid()) curve_.add(v, (from + to) / 2);
+    return v;
+  };
   const auto halve = [&]() -> VertexIndex {
-    if (parameter >= 0) return split_beside(sheet, h, middle);
+    const Point2 middle = 0.5 * a + 0.5 * b;
     if (!halves_are_positive(sheet, h, middle) || !halves_are_positive(sheet, o, middle)) return {};
     return sheet.split_edge(h, 0.5, middle);
   };
-  const VertexIndex v = halve();
+  VertexIndex v = split_at_curve();
+  if (!v.valid()) v = halve();
   if (!v.valid()) return false;
-  if (parameter >= 0) curve_.add(v, parameter);
   field_.set_between(v, ends[0], ends[1]);
   in_zone_.grow(sheet.triangle_slots());
   for_each_outgoing(sheet, v, [&](HalfEdge out) {

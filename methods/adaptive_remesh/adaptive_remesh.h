@@ -14,8 +14,9 @@
 // zone does not grow, so that the cost follows the triangles near the cut.
 //
 // A vertex of the path goes where the edge that replaces its two stays within the tolerance of the curve that was asked
-// for, and an edge of the path is divided at a point of that curve (methods/tools/path_curve.h): the licence that
-// warp_and_refine has. `adaptive_remesh:tolerance` with 0 has none: there only a vertex inside a straight piece goes.
+// for, and an edge of the path is divided at a point of that curve where that is possible, else at its middle
+// (methods/tools/path_curve.h): the licence that warp_and_refine has. `adaptive_remesh:tolerance` with 0 has none:
+// there only a vertex inside a straight piece goes.
 //
 // Frozen: border and older incisions stay where they are, with their vertices, and so do held vertices (Sheet::hold).
 // Sheet::flip and Sheet::collapse refuse by exact predicates what would turn a triangle over, so the area stays.
