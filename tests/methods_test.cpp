@@ -148,6 +148,15 @@ TEST(Tips, GoToVerticesOrVerticesToThem) {
       }
 }
 
+/// The path turns round the vertex that comes to its tip: what would be left out is farther away than promised.
+TEST(Tips, OfVertexSnapKeepToItsBound) {
+  Table table(make_sheet("alternating", 20), find_method("vertex_snap"), 0.5);
+  const Curve path{Curve::Kind::polyline,
+                   false,
+                   {{0.83323716128191, 0.667448869474236}, {0.8833970235220973, 0.616602976477904}, {0.2, 0.8}}};
+  EXPECT_EQ(table.cut(path, 0.05), "");
+}
+
 /// A snap tolerance takes a tip to a vertex of its triangle, but to no edge.
 TEST(Tips, OfSnapOrSplitGoToVerticesWithinTheTolerance) {
   const MethodRow& row = find_method("snap_or_split");
