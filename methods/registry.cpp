@@ -10,6 +10,7 @@
 #include "methods/active_node/active_node.h"
 #include "methods/adaptive_remesh/adaptive_remesh.h"
 #include "methods/bowyer_watson/bowyer_watson.h"
+#include "methods/bowyer_watson/split_readings.h"
 #include "methods/cgal_cdt/cgal_cdt.h"
 #include "methods/cgal_refine/cgal_refine.h"
 #include "methods/cisamr/cisamr.h"
@@ -92,7 +93,7 @@ std::vector<MethodRow>& table() {
              CgalRefine::Options{.bound = bound == 0 ? std::numeric_limits<double>::infinity() : bound});
        }},
       {"cisamr",
-       "structured grids: vertices near the path move onto it, then one pass of splits and better diagonals",
+       "one phase of CISAMR, on structured grids: vertices near the path move onto it; no refinement, no rule for tips",
        {},
        {.exact_incision = false,
         .keeps_area = true,
@@ -255,6 +256,10 @@ const std::vector<MethodRow>& ablation_methods() {
 
 namespace {
 
+const Promises& promises_of(const std::vector<MethodRow>& all, const std::string& name) {
+  return std::find_if(all.begin(), all.end(), [&](const MethodRow& r) { return r.name == name; })->promises;
+}
+
 /// The methods that may simplify the path, each with this licence as its parameter.
 void append_tolerances(std::vector<MethodRow>& all) {
   const Parameter tolerance{
@@ -264,9 +269,8 @@ void append_tolerances(std::vector<MethodRow>& all) {
       "the chord tolerance where that is smaller; 0: every crossing stays",
       {.least = 0, .most = 0.5}};
   const auto append = [&](const char* name, auto make) {
-    const auto row = std::find_if(all.begin(), all.end(), [&](const MethodRow& r) { return r.name == name; });
-    all.push_back(
-        {row->name + ":tolerance", row->name + " with another tolerance for the path", tolerance, row->promises, make});
+    all.push_back({std::string(name) + ":tolerance", std::string(name) + " with another tolerance for the path",
+                   tolerance, promises_of(all, name), make});
   };
   append("active_node", [](double to) { return std::make_unique<ActiveNode>(ActiveNode::Options{.tolerance = to}); });
   append("adaptive_remesh",
@@ -281,11 +285,54 @@ void append_tolerances(std::vector<MethodRow>& all) {
   });
 }
 
+/// The paper's local split, read otherwise.
+void append_split_readings(std::vector<MethodRow>& all) {
+  using Reading = SplitReading::Reading;
+  const Parameter rounds{"rounds", 1, "rounds of the local split", {.least = 0, .most = 6, .whole = true}};
+  const auto append = [&](const char* name, const char* summary, Reading reading) {
+    all.push_back({std::string("bowyer_watson:") + name, summary, rounds, exact_split, [reading](double value) {
+                     return std::make_unique<SplitReading>(reading, BowyerWatson::Options{.rounds = to_int(value)});
+                   }});
+  };
+  append("grouped", "bowyer_watson, midpoints of all that lies in one triangle of the sheet at a time",
+         Reading::grouped);
+  append("region", "bowyer_watson, the local split's Delaunay triangulation over all that the cut changed",
+         Reading::region);
+  append("longest_edge", "bowyer_watson over all that the cut changed, midpoints of the longest edge alone",
+         Reading::longest_edge);
+}
+
 std::vector<MethodRow>& nameable_table() {
   static auto rows = [] {
     std::vector<MethodRow> all = all_methods();
     all.insert(all.end(), ablation_methods().begin(), ablation_methods().end());
     append_tolerances(all);
+    append_split_readings(all);
+    all.push_back({"adaptive_remesh:angle",
+                   "adaptive_remesh with another term of curvature",
+                   {"angle",
+                    DeformedTerms().angle,
+                    "by which the sheet bends along an edge at most, radians; 0: no such term",
+                    {.least = 0.05, .most = 3, .or_zero = true}},
+                   promises_of(all, "adaptive_remesh"),
+                   [](double angle) {
+                     AdaptiveRemesh::Options options;
+                     options.deformed.angle = angle;
+                     return std::make_unique<AdaptiveRemesh>(options);
+                   }});
+    all.push_back({"adaptive_remesh:compression",
+                   "adaptive_remesh with another term of compression",
+                   {"amplitude",
+                    DeformedTerms().compression,
+                    "amplitude of the buckles for which a compressed sheet is made fine, mean rest edges; 0: no such "
+                    "term",
+                    {.least = 0.01, .most = 10, .or_zero = true}},
+                   promises_of(all, "adaptive_remesh"),
+                   [](double amplitude) {
+                     AdaptiveRemesh::Options options;
+                     options.deformed.compression = amplitude;
+                     return std::make_unique<AdaptiveRemesh>(options);
+                   }});
     all.push_back({"cut_polygons:stabilisation",
                    "cut_polygons with another stabilisation",
                    {"tau",

@@ -13,6 +13,7 @@
 #include "harness/judge/oracle_request.h"
 #include "harness/judge/same_sheet.h"
 #include "harness/mesh/families.h"
+#include "harness/mesh/one_ring.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 
@@ -115,6 +116,78 @@ TEST(EdgeRelease, LeavesCornersInsideTrianglesOut) {
   }
 }
 
+/// The aspect ratio after a cut of two tips whose last tip stops close before an edge, as those of the stability sweeps.
+double worst_aspect_before_an_edge(const std::string& method, const std::string& family, Point2 from, double gap) {
+  Table table(make_sheet(family, 20), find_method(method), find_method(method).parameter.value);
+  VertexIndex v{0};
+  const auto off_centre = [&](VertexIndex w) { return squared_length(table.sheet.rest(w) - Point2{0.5, 0.5}); };
+  for (std::size_t w = 0; w < table.sheet.vertex_slots(); ++w)
+    if (off_centre(VertexIndex(w)) < off_centre(v)) v = VertexIndex(w);
+  const HalfEdge edge = Sheet::next(table.sheet.first_outgoing(v));
+  const Point2 a = table.sheet.rest(table.sheet.origin(edge)), b = table.sheet.rest(table.sheet.target(edge));
+  const Point2 at = a + 0.45 * (b - a), back = from - at;
+  const Curve path{Curve::Kind::polyline, false, {from, at + gap / length(back) * back}};
+  EXPECT_EQ(table.cut(path, infinite), "") << method << ", " << family;
+  double worst = 0;
+  for (std::size_t t = 0; t < table.sheet.triangle_slots(); ++t)
+    if (table.sheet.triangle(TriangleIndex(t)).alive()) {
+      const auto c = table.sheet.corners(TriangleIndex(t));
+      worst = std::max(worst, oriented_aspect(c[0], c[1], c[2]));
+    }
+  return worst;
+}
+
+/// The tip of a long cut goes to a vertex, or a vertex to the tip: what is before it makes no sliver.
+TEST(Tips, GoToVerticesOrVerticesToThem) {
+  for (const std::string family : {"grid", "alternating", "delaunay"})
+    for (const Point2 from : {Point2{0.113, 0.377}, Point2{0.871, 0.231}, Point2{0.413, 0.913}})
+      for (const double gap : {1e-4, 1e-8}) {
+        SCOPED_TRACE(family + ", from " + std::to_string(from.x) + ", gap " + std::to_string(gap));
+        EXPECT_LT(worst_aspect_before_an_edge("edge_release", family, from, gap), 15);
+        EXPECT_LT(worst_aspect_before_an_edge("vertex_snap", family, from, gap), 300);
+      }
+}
+
+/// The path turns round the vertex that comes to its tip: what would be left out is farther away than promised.
+TEST(Tips, OfVertexSnapKeepToItsBound) {
+  Table table(make_sheet("alternating", 20), find_method("vertex_snap"), 0.5);
+  const Curve path{Curve::Kind::polyline,
+                   false,
+                   {{0.83323716128191, 0.667448869474236}, {0.8833970235220973, 0.616602976477904}, {0.2, 0.8}}};
+  EXPECT_EQ(table.cut(path, 0.05), "");
+}
+
+/// A snap tolerance takes a tip to a vertex of its triangle, but to no edge.
+TEST(Tips, OfSnapOrSplitGoToVerticesWithinTheTolerance) {
+  const MethodRow& row = find_method("snap_or_split");
+  for (const double tolerance : {0.1, 0.25}) {
+    Table table(make_sheet("grid", 10), row, tolerance);
+    const auto vertices = table.sheet.vertex_count();
+    EXPECT_EQ(table.cut({Curve::Kind::polyline, false, {{0.3, 0.3}, {0.5, 0.5}, {0.618, 0.604}}}, infinite), "");
+    EXPECT_EQ(table.sheet.vertex_count() == vertices, tolerance == 0.25) << tolerance;
+  }
+}
+
+/// The other readings of the paper's local split keep its promises, and reach its bound as little.
+TEST(SplitReadings, KeepThePathAndNotTheBound) {
+  for (const char* name : {"bowyer_watson:grouped", "bowyer_watson:region", "bowyer_watson:longest_edge"})
+    for (const std::string family : sheet_families())
+      for (const std::string cuts : {"curved", "several", "self_crossing", "cut_out"}) {
+        SCOPED_TRACE(std::string(name) + ", " + family + ", " + cuts);
+        Table table(make_sheet(family, 10), find_method(name), 2);
+        const std::size_t before = table.sheet.vertex_count();
+        for (const Curve& curve : make_case(cuts, seed, 0, Sheet(table.sheet))) EXPECT_EQ(table.cut(curve, 0.05), "");
+        EXPECT_GT(table.sheet.vertex_count(), before);
+        double worst = 0;
+        for (std::size_t t = 0; t < table.sheet.triangle_slots(); ++t)
+          if (table.sheet.triangle(TriangleIndex(t)).alive()) {
+            const auto c = table.sheet.corners(TriangleIndex(t));
+            worst = std::max(worst, oriented_aspect(c[0], c[1], c[2]));
+          }
+        EXPECT_GT(worst, 3);
+      }
+}
+
 void expect_refused(const MethodRow& row, double value) {
   try {
     row.make(value);
@@ -143,7 +216,7 @@ TEST(Parameter, IsTakenWithinItsRangeAlone) {
     }
     if (range.or_zero) expect_refused(row, range.least / 2);
   }
-  EXPECT_EQ(parameters, 19u);
+  EXPECT_EQ(parameters, 24u);
 }
 
 TEST(Parameter, ARangeSaysWhatItHas) {

@@ -1,8 +1,10 @@
 #include "methods/adaptive_remesh/adaptive_remesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "harness/base/conversions.h"
 #include "harness/mesh/one_ring.h"
@@ -103,7 +105,7 @@ void AdaptiveRemesh::flood(const Sheet& sheet, double radius) {
 void AdaptiveRemesh::find_zone(const Sheet& sheet) {
   constexpr double detour = 1.5;  // of a way along edges
   const double h = sheet.mean_edge();
-  field_.begin(h, (flips_alone() ? 1 : options_.tip) * h, options_.growth);
+  field_.begin(h, (flips_alone() ? 1 : options_.tip) * h, options_.growth, sheet.vertex_slots());
   zone_.clear();
   in_zone_.clear(sheet.triangle_slots());
   for_each_changed(sheet, [&](TriangleIndex t) { add(t); });
@@ -119,32 +121,60 @@ void AdaptiveRemesh::find_zone(const Sheet& sheet) {
     if (const Meeting at(sheet, v); at.is_tip() || at.was_tip()) reached_.push_back(v);
   flood(sheet, detour * field_.reach());
   for (const VertexIndex v : reached_) add_star(sheet, v);
+  if (!flips_alone()) find_metrics(sheet);
+}
+
+/// What the deformed sheet asks for at the vertices of the zone.
+void AdaptiveRemesh::find_metrics(const Sheet& sheet) {
+  constexpr double rounding = 1 + 1e-6;  // of slivers at rest
+  const double c = options_.deformed.compression * sheet.mean_edge();
+  metric_of_.clear(sheet.triangle_slots());
+  const auto metric_of = [&](TriangleIndex t) {
+    if (metric_of_.insert(t)) metric_of_.at(t) = field_.bounded(deformed_metric(sheet, t, options_.deformed.angle, c));
+    return metric_of_.at(t);
+  };
+  measured_.clear(sheet.vertex_slots());
+  for (const TriangleIndex zone : zone_)
+    for (const VertexIndex v : sheet.triangle(zone).vertex) {
+      if (!measured_.insert(v)) continue;
+      double sum = 0, area = 0;
+      for_each_outgoing(sheet, v, [&](HalfEdge h) {
+        const auto corners = sheet.corners(triangle_of(h));
+        const double twice = cross(corners[1] - corners[0], corners[2] - corners[0]);
+        sum += twice * metric_of(triangle_of(h));
+        area += twice;
+      });
+      if (sum > rounding * area * field_.bounded(0)) field_.set_metric(v, field_.bounded(sum / area));
+    }
 }
 
 // --- split -----------------------------------------------------------------------------------------------------------
 
 bool AdaptiveRemesh::split(Sheet& sheet, HalfEdge h) {
   const HalfEdge o = sheet.opposite(h);
+  const std::array ends{sheet.origin(h), sheet.target(h)};
   const Point2 a = sheet.rest(sheet.origin(h)), b = sheet.rest(sheet.target(h));
-  Point2 middle = 0.5 * a + 0.5 * b;
-  double parameter = -1;
-  if (tolerance_ > 0 && sheet.mark(h) == EdgeMark::path) {
-    const double from = curve_.parameter(sheet.origin(h)), to = curve_.parameter(sheet.target(h));
-    if (curve_.may_divide(from, to, a, b, tolerance_)) {
-      parameter = (from + to) / 2;
-      middle = curve_.at(parameter);
-    }
-  }
   const VertexIndex apex = sheet.origin(Sheet::previous(h));
   const bool left = in_zone_.holds(triangle_of(h)), right = o.valid() && in_zone_.holds(triangle_of(o));
+  // Where the curve's own point is behind a vertex, the middle of the edge does: an edge that stayed for ever would
+  // draw the vertices beside it nearer in every round, since it is the longest of its triangles.
+  const auto split_at_curve = [&]() -> VertexIndex {
+    if (tolerance_ == 0 || sheet.mark(h) != EdgeMark::path) return {};
+    const double from = curve_.parameter(ends[0]), to = curve_.parameter(ends[1]);
+    if (!curve_.may_divide(from, to, a, b, tolerance_)) return {};
+    const VertexIndex v = split_beside(sheet, h, curve_.at((from + to) / 2));
+    if (v.valid()) curve_.add(v, (from + to) / 2);
+    return v;
+  };
   const auto halve = [&]() -> VertexIndex {
-    if (parameter >= 0) return split_beside(sheet, h, middle);
+    const Point2 middle = 0.5 * a + 0.5 * b;
     if (!halves_are_positive(sheet, h, middle) || !halves_are_positive(sheet, o, middle)) return {};
     return sheet.split_edge(h, 0.5, middle);
   };
-  const VertexIndex v = halve();
+  VertexIndex v = split_at_curve();
+  if (!v.valid()) v = halve();
   if (!v.valid()) return false;
-  if (parameter >= 0) curve_.add(v, parameter);
+  field_.set_between(v, ends[0], ends[1]);
   in_zone_.grow(sheet.triangle_slots());
   for_each_outgoing(sheet, v, [&](HalfEdge out) {
     const bool is_left = sheet.target(out) == apex || sheet.origin(Sheet::previous(out)) == apex;
@@ -161,9 +191,10 @@ bool AdaptiveRemesh::split_long(Sheet& sheet, std::size_t most_vertices) {
     while (sheet.triangle(t).alive() && sheet.log().new_vertices.size() < most_vertices) {
       HalfEdge worst;
       double most = longest;
-      const auto c = sheet.corners(t);
+      const auto v = sheet.triangle(t).vertex;
       for (int k = 0; k < 3; ++k)
-        if (const double length = field_.relative_length(c[to_size(k)], c[to_size(next_corner(k))]); length > most) {
+        if (const double length = field_.relative_length(sheet, v[to_size(k)], v[to_size(next_corner(k))]);
+            length > most) {
           worst = half_edge(t, k);
           most = length;
         }
@@ -178,6 +209,7 @@ bool AdaptiveRemesh::split_long(Sheet& sheet, std::size_t most_vertices) {
 
 /// Lawson's flips from the doubtful triangles on, of edges with the zone on one side at least.
 void AdaptiveRemesh::flip(Sheet& sheet) {
+  constexpr double sharpest = 40 * std::numbers::pi / 180;  // of the deformed sheet, as in ARCSim
   open_.clear();
   const auto open = [&](TriangleIndex t) {
     for (int k = 0; k < 3; ++k) open_.push_back(half_edge(t, k));
@@ -191,6 +223,7 @@ void AdaptiveRemesh::flip(Sheet& sheet) {
     if (sheet.separates(h)) continue;
     const TriangleIndex t = triangle_of(h), u = triangle_of(sheet.opposite(h));
     if (!in_zone_.holds(t) && !in_zone_.holds(u)) continue;
+    if (std::abs(bend_angle(sheet, h)) >= sharpest) continue;
     const auto c = sheet.corners(t);
     if (in_circle(c[0], c[1], c[2], sheet.rest(sheet.origin(Sheet::previous(sheet.opposite(h))))) <= 0) continue;
     if (sheet.flip(h)) {
@@ -208,8 +241,8 @@ void AdaptiveRemesh::flip(Sheet& sheet) {
 double AdaptiveRemesh::worst_after_collapse(const Sheet& sheet, HalfEdge h) const {
   constexpr double max_aspect = 6, very_short = 0.25, worse = 2;
   if (!may_go(sheet, h)) return refused;
-  const VertexIndex b = sheet.target(h);
-  const Point2 from = sheet.rest(sheet.origin(h)), to = sheet.rest(b);
+  const VertexIndex a = sheet.origin(h), b = sheet.target(h);
+  const Point2 to = sheet.rest(b);
   double aspect_before = max_aspect, length_before = longest;
   for (const HalfEdge end : {h, sheet.opposite(h)})
     for_each_outgoing(sheet, sheet.origin(end), [&](HalfEdge out) {
@@ -222,10 +255,10 @@ double AdaptiveRemesh::worst_after_collapse(const Sheet& sheet, HalfEdge h) cons
     const Point2 p = sheet.rest(c), q = sheet.rest(d);
     if (c != b && d != b) aspect = std::max(aspect, oriented_aspect(to, p, q));
     if (c == b) return;
-    length_before = std::max(length_before, field_.relative_length(from, p));
-    length = std::max(length, field_.relative_length(to, p));
+    length_before = std::max(length_before, field_.relative_length(sheet, a, c));
+    length = std::max(length, field_.relative_length(sheet, b, c));
   });
-  if (field_.relative_length(from, to) < very_short) aspect_before *= worse;
+  if (field_.relative_length(sheet, a, b) < very_short) aspect_before *= worse;
   return aspect <= aspect_before && length <= length_before ? aspect : refused;
 }
 
@@ -238,7 +271,7 @@ bool AdaptiveRemesh::collapse_short(Sheet& sheet) {
     for (int k = 0; k < 3; ++k) {
       const HalfEdge edge = half_edge(t, k);
       if (sheet.on_border(edge) || sheet.mark(edge) == EdgeMark::incision) continue;
-      if (field_.relative_length(sheet.rest(sheet.origin(edge)), sheet.rest(sheet.target(edge))) >= shortest) continue;
+      if (field_.relative_length(sheet, sheet.origin(edge), sheet.target(edge)) >= shortest) continue;
       for (const HalfEdge h : {edge, sheet.opposite(edge)})
         if (const double worst = worst_after_collapse(sheet, h); worst < least) {
           best = h;

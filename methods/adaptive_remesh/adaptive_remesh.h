@@ -1,11 +1,12 @@
 // Adaptive remeshing: the triangles round the cut follow a size field that is fine at the tips.
 //
 // How it works. embed: the Delaunay split. improve: in a zone round the path, edges are split, flipped and collapsed in
-// turn, until every edge fits the field (methods/adaptive_remesh/size_field.h), or for ten rounds:
+// turn, until every edge fits the field (methods/adaptive_remesh/size_field.h: fine at tips, and where the deformed
+// sheet is curved or compressed), or for ten rounds:
 //  - an edge longer than sqrt(2) times the field at its middle is divided there, also one of the path, an incision or
-//  the
-//    border;
-//  - an edge that separates nothing is flipped where it is not Delaunay (exact in_circle);
+//    the border;
+//  - an edge that separates nothing is flipped where it is not Delaunay (exact in_circle), unless the deformed sheet is
+//    bent there by 40 degrees or more;
 //  - an edge shorter than 1 / sqrt(2) of it is collapsed, where no new edge becomes too long, and no triangle gets an
 //    aspect ratio beyond 6 and beyond those that were there.
 // The zone is what the split changed, and the triangles in the reach of the path's tips, and of tips of earlier cuts at
@@ -13,22 +14,26 @@
 // zone does not grow, so that the cost follows the triangles near the cut.
 //
 // A vertex of the path goes where the edge that replaces its two stays within the tolerance of the curve that was asked
-// for, and an edge of the path is divided at a point of that curve (methods/tools/path_curve.h): the licence that
-// warp_and_refine has. `adaptive_remesh:tolerance` with 0 has none: there only a vertex inside a straight piece goes.
+// for, and an edge of the path is divided at a point of that curve where that is possible, else at its middle
+// (methods/tools/path_curve.h): the licence that warp_and_refine has. `adaptive_remesh:tolerance` with 0 has none:
+// there only a vertex inside a straight piece goes.
 //
 // Frozen: border and older incisions stay where they are, with their vertices, and so do held vertices (Sheet::hold).
 // Sheet::flip and Sheet::collapse refuse by exact predicates what would turn a triangle over, so the area stays.
 //
 // Source: Narain, Samii and O'Brien, Adaptive anisotropic remeshing for cloth simulation, ACM TOG 31(6), 2012 (split,
-// flip, collapse; not read, but dynamicremesh.cpp of their program ARCSim); Pfaff, Narain, de Joya and O'Brien, Adaptive
+// flip, collapse; not read, but dynamicremesh.cpp of their program ARCSim); Pfaff, Narain, de Joya, O'Brien, Adaptive
 // tearing and cracking of thin sheets, ACM TOG 33(4), 2014 (fine at tips, coarse behind; not read). As in ARCSim a
-// vertex on a border or a marked line goes along it alone, and a triangle may be as thin as 12 sqrt(3) area /
-// perimeter^2 = 0.2, which is an aspect ratio of about 6. Not as there: its field is a tensor with terms of curvature,
-// velocity, compression and obstacles, here it is a number with that of tips; it splits above 1 and makes no edge
-// longer than 0.9 by a collapse, which has no lower bound, here both bounds are those of a quasi-unit mesh (Frey and
-// George, Mesh Generation, 2000; not read), so that the sheet keeps its own resolution; its flips weigh the field, here
-// they are those of Delaunay. Nothing is moved but a vertex on a straight border, onto the end of a path close by,
-// which is the collapse of the edge between the two.
+// vertex on a border or a marked line goes along it alone, a triangle may be as thin as 12 sqrt(3) area / perimeter^2 =
+// 0.2, which is an aspect ratio of about 6, no edge of a fold is flipped, and the field has terms of curvature and
+// compression (methods/adaptive_remesh/deformed_metric.h).
+// Not as there: its field is a tensor, here it is a number. Its terms of velocity and obstacles are left out, since a
+// method is told of neither; for that of fracture the tips stand. It remeshes the whole sheet in every step, here it is
+// the zone of a cut. It splits above 1 and makes no edge longer than 0.9 by a collapse, which has no lower bound, here
+// both bounds are those of a quasi-unit mesh (Frey and George, Mesh Generation, 2000; not read), so that it keeps
+// its own resolution. Its flips weigh the field, here they are those of Delaunay. Nothing is moved but a vertex on a
+// straight border, onto the end of a path close by, which is the collapse of the edge between the two. Its filter
+// against the pop of remeshing (popfilter.cpp) is left out.
 // Promises: area, conforming, an incision within the chord tolerance of the curve; neither the exact path nor that
 // vertices stay: those too close together are removed, and what they carried is lost.
 // Where it fails: no aspect ratio is promised. Vertices of the border and of older incisions stay, however close
@@ -44,6 +49,7 @@
 
 #include "harness/cut/cutting_method.h"
 #include "harness/mesh/stamped_table.h"
+#include "methods/adaptive_remesh/deformed_metric.h"
 #include "methods/adaptive_remesh/size_field.h"
 #include "methods/tools/path_curve.h"
 #include "methods/tools/warp.h"
@@ -56,6 +62,7 @@ class AdaptiveRemesh : public CuttingMethod {
     double tip = 0.2;                   ///< h_tip: the field at a tip, mean rest edges, in (0, 1]; 0: flips alone
     double growth = 0.3;                ///< g: of the field with the distance from the tip
     double tolerance = path_tolerance;  ///< of the path (path_curve.h); 0: it keeps every crossing
+    DeformedTerms deformed = {};        ///< of the field
   };
   explicit AdaptiveRemesh(const Options& options)
       : options_(options), warp_({.reach = 0.35, .tolerance = options.tolerance, .border_only = true}) {}
@@ -69,6 +76,7 @@ class AdaptiveRemesh : public CuttingMethod {
  private:
   bool flips_alone() const { return options_.tip == 0; }
   void find_zone(const Sheet& sheet);
+  void find_metrics(const Sheet& sheet);
   void flood(const Sheet& sheet, double radius);
   void add_star(const Sheet& sheet, VertexIndex v);
   void add(TriangleIndex t);
@@ -84,6 +92,8 @@ class AdaptiveRemesh : public CuttingMethod {
   Warp warp_;
   double tolerance_ = 0;  // rest units
   SizeField field_;
+  StampedTable<TriangleIndex, double> metric_of_;
+  StampedSet<VertexIndex> measured_;
   std::vector<TriangleIndex> zone_;
   StampedSet<TriangleIndex> in_zone_;
   std::vector<TriangleIndex> doubtful_;  // changed since the last flips

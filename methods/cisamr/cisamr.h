@@ -1,5 +1,5 @@
-// CISAMR at one level: on a structured grid, vertices near the path move onto it, and the triangles that are still
-// crossed are divided, in one pass.
+// One phase of CISAMR: on a structured grid, vertices near the path move onto it, and the triangles that are still
+// crossed are divided, in one pass. It is not the method of its source, and says nothing about that one's bound.
 //
 // How it works: for sheets of which at least half of the triangles are halves of equal squares along the axes; others
 // are refused. adapt: where a crossing lies at up to half its edge from an end, that end moves to the nearest crossing
@@ -9,15 +9,17 @@
 // ill-shaped gets its better diagonal, until none changes.
 //
 // Source: Soghrati, Xiao and Nagarajan, A conforming to interface structured adaptive mesh refinement technique for
-// modeling fracture problems, Computational Mechanics 59, 2017: "non-iterative", with aspect ratios below 3, also where
-// cracks branch. Built from descriptions of it, since we could not get the text: its definition of the aspect ratio and
-// its order of diagonals are unknown to us. Its first stage, the refinement of the squares along the interface, is left
-// out, since it concerns resolution and not shape. results/ has the largest longest edge over altitude and the largest
-// angle; both exceed the bound where two moved vertices face each other.
+// modeling fracture problems, Computational Mechanics 59, 2017 (only the abstract was read). It names three phases:
+// refinement of the background grid, relocation of the nodes of cut elements, sub-triangulation of these and of
+// elements with hanging nodes; and "the required considerations for the treatment of crack tips and branching cracks".
+// It claims that "aspect ratios of conforming elements are lower than three", without iterations.
+// What is left out here: the refinement, with its hanging nodes, and every treatment of tips and branches, since the
+// abstract does not say what they are. What is ours: that vertices move to crossings of their own edges, the tolerance
+// of the path, the order of diagonals. So no aspect ratio is promised, and none measured here judges the source.
 // Promises: area, conforming; neither the exact path (between moved vertices it takes short cuts) nor that vertices
 // stay. The incision error is at most the chord tolerance, since every move is checked against the requested curve.
-// Where it fails: on any other sheet; at tips and corners of the path, to which nothing moves; beside older incisions,
-// whose vertices stay.
+// Where it fails: on any other sheet; where two moved vertices face each other; at tips and corners of the path, to
+// which nothing moves; beside older incisions, whose vertices stay.
 #pragma once
 
 #include "harness/cut/cutting_method.h"

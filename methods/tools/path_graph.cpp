@@ -189,9 +189,8 @@ bool PathGraph::sweep_is_clear(int end, int i, int node, VertexIndex vertex) con
   return !holds_node(t, {point(end), point(node), sheet_->rest(vertex)}, {end, node});
 }
 
-bool PathGraph::find_run(int node, VertexIndex vertex, double reach, Run& run) const {
-  if (!may_move(node) || trace_->node_at(vertex) >= 0 || std::binary_search(taken_.begin(), taken_.end(), vertex))
-    return false;
+/// The run, if none but its own nodes had to be looked at. \pre the node may go to the vertex
+bool PathGraph::collect_run(int node, VertexIndex vertex, double reach, Run& run) const {
   run.vertex = vertex;
   run.nodes.assign(1, node);
   const auto follow = [&](int i, int& end, int& end_piece) {  // false: the path goes round the vertex to itself
@@ -214,21 +213,107 @@ bool PathGraph::find_run(int node, VertexIndex vertex, double reach, Run& run) c
   if (!follow(at(node).piece[0], run.before, run.piece_before)) return false;
   std::reverse(run.nodes.begin(), run.nodes.end());
   if (!follow(at(node).piece[1], run.after, run.piece_after)) return false;
-  if (run.before == run.after) return false;  // also where neither is there
+  return run.before != run.after;  // they are equal also where neither is there
+}
 
+bool PathGraph::is_on_separator(VertexIndex v) const {
+  bool on_separator = false;
+  for (const HalfEdge h : outgoing_edges(*sheet_, v)) {
+    on_separator |= sheet_->separates(h);
+  }
+  return on_separator;
+}
+
+bool PathGraph::find_run(int node, VertexIndex vertex, double reach, Run& run) const {
+  if (!may_move(node) || trace_->node_at(vertex) >= 0 || std::binary_search(taken_.begin(), taken_.end(), vertex))
+    return false;
+  if (!collect_run(node, vertex, reach, run)) return false;
   std::size_t separating = 0;
   for (const int n : run.nodes) {
     separating += sheet_->separates(at(n).place.edge);
     if (!is_nearest(n, vertex)) return false;
   }
-  bool on_separator = false;
-  for (const HalfEdge h : outgoing_edges(*sheet_, vertex)) {
-    on_separator |= sheet_->separates(h);
-  }
-  if (separating != (on_separator ? 1 : 0)) return false;
+  if (separating != (is_on_separator(vertex) ? 1 : 0)) return false;
   return (run.before < 0 || sweep_is_clear(run.before, run.piece_before, run.nodes.front(), vertex)) &&
          (run.after < 0 || sweep_is_clear(run.after, run.piece_after, run.nodes.back(), vertex));
 }
+
+// --- tips ------------------------------------------------------------------------------------------------------------
+
+bool PathGraph::is_tip(int node) const {
+  const Node& n = at(node);
+  if (n.gone || n.degree != 1) return false;
+  if (n.place.kind == Place::Kind::vertex) return !is_on_separator(n.place.vertex);
+  return n.place.kind == Place::Kind::face || !sheet_->separates(n.place.edge);
+}
+
+std::vector<PathGraph::Approach> PathGraph::tips(double reach) const {
+  std::vector<Approach> found;
+  for (int i = 0; i < size() && reach > 0; ++i) {
+    const Place& place = at(i).place;
+    if (place.kind == Place::Kind::vertex || !is_tip(i)) continue;
+    const std::size_t first = found.size();
+    const auto add = [&](VertexIndex v, double coordinate) {
+      if (1 - coordinate <= reach) found.push_back({i, v, 1 - coordinate});
+    };
+    if (place.kind == Place::Kind::edge) {
+      add(sheet_->origin(place.edge), 1 - place.lambda);
+      add(sheet_->target(place.edge), place.lambda);
+    } else {
+      const auto c = sheet_->corners(place.face);
+      const double whole = cross(c[1] - c[0], c[2] - c[0]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Point2 a = c[(k + 1) % 3] - place.point, b = c[(k + 2) % 3] - place.point;
+        add(sheet_->triangle(place.face).vertex[k], cross(a, b) / whole);
+      }
+    }
+    std::sort(found.begin() + to_index(first), found.end(), [&](const Approach& a, const Approach& b) {
+      const double to_a = squared_length(sheet_->rest(a.vertex) - place.point);
+      const double to_b = squared_length(sheet_->rest(b.vertex) - place.point);
+      return to_a < to_b || (to_a == to_b && a.vertex < b.vertex);
+    });
+  }
+  return found;
+}
+
+/// No other piece of the path crosses or touches the triangle that the tip lies in, and no corner of it lies there.
+bool PathGraph::has_triangle_to_itself(int tip) const {
+  const TriangleIndex t = at(tip).place.face;
+  for (int n = trace_->face(trace_->find_face(t)).inside; n >= 0; n = trace_->node(n).next)
+    if (n != tip && !at(n).gone) return false;
+  for (std::size_t i = 0; i < pieces_.size(); ++i)
+    if (!pieces_[i].gone && pieces_[i].triangle == t && to_int(i) != at(tip).piece[0]) return false;
+  return true;
+}
+
+bool PathGraph::find_tip_run(int tip, VertexIndex vertex, double reach, Run& run) const {
+  if (!is_tip(tip) || at(tip).place.kind == Place::Kind::vertex || trace_->node_at(vertex) >= 0 ||
+      std::binary_search(taken_.begin(), taken_.end(), vertex) || is_on_separator(vertex))
+    return false;
+  const bool inside = at(tip).place.kind == Place::Kind::face;
+  if (inside && !has_triangle_to_itself(tip)) return false;
+  if (!collect_run(tip, vertex, reach, run)) return false;
+  for (const int n : run.nodes)
+    if (!(inside && n == tip) && !is_nearest(n, vertex)) return false;
+  return !is_tip(run.before) && sweep_is_clear(run.before, run.piece_before, run.nodes.front(), vertex);
+}
+
+bool PathGraph::retract(int tip, VertexIndex vertex) {
+  if (!is_tip(tip) || at(tip).place.kind == Place::Kind::vertex) return false;
+  const int dropped = at(tip).piece[0], end = other_end(dropped, tip);
+  Node& n = nodes_[to_size(end)];
+  if (n.degree != 2 || n.place.kind != Place::Kind::vertex || n.place.vertex != vertex || is_on_separator(vertex))
+    return false;
+  const int kept = n.piece[0] == dropped ? n.piece[1] : n.piece[0];
+  if (is_tip(other_end(kept, end))) return false;
+  n.degree = 1;
+  n.piece = {kept, -1};
+  pieces_[to_size(dropped)].gone = true;
+  nodes_[to_size(tip)].gone = true;
+  return true;
+}
+
+// --- changing --------------------------------------------------------------------------------------------------------
 
 bool PathGraph::has_star_to_itself(const Run& run) const {
   const auto is_met_by_others = [&](HalfEdge edge) {
@@ -241,7 +326,7 @@ bool PathGraph::has_star_to_itself(const Run& run) const {
   for (const HalfEdge h : outgoing_edges(*sheet_, run.vertex)) {
     const int face = trace_->find_face(triangle_of(h));
     for (int n = face >= 0 ? trace_->face(face).inside : -1; n >= 0; n = trace_->node(n).next)
-      if (!at(n).gone) return false;
+      if (!at(n).gone && std::find(run.nodes.begin(), run.nodes.end(), n) == run.nodes.end()) return false;
     if (is_met_by_others(h) || is_met_by_others(Sheet::previous(h))) return false;
   }
   return true;
@@ -293,11 +378,13 @@ bool PathGraph::straighten(int node) {
 
 void snap_to_vertices(const Sheet& sheet, Subdivision& trace, double tolerance, PathGraph& path) {
   path.read(sheet, trace);
-  const auto near = path.approaches(tolerance);
+  const auto near = path.approaches(tolerance), tips = path.tips(tolerance);
   PathGraph::Run run;
+  for (const auto& tip : tips)
+    if (path.find_tip_run(tip.node, tip.vertex, tolerance, run)) path.contract(run);
   for (const auto& crossing : near)
     if (path.find_run(crossing.node, crossing.vertex, tolerance, run)) path.contract(run);
-  if (!near.empty()) path.write(trace);
+  if (!near.empty() || !tips.empty()) path.write(trace);
 }
 
 }  // namespace cutbench

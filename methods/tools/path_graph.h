@@ -4,7 +4,8 @@
 // Each of these is an isotopy of the path: it is refused wherever the path would touch itself, the border or an
 // older incision where it did not before, or leave one that it touched. So the pieces of the sheet stay those of the
 // exact path, however many there are, one after the other. Whether the path then goes to the vertex or the
-// vertex is moved to the path is the caller's choice.
+// vertex is moved to the path is the caller's choice. A tip, an end of the path that touches neither the border nor an
+// older incision, may go to a vertex, too, or be left out.
 #pragma once
 
 #include <array>
@@ -50,6 +51,20 @@ class PathGraph {
   /// - the vertex lies on the border or an older incision, and the run does not meet that exactly once;
   /// - something lies between the old way and the new one, or the new way would run along the border or an incision.
   bool find_run(int node, VertexIndex vertex, double reach, Run& run) const;
+
+  /// Tips inside triangles and on edges, with the vertices of that triangle or edge where its barycentric coordinate is
+  /// at least 1 - `reach`: tip by tip, the nearest vertex first. The fraction is 1 less that coordinate.
+  std::vector<Approach> tips(double reach) const;
+  /// What passes `vertex` on the way to a tip, the tip included, which is the first or the last node of the run and has
+  /// nothing on its other side. False where find_run() would be, or
+  /// - the vertex lies on the border or an older incision;
+  /// - the tip's triangle holds another piece of the path, or a corner of it;
+  /// - nothing but a single edge between tips would be left, which would not open.
+  bool find_tip_run(int tip, VertexIndex vertex, double reach, Run& run) const;
+  /// Takes a tip that is at no vertex out of the path, which then ends at the node before it, at `vertex`. False where
+  /// that is another place, or one at which the path does not go on, or lies on the border or an older incision, or
+  /// where a single edge between tips would be left.
+  bool retract(int tip, VertexIndex vertex);
   /// Nothing but the run meets the outgoing edges of its vertex or lies inside its triangles, and the nodes before and
   /// after it lie on the rim of these: the vertex may take its edges with it to a point of the run.
   bool has_star_to_itself(const Run& run) const;
@@ -89,6 +104,10 @@ class PathGraph {
   bool is_end_of(HalfEdge h, VertexIndex v) const { return sheet_->origin(h) == v || sheet_->target(h) == v; }
   double fraction_from(VertexIndex v, const Place& place) const;
   bool may_move(int node) const;
+  bool is_tip(int node) const;
+  bool is_on_separator(VertexIndex v) const;
+  bool has_triangle_to_itself(int tip) const;
+  bool collect_run(int node, VertexIndex vertex, double reach, Run& run) const;
   bool extend(int node, int piece, VertexIndex vertex, double reach, int& next) const;
   bool is_nearest(int node, VertexIndex vertex) const;
   bool is_clear(HalfEdge edge, VertexIndex from, double up_to, int except = -1) const;
@@ -106,7 +125,8 @@ class PathGraph {
 };
 
 /// The path goes through the vertex instead of every crossing at most `tolerance` of its edge from it, the nearest
-/// first, together with its neighbours as near as that. `path` is working storage.
+/// first, together with its neighbours as near as that. Before that its tips go to vertices as near as that
+/// (PathGraph::tips()). `path` is working storage.
 void snap_to_vertices(const Sheet& sheet, Subdivision& trace, double tolerance, PathGraph& path);
 
 }  // namespace cutbench

@@ -39,16 +39,36 @@ std::optional<Point2> VertexSnap::target(const Sheet& sheet) const {
   return best;
 }
 
+/// What the run to a tip leaves out lies as near to the new way as the vertex's reach.
+bool VertexSnap::stays_near(const Sheet& sheet, int tip) const {
+  double longest = 0;
+  for (const HalfEdge h : outgoing_edges(sheet, run_.vertex)) {
+    longest = std::max(longest, squared_length(sheet.rest(sheet.target(h)) - sheet.rest(run_.vertex)));
+  }
+  const double reach = options_.reach * options_.reach * longest;
+  const Point2 to = path_.point(tip), from = path_.point(run_.before);
+  return std::all_of(run_.nodes.begin(), run_.nodes.end(), [&](int n) {
+    const Point2 p = path_.point(n);
+    return squared_length(p - nearest_on_segment(from, to, p)) <= reach;
+  });
+}
+
 void VertexSnap::adapt(Sheet& sheet, Subdivision& trace, const Polyline&) {
   path_.read(sheet, trace);
-  const auto near = path_.approaches(options_.reach);
+  const auto near = path_.approaches(options_.reach), tips = path_.tips(options_.reach);
+  const auto move_to = [&](Point2 to) {
+    if (worst_aspect(sheet, run_.vertex, to) <= options_.max_aspect && sheet.move(run_.vertex, to))
+      path_.contract(run_);
+  };
+  for (const auto& tip : tips)
+    if (path_.find_tip_run(tip.node, tip.vertex, 1, run_) && path_.has_star_to_itself(run_) &&
+        stays_near(sheet, tip.node))
+      move_to(path_.point(tip.node));
   for (const auto& crossing : near) {
     if (!path_.find_run(crossing.node, crossing.vertex, 1, run_) || !path_.has_star_to_itself(run_)) continue;
-    const auto to = target(sheet);
-    if (to && worst_aspect(sheet, run_.vertex, *to) <= options_.max_aspect && sheet.move(run_.vertex, *to))
-      path_.contract(run_);
+    if (const auto to = target(sheet)) move_to(*to);
   }
-  if (!near.empty()) path_.write(trace);
+  if (!near.empty() || !tips.empty()) path_.write(trace);
 }
 
 }  // namespace cutbench

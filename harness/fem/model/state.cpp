@@ -55,24 +55,32 @@ namespace {
 /// The elements that there were before a cut, by their parents and where they were.
 class ElementsBefore {
  public:
-  ElementsBefore(const Sheet& cut, const Constraints& last) : cut_(cut) {
+  ElementsBefore(const Sheet& cut, const Constraints& last) : cut_(cut), all_(last.copied) {
     for (const auto& touched : cut.log().touched) touched_[touched.slot.value] = &touched.before;
-    for (const CopiedElement& element : last.copied) of_parent_[element.parent.value].push_back(&element);
   }
 
   /// That the new one is a part of; null: its parent was no copied element.
   const CopiedElement* find(const CopiedElement& part) const {
-    const auto all = of_parent_.find(part.parent.value);
-    if (all == of_parent_.end()) return nullptr;
+    const auto is_before = [](const CopiedElement& e, TriangleIndex parent) { return e.parent < parent; };
+    const auto first = std::lower_bound(all_.begin(), all_.end(), part.parent, is_before);
+    const auto last = std::find_if(first, all_.end(), [&](const CopiedElement& e) { return e.parent != part.parent; });
+    if (first == last) return nullptr;
+    const auto same = std::find_if(first, last, [&](const CopiedElement& e) { return e.triangles == part.triangles; });
+    if (same != last && !is_touched(part)) return &*same;
     const auto c = cut_.corners(part.triangles.front());
     const Point2 middle = 1.0 / 3 * (c[0] + c[1] + c[2]);
-    const auto depth = [&](const CopiedElement* element) { return depth_in(*element, middle); };
-    return *std::max_element(all->second.begin(), all->second.end(), [&](const auto* a, const auto* b) {
-      return all->second.size() > 1 && depth(a) < depth(b);
+    return &*std::max_element(first, last, [&](const CopiedElement& x, const CopiedElement& y) {
+      return last - first > 1 && depth_in(x, middle) < depth_in(y, middle);
     });
   }
 
  private:
+  bool is_touched(const CopiedElement& element) const {
+    return std::any_of(element.triangles.begin(), element.triangles.end(), [&](TriangleIndex t) {
+      return t() >= cut_.log().triangles_before || touched_.contains(t.value);
+    });
+  }
+
   /// The smallest barycentric coordinate, in the triangle that has it largest.
   double depth_in(const CopiedElement& element, Point2 p) const {
     double deepest = -1e300;
@@ -88,8 +96,8 @@ class ElementsBefore {
   }
 
   const Sheet& cut_;
+  const std::vector<CopiedElement>& all_;  // by rising parents
   std::unordered_map<std::int32_t, const Triangle*> touched_;
-  std::unordered_map<std::int32_t, std::vector<const CopiedElement*>> of_parent_;
 };
 
 }  // namespace
