@@ -14,6 +14,7 @@
 #include "experiments/advice/sheet_levels.h"
 #include "harness/cases/cut_families.h"
 #include "harness/mesh/families.h"
+#include "harness/mesh/locator.h"
 
 namespace cutbench {
 
@@ -115,6 +116,22 @@ AblatedScene position_based_scene(Scene scene) {
   return {"linear solves (xpbd)", std::move(scene)};
 }
 
+/// Of what is left of the sheet round its cuts: no pin holds it there, so its pieces are found in the whole sheet.
+LeftOut falls_of_part(const Sheet& whole, const LeftOut& falls, const Sheet& part) {
+  const Locator locator(whole);
+  LeftOut result(part.deformed_slots(), false);
+  for (std::size_t t = 0; t < part.triangle_slots(); ++t) {
+    const TriangleIndex triangle(t);
+    if (!part.triangle(triangle).alive()) continue;
+    const auto c = part.corners(triangle);
+    const Point2 inside = 1.0 / 3 * (c[0] + c[1] + c[2]);
+    const TriangleIndex there = triangle_at(whole, locator.near(whole, inside), inside);
+    if (!falls[whole.triangle(there).deformed[0]()]) continue;
+    for (const DeformedIndex d : part.triangle(triangle).deformed) result[d()] = true;
+  }
+  return result;
+}
+
 /// None where the sheet has a single triangle on a side.
 std::optional<AblatedScene> coarser_scene(const Scene& scene) {
   const std::string without = "three of four triangles";
@@ -182,7 +199,7 @@ std::vector<Ablation> ablate(const Scene& scene, CuttingMethod& method, const Cu
       rows.push_back({.without = ablated.without, .verdict = Verdict::refused, .reason = ablated.refused});
       return;
     }
-    const SceneRun made = run_to_end(ablated.scene, method, options, time);
+    SceneRun made = run_to_end(ablated.scene, method, options, time);
     if (rows.empty()) {
       if (made.motion && !at_rest(scene)) limit = made.motion->step_limits().with_bending;
       if (made.ended()) {
@@ -191,12 +208,17 @@ std::vector<Ablation> ablate(const Scene& scene, CuttingMethod& method, const Cu
       }
       time = std::min(time_limit, std::max(least_patience, patience * made.processor_s));
     }
-    rows.push_back(row_of(ablated.without, made));
-    if (!whole || !made.ended()) return;
-    const Sheet end = made.motion->posed_sheet();
     const bool is_part = ablated.scene.active_radius < scene.active_radius;
-    rows.back().deviation = is_part ? largest_deviation_of_part(*whole, end, falls, on_free_pieces(ablated.scene, end))
-                                    : largest_deviation(*whole, end, falls);
+    if (!whole || !made.ended()) {
+      rows.push_back(row_of(ablated.without, made));
+      return;
+    }
+    const Sheet end = made.motion->posed_sheet();
+    const LeftOut falls_here = is_part ? falls_of_part(*whole, falls, end) : falls;
+    if (is_part) measure(made, end, falls_here);
+    rows.push_back(row_of(ablated.without, made));
+    rows.back().deviation =
+        is_part ? largest_deviation_of_part(*whole, end, falls, falls_here) : largest_deviation(*whole, end, falls);
   };
   for (const AblatedScene& ablated : ablations_of(scene)) add(ablated);
   if (limit > 0 && solves(scene.integrator)) add(explicit_scene(scene, limit));

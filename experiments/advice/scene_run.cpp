@@ -92,6 +92,13 @@ std::vector<bool> on_free_pieces(const Scene& scene, const Sheet& end) {
   return free;
 }
 
+void measure(SceneRun& run, const Sheet& end, const std::vector<bool>& free) {
+  run.deflection = largest_deflection(end, free, false);
+  run.gape = largest_gape(end, free);
+  run.free_pieces = pieces_among(end, free);
+  if (run.free_pieces > 0) run.fall = largest_deflection(end, free, true);
+}
+
 void set_steps(Scene& scene, double steps) {
   scene.duration = end_of(scene);
   scene.step = scene.duration / std::ceil(steps);
@@ -121,11 +128,7 @@ SceneRun run_to_end(const Scene& scene, CuttingMethod& method, const CutOptions&
     if (verdict == Verdict::ok || verdict == Verdict::inverted ||
         verdict == Verdict::energy_growth) {  // others end it early
       const Sheet end = run.motion->posed_sheet();
-      const std::vector<bool> free = on_free_pieces(scene, end);
-      run.deflection = largest_deflection(end, free, false);
-      run.gape = largest_gape(end, free);
-      run.free_pieces = pieces_among(end, free);
-      if (run.free_pieces > 0) run.fall = largest_deflection(end, free, true);
+      measure(run, end, on_free_pieces(scene, end));
     }
   } catch (const InputError& error) {
     run.verdict = Verdict::refused;

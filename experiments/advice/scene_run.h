@@ -43,6 +43,9 @@ struct SceneRun {
 /// Per slot of a deformed vertex of `end`: it is of a piece that no pin of the scene holds, while there are held ones.
 std::vector<bool> on_free_pieces(const Scene& scene, const Sheet& end);
 
+/// Reads the largest distances off the end of a run, without vertices that are `free`.
+void measure(SceneRun& run, const Sheet& end, const std::vector<bool>& free);
+
 /// Runs it watched. What can't be started, or misses the sheet with a pick, has the verdict `refused`.
 /// \param time_limit  s of processor time
 SceneRun run_to_end(const Scene& scene, CuttingMethod& method, const CutOptions& options, double time_limit);
