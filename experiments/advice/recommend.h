@@ -9,8 +9,8 @@
 // best, the converged value is refined. The quantile is that of values that were not refined so; that it holds for
 // those that were is what experiments/recommend_validation tests.
 //
-// Scenes that the calibration has not seen get an answer, too, by a margin that is `guessed_margin` times as wide. It is
-// a guess: no share of scenes is known for it.
+// Scenes that the calibration has not seen get an answer, too, by a margin that is `guessed_margin` times as wide. It
+// is a guess: no share of scenes is known for it.
 #pragma once
 
 #include <filesystem>

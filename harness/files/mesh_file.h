@@ -20,8 +20,8 @@ namespace cutbench {
 /// readers, text or binary; colours, normals and texture coordinates are ignored.
 ///
 /// Rest positions are the `vt` of the OBJ or the plane it lies in, as `reading` and harness/mesh/rest_choice.h say;
-/// without `vt` see check_and_repair. `vt` that are not taken are left to read_texture(), with a note. Positions are taken
-/// as written, without a unit.
+/// without `vt` see check_and_repair. `vt` that are not taken are left to read_texture(), with a note. Positions are
+/// taken as written, without a unit.
 /// \throw InputError naming the file, the element (counted from 1; lines in an OBJ) and what to do: no such file,
 /// unknown extension, cut short or not of its format, faces that aren't triangles, and all that check_and_repair
 /// refuses.
