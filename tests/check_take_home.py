@@ -109,6 +109,60 @@ def check_numbers():
     expect("numbers are those of the file", [[[v + 1, w] for v, w in parts] for parts in plain["vertices"]] == shifted["vertices"])
 
 
+def textured(name, n, islands):
+    """A square of n x n cells with a texture, ten times as large; with `islands` the right half's is elsewhere, and turned."""
+    grid("plain.obj", n, 1.0)
+    lines = pathlib.Path("plain.obj").read_text().splitlines()
+    points = np.array([line.split()[1:3] for line in lines if line.startswith("v ")], float)
+    out, places = [line for line in lines if line.startswith("v ")], []
+    for line in (line for line in lines if line.startswith("f ")):
+        corners = [int(v) - 1 for v in line.split()[1:]]
+        here = texture_at(points[corners], points[corners].mean(axis=0), islands)
+        out.append("f " + " ".join(f"{v + 1}/{len(places) + k + 1}" for k, v in enumerate(corners)))
+        places += here.tolist()
+    pathlib.Path(name).write_text("\n".join([f"vt {u!r} {v!r}" for u, v in places] + out) + "\n")
+
+
+def texture_at(points, middle, islands):
+    if islands and middle[0] > 0.5:
+        return points @ [[0, 7], [-11, 2]] + [40, 3]
+    return points @ [[10, 1], [2, 9]] + [0.5, -1]
+
+
+def corners_of(file):
+    """Places and textures of the corners of each triangle, triangles x 3 x 2."""
+    lines = [line.split() for line in pathlib.Path(file).read_text().splitlines()]
+    points, places = (np.array([line[1:3] for line in lines if line[:1] == [key]], float) for key in ("v", "vt"))
+    numbers = np.array([[c.split("/") for c in line[1:]] for line in lines if line[:1] == ["f"]], int) - 1
+    return points[numbers[:, :, 0]], places[numbers[:, :, 1]]
+
+
+def check_texture():
+    """After ten cuts, each of the result of the one before, every corner has the texture of its place; and JSON and VTU say the same."""
+    rng = np.random.default_rng(3)
+    for method, islands in (("conventional_split", True), ("warp_and_refine", False), ("adaptive_remesh", False), ("cut_polygons", True)):
+        textured("now.obj", 8, islands)
+        for i in range(10):
+            start, end = rng.uniform(0.05, 0.95, (2, 2))
+            pathlib.Path("one.json").write_text(json.dumps({"cuts": [{"polyline": [start.tolist(), end.tolist()]}]}))
+            done = run("cut", "--mesh", "now.obj", "--path", "one.json", "--method", method, "--out", "next.obj", "--parents", "t.json")
+            expect(f"texture: {method}, cut {i}: {done.stderr}", done.returncode == 0)
+            points, found = corners_of("next.obj")
+            middles = points.mean(axis=1)
+            right = np.array([texture_at(p, m, islands) for p, m in zip(points, middles)])
+            clear = np.abs(middles[:, 0] - 0.5) > 1e-9
+            expect(f"texture: {method}, cut {i}: off by {abs(found - right)[clear].max()}", abs(found - right)[clear].max() < 1e-11)
+            told = np.array(json.loads(pathlib.Path("t.json").read_text())["texture"])
+            expect(f"texture: {method}, cut {i}: JSON says the same", (told == found).all())
+            os.replace("next.obj", "now.obj")
+        run("cut", "--mesh", "now.obj", "--path", "one.json", "--method", method, "--out", "same.vtu", "--parents", "t.json")
+        columns, told = arrays("same.vtu"), np.array(json.loads(pathlib.Path("t.json").read_text())["texture"])
+        expect(f"texture: {method}: the VTU says the same", (columns["texture_corners"].reshape(-1, 3, 2) == told).all())
+        expect(f"texture: {method}: of vertices where it has no seams", ("texture" in columns) == (not islands))
+    run(*CUT, "example", "--out", "cut.obj")
+    expect("a sheet without a texture gets none", "texture" not in pathlib.Path("cut.obj").read_text())
+
+
 def check_units():
     one, other = (run("simulate", f"{unit}.toml", "--out", f"end_{unit}.obj") for unit in ("m", "mm"))
     expect(f"a scene in mm runs: {other.stderr}", other.returncode == 0 and not other.stderr)

@@ -2,6 +2,7 @@
 // recursion.
 
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "tests/program.h"
@@ -57,6 +58,33 @@ class Recommend : public Program {
     EXPECT_NE(result.out.find("\nunknown: "), std::string::npos) << result.out;
     EXPECT_NE(report()["unknown"].get<std::string>().find(why), std::string::npos) << report()["unknown"];
     EXPECT_TRUE(report()["chosen"].is_null());
+  }
+  /// An answer that is sure of nothing, and why.
+  nlohmann::json expect_guess(const std::string& arguments, const std::string& why) {
+    SCOPED_TRACE(arguments);
+    const auto result = run(arguments);
+    EXPECT_EQ(result.code, 1) << result.error;
+    EXPECT_NE(result.out.find("a guess: " + why), std::string::npos) << result.out;
+    const auto r = report();
+    EXPECT_FALSE(r["beyond_calibration"].empty());
+    EXPECT_DOUBLE_EQ(r["margin_m"], 3 * 1.25 * r["converged"]["spread_m"].get<double>());
+    EXPECT_NE(result.out.find("\na guess: take "), std::string::npos) << result.out;
+    return r;
+  }
+  /// n x n squares as an OBJ.
+  static std::string own_sheet(int n) {
+    std::string text;
+    for (int i = 0; i < (n + 1) * (n + 1); ++i)
+      text += "v " + std::to_string(1.0 * (i % (n + 1)) / n) + " " + std::to_string(1.0 * (i / (n + 1)) / n) + " 0\n";
+    for (int i = 0; i < n * n; ++i) {
+      const int a = i / n * (n + 1) + i % n + 1, b = a + n + 1;
+      const auto face = [&](int p, int q, int r) {
+        text += "f " + std::to_string(p) + " " + std::to_string(q) + " " + std::to_string(r) + "\n";
+      };
+      face(a, a + 1, b + 1);
+      face(a, b + 1, b);
+    }
+    return text;
   }
   void expect_refused(const std::string& arguments, const std::string& what) {
     SCOPED_TRACE(arguments);
@@ -158,17 +186,84 @@ TEST_F(Recommend, UnknownSaysWhy) {
   expect_unknown(command("--max-error 1e-3"), "give a finer scene");
   expect_unknown(command("--max-error 0.1 --max-ms 1e-9"), "ms for a second");
   expect_unknown(command("--max-error 0.1 --time-limit 1e-9"), "timed_out");
+  // All that no run can help, at once.
+  write(folder_ / "scene.toml", scene("family = \"grid\"\nresolution = 16200", "xpbd"));
+  expect_unknown(command("--max-error 0.1"), "16200 triangles, and at most 12800 are run");
+  expect_unknown(command("--max-error 0.1"), "xpbd's stiffness");
+}
+
+TEST_F(Recommend, BeyondTheCalibrationItGuessesAndSaysWhy) {
   const std::string sheet = "family = \"grid\"\nresolution = ";
   write(folder_ / "scene.toml", scene(sheet + "72", "midpoint"));
-  expect_unknown(command("--max-error 0.1"), "the integrator is midpoint");
+  expect_guess(command("--max-error 0.1"), "the integrator is midpoint");
   write(folder_ / "scene.toml", scene(sheet + "242"));
-  expect_unknown(command("--max-error 0.1"), "triangles are 242, and the calibration has seen 8 to 200");
+  expect_guess(command("--max-error 0.1"), "the sheet's triangles are 242, and the calibration has seen 8 to 200");
   write(folder_ / "scene.toml", scene(sheet + "72"));
   write(folder_ / "calibration.toml", calibration("0.5", "resolutions = [8, 200]\nsteps = [1, 5]\nmost_spread = 1\n"));
-  expect_unknown(command("--max-error 0.1"), "steps are 20");
+  expect_guess(command("--max-error 0.1"), "the scene's steps are 20");
   write(folder_ / "calibration.toml",
         calibration("0.5", "resolutions = [8, 200]\nsteps = [10, 30]\nmost_spread = 1e-5\n"));
-  expect_unknown(command("--max-error 0.1"), "spread");
+  expect_guess(command("--max-error 0.1"), "the spread");
+}
+
+TEST_F(Recommend, TheCalibrationIsFoundFromAnywhere) {
+  const auto result =
+      run("recommend scene.toml --max-error 0.2 --quantity deflection --methods conventional_split "
+          "--solvers cg --report r.json");
+  EXPECT_EQ(result.code, 1) << result.error;
+  EXPECT_NE(result.out.find("a guess: the sheet's triangles are 72, and the calibration has seen 162 to 800"),
+            std::string::npos)
+      << result.out;
+}
+
+TEST_F(Recommend, ASheetOfOnesOwnIsMadeFinerAndCoarser) {
+  write(folder_ / "own.obj", own_sheet(6));
+  write(folder_ / "scene.toml", scene("file = \"own.obj\""));
+  const auto r = expect_guess(command("--max-error 0.05 --exhaustive"), "the sheet is its own");
+  std::set<int> triangles;
+  for (const auto& trial : r["trials"]) {
+    if (trial["verdict"] != "ok") continue;
+    triangles.insert(trial["resolution"].get<int>());
+    const double value = stepped_fall(trial["steps"]);
+    EXPECT_NEAR(trial["value_m"], value, trial["solver"] == "cholmod" ? 1e-6 : 0.01 * value) << trial;
+  }
+  EXPECT_TRUE(triangles.contains(72) && triangles.contains(288));
+  EXPECT_LT(*triangles.begin(), 72) << "by remeshing";
+  EXPECT_NEAR(r["converged"]["value_m"], exact_fall(), 0.05 * exact_fall());
+}
+
+TEST_F(Recommend, ExplicitStepsAreAsLongAsTheCutSheetAllows) {
+  // Through the middles of edges, so that there are no slivers, and steps are few.
+  std::string text = scene("family = \"grid\"\nresolution = 72", "symplectic_euler",
+                           "[[cuts]]\ntime = 0\npolyline = [[-0.1, 0.5], [1.1, 0.5]]\n");
+  text.replace(text.find("[physics]"), 9, "[physics]\nmass = \"lumped\"");
+  write(folder_ / "scene.toml", text);
+  const auto r = expect_guess(command("--max-error 0.05"), "the integrator is symplectic_euler");
+  ASSERT_FALSE(r["chosen"].is_null());
+  std::map<std::pair<std::string, int>, std::set<int>> steps;
+  for (const auto& trial : r["trials"]) {
+    EXPECT_TRUE(trial["verdict"] == "ok" || trial["verdict"] == "timed_out") << trial;  // it is sure to be dearer
+    steps[{trial["method"], trial["resolution"]}].insert(trial["steps"].get<int>());
+  }
+  EXPECT_GT(steps.size(), 1u);
+  const auto& chosen = r["trials"][r["chosen"].get<std::size_t>()];
+  EXPECT_NEAR(chosen["value_m"], exact_fall(), 0.05 * exact_fall());
+  for (const auto& [candidate, counts] : steps) EXPECT_EQ(counts.size(), 1u) << candidate.first;
+}
+
+/// A hole whose piece falls: what counts is the sheet that is held, and on sheets that can hold the hole.
+TEST_F(Recommend, PiecesThatFallAreLeftOutAndSheetsHoldTheCuts) {
+  write(folder_ / "scene.toml", scene("family = \"grid\"\nresolution = 72", "backward_euler",
+                                      "[[pins]]\nbox = [[-1.0, 0.99], [2.0, 2.0]]\n[[cuts]]\ntime = 0\nclosed = true\n"
+                                      "polyline = [[0.3, 0.3], [0.72, 0.31], [0.71, 0.73], [0.31, 0.72]]\n"));
+  const auto result = run(command("--max-error 0.5"));
+  const auto r = report();
+  EXPECT_NE(result.out.find("note: 1 piece that nothing holds is left out of the quantity"), std::string::npos)
+      << result.out;
+  EXPECT_NE(result.out.find("left out: the least cut is to be two edges wide"), std::string::npos) << result.out;
+  for (const auto& trial : r["trials"]) EXPECT_GE(trial["resolution"], 2 * 5 * 5) << "two edges in 0.42 m";
+  EXPECT_GT(r["converged"]["value_m"], 0);
+  EXPECT_GT(std::abs(r["converged"]["value_m"].get<double>() / exact_fall() - 1), 0.01) << "that of the piece";
 }
 
 /// Without a scene: options or lines of standard input answer, and only what decides is asked.
@@ -208,8 +303,6 @@ TEST_F(Recommend, BadInput) {
   write(folder_ / "calibration.toml", calibration());
   write(folder_ / "scene.toml", scene("family = \"grid\"\nresolution = 72", "backward_euler", ""));
   expect_refused("recommend scene.toml --max-error 0.1 --quantity gape", "no cuts");
-  write(folder_ / "scene.toml", scene("file = \"sheet.off\""));
-  expect_refused(command("--max-error 0.1"), "read from a file");
 }
 
 }  // namespace

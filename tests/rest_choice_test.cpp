@@ -73,7 +73,7 @@ TEST(RestChoice, SheetsAtRestAndDeformedOnesKeepTheirVt) {
   EXPECT_EQ(joined_notes(read(obj_of(bent))), "");
   const MeshData texture = read_obj(obj_of(large), "m");
   EXPECT_TRUE(texture.rest.empty());
-  EXPECT_TRUE(has_note(texture, "taken for a texture, and dropped: lengths in space are 7 to 9"));
+  EXPECT_TRUE(has_note(texture, "taken for a texture: lengths in space are 7 to 9"));
 }
 
 TEST(RestChoice, FilesOfOurOwnSayThatVtAreRest) {

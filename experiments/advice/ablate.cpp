@@ -11,8 +11,10 @@
 #include <vector>
 
 #include "experiments/advice/scene_run.h"
+#include "experiments/advice/sheet_levels.h"
 #include "harness/cases/cut_families.h"
 #include "harness/mesh/families.h"
+#include "harness/mesh/locator.h"
 
 namespace cutbench {
 
@@ -22,16 +24,18 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double patience = 10, least_patience = 5;  // of a run: times the whole model's processor time, and s
 constexpr double small_steps = 10;                   // of xpbd, one sweep each, for one step
 constexpr double active_share = 0.2;                 // active radius over the longer side of the sheet
-constexpr double safety = 0.9;                       // of an explicit step: the limit is that of the sheet at rest
+
+/// Per slot of a sheet's vertex: it counts in no distance.
+using LeftOut = std::vector<bool>;
 
 /// NaN where they are not the same sheet, cut alike.
-double largest_deviation(const Sheet& a, const Sheet& b) {
+double largest_deviation(const Sheet& a, const Sheet& b, const LeftOut& left_out) {
   if (a.deformed_slots() != b.deformed_slots()) return none;
   double largest = 0;
   for (std::size_t d = 0; d < a.deformed_slots(); ++d) {
     const DeformedIndex i(d);
     if (in_use(a, d) != in_use(b, d)) return none;
-    if (!in_use(a, d)) continue;
+    if (!in_use(a, d) || left_out[d]) continue;
     if (!(a.rest(a.rest_vertex(i)) == b.rest(b.rest_vertex(i)))) return none;
     largest = std::max(largest, distance(a.position(i), b.position(i)));
   }
@@ -41,10 +45,10 @@ double largest_deviation(const Sheet& a, const Sheet& b) {
 using Places = std::map<std::pair<double, double>, std::vector<Point3>>;
 
 /// By rest position: where its vertices are, those of both lips.
-Places places_of(const Sheet& sheet) {
+Places places_of(const Sheet& sheet, const LeftOut& left_out) {
   Places places;
   for (std::size_t d = 0; d < sheet.deformed_slots(); ++d) {
-    if (!in_use(sheet, d)) continue;
+    if (!in_use(sheet, d) || left_out[d]) continue;
     const Point2 rest = sheet.rest(sheet.rest_vertex(DeformedIndex(d)));
     places[{rest.x, rest.y}].push_back(sheet.position(DeformedIndex(d)));
   }
@@ -63,10 +67,11 @@ double largest_distance_to_nearest(const std::vector<Point3>& from, const std::v
 
 /// Of what is left of a sheet in the end, against the whole one cut alike: the Hausdorff distance of the vertices that
 /// have a rest position in common. NaN where the part has one that the whole has not.
-double largest_deviation_of_part(const Sheet& whole, const Sheet& part) {
-  const Places all = places_of(whole);
+double largest_deviation_of_part(const Sheet& whole, const Sheet& part, const LeftOut& of_whole,
+                                 const LeftOut& of_part) {
+  const Places all = places_of(whole, of_whole);
   double largest = 0;
-  for (const auto& [rest, here] : places_of(part)) {
+  for (const auto& [rest, here] : places_of(part, of_part)) {
     const auto there = all.find(rest);
     if (there == all.end()) return none;
     largest = std::max(
@@ -94,11 +99,13 @@ Ablation row_of(const std::string& without, const SceneRun& run) {
           .deflection = run.deflection,
           .gape = run.gape,
           .ms_per_second = run.ms_per_second,
-          .steps = run.steps};
+          .steps = run.steps,
+          .free_pieces = run.free_pieces,
+          .fall = run.fall};
 }
 
 AblatedScene explicit_scene(Scene scene, double limit) {
-  set_steps(scene, std::max(steps_of(scene), end_of(scene) / (safety * limit)));
+  set_steps(scene, std::max(steps_of(scene), end_of(scene) / (explicit_safety * limit)));
   scene.integrator = Integrator::symplectic_euler;
   return {"implicit steps", std::move(scene)};
 }
@@ -107,6 +114,42 @@ AblatedScene position_based_scene(Scene scene) {
   set_steps(scene, small_steps * steps_of(scene));
   scene.integrator = Integrator::xpbd;
   return {"linear solves (xpbd)", std::move(scene)};
+}
+
+/// Of what is left of the sheet round its cuts: no pin holds it there, so its pieces are found in the whole sheet.
+LeftOut falls_of_part(const Sheet& whole, const LeftOut& falls, const Sheet& part) {
+  const Locator locator(whole);
+  LeftOut result(part.deformed_slots(), false);
+  for (std::size_t t = 0; t < part.triangle_slots(); ++t) {
+    const TriangleIndex triangle(t);
+    if (!part.triangle(triangle).alive()) continue;
+    const auto c = part.corners(triangle);
+    const Point2 inside = 1.0 / 3 * (c[0] + c[1] + c[2]);
+    const TriangleIndex there = triangle_at(whole, locator.near(whole, inside), inside);
+    if (!falls[whole.triangle(there).deformed[0]()]) continue;
+    for (const DeformedIndex d : part.triangle(triangle).deformed) result[d()] = true;
+  }
+  return result;
+}
+
+/// None where the sheet has a single triangle on a side.
+std::optional<AblatedScene> coarser_scene(const Scene& scene) {
+  const std::string without = "three of four triangles";
+  if (!scene.mesh) {
+    const int side = squares_per_side(scene.resolution) / 2;
+    if (side == 0) return {};
+    AblatedScene coarser{without, scene};
+    coarser.scene.resolution = 2 * side * side;
+    return coarser;
+  }
+  SheetLevels levels(scene);
+  const auto triangles = levels.triangles(0.5);
+  AblatedScene coarser{without, scene};
+  if (triangles)
+    levels.apply(coarser.scene, *triangles);
+  else
+    coarser.refused = levels.missing();
+  return coarser;
 }
 
 double percent(double value, double whole) { return 100 * (value - whole) / whole; }
@@ -142,27 +185,40 @@ std::vector<AblatedScene> ablations_of(const Scene& scene) {
   if (in_motion && !sweeps(scene.integrator) && scene.physics.mass == Mass::lumped)
     all.push_back(position_based_scene(scene));
   if (in_motion) add("every second step", [](Scene& s) { set_steps(s, steps_of(s) / 2); });
-  if (const int side = scene.family.empty() ? 0 : squares_per_side(scene.resolution) / 2; side > 0)
-    add("three of four triangles", [&](Scene& s) { s.resolution = 2 * side * side; });
+  if (const auto coarser = coarser_scene(scene)) all.push_back(*coarser);
   return all;
 }
 
 std::vector<Ablation> ablate(const Scene& scene, CuttingMethod& method, const CutOptions& options, double time_limit) {
   std::vector<Ablation> rows;
   std::optional<Sheet> whole;
+  LeftOut falls;
   double limit = none, time = time_limit;
   const auto add = [&](const AblatedScene& ablated) {
-    const SceneRun made = run_to_end(ablated.scene, method, options, time);
+    if (!ablated.refused.empty()) {
+      rows.push_back({.without = ablated.without, .verdict = Verdict::refused, .reason = ablated.refused});
+      return;
+    }
+    SceneRun made = run_to_end(ablated.scene, method, options, time);
     if (rows.empty()) {
       if (made.motion && !at_rest(scene)) limit = made.motion->step_limits().with_bending;
-      if (made.ended()) whole = made.motion->posed_sheet();
+      if (made.ended()) {
+        whole = made.motion->posed_sheet();
+        falls = on_free_pieces(scene, *whole);
+      }
       time = std::min(time_limit, std::max(least_patience, patience * made.processor_s));
     }
-    rows.push_back(row_of(ablated.without, made));
-    if (!whole || !made.ended()) return;
     const bool is_part = ablated.scene.active_radius < scene.active_radius;
+    if (!whole || !made.ended()) {
+      rows.push_back(row_of(ablated.without, made));
+      return;
+    }
+    const Sheet end = made.motion->posed_sheet();
+    const LeftOut falls_here = is_part ? falls_of_part(*whole, falls, end) : falls;
+    if (is_part) measure(made, end, falls_here);
+    rows.push_back(row_of(ablated.without, made));
     rows.back().deviation =
-        (is_part ? largest_deviation_of_part : largest_deviation)(*whole, made.motion->posed_sheet());
+        is_part ? largest_deviation_of_part(*whole, end, falls, falls_here) : largest_deviation(*whole, end, falls);
   };
   for (const AblatedScene& ablated : ablations_of(scene)) add(ablated);
   if (limit > 0 && solves(scene.integrator)) add(explicit_scene(scene, limit));
@@ -195,6 +251,9 @@ void print_ablations(const std::vector<Ablation>& rows) {
     number(9, 100 * (1 - row.ms_per_second / whole.ms_per_second));
     std::printf("\n");
   }
+  if (whole.free_pieces > 0)
+    std::printf("left out of moved, gape and dev.: %d %s that nothing holds; at most %.3g m from rest\n",
+                whole.free_pieces, whole.free_pieces == 1 ? "piece" : "pieces", whole.fall);
 }
 
 nlohmann::ordered_json json_of(const std::vector<Ablation>& rows) {
@@ -208,7 +267,9 @@ nlohmann::ordered_json json_of(const std::vector<Ablation>& rows) {
                      {"gape_m", number(row.gape)},
                      {"deviation_m", number(row.deviation)},
                      {"ms_per_s", number(row.ms_per_second)},
-                     {"steps", row.steps}});
+                     {"steps", row.steps},
+                     {"free_pieces", row.free_pieces},
+                     {"fall_m", number(row.fall)}});
   return array;
 }
 

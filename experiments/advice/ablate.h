@@ -15,6 +15,7 @@ namespace cutbench {
 struct AblatedScene {
   std::string without;  ///< what is left out: a row's name
   Scene scene;
+  std::string refused = {};  ///< why there is no such scene
 };
 
 /// The scene, and then the scene without one part at a time, of the parts that it has:
@@ -28,7 +29,7 @@ struct AblatedScene {
 /// - the motion far from the cuts, where all cuts are known from the start (Scene::active_radius)
 /// - linear solves: xpbd instead
 /// - every second step
-/// - three of four triangles, unless the sheet is read from a file
+/// - three of four triangles (sheet_levels.h)
 /// Of a scene in equilibrium Newton's iterations, the motion far from the cuts, linear solves and steps stay.
 std::vector<AblatedScene> ablations_of(const Scene& scene);
 
@@ -43,6 +44,8 @@ struct Ablation {
   double deviation = std::numeric_limits<double>::quiet_NaN();   ///< from the whole model; NaN on another sheet, too
   double ms_per_second = 0;  ///< of computing, for a simulated second; in equilibrium: of the solve
   int steps = 0;
+  int free_pieces = 0;                                     ///< that fall: they count in none of the above
+  double fall = std::numeric_limits<double>::quiet_NaN();  ///< m, of these
 };
 
 /// Runs them one after the other, the whole model first. What can't be started has the verdict `refused`. A run that

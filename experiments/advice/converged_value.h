@@ -10,6 +10,9 @@
 
 namespace cutbench {
 
+/// Of sheets that runs are made with, beside the scene's own.
+constexpr int most_triangles = 12800;
+
 /// Extrapolated from a run, one of edges twice as long, and one of steps twice as long.
 struct Converged {
   std::vector<SceneTrial> runs;
@@ -21,11 +24,13 @@ struct Converged {
   std::string missing;                                       ///< why there is no value
 };
 
-/// \pre The sheet is not read from a file: that has no other resolutions.
 class ConvergedValue {
  public:
-  /// From runs of half the scene's edges and steps. \param time_limit  of a run, s of processor time
-  ConvergedValue(const Scene& scene, std::string method, const SceneTrials& runs, double time_limit);
+  /// From runs of half the scene's edges and steps; of the scene's own edges where half of them take over
+  /// `most_triangles`. Explicit steps are half as long as the cut sheet allows. \param time_limit  of a run, s of
+  /// processor time
+  ConvergedValue(const Scene& scene, std::string method, SheetLevels& sheets, const SceneTrials& runs,
+                 double time_limit);
 
   const Converged& get() const { return result_; }
 
@@ -34,16 +39,21 @@ class ConvergedValue {
   bool refine(double most_work);
 
  private:
-  Choice choice_of(int side, int steps) const;
-  double value_of(int side, int steps);
-  bool extrapolate(int side, int steps);
+  Choice choice_of(double fineness, int steps) const;
+  double value_of(double fineness, int steps);
+  bool extrapolate(double fineness, int steps);
+  bool has_sheets(double fineness);
+  int stable_steps(double fineness);
 
   const Scene& scene_;
   std::string method_;
+  SheetLevels& sheets_;
   SceneTrials trials_;
   double time_limit_;
   bool at_rest_;
-  int side_, steps_;    // squares a side, and steps, of the finest run
+  double fineness_;     // of the finest run: the scene's edges over its own
+  int steps_;           // of the finest run
+  double own_steps_;    // that a run of the scene's own triangles needs
   std::string failed_;  // why a run has no value
   Converged result_;
 };

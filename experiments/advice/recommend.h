@@ -8,6 +8,9 @@
 // harm. Candidates whose interval holds the error asked for are undecided. While one of them is much cheaper than the
 // best, the converged value is refined. The quantile is that of values that were not refined so; that it holds for
 // those that were is what experiments/recommend_validation tests.
+//
+// Scenes that the calibration has not seen get an answer, too, by a margin that is `guessed_margin` times as wide. It
+// is a guess: no share of scenes is known for it.
 #pragma once
 
 #include <filesystem>
@@ -33,7 +36,10 @@ struct Calibration {
   double most_spread = 0;  ///< over the value
 };
 
-/// Throws InputError.
+constexpr double guessed_margin = 3;  ///< over the calibrated one
+
+/// \param file  empty: the one that the program was built with
+/// \throw InputError
 Calibration read_calibration(const std::filesystem::path& file);
 
 struct RecommendOptions {
@@ -54,11 +60,13 @@ struct Recommendation {
   /// In the order in which they were run; by the next solvers only where the first may be good enough.
   std::vector<SceneTrial> trials = {};
   std::optional<std::size_t> chosen = {};
-  std::string unknown = {};  ///< why none is chosen
+  std::string unknown = {};  ///< why none is chosen: all reasons, where nothing was run
+  /// How the scene is not like those of the calibration. Not empty: all is a guess.
+  std::vector<std::string> beyond = {};
+  std::vector<std::string> notes = {};  ///< what candidates there are not, and what does not count
 };
 
 /// Refined until the spread is a fifth of the error asked for, or the triangles x steps are 64 times the scene's.
-/// \pre The sheet is not read from a file: that has no other resolutions.
 Converged converge(const Scene& scene, const RecommendOptions& options);
 Recommendation recommend(const Scene& scene, const RecommendOptions& options, const Calibration& calibration);
 

@@ -56,8 +56,12 @@ void print_recommendation(const Recommendation& result, const RecommendOptions& 
                           const Calibration& calibration) {
   if (!result.converged.runs.empty()) print_converged(result.converged, options.quantity);
   if (std::isfinite(result.margin))
-    std::printf("known to %.2g m in %g %% of scenes like those of %s%s\n", result.margin, 100 * calibration.level,
-                calibration.file.c_str(), result.refined_to_decide ? "; refined further than those" : "");
+    std::printf(result.beyond.empty() ? "known to %.2g m in %g %% of scenes like those of %s%s\n"
+                                      : "known to %.2g m by a guess: %g %% was measured on other scenes, %s%s\n",
+                result.margin, 100 * calibration.level, calibration.file.c_str(),
+                result.refined_to_decide ? "; refined further than those" : "");
+  for (const std::string& reason : result.beyond) std::printf("a guess: %s\n", reason.c_str());
+  for (const std::string& note : result.notes) std::printf("note: %s\n", note.c_str());
   std::vector<SceneTrial> good;
   for (const SceneTrial& trial : result.trials)
     if (trial.verdict == Verdict::ok && trial.high <= options.max_error) good.push_back(trial);
@@ -74,9 +78,10 @@ void print_recommendation(const Recommendation& result, const RecommendOptions& 
     return;
   }
   const SceneTrial& best = result.trials[*result.chosen];
-  std::printf("\ntake %s, solver %s, %d triangles, %d steps: error %.2g %% (%.2g to %.2g), %.3g ms for a second\n",
-              best.choice.method.c_str(), best.choice.solver.c_str(), best.choice.resolution, best.choice.steps,
-              100 * best.error, 100 * best.low, 100 * best.high, best.ms_per_second);
+  std::printf("\n%stake %s, solver %s, %d triangles, %d steps: error %.2g %% (%.2g to %.2g), %.3g ms for a second\n",
+              result.beyond.empty() ? "" : "a guess: ", best.choice.method.c_str(), best.choice.solver.c_str(),
+              best.choice.resolution, best.choice.steps, 100 * best.error, 100 * best.low, 100 * best.high,
+              best.ms_per_second);
 }
 
 nlohmann::ordered_json json_of(const Converged& converged) {
@@ -94,6 +99,8 @@ nlohmann::ordered_json json_of(const Recommendation& result) {
           {"refined_to_decide", result.refined_to_decide},
           {"chosen", result.chosen ? nlohmann::ordered_json(*result.chosen) : nullptr},
           {"unknown", result.unknown},
+          {"beyond_calibration", result.beyond},
+          {"notes", result.notes},
           {"trials", json_of(result.trials)}};
 }
 

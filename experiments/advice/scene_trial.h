@@ -3,8 +3,10 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "experiments/advice/sheet_levels.h"
 #include "harness/cut/cut.h"
 #include "harness/simulation/scene.h"
 
@@ -31,21 +33,28 @@ struct SceneTrial {
   double ms_per_second = std::numeric_limits<double>::quiet_NaN();
   int timings = 0;
   double time_limit = 0;  ///< of the run for its value, s of processor time
+  int free_pieces = 0;    ///< that fall, and don't count in the value
 };
 
-/// Runs a scene as chosen. The scene must outlive it.
+/// Runs a scene as chosen. The scene and its sheets must outlive it.
 class SceneTrials {
  public:
-  SceneTrials(const Scene& scene, Quantity quantity, const CutOptions& cut)
-      : scene_(scene), quantity_(quantity), cut_(cut) {}
+  SceneTrials(const Scene& scene, const SheetLevels& sheets, Quantity quantity, const CutOptions& cut)
+      : scene_(scene), sheets_(sheets), quantity_(quantity), cut_(cut) {}
 
   /// Whole, for its value. \param time_limit  s of processor time
   SceneTrial run(const Choice& choice, double tolerance, double time_limit) const;
   /// Once more, for its time. \pre its verdict is `ok`
   void time(SceneTrial& trial) const;
+  /// Of explicit steps: the least number that is stable once all cuts are made, with a little to spare; none where the
+  /// method has no such step, or refuses a cut.
+  std::optional<int> stable_steps(const std::string& method, int triangles) const;
 
  private:
+  Scene scene_of(const Choice& choice) const;
+
   const Scene& scene_;
+  const SheetLevels& sheets_;
   Quantity quantity_;
   CutOptions cut_;
 };

@@ -12,6 +12,7 @@
 #include "harness/mesh/check_and_repair.h"
 #include "harness/mesh/parents.h"
 #include "harness/mesh/row_numbers.h"
+#include "harness/mesh/texture.h"
 #include "harness/records/report_json.h"
 #include "methods/registry.h"
 
@@ -50,7 +51,12 @@ std::shared_ptr<HeldCut> cut(const SheetPointer& before, const std::vector<AnyCu
   if (made->run.status == Status::failed)
     throw CutNotMade("failed (" + std::string(name_of(made->run.verdict)) + "): " + made->run.reason, made->run.status,
                      made->run.verdict);
-  made->after = std::make_shared<HeldSheet>(std::move(sheet), before->uncut);
+  Texture texture;
+  if (!before->texture.empty())
+    texture = carried_over(before->texture, *before->sheet, sheet, parents_of(*before->sheet, sheet));
+  const auto after = std::make_shared<HeldSheet>(std::move(sheet), before->uncut);
+  after->texture = std::move(texture);
+  made->after = after;
   return made;
 }
 

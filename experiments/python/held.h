@@ -12,6 +12,7 @@
 #include "harness/judge/assessment.h"
 #include "harness/mesh/mesh_data.h"
 #include "harness/mesh/sheet.h"
+#include "harness/mesh/texture.h"
 #include "harness/path/curve.h"
 #include "harness/path/pick.h"
 
@@ -26,6 +27,7 @@ struct HeldSheet {
   std::shared_ptr<const Sheet> sheet;
   std::shared_ptr<const Sheet> uncut;  ///< before its first cut: what a ConstraintSource counts from
   MeshData mesh;                       ///< of `sheet`, without free slots: a row each
+  Texture texture = {};                ///< of `mesh`
 };
 using SheetPointer = std::shared_ptr<const HeldSheet>;
 

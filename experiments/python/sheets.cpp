@@ -11,6 +11,7 @@
 #include "harness/cases/cut_families.h"
 #include "harness/files/mesh_file.h"
 #include "harness/files/path_file.h"
+#include "harness/files/texture_file.h"
 #include "harness/mesh/check_and_repair.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/mesh_text.h"
@@ -104,6 +105,15 @@ MeshData family_of(const std::string& family, std::int64_t triangles, double siz
   return mesh;
 }
 
+/// \param corners  triangles x 6, in the order of the sheet's own triangles
+void take_texture(HeldSheet& sheet, const Array<double>& corners) {
+  sheet.texture = rows_of<std::array<Point2, 3>>(corners);
+}
+
+void write_sheet(const HeldSheet& sheet, const std::filesystem::path& file) {
+  textured_file(sheet.mesh, sheet.texture, file).place();
+}
+
 Curve::Kind kind_of(bool bezier) { return bezier ? Curve::Kind::bezier : Curve::Kind::polyline; }
 
 PickedCurve picked_of(bool bezier, const Array<double>& origins, const std::optional<Array<double>>& directions,
@@ -130,10 +140,14 @@ void bind_sheets(py::module_& m) {
                                return view_of<std::int32_t>(self.cast<const HeldSheet&>().mesh.triangles, self);
                              })
       .def_property_readonly("sewn", [](const HeldSheet& s) { return array_of<std::int32_t>(s.mesh.sewn); })
+      .def_property_readonly(
+          "texture",
+          [](const py::object& self) { return view_of<double>(self.cast<const HeldSheet&>().texture, self); })
+      .def("take_texture", &take_texture)
       .def_property_readonly("notes", [](const HeldSheet& s) { return s.mesh.notes; })
       .def_property_readonly("mean_edge", [](const HeldSheet& s) { return s.sheet->mean_edge(); })
       .def_property_readonly("pieces", [](const HeldSheet& s) { return array_of<std::int32_t>(pieces_of(s.mesh)); })
-      .def("write", [](const HeldSheet& s, const std::filesystem::path& file) { write_mesh(s.mesh, file); })
+      .def("write", [](const HeldSheet& s, const std::filesystem::path& file) { write_sheet(s, file); })
       .def("random_cut", [](const HeldSheet& s, const std::string& family, std::uint64_t seed, std::size_t i) {
         return make_case(family, seed, i, *s.sheet);
       });
@@ -143,7 +157,10 @@ void bind_sheets(py::module_& m) {
                          const std::optional<double>& sew) {
     const std::optional<RestFrom> from = value_named(rest_names, rest);
     if (!from) throw InputError("rest: \"" + rest + "\" is not known; known are auto, vt, plane, space");
-    return std::make_shared<HeldSheet>(read_mesh(file, {*from, triangulate, sew}));
+    const MeshReading reading{*from, triangulate, sew};
+    const auto sheet = std::make_shared<HeldSheet>(read_mesh(file, reading));
+    sheet->texture = read_texture(file, reading, sheet->mesh);
+    return sheet;
   });
   m.def("family_sheet", [](const std::string& family, std::int64_t triangles, double size) {
     return std::make_shared<HeldSheet>(family_of(family, triangles, size));

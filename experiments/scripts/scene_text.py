@@ -18,8 +18,8 @@ def curve(draw):
 
 
 def scene_text(path, values, cuts=None):
-    """The scene of a file with values in place of its own, by "section.key" ("key" before the first section). cuts: a
-    time and a curve each, in place of its own; None: its own."""
+    """The scene of a file with values in place of its own, by "section.key" ("key" before the first section); a
+    value None leaves the key out. cuts: a time and a curve each, in place of its own; None: its own."""
     text = path.read_text(encoding="utf-8")
     own, _, rest = text.partition("[[cuts]]")
     lines, section = [], ""
@@ -28,7 +28,10 @@ def scene_text(path, values, cuts=None):
             section = line[1:].split("]")[0] + "."
         key = line.split("=")[0].strip()
         name = section + key
-        lines.append(f"{key} = {values[name]}" if name in values else line)
+        if name not in values:
+            lines.append(line)
+        elif values[name] is not None:
+            lines.append(f"{key} = {values[name]}")
     if cuts is None:
         return "\n".join(lines) + ("\n[[cuts]]" + rest if rest else "\n")
     for time, points in cuts:

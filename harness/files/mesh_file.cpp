@@ -6,6 +6,7 @@
 #include <string>
 
 #include "harness/mesh/sew.h"
+#include "harness/mesh/texture.h"
 
 namespace cutbench {
 
@@ -58,7 +59,9 @@ MeshData read_mesh(const std::filesystem::path& path, const MeshReading& reading
 }
 
 bool leaves_vt(const std::filesystem::path& path, const MeshReading& reading) {
-  if (lower_case_extension(path) != ".obj" || !read_unchecked(path, true, reading).rest.empty()) return false;
+  if (lower_case_extension(path) != ".obj") return false;
+  if (text_of(path).starts_with(vt_are_texture)) return true;
+  if (!read_unchecked(path, true, reading).rest.empty()) return false;
   return !read_unchecked(path, true, {RestFrom::vt, reading.triangulate}).rest.empty();
 }
 

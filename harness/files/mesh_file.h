@@ -20,14 +20,14 @@ namespace cutbench {
 /// readers, text or binary; colours, normals and texture coordinates are ignored.
 ///
 /// Rest positions are the `vt` of the OBJ or the plane it lies in, as `reading` and harness/mesh/rest_choice.h say;
-/// without `vt` see check_and_repair. `vt` that are not taken are dropped, with a note. Positions are taken as written,
-/// without a unit.
+/// without `vt` see check_and_repair. `vt` that are not taken are left to read_texture(), with a note. Positions are
+/// taken as written, without a unit.
 /// \throw InputError naming the file, the element (counted from 1; lines in an OBJ) and what to do: no such file,
 /// unknown extension, cut short or not of its format, faces that aren't triangles, and all that check_and_repair
 /// refuses.
 MeshData read_mesh(const std::filesystem::path& path, const MeshReading& reading = {});
 
-/// An OBJ whose `vt` are not taken as rest positions.
+/// An OBJ whose `vt` are not its rest positions.
 bool leaves_vt(const std::filesystem::path& path, const MeshReading& reading);
 
 /// Reads a mesh that somebody is to judge: nothing is repaired, refused or merged that a list of triangles can hold, so

@@ -33,6 +33,14 @@ ordered_json lip_edge(const Sheet& cut, const RowNumbers& number, HalfEdge h, bo
   return {number.triangle[triangle_of(h)()], from, to};
 }
 
+/// Its key with the comma before it, or nothing.
+std::string texture_json(const Texture& texture) {
+  if (texture.empty()) return "";
+  ordered_json triangles = ordered_json::array();
+  for (const auto& [a, b, c] : texture) triangles.push_back({{a.x, a.y}, {b.x, b.y}, {c.x, c.y}});
+  return ",\n\"texture\": " + triangles.dump();
+}
+
 /// Up to three vertices with their weights for each of `count`.
 class PartColumns {
  public:
@@ -85,7 +93,8 @@ std::string details_json(const CutDetails& details) {
 
   return "{\"vertices\": " + vertices.dump() + ",\n\"triangles\": " + triangles.dump() +
          ",\n\"incision\": " + incision.dump() + ",\n\"polygons\": " + polygons.dump() +
-         ",\n\"copies\": " + copies.dump() + ",\n\"constraints\": " + constraints.dump() + "}\n";
+         ",\n\"copies\": " + copies.dump() + ",\n\"constraints\": " + constraints.dump() +
+         texture_json(details.texture) + "}\n";
 }
 
 std::vector<MeshColumn> details_columns(const CutDetails& details) {

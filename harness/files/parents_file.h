@@ -11,6 +11,8 @@
 //   "copies"       per unknown that is no vertex, the old vertex that it is a copy of; number i counts as a vertex
 //                  of number i + how many vertices the result has
 //   "constraints"  [vertex, [[master, weight], ...]] of each vertex that is no unknown, but goes along with others
+//   "texture"      per triangle of the result [[u, v], [u, v], [u, v]] at its corners, where the file had a texture
+//                  (mesh/texture.h)
 //
 // A VTU has for each vertex parents and parent_weights (three each; -1 and 0 where there are fewer), and where there are
 // constraints masters and master_weights in the same way, with the copies as field data; for each triangle parent, and lips: for its edge from corner k
@@ -24,6 +26,7 @@
 #include "harness/mesh/constraints.h"
 #include "harness/mesh/mesh_text.h"
 #include "harness/mesh/parents.h"
+#include "harness/mesh/texture.h"
 #include "harness/path/incisions.h"
 
 namespace cutbench {
@@ -35,6 +38,7 @@ struct CutDetails {
   Parents parents;
   std::vector<IncisionEdge> incision;
   Constraints constraints;
+  Texture texture = {};  ///< per triangle of cut.to_mesh_data()
 };
 
 std::string details_json(const CutDetails& details);

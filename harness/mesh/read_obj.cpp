@@ -8,6 +8,7 @@
 #include "harness/base/conversions.h"
 #include "harness/base/number_from_chars.h"
 #include "harness/mesh/mesh_text.h"
+#include "harness/mesh/texture.h"
 #include "harness/mesh/triangulate.h"
 
 namespace cutbench {
@@ -33,7 +34,8 @@ class ObjReader {
       throw InputError(name_ + ": not a text file, so not an OBJ; check the extension");
     if (constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF"; text.starts_with(byte_order_mark))
       text.remove_prefix(byte_order_mark.size());
-    if (text.starts_with(vt_are_rest) && reading_.rest == RestFrom::automatic) vt_said_ = true;
+    comments_tell_ = text.starts_with(vt_are_texture);
+    if ((comments_tell_ || text.starts_with(vt_are_rest)) && reading_.rest == RestFrom::automatic) rest_said_ = true;
     std::string line;
     while (!text.empty()) {
       take_line(text, line);
@@ -42,10 +44,29 @@ class ObjReader {
     return build();
   }
 
+  /// After read(). \param read  of the same file, repaired
+  Texture texture(const MeshData& read) const {
+    Texture result;
+    for (std::size_t t = 0; t < faces_.size() && t < read.triangles.size(); ++t) {
+      auto& corners = result.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Corner& corner = faces_[t].corners[k];
+        if (!exists(corner.v, positions_.size()) || !exists(corner.vt, textures_.size())) return {};
+        corners[k] = textures_[to_size(corner.vt - 1)];
+        if (!std::isfinite(corners[k].x) || !std::isfinite(corners[k].y)) return {};
+      }
+      if (is_turned(faces_[t], read, read.triangles[t])) std::swap(corners[1], corners[2]);
+    }
+    return result;
+  }
+
+  /// Are rest positions the `vt` of the file, as `rest` came from it?
+  bool took_vt(const MeshData& read) const { return !comments_tell_ && !read.rest.empty(); }
+
  private:
-  /// One corner of a face: numbers counted from 1, 0 for a `vt` that is not given; as is, `none` for nonsense.
+  /// One corner of a face: numbers counted from 1, 0 for one that is not given; as is, `none` for nonsense.
   struct Corner {
-    std::int64_t v = 0, vt = 0;
+    std::int64_t v = 0, vt = 0, vr = 0;
   };
   static constexpr std::int64_t none = -1;
   struct Face {
@@ -65,6 +86,7 @@ class ObjReader {
       std::string_view part = text.substr(0, end);
       text.remove_prefix(std::min(end + 1, text.size()));
       if (part.ends_with('\r')) part.remove_suffix(1);
+      if (comments_tell_ && (part.starts_with("#vr ") || part.starts_with("#fr "))) part.remove_prefix(1);
       part = part.substr(0, part.find('#'));
       goes_on = part.ends_with('\\');
       if (goes_on) part.remove_suffix(1);
@@ -82,6 +104,19 @@ class ObjReader {
       textures_.push_back({u, v});
     } else if (keyword == "f") {
       read_face(line);
+    } else if (comments_tell_ && keyword == "vr") {
+      const double x = number(line), y = number(line);
+      rest_.push_back({x, y});
+    } else if (comments_tell_ && keyword == "fr") {
+      read_rest_of_face(line);
+    }
+  }
+
+  void read_rest_of_face(std::string_view line) {
+    if (faces_.empty()) fail(line_, "#fr before the first face");
+    for (Corner& corner : faces_.back().corners) {
+      const std::string_view token = next_token(line);
+      corner.vr = index(token, rest_.size(), token);
     }
   }
 
@@ -176,8 +211,9 @@ class ObjReader {
     for (Face& face : faces_)
       for (Corner& c : face.corners) {
         if (textures_.empty() && !as_is_) c.vt = 0;  // some programs write numbers of vt and no vt
-        any_vt = any_vt || c.vt != 0;
-        if (!as_is_ && (c.v > std::ssize(positions_) || c.vt > std::ssize(textures_))) fail_missing(face.line);
+        any_vt = any_vt || place_of(c) != 0;
+        if (!as_is_ && (c.v > std::ssize(positions_) || c.vt > std::ssize(textures_) || c.vr > std::ssize(rest_)))
+          fail_missing(face.line);
       }
     if (!any_vt && reading_.rest == RestFrom::vt && !as_is_)
       throw InputError(name_ + ": no vt, so they can't be the rest positions; leave --rest vt out");
@@ -195,6 +231,17 @@ class ObjReader {
     }
   }
 
+  /// Of a corner's rest position among places(): its `vt`, or what the comments say.
+  std::int64_t place_of(const Corner& corner) const { return comments_tell_ ? corner.vr : corner.vt; }
+  const std::vector<Point2>& places() const { return comments_tell_ ? rest_ : textures_; }
+
+  /// Reading takes corner 1 and 2 of a triangle in the other order where it turns it round.
+  bool is_turned(const Face& face, const MeshData& read, const std::array<std::int32_t, 3>& triangle) const {
+    const Point3 second = read.deformed[to_size(triangle[1])];
+    const auto off = [&](std::size_t k) { return length(second + -1.0 * positions_[to_size(face.corners[k].v - 1)]); };
+    return off(2) < off(1);
+  }
+
   /// The first `vt` a `v` is used with keeps the number of the `v`; others, compared by value because some programs
   /// write one `vt` per corner, get numbers after the last `v`.
   /// False, and no more than a note, where the `vt` are not to be taken.
@@ -208,9 +255,9 @@ class ObjReader {
     std::map<std::tuple<std::size_t, double, double>, std::int32_t> copies;
     auto vertex_of = [&](const Corner& corner) {
       if (!exists(corner.v, positions_.size())) return to_int32(corner.v - 1);
-      if (!exists(corner.vt, textures_.size())) return to_int32(none);
+      if (!exists(place_of(corner), places().size())) return to_int32(none);
       const auto v = to_size(corner.v - 1);
-      const Point2 rest = textures_[to_size(corner.vt - 1)];
+      const Point2 rest = places()[to_size(place_of(corner) - 1)];
       const bool broken = !std::isfinite(rest.x) || !std::isfinite(rest.y);  // equal to nothing: marks the whole vertex
       if (!has_rest[v] || broken) {
         mesh.rest[v] = rest;
@@ -230,12 +277,12 @@ class ObjReader {
     for (const Face& face : faces_) {
       auto& triangle = mesh.triangles.emplace_back();
       for (std::size_t k = 0; k < 3; ++k) {
-        if (face.corners[k].vt == 0)
+        if (place_of(face.corners[k]) == 0)
           fail(face.line, "a corner without vt in a mesh with vt; give every corner a vt, or none, or --rest plane");
         triangle[k] = vertex_of(face.corners[k]);
       }
     }
-    const bool said = vt_said_ || reading_.rest == RestFrom::vt;
+    const bool said = rest_said_ || reading_.rest == RestFrom::vt;
     const RestDecision decision = said ? RestDecision{true, ""} : decide_rest(mesh);
     if (!decision.note.empty()) result.notes.push_back(name_ + ": " + decision.note);
     if (!decision.vt) return false;
@@ -260,10 +307,11 @@ class ObjReader {
   const std::string& name_;
   bool as_is_;
   MeshReading reading_;
-  bool vt_said_ = false;  ///< the file itself says that they are the rest positions
-  std::size_t line_ = 0;  ///< of the line being read, from 1; where it was continued, its last
+  bool comments_tell_ = false;  ///< the rest positions, by vt_are_texture
+  bool rest_said_ = false;      ///< the file itself says which they are
+  std::size_t line_ = 0;        ///< of the line being read, from 1; where it was continued, its last
   std::vector<Point3> positions_;
-  std::vector<Point2> textures_;
+  std::vector<Point2> textures_, rest_;  ///< `vt` and `#vr`
   std::vector<Face> faces_;
   std::vector<Polygon> polygons_;
 };
@@ -272,6 +320,13 @@ class ObjReader {
 
 MeshData read_obj(std::string_view text, const std::string& name, bool as_is, const MeshReading& reading) {
   return ObjReader(name, as_is, reading).read(text);
+}
+
+Texture read_obj_texture(std::string_view text, const std::string& name, const MeshReading& reading,
+                         const MeshData& read) {
+  ObjReader reader(name, false, reading);
+  if (reader.took_vt(reader.read(text))) return {};
+  return reader.texture(read);
 }
 
 }  // namespace cutbench

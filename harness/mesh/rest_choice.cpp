@@ -147,7 +147,7 @@ RestDecision decide_rest(const MeshData& mesh) {
   if (!plane.flat()) {
     if (moderate) return {true, ""};
     const std::string why = s.measured ? lengths : "some triangles have no area in the vt";
-    return {false, "the vt are taken for a texture, and dropped: " + why + "; --rest vt takes the vt"};
+    return {false, "the vt are taken for a texture: " + why + "; --rest vt takes the vt"};
   }
   const bool isometric = s.isometric();
   if (isometric && agrees(mesh, plane)) return {true, ""};
@@ -158,7 +158,7 @@ RestDecision decide_rest(const MeshData& mesh) {
     return {true, "rest positions are the vt, as of a sheet that is stretched in its plane: " + lengths +
                       "; if they are a texture, give --rest plane"};
   const std::string why = s.measured ? lengths : "some triangles have no area in the vt, but the mesh is flat";
-  return {false, "the vt are taken for a texture, and dropped: " + why + "; rest positions are " + plane.text() +
+  return {false, "the vt are taken for a texture: " + why + "; rest positions are " + plane.text() +
                      "; --rest vt takes the vt"};
 }
 

@@ -85,6 +85,22 @@ def over_base(table, column, difference=False):
     return found.where(np.isfinite(found))
 
 
+def fair_values(here, base, column, key, few):
+    """The values of a method's cuts. One that made `few` gets those of BASE's cuts, times the median of its ratios to them on the
+    cuts that both made: easy cuts alone would flatter it. \\param here, base  each cut once; key  columns that name a cut"""
+    own = here[column].dropna()
+    if not few or base.empty:
+        return own
+    pairs = here[[*key, column]].merge(base[[*key, column]], on=key, suffixes=("", "_base"))
+    return base[column].dropna() * (pairs[column] / pairs[f"{column}_base"]).median()
+
+
+def counted(table, failed):
+    """The Share of rows of one method that are a cut each. \\param failed  of each row: not made, or wrong"""
+    refused = failed & (table["status"] == "refused")
+    return Share(int((~failed).sum()), int(refused.sum()), int((failed & ~refused).sum()))
+
+
 def last_if_few(order, counts):
     """Those that made under half of their cuts after all others; else in the order given."""
     return sorted(order, key=lambda variant: counts.get(variant, Share()).is_few)

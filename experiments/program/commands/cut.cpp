@@ -18,6 +18,7 @@
 #include "harness/files/mesh_file.h"
 #include "harness/files/parents_file.h"
 #include "harness/files/path_file.h"
+#include "harness/files/texture_file.h"
 #include "harness/files/whole_file.h"
 #include "harness/judge/assessment.h"
 #include "harness/judge/judged_sheet.h"
@@ -84,6 +85,7 @@ Exit cut_sheet(const CutArguments& arguments) {
     drawing.emplace("--picture", arguments.picture, std::initializer_list<const char*>{".png", ".svg"});
   const auto path = read_path_with_picks(arguments.path);
   const MeshData data = read_mesh(arguments.mesh, arguments.reading.reading());
+  const Texture texture = read_texture(arguments.mesh, arguments.reading.reading(), data);
   print_notes(data);
 
   const Sheet before(data);
@@ -106,9 +108,14 @@ Exit cut_sheet(const CutArguments& arguments) {
   const Assessment a =
       assess(before, sheet, judge_one_by_one(before, sheet, cuts, row.promises, row.make(parameter), options),
              forced_corners_of(before, cuts));
-  const CutDetails details{data, sheet, parents_of(before, sheet), incisions.edges(sheet, cuts),
-                           constraints_of(*method, before, sheet)};
-  WholeFile out = mesh_file(sheet.to_mesh_data(), arguments.out, details_columns(details));
+  const Parents all_parents = parents_of(before, sheet);
+  const CutDetails details{data,
+                           sheet,
+                           all_parents,
+                           incisions.edges(sheet, cuts),
+                           constraints_of(*method, before, sheet),
+                           carried_over(texture, before, sheet, all_parents)};
+  WholeFile out = textured_file(sheet.to_mesh_data(), details.texture, arguments.out, details_columns(details));
   std::optional<WholeFile> parents;
   if (!arguments.parents.empty()) parents.emplace(arguments.parents, details_json(details));
   if (!arguments.report.empty())
@@ -158,6 +165,7 @@ Command add_cut(Options& app) {
       "  incision     {\"cut\", \"left\": [triangle, from, to], \"right\"} of each edge, along the path\n"
       "  polygons     [triangle, ...] of each element of several triangles\n"
       "  copies       the old vertex of each unknown that is no vertex; they are numbered after the vertices\n"
+      "  texture      [[u, v], [u, v], [u, v]] at the corners of each triangle, where the OBJ has vt beside the rest\n"
       "  constraints  [vertex, [[master, weight], ...]] of each vertex that is no unknown\n"
       "exit codes:\n"
       "  0  the result was judged correct and written\n"

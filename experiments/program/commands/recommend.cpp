@@ -23,11 +23,12 @@ namespace {
 
 struct RecommendArguments {
   std::vector<std::string> yes, no;  // answers, where there is no scene
-  std::string scene, report, quantity, calibration = "experiments/recommend_calibration.toml";
+  std::string scene, report, quantity, calibration;
   bool reference = false;
   ChordTolerance chord_tolerance;
   RecommendOptions options{
-      .methods = {"adaptive_remesh", "conventional_split", "snap_or_split", "warp_and_refine", "delaunay_refine"},
+      .methods = {"adaptive_remesh", "conventional_split", "snap_or_split", "warp_and_refine", "delaunay_refine",
+                  "cut_polygons", "active_node", "vertex_snap", "cisamr", "edge_release"},
       .solvers = {"cg_sliver_blocks", "cg", "multigrid"}};
 };
 
@@ -68,9 +69,6 @@ Exit run_recommendation(RecommendArguments& arguments) {
   if (!arguments.reference && options.max_error == 0)
     throw InputError("give --max-error E, such as 0.05 for 5 %, or --reference for the converged value alone");
   const Scene scene = read_scene(arguments.scene);
-  if (scene.family.empty())
-    throw InputError(
-        "this scene's sheet is read from a file, and has no other resolutions; give a sheet with \"family\"");
   for (const std::string& method : options.methods) find_method(method);
   check_solver_names(options.solvers, "--solvers");
   options.cut = arguments.chord_tolerance.cut_options();
@@ -95,7 +93,7 @@ Exit run_recommendation(RecommendArguments& arguments) {
   std::printf("ms: processor time of computing for a simulated second; of a solve at rest\n%s",
               busy_note(load).c_str());
   write(json_of(result));
-  return result.chosen ? done : fell_short;
+  return result.chosen && result.beyond.empty() ? done : fell_short;
 }
 
 }  // namespace
@@ -132,8 +130,8 @@ Command add_recommend(Options& app) {
       .comma_separated()
       .shows_default();
   arguments->chord_tolerance.add_to(command, "as of `cutbench simulate`");
-  command.add_option("--calibration", arguments->calibration, "how well extrapolated values are known (TOML)")
-      .shows_default();
+  command.add_option("--calibration", arguments->calibration,
+                     "how well extrapolated values are known (TOML), instead of the built-in one");
   command.add_flag("--reference", arguments->reference, "the converged value alone");
   command.add_flag("--exhaustive", arguments->options.everything,
                    "runs and times all, also what can't be the cheapest");
@@ -147,7 +145,7 @@ Command add_recommend(Options& app) {
       "  cutbench recommend --yes explicit --no diagonal\n"
       "exit codes:\n"
       "  0  a choice whose error is small enough for certain, or a method without a scene\n"
-      "  1  unknown, or a file can't be written\n"
+      "  1  unknown, a guess for a scene unlike those of the calibration, or a file can't be written\n"
       "  2  bad input: an option or a file");
   return {command, [arguments](const std::string&) { return run_recommendation(*arguments); }};
 }

@@ -51,6 +51,26 @@ def _divided(vertices, triangles, rest):
     return all_vertices, number[which.reshape(-1, 3)], all_rest, all_sewn
 
 
+def _texture(texture, positions, corners, sheet):
+    """Coordinates of each corner, m x 3 x 2, in the order in which `sheet` has the corners of its triangles: reading turns some
+    of `corners` round."""
+    texture = np.asarray(texture, dtype=np.float64)
+    if texture.ndim == 2:
+        texture = arrays.points(texture, "texture", (2,))
+        if len(texture) != len(positions):
+            raise InputError(f"texture: {len(texture)} rows; give as many as there are vertices, {len(positions)}")
+        texture = texture[corners]
+    if texture.shape != (len(corners), 3, 2):
+        raise InputError(f"texture: has the shape {' x '.join(map(str, texture.shape))}; give {len(positions)} x 2, or "
+                         f"{len(corners)} x 3 x 2 for each corner")
+    if not np.isfinite(texture).all():
+        raise InputError("texture: has a number that is not finite; correct it")
+    second = sheet.vertices[sheet.triangles[:, 1]][:, :positions.shape[1]]
+    off = np.linalg.norm(positions[corners] - second[:, None], axis=2)
+    order = np.where((off[:, 2] < off[:, 1])[:, None], [0, 2, 1], [0, 1, 2])
+    return np.take_along_axis(texture, order[:, :, None], axis=1)
+
+
 class Sheet:
     """A triangle sheet, as it is at rest in the plane and as it is in space. It never changes; cut() makes another one.
 
@@ -61,6 +81,7 @@ class Sheet:
             several, the sheet is sewn along a seam. Or "plane": the plane that `vertices` lie in; "space": the sheet is at
             rest as it lies in space, unrolled; "auto": the first of these that can be. Two borders at equal rest positions
             are an incision.
+        texture: texture coordinates that cuts carry over: n x 2, or m x 3 x 2 for each corner where the texture has seams.
 
     Positions have any unit; what is said in h is in mean rest edges. What had to be repaired (triangles reversed,
     unused vertices dropped, ...) is a warning.
@@ -71,11 +92,12 @@ class Sheet:
         triangles: m x 3 ints, counter-clockwise at rest.
         sewn: for each vertex the number of one that is the same point of the sheet, though apart at rest; empty without
             seams. A copy.
+        texture: m x 3 x 2 floats, texture coordinates at the triangles' corners; None without.
     """
 
-    def __init__(self, vertices, triangles, rest="auto"):
-        positions = arrays.of_points(vertices, "vertices", (2, 3))
-        corners = arrays.of_indices(triangles, "triangles")
+    def __init__(self, vertices, triangles, rest="auto", texture=None):
+        given = positions = arrays.of_points(vertices, "vertices", (2, 3))
+        given_corners = corners = arrays.of_indices(triangles, "triangles")
         word, flat, sewn = "auto", None, None
         if isinstance(rest, str):
             word = rest
@@ -92,6 +114,9 @@ class Sheet:
             arrays.check_finite(positions, "vertices")  # may have better words for it
             arrays.check_indices(corners, "triangles", len(positions))
             raise
+        if texture is not None:
+            own = _texture(texture, given, given_corners, self)
+            self._core.take_texture(np.ascontiguousarray(own.reshape(-1, 6)))
         self._warn()
 
     def _warn(self):
@@ -139,6 +164,12 @@ class Sheet:
     rest = cached_property(lambda self: self._core.rest)
     triangles = cached_property(lambda self: self._core.triangles)
     sewn = cached_property(lambda self: self._core.sewn)
+
+    @cached_property
+    def texture(self):
+        flat = self._core.texture
+        return flat.reshape(-1, 3, 2) if len(flat) else None
+
     mean_edge = property(lambda self: self._core.mean_edge, doc="h: mean rest edge of the sheet before any cut.")
 
     @property
@@ -174,14 +205,17 @@ class Sheet:
         return pictures.to_meshio(self)
 
     def __reduce__(self):  # to be sent to another process
-        return _again, (self.vertices, self.triangles, self.rest, self.sewn if len(self.sewn) else None)
+        return _again, (self.vertices, self.triangles, self.rest, self.sewn if len(self.sewn) else None, self.texture)
 
     def __repr__(self):
         return f"<cutbench.Sheet: {len(self.vertices)} vertices, {len(self.triangles)} triangles>"
 
 
-def _again(vertices, triangles, rest, sewn):
-    return Sheet._of(_core.sheet(vertices, triangles, rest, sewn, "auto"))
+def _again(vertices, triangles, rest, sewn, texture):
+    core = _core.sheet(vertices, triangles, rest, sewn, "auto")
+    if texture is not None:
+        core.take_texture(np.ascontiguousarray(texture.reshape(-1, 6)))
+    return Sheet._of(core)
 
 
 class Parents:
@@ -226,8 +260,8 @@ class Cut:
     """What came of a cut.
 
     Attributes:
-        before, sheet: the Sheet before and after. The sheet's `vertices`, `triangles`, `rest`, `incision` and `pieces`
-            can be asked of the cut, too.
+        before, sheet: the Sheet before and after. The sheet's `vertices`, `triangles`, `rest`, `texture`, `incision` and
+            `pieces` can be asked of the cut, too.
         path: the curves in rest space.
         method: its name.
         status: "ok"; "noop", nothing was there to cut; "deviated", done otherwise than asked by the method's policy.
@@ -247,6 +281,7 @@ class Cut:
     vertices = property(lambda self: self.sheet.vertices)
     triangles = property(lambda self: self.sheet.triangles)
     rest = property(lambda self: self.sheet.rest)
+    texture = property(lambda self: self.sheet.texture)
     pieces = property(lambda self: self.sheet.pieces)
     incision = property(lambda self: self.sheet.incision)
     path = property(lambda self: self._core.curves)

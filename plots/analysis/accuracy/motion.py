@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from analysis import load
+from analysis import load, shares
 
 STEM = "motion"
 INTEGRATORS = {"midpoint": "midpoint rule", "backward_euler": "backward Euler"}
@@ -23,17 +23,27 @@ def of_problem(table, problem, integrator="midpoint"):
     return here.assign(error=100 * here[f"error_{next(iter(PROBLEMS[problem][1]))}"])
 
 
+CASE = ["sheet", "resolution", "case"]
+
+
+def counts_of(everything, failed):
+    """{method: shares.Share}"""
+    return {method: shares.counted(rows, failed[rows.index]) for method, rows in everything.groupby("method", sort=False)}
+
+
+def errors_of(here, method, few):
+    """Of each cut of of_problem(), those of a method that made few by shares.fair_values()."""
+    return shares.fair_values(here[here["method"] == method], here[here["method"] == PLAIN], "error", CASE, few)
+
+
 def names_of(everything, failed):
-    """The methods, the largest mean error last, each with what it refused."""
-    made = everything[~failed & (everything["method"] != REFERENCE)]
-    errors = sum(np.log(of_problem(made, problem).groupby("method")["error"].mean()) for problem in PROBLEMS)
-    names = {}
-    for method in errors.sort_values().index:
-        rows = everything["method"] == method
-        lost = int((rows & failed).sum())
-        how = "refused" if (everything.loc[rows & failed, "status"] == "refused").all() else "refused or failed"
-        names[method] = method.replace("_", " ") + (f" ({lost} of {int(rows.sum())} {how})" if lost else "")
-    return names
+    """The methods, the largest mean error last, and those after all others that made few of their cuts; each with its share."""
+    made, counts = everything[~failed & (everything["method"] != REFERENCE)], counts_of(everything, failed)
+
+    def error(method):
+        return sum(np.log(errors_of(of_problem(made, problem), method, counts[method].is_few).mean()) for problem in PROBLEMS)
+    order = sorted(dict.fromkeys(made["method"]), key=lambda method: (counts[method].is_few, error(method), method))
+    return {method: method.replace("_", " ") + counts[method].beside() for method in order}
 
 
 def interval(errors):

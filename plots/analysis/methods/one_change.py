@@ -4,12 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analysis import load
+from analysis import load, shares
 
 STEM = "one_change"
 PATH = ["cut", "case"]
 CUT = ["sheet", "resolution", *PATH]
 ERROR = "error_released_energy"
+MADE = "made"  # shares.Share
 
 
 @dataclass(frozen=True)
@@ -69,27 +70,31 @@ def in_words(value, low, high):
 
 
 def rows_of(cuts, errors):
-    """Of each change the numbers of the table, by name; sizes: the numbers of triangles."""
+    """Of each change the numbers of the table, by name; sizes: the numbers of triangles. Those of a kind that made few of their
+    cuts come last, with eigenvalues and iterations by shares.fair_values()."""
     sizes = sorted(set(cuts["resolution"]))
-    rows = []
+    rows, base_of_mass = [], cuts[:0]
     for change in CHANGES:
         of_mass = cuts[(cuts["method"] == change.method) & (cuts["mass"] == change.mass)]
         here = of_mass[of_mass["solver"] == change.solver]
         if change.kind == "functions":  # at rest only
             here = here[:0]
-        eigenvalue = of_mass["eigenvalue_ratio"].dropna()  # of one solver: it depends on none
-        cracks = errors[(errors["method"] == change.method) & (errors["tip_functions"] == change.tips)]
+        made = shares.counted(here, here["status"].isin(["failed", "refused"]))
         if change == BASE:
-            base = here
+            base, base_of_mass = here, of_mass
+        eigenvalue = shares.fair_values(of_mass, base_of_mass, "eigenvalue_ratio", [*CUT, "solver"], made.is_few)  # of one solver: it depends on none
+        cracks = errors[(errors["method"] == change.method) & (errors["tip_functions"] == change.tips)]
         row = dict(zip(["eigenvalue", "95 %", "worst"], np.quantile(eigenvalue, [0.5, 0.95, 1])))
         for n in sizes:
             row[f"error %, {n}"] = error(cracks[cracks["resolution"] == n])
         for n in sizes:
-            row[f"iterations, {n}"] = here.loc[here["resolution"] == n, "iterations"].median()
+            of_size = [table[table["resolution"] == n] for table in (here, base)]
+            row[f"iterations, {n}"] = shares.fair_values(*of_size, "iterations", CUT, made.is_few).median()
         for n in sizes:
             row[f"a step, {n}"] = ratio(here[here["resolution"] == n], base, "step_us")
         row["first step"] = ratio(here, base, "first_step_us")
         row["cut and update"] = ratio(here, base, "cut_update_us")
         row["energy grew %"] = 100 * (here["verdict"] == "energy_growth").mean()
+        row[MADE] = made
         rows.append((change, row))
-    return rows, sizes
+    return sorted(rows, key=lambda row: (row[0].kind == "together", row[1][MADE].is_few)), sizes

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from analysis import load
+from analysis import load, shares
 from analysis.accuracy.ranking import at_equal_unknowns, made_by_all, mean_excess
 from analysis.accuracy.records import Records
 from analysis.load import of
@@ -48,16 +48,34 @@ def in_words(ends):
     return "-" if np.isnan(ends).any() else kinds.in_words(np.round(ends) + 0.0)  # no -0
 
 
+def counts_of(run):
+    """shares.Share by variant."""
+    return shares.of_run(run, load.programs(run.everything(), run.context))
+
+
+def beside_split(run):
+    """{variant: median of its eigenvalue over that of shares.BASE on the same cut, of the cuts that both made}"""
+    cuts = run.rows[run.rows["eigenvalue_ratio"].notna()].assign(failed=False)
+    ratios = shares.over_base(cuts, "eigenvalue_ratio")
+    if ratios is None:
+        return {}
+    return ratios.groupby([cuts["method"], cuts["parameter"]]).median().to_dict()
+
+
 def rows_of(run, excess):
-    """Of each method, and of some with an added mass: it leaves the errors at rest and the time of the cut as they are."""
-    cuts = run.rows[run.rows["eigenvalue_ratio"].notna()]
+    """Of each method, and of some with an added mass: it leaves the errors at rest and the time of the cut as they are. Those
+    that made few of their cuts come last, with eigenvalues by shares.fair_values()."""
+    cuts, counts = run.rows[run.rows["eigenvalue_ratio"].notna()], counts_of(run)
+    base, key = of(cuts, shares.BASE), load.cut_columns(cuts)
     rows = []
     for (method, parameter), here in cuts.groupby(["method", "parameter"], sort=False):
+        few = counts[method, parameter].is_few
         single = here["cut_family"] != "several"
         per_crossed = (here["geometry_us"] / here["crossed_triangles"]).median()
         for mass in ["", *(m for m, methods in ADDED_MASS.items() if method in methods and f"{m}_eigenvalue_ratio" in here)]:
             prefix = f"{mass}_" if mass else ""
-            ratio, bends = here[f"{prefix}eigenvalue_ratio"], here[f"{prefix}bending_eigenvalue_ratio"]
-            rows.append([method, parameter, *np.quantile(ratio, [0.5, 0.95, 1]), *np.quantile(ratio[single], [0.95, 1]),
+            ratio, bends = (shares.fair_values(here, base, f"{prefix}{kind}eigenvalue_ratio", key, few) for kind in ("", "bending_"))
+            of_single = shares.fair_values(here[single], base[base["cut_family"] != "several"], f"{prefix}eigenvalue_ratio", key, few)
+            rows.append([method, parameter, *np.quantile(ratio, [0.5, 0.95, 1]), *np.quantile(of_single, [0.95, 1]),
                          bends.median(), bends.quantile(0.95), *excess[method, parameter], per_crossed, mass])
-    return sorted(rows, key=lambda r: r[2])
+    return sorted(rows, key=lambda r: (counts[r[0], r[1]].is_few, r[2]))

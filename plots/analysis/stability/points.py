@@ -2,11 +2,13 @@
 
 import numpy as np
 
-from analysis import load
+from analysis import load, shares
 
 EXPLICIT = "explicit_step_ratio"
 WORST_LAST = ["ok", "refused", "solver_stalled", "newton_failed", "inverted", "energy_growth", "not_finite", "failed",
               "wrong", "timed_out", "crashed"]
+UNMADE = {"refused", "failed", "wrong", "timed_out", "crashed"}
+CUT = ["sweep", "sheet", "resolution", "cut", "place", "case", "repetition"]
 NAMES = {"conventional_split": "conventional split", "bowyer_watson": "Bowyer-Watson", "cgal_cdt": "CGAL CDT",
          "delaunay_refine": "Delaunay refine", "cgal_refine": "CGAL refine", "longest_edge": "longest edge",
          "global_remesh": "global remesh", "warp_and_refine": "warp and refine", "vertex_snap": "vertex snap", "active_node": "active node",
@@ -39,6 +41,18 @@ def name_of(method, parameter, mass):
 def on_the_page(rows):
     """Without the scaled mass, which has long steps because it makes the sheet many times heavier: no remedy to be shown beside others."""
     return rows[rows["mass"] != "scaled"]
+
+
+def shares_of(rows):
+    """{name: shares.Share} of cuts: motions that end badly are made, too."""
+    unmade = rows["verdict"].isin(UNMADE)
+    return {name: shares.counted(here, unmade[here.index]) for name, here in rows.groupby("name", sort=False)}
+
+
+def steps_of(rows, name, base, few):
+    """Explicit steps after the cuts of one that may have made `few`: shares.fair_values() beside those of `base`."""
+    of_name = [rows[rows["name"] == n] for n in (name, base)]
+    return shares.fair_values(*of_name, EXPLICIT, CUT, few)
 
 
 def worst(rows, by):

@@ -2,6 +2,7 @@
 
 import pandas as pd
 
+from analysis import shares
 from analysis.stability import points
 from analysis.stability.points import text
 
@@ -70,17 +71,19 @@ def cures(rows):
     lines = []
     single, several = (rows[(rows["sweep"] == s)] for s in ("single_cuts", "several_cuts"))
     base = single[single["name"] == "conventional split"]["geometry_us"].median()  # not with an added mass
-    for name in dict.fromkeys(single["name"]):
+    counts = points.shares_of(single)
+    plain = single[(single["name"] == "conventional split") & (single["rank"] == 0)]
+    for name in shares.last_if_few(dict.fromkeys(single["name"]), counts):
         mine = single[single["name"] == name]
         made = mine[mine["rank"] == 0]
         ratio, four = mine[points.EXPLICIT].fillna(0), several[several["name"] == name][points.EXPLICIT].fillna(0)
         low = ratio.quantile(0.05)
         every = rows[(rows["name"] == name) & rows["sweep"].isin(WITH_EXPLICIT)]
         broken = [s for s in WITH_EXPLICIT if (every[every["sweep"] == s]["rank"] > 0).any()]
-        lines.append([name, f"{ratio.median():.2g}", f"{low:.2g}", "yes" if ratio.median() >= 0.3 and low >= 0.1 else "no",
+        lines.append([name + counts[name].beside(), f"{ratio.median():.2g}", f"{low:.2g}", "yes" if ratio.median() >= 0.3 and low >= 0.1 else "no",
                       "no" if mine["method"].isin(TIED).all() else "yes",
                       f"{four.median():.2g}", f"{four.quantile(0.05):.2g}",
-                      f"{made['geometry_us'].median() / base:.1f}", f"{made['vertices_added'].median():.0f}",
+                      f"{shares.fair_values(made, plain, 'geometry_us', points.CUT, counts[name].is_few).median() / base:.1f}", f"{made['vertices_added'].median():.0f}",
                       f"{made['incision_error_h'].median():.2g}", f"{len(made)}/{len(mine)}",
                       ", ".join(sorted(broken)).replace("_", " ") or "none"])
     return markdown(["method", "explicit step, median", "95 % have at least", "0.3 and 0.1?", "step made?", "four cuts, median", "95 %",

@@ -10,8 +10,8 @@ import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
-from analysis import load
-from analysis.methods.one_change import CUT, ERROR, PATH, STEM, in_words, rows_of
+from analysis import load, shares
+from analysis.methods.one_change import CUT, ERROR, MADE, PATH, STEM, in_words, rows_of
 from figures.common import style
 
 KINDS = {"nothing": "#444444", "mesh": "#0072b2", "unknowns": "#d55e00", "functions": "#7b3294", "mass": "#009e73",
@@ -31,14 +31,14 @@ def figure_of(rows, size, caption):
             value, *ends = (row[column], row[column], row["worst"]) if column == "eigenvalue" else np.ravel(row[column])
             if ends:
                 ax.plot(ends, [at, at], color=colour, linewidth=0.8, alpha=0.6)
-            hollow = column.startswith("iterations") and change.solver != "cg"
+            hollow = row[MADE].is_few or column.startswith("iterations") and change.solver != "cg"
             ax.plot(value, at, "o", color="white" if hollow else colour, markeredgecolor=colour, markersize=4)
         ax.axhline(0.5 - sum(change.kind != "together" for change, _ in rows), color="#999999", linewidth=0.5)
         if column != "eigenvalue":
             ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
             ax.xaxis.set_major_formatter(lambda x, _: f"{x:g}")
             ax.xaxis.set_minor_formatter(NullFormatter())
-    axes[0, 0].set_yticks(y, [change.short() for change, _ in rows], fontsize=6)
+    axes[0, 0].set_yticks(y, [change.short() + row[MADE].beside() for change, row in rows], fontsize=6)
     style.finish(figure, [], caption)
     return figure
 
@@ -56,12 +56,13 @@ def main():
     style.save(figure_of(rows, sizes[-1], (
         f"Left is good. Above the line one change of conventional split, lumped mass and CG; below it several together. Lines at errors and times: 95 % intervals ({errors['problem'].nunique()} problems, or paths, drawn anew). Tips: tip functions; mass: stabilised. {sizes[-1]} triangles, "
         f"{len(drawn)} cuts of {len(drawn[PATH].drop_duplicates())} paths (eigenvalues: {len(made)}, also of {sizes[0]} triangles). Errors: {errors['problem'].nunique()} cracks at rest, where mass "
-        "and solver change nothing; steps are without tip functions. "
+        f"and solver change nothing; steps are without tip functions. {shares.HOLLOW} "
         f"Commit {str(context.get('commit'))[:10]}, seed {context.get('seed')}.")), folder, STEM)
     load.print_table("Each change alone, and together: largest eigenvalue over the uncut sheet's (median, 95 %, worst), mean error of the released "
                      "energy at cracks with its 95 % interval (problems drawn anew), iterations of a step (median); medians of times over those of the first "
                      "row on the same cuts with 95 % intervals (paths drawn anew); share of motions in which energy grew", ["change", "by", *rows[0][1]],
-                     [[change.kind, change.label(), *(in_words(*v) if isinstance(v, tuple) else v for v in row.values())]
+                     [[change.kind, change.label(), *(in_words(*v) if isinstance(v, tuple) else v.text() if isinstance(v, shares.Share) else v
+                                                      for v in row.values())]
                       for change, row in rows])
 
 

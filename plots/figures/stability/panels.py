@@ -4,6 +4,7 @@ import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch, Rectangle
 
+from analysis import shares
 from analysis.stability import points
 
 VERDICTS = {  # colour and words of what is not ok
@@ -74,10 +75,14 @@ def short(value):
 
 def ratio_lines(ax, rows, names, ylabels=True, prices=False):
     """For each method the median of the explicit step over cuts, and from there a line to the 5 % quantile. `prices`: at the
-    left the median time of a cut over that of the first method, and the median incision error."""
-    base = rows[rows["name"] == names[0]]["geometry_us"].median()
+    left the median time of a cut over that of the first method, and the median incision error. Those that made under half of
+    their cuts come last, hollow."""
+    counts, first = points.shares_of(rows), names[0]
+    names = shares.last_if_few(names, counts)
+    base = rows[rows["name"] == first]["geometry_us"].median()
     for i, name in enumerate(names):
-        values = rows[rows["name"] == name][points.EXPLICIT].dropna()
+        few = counts[name].is_few
+        values = points.steps_of(rows, name, first, few).dropna()
         if not len(values):
             continue
         low, middle = values.quantile(0.05), values.median()
@@ -88,11 +93,11 @@ def ratio_lines(ax, rows, names, ylabels=True, prices=False):
         good = middle >= 0.3 and low >= 0.1
         colour = "#1a9850" if good else "#444444"
         ax.plot([max(low, 1e-8), middle], [i, i], color=colour, linewidth=1, marker="|", markersize=4, markevery=[0])
-        ax.plot(middle, i, "o", color=colour, markersize=3)
+        ax.plot(middle, i, "o", color=colour, markersize=3, markerfacecolor="white" if few else colour)
     for at in (0.3, 0.1):
         ax.axvline(at, color="#d7301f", linewidth=0.6, linestyle="--" if at == 0.3 else ":")
     ax.set(xscale="log", xlim=(0.7e-8, 1.5), ylim=(len(names) - 0.5, -0.5))
-    ax.set_yticks(range(len(names)), names if ylabels else [])
+    ax.set_yticks(range(len(names)), [name + counts[name].beside() for name in names] if ylabels else [])
     ax.tick_params(axis="y", length=0, labelsize=5.5), ax.tick_params(axis="x", labelsize=5.5)
 
 
