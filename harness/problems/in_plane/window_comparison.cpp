@@ -14,11 +14,13 @@ WindowComparison::WindowComparison(const WindowCase& window, const Specimen& spe
       sheet_(sheet),
       solve_(solve),
       field_(field),
-      border_(border_work(field, uniform_field(field.elastic(), field.frame(), window.before), specimen.cuts)) {
+      border_(border_work(field, uniform_field(field.elastic(), field.frame(), window.before), specimen.cuts,
+                          window.cut_off)) {
   sample_elements();
   for (const LipSample& lip : window.lips) lips_.push_back({in_rest(lip.at), turned(lip.normal), lip.length});
   opening_ = opening(field, lips_);
-  if (window.rim > 0) find_rim();
+  border_.after += work_on_lips();
+  if (window.rim) find_rim();
   for (const WindowTip& end : window.tips) {
     if (!end.modes) continue;
     const Tip tip{in_rest(end.tip.at), field.frame().angle + end.tip.angle, end.tip.curvature};
@@ -53,16 +55,32 @@ void WindowComparison::sample_elements() {
   }
 }
 
+/// Half of the load on the lips times what they move.
+double WindowComparison::work_on_lips() const {
+  if (!window_.on_lips) return 0;
+  double work = 0;
+  for (const LipSample& lip : window_.lips) {
+    const Point2 at = in_rest(lip.at), up = turned(lip.normal),
+                 force = turned([&] {
+                   const Eigen::Vector2d load = window_.on_lips(lip.at.x);
+                   return Point2{load.x(), load.y()};
+                 }());
+    const Eigen::Vector2d jump = field_.displacement(at, at + 1e-3 * up) - field_.displacement(at, at + -1e-3 * up);
+    work += lip.length / 2 * jump.dot(Eigen::Vector2d(force.x, force.y));
+  }
+  return work;
+}
+
 void WindowComparison::find_rim() {
   for (const auto& [e, end] : elements_)
     for (int k = 0; k < 3; ++k) {
       const HalfEdge h = half_edge(TriangleIndex(e), k);
       if (sheet_.mark(h) != EdgeMark::incision) continue;
       const Point2 a = sheet_.rest(sheet_.origin(h)), b = sheet_.rest(sheet_.target(h));
-      const Complex middle = field_.frame().to_local(0.5 * (a + b)), out = middle / std::abs(middle);
-      const Point2 tangent = turned({-out.imag(), out.real()});
+      const RimPoint rim = window_.rim(field_.frame().to_local(0.5 * (a + b)));
+      const Point2 tangent = turned({rim.tangent.real(), rim.tangent.imag()});
       const Eigen::Vector2d along(tangent.x, tangent.y);
-      const Eigen::Matrix2d exact = field_.stress(field_.frame().to_rest(window_.rim * out));
+      const Eigen::Matrix2d exact = field_.stress(field_.frame().to_rest(rim.at));
       rim_.push_back({e, 0.5 * (a + b), std::sqrt(squared_length(b - a)), along.dot(exact * along), along});
     }
 }

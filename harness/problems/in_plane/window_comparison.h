@@ -38,6 +38,7 @@ class WindowComparison {
   bool looked_at(std::size_t element) const;
   void sample_elements();
   void find_rim();
+  double work_on_lips() const;
   Sums sum(const StaticSolve::Solution& solution) const;
   double opening_error(const StaticSolve::Solution& solution) const;
   double rim_error(const StaticSolve::Solution& solution) const;

@@ -10,7 +10,9 @@ from analysis.methods.errors import last_if_few
 
 STEM = "method_comparison_accuracy_kinds"
 KINDS = {"crack": ("centre_crack", "inclined_crack"), "arc": ("arc_crack",), "edge crack": ("edge_crack",),
-         "hole": ("kirsch_hole",), "tip field": ("williams",)}  # by the beginnings of their names
+         "hole": ("kirsch_hole",), "tip field": ("williams",), "row of cracks": ("collinear_cracks",),
+         "loaded lips": ("loaded_lips",), "crossing": ("crossed_cracks",), "corner": ("corner",),
+         "ellipse": ("elliptic_hole",)}  # by the beginnings of their names
 TWICE = "two_cuts_one_geometry"  # has the exact answer of centre_crack
 MEASURES = ["energy_norm", "displacement_l2", "opening", "k1"]
 WHAT = ("error over that of a body-fitted mesh with as many unknowns, minus one, %: mean over kinds of problems (geometric), its 95 % "

@@ -16,7 +16,7 @@ from figures.methods import dots
 BESIDE = 0.33  # of a row, below the means
 SHOWN = 8  # times the fitted mesh's error: what is larger is written at the edge
 KINDS = {kind: dict(marker=marker, markersize=3, markeredgewidth=0.7, markerfacecolor="white")
-         for kind, marker in zip(kinds.KINDS, ("s", "^", ">", "o", "v"))}
+         for kind, marker in zip(kinds.KINDS, ("s", "^", ">", "o", "v", "D", "<", "P", "p", "h", "X", "*", "d"), strict=False)}
 
 
 def draw(folder, beside):
