@@ -78,7 +78,10 @@ std::vector<NamedField> fields() {
   }
   all.push_back(
       {"hole", hole_field(rubber, turned, 0.4, 1.5), arc_lips(0.4, pi), [](Complex z) { return std::abs(z) < 0.4; }});
-  all.push_back({"collinear", collinear_cracks_field(rubber, turned, 0.5, 1.3, {0.7, 1.1, 0.4}), straight});
+  std::vector<LipSample> row;
+  for (const double turn : {-1.3, 0.0, 1.3})
+    for (const LipSample& lip : straight) row.push_back({lip.at + Point2{turn, 0}, lip.normal, 1});
+  all.push_back({"collinear", collinear_cracks_field(rubber, turned, 0.5, 1.3, {0.7, 1.1, 0.4}), row});
   for (const LipLoad& load : {LipLoad{{1.1, 0}, {}}, LipLoad{{0.3, 0.7}, {}}, LipLoad{{0.6, 0}, {0.2, -0.5}}})
     all.push_back({"loaded", loaded_crack_field(rubber, turned, 0.5, load), straight, {}, load});
   std::vector<LipSample> crossed = straight;
@@ -349,10 +352,9 @@ TEST(ExactFields, EllipticHoleAsInTheBooks) {
     EXPECT_LE((nearly.stress(p) - round.stress(p)).norm(), 1e-7);
     EXPECT_LE((nearly.displacement(p) - round.displacement(p)).norm(), 1e-7);
   }
-  EXPECT_EQ(across.stress({0.3, 0.05}), across.stress([] {
-    const Complex t = oval.to_circle({0.3, 0.05}), rim = oval.from_circle(t / std::abs(t));
-    return Point2{rim.real(), rim.imag()};
-  }()));
+  const Complex t = oval.to_circle({0.3, 0.05}), rim = oval.from_circle(t / std::abs(t));
+  EXPECT_LE((across.stress({0.3, 0.05}) - across.stress({rim.real(), rim.imag()})).norm(), 1e-9);
+  EXPECT_LE((across.displacement({0.3, 0.05}) - across.displacement({rim.real(), rim.imag()})).norm(), 1e-12);
 }
 
 /// Two fits of a handbook, made independently.

@@ -186,8 +186,8 @@ TEST_P(Converges, LoadedLips) {
 
 TEST_P(Converges, Corner) {
   const auto rate = [&](const std::string& name, double degrees, bool sliding) {
-    auto all = series("corner_" + name);
-    EXPECT_NEAR(all["energy_norm"].rate(), (Corner{degrees / 2 * pi / 180, sliding}.exponent()), 0.1) << name;
+    auto all = series("corner_" + name, sliding ? 24 : 16);  // nearly as smooth as its surroundings: it takes longer
+    EXPECT_NEAR(all["energy_norm"].rate(), (Corner{degrees / 2 * pi / 180, sliding}.exponent()), 0.12) << name;
     EXPECT_NEAR(all["strain_energy"].extrapolated(), 1, 0.005) << name;
   };
   rate("270", 270, false);

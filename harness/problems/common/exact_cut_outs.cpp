@@ -35,8 +35,8 @@ ElasticField elliptic_hole_field(const Elastic& elastic, const Axes& frame, cons
                                  const PlaneStress& far_away) {
   const double mean = (far_away.xx + far_away.yy) / 4, r = ellipse.mean(), m = ellipse.ratio();
   const Complex d((far_away.yy - far_away.xx) / 2, far_away.xy), c = std::conj(d);
-  const auto solution = [=](Complex z) {
-    const Complex t = ellipse.to_circle(z), w = 1.0 / t, from_pole = 1.0 / (t * t - m);
+  const auto outside = [=](Complex t) {
+    const Complex w = 1.0 / t, from_pole = 1.0 / (t * t - m);
     // By t, in units of R: dz/dt = 1 - m / t^2.
     const Complex z_1 = 1.0 - m * w * w, z_2 = 2 * m * w * w * w;
     const Complex phi_1 = mean + (c + mean * m) * w * w, phi_2 = -2.0 * (c + mean * m) * w * w * w;
@@ -46,11 +46,16 @@ ElasticField elliptic_hole_field(const Elastic& elastic, const Axes& frame, cons
     return Potentials{r * (mean * t - (c + mean * m) * w), phi_1 / z_1, (phi_2 - phi_1 * z_2 / z_1) / (z_1 * z_1 * r),
                       r * (d * t - c * hoop - all_round), (d - c * hoop_1 - all_round_1) / z_1};
   };
-  const auto onto_rim = [=](Complex z, Complex) {
+  const auto solution = [=](Complex z) {
     const Complex t = ellipse.to_circle(z);
-    return std::abs(t) < 1 ? ellipse.from_circle(t / std::abs(t)) : z;
+    if (std::abs(t) >= 1) return outside(t);
+    const Complex on_circle = t / std::abs(t), off = std::conj(ellipse.from_circle(on_circle) - z);
+    Potentials rim = outside(on_circle);  // the formulas of stress and displacement take z itself
+    rim.psi += off * rim.phi_1;
+    rim.psi_1 += off * rim.phi_2;
+    return rim;
   };
-  return {elastic, frame, solution, onto_rim};
+  return {elastic, frame, solution};
 }
 
 }  // namespace cutbench

@@ -23,16 +23,15 @@ WindowCase collinear_cracks(int count, double half_length, double period) {
                     number + " cuts in a row, with bridges between them that carry the whole tension",
                     "infinite plate, a row without end: K1 = s sqrt(W tan(pi a / W)); Westergaard 1939"};
   window.measures = {"energy_norm", "opening", "displacement_l2", "released_energy", "strain_energy"};
-  const double first = count % 2 == 0 ? period / 2 : 0;  // the frame's origin is in the middle of a bridge, or of a cut
   const PlaneStress stress{0, pull, 0};
   window.field = [=](const Axes& frame) {
-    const Axes of_a_cut{frame.to_rest(first), frame.angle};
-    return collinear_cracks_field(sheet_material, of_a_cut, half_length, period, stress);
+    return collinear_cracks_field(sheet_material, frame, half_length, period, stress);
   };
   window.before = stress;
+  window.middle = {(count - 1) / 2.0 * period, 0};
   window.largest_turn = 8 * degree;
   for (int i = 0; i < count; ++i) {
-    const double middle = (i - (count - 1) / 2.0) * period;
+    const double middle = i * period;
     const Point2 left{middle - half_length, 0}, right{middle + half_length, 0};
     window.cuts.push_back(line(left, right));
     window.tips.push_back(unmeasured_tip(left, pi));
