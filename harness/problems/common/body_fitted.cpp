@@ -139,6 +139,32 @@ void end_where_they_meet(std::vector<Chain>& sides, std::vector<Chain>& cuts) {
       }
 }
 
+/// Ends two chains where they cross, at the segments from i and k on.
+void end_at(Point2 p, std::size_t c, std::size_t i, std::size_t d, std::size_t k, std::vector<Chain>& chains) {
+  for (const auto& [chain, segment] : {std::pair{c, i}, std::pair{d, k}}) {
+    Chain rest(chains[chain].begin() + to_index(segment), chains[chain].end());
+    rest.front() = p;
+    chains[chain].resize(segment + 1);
+    chains[chain].push_back(p);
+    chains.push_back(std::move(rest));
+  }
+}
+
+/// The same of cuts that cross each other.
+void end_where_cuts_cross(std::vector<Chain>& cuts) {
+  constexpr double apart = 1e-9;  // of a segment: one that ends on the other doesn't cross it
+  for (std::size_t c = 0; c < cuts.size(); ++c)
+    for (std::size_t d = c + 1; d < cuts.size(); ++d)
+      for (std::size_t i = 0; i + 1 < cuts[c].size(); ++i)
+        for (std::size_t k = 0; k + 1 < cuts[d].size(); ++k) {
+          const Point2 a = cuts[c][i], along = cuts[c][i + 1] - a, p = cuts[d][k], step = cuts[d][k + 1] - p;
+          const double det = cross(along, step);
+          if (det == 0) continue;
+          const double s = cross(p - a, step) / det, t = cross(p - a, along) / det;
+          if (std::min(s, t) > apart && std::max(s, t) < 1 - apart) end_at(a + s * along, c, i, d, k, cuts);
+        }
+}
+
 /// Divides a chain into pieces of equal length, about `step`.
 void divide(const Chain& chain, double step, std::vector<std::array<Point2, 2>>& segments) {
   double length = 0;
@@ -266,6 +292,7 @@ Sheet fitted(const Specimen& specimen, const Sizing& sizing) {
   const double edge = std::sqrt(4 / std::sqrt(3) * area / wanted);  // of as many equilateral triangles
   auto sides = border_of(uncut), cuts = cuts_of(specimen, 1e-3 * edge, uncut.snap());
   end_where_they_meet(sides, cuts);
+  end_where_cuts_cross(cuts);
   const auto mesh_at = [&](double size) {
     std::vector<std::array<Point2, 2>> constraints;
     for (const auto* chains : {&sides, &cuts})
