@@ -36,6 +36,7 @@ class WindowComparison {
     double energy = 0, error_energy = 0, error_squared = 0, exact_squared = 0, worst_stress = 0;
   };
   bool looked_at(std::size_t element) const;
+  void find_fallen();
   void sample_elements();
   void find_rim();
   double work_on_lips() const;
@@ -52,6 +53,8 @@ class WindowComparison {
   const StaticSolve& solve_;
   const ElasticField& field_;
   BorderWork border_;
+  double missing_ = 0;  ///< twice the exact energy of deleted material, J
+  std::vector<std::uint8_t> fallen_;
   std::vector<SampledElement> elements_;
   std::vector<Sample> samples_;
   std::vector<LipSample> lips_;

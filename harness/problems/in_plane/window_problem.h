@@ -32,10 +32,10 @@ struct RimPoint {
 /// 1/2 integral (t0 u - t u0) over the border; pi s^2 a^2 / E for a straight cut across the stress s. U(after) alone is
 /// computed, and never below the exact one but for the border's interpolation, so no lucky sign hides an error.
 /// strain_energy: U(after) alone. opening: gape along the requested curve, relative L2. energy_norm, displacement_l2:
-/// of the error, relative; where the lips are loaded the energy norm is over the energy with their work. k1, k2: mean
-/// over the tips, by the interaction integral. rim_stress:
-/// hoop stress in the triangles at the rim, at the middle of their edges, relative L2. stress: largest error of any
-/// component in any triangle.
+/// of the error, relative; where the lips are loaded the energy norm is over the energy with their work. A method that
+/// deletes material errs in the energy norm by all of that material's. k1, k2: mean over the tips, by the interaction
+/// integral. rim_stress: hoop stress in the triangles at the rim, at the middle of their edges, relative L2. stress:
+/// largest error of any component in any triangle.
 struct WindowCase {
   std::string name, effect, truth;
   std::vector<std::string> measures{};

@@ -122,7 +122,7 @@ class BentPlate : public Problem {
   }
 
   static constexpr double radius = 0.2;  // m, of the hole
-  static constexpr double size = 1e-4;   // 1/m: so flat that the membrane has no part in it
+  static constexpr double size = 4e-3;   // 1/m: so flat that the membrane has no part in it
   static constexpr int held_rings = 3;
 
   Cut cut_;

@@ -87,6 +87,9 @@ std::vector<DeformedIndex> vertices_in_use(const Sheet& sheet) {
 
 std::vector<int> rings_from_border(const Sheet& sheet, int most) {
   std::vector<int> ring(sheet.deformed_slots(), most);
+  const auto outside = [](Point2 a, Point2 b) {
+    return (a.x == b.x && (a.x == 0 || a.x == 1)) || (a.y == b.y && (a.y == 0 || a.y == 1));
+  };
   for (int r = 0; r < most; ++r) {
     const std::vector<int> before = ring;
     for (std::size_t t = 0; t < sheet.triangle_slots(); ++t) {
@@ -94,7 +97,7 @@ std::vector<int> rings_from_border(const Sheet& sheet, int most) {
       if (!triangle.alive()) continue;
       for (std::size_t k = 0; k < 3; ++k) {
         int &a = ring[triangle.deformed[k]()], &b = ring[triangle.deformed[(k + 1) % 3]()];
-        if (r == 0 && !triangle.opposite[k].valid()) a = b = 0;
+        if (r == 0 && outside(sheet.rest(triangle.vertex[k]), sheet.rest(triangle.vertex[(k + 1) % 3]))) a = b = 0;
         if (r > 0 && before[triangle.deformed[k]()] == r - 1) b = std::min(b, r);
         if (r > 0 && before[triangle.deformed[(k + 1) % 3]()] == r - 1) a = std::min(a, r);
       }

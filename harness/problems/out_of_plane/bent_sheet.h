@@ -54,7 +54,8 @@ class BentSheet {
 
 /// Vertices of the opened sheet that triangles use.
 std::vector<DeformedIndex> vertices_in_use(const Sheet& sheet);
-/// Edges from the border of the sheet, not from an incision, per vertex of the opened sheet, up to `most`.
+/// Edges from the border of the unit square, not from what a cut opened or deleted, per vertex of the opened sheet, up
+/// to `most`.
 std::vector<int> rings_from_border(const Sheet& sheet, int most);
 /// How many vertices of the opened sheet each rest vertex has become.
 std::vector<int> copies_of_vertices(const Sheet& sheet);
