@@ -221,8 +221,8 @@ Triangulation mesh_of(const std::vector<std::array<Point2, 2>>& constraints, dou
 }
 
 /// Where the triangles round a vertex want it: their circumcentres, weighted by their areas, over the fourth power of
-/// the wanted size (Chen and Xu, Optimal Delaunay triangulations, J. Comput. Math. 22, 2004). The vertex stays where it is on a constraint, and where that
-/// would turn one of its triangles over.
+/// the wanted size (Chen and Xu, Optimal Delaunay triangulations, J. Comput. Math. 22, 2004). The vertex stays where it
+/// is on a constraint, and where that would turn one of its triangles over.
 Kernel::Point_2 smoothed(const Triangulation& mesh, Triangulation::Vertex_handle vertex, const Sizing& sizing) {
   if (mesh.are_there_incident_constraints(vertex)) return vertex->point();
   Kernel::Vector_2 sum(0, 0);

@@ -56,8 +56,8 @@ ElasticField hole_field(const Elastic& elastic, const Axes& frame, double radius
 ElasticField collinear_cracks_field(const Elastic& elastic, const Axes& frame, double a, double period,
                                     const PlaneStress& far_away);
 
-/// What loads the lips of a straight cut, N/m: `even` + `odd` x / a, `normal` as a pressure that opens it, `shear` along
-/// x on the lip above. The other lip is loaded in the other direction.
+/// What loads the lips of a straight cut, N/m: `even` + `odd` x / a, `normal` as a pressure that opens it, `shear`
+/// along x on the lip above. The other lip is loaded in the other direction.
 struct LipLoad {
   struct Line {
     double even = 0, odd = 0;
@@ -68,9 +68,11 @@ struct LipLoad {
 };
 
 /// A straight cut from -a to a along the x axis of an infinite plate, under a load on its lips alone: phi' of
-///   (even - i shear) / 2 (z / X - 1) + (odd - i shear of x) / 2 ((2 z^2 - a^2) / (2 a X) - z / a),  X = sqrt(z^2 - a^2).
+///   even / 2 (z / X - 1) + odd / 2 ((2 z^2 - a^2) / (2 a X) - z / a),  X = sqrt(z^2 - a^2),
+/// where even and odd are normal - i shear.
 /// K1 = (even +- odd / 2) sqrt(pi a) at the ends +-a.
-/// Source: Tada, Paris and Irwin, The Stress Analysis of Cracks Handbook, part II; not read. The tests check lips and K.
+/// Source: Tada, Paris and Irwin, The Stress Analysis of Cracks Handbook, part II; not read. The tests check lips and
+/// K.
 ElasticField loaded_crack_field(const Elastic& elastic, const Axes& frame, double a, const LipLoad& load);
 
 /// Two straight cuts of length 2 a that cross in their middles, along both axes, pulled by `stress` in all directions.
@@ -86,11 +88,11 @@ double crossed_cracks_factor();
 // --- exact_cut_outs.cpp ----------------------------------------------------------------------------------------------
 
 /// A corner of the sheet's angle 2 h > pi, from -h to h round the x axis, with free sides, and the first term at its
-/// point: phi = A z^q, psi = B z^q (Williams, Stress singularities resulting from various boundary conditions in angular
-/// corners of plates in extension, J. Appl. Mech. 19, 1952; not read). Opening: sin 2 q h + q sin 2 h = 0, with real A
-/// and B = -A (cos 2 q h + q cos 2 h), sliding: sin 2 q h = q sin 2 h, with imaginary A and
-/// B = A (cos 2 q h - q cos 2 h). On the x axis s_yy, or s_xy of sliding, is stress x^(q - 1). Beyond the sides the
-/// field is continued, up to the negative x axis.
+/// point: phi = A z^q, psi = B z^q. Opening: sin 2 q h + q sin 2 h = 0, with real A and B = -A (cos 2 q h + q cos 2 h);
+/// sliding: sin 2 q h = q sin 2 h, with imaginary A and B = A (cos 2 q h - q cos 2 h). On the x axis s_yy, or s_xy of
+/// sliding, is stress x^(q - 1). Beyond the sides the field is continued, up to the negative x axis.
+/// Source: Williams, Stress singularities resulting from various boundary conditions in angular corners of plates in
+/// extension, J. Appl. Mech. 19 (1952); not read. The tests check the sides.
 struct Corner {
   double half_angle;  ///< h, radians
   bool sliding = false;
@@ -114,10 +116,10 @@ struct Ellipse {
 /// An elliptic hole in an infinite plate under a stress far away. With M = (xx + yy) / 4, D = (yy - xx) / 2 + i xy:
 ///   phi = R (M t - (conj D + M m) / t),
 ///   psi = R (D t - conj D (1 + m t^2) / (t (t^2 - m)) - 2 M (1 + m^2) t / (t^2 - m)).
-/// Pulled by s along y the hoop stress is s (1 + 2 a / b) at the ends of the long axis. There is nothing in the hole: at a
-/// point in it the field is that of the rim, at the same angle of t.
-/// Source: Inglis, Trans. Inst. Naval Arch. 55 (1913); Muskhelishvili 1953; neither was read. The tests check the
-/// rim and Inglis's stress.
+/// Pulled by s along y the hoop stress is s (1 + 2 a / b) at the ends of the long axis. There is nothing in the hole:
+/// at a point in it the field is that of the rim, at the same angle of t.
+/// Source: Inglis, Trans. Inst. Naval Arch. 55 (1913); Muskhelishvili 1953; neither was read. The tests check the rim
+/// and Inglis's stress.
 ElasticField elliptic_hole_field(const Elastic& elastic, const Axes& frame, const Ellipse& ellipse,
                                  const PlaneStress& far_away);
 

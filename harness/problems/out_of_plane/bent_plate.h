@@ -19,8 +19,8 @@
 #include <numbers>
 
 #include "harness/mesh/families.h"
+#include "harness/problems/common/cut_curves.h"
 #include "harness/problems/common/members.h"
-#include "harness/problems/in_plane/case_parts.h"
 #include "harness/problems/out_of_plane/bent_sheet.h"
 
 namespace cutbench {
