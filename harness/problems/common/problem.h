@@ -98,8 +98,8 @@ const Problem& find_problem(const std::string& name);
 /// The measuring stick of excess errors: the specimen's sheet meshed anew to fit its cuts, with nearly as many
 /// triangles and an even size (CGAL's Delaunay refinement, incisions as constraints), opened along them.
 Sheet body_fitted(const Specimen& specimen);
-/// The same with nearly as many triangles, small at the ends of cuts inside the sheet and at the corners in them, larger
-/// elsewhere: what a fitted mesh can do that knows where stresses have no bound. Without such places it is
+/// The same with nearly as many triangles, small at the ends of cuts inside the sheet and at the corners in them,
+/// larger elsewhere: what a fitted mesh can do that knows where stresses have no bound. Without such places it is
 /// body_fitted(). \pre the sheet is a rectangle.
 Sheet graded_at_tips(const Specimen& specimen);
 

@@ -1,5 +1,5 @@
-// A thin plate that is bent a little: what a hole, and the end of a cut, do to it. Its border is held where the infinite
-// plate's shape takes it, over three rows of vertices, the fewest that know the curvature there.
+// A thin plate that is bent a little: what a hole, and the end of a cut, do to it. Its border is held where the
+// infinite plate's shape takes it, over three rows of vertices, the fewest that know the curvature there.
 //
 // Kirchhoff's plate, D the rigidity, w the deflection; on free edges, n normal and s along: M_n = 0 and
 // V_n = Q_n + dM_ns/ds = 0.
