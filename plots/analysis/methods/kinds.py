@@ -25,15 +25,19 @@ def kind_of(problem):
     return next((kind for kind, names in KINDS.items() if problem.startswith(names)), None)
 
 
-def mean_over(kinds, base=None):
-    """\\param kinds  {kind: excess in percent}. The geometric mean of the ratios, in percent. A method that refuses some of the kinds of
-    `base`, which has all, gets the mean of `base` times its ratio to it in those that it has: kinds that are easy for all would flatter it."""
-    logs = {kind: np.log1p(value / 100) for kind, value in kinds.items()}
-    mean = np.mean(list(logs.values()))
-    if base and set(base) > set(kinds):
-        of_base = {kind: np.log1p(value / 100) for kind, value in base.items()}
-        mean += np.mean(list(of_base.values())) - np.mean([of_base[kind] for kind in kinds])
-    return 100 * np.expm1(mean)
+def completed(kinds, base):
+    """\\param kinds  {kind: excess in percent}. With the kinds that `base` has alone, as those of a method that refuses them: the value of
+    `base`, times the mean ratio to it in the others. To leave them out would flatter it where they are hard for all."""
+    shared = [kind for kind in kinds if kind in base]
+    if not shared or not set(base) > set(kinds):
+        return kinds
+    ratio = np.mean([np.log1p(kinds[kind] / 100) - np.log1p(base[kind] / 100) for kind in shared])
+    return {kind: kinds[kind] if kind in kinds else 100 * np.expm1(np.log1p(base[kind] / 100) + ratio) for kind in base}
+
+
+def mean_over(kinds):
+    """\\param kinds  {kind: excess in percent}. The geometric mean of the ratios, in percent."""
+    return 100 * (np.exp(np.log1p(np.array(list(kinds.values())) / 100).mean()) - 1)
 
 
 def interval(kinds):
@@ -75,8 +79,9 @@ def table_of(records):
         made, kinds = of(common, variant), kinds_of(common, variant, measure)
         if not kinds:
             continue
-        rows.append({"method": variant[0], "parameter": variant[1], "error, kinds": mean_over(kinds, base),
-                     "error, its 95 %": in_words(interval(kinds)),
+        whole = completed(kinds, base)
+        rows.append({"method": variant[0], "parameter": variant[1], "error, kinds": mean_over(whole),
+                     "error, its 95 %": in_words(interval(whole)),
                      **{f"error, {kind}": value for kind, value in kinds.items()},
                      **{f"error, by {m}": by_measure(made, fitted, m) for m in MEASURES
                         if f"error_{m}" in made}})
