@@ -36,10 +36,33 @@ TEST(BodyFitted, IsACutSheetOfTheSameSize) {
     };
     measure(sheet, length, area);
     measure(cut, length_cut, area_cut);
-    EXPECT_NEAR(length, length_cut, 2e-3 * length_cut);
+    const bool slender = problem->name() == "elliptic_hole_3";  // its edges are chords of tight bends
+    EXPECT_NEAR(length, length_cut, (slender ? 5e-3 : 2e-3) * length_cut);
     EXPECT_NEAR(area, area_cut, 1e-10);
     EXPECT_LE(longest, 2 * sheet.mean_edge());  // an even size
   }
+}
+
+TEST(BodyFitted, IsGradedAtTipsWithAsManyTriangles) {
+  for (const std::string name : {"centre_crack", "arc_crack_45", "crossed_cracks", "corner_270"}) {
+    SCOPED_TRACE(name);
+    const Problem& problem = find_problem(name);
+    const Specimen specimen = problem.specimen("grid", 30, 1, 1);
+    const Sheet sheet = graded_at_tips(specimen), even = body_fitted(specimen);
+    EXPECT_TRUE(check(sheet).empty());
+    EXPECT_EQ(count_pieces(sheet), count_pieces(even));
+    const auto wanted = to_double(specimen.mesh.triangles.size());
+    EXPECT_NEAR(to_double(sheet.triangle_count()), wanted, 0.05 * wanted);
+    double least = 1e300;
+    for (std::size_t t = 0; t < sheet.triangle_slots(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto c = sheet.corners(TriangleIndex(t));
+        least = std::min(least, std::sqrt(squared_length(c[(k + 1) % 3] - c[k])));
+      }
+    EXPECT_LT(least, 0.1 * even.mean_edge());
+  }
+  const Specimen hole = find_problem("kirsch_hole").specimen("grid", 12, 1, 1);
+  EXPECT_EQ(graded_at_tips(hole).to_mesh_data().rest, body_fitted(hole).to_mesh_data().rest);
 }
 
 /// Whatever else the process has done: the addresses of a mesher's triangles must not be in the result.

@@ -261,8 +261,26 @@ def check_missing_columns(results):
                done.returncode == 2 and len(done.stderr.splitlines()) == 1 and "unknowns" in done.stderr)
 
 
+def check_kinds():
+    """Kinds weigh alike, and one that a method refuses counts as the base's times the method's ratio to it elsewhere."""
+    sys.path.insert(0, str(PLOTS))
+    import pandas as pd
+    from analysis.accuracy import intervals
+    from analysis.methods import kinds
+    base, some = {"crack": 10.0, "hole": 0.0, "ellipse": 300.0}, {"crack": 120.0, "hole": 100.0}
+    whole = kinds.completed(some, base)
+    expect(f"a refused kind is {whole}", abs(whole["ellipse"] - 700) < 1e-9 and whole["crack"] == 120)
+    expect("what all make is changed", kinds.completed(base, base) == base)
+    table = pd.DataFrame({"kind": ["crack"] * 9 + ["hole"], "ratio": [1.0] * 9 + [4.0]})
+    mean, ends = intervals.interval(table, "ratio")
+    expect(f"kinds do not weigh alike: {mean}, {ends}", abs(mean - 100) < 1e-9 and ends == "+5 to +280")  # of four draws
+    named = [kinds.kind_of(problem) for problem in ("corner_315", "elliptic_hole_3", "free_strip", "flap")]
+    expect(f"kinds of problems: {named}", named == ["corner", "ellipse", "frequency", None])
+
+
 def main():
     results = Path(sys.argv[1])
+    check_kinds()
     check_all_there(results)
     if problems:  # the rest would only repeat them
         print("\n".join(problems))

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "harness/base/random.h"
@@ -26,13 +28,37 @@ struct NamedField {
   std::string name;
   ElasticField field;
   std::vector<LipSample> lips;  ///< in the field's own frame
-  bool hole = false;
+  std::function<bool(Complex)> hole{};
+  LipLoad load{};  ///< on the lips of length 1
 };
 
 std::vector<LipSample> arc_lips(double radius, double half_angle) {
   std::vector<LipSample> lips;
   for (double t = -0.95 * half_angle; t < half_angle; t += 0.19 * half_angle)
     lips.push_back({{radius * std::cos(t), radius * std::sin(t)}, {std::cos(t), std::sin(t)}, 1});
+  return lips;
+}
+
+/// Normals point into the sheet.
+std::vector<LipSample> corner_lips(double half_angle) {
+  std::vector<LipSample> lips;
+  const double c = std::cos(half_angle), s = std::sin(half_angle);
+  for (double r = 0.05; r < 1.5; r += 0.1) {
+    lips.push_back({{r * c, r * s}, {s, -c}, 1});
+    lips.push_back({{r * c, -r * s}, {s, c}, 1});
+  }
+  return lips;
+}
+
+constexpr Ellipse oval{0.5, 0.2};
+
+std::vector<LipSample> oval_lips() {
+  std::vector<LipSample> lips;
+  for (double t = 0; t < 6.2; t += 0.1) {
+    const Complex out = Complex(oval.b * std::cos(t), oval.a * std::sin(t));
+    lips.push_back(
+        {{oval.a * std::cos(t), oval.b * std::sin(t)}, {out.real() / std::abs(out), out.imag() / std::abs(out)}, 1});
+  }
   return lips;
 }
 
@@ -50,7 +76,23 @@ std::vector<NamedField> fields() {
     all.push_back({"arc", arc_crack_field(rubber, turned, 0.6, half, {1.2, -0.4, 0.7}), arc_lips(0.6, half)});
     all.push_back({"arc", arc_crack_field(rubber, turned, 0.6, half, {1.2, 1.2, 0}), arc_lips(0.6, half)});
   }
-  all.push_back({"hole", hole_field(rubber, turned, 0.4, 1.5), arc_lips(0.4, pi), true});
+  all.push_back(
+      {"hole", hole_field(rubber, turned, 0.4, 1.5), arc_lips(0.4, pi), [](Complex z) { return std::abs(z) < 0.4; }});
+  std::vector<LipSample> row;
+  for (const double turn : {-1.3, 0.0, 1.3})
+    for (const LipSample& lip : straight) row.push_back({lip.at + Point2{turn, 0}, lip.normal, 1});
+  all.push_back({"collinear", collinear_cracks_field(rubber, turned, 0.5, 1.3, {0.7, 1.1, 0.4}), row});
+  for (const LipLoad& load : {LipLoad{{1.1, 0}, {}}, LipLoad{{0.3, 0.7}, {}}, LipLoad{{0.6, 0}, {0.2, -0.5}}})
+    all.push_back({"loaded", loaded_crack_field(rubber, turned, 0.5, load), straight, {}, load});
+  std::vector<LipSample> crossed = straight;
+  for (const LipSample& lip : straight) crossed.push_back({{0, lip.at.x}, {1, 0}, 1});
+  all.push_back({"crossed", crossed_cracks_field(rubber, turned, 0.5, 1.2), crossed});
+  for (const Corner& corner : {Corner{135 * degree}, Corner{135 * degree, true}, Corner{157.5 * degree}})
+    all.push_back({"corner", corner_field(rubber, turned, corner, 1.2), corner_lips(corner.half_angle),
+                   [=](Complex z) { return std::abs(std::arg(z)) > corner.half_angle; }});
+  for (const PlaneStress& stress : {PlaneStress{0, 1, 0}, PlaneStress{0.6, -0.2, 0.7}})
+    all.push_back({"ellipse", elliptic_hole_field(rubber, turned, oval, stress), oval_lips(),
+                   [](Complex z) { return oval.holds(z); }});
   return all;
 }
 
@@ -71,13 +113,13 @@ Matrix2d hooke(const Matrix2d& g) {
 
 TEST(ExactFields, AreInEquilibriumAndTheirStressIsThatOfTheirDisplacement) {
   Random random(3);
-  for (const auto& [name, field, lips, hole] : fields()) {
+  for (const auto& [name, field, lips, hole, load] : fields()) {
     SCOPED_TRACE(name);
     for (int i = 0; i < 200; ++i) {
       const Point2 local{random.between(-1, 1), random.between(-1, 1)};
       double clear = 1;  // of the cut
       for (const LipSample& lip : lips) clear = std::min(clear, std::sqrt(squared_length(lip.at - local)));
-      if (clear < 0.15 || (hole && std::hypot(local.x, local.y) < 0.5)) continue;
+      if (clear < 0.15 || (hole && hole({local.x, local.y}))) continue;
       const Point2 p = field.frame().to_rest({local.x, local.y});
       const Matrix2d stress = field.stress(p);
       EXPECT_LE((hooke(difference_gradient(field, p, 1e-4)) - stress).norm(), 1e-5);
@@ -93,22 +135,24 @@ TEST(ExactFields, AreInEquilibriumAndTheirStressIsThatOfTheirDisplacement) {
 }
 
 TEST(ExactFields, HaveLipsWithoutTraction) {
-  for (const auto& [name, field, lips, hole] : fields())
+  for (const auto& [name, field, lips, hole, load] : fields())
     for (const LipSample& lip : lips)
       for (const double side : {1, -1}) {
         if (hole && side < 0) continue;
+        if (name == "crossed" && std::hypot(lip.at.x, lip.at.y) > 0.4) continue;  // as steep as one over the root
         constexpr double beside = 2e-5, step = 4e-6;
         const Complex at(lip.at.x + side * beside * lip.normal.x, lip.at.y + side * beside * lip.normal.y);
         const Complex out = std::polar(1.0, field.frame().angle) * Complex(lip.normal.x, lip.normal.y);
         const Matrix2d stress = hooke(difference_gradient(field, field.frame().to_rest(at), step));
-        EXPECT_LE((stress * Vector2d(out.real(), out.imag())).norm(), 1e-2) << name;
+        const Vector2d pressure = load.above(lip.at.x, 0.5), turned_load = Eigen::Rotation2Dd(turned.angle) * pressure;
+        EXPECT_LE((stress * Vector2d(out.real(), out.imag()) + turned_load).norm(), 1e-2) << name;
       }
 }
 
 /// Nothing tears but the cut.
 TEST(ExactFields, JumpOnTheCutOnly) {
-  for (const auto& [name, field, lips, hole] : fields()) {
-    if (name == "williams") continue;  // its cut never ends
+  for (const auto& [name, field, lips, hole, load] : fields()) {
+    if (name == "williams" || name == "collinear" || name == "corner") continue;  // cuts that never end
     for (const double radius : {0.75, 1.1, 2.0}) {
       constexpr int steps = 2000;
       double largest = 0;
@@ -135,6 +179,12 @@ TEST(ExactFields, AreUniformFarAway) {
   EXPECT_LE((straight.stress({3e3, 4e3}) - (Matrix2d() << 0.7, 0.4, 0.4, 1.1).finished()).norm(), 1e-5);
   EXPECT_LE((pulled.stress({3e3, 4e3}) - (Matrix2d() << 0.7, 0.4, 0.4, 1.1).finished()).norm(), 1e-5);
   EXPECT_LE((hole.stress({3e3, 4e3}) - (Matrix2d() << 1.5, 0, 0, 0).finished()).norm(), 1e-5);
+  const Matrix2d sheared = (Matrix2d() << 0.7, 0.4, 0.4, 1.1).finished();
+  const PlaneStress of_it{0.7, 1.1, 0.4};
+  EXPECT_LE((elliptic_hole_field(rubber, {{}, 0}, oval, of_it).stress({3e3, 4e3}) - sheared).norm(), 1e-5);
+  EXPECT_LE((collinear_cracks_field(rubber, {{}, 0}, 0.5, 1.3, of_it).stress({0.2, 20}) - sheared).norm(), 1e-5);
+  EXPECT_LE(loaded_crack_field(rubber, {{}, 0}, 0.5, {{1, 0.5}, {0.2, 0}}).stress({3e3, 4e3}).norm(), 1e-5);
+  EXPECT_LE((crossed_cracks_field(rubber, {{}, 0}, 0.5, 1.2).stress({3e3, 4e3}) - all_round).norm(), 1e-5);
 }
 
 /// u = sqrt(r / 2 pi) / (2 mu) (K1 (cos(t/2) (k - 1 + 2 sin^2), sin(t/2) (k + 1 - 2 cos^2)) + K2 (...)).
@@ -208,6 +258,103 @@ TEST(ExactFields, IntensityOfAnArc) {
         EXPECT_NEAR(k.k1, k1, 1e-6);
         EXPECT_NEAR(side * k.k2, k2, 1e-6);
       }
+}
+
+/// What crosses the axis at a short way r ahead of the end, times sqrt(2 pi r): K1 and K2.
+StressIntensity ahead_of(const ElasticField& field, double end) {
+  const double r = 1e-8;
+  const Matrix2d stress = field.stress({end + std::copysign(r, end), 0});
+  return {stress(1, 1) * std::sqrt(2 * pi * r), stress(0, 1) * std::sqrt(2 * pi * r)};
+}
+
+TEST(ExactFields, CollinearCracksAsInTheBooks) {
+  const double a = 0.3, w = 0.8;
+  const ElasticField field = collinear_cracks_field(rubber, {{}, 0}, a, w, {0, 1.1, 0.4});
+  const double factor = std::sqrt(w * std::tan(pi * a / w));
+  EXPECT_NEAR(ahead_of(field, a).k1, 1.1 * factor, 1e-3);
+  EXPECT_NEAR(ahead_of(field, a).k2, 0.4 * factor, 1e-3);
+  for (double x = -0.29; x < 0.3; x += 0.05) {
+    const double gape = 4 * 1.1 * w / (pi * rubber.young) * std::acosh(std::cos(pi * x / w) / std::cos(pi * a / w));
+    for (const double turns : {0, 1, -2})
+      EXPECT_NEAR(opening(field, {{{x + turns * w, 0}, {0, 1}, 1}}).front(), gape, 1e-9);
+  }
+  for (const Point2 p : {Point2{0.1, 0.2}, Point2{-0.37, 0.05}})
+    EXPECT_LE((field.stress(p) - field.stress({p.x + 3 * w, p.y})).norm(), 1e-12);
+  // Cuts far apart know nothing of each other.
+  const ElasticField far_apart = collinear_cracks_field(rubber, {{}, 0}, a, 1e4, {0, 1.1, 0.4}),
+                     lone = straight_crack_field(rubber, {{}, 0}, a, {0, 1.1, 0.4});
+  EXPECT_LE((far_apart.displacement({0.2, 0.1}) - lone.displacement({0.2, 0.1})).norm(), 1e-7);
+  // The bridges bear all: the mean of the tension in one is s W / (W - 2 a).
+  double sum = 0;
+  constexpr int steps = 4000;
+  for (int i = 0; i < steps; ++i) {
+    const double angle = pi * (i + 0.5) / steps;  // crowded towards both ends
+    const double x = w / 2 - (w / 2 - a) * std::cos(angle);
+    sum += field.stress({x, 0})(1, 1) * (w / 2 - a) * std::sin(angle) * pi / steps;
+  }
+  EXPECT_NEAR(sum, 1.1 * w, 1e-4);
+}
+
+TEST(ExactFields, LoadedLipsAsInTheBooks) {
+  const double a = 0.3, root = std::sqrt(pi * a);
+  const ElasticField field = loaded_crack_field(rubber, {{}, 0}, a, {{1.1, 0.6}, {0.4, -0.2}});
+  EXPECT_NEAR(ahead_of(field, a).k1, (1.1 + 0.3) * root, 1e-3);
+  EXPECT_NEAR(ahead_of(field, -a).k1, (1.1 - 0.3) * root, 1e-3);
+  EXPECT_NEAR(ahead_of(field, a).k2, (0.4 - 0.1) * root, 1e-3);
+  EXPECT_NEAR(ahead_of(field, -a).k2, (0.4 + 0.1) * root, 1e-3);
+  // A pressure opens as a tension far away does.
+  const ElasticField pressed = loaded_crack_field(rubber, {{}, 0}, a, {{1.1, 0}, {}});
+  for (double x = -0.25; x < 0.3; x += 0.1)
+    EXPECT_NEAR(opening(pressed, {{{x, 0}, {0, 1}, 1}}).front(), 4 * 1.1 / rubber.young * std::sqrt(a * a - x * x),
+                1e-12);
+}
+
+/// 0.8636 of Rooke and Sneddon; every arm alike.
+TEST(ExactFields, IntensityOfCrossedCuts) {
+  EXPECT_NEAR(crossed_cracks_factor(), 0.8636, 2e-4);
+  const ElasticField field = crossed_cracks_field(rubber, {{}, 0}, 0.3, 1.2);
+  for (const double end : {0.3, -0.3})
+    EXPECT_NEAR(ahead_of(field, end).k1, crossed_cracks_factor() * 1.2 * std::sqrt(pi * 0.3), 1e-3);
+  for (const Point2 p : {Point2{0.1, 0.2}, Point2{0.37, 0.05}}) {
+    const Matrix2d here = field.stress(p), there = field.stress({-p.y, p.x});
+    EXPECT_NEAR(here(0, 0), there(1, 1), 1e-12);
+    EXPECT_NEAR(here(0, 1), -there(0, 1), 1e-12);
+  }
+}
+
+/// Williams's exponents, and stresses that go like r^(q - 1).
+TEST(ExactFields, CornersAsInTheBooks) {
+  EXPECT_NEAR(Corner{135 * degree}.exponent(), 0.5444837, 1e-7);
+  EXPECT_NEAR((Corner{135 * degree, true}.exponent()), 0.9085292, 1e-7);
+  EXPECT_NEAR(Corner{179.9 * degree}.exponent(), 0.5, 1e-3);  // a cut
+  for (const bool sliding : {false, true}) {
+    const Corner corner{135 * degree, sliding};
+    const ElasticField field = corner_field(rubber, {{}, 0}, corner, 1.2);
+    for (const double r : {1e-3, 0.3}) {
+      const double stress = 1.2 * std::pow(r, corner.exponent() - 1);
+      EXPECT_NEAR(field.stress({r, 0})(1, sliding ? 0 : 1), stress, 1e-9 * stress);
+      EXPECT_NEAR(field.stress({r, 0})(1, sliding ? 1 : 0), 0, 1e-9 * stress);
+    }
+  }
+}
+
+/// At the ends of its axes, pulled along y and along x; a circle is Kirsch's.
+TEST(ExactFields, EllipticHoleAsInTheBooks) {
+  const ElasticField across = elliptic_hole_field(rubber, {{}, 0}, oval, {0, 1.5, 0}),
+                     along = elliptic_hole_field(rubber, {{}, 0}, oval, {1.5, 0, 0});
+  EXPECT_NEAR(across.stress({oval.a, 0})(1, 1), 1.5 * (1 + 2 * oval.a / oval.b), 1e-9);
+  EXPECT_NEAR(across.stress({0, oval.b})(0, 0), -1.5, 1e-9);
+  EXPECT_NEAR(along.stress({0, oval.b})(0, 0), 1.5 * (1 + 2 * oval.b / oval.a), 1e-9);
+  EXPECT_NEAR(along.stress({oval.a, 0})(1, 1), -1.5, 1e-9);
+  const ElasticField nearly = elliptic_hole_field(rubber, turned, {0.4 + 1e-9, 0.4}, {1.5, 0, 0}),
+                     round = hole_field(rubber, turned, 0.4, 1.5);
+  for (const Point2 p : {Point2{0.9, 0.3}, Point2{-0.6, 0.5}}) {
+    EXPECT_LE((nearly.stress(p) - round.stress(p)).norm(), 1e-7);
+    EXPECT_LE((nearly.displacement(p) - round.displacement(p)).norm(), 1e-7);
+  }
+  const Complex t = oval.to_circle({0.3, 0.05}), rim = oval.from_circle(t / std::abs(t));
+  EXPECT_LE((across.stress({0.3, 0.05}) - across.stress({rim.real(), rim.imag()})).norm(), 1e-9);
+  EXPECT_LE((across.displacement({0.3, 0.05}) - across.displacement({rim.real(), rim.imag()})).norm(), 1e-12);
 }
 
 /// Two fits of a handbook, made independently.

@@ -112,6 +112,7 @@ members = [2, 1]
 members_nonlinear = [1, 1]
 tip_functions = false
 reference = true
+graded_reference = true
 )",
     R"(claim = "c"
 sheets = ["grid", "delaunay"]

@@ -11,9 +11,10 @@
 
 namespace cutbench {
 
-/// The specimen's sheet with its cuts made, or the mesh fitted to them ("body_fitted").
+/// The specimen's sheet with its cuts made, or the mesh fitted to them ("body_fitted", "graded_at_tips").
 inline Sheet cut_by(const Specimen& specimen, const std::string& method, double parameter = 0) {
   if (method == "body_fitted") return body_fitted(specimen);
+  if (method == "graded_at_tips") return graded_at_tips(specimen);
   Sheet sheet(specimen.mesh);
   Locator locator(sheet);
   const auto tool = find_method(method).make(parameter);

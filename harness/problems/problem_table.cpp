@@ -2,11 +2,13 @@
 
 #include "harness/base/errors.h"
 #include "harness/problems/common/problem.h"
+#include "harness/problems/in_motion/free_strip.h"
 #include "harness/problems/in_motion/hanging_sheet.h"
 #include "harness/problems/in_motion/severed_strip.h"
 #include "harness/problems/in_plane/edge_crack.h"
 #include "harness/problems/in_plane/window_problem.h"
 #include "harness/problems/out_of_plane/bending_patch_slit.h"
+#include "harness/problems/out_of_plane/bent_plate.h"
 #include "harness/problems/out_of_plane/flap.h"
 #include "harness/problems/out_of_plane/slit_strip.h"
 #include "harness/problems/out_of_plane/trouser_tear.h"
@@ -23,6 +25,9 @@ const std::vector<std::unique_ptr<const Problem>>& all_problems() {
     all.push_back(std::make_unique<SlitStrip>());
     all.push_back(std::make_unique<Flap>());
     all.push_back(std::make_unique<TrouserTear>());
+    all.push_back(std::make_unique<BentPlate>(BentPlate::Cut::hole));
+    all.push_back(std::make_unique<BentPlate>(BentPlate::Cut::crack));
+    all.push_back(free_strip());
     all.push_back(severed_strip(Integrator::midpoint));
     all.push_back(severed_strip(Integrator::backward_euler));
     all.push_back(hanging_sheet(Integrator::midpoint));

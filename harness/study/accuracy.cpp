@@ -106,8 +106,9 @@ class AccuracyRun : public StudyRun {
     const auto of_worker = [&](const Worker& worker) {
       return of_method(worker.variant.row->name, worker.variant.parameter_text());
     };
-    const Record of_reference = of_method(reference_method, "");
-    if ((!plan_.reference || is_done(of_reference, problem)) &&
+    const Record of_reference = of_method(reference_method, ""), of_graded = of_method(graded_method, "");
+    const bool graded = plan_.graded_reference && problem.takes_budgets();
+    if ((!plan_.reference || is_done(of_reference, problem)) && (!graded || is_done(of_graded, problem)) &&
         std::all_of(workers_.begin(), workers_.end(),
                     [&](const Worker& worker) { return is_done(of_worker(worker), problem); }))
       return;
@@ -116,7 +117,9 @@ class AccuracyRun : public StudyRun {
         problem.specimen(family, squares_per_side(resolution), own_seed(experiment_.seed, problem.name()), i);
     const BaseSheet base{Sheet(specimen.mesh)};
     Yardstick yardstick;
-    if (plan_.reference) yardstick = run_reference(problem, specimen, base, of_reference);
+    if (plan_.reference) yardstick = run_reference(problem, specimen, base, of_reference, body_fitted, {});
+    if (graded && !is_done(of_graded, problem))
+      run_reference(problem, specimen, base, of_graded, graded_at_tips, yardstick);
     for (Worker& worker : workers_)
       if (!is_done(of_worker(worker), problem))
         run_method(problem, specimen, base, worker, of_worker(worker), yardstick);
@@ -136,12 +139,13 @@ class AccuracyRun : public StudyRun {
     row.set("tip_functions", std::int64_t{budget.tip_functions});
   }
 
-  Yardstick run_reference(const Problem& problem, const Specimen& specimen, const BaseSheet& base, Record row) {
+  Yardstick run_reference(const Problem& problem, const Specimen& specimen, const BaseSheet& base, Record row,
+                          Sheet (*mesh)(const Specimen&), const Yardstick& yardstick) {
     const auto start = Clock::now();
     row.set("exact_incision", std::int64_t{1});
     std::optional<Sheet> sheet;
     try {
-      sheet = body_fitted(specimen);
+      sheet = mesh(specimen);
       row.set("cut_us", us_since(start));
       // Its edges are chords of about h: what they cut off a curve is part of its error, not a fault.
       CutOptions chords = cut_options_;
@@ -155,9 +159,9 @@ class AccuracyRun : public StudyRun {
       set_failure(row, "failed", "crashed", error.what());
       sheet.reset();
     }
-    const Yardstick yardstick = answer(problem, specimen, sheet ? &*sheet : nullptr, {}, row, {});
-    minutes_[reference_method] += us_since(start) / 60e6;
-    return yardstick;
+    const Yardstick errors = answer(problem, specimen, sheet ? &*sheet : nullptr, {}, row, yardstick);
+    minutes_[row.get("method")] += us_since(start) / 60e6;
+    return errors;
   }
 
   void run_method(const Problem& problem, const Specimen& specimen, const BaseSheet& base, Worker& worker, Record row,

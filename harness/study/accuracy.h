@@ -13,6 +13,8 @@ namespace cutbench {
 /// The method of the rows whose sheet was meshed anew to fit the cut: what excess errors are measured from. Its time of
 /// a cut is that of the meshing.
 constexpr const char* reference_method = "body_fitted (reference)";
+/// A second one, graded at tips: a row beside the methods'.
+constexpr const char* graded_method = "body_fitted_graded (reference)";
 
 /// Writes <out>/<stem>/records.csv, a row per problem, sheet, resolution, member, method, solver and budget, and
 /// context.json; a killed run goes on where it stopped. Prints the table. Returns false where a row's verdict is not

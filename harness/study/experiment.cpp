@@ -35,7 +35,7 @@ const Kind accuracy_kind{"accuracy runs",
                          "accuracy",
                          {"accuracy"},
                          {"problems", "direct", "preconditioners", "iterations", "members", "members_nonlinear",
-                          "tip_functions", "reference"}};
+                          "tip_functions", "reference", "graded_reference"}};
 const Kind stability_kind{"stability sweeps", "sweeps", {"sweeps", "cases", "time_limit_s"}, {}};
 const Kind cut_kind{"cut families",
                     "",
@@ -167,6 +167,7 @@ AccuracyStudy read_accuracy(const TomlReader& experiment, const std::vector<int>
       reader.has("members_nonlinear") ? read_members("members_nonlinear", 0) : accuracy.members;
   accuracy.tip_functions = reader.value<bool>("tip_functions", accuracy.tip_functions);
   accuracy.reference = reader.value<bool>("reference", accuracy.reference);
+  accuracy.graded_reference = reader.value<bool>("graded_reference", accuracy.graded_reference);
   refuse_repeated(accuracy.problems, experiment.where + ": \"problems\"");
   refuse_repeated(accuracy.direct, experiment.where + ": \"direct\"");
   refuse_repeated(accuracy.preconditioners, experiment.where + ": \"preconditioners\"");

@@ -44,6 +44,7 @@ struct AccuracyStudy {
   std::vector<std::pair<int, int>> members_nonlinear;  ///< the same for problems that take no budgets; may be 0
   bool tip_functions = false;  ///< solve directly with functions for the tips (harness/fem/tips/tip_functions.h), too
   bool reference = true;       ///< solve on a mesh fitted to the cut too; excess errors are measured against it
+  bool graded_reference = false;  ///< and on one graded at tips, where there are any: a row beside the methods'
 };
 
 /// Adversarial cuts (harness/cases/adversarial.h), counted instead of measured.

@@ -39,6 +39,7 @@ KNOWN = {  # in the order of the legend
     ("bowyer_watson", "rounds=3"): Look("Bowyer-Watson, rounds=3", "#0b2f66", "v"),
     ("cgal_cdt", ""): Look("CGAL CDT", "#d55e00", "D"),
     ("body_fitted (reference)", ""): Look("body-fitted mesh (reference)", "#111111", "*", "--"),
+    ("body_fitted_graded (reference)", ""): Look("body-fitted mesh, graded at tips", "#555555", "*", ":"),
     ("every_edge", ""): Look("every edge tested", "#8a8a8a", "h", ":"),
 }
 PROGRAM = " (program)"

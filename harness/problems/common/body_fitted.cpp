@@ -29,6 +29,55 @@ using Criteria = CGAL::Delaunay_mesh_size_criteria_2<Triangulation>;
 
 using Chain = std::vector<Point2>;
 
+/// How long edges may be: as long everywhere without tips; else like r^(3/4), r from the nearest tip, where stresses go
+/// like r^(-1/2). Then all triangles have the same share of the error, and its energy norm falls like the size again.
+struct Sizing {
+  std::vector<Point2> tips;
+
+  double at(Point2 p, double far) const {
+    if (tips.empty()) return far;
+    double r = 1e300;
+    for (const Point2 tip : tips) r = std::min(r, std::sqrt(squared_length(p - tip)));
+    const double least = std::max(1e-3 * far, far * (far / reach) * (far / reach) * (far / reach));
+    return std::max(least, far * std::pow(std::min(1.0, r / reach), 0.75));
+  }
+
+ private:
+  static constexpr double reach = 0.25;  // beyond it edges are as long as they may be
+};
+
+Point2 centre_of(const Triangulation::Face_handle& face) {
+  const auto& a = face->vertex(0)->point();
+  const auto &b = face->vertex(1)->point(), &c = face->vertex(2)->point();
+  return {(a.x() + b.x() + c.x()) / 3, (a.y() + b.y() + c.y()) / 3};
+}
+
+/// As Criteria, with a size that depends on the place.
+class GradedCriteria {
+ public:
+  using Face_handle = Triangulation::Face_handle;
+  using Quality = Criteria::Quality;
+  class Is_bad {
+   public:
+    Is_bad(const Sizing& sizing, double far) : sizing_(sizing), far_(far) {}
+    CGAL::Mesh_2::Face_badness operator()(const Quality& quality) const { return rule(far_)(quality); }
+    CGAL::Mesh_2::Face_badness operator()(const Face_handle& face, Quality& quality) const {
+      return rule(sizing_.at(centre_of(face), far_))(face, quality);
+    }
+
+   private:
+    static Criteria::Is_bad rule(double size) { return {0.125, size, Kernel()}; }
+    const Sizing& sizing_;
+    double far_;
+  };
+  GradedCriteria(const Sizing& sizing, double far) : sizing_(sizing), far_(far) {}
+  Is_bad is_bad_object() const { return {sizing_, far_}; }
+
+ private:
+  const Sizing& sizing_;
+  double far_;
+};
+
 /// The straight parts of the border, from corner to corner.
 std::vector<Chain> border_of(const Sheet& sheet) {
   const auto direction = [&](HalfEdge h) { return sheet.rest(sheet.target(h)) - sheet.rest(sheet.origin(h)); };
@@ -90,6 +139,32 @@ void end_where_they_meet(std::vector<Chain>& sides, std::vector<Chain>& cuts) {
       }
 }
 
+/// Ends two chains where they cross, at the segments from i and k on.
+void end_at(Point2 p, std::size_t c, std::size_t i, std::size_t d, std::size_t k, std::vector<Chain>& chains) {
+  for (const auto& [chain, segment] : {std::pair{c, i}, std::pair{d, k}}) {
+    Chain rest(chains[chain].begin() + to_index(segment), chains[chain].end());
+    rest.front() = p;
+    chains[chain].resize(segment + 1);
+    chains[chain].push_back(p);
+    chains.push_back(std::move(rest));
+  }
+}
+
+/// The same of cuts that cross each other.
+void end_where_cuts_cross(std::vector<Chain>& cuts) {
+  constexpr double apart = 1e-9;  // of a segment: one that ends on the other doesn't cross it
+  for (std::size_t c = 0; c < cuts.size(); ++c)
+    for (std::size_t d = c + 1; d < cuts.size(); ++d)
+      for (std::size_t i = 0; i + 1 < cuts[c].size(); ++i)
+        for (std::size_t k = 0; k + 1 < cuts[d].size(); ++k) {
+          const Point2 a = cuts[c][i], along = cuts[c][i + 1] - a, p = cuts[d][k], step = cuts[d][k + 1] - p;
+          const double det = cross(along, step);
+          if (det == 0) continue;
+          const double s = cross(p - a, step) / det, t = cross(p - a, along) / det;
+          if (std::min(s, t) > apart && std::max(s, t) < 1 - apart) end_at(a + s * along, c, i, d, k, cuts);
+        }
+}
+
 /// Divides a chain into pieces of equal length, about `step`.
 void divide(const Chain& chain, double step, std::vector<std::array<Point2, 2>>& segments) {
   double length = 0;
@@ -109,23 +184,52 @@ void divide(const Chain& chain, double step, std::vector<std::array<Point2, 2>>&
   segments.push_back({last, chain.back()});
 }
 
-Triangulation mesh_of(const std::vector<std::array<Point2, 2>>& constraints, double size) {
+/// The same with pieces as long as `sizing` says.
+void divide(const Chain& chain, const Sizing& sizing, double far, std::vector<std::array<Point2, 2>>& segments) {
+  std::vector<Point2> places{chain.front()};
+  std::vector<double> pieces{0};  // up to each place
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    const Point2 from = chain[i - 1], along = chain[i] - from;
+    const double length = std::sqrt(squared_length(along));
+    for (double run = 0; run < length;) {
+      const double size = sizing.at(places.back(), far), next = std::min(length, run + size / 20);
+      places.push_back(next < length ? from + next / length * along : chain[i]);
+      pieces.push_back(pieces.back() + (next - run) / size);
+      run = next;
+    }
+  }
+  const double count = std::max(1.0, std::round(pieces.back()));
+  Point2 last = chain.front();
+  double wanted = 1;
+  for (std::size_t i = 1; i + 1 < places.size(); ++i)
+    if (wanted < count && pieces[i] / pieces.back() >= wanted / count) {
+      segments.push_back({last, places[i]});
+      last = places[i];
+      ++wanted;
+    }
+  segments.push_back({last, chain.back()});
+}
+
+Triangulation mesh_of(const std::vector<std::array<Point2, 2>>& constraints, double size, const Sizing& sizing) {
   Triangulation mesh;
   for (const auto& [a, b] : constraints) mesh.insert_constraint(to_cgal(a), to_cgal(b));
-  CGAL::refine_Delaunay_mesh_2(mesh, Criteria(0.125, size));
+  if (sizing.tips.empty())
+    CGAL::refine_Delaunay_mesh_2(mesh, Criteria(0.125, size));
+  else
+    CGAL::refine_Delaunay_mesh_2(mesh, GradedCriteria(sizing, size));
   return mesh;
 }
 
-/// Where the triangles round a vertex want it: their circumcentres, weighted by their areas (Chen and Xu, Optimal
-/// Delaunay triangulations, J. Comput. Math. 22, 2004). The vertex stays where it is on a constraint, and where that
-/// would turn one of its triangles over.
-Kernel::Point_2 smoothed(const Triangulation& mesh, Triangulation::Vertex_handle vertex) {
+/// Where the triangles round a vertex want it: their circumcentres, weighted by their areas, over the fourth power of
+/// the wanted size (Chen and Xu, Optimal Delaunay triangulations, J. Comput. Math. 22, 2004). The vertex stays where it
+/// is on a constraint, and where that would turn one of its triangles over.
+Kernel::Point_2 smoothed(const Triangulation& mesh, Triangulation::Vertex_handle vertex, const Sizing& sizing) {
   if (mesh.are_there_incident_constraints(vertex)) return vertex->point();
   Kernel::Vector_2 sum(0, 0);
   double area = 0;
   auto face = mesh.incident_faces(vertex), end = face;
   do {
-    const double weight = mesh.triangle(face).area();
+    const double weight = mesh.triangle(face).area() * std::pow(sizing.at(centre_of(face), 1), -4);
     sum = sum + weight * (mesh.circumcenter(face) - CGAL::ORIGIN);
     area += weight;
   } while (++face != end);
@@ -139,13 +243,14 @@ Kernel::Point_2 smoothed(const Triangulation& mesh, Triangulation::Vertex_handle
   return place;
 }
 
-Triangulation smoothed(const Triangulation& mesh) {
+Triangulation smoothed(const Triangulation& mesh, const Sizing& sizing) {
   Triangulation result;
   for (const auto& [face, k] : mesh.constrained_edges())
     result.insert_constraint(face->vertex(face->ccw(k))->point(), face->vertex(face->cw(k))->point());
   Triangulation::Face_handle near;
   for (const auto& vertex : mesh.finite_vertex_handles())
-    if (!mesh.are_there_incident_constraints(vertex)) near = result.insert(smoothed(mesh, vertex), near)->face();
+    if (!mesh.are_there_incident_constraints(vertex))
+      near = result.insert(smoothed(mesh, vertex, sizing), near)->face();
   return result;
 }
 
@@ -155,9 +260,28 @@ std::size_t triangles_in(const Triangulation& mesh) {
   return count;
 }
 
-}  // namespace
+/// The ends of cuts inside the sheet, a rectangle, and the corners in them.
+std::vector<Point2> tips_of(const Specimen& specimen) {
+  Point2 low = specimen.mesh.rest.front(), high = low;
+  for (const Point2 p : specimen.mesh.rest) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  std::vector<Point2> tips;
+  const auto add = [&](Point2 p) {
+    if (p.x > low.x && p.x < high.x && p.y > low.y && p.y < high.y) tips.push_back(p);
+  };
+  for (const Curve& cut : specimen.cuts) {
+    if (cut.closed) continue;
+    if (cut.kind == Curve::Kind::polyline)
+      for (const Point2 p : cut.points) add(p);
+    else
+      for (const Point2 p : {cut.points.front(), cut.points.back()}) add(p);
+  }
+  return tips;
+}
 
-Sheet body_fitted(const Specimen& specimen) {
+Sheet fitted(const Specimen& specimen, const Sizing& sizing) {
   const Sheet uncut(specimen.mesh);
   const auto wanted = to_double(specimen.mesh.triangles.size());
   double area = 0;
@@ -168,13 +292,22 @@ Sheet body_fitted(const Specimen& specimen) {
   const double edge = std::sqrt(4 / std::sqrt(3) * area / wanted);  // of as many equilateral triangles
   auto sides = border_of(uncut), cuts = cuts_of(specimen, 1e-3 * edge, uncut.snap());
   end_where_they_meet(sides, cuts);
-  std::vector<std::array<Point2, 2>> constraints;
-  for (const auto* chains : {&sides, &cuts})
-    for (const Chain& chain : *chains) divide(chain, edge, constraints);
+  end_where_cuts_cross(cuts);
+  const auto mesh_at = [&](double size) {
+    std::vector<std::array<Point2, 2>> constraints;
+    for (const auto* chains : {&sides, &cuts})
+      for (const Chain& chain : *chains) {
+        if (sizing.tips.empty())
+          divide(chain, edge, constraints);
+        else
+          divide(chain, sizing, size / 1.2, constraints);
+      }
+    return mesh_of(constraints, size, sizing);
+  };
   // The number goes with 1 / size^2, roughly: a few steps come as near as can be told beforehand.
   double size = 1.2 * edge, best_size = size, best = 1e300;
   for (int step = 0; step < 8; ++step) {
-    const auto count = to_double(triangles_in(mesh_of(constraints, size)));
+    const auto count = to_double(triangles_in(mesh_at(size)));
     if (std::abs(count - wanted) < best) {
       best = std::abs(count - wanted);
       best_size = size;
@@ -183,8 +316,8 @@ Sheet body_fitted(const Specimen& specimen) {
     size *= std::sqrt(count / wanted);
   }
   constexpr int rounds = 10;
-  Triangulation mesh = mesh_of(constraints, best_size);
-  for (int round = 0; round < rounds; ++round) mesh = smoothed(mesh);
+  Triangulation mesh = mesh_at(best_size);
+  for (int round = 0; round < rounds; ++round) mesh = smoothed(mesh, sizing);
   const std::span<const Kernel::Point_2> no_holes;
   CGAL::Delaunay_mesher_2<Triangulation, Criteria>::mark_facets(mesh, no_holes.begin(), no_holes.end());
 
@@ -214,5 +347,11 @@ Sheet body_fitted(const Specimen& specimen) {
   sheet.begin_cut();
   return sheet;
 }
+
+}  // namespace
+
+Sheet body_fitted(const Specimen& specimen) { return fitted(specimen, {}); }
+
+Sheet graded_at_tips(const Specimen& specimen) { return fitted(specimen, {tips_of(specimen)}); }
 
 }  // namespace cutbench

@@ -3,32 +3,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "harness/problems/common/potentials.h"
+
 namespace cutbench {
 
 namespace {
 
 using std::numbers::pi;
-// What counts as on the cut, in units of the sheet: far above rounding, far below everything else.
-constexpr double on_the_cut = 1e-9;
-
-/// A point on the x axis, moved to the side of it where `side` is by less than anything else can feel.
-Complex beside_the_axis(Complex z, Complex side) {
-  return std::abs(z.imag()) < on_the_cut ? Complex(z.real(), std::copysign(1e-300, side.imag())) : z;
-}
-
-Potentials uniform(const PlaneStress& stress, Complex z) {
-  const double mean = (stress.xx + stress.yy) / 4;
-  const Complex deviator((stress.yy - stress.xx) / 2, stress.xy);
-  return {mean * z, mean, 0, deviator * z, deviator};
-}
-
-/// phi = k g, psi = conj(k) g - z phi', where g is real on the x axis ahead of the cut: what crosses the axis there is
-/// s_yy - i s_xy = 2 k g', and nothing crosses it where g' is imaginary.
-Potentials collinear(Complex z, Complex k, Complex g, Complex g_1, Complex g_2) {
-  const Complex phi_1 = k * g_1, phi_2 = k * g_2;
-  return {k * g, phi_1, phi_2, std::conj(k) * g - z * phi_1, std::conj(k) * g_1 - phi_1 - z * phi_2};
-}
-
 /// The potentials of an arc of radius 1.
 class Arc {
  public:
@@ -78,14 +59,14 @@ class Arc {
 }  // namespace
 
 ElasticField uniform_field(const Elastic& elastic, const Axes& frame, const PlaneStress& stress) {
-  return {elastic, frame, [=](Complex z) { return uniform(stress, z); }};
+  return {elastic, frame, [=](Complex z) { return uniform_potentials(stress, z); }};
 }
 
 ElasticField williams_field(const Elastic& elastic, const Axes& frame, const StressIntensity& k) {
   const Complex factor = Complex(k.k1, -k.k2) / std::sqrt(2 * pi);
   const auto solution = [=](Complex z) {
     const Complex root = std::sqrt(z);
-    return collinear(z, factor, root, 0.5 / root, -0.25 / (root * z));
+    return collinear_potentials(z, factor, root, 0.5 / root, -0.25 / (root * z));
   };
   return {elastic, frame, solution, beside_the_axis};
 }
@@ -93,9 +74,9 @@ ElasticField williams_field(const Elastic& elastic, const Axes& frame, const Str
 ElasticField straight_crack_field(const Elastic& elastic, const Axes& frame, double a, const PlaneStress& far_away) {
   const auto solution = [=](Complex z) {
     const Complex root = std::sqrt(z - a) * std::sqrt(z + a);  // the jumps beyond -a cancel
-    const Potentials whole = uniform(far_away, z),
-                     cut = collinear(z, Complex(far_away.yy, -far_away.xy) / 2.0, root - z, z / root - 1.0,
-                                     -a * a / (root * root * root));
+    const Potentials whole = uniform_potentials(far_away, z),
+                     cut = collinear_potentials(z, Complex(far_away.yy, -far_away.xy) / 2.0, root - z, z / root - 1.0,
+                                                -a * a / (root * root * root));
     return Potentials{cut.phi + whole.phi, cut.phi_1 + whole.phi_1, cut.phi_2, cut.psi + whole.psi,
                       cut.psi_1 + whole.psi_1};
   };

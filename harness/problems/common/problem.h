@@ -68,7 +68,8 @@ class Problem {
   virtual std::string name() const = 0;
   virtual std::string effect() const = 0;  ///< one line: the one effect it shows
   virtual std::string truth() const = 0;   ///< one line: the answer and its source
-  /// What answer() measures, the primary one first: that which ranks.
+  /// What answer() measures, the primary one first: that which ranks. In the plane it is the energy norm of the error,
+  /// and the second one, but at an edge crack, is a norm, too: neither has a sign in which errors cancel.
   virtual std::vector<std::string> measures() const = 0;
   virtual bool takes_budgets() const { return true; }  ///< false: several linear solves, solved directly only
   /// False: it bends, which it does at the sheet's own vertices alone.
@@ -97,5 +98,9 @@ const Problem& find_problem(const std::string& name);
 /// The measuring stick of excess errors: the specimen's sheet meshed anew to fit its cuts, with nearly as many
 /// triangles and an even size (CGAL's Delaunay refinement, incisions as constraints), opened along them.
 Sheet body_fitted(const Specimen& specimen);
+/// The same with nearly as many triangles, small at the ends of cuts inside the sheet and at the corners in them,
+/// larger elsewhere: what a fitted mesh can do that knows where stresses have no bound. Without such places it is
+/// body_fitted(). \pre the sheet is a rectangle.
+Sheet graded_at_tips(const Specimen& specimen);
 
 }  // namespace cutbench

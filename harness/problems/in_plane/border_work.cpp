@@ -28,7 +28,8 @@ std::vector<double> panel_ends(Point2 a, Point2 b, const std::vector<Curve>& cut
 
 }  // namespace
 
-BorderWork border_work(const ElasticField& field, const ElasticField& before, const std::vector<Curve>& cuts) {
+BorderWork border_work(const ElasticField& field, const ElasticField& before, const std::vector<Curve>& cuts,
+                       const std::function<bool(Complex)>& cut_off) {
   constexpr std::array<std::array<double, 2>, 3> gauss{
       {{-0.774596669241483, 5.0 / 9}, {0, 8.0 / 9}, {0.774596669241483, 5.0 / 9}}};
   BorderWork work;
@@ -41,6 +42,7 @@ BorderWork border_work(const ElasticField& field, const ElasticField& before, co
       for (const auto& [place, weight] : gauss) {
         const double half = (ends[i + 1] - ends[i]) / 2;
         const Point2 p = a + (ends[i] + half * (1 + place)) * side;
+        if (cut_off && cut_off(field.frame().to_local(p))) continue;
         const Eigen::Vector2d u = field.displacement(p), t = field.stress(p) * normal;
         work.after += weight * half / 2 * t.dot(u);
         work.released += weight * half / 2 * (u.dot(before.stress(p) * normal) - t.dot(before.displacement(p)));

@@ -1,6 +1,8 @@
 // The work that is done on the sheet's border, of exact fields.
 #pragma once
 
+#include <functional>
+
 #include "harness/problems/common/elastic_field.h"
 #include "harness/problems/common/problem.h"
 
@@ -11,7 +13,8 @@ struct BorderWork {
   double after = 0, released = 0;
 };
 
-/// By Gauss's rule, on panels that end where a cut crosses the border.
-BorderWork border_work(const ElasticField& field, const ElasticField& before, const std::vector<Curve>& cuts);
+/// By Gauss's rule, on panels that end where a cut crosses the border; without what is `cut_off`, of the field's frame.
+BorderWork border_work(const ElasticField& field, const ElasticField& before, const std::vector<Curve>& cuts,
+                       const std::function<bool(Complex)>& cut_off = {});
 
 }  // namespace cutbench

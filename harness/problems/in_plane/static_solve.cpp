@@ -1,5 +1,6 @@
 #include "harness/problems/in_plane/static_solve.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -64,29 +65,70 @@ void StaticSolve::pull_border(const std::function<bool(Point2, Point2)>& where, 
   });
 }
 
-void StaticSolve::hold_loose_pieces() {
+void StaticSolve::load_lips(const Axes& frame, const std::function<Eigen::Vector2d(double)>& load) {
+  why_no_tips_ = "the lips are loaded, which tip functions don't take";
+  for (std::size_t t = 0; t < sheet_.triangle_slots(); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (const TriangleIndex slot(t);
+          sheet_.triangle(slot).alive() && sheet_.mark(half_edge(slot, k)) == EdgeMark::incision)
+        load_edge(half_edge(slot, k), frame, load);
+}
+
+/// The triangle is on the left: above an edge that runs along the x axis, and below one that runs against it.
+void StaticSolve::load_edge(HalfEdge h, const Axes& frame, const std::function<Eigen::Vector2d(double)>& load) {
+  constexpr std::array<std::array<double, 2>, 3> gauss{
+      {{0.112701665379258, 5.0 / 18}, {0.5, 4.0 / 9}, {0.887298334620742, 5.0 / 18}}};
+  const auto along_x = [&](VertexIndex v) { return frame.to_local(sheet_.rest(v)).real(); };
+  const double from = along_x(sheet_.origin(h)), length = along_x(sheet_.target(h)) - from;
+  const auto ends = deformed_ends(sheet_, h);
+  const Eigen::Rotation2Dd turn(frame.angle);
+  for (const auto& [place, weight] : gauss) {
+    const Eigen::Vector2d force = weight * length * (turn * load(from + place * length));
+    force_.segment<2>(2 * ends[0].value) += (1 - place) * force;
+    force_.segment<2>(2 * ends[1].value) += place * force;
+  }
+}
+
+void StaticSolve::hold_loose_pieces(const std::function<bool(Point2)>& cut_off) {
   const BlockMatrix<2>& blocks = model_.blocks();
+  // Per vertex: the area round it, and what of that is cut off.
+  std::vector<double> area(model_.vertices()), off(model_.vertices());
+  for (std::size_t e = 0; cut_off && e < elements().size(); ++e) {
+    if (!elements()[e].alive()) continue;
+    const auto c = sheet_.corners(TriangleIndex(e));
+    const double size = cross(c[1] - c[0], c[2] - c[0]) * elements()[e].fraction;
+    const std::size_t vertex = elements()[e].vertex[0]();
+    area[vertex] += size;
+    if (cut_off(1.0 / 3 * (c[0] + c[1] + c[2]))) off[vertex] += size;
+  }
   std::vector<std::uint8_t> seen(model_.vertices());
   std::vector<std::size_t> piece;
   loose_.assign(model_.vertices(), 0);
   for (std::size_t start = 0; start < seen.size(); ++start) {
     if (seen[start] || blocks.columns(start).empty()) continue;
     bool held = false;
+    double whole = 0, gone = 0;
     piece.assign(1, start);
     seen[start] = 1;
     for (std::size_t i = 0; i < piece.size(); ++i) {
       held = held || held_[2 * piece[i]] || held_[2 * piece[i] + 1];
+      whole += area[piece[i]];
+      gone += off[piece[i]];
       for (const auto j : blocks.columns(piece[i]))
         if (!std::exchange(seen[to_size(j)], 1)) piece.push_back(to_size(j));
     }
-    if (held) continue;
-    for (const std::size_t v : piece) loose_[v] = held_[2 * v] = held_[2 * v + 1] = 1;
+    if (held && gone <= whole / 2) continue;
+    for (const std::size_t v : piece) {
+      loose_[v] = held_[2 * v] = held_[2 * v + 1] = 1;
+      given_.segment<2>(to_index(2 * v)).setZero();
+    }
   }
   model_.elements().for_each_inside([this](DeformedIndex d, DeformedIndex corner) { loose_[d()] = loose_[corner()]; });
 }
 
 void StaticSolve::make_tip_functions(std::span<const Budget> budgets) {
   if (std::none_of(budgets.begin(), budgets.end(), [](const Budget& budget) { return budget.tip_functions; })) return;
+  if (!why_no_tips_.empty()) return;
   if (constrained_) {
     why_no_tips_ = "the method constrains vertices, which tip functions don't take";
     return;

@@ -27,9 +27,13 @@ class StaticSolve {
   void hold(Point2 p, int axis, double value);
   /// Force per length on the border edges that `where` says yes to (by their ends), N/m.
   void pull_border(const std::function<bool(Point2, Point2)>& where, const Eigen::Vector2d& force);
+  /// Loads the lips of all incisions. `load`: N per length along the x axis of `frame`, at x, on the lips above an
+  /// incision; those below it take the opposite. An edge takes the load of its length along that axis, so whatever
+  /// edges a method opened, the sum is that of the cut that was asked for. Tip functions don't take it.
+  void load_lips(const Axes& frame, const std::function<Eigen::Vector2d(double)>& load);
   /// Holds all vertices of every piece that nothing holds yet at zero: a piece that is cut out has no unique
-  /// equilibrium.
-  void hold_loose_pieces();
+  /// equilibrium. `cut_off`: a piece, more than half of whose area is there, is held so, whatever else holds it.
+  void hold_loose_pieces(const std::function<bool(Point2)>& cut_off = {});
 
   /// Makes the functions that budgets with `tip_functions` add, if one of these has them. Such budgets are refused
   /// where a vertex is constrained, and where no tip has functions.
@@ -57,6 +61,7 @@ class StaticSolve {
 
  private:
   SystemMatrix<2> held_system() const;
+  void load_edge(HalfEdge h, const Axes& frame, const std::function<Eigen::Vector2d(double)>& load);
 
   const Sheet& sheet_;
   Model<2> model_;

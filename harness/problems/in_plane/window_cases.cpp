@@ -4,7 +4,7 @@
 
 #include "harness/base/conversions.h"
 #include "harness/problems/common/members.h"
-#include "harness/problems/in_plane/window_problem.h"
+#include "harness/problems/in_plane/case_parts.h"
 
 namespace cutbench {
 
@@ -12,52 +12,17 @@ namespace {
 
 using std::numbers::pi;
 constexpr double half_length = 0.25;  // of straight cuts
-constexpr double degree = pi / 180;
-
-Curve line(Point2 a, Point2 b) { return {Curve::Kind::polyline, false, {a, b}}; }
-
-/// An arc round the origin as cubic Beziers, each so short that it is within 1e-7 of the radius.
-Curve arc(double radius, double from, double to) {
-  const int pieces = to_int(std::ceil((to - from) / (22.5 * degree) - 1e-9));
-  const double step = (to - from) / pieces, handle = 4.0 / 3 * std::tan(step / 4) * radius;
-  const auto at = [&](double t) { return Point2{radius * std::cos(t), radius * std::sin(t)}; };
-  const auto along = [&](double t) { return Point2{-handle * std::sin(t), handle * std::cos(t)}; };
-  Curve curve{Curve::Kind::bezier, to - from >= 359 * degree, {at(from)}};
-  for (int i = 0; i < pieces; ++i) {
-    const double a = from + i * step, b = a + step;
-    const Point2 end = curve.closed && i + 1 == pieces ? curve.points.front() : at(b);
-    curve.points.insert(curve.points.end(), {at(a) + along(a), end - along(b), end});
-  }
-  return curve;
-}
-
-constexpr int lip_samples = 400;
-
-std::vector<LipSample> straight_lips() {
-  std::vector<LipSample> samples;
-  const double step = 2 * half_length / lip_samples;
-  for (int i = 0; i < lip_samples; ++i) samples.push_back({{-half_length + (i + 0.5) * step, 0}, {0, 1}, step});
-  return samples;
-}
-
-/// An end of a straight cut.
-WindowTip straight_tip(Point2 at, double angle, const StressIntensity& k) {
-  const auto modes = [=](const Axes& frame) {
-    return williams_modes(sheet_material, {frame.to_rest({at.x, at.y}), frame.angle + angle});
-  };
-  return {{at, angle}, k, modes};
-}
 
 WindowCase straight(std::string name, std::string effect, std::string truth, const PlaneStress& stress) {
   const double root = std::sqrt(pi * half_length);
   const StressIntensity k{stress.yy * root, stress.xy * root};
   WindowCase window{std::move(name), std::move(effect), std::move(truth)};
-  window.measures = {"released_energy", "opening", "energy_norm", "displacement_l2", "strain_energy", "k1", "k2"};
+  window.measures = {"energy_norm", "opening", "displacement_l2", "released_energy", "strain_energy", "k1", "k2"};
   window.field = [=](const Axes& frame) { return straight_crack_field(sheet_material, frame, half_length, stress); };
   window.cuts = {line({-half_length, 0}, {half_length, 0})};
   window.before = stress;
   window.tips = {straight_tip({half_length, 0}, 0, k), straight_tip({-half_length, 0}, pi, k)};
-  window.lips = straight_lips();
+  window.lips = straight_lips({0, 0}, half_length);
   return window;
 }
 
@@ -111,7 +76,7 @@ WindowCase arc_crack(int degrees, bool all_round) {
                     "a curved cut, an arc of twice " + twice + " degrees, pulled " +
                         (all_round ? "in all directions" : "along its axis of symmetry"),
                     "infinite plate: Muskhelishvili's potentials, the handbook's K"};
-  window.measures = {"released_energy", "opening", "energy_norm", "strain_energy", "k1", "k2"};
+  window.measures = {"energy_norm", "opening", "released_energy", "strain_energy", "k1", "k2"};
   window.field = [=](const Axes& frame) { return field(frame, stress); };
   window.cuts = {arc(radius, -half, half)};
   window.middle = {radius * (1 + std::cos(half)) / 2, 0};
@@ -138,11 +103,14 @@ WindowCase kirsch_hole() {
   constexpr double radius = 0.2;
   WindowCase window{"kirsch_hole", "a round piece cut out: three times the tension at the rim",
                     "infinite plate: hoop stress s (1 - 2 cos 2t); Kirsch 1898"};
-  window.measures = {"rim_stress", "energy_norm", "released_energy"};
+  window.measures = {"energy_norm", "rim_stress", "released_energy"};
   window.field = [=](const Axes& frame) { return hole_field(sheet_material, frame, radius, pull); };
   window.cuts = {arc(radius, 0, 2 * pi)};
   window.before = {pull, 0, 0};
-  window.rim = radius;
+  window.rim = [=](Complex z) {
+    const Complex out = z / std::abs(z);
+    return RimPoint{radius * out, Complex(-out.imag(), out.real())};
+  };
   return window;
 }
 
@@ -157,11 +125,10 @@ WindowCase parallel_stress() {
 
 }  // namespace
 
-void append_window_problems(std::vector<std::unique_ptr<const Problem>>& problems) {
-  for (WindowCase window :
-       {centre_crack(), inclined_crack(), williams(1), williams(2), arc_crack(30, true), arc_crack(45, true),
-        arc_crack(60, true), arc_crack(45, false), kirsch_hole(), parallel_stress(), two_cuts_one_geometry()})
-    problems.push_back(make_window_problem(std::move(window)));
+std::vector<WindowCase> first_cases() {
+  return {centre_crack(),         inclined_crack(),    williams(1),          williams(2),   arc_crack(30, true),
+          arc_crack(45, true),    arc_crack(60, true), arc_crack(45, false), kirsch_hole(), parallel_stress(),
+          two_cuts_one_geometry()};
 }
 
 }  // namespace cutbench

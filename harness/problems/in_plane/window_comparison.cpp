@@ -2,11 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "harness/base/conversions.h"
 #include "harness/problems/common/quadrature.h"
 
 namespace cutbench {
+
+namespace {
+
+/// Is this edge on the border of the unit square?
+bool on_square(Point2 a, Point2 b) {
+  return (a.x == b.x && (a.x == 0 || a.x == 1)) || (a.y == b.y && (a.y == 0 || a.y == 1));
+}
+
+}  // namespace
 
 WindowComparison::WindowComparison(const WindowCase& window, const Specimen& specimen, const Sheet& sheet,
                                    const StaticSolve& solve, const ElasticField& field)
@@ -14,11 +24,14 @@ WindowComparison::WindowComparison(const WindowCase& window, const Specimen& spe
       sheet_(sheet),
       solve_(solve),
       field_(field),
-      border_(border_work(field, uniform_field(field.elastic(), field.frame(), window.before), specimen.cuts)) {
-  sample_elements();
+      border_(border_work(field, uniform_field(field.elastic(), field.frame(), window.before), specimen.cuts,
+                          window.cut_off)) {
   for (const LipSample& lip : window.lips) lips_.push_back({in_rest(lip.at), turned(lip.normal), lip.length});
   opening_ = opening(field, lips_);
-  if (window.rim > 0) find_rim();
+  border_.after += work_on_lips();
+  find_fallen();
+  sample_elements();
+  if (window.rim) find_rim();
   for (const WindowTip& end : window.tips) {
     if (!end.modes) continue;
     const Tip tip{in_rest(end.tip.at), field.frame().angle + end.tip.angle, end.tip.curvature};
@@ -36,7 +49,36 @@ Point2 WindowComparison::turned(Point2 local) const {
 
 bool WindowComparison::looked_at(std::size_t element) const {
   const Element& e = solve_.elements()[element];
-  return e.alive() && !solve_.loose(e.vertex[0]);
+  return e.alive() && !solve_.loose(e.vertex[0]) && !fallen_[element];
+}
+
+/// Marks pieces that no edge joins to the border, or that lie where a cut takes the border's piece off: some methods
+/// leave such a piece hanging by a vertex, and there is no exact solution in it.
+void WindowComparison::find_fallen() {
+  fallen_.assign(solve_.elements().size(), 0);
+  std::vector<std::uint8_t> seen(fallen_.size());
+  std::vector<TriangleIndex> piece;
+  for (std::size_t start = 0; start < seen.size(); ++start) {
+    if (!sheet_.triangle(TriangleIndex(start)).alive() || std::exchange(seen[start], 1)) continue;
+    piece.assign(1, TriangleIndex(start));
+    bool held = false;
+    double whole = 0, off = 0;
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      const auto c = sheet_.corners(piece[i]);
+      const double area = cross(c[1] - c[0], c[2] - c[0]);
+      whole += area;
+      if (window_.cut_off && window_.cut_off(field_.frame().to_local(1.0 / 3 * (c[0] + c[1] + c[2])))) off += area;
+      for (int k = 0; k < 3; ++k) {
+        const HalfEdge h = half_edge(piece[i], k);
+        held = held || on_square(c[to_size(k)], c[to_size((k + 1) % 3)]);
+        if (sheet_.separates(h)) continue;
+        const TriangleIndex next = triangle_of(sheet_.opposite(h));
+        if (!std::exchange(seen[next()], 1)) piece.push_back(next);
+      }
+    }
+    if (held && off <= whole / 2) continue;
+    for (const TriangleIndex t : piece) fallen_[t()] = 1;
+  }
 }
 
 void WindowComparison::sample_elements() {
@@ -51,6 +93,34 @@ void WindowComparison::sample_elements() {
     });
     elements_.push_back({e, samples_.size()});
   }
+  // Deleted material takes its energy with it. Other methods have all of the area, and none of this.
+  double area = 0;
+  for (std::size_t e = 0; e < solve_.elements().size(); ++e)
+    if (solve_.elements()[e].alive()) {
+      const auto c = sheet_.corners(TriangleIndex(e));
+      area += cross(c[1] - c[0], c[2] - c[0]) / 2;
+    }
+  if (area > 1 - 1e-6) return;
+  double sampled = 0;
+  for (const Sample& sample : samples_)
+    sampled += sample.weight * sample.stress.cwiseProduct(field_.elastic().strain(sample.stress)).sum();
+  missing_ = std::max(0.0, 2 * border_.after - sampled);
+}
+
+/// Half of the load on the lips times what they move.
+double WindowComparison::work_on_lips() const {
+  if (!window_.on_lips) return 0;
+  double work = 0;
+  for (const LipSample& lip : window_.lips) {
+    const Point2 at = in_rest(lip.at), up = turned(lip.normal),
+                 force = turned([&] {
+                   const Eigen::Vector2d load = window_.on_lips(lip.at.x);
+                   return Point2{load.x(), load.y()};
+                 }());
+    const Eigen::Vector2d jump = field_.displacement(at, at + 1e-3 * up) - field_.displacement(at, at + -1e-3 * up);
+    work += lip.length / 2 * jump.dot(Eigen::Vector2d(force.x, force.y));
+  }
+  return work;
 }
 
 void WindowComparison::find_rim() {
@@ -59,10 +129,10 @@ void WindowComparison::find_rim() {
       const HalfEdge h = half_edge(TriangleIndex(e), k);
       if (sheet_.mark(h) != EdgeMark::incision) continue;
       const Point2 a = sheet_.rest(sheet_.origin(h)), b = sheet_.rest(sheet_.target(h));
-      const Complex middle = field_.frame().to_local(0.5 * (a + b)), out = middle / std::abs(middle);
-      const Point2 tangent = turned({-out.imag(), out.real()});
+      const RimPoint rim = window_.rim(field_.frame().to_local(0.5 * (a + b)));
+      const Point2 tangent = turned({rim.tangent.real(), rim.tangent.imag()});
       const Eigen::Vector2d along(tangent.x, tangent.y);
-      const Eigen::Matrix2d exact = field_.stress(field_.frame().to_rest(window_.rim * out));
+      const Eigen::Matrix2d exact = field_.stress(field_.frame().to_rest(rim.at));
       rim_.push_back({e, 0.5 * (a + b), std::sqrt(squared_length(b - a)), along.dot(exact * along), along});
     }
 }
@@ -70,6 +140,7 @@ void WindowComparison::find_rim() {
 WindowComparison::Sums WindowComparison::sum(const StaticSolve::Solution& solution) const {
   const Elastic& elastic = field_.elastic();
   Sums sums;
+  sums.error_energy = missing_;
   sums.energy = solve_.tip_energy(solution);
   std::size_t next = 0;
   for (const auto& [e, end] : elements_) {

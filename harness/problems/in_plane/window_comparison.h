@@ -36,8 +36,10 @@ class WindowComparison {
     double energy = 0, error_energy = 0, error_squared = 0, exact_squared = 0, worst_stress = 0;
   };
   bool looked_at(std::size_t element) const;
+  void find_fallen();
   void sample_elements();
   void find_rim();
+  double work_on_lips() const;
   Sums sum(const StaticSolve::Solution& solution) const;
   double opening_error(const StaticSolve::Solution& solution) const;
   double rim_error(const StaticSolve::Solution& solution) const;
@@ -51,6 +53,8 @@ class WindowComparison {
   const StaticSolve& solve_;
   const ElasticField& field_;
   BorderWork border_;
+  double missing_ = 0;  ///< twice the exact energy of deleted material, J
+  std::vector<std::uint8_t> fallen_;
   std::vector<SampledElement> elements_;
   std::vector<Sample> samples_;
   std::vector<LipSample> lips_;

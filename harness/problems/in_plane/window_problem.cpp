@@ -13,7 +13,7 @@ namespace cutbench {
 namespace {
 
 /// The same frame for a member of every size: only its distance from the mesh's cells is in units of them.
-Axes member_frame(Point2 middle, int n, std::uint64_t seed, std::size_t index) {
+Axes member_frame(const WindowCase& window, int n, std::uint64_t seed, std::size_t index) {
   MemberNumbers numbers(seed, index);
   Axes frame;
   Point2 place{0.5 + numbers.between(-0.5, 0.5) / n, 0.5 + numbers.between(-0.5, 0.5) / n};
@@ -21,9 +21,10 @@ Axes member_frame(Point2 middle, int n, std::uint64_t seed, std::size_t index) {
     const int row = n / 2;
     place.y = (row + distance_from_mesh_line(numbers)) / n;
   } else {
-    frame.angle = numbers.between(0, 2 * std::numbers::pi);
+    const double turn = window.largest_turn;
+    frame.angle = turn < std::numbers::pi ? numbers.between(-turn, turn) : numbers.between(0, 2 * std::numbers::pi);
   }
-  frame.origin = place - (Axes{{0, 0}, frame.angle}).to_rest({middle.x, middle.y});
+  frame.origin = place - (Axes{{0, 0}, frame.angle}).to_rest({window.middle.x, window.middle.y});
   return frame;
 }
 
@@ -36,7 +37,7 @@ class WindowProblem final : public Problem {
   std::vector<std::string> measures() const override { return window_.measures; }
 
   Specimen specimen(const std::string& family, int n, std::uint64_t seed, std::size_t index) const override {
-    const Axes frame = member_frame(window_.middle, n, seed, index);
+    const Axes frame = member_frame(window_, n, seed, index);
     Specimen specimen{make_sheet(family, n), window_.cuts, frame.origin, frame.angle};
     for (Curve& cut : specimen.cuts)
       for (Point2& p : cut.points) p = frame.to_rest({p.x, p.y});
@@ -51,7 +52,12 @@ class WindowProblem final : public Problem {
       solve.hold_border(continued_over_the_mouth(field, sheet));
     else
       solve.hold_border([&](Point2 p, Point2 inside) { return field.displacement(p, inside); });
-    solve.hold_loose_pieces();
+    const auto& cut_off = window_.cut_off;
+    if (cut_off)
+      solve.hold_loose_pieces([&](Point2 p) { return cut_off(field.frame().to_local(p)); });
+    else
+      solve.hold_loose_pieces();
+    if (window_.on_lips) solve.load_lips(field.frame(), window_.on_lips);
     solve.make_tip_functions(budgets);
     const WindowComparison comparison(window_, specimen, sheet, solve, field);
     std::vector<Answer> answers;
@@ -69,6 +75,11 @@ class WindowProblem final : public Problem {
 };
 
 }  // namespace
+
+void append_window_problems(std::vector<std::unique_ptr<const Problem>>& problems) {
+  for (const auto& cases : {first_cases(), crack_cases(), cut_out_cases()})
+    for (const WindowCase& window : cases) problems.push_back(make_window_problem(window));
+}
 
 std::unique_ptr<const Problem> make_window_problem(WindowCase window) {
   return std::make_unique<WindowProblem>(std::move(window));

@@ -40,7 +40,7 @@ class BendingPatchSlit : public Problem {
 
   std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
                              const Constraints& constraints) const override {
-    const std::vector<int> ring = rings(sheet);
+    const std::vector<int> ring = rings_from_border(sheet, held_rings);
     const auto exact = [&](DeformedIndex d) { return on_cylinder(specimen, sheet.rest(sheet.rest_vertex(d))); };
     std::vector<Answer> answers;
     for (const Budget& budget : budgets) {
@@ -76,25 +76,6 @@ class BendingPatchSlit : public Problem {
     const Point2 p = to_frame(specimen, rest);
     const double half = std::sin(curvature * p.x / 2);
     return {std::sin(curvature * p.x) / curvature, p.y, 2 * half * half / curvature};
-  }
-
-  /// Edges from the border of the sheet, not from the slit, per vertex of the opened sheet, up to held_rings.
-  static std::vector<int> rings(const Sheet& sheet) {
-    std::vector<int> ring(sheet.deformed_slots(), held_rings);
-    for (int r = 0; r < held_rings; ++r) {
-      const std::vector<int> before = ring;
-      for (std::size_t t = 0; t < sheet.triangle_slots(); ++t) {
-        const Triangle& triangle = sheet.triangle(TriangleIndex(t));
-        if (!triangle.alive()) continue;
-        for (std::size_t k = 0; k < 3; ++k) {
-          int &a = ring[triangle.deformed[k]()], &b = ring[triangle.deformed[(k + 1) % 3]()];
-          if (r == 0 && !triangle.opposite[k].valid()) a = b = 0;
-          if (r > 0 && before[triangle.deformed[k]()] == r - 1) b = std::min(b, r);
-          if (r > 0 && before[triangle.deformed[(k + 1) % 3]()] == r - 1) a = std::min(a, r);
-        }
-      }
-    }
-    return ring;
   }
 
   static constexpr double curvature = 8e-3;     // 1/m: the sheet of 1 m is 1 mm deep

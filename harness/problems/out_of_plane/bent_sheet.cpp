@@ -23,7 +23,8 @@ std::vector<Pin> pins_for(const Sheet& sheet, const std::function<Start(Deformed
 
 BentSheet::BentSheet(const Sheet& sheet, const Material& material, BendingKind bending, double gravity,
                      const std::function<Start(DeformedIndex)>& start, const Constraints& constraints)
-    : model_(sheet, material, {.bending = bending, .gravity = {0, 0, -gravity}}, pins_for(sheet, start), {}),
+    : sheet_(sheet),
+      model_(sheet, material, {.bending = bending, .gravity = {0, 0, -gravity}}, pins_for(sheet, start), {}),
       state_(initial_state(model_, sheet)) {
   if (constraints.merge_triangles()) model_.constrain(sheet, constraints);
   for (const DeformedIndex d : vertices_in_use(sheet)) {
@@ -59,6 +60,20 @@ Point3 BentSheet::position(DeformedIndex d) const {
 
 Energy BentSheet::energy() const { return model_.energy(state_.x, state_.v); }
 
+double BentSheet::bending_energy(const std::function<Point3(DeformedIndex)>& position) {
+  Field x = state_.x;
+  for (Eigen::Index d = 0; d < x.size() / 3; ++d)
+    if (const DeformedIndex slot(to_size(d)); sheet_.rest_vertex(slot).valid()) {
+      const Point3 p = position(slot);
+      x.segment<3>(3 * d) << p.x, p.y, p.z;
+    }
+  model_.follow(x);
+  model_.rotate(x);
+  const double energy = model_.energy(x, state_.v).bending;
+  model_.rotate(state_.x);
+  return energy;
+}
+
 Point3 BentSheet::support(DeformedIndex d) const {
   return {-force_[3 * d.value], -force_[3 * d.value + 1], -force_[3 * d.value + 2]};
 }
@@ -68,6 +83,33 @@ std::vector<DeformedIndex> vertices_in_use(const Sheet& sheet) {
   for (std::size_t d = 0; d < sheet.deformed_slots(); ++d)
     if (sheet.rest_vertex(DeformedIndex(d)).valid()) result.emplace_back(d);
   return result;
+}
+
+std::vector<int> rings_from_border(const Sheet& sheet, int most) {
+  std::vector<int> ring(sheet.deformed_slots(), most);
+  const auto outside = [](Point2 a, Point2 b) {
+    return (a.x == b.x && (a.x == 0 || a.x == 1)) || (a.y == b.y && (a.y == 0 || a.y == 1));
+  };
+  for (int r = 0; r < most; ++r) {
+    const std::vector<int> before = ring;
+    for (std::size_t t = 0; t < sheet.triangle_slots(); ++t) {
+      const Triangle& triangle = sheet.triangle(TriangleIndex(t));
+      if (!triangle.alive()) continue;
+      for (std::size_t k = 0; k < 3; ++k) {
+        int &a = ring[triangle.deformed[k]()], &b = ring[triangle.deformed[(k + 1) % 3]()];
+        if (r == 0 && outside(sheet.rest(triangle.vertex[k]), sheet.rest(triangle.vertex[(k + 1) % 3]))) a = b = 0;
+        if (r > 0 && before[triangle.deformed[k]()] == r - 1) b = std::min(b, r);
+        if (r > 0 && before[triangle.deformed[(k + 1) % 3]()] == r - 1) a = std::min(a, r);
+      }
+    }
+  }
+  return ring;
+}
+
+std::vector<int> copies_of_vertices(const Sheet& sheet) {
+  std::vector<int> copies(sheet.vertex_slots());
+  for (const DeformedIndex d : vertices_in_use(sheet)) ++copies[sheet.rest_vertex(d)()];
+  return copies;
 }
 
 std::vector<Point2> sides(const Sheet& sheet) {

@@ -38,12 +38,15 @@ class BentSheet {
   // --- after solve_to_equilibrium() ----------------------------------------------------------------------------------
   Point3 position(DeformedIndex d) const;  ///< m
   Energy energy() const;
+  /// J: of these positions instead.
+  double bending_energy(const std::function<Point3(DeformedIndex)>& position);
   /// N: what holds the vertex on its held axes, with the sheet's weight there.
   Point3 support(DeformedIndex d) const;
   double mass(DeformedIndex d) const { return model_.lumped_mass()[to_index(d())]; }
   bool held(DeformedIndex d) const { return model_.pinned(3 * d()); }  ///< along x
 
  private:
+  const Sheet& sheet_;
   Model<3> model_;
   State state_;
   Field force_;  // of the sheet and its weight on its vertices
@@ -51,6 +54,11 @@ class BentSheet {
 
 /// Vertices of the opened sheet that triangles use.
 std::vector<DeformedIndex> vertices_in_use(const Sheet& sheet);
+/// Edges from the border of the unit square, not from what a cut opened or deleted, per vertex of the opened sheet, up
+/// to `most`.
+std::vector<int> rings_from_border(const Sheet& sheet, int most);
+/// How many vertices of the opened sheet each rest vertex has become.
+std::vector<int> copies_of_vertices(const Sheet& sheet);
 /// Per slot: the centroid of the largest triangle at each vertex of the opened sheet, in rest space. It tells on which
 /// side of an incision the vertex is.
 std::vector<Point2> sides(const Sheet& sheet);

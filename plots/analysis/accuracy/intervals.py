@@ -9,11 +9,12 @@ from analysis.methods.kinds import TWICE, in_words, kind_of
 
 
 def interval(table, column):
-    """The mean of a ratio over all cases, minus one, in percent, and the ends of its 95 % interval, in words: all ways to draw as many
-    kinds of problems as there are, each with all of its cases."""
+    """The mean of a ratio, minus one, in percent, and the ends of its 95 % interval, in words, by drawing as many kinds of problems as
+    there are. Kinds weigh alike, however many cases they have."""
     logs = np.log(table.loc[table[column] > 0, column])
-    ends = np.quantile(load.drawn_group_means(logs, table["kind"]), [0.025, 0.975])
-    return 100 * np.expm1(logs.mean()), in_words(np.round(100 * np.expm1(ends)) + 0.0)  # no -0
+    means = logs.groupby(table["kind"]).mean()
+    ends = np.quantile(load.drawn_means(means), [0.025, 0.975])
+    return 100 * np.expm1(means.mean()), in_words(np.round(100 * np.expm1(ends)) + 0.0)  # no -0
 
 
 def print_intervals(records):

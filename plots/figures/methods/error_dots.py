@@ -16,7 +16,13 @@ from figures.methods import dots
 BESIDE = 0.33  # of a row, below the means
 SHOWN = 8  # times the fitted mesh's error: what is larger is written at the edge
 KINDS = {kind: dict(marker=marker, markersize=3, markeredgewidth=0.7, markerfacecolor="white")
-         for kind, marker in zip(kinds.KINDS, ("s", "^", ">", "o", "v"))}
+         for kind, marker in zip(kinds.KINDS, ("s", "^", ">", "o", "v", "D", "<", "P", "p", "h", "X", "*", "d"), strict=False)}
+
+
+def errors_of(row):
+    """{kind: excess in percent} of a row of kinds.table_of()."""
+    return {kind: row[f"error, {kind}"] for kind in kinds.KINDS
+            if f"error, {kind}" in row and np.isfinite(row[f"error, {kind}"])}
 
 
 def draw(folder, beside):
@@ -34,14 +40,15 @@ def draw(folder, beside):
     order = list(by_kind[load.VARIANT].itertuples(index=False, name=None))
     counts = counts_of(records)
     figure, axes, variants = dots.table_of_dots(order, [2.2, 1, 1][:2 + some_stopped], records.programs, counts)
+    of_base = of(by_kind, shares.BASE)
+    base = errors_of(of_base.iloc[0]) if len(of_base) else {}
     left, right, numbers = axes[0], axes[-1], [{} for _ in axes]
     left.set_ylim(left.get_ylim()[0] + 0.35, left.get_ylim()[1])  # room for what is written at the edge
     for y, variant in variants:
         row, colour = of(by_kind, variant).iloc[0], families.family(variant[0]).colour
         filled = dots.HOLLOW if counts[variant].is_few else {}
-        errors = {kind: row[f"error, {kind}"] for kind in kinds.KINDS
-                  if f"error, {kind}" in row and np.isfinite(row[f"error, {kind}"])}
-        left.hlines(y, *(1 + kinds.interval(errors) / 100), color=colour, linewidth=2.6, alpha=0.45, zorder=2)
+        errors = errors_of(row)
+        left.hlines(y, *(1 + kinds.interval(kinds.completed(errors, base)) / 100), color=colour, linewidth=2.6, alpha=0.45, zorder=2)
         for kind, value in errors.items():
             left.plot(1 + value / 100, y + BESIDE, color="#555555", zorder=5, **KINDS[kind])
             if 1 + value / 100 > SHOWN:
