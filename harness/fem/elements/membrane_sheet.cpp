@@ -1,6 +1,8 @@
 #include "harness/fem/elements/membrane_sheet.h"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 #include "harness/base/conversions.h"
 #include "harness/base/errors.h"
@@ -12,6 +14,9 @@ namespace cutbench {
 namespace {
 
 const Element no_element;
+
+// What several threads share, and how finely.
+constexpr std::size_t fours_of_part = 64, most_spans = 16, shortest_span = 256;
 
 /// Element `i`, or one without vertices and area: past the end, a free slot, or a member of a compound.
 const Element& element_at(const ElementTable& elements, std::size_t i) {
@@ -38,7 +43,6 @@ struct MembraneSheet<D>::Four {
       for (std::size_t l = 0; l < lane_count; ++l) vertex[k][l] = e[l]->vertex[k].value;
     }
   }
-  bool alive(std::size_t lane) const { return vertex[0][lane] >= 0; }
   /// x at corner k.
   std::array<Lanes, D> at(std::size_t k, const Field& x) const {
     std::array<const double*, lane_count> from;
@@ -141,6 +145,7 @@ bool all_positive(Lanes x) { return x[0] > 0 && x[1] > 0 && x[2] > 0 && x[3] > 0
 template <int D>
 void MembraneSheet<D>::resize(std::size_t elements) {
   const std::size_t fours = (elements + lane_count - 1) / lane_count;
+  spans_are_old_ = true;
   strained_.resize(fours);
   constexpr FourSlots none{-1, -1, -1, -1};
   slots_.resize(fours, {{{none, none, none}, {none, none, none}, {none, none, none}}});
@@ -181,17 +186,77 @@ void MembraneSheet<D>::check_takes(const Constraints& constraints) const {
     throw InputError("a polygon has no springs: take another method than cut_polygons, or another \"strain\"");
 }
 
+// --- who computes what -----------------------------------------------------------------------------------------------
+
 template <int D>
-void MembraneSheet<D>::rotate(const ElementTable& elements, const Field& x) {
+void MembraneSheet<D>::find_spans(const ElementTable& elements, Workers& workers) {
+  if (!std::exchange(spans_are_old_, false)) return;
+  constexpr std::int32_t last = std::numeric_limits<std::int32_t>::max();
+  spans_.resize(strained_.size());
+  spans_of_parts_.assign((strained_.size() + fours_of_part - 1) / fours_of_part, {last, 0});
+  workers.run(spans_of_parts_.size(), [&](std::size_t part) {
+    for (std::size_t i = fours_of_part * part; i < std::min(fours_of_part * (part + 1), spans_.size()); ++i) {
+      spans_[i] = {last, 0};
+      for (std::size_t l = 0; l < lane_count; ++l)
+        if (const Element& element = element_at(elements, lane_count * i + l); element.alive())
+          for (const DeformedIndex v : element.vertex) spans_[i].add({v.value, v.value + 1});
+      spans_of_parts_[part].add(spans_[i]);
+    }
+  });
+}
+
+/// Calls act(i) for each four elements with one of these vertices, in their order.
+template <int D>
+template <class Act>
+void MembraneSheet<D>::for_each_four_at(const Span& vertices, const Act& act) const {
+  for (std::size_t part = 0; part < spans_of_parts_.size(); ++part) {
+    if (!vertices.meets(spans_of_parts_[part])) continue;
+    for (std::size_t i = fours_of_part * part; i < std::min(fours_of_part * (part + 1), spans_.size()); ++i)
+      if (vertices.meets(spans_[i])) act(i);
+  }
+}
+
+/// Calls act(i, vertices) where four elements have one of these vertices, for spans that make up all vertices.
+template <int D>
+template <class Act>
+void MembraneSheet<D>::share_vertices(std::size_t vertices, Workers& workers, const Act& act) const {
+  const std::size_t length = std::max(shortest_span, (vertices + most_spans - 1) / most_spans);
+  workers.run((vertices + length - 1) / length, [&](std::size_t k) {
+    const Span mine{to_int32(k * length), to_int32(std::min(vertices, (k + 1) * length))};
+    for_each_four_at(mine, [&](std::size_t i) { act(i, mine); });
+  });
+}
+
+// --- of a state ------------------------------------------------------------------------------------------------------
+
+template <int D>
+void MembraneSheet<D>::rotate(const ElementTable& elements, const Field& x, Workers& workers) {
   force_.setZero(x.size());
-  for (std::size_t i = 0; i < strained_.size(); ++i) {
-    const Four four(elements, lane_count * i);
-    Lanes determined = Lanes{} + 1;
-    strained_[i] = strain_of<D>(four.deformation_gradient(x), law_.strain, determined);
-    if (!all_positive(determined)) recompute_collapsed(elements, i, determined, x);
-    add_forces(four, strained_[i]);
+  if (workers.threads() == 1) {
+    const Span all{0, std::numeric_limits<std::int32_t>::max()};
+    for (std::size_t i = 0; i < strained_.size(); ++i) {
+      const Four four(elements, lane_count * i);
+      strain(elements, four, i, x);
+      add_forces(four, strained_[i], all);
+    }
+  } else {
+    find_spans(elements, workers);
+    workers.run(spans_of_parts_.size(), [&](std::size_t part) {
+      for (std::size_t i = fours_of_part * part; i < std::min(fours_of_part * (part + 1), strained_.size()); ++i)
+        strain(elements, Four(elements, lane_count * i), i, x);
+    });
+    share_vertices(to_size(x.size()) / D, workers, [&](std::size_t i, const Span& mine) {
+      add_forces(Four(elements, lane_count * i), strained_[i], mine);
+    });
   }
   compounds_.rotate(elements, x, force_);
+}
+
+template <int D>
+void MembraneSheet<D>::strain(const ElementTable& elements, const Four& four, std::size_t i, const Field& x) {
+  Lanes determined = Lanes{} + 1;
+  strained_[i] = strain_of<D>(four.deformation_gradient(x), law_.strain, determined);
+  if (!all_positive(determined)) recompute_collapsed(elements, i, determined, x);
 }
 
 /// Elements that collapsed, one by one; where there is none, it is as at rest.
@@ -210,7 +275,7 @@ void MembraneSheet<D>::recompute_collapsed(const ElementTable& elements, std::si
 
 /// -A B s g at each corner (membrane_force()).
 template <int D>
-void MembraneSheet<D>::add_forces(const Four& four, const StrainInFrame<D, Lanes>& e) {
+void MembraneSheet<D>::add_forces(const Four& four, const StrainInFrame<D, Lanes>& e, const Span& to_vertices) {
   const auto [mu, lambda] = law_.lame;
   const Lanes pressure = lambda * (e.xx + e.yy);
   Lanes sxx = 2 * mu * e.xx + pressure, syy = 2 * mu * e.yy + pressure, sxy = 2 * mu * e.xy;
@@ -226,7 +291,7 @@ void MembraneSheet<D>::add_forces(const Four& four, const StrainInFrame<D, Lanes
     std::array<Lanes, D> pull;
     for (std::size_t r = 0; r < D; ++r) pull[r] = e.frame[0][r] * along + e.frame[1][r] * across;
     for (std::size_t l = 0; l < lane_count; ++l) {
-      if (!four.alive(l)) continue;
+      if (!to_vertices.holds(four.vertex[k][l])) continue;  // none, or another thread's
       double* const to = force_.data() + D * four.vertex[k][l];
       for (std::size_t r = 0; r < D; ++r) to[r] -= pull[r][l];
     }
@@ -256,20 +321,39 @@ Deformation<D> MembraneSheet<D>::deformation(const ElementTable& elements, std::
 }
 
 template <int D>
-void MembraneSheet<D>::add_stiffness(const ElementTable& elements, double factor, BlockMatrix<D>& blocks) const {
-  for (std::size_t i = 0; i < strained_.size(); ++i) {
-    const Four four(elements, lane_count * i);
-    const ElementStiffness<D, Lanes> k(four.gradient, factor * four.area, strained_[i], law_);
-    for (std::size_t a = 0; a < 3; ++a) {
-      blocks.add(slots_[i][a][a], k.block(a, a));
-      for (std::size_t b = a + 1; b < 3; ++b) {
-        const auto block = k.block(a, b);
-        blocks.add(slots_[i][a][b], block);
-        blocks.add(slots_[i][b][a], mirrored<D>(block));
-      }
-    }
+void MembraneSheet<D>::add_stiffness(const ElementTable& elements, double factor, BlockMatrix<D>& blocks,
+                                     Workers& workers) {
+  const auto add = [&](std::size_t i, const Span& to) {
+    add_stiffness_of_four(Four(elements, lane_count * i), i, factor, to, blocks);
+  };
+  if (workers.threads() == 1) {
+    const Span all{0, std::numeric_limits<std::int32_t>::max()};
+    for (std::size_t i = 0; i < strained_.size(); ++i) add(i, all);
+  } else {
+    find_spans(elements, workers);
+    share_vertices(blocks.rows(), workers, add);
   }
   compounds_.add_stiffness(elements, factor, blocks);
+}
+
+/// To the rows of these vertices.
+template <int D>
+void MembraneSheet<D>::add_stiffness_of_four(const Four& four, std::size_t i, double factor, const Span& to,
+                                             BlockMatrix<D>& blocks) const {
+  const ElementStiffness<D, Lanes> k(four.gradient, factor * four.area, strained_[i], law_);
+  const auto slots = [&](std::size_t row, std::size_t column) {
+    FourSlots all = slots_[i][row][column];
+    for (std::size_t l = 0; l < lane_count; ++l) all[l] = to.holds(four.vertex[row][l]) ? all[l] : -1;
+    return all;
+  };
+  for (std::size_t a = 0; a < 3; ++a) {
+    blocks.add(slots(a, a), k.block(a, a));
+    for (std::size_t b = a + 1; b < 3; ++b) {
+      const auto block = k.block(a, b);
+      blocks.add(slots(a, b), block);
+      blocks.add(slots(b, a), mirrored<D>(block));
+    }
+  }
 }
 
 template class MembraneSheet<2>;

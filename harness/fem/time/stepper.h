@@ -21,6 +21,7 @@
 #include <memory>
 #include <string>
 
+#include "harness/fem/algebra/workers.h"
 #include "harness/fem/linear/linear_solver.h"
 #include "harness/fem/linear/mass_solver.h"
 #include "harness/fem/model/state.h"
@@ -43,7 +44,7 @@ struct StepOptions {
 template <int D>
 class Stepper {
  public:
-  /// Throws InputError for an unknown solver. Symplectic Euler and XPBD take no consistent mass (scenes refuse it), and
+  /// Throws InputError for an unknown solver, and for less than one thread. Symplectic Euler and XPBD take no consistent mass (scenes refuse it), and
   /// no constrained vertices, except that symplectic Euler takes those whose unknowns have a mass of their own
   /// (Constraints::lumped), without an added one; XPBD no elements of several triangles and no added mass either.
   explicit Stepper(const StepOptions& options);
@@ -65,6 +66,7 @@ class Stepper {
   void forces(Model<D>& model, const Field& x, StepReport& report);
 
   StepOptions options_;
+  Workers workers_;
   std::unique_ptr<LinearSolver<D>> solver_;
   MassSolver<D> mass_solver_;
   Xpbd<D> xpbd_;
