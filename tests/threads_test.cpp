@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(, Threads,
                                          Kind{"phantom_node", "grid", "multigrid", 40, 4, BendingKind::hinges},
                                          Kind{"element_deletion", "grid", "cg", 40, 8}));
 
-TEST(Threads, AreAtLeastOne) {
+TEST(NumberOfThreads, IsAtLeastOne) {
   StepOptions options;
   options.solver.threads = 0;
   expect_refused([&] { const Stepper<3> stepper(options); }, "threads: 0");
