@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "harness/base/errors.h"
 
@@ -36,6 +37,7 @@ class AtWork {
 
 class Workers::Pool {
  public:
+  bool is_alone() const { return true; }
   void run(const Task&) {}
 };
 int Workers::all_cores() { return 1; }
@@ -91,11 +93,9 @@ class Workers::Pool {
     for (auto& helper : helpers_) helper.join();
   }
 
+  bool is_alone() const { return is_alone_ && Clock::now() < alone_until_; }
+  /// By all threads.
   void run(const Task& task) {
-    if (is_alone_ && Clock::now() < alone_until_) {
-      for (std::size_t k = 0; k < task.jobs; ++k) task.call(task.object, k);
-      return;
-    }
     is_alone_ = false;
     task_ = task;
     next_ = 0;
@@ -190,10 +190,12 @@ Workers& Workers::none() {
   return one;
 }
 
+bool Workers::acts_alone() const { return !pool_ || pool_->is_alone(); }
+
 void Workers::run_task(const Task& task) {
   if (is_at_work) throw std::logic_error("workers: a job can't have jobs done");
   const AtWork at_work;
-  if (pool_ && task.jobs > 1) return pool_->run(task);
+  if (task.jobs > 1 && !acts_alone()) return pool_->run(task);
   for (std::size_t k = 0; k < task.jobs; ++k) task.call(task.object, k);
 }
 

@@ -24,6 +24,8 @@ class Workers {
   static int all_cores();
 
   int threads() const { return threads_; }
+  /// The caller would do all jobs right now: there is nobody else, or the machine is busy.
+  bool acts_alone() const;
   /// Calls job(k) once for each k below `jobs`, in any order and at the same time, and returns when all are done. Of
   /// what jobs throw the one of the lowest number is thrown here; others may not have been done then.
   /// \throw std::logic_error  from within a job

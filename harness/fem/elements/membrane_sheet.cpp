@@ -1,7 +1,6 @@
 #include "harness/fem/elements/membrane_sheet.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "harness/base/conversions.h"
@@ -16,7 +15,7 @@ namespace {
 const Element no_element;
 
 // What several threads share, and how finely.
-constexpr std::size_t fours_of_part = 64, most_spans = 16, shortest_span = 256;
+constexpr std::size_t fours_of_job = 64, most_shares = 16, smallest_share = 256;  // the last two: of vertices
 
 /// Element `i`, or one without vertices and area: past the end, a free slot, or a member of a compound.
 const Element& element_at(const ElementTable& elements, std::size_t i) {
@@ -30,12 +29,15 @@ Lanes each_lane(const Function& of) {
 
 }  // namespace
 
-/// Four consecutive elements side by side. Where there is none, its vertices are -1, and all else is zero.
+/// Four elements side by side. Where there is none, its vertices are -1, and all else is zero.
 template <int D>
 struct MembraneSheet<D>::Four {
-  Four(const ElementTable& elements, std::size_t first) {
-    const std::array<const Element*, lane_count> e{&element_at(elements, first), &element_at(elements, first + 1),
-                                                   &element_at(elements, first + 2), &element_at(elements, first + 3)};
+  using Numbers = std::array<std::size_t, lane_count>;
+  Four(const ElementTable& elements, std::size_t first) : Four(elements, {first, first + 1, first + 2, first + 3}) {}
+  Four(const ElementTable& elements, const Numbers& numbers) {
+    const std::array<const Element*, lane_count> e{&element_at(elements, numbers[0]), &element_at(elements, numbers[1]),
+                                                   &element_at(elements, numbers[2]),
+                                                   &element_at(elements, numbers[3])};
     area = each_lane([&](std::size_t l) { return e[l]->material_area(); });
     for (std::size_t k = 0; k < 3; ++k) {
       gradient[k] = {each_lane([&](std::size_t l) { return e[l]->gradient[k].x; }),
@@ -138,6 +140,20 @@ void set_lane(const StrainInFrame<D, double>& one, std::size_t l, StrainInFrame<
   four.yy[l] = one.yy;
 }
 
+/// Of any four elements; as at rest where there is none.
+template <int D>
+StrainInFrame<D, Lanes> lanes_of(const std::vector<StrainInFrame<D, Lanes>>& all,
+                                 const std::array<std::size_t, lane_count>& numbers) {
+  StrainInFrame<D, Lanes> four{};
+  StrainInFrame<D, double> at_rest{};
+  at_rest.frame[0][0] = at_rest.frame[1][1] = 1;
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const std::size_t i = numbers[l] / lane_count;
+    set_lane(i < all.size() ? lane<D>(all[i], numbers[l] % lane_count) : at_rest, l, four);
+  }
+  return four;
+}
+
 bool all_positive(Lanes x) { return x[0] > 0 && x[1] > 0 && x[2] > 0 && x[3] > 0; }
 
 }  // namespace
@@ -145,7 +161,7 @@ bool all_positive(Lanes x) { return x[0] > 0 && x[1] > 0 && x[2] > 0 && x[3] > 0
 template <int D>
 void MembraneSheet<D>::resize(std::size_t elements) {
   const std::size_t fours = (elements + lane_count - 1) / lane_count;
-  spans_are_old_ = true;
+  shares_are_old_ = true;
   strained_.resize(fours);
   constexpr FourSlots none{-1, -1, -1, -1};
   slots_.resize(fours, {{{none, none, none}, {none, none, none}, {none, none, none}}});
@@ -189,41 +205,40 @@ void MembraneSheet<D>::check_takes(const Constraints& constraints) const {
 // --- who computes what -----------------------------------------------------------------------------------------------
 
 template <int D>
-void MembraneSheet<D>::find_spans(const ElementTable& elements, Workers& workers) {
-  if (!std::exchange(spans_are_old_, false)) return;
-  constexpr std::int32_t last = std::numeric_limits<std::int32_t>::max();
-  spans_.resize(strained_.size());
-  spans_of_parts_.assign((strained_.size() + fours_of_part - 1) / fours_of_part, {last, 0});
-  workers.run(spans_of_parts_.size(), [&](std::size_t part) {
-    for (std::size_t i = fours_of_part * part; i < std::min(fours_of_part * (part + 1), spans_.size()); ++i) {
-      spans_[i] = {last, 0};
-      for (std::size_t l = 0; l < lane_count; ++l)
-        if (const Element& element = element_at(elements, lane_count * i + l); element.alive())
-          for (const DeformedIndex v : element.vertex) spans_[i].add({v.value, v.value + 1});
-      spans_of_parts_[part].add(spans_[i]);
+void MembraneSheet<D>::find_shares(const ElementTable& elements, std::size_t vertices) {
+  const bool are_of_these = !shares_.empty() && shares_.back().end == to_int32(vertices);
+  if (!std::exchange(shares_are_old_, false) && are_of_these) return;
+  const std::size_t length = std::max(smallest_share, (vertices + most_shares - 1) / most_shares);
+  shares_.resize((vertices + length - 1) / length);
+  for (std::size_t k = 0; k < shares_.size(); ++k) {
+    shares_[k].begin = to_int32(k * length);
+    shares_[k].end = to_int32(std::min(vertices, (k + 1) * length));
+    shares_[k].elements.clear();
+  }
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const Element& element = element_at(elements, e);
+    if (!element.alive()) continue;
+    for (const DeformedIndex v : element.vertex) {
+      auto& mine = shares_[v() / length].elements;
+      if (mine.empty() || mine.back() != to_int32(e)) mine.push_back(to_int32(e));
     }
-  });
-}
-
-/// Calls act(i) for each four elements with one of these vertices, in their order.
-template <int D>
-template <class Act>
-void MembraneSheet<D>::for_each_four_at(const Span& vertices, const Act& act) const {
-  for (std::size_t part = 0; part < spans_of_parts_.size(); ++part) {
-    if (!vertices.meets(spans_of_parts_[part])) continue;
-    for (std::size_t i = fours_of_part * part; i < std::min(fours_of_part * (part + 1), spans_.size()); ++i)
-      if (vertices.meets(spans_[i])) act(i);
   }
 }
 
-/// Calls act(i, vertices) where four elements have one of these vertices, for spans that make up all vertices.
+/// Calls act(share, four numbers of elements) until all elements of all shares had their turn.
 template <int D>
 template <class Act>
-void MembraneSheet<D>::share_vertices(std::size_t vertices, Workers& workers, const Act& act) const {
-  const std::size_t length = std::max(shortest_span, (vertices + most_spans - 1) / most_spans);
-  workers.run((vertices + length - 1) / length, [&](std::size_t k) {
-    const Span mine{to_int32(k * length), to_int32(std::min(vertices, (k + 1) * length))};
-    for_each_four_at(mine, [&](std::size_t i) { act(i, mine); });
+void MembraneSheet<D>::share_vertices(const ElementTable& elements, std::size_t vertices, Workers& workers,
+                                      const Act& act) {
+  find_shares(elements, vertices);
+  workers.run(shares_.size(), [&](std::size_t k) {
+    const auto& mine = shares_[k].elements;
+    for (std::size_t first = 0; first < mine.size(); first += lane_count) {
+      typename Four::Numbers numbers;
+      for (std::size_t l = 0; l < lane_count; ++l)
+        numbers[l] = first + l < mine.size() ? to_size(mine[first + l]) : elements.size();
+      act(shares_[k], numbers);
+    }
   });
 }
 
@@ -232,21 +247,20 @@ void MembraneSheet<D>::share_vertices(std::size_t vertices, Workers& workers, co
 template <int D>
 void MembraneSheet<D>::rotate(const ElementTable& elements, const Field& x, Workers& workers) {
   force_.setZero(x.size());
-  if (workers.threads() == 1) {
-    const Span all{0, std::numeric_limits<std::int32_t>::max()};
+  if (workers.acts_alone()) {
     for (std::size_t i = 0; i < strained_.size(); ++i) {
       const Four four(elements, lane_count * i);
       strain(elements, four, i, x);
-      add_forces(four, strained_[i], all);
+      add_forces(four, strained_[i], [](std::int32_t vertex) { return vertex >= 0; });
     }
   } else {
-    find_spans(elements, workers);
-    workers.run(spans_of_parts_.size(), [&](std::size_t part) {
-      for (std::size_t i = fours_of_part * part; i < std::min(fours_of_part * (part + 1), strained_.size()); ++i)
+    workers.run((strained_.size() + fours_of_job - 1) / fours_of_job, [&](std::size_t job) {
+      for (std::size_t i = fours_of_job * job; i < std::min(fours_of_job * (job + 1), strained_.size()); ++i)
         strain(elements, Four(elements, lane_count * i), i, x);
     });
-    share_vertices(to_size(x.size()) / D, workers, [&](std::size_t i, const Span& mine) {
-      add_forces(Four(elements, lane_count * i), strained_[i], mine);
+    share_vertices(elements, to_size(x.size()) / D, workers, [&](const Share& mine, const auto& numbers) {
+      add_forces(Four(elements, numbers), lanes_of<D>(strained_, numbers),
+                 [&](std::int32_t vertex) { return mine.has(vertex); });
     });
   }
   compounds_.rotate(elements, x, force_);
@@ -275,7 +289,8 @@ void MembraneSheet<D>::recompute_collapsed(const ElementTable& elements, std::si
 
 /// -A B s g at each corner (membrane_force()).
 template <int D>
-void MembraneSheet<D>::add_forces(const Four& four, const StrainInFrame<D, Lanes>& e, const Span& to_vertices) {
+template <class Has>
+void MembraneSheet<D>::add_forces(const Four& four, const Strained& e, const Has& has) {
   const auto [mu, lambda] = law_.lame;
   const Lanes pressure = lambda * (e.xx + e.yy);
   Lanes sxx = 2 * mu * e.xx + pressure, syy = 2 * mu * e.yy + pressure, sxy = 2 * mu * e.xy;
@@ -291,7 +306,7 @@ void MembraneSheet<D>::add_forces(const Four& four, const StrainInFrame<D, Lanes
     std::array<Lanes, D> pull;
     for (std::size_t r = 0; r < D; ++r) pull[r] = e.frame[0][r] * along + e.frame[1][r] * across;
     for (std::size_t l = 0; l < lane_count; ++l) {
-      if (!to_vertices.holds(four.vertex[k][l])) continue;  // none, or another thread's
+      if (!has(four.vertex[k][l])) continue;
       double* const to = force_.data() + D * four.vertex[k][l];
       for (std::size_t r = 0; r < D; ++r) to[r] -= pull[r][l];
     }
@@ -323,35 +338,34 @@ Deformation<D> MembraneSheet<D>::deformation(const ElementTable& elements, std::
 template <int D>
 void MembraneSheet<D>::add_stiffness(const ElementTable& elements, double factor, BlockMatrix<D>& blocks,
                                      Workers& workers) {
-  const auto add = [&](std::size_t i, const Span& to) {
-    add_stiffness_of_four(Four(elements, lane_count * i), i, factor, to, blocks);
-  };
-  if (workers.threads() == 1) {
-    const Span all{0, std::numeric_limits<std::int32_t>::max()};
-    for (std::size_t i = 0; i < strained_.size(); ++i) add(i, all);
+  if (workers.acts_alone()) {
+    for (std::size_t i = 0; i < strained_.size(); ++i)
+      add_stiffness(Four(elements, lane_count * i), factor, strained_[i], slots_[i], blocks);
   } else {
-    find_spans(elements, workers);
-    share_vertices(blocks.rows(), workers, add);
+    share_vertices(elements, blocks.rows(), workers, [&](const Share& mine, const auto& numbers) {
+      const Four four(elements, numbers);
+      NineSlots slots;
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+          for (std::size_t l = 0; l < lane_count; ++l)
+            slots[i][j][l] =
+                mine.has(four.vertex[i][l]) ? slots_[numbers[l] / lane_count][i][j][numbers[l] % lane_count] : -1;
+      add_stiffness(four, factor, lanes_of<D>(strained_, numbers), slots, blocks);
+    });
   }
   compounds_.add_stiffness(elements, factor, blocks);
 }
 
-/// To the rows of these vertices.
 template <int D>
-void MembraneSheet<D>::add_stiffness_of_four(const Four& four, std::size_t i, double factor, const Span& to,
-                                             BlockMatrix<D>& blocks) const {
-  const ElementStiffness<D, Lanes> k(four.gradient, factor * four.area, strained_[i], law_);
-  const auto slots = [&](std::size_t row, std::size_t column) {
-    FourSlots all = slots_[i][row][column];
-    for (std::size_t l = 0; l < lane_count; ++l) all[l] = to.holds(four.vertex[row][l]) ? all[l] : -1;
-    return all;
-  };
+void MembraneSheet<D>::add_stiffness(const Four& four, double factor, const Strained& strained, const NineSlots& slots,
+                                     BlockMatrix<D>& blocks) const {
+  const ElementStiffness<D, Lanes> k(four.gradient, factor * four.area, strained, law_);
   for (std::size_t a = 0; a < 3; ++a) {
-    blocks.add(slots(a, a), k.block(a, a));
+    blocks.add(slots[a][a], k.block(a, a));
     for (std::size_t b = a + 1; b < 3; ++b) {
       const auto block = k.block(a, b);
-      blocks.add(slots(a, b), block);
-      blocks.add(slots(b, a), mirrored<D>(block));
+      blocks.add(slots[a][b], block);
+      blocks.add(slots[b][a], mirrored<D>(block));
     }
   }
 }

@@ -5,7 +5,6 @@
 // order of the elements. So each sum is the same bits as by one thread.
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "harness/fem/algebra/block_matrix.h"
@@ -44,41 +43,37 @@ class MembraneSheet {
 
  private:
   using FourSlots = std::array<std::int32_t, lane_count>;
-  /// Vertices from `begin` to before `end`.
-  struct Span {
+  using NineSlots = std::array<std::array<FourSlots, 3>, 3>;
+  using Strained = StrainInFrame<D, Lanes>;
+  /// Vertices from `begin` to before `end`, and the elements with one of them, in their order.
+  struct Share {
     std::int32_t begin, end;
-    bool holds(std::int32_t vertex) const { return begin <= vertex && vertex < end; }
-    bool meets(const Span& other) const { return begin < other.end && other.begin < end; }
-    void add(const Span& other) {
-      begin = std::min(begin, other.begin);
-      end = std::max(end, other.end);
-    }
+    std::vector<std::int32_t> elements;
+    bool has(std::int32_t vertex) const { return begin <= vertex && vertex < end; }
   };
   /// Where block (i, j) of a triangle is in the matrix; all nine are -1 where it is no element.
   void set_slot(std::size_t triangle, std::size_t i, std::size_t j, std::int32_t slot) {
-    spans_are_old_ = true;
+    shares_are_old_ = true;
     slots_[triangle / lane_count][i][j][triangle % lane_count] = slot;
   }
   struct Four;
   void strain(const ElementTable& elements, const Four& four, std::size_t i, const Field& x);
   void recompute_collapsed(const ElementTable& elements, std::size_t i, Lanes determined, const Field& x);
-  void add_forces(const Four& four, const StrainInFrame<D, Lanes>& strained, const Span& to_vertices);
-  void add_stiffness_of_four(const Four& four, std::size_t i, double factor, const Span& to,
-                             BlockMatrix<D>& blocks) const;
-  void find_spans(const ElementTable& elements, Workers& workers);
+  template <class Has>
+  void add_forces(const Four& four, const Strained& strained, const Has& has);
+  void add_stiffness(const Four& four, double factor, const Strained& strained, const NineSlots& slots,
+                     BlockMatrix<D>& blocks) const;
+  void find_shares(const ElementTable& elements, std::size_t vertices);
   template <class Act>
-  void for_each_four_at(const Span& vertices, const Act& act) const;
-  template <class Act>
-  void share_vertices(std::size_t vertices, Workers& workers, const Act& act) const;
+  void share_vertices(const ElementTable& elements, std::size_t vertices, Workers& workers, const Act& act);
 
   MembraneLaw law_;
-  std::vector<StrainInFrame<D, Lanes>> strained_;               // per four elements
-  std::vector<std::array<std::array<FourSlots, 3>, 3>> slots_;  // per four elements: of their nine blocks
+  std::vector<Strained> strained_;  // per four elements
+  std::vector<NineSlots> slots_;    // per four elements: of their nine blocks
   Field force_;
   CompoundSheet<D> compounds_;
-  std::vector<Span> spans_;           // per four elements: of their vertices; for several threads
-  std::vector<Span> spans_of_parts_;  // and of every fours_of_part of these
-  bool spans_are_old_ = true;
+  std::vector<Share> shares_;  // of several threads
+  bool shares_are_old_ = true;
 };
 
 }  // namespace cutbench
