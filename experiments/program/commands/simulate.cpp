@@ -59,7 +59,8 @@ void warn_of_strain(const MeshData& mesh, double stiffness) {
 /// Where nobody says: all cores, but for sheets so small that threads gain nothing.
 int threads_for(const MeshData& mesh) {
   constexpr std::size_t fewest_triangles = 5000;
-  return mesh.triangles.size() < fewest_triangles ? 1 : Workers::all_cores();
+  constexpr int most = 16;  // as many as rows are shared by
+  return mesh.triangles.size() < fewest_triangles ? 1 : std::min(most, Workers::all_cores());
 }
 
 /// Where nobody says: 8, as ever, in a folder of frames; 30 frames a second where they are for an animation alone.
@@ -127,8 +128,9 @@ Command add_simulate(Options& app) {
       .positive();
   command.add_option("--solver", arguments->solver, "instead of the scene's: " + listed(solver_names()));
   command
-      .add_option("--threads", arguments->threads,
-                  "that share a step; otherwise all cores, or 1 below 5,000 triangles. They change no result")
+      .add_option(
+          "--threads", arguments->threads,
+          "that share a step; otherwise all cores, 16 at most, or 1 below 5,000 triangles. They change no result")
       .positive();
   command.add_option("--report", arguments->report, "what the steps cost, as JSON; none where it is not given");
   command.add_option("--steps", arguments->steps, "what each step cost, as CSV; none where it is not given");

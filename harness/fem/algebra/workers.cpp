@@ -6,10 +6,12 @@
 
 #include "harness/base/errors.h"
 
+#ifdef __linux__
+#include <sched.h>
+#endif
 #ifndef __EMSCRIPTEN__
 #include <atomic>
 #include <chrono>
-#include <cstdint>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -49,8 +51,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::microseconds longest_spin{30};
-constexpr std::chrono::microseconds unexpected_wait{100};  // jobs are far shorter
-constexpr int alone_after_wait = 10;                       // times as long
+constexpr std::chrono::microseconds expected_wait{100};  // beside as long as the caller worked itself
+constexpr int alone_after_wait = 10;                     // times as long
 
 void pause_shortly() {
 #if defined(__x86_64__)
@@ -74,7 +76,13 @@ bool spin(const IsOver& is_over, Clock::duration longest) {
 
 }  // namespace
 
-int Workers::all_cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+int Workers::all_cores() {
+#ifdef __linux__
+  cpu_set_t allowed;
+  if (sched_getaffinity(0, sizeof allowed, &allowed) == 0) return std::max(1, CPU_COUNT(&allowed));
+#endif
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
 
 /// One task at a time. A thread that takes part counts itself in `busy_`, and then looks whether the task is open; the
 /// caller closes the task, and then waits until none is busy. So none looks at a task that is no more, and a thread
@@ -99,11 +107,12 @@ class Workers::Pool {
     is_alone_ = false;
     task_ = task;
     next_ = 0;
+    const auto start = Clock::now();
     is_open_ = true;
     call_helpers();
     work();
     is_open_ = false;
-    wait_for_helpers();
+    wait_for_helpers(start);
     if (failed_) {
       failed_ = false;
       std::rethrow_exception(std::exchange(failure_, nullptr));
@@ -134,7 +143,7 @@ class Workers::Pool {
 
   void help() {
     const AtWork at_work;
-    for (std::uint32_t heard = 0;;) {
+    for (int heard = 0;;) {
       if (!spin([&] { return calls_ != heard; }, spin_)) calls_.wait(heard);
       heard = calls_;
       if (is_over_) return;
@@ -144,13 +153,13 @@ class Workers::Pool {
     }
   }
 
-  void wait_for_helpers() {
+  void wait_for_helpers(Clock::time_point task_began) {
     if (busy_ == 0) return;
     const auto start = Clock::now();
     if (!spin([&] { return busy_ == 0; }, spin_))
       for (int busy = busy_; busy != 0; busy = busy_) busy_.wait(busy);
     const auto end = Clock::now();
-    if (end - start < unexpected_wait) return;
+    if (end - start < expected_wait + (start - task_began)) return;
     is_alone_ = true;
     alone_until_ = end + alone_after_wait * (end - start);
   }
@@ -159,7 +168,7 @@ class Workers::Pool {
   Clock::duration spin_{};
   Task task_{};
   // Each in a cache line of its own: what one thread writes the others read.
-  alignas(64) std::atomic<std::uint32_t> calls_ = 0;
+  alignas(64) std::atomic<int> calls_ = 0;
   alignas(64) std::atomic<std::size_t> next_ = 0;
   alignas(64) std::atomic<int> busy_ = 0;
   alignas(64) std::atomic<bool> is_open_ = false, is_over_ = false;
