@@ -29,15 +29,12 @@ Lanes each_lane(const Function& of) {
 
 }  // namespace
 
-/// Four elements side by side. Where there is none, its vertices are -1, and all else is zero.
+/// Four consecutive elements side by side. Where there is none, its vertices are -1, and all else is zero.
 template <int D>
 struct MembraneSheet<D>::Four {
-  using Numbers = std::array<std::size_t, lane_count>;
-  Four(const ElementTable& elements, std::size_t first) : Four(elements, {first, first + 1, first + 2, first + 3}) {}
-  Four(const ElementTable& elements, const Numbers& numbers) {
-    const std::array<const Element*, lane_count> e{&element_at(elements, numbers[0]), &element_at(elements, numbers[1]),
-                                                   &element_at(elements, numbers[2]),
-                                                   &element_at(elements, numbers[3])};
+  Four(const ElementTable& elements, std::size_t first) {
+    const std::array<const Element*, lane_count> e{&element_at(elements, first), &element_at(elements, first + 1),
+                                                   &element_at(elements, first + 2), &element_at(elements, first + 3)};
     area = each_lane([&](std::size_t l) { return e[l]->material_area(); });
     for (std::size_t k = 0; k < 3; ++k) {
       gradient[k] = {each_lane([&](std::size_t l) { return e[l]->gradient[k].x; }),
@@ -140,20 +137,6 @@ void set_lane(const StrainInFrame<D, double>& one, std::size_t l, StrainInFrame<
   four.yy[l] = one.yy;
 }
 
-/// Of any four elements; as at rest where there is none.
-template <int D>
-StrainInFrame<D, Lanes> lanes_of(const std::vector<StrainInFrame<D, Lanes>>& all,
-                                 const std::array<std::size_t, lane_count>& numbers) {
-  StrainInFrame<D, Lanes> four{};
-  StrainInFrame<D, double> at_rest{};
-  at_rest.frame[0][0] = at_rest.frame[1][1] = 1;
-  for (std::size_t l = 0; l < lane_count; ++l) {
-    const std::size_t i = numbers[l] / lane_count;
-    set_lane(i < all.size() ? lane<D>(all[i], numbers[l] % lane_count) : at_rest, l, four);
-  }
-  return four;
-}
-
 bool all_positive(Lanes x) { return x[0] > 0 && x[1] > 0 && x[2] > 0 && x[3] > 0; }
 
 }  // namespace
@@ -225,20 +208,16 @@ void MembraneSheet<D>::find_shares(const ElementTable& elements, std::size_t ver
   }
 }
 
-/// Calls act(share, four numbers of elements) until all elements of all shares had their turn.
+/// Calls act(share, i) for each four elements of which a share has one, in their order.
 template <int D>
 template <class Act>
 void MembraneSheet<D>::share_vertices(const ElementTable& elements, std::size_t vertices, Workers& workers,
                                       const Act& act) {
   find_shares(elements, vertices);
   workers.run(shares_.size(), [&](std::size_t k) {
-    const auto& mine = shares_[k].elements;
-    for (std::size_t first = 0; first < mine.size(); first += lane_count) {
-      typename Four::Numbers numbers;
-      for (std::size_t l = 0; l < lane_count; ++l)
-        numbers[l] = first + l < mine.size() ? to_size(mine[first + l]) : elements.size();
-      act(shares_[k], numbers);
-    }
+    std::size_t last = elements.size();
+    for (const std::int32_t e : shares_[k].elements)
+      if (const std::size_t i = to_size(e) / lane_count; std::exchange(last, i) != i) act(shares_[k], i);
   });
 }
 
@@ -258,9 +237,8 @@ void MembraneSheet<D>::rotate(const ElementTable& elements, const Field& x, Work
       for (std::size_t i = fours_of_job * job; i < std::min(fours_of_job * (job + 1), strained_.size()); ++i)
         strain(elements, Four(elements, lane_count * i), i, x);
     });
-    share_vertices(elements, to_size(x.size()) / D, workers, [&](const Share& mine, const auto& numbers) {
-      add_forces(Four(elements, numbers), lanes_of<D>(strained_, numbers),
-                 [&](std::int32_t vertex) { return mine.has(vertex); });
+    share_vertices(elements, to_size(x.size()) / D, workers, [&](const Share& mine, std::size_t i) {
+      add_forces(Four(elements, lane_count * i), strained_[i], [&](std::int32_t vertex) { return mine.has(vertex); });
     });
   }
   compounds_.rotate(elements, x, force_);
@@ -342,15 +320,14 @@ void MembraneSheet<D>::add_stiffness(const ElementTable& elements, double factor
     for (std::size_t i = 0; i < strained_.size(); ++i)
       add_stiffness(Four(elements, lane_count * i), factor, strained_[i], slots_[i], blocks);
   } else {
-    share_vertices(elements, blocks.rows(), workers, [&](const Share& mine, const auto& numbers) {
-      const Four four(elements, numbers);
-      NineSlots slots;
-      for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-          for (std::size_t l = 0; l < lane_count; ++l)
-            slots[i][j][l] =
-                mine.has(four.vertex[i][l]) ? slots_[numbers[l] / lane_count][i][j][numbers[l] % lane_count] : -1;
-      add_stiffness(four, factor, lanes_of<D>(strained_, numbers), slots, blocks);
+    share_vertices(elements, blocks.rows(), workers, [&](const Share& mine, std::size_t i) {
+      const Four four(elements, lane_count * i);
+      NineSlots slots = slots_[i];
+      for (std::size_t a = 0; a < 3; ++a)
+        for (std::size_t l = 0; l < lane_count; ++l)
+          if (!mine.has(four.vertex[a][l]))
+            for (auto& four_slots : slots[a]) four_slots[l] = -1;
+      add_stiffness(four, factor, strained_[i], slots, blocks);
     });
   }
   compounds_.add_stiffness(elements, factor, blocks);
