@@ -12,6 +12,7 @@
 #ifndef __EMSCRIPTEN__
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -50,7 +51,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::microseconds longest_spin{30};
+constexpr std::chrono::microseconds longest_spin{100};   // longer than what a cycle leaves to one thread
 constexpr std::chrono::microseconds expected_wait{100};  // beside as long as the caller worked itself
 constexpr int alone_after_wait = 10;                     // times as long
 
@@ -87,6 +88,9 @@ int Workers::all_cores() {
 /// One task at a time. A thread that takes part counts itself in `busy_`, and then looks whether the task is open; the
 /// caller closes the task, and then waits until none is busy. So none looks at a task that is no more, and a thread
 /// that comes late is not waited for.
+///
+/// They sleep by condition variables: std::atomic's wait() yields some times before it sleeps, and whoever yields on a
+/// busy core comes back some milliseconds later.
 class Workers::Pool {
  public:
   explicit Pool(int helpers) {
@@ -122,7 +126,9 @@ class Workers::Pool {
  private:
   void call_helpers() {
     ++calls_;
-    calls_.notify_all();
+    if (sleeping_ == 0) return;
+    const std::lock_guard lock(sleep_);
+    called_.notify_all();
   }
 
   void work() {
@@ -144,20 +150,35 @@ class Workers::Pool {
   void help() {
     const AtWork at_work;
     for (int heard = 0;;) {
-      if (!spin([&] { return calls_ != heard; }, spin_)) calls_.wait(heard);
+      if (!spin([&] { return calls_ != heard; }, spin_)) sleep_until_called(heard);
       heard = calls_;
       if (is_over_) return;
       ++busy_;
       if (is_open_) work();
-      if (--busy_ == 0) busy_.notify_all();
+      if (--busy_ > 0 || !caller_sleeps_) continue;
+      const std::lock_guard lock(sleep_);
+      done_.notify_all();
     }
+  }
+
+  void sleep_until_called(int heard) {
+    std::unique_lock lock(sleep_);
+    ++sleeping_;
+    while (calls_ == heard) called_.wait(lock);
+    --sleeping_;
+  }
+
+  void sleep_until_done() {
+    std::unique_lock lock(sleep_);
+    caller_sleeps_ = true;
+    while (busy_ != 0) done_.wait(lock);
+    caller_sleeps_ = false;
   }
 
   void wait_for_helpers(Clock::time_point task_began) {
     if (busy_ == 0) return;
     const auto start = Clock::now();
-    if (!spin([&] { return busy_ == 0; }, spin_))
-      for (int busy = busy_; busy != 0; busy = busy_) busy_.wait(busy);
+    if (!spin([&] { return busy_ == 0; }, spin_)) sleep_until_done();
     const auto end = Clock::now();
     if (end - start < expected_wait + (start - task_began)) return;
     is_alone_ = true;
@@ -172,6 +193,10 @@ class Workers::Pool {
   alignas(64) std::atomic<std::size_t> next_ = 0;
   alignas(64) std::atomic<int> busy_ = 0;
   alignas(64) std::atomic<bool> is_open_ = false, is_over_ = false;
+  alignas(64) std::atomic<int> sleeping_ = 0;
+  std::atomic<bool> caller_sleeps_ = false;
+  std::mutex sleep_;
+  std::condition_variable called_, done_;
   std::mutex failing_;
   std::exception_ptr failure_;  // with the next two: what a job has thrown
   std::size_t failed_job_ = 0;

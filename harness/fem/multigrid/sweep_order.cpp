@@ -32,7 +32,7 @@ bool SweepOrder::suits(const LevelRows& rows, const SweptScalars& swept, std::si
 
 /// The rows parted evenly; those that do not suit their band are the rest. False where these are too many.
 bool SweepOrder::make_bands(const LevelRows& rows, const SweptScalars& swept, std::size_t bands) {
-  const std::size_t n = rows.size(), length = (n + bands - 1) / bands, most_left_over = n / 50;
+  const std::size_t n = rows.size(), length = (n + bands - 1) / bands, most_left_over = n / 10;
   for (auto& of_turn : bands_) of_turn.assign(bands / 2, {});
   rest_.clear();
   for (std::size_t i = 0; i < n; ++i) put(i, to_int32(i / length));
