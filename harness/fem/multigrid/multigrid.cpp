@@ -264,8 +264,8 @@ void Multigrid<D>::fill_finest(const SystemMatrix<D>& a, const Blocks& diagonals
 }
 
 /// P^T A P, row by row: first that of P^T A, which is the sum of the members' rows, each times its weight; then columns
-/// with the same parent become one. `add_row(v, weight, part_row)` adds to that of P^T A; `ask_for(i)` prefetches what a
-/// row takes.
+/// with the same parent become one. `add_row(v, weight, part_row)` adds to that of P^T A; `ask_for(i)` prefetches what
+/// a row takes.
 template <int D>
 template <class S, class AskFor, class AddRow>
 void Multigrid<D>::fill_coarse(std::vector<CoarseRow<S>>& rows, CoarseLevel& level, const AskFor& ask_for,

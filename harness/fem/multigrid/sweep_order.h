@@ -23,8 +23,8 @@ class SweepOrder {
 
   /// Orders all rows anew.
   void follow(const LevelRows& rows, const SweptScalars& swept);
-  /// After these rows have changed. \return  them, and those whose neighbours come in another order now; valid until the
-  ///                                          next call
+  /// After these rows have changed. \return  them, and those whose neighbours come in another order now; valid until
+  ///                                          the next call
   std::span<const std::int32_t> follow(const LevelRows& rows, const SweptScalars& swept,
                                        std::span<const std::int32_t> changed);
   bool is_before(std::int32_t i, std::int32_t j) const { return rank_[to_size(i)] < rank_[to_size(j)]; }
