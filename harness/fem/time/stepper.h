@@ -45,7 +45,8 @@ template <int D>
 class Stepper {
  public:
   /// Throws InputError for an unknown solver, and for less than one thread. Symplectic Euler and XPBD take no
-  /// consistent mass (scenes refuse it), and no constrained vertices, except that symplectic Euler takes those whose unknowns have a mass of their own
+  /// consistent mass (scenes refuse it), and no constrained vertices, except that symplectic Euler takes those whose
+  /// unknowns have a mass of their own
   /// (Constraints::lumped), without an added one; XPBD no elements of several triangles and no added mass either.
   explicit Stepper(const StepOptions& options);
   StepReport step(Model<D>& model, State& state);
