@@ -74,6 +74,8 @@ Exit run_scene(const SimulateArguments& arguments, const std::string& command_li
   if (!arguments.out.empty()) check_mesh_place(arguments.out, "--out");
   if (!arguments.report.empty()) check_writable(arguments.report, "--report");
   if (!arguments.steps.empty()) check_writable(arguments.steps, "--steps");
+  if (arguments.threads && *arguments.threads < 1)
+    throw InputError("--threads: " + std::to_string(*arguments.threads) + "; give 1 or more");
   Scene scene = read_scene(arguments.scene);
   const MethodRow row = arguments.method.row();
   const double parameter = arguments.method.parameter();
@@ -127,11 +129,9 @@ Command add_simulate(Options& app) {
       .add_option("--every", arguments->every, "steps from frame to frame; otherwise 8, for an animation alone 1/30 s")
       .positive();
   command.add_option("--solver", arguments->solver, "instead of the scene's: " + listed(solver_names()));
-  command
-      .add_option(
-          "--threads", arguments->threads,
-          "that share a step; otherwise all cores, 16 at most, or 1 below 5,000 triangles. They change no result")
-      .positive();
+  command.add_option(
+      "--threads", arguments->threads,
+      "that share a step; otherwise all cores, 16 at most, or 1 below 5,000 triangles. They change no result");
   command.add_option("--report", arguments->report, "what the steps cost, as JSON; none where it is not given");
   command.add_option("--steps", arguments->steps, "what each step cost, as CSV; none where it is not given");
   command
