@@ -32,10 +32,10 @@ ROOMS = {  # from the ground up: a room (a folder, or one file), its library, an
     "fem/linear": ("fem", ["base", "mesh", "fem/algebra"]),  # it knows of no element
     "fem/constraints": ("fem", ["base", "mesh", "fem/linear"]),
     "fem/multigrid": ("fem", ["base", "fem/algebra", "fem/linear"]),
-    "fem/solvers": ("fem", ["base", "fem/linear", "fem/multigrid"]),
+    "fem/solvers": ("fem", ["base", "fem/algebra", "fem/linear", "fem/multigrid"]),
     "fem/tips": ("fem", ["base", "mesh", "fem/elements", "fem/linear"]),
     "fem/model": ("fem", ["base", "mesh", "fem/elements", "fem/linear", "fem/constraints"]),
-    "fem/time": ("fem", ["base", "mesh", "fem/elements", "fem/linear", "fem/solvers", "fem/model"]),
+    "fem/time": ("fem", ["base", "mesh", "fem/algebra", "fem/elements", "fem/linear", "fem/solvers", "fem/model"]),
     "simulation": ("fem", ["base", "mesh", "path", "cut", "cases", "fem/elements", "fem/linear", "fem/solvers", "fem/model",
                            "fem/time"]),
     "files": ("files", ["base", "mesh", "path", "cases", "fem/elements", "fem/solvers", "simulation"]),

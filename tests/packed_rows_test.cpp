@@ -37,7 +37,8 @@ class Packed : public testing::Test {
     rows_.resize(n);
     for (std::int32_t i = 0; i < n; ++i) set_row(i, 5);
     swept_.follow(rows_);
-    packed_.follow(rows_, swept_, true);
+    order_.follow(rows_, swept_);
+    packed_.follow(rows_, swept_, order_, true);
     fill();
   }
   void set_row(std::int32_t i, int every) {
@@ -212,6 +213,7 @@ class Packed : public testing::Test {
   Random random_{5};
   LevelRows rows_;
   SweptScalars swept_;
+  SweepOrder order_;
   PackedRows<D, S> packed_;
   std::vector<std::array<double, D * D>> blocks_;
   std::vector<Eigen::Matrix<S, D, D>> inverse_{n, Eigen::Matrix<S, D, D>::Zero()};
@@ -230,7 +232,8 @@ TYPED_TEST(Packed, SameBitsAfterChanges) {
   for (const int every : {2, 20}) {
     for (const std::int32_t i : changed) this->set_row(i, every);
     this->swept_.follow(this->rows_, changed);
-    this->packed_.follow(this->rows_, this->swept_, changed);
+    this->packed_.follow(this->rows_, this->swept_, this->order_,
+                         this->order_.follow(this->rows_, this->swept_, changed));
     this->fill();
     this->expect_same_bits();
   }

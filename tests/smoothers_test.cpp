@@ -51,8 +51,10 @@ TYPED_TEST(Sweeps, AreTriangularSolves) {
   }
   SweptScalars swept;
   swept.follow(rows);
+  SweepOrder order;
+  order.follow(rows, swept);
   PackedRows<3, S> a;
-  a.follow(rows, swept, true);
+  a.follow(rows, swept, order, true);
   std::vector<double> values(9 * rows.blocks.slots());
   for (double& value : values) value = random.between(-1, 1);
   for (std::size_t i = 0; i < n; ++i)
@@ -171,8 +173,10 @@ TEST(StiffClusters, AreSolvedExactly) {
   const LevelRows rows = rows_of(*a.blocks);
   SweptScalars swept;
   swept.follow(rows);
+  SweepOrder order;
+  order.follow(rows, swept);
   PackedRows<2, double> matrix;
-  matrix.follow(rows, swept, false);
+  matrix.follow(rows, swept, order, false);
   const auto n = to_index(2 * a.vertices());
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n, n);
   for (std::size_t i = 0; i < a.vertices(); ++i) {
@@ -236,8 +240,10 @@ TEST(StiffClusters, SmallestPivot) {
   for (const std::size_t i : {0, 1}) rows.blocks.set(i, both);
   SweptScalars swept;
   swept.follow(rows);
+  SweepOrder order;
+  order.follow(rows, swept);
   PackedRows<2, double> matrix;
-  matrix.follow(rows, swept, false);
+  matrix.follow(rows, swept, order, false);
   for (const std::size_t i : {0, 1})
     matrix.fill_row(i, [&](std::size_t slot) {
       const bool is_own = slot == rows.blocks.diagonal_slot(i);

@@ -285,13 +285,14 @@ void read_integrator(const TomlReader& file, Scene& scene) {
 }
 
 SolverOptions read_solver(const TomlReader& file) {
-  const TomlReader reader = file.section("solver", {"name", "tolerance", "max_iterations"});
+  const TomlReader reader = file.section("solver", {"name", "tolerance", "max_iterations", "threads"});
   SolverOptions s;
   s.name = reader.value<std::string>("name", s.name);
   check_solver_names({s.name}, reader.where + ": solver");
   s.tolerance = reader.positive("tolerance", s.tolerance);
   if (s.tolerance >= 1) reader.refuse("\"tolerance\" must be below 1: at 1, x = 0 solves everything");
   s.max_iterations = reader.count("max_iterations", s.max_iterations);
+  if (reader.has("threads")) s.threads = reader.count("threads", 1);
   return s;
 }
 

@@ -13,6 +13,7 @@
 #include "harness/base/conversions.h"
 #include "harness/base/errors.h"
 #include "harness/base/names.h"
+#include "harness/fem/algebra/workers.h"
 #include "harness/fem/solvers/solver_table.h"
 #include "harness/files/mesh_file.h"
 #include "harness/files/scene_file.h"
@@ -30,7 +31,7 @@ struct SimulateArguments {
   MethodOptions method{.method = "conventional_split", .settings = {}, .chord_tolerance = {}};
   Misses misses;
   int resolution = 0;
-  std::optional<int> every;
+  std::optional<int> every, threads;
   double time_limit = 0;
 };
 
@@ -55,6 +56,13 @@ void warn_of_strain(const MeshData& mesh, double stiffness) {
                stiffness * energy, energy / area, stretches_of(mesh).text().c_str());
 }
 
+/// Where nobody says: all cores, but for sheets so small that threads gain nothing.
+int threads_for(const MeshData& mesh) {
+  constexpr std::size_t fewest_triangles = 5000;
+  constexpr int most = 16;  // as many as rows are shared by
+  return mesh.triangles.size() < fewest_triangles ? 1 : std::min(most, Workers::all_cores());
+}
+
 /// Where nobody says: 8, as ever, in a folder of frames; 30 frames a second where they are for an animation alone.
 int steps_between_frames(const Scene& scene, const SimulateArguments& arguments) {
   return arguments.frames.empty() ? std::max(1, to_int(std::lround(1 / (30 * scene.step)))) : 8;
@@ -66,6 +74,8 @@ Exit run_scene(const SimulateArguments& arguments, const std::string& command_li
   if (!arguments.out.empty()) check_mesh_place(arguments.out, "--out");
   if (!arguments.report.empty()) check_writable(arguments.report, "--report");
   if (!arguments.steps.empty()) check_writable(arguments.steps, "--steps");
+  if (arguments.threads && *arguments.threads < 1)
+    throw InputError("--threads: " + std::to_string(*arguments.threads) + "; give 1 or more");
   Scene scene = read_scene(arguments.scene);
   const MethodRow row = arguments.method.row();
   const double parameter = arguments.method.parameter();
@@ -77,6 +87,7 @@ Exit run_scene(const SimulateArguments& arguments, const std::string& command_li
   }
   const MeshData mesh = mesh_of(scene);
   print_notes(mesh);
+  if (arguments.threads || !scene.solver.threads) scene.solver.threads = arguments.threads.value_or(threads_for(mesh));
   warn_of_strain(mesh, scene.material.stiffness);
   const Sheet sheet(mesh);
   for (std::size_t i = 0; i < scene.cuts.size(); ++i)
@@ -118,6 +129,9 @@ Command add_simulate(Options& app) {
       .add_option("--every", arguments->every, "steps from frame to frame; otherwise 8, for an animation alone 1/30 s")
       .positive();
   command.add_option("--solver", arguments->solver, "instead of the scene's: " + listed(solver_names()));
+  command.add_option(
+      "--threads", arguments->threads,
+      "that share a step; otherwise all cores, 16 at most, or 1 below 5,000 triangles. They change no result");
   command.add_option("--report", arguments->report, "what the steps cost, as JSON; none where it is not given");
   command.add_option("--steps", arguments->steps, "what each step cost, as CSV; none where it is not given");
   command

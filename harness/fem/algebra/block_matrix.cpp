@@ -21,8 +21,10 @@ std::int32_t BlockMatrix<D>::find(std::size_t i, std::int32_t j) const {
 }
 
 template <int D>
-void BlockMatrix<D>::set_zero() {
-  std::fill(blocks_.begin(), blocks_.end(), Block::Zero());
+void BlockMatrix<D>::set_zero(Workers& workers) {
+  workers.for_ranges(blocks_.size(), [&](std::size_t begin, std::size_t end) {
+    std::fill(blocks_.begin() + to_index(begin), blocks_.begin() + to_index(end), Block::Zero());
+  });
 }
 
 template <int D>
@@ -50,13 +52,15 @@ void BlockMatrix<D>::add_product(double factor, const Field& x, Field& y) const 
 }
 
 template <int D>
-void spread(const Field& x, std::vector<Lanes>& vertices) {
+void spread(const Field& x, std::vector<Lanes>& vertices, Workers& workers) {
   vertices.resize(to_size(x.size()) / D);
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    Lanes at{};
-    for (std::size_t k = 0; k < D; ++k) at[k] = x[to_index(D * i + k)];
-    vertices[i] = at;
-  }
+  workers.for_ranges(vertices.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Lanes at{};
+      for (std::size_t k = 0; k < D; ++k) at[k] = x[to_index(D * i + k)];
+      vertices[i] = at;
+    }
+  });
 }
 
 void add_product_per_coordinate(const BlockMatrix<1>& a, int dimension, double factor, const Field& x, Field& y) {
@@ -104,8 +108,8 @@ double max_difference(const BlockMatrix<D>& a, const BlockMatrix<D>& b) {
   return largest;
 }
 
-template void spread<2>(const Field&, std::vector<Lanes>&);
-template void spread<3>(const Field&, std::vector<Lanes>&);
+template void spread<2>(const Field&, std::vector<Lanes>&, Workers&);
+template void spread<3>(const Field&, std::vector<Lanes>&, Workers&);
 template class BlockMatrix<1>;
 template class BlockMatrix<2>;
 template class BlockMatrix<3>;

@@ -11,6 +11,7 @@
 #include "harness/base/prefetch.h"
 #include "harness/fem/algebra/growing_rows.h"
 #include "harness/fem/algebra/lanes.h"
+#include "harness/fem/algebra/workers.h"
 
 namespace cutbench {
 
@@ -57,7 +58,7 @@ class BlockMatrix {
   Block& block(std::int32_t slot) { return blocks_[to_size(slot)]; }
   const Block& block(std::int32_t slot) const { return blocks_[to_size(slot)]; }
 
-  void set_zero();
+  void set_zero(Workers& workers = Workers::none());
   void set_row_zero(std::size_t i);
   std::size_t block_count() const;                             ///< in use
   std::size_t slot_count() const { return columns_.slots(); }  ///< with those that rows have moved out of
@@ -111,7 +112,7 @@ class BlockMatrix {
 
 /// The D values of each vertex, then zeros.
 template <int D>
-void spread(const Field& x, std::vector<Lanes>& vertices);
+void spread(const Field& x, std::vector<Lanes>& vertices, Workers& workers = Workers::none());
 
 /// y += factor (A (x) I) x, for `dimension` values per vertex.
 void add_product_per_coordinate(const BlockMatrix<1>& a, int dimension, double factor, const Field& x, Field& y);

@@ -1,6 +1,7 @@
 #include "harness/fem/elements/membrane_sheet.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "harness/base/conversions.h"
 #include "harness/base/errors.h"
@@ -12,6 +13,9 @@ namespace cutbench {
 namespace {
 
 const Element no_element;
+
+// What several threads share, and how finely.
+constexpr std::size_t fours_of_job = 64, most_shares = 16, smallest_share = 256;  // the last two: of vertices
 
 /// Element `i`, or one without vertices and area: past the end, a free slot, or a member of a compound.
 const Element& element_at(const ElementTable& elements, std::size_t i) {
@@ -38,7 +42,6 @@ struct MembraneSheet<D>::Four {
       for (std::size_t l = 0; l < lane_count; ++l) vertex[k][l] = e[l]->vertex[k].value;
     }
   }
-  bool alive(std::size_t lane) const { return vertex[0][lane] >= 0; }
   /// x at corner k.
   std::array<Lanes, D> at(std::size_t k, const Field& x) const {
     std::array<const double*, lane_count> from;
@@ -141,6 +144,7 @@ bool all_positive(Lanes x) { return x[0] > 0 && x[1] > 0 && x[2] > 0 && x[3] > 0
 template <int D>
 void MembraneSheet<D>::resize(std::size_t elements) {
   const std::size_t fours = (elements + lane_count - 1) / lane_count;
+  shares_are_old_ = true;
   strained_.resize(fours);
   constexpr FourSlots none{-1, -1, -1, -1};
   slots_.resize(fours, {{{none, none, none}, {none, none, none}, {none, none, none}}});
@@ -181,17 +185,70 @@ void MembraneSheet<D>::check_takes(const Constraints& constraints) const {
     throw InputError("a polygon has no springs: take another method than cut_polygons, or another \"strain\"");
 }
 
+// --- who computes what -----------------------------------------------------------------------------------------------
+
 template <int D>
-void MembraneSheet<D>::rotate(const ElementTable& elements, const Field& x) {
+void MembraneSheet<D>::find_shares(const ElementTable& elements, std::size_t vertices) {
+  const bool are_of_these = !shares_.empty() && shares_.back().end == to_int32(vertices);
+  if (!std::exchange(shares_are_old_, false) && are_of_these) return;
+  const std::size_t length = std::max(smallest_share, (vertices + most_shares - 1) / most_shares);
+  shares_.resize((vertices + length - 1) / length);
+  for (std::size_t k = 0; k < shares_.size(); ++k) {
+    shares_[k].begin = to_int32(k * length);
+    shares_[k].end = to_int32(std::min(vertices, (k + 1) * length));
+    shares_[k].elements.clear();
+  }
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const Element& element = element_at(elements, e);
+    if (!element.alive()) continue;
+    for (const DeformedIndex v : element.vertex) {
+      auto& mine = shares_[v() / length].elements;
+      if (mine.empty() || mine.back() != to_int32(e)) mine.push_back(to_int32(e));
+    }
+  }
+}
+
+/// Calls act(share, i) for each four elements of which a share has one, in their order.
+template <int D>
+template <class Act>
+void MembraneSheet<D>::share_vertices(const ElementTable& elements, std::size_t vertices, Workers& workers,
+                                      const Act& act) {
+  find_shares(elements, vertices);
+  workers.run(shares_.size(), [&](std::size_t k) {
+    std::size_t last = elements.size();
+    for (const std::int32_t e : shares_[k].elements)
+      if (const std::size_t i = to_size(e) / lane_count; std::exchange(last, i) != i) act(shares_[k], i);
+  });
+}
+
+// --- of a state ------------------------------------------------------------------------------------------------------
+
+template <int D>
+void MembraneSheet<D>::rotate(const ElementTable& elements, const Field& x, Workers& workers) {
   force_.setZero(x.size());
-  for (std::size_t i = 0; i < strained_.size(); ++i) {
-    const Four four(elements, lane_count * i);
-    Lanes determined = Lanes{} + 1;
-    strained_[i] = strain_of<D>(four.deformation_gradient(x), law_.strain, determined);
-    if (!all_positive(determined)) recompute_collapsed(elements, i, determined, x);
-    add_forces(four, strained_[i]);
+  if (workers.acts_alone()) {
+    for (std::size_t i = 0; i < strained_.size(); ++i) {
+      const Four four(elements, lane_count * i);
+      strain(elements, four, i, x);
+      add_forces(four, strained_[i], [](std::int32_t vertex) { return vertex >= 0; });
+    }
+  } else {
+    workers.run((strained_.size() + fours_of_job - 1) / fours_of_job, [&](std::size_t job) {
+      for (std::size_t i = fours_of_job * job; i < std::min(fours_of_job * (job + 1), strained_.size()); ++i)
+        strain(elements, Four(elements, lane_count * i), i, x);
+    });
+    share_vertices(elements, to_size(x.size()) / D, workers, [&](const Share& mine, std::size_t i) {
+      add_forces(Four(elements, lane_count * i), strained_[i], [&](std::int32_t vertex) { return mine.has(vertex); });
+    });
   }
   compounds_.rotate(elements, x, force_);
+}
+
+template <int D>
+void MembraneSheet<D>::strain(const ElementTable& elements, const Four& four, std::size_t i, const Field& x) {
+  Lanes determined = Lanes{} + 1;
+  strained_[i] = strain_of<D>(four.deformation_gradient(x), law_.strain, determined);
+  if (!all_positive(determined)) recompute_collapsed(elements, i, determined, x);
 }
 
 /// Elements that collapsed, one by one; where there is none, it is as at rest.
@@ -210,7 +267,8 @@ void MembraneSheet<D>::recompute_collapsed(const ElementTable& elements, std::si
 
 /// -A B s g at each corner (membrane_force()).
 template <int D>
-void MembraneSheet<D>::add_forces(const Four& four, const StrainInFrame<D, Lanes>& e) {
+template <class Has>
+void MembraneSheet<D>::add_forces(const Four& four, const Strained& e, const Has& has) {
   const auto [mu, lambda] = law_.lame;
   const Lanes pressure = lambda * (e.xx + e.yy);
   Lanes sxx = 2 * mu * e.xx + pressure, syy = 2 * mu * e.yy + pressure, sxy = 2 * mu * e.xy;
@@ -226,7 +284,7 @@ void MembraneSheet<D>::add_forces(const Four& four, const StrainInFrame<D, Lanes
     std::array<Lanes, D> pull;
     for (std::size_t r = 0; r < D; ++r) pull[r] = e.frame[0][r] * along + e.frame[1][r] * across;
     for (std::size_t l = 0; l < lane_count; ++l) {
-      if (!four.alive(l)) continue;
+      if (!has(four.vertex[k][l])) continue;
       double* const to = force_.data() + D * four.vertex[k][l];
       for (std::size_t r = 0; r < D; ++r) to[r] -= pull[r][l];
     }
@@ -256,20 +314,37 @@ Deformation<D> MembraneSheet<D>::deformation(const ElementTable& elements, std::
 }
 
 template <int D>
-void MembraneSheet<D>::add_stiffness(const ElementTable& elements, double factor, BlockMatrix<D>& blocks) const {
-  for (std::size_t i = 0; i < strained_.size(); ++i) {
-    const Four four(elements, lane_count * i);
-    const ElementStiffness<D, Lanes> k(four.gradient, factor * four.area, strained_[i], law_);
-    for (std::size_t a = 0; a < 3; ++a) {
-      blocks.add(slots_[i][a][a], k.block(a, a));
-      for (std::size_t b = a + 1; b < 3; ++b) {
-        const auto block = k.block(a, b);
-        blocks.add(slots_[i][a][b], block);
-        blocks.add(slots_[i][b][a], mirrored<D>(block));
-      }
-    }
+void MembraneSheet<D>::add_stiffness(const ElementTable& elements, double factor, BlockMatrix<D>& blocks,
+                                     Workers& workers) {
+  if (workers.acts_alone()) {
+    for (std::size_t i = 0; i < strained_.size(); ++i)
+      add_stiffness(Four(elements, lane_count * i), factor, strained_[i], slots_[i], blocks);
+  } else {
+    share_vertices(elements, blocks.rows(), workers, [&](const Share& mine, std::size_t i) {
+      const Four four(elements, lane_count * i);
+      NineSlots slots = slots_[i];
+      for (std::size_t a = 0; a < 3; ++a)
+        for (std::size_t l = 0; l < lane_count; ++l)
+          if (!mine.has(four.vertex[a][l]))
+            for (auto& four_slots : slots[a]) four_slots[l] = -1;
+      add_stiffness(four, factor, strained_[i], slots, blocks);
+    });
   }
   compounds_.add_stiffness(elements, factor, blocks);
+}
+
+template <int D>
+void MembraneSheet<D>::add_stiffness(const Four& four, double factor, const Strained& strained, const NineSlots& slots,
+                                     BlockMatrix<D>& blocks) const {
+  const ElementStiffness<D, Lanes> k(four.gradient, factor * four.area, strained, law_);
+  for (std::size_t a = 0; a < 3; ++a) {
+    blocks.add(slots[a][a], k.block(a, a));
+    for (std::size_t b = a + 1; b < 3; ++b) {
+      const auto block = k.block(a, b);
+      blocks.add(slots[a][b], block);
+      blocks.add(slots[b][a], mirrored<D>(block));
+    }
+  }
 }
 
 template class MembraneSheet<2>;

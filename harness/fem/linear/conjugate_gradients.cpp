@@ -22,16 +22,21 @@ template <int D>
 void ConjugateGradients<D>::setup(const SystemMatrix<D>& a) {
   matrix_ = &a;
   auto& blocks = trials_.empty() ? inverse_ : diagonals_;  // nobody else wants them: inverted in place
-  a.diagonals(blocks);
+  a.diagonals(blocks, *workers_);
   inverse_.resize(blocks.size());
-  positive_blocks_ = true;
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const Block block = blocks[i];
-    Block& inverse = inverse_[i];
-    inverse = block.inverse();
-    // Sylvester: the leading minors are positive; that of D - 1 rows is the determinant times the inverse's last entry.
-    positive_blocks_ = positive_blocks_ && block(0, 0) > 0 && block.determinant() > 0 && inverse(D - 1, D - 1) > 0;
-  }
+  const int not_positive = workers_->sum_ranges(blocks.size(), [&](std::size_t begin, std::size_t end) {
+    int n = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Block block = blocks[i];
+      Block& inverse = inverse_[i];
+      inverse = block.inverse();
+      // Sylvester: the leading minors are positive; that of D - 1 rows is the determinant times the inverse's last
+      // entry.
+      n += !(block(0, 0) > 0 && block.determinant() > 0 && inverse(D - 1, D - 1) > 0);
+    }
+    return n;
+  });
+  positive_blocks_ = not_positive == 0;
   for (Trial& trial : trials_) trial.is_set_up = false;
   if (until_first_again_ > 0 && --until_first_again_ == 0) first_ = 0;
   trial_ = first_;
@@ -57,25 +62,36 @@ template <int D>
 auto ConjugateGradients<D>::advance(double step, Field& x) -> Products {
   // One pass over the vertices: the vectors don't fit the cache beside the matrix. Sums per coordinate, so that
   // additions don't wait for each other.
-  Vector rr = Vector::Zero(), rdr = Vector::Zero();
-  for (std::size_t i = 0; i < inverse_.size(); ++i) {
-    const auto at = to_index(D * i);
-    x.template segment<D>(at) += step * p_.template segment<D>(at);
-    const Vector r = r_.template segment<D>(at) - step * q_.template segment<D>(at);
-    const Vector z = inverse_[i] * r;
-    r_.template segment<D>(at) = r;
-    z_.template segment<D>(at) = z;
-    rr += r.cwiseProduct(r);
-    rdr += r.cwiseProduct(z);
-  }
-  return {rr.sum(), rdr.sum(), rdr.sum()};
+  return workers_->sum_ranges(inverse_.size(), [&](std::size_t begin, std::size_t end) -> Products {
+    Vector rr = Vector::Zero(), rdr = Vector::Zero();
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto at = to_index(D * i);
+      x.template segment<D>(at) += step * p_.template segment<D>(at);
+      const Vector r = r_.template segment<D>(at) - step * q_.template segment<D>(at);
+      const Vector z = inverse_[i] * r;
+      r_.template segment<D>(at) = r;
+      z_.template segment<D>(at) = z;
+      rr += r.cwiseProduct(r);
+      rdr += r.cwiseProduct(z);
+    }
+    return {rr.sum(), rdr.sum(), rdr.sum()};
+  });
+}
+
+/// Of values per vertex.
+template <int D>
+double ConjugateGradients<D>::dot(const Field& a, const Field& b) const {
+  return workers_->sum_ranges(to_size(a.size()) / D, [&](std::size_t begin, std::size_t end) {
+    const auto at = to_index(D * begin), n = to_index(D * (end - begin));
+    return a.segment(at, n).dot(b.segment(at, n));
+  });
 }
 
 template <int D>
 void ConjugateGradients<D>::precondition(Products& now) {
   if (trial_ == trials_.size()) return;
   trials_[trial_].preconditioner->apply(r_, z_);
-  now.rz = r_.dot(z_);
+  now.rz = dot(r_, z_);
 }
 
 template <int D>
@@ -99,7 +115,7 @@ SolveReport ConjugateGradients<D>::solve(const Field& b, Field& x, const Field& 
                enough_rdr = share * all.rdr;
   if (start.size() == b.size()) {
     project(*a.held, start, x);
-    a.multiply(x, q_);
+    a.multiply(x, q_, *workers_);
     r_ -= q_;
     if (!(r_.squaredNorm() < bb)) {
       x.setZero();
@@ -117,20 +133,24 @@ SolveReport ConjugateGradients<D>::solve(const Field& b, Field& x, const Field& 
     bool is_rough = restart == 0 && options_.tolerance >= tolerance_for_floats && trial_ < trials_.size();
     while (!broken && (now.rr > enough || now.rdr > enough_rdr) && report.iterations < most) {
       is_rough = is_rough && trials_[trial_].preconditioner->multiply_roughly(p_, q_);
-      if (!is_rough) a.multiply(p_, q_);
+      if (!is_rough) a.multiply(p_, q_, *workers_);
       ++report.iterations;
-      const double pap = p_.dot(q_);
+      const double pap = dot(p_, q_);
       // Not positive definite (A, or the preconditioner), or not finite. Every comparison with NaN is false.
       broken = !(pap > 0 && now.rz > 0 && std::isfinite(pap) && std::isfinite(now.rz));
       if (broken) break;
       Products next = advance(now.rz / pap, x);
       if (next.rr > enough || next.rdr > enough_rdr) {
         precondition(next);
-        p_ = z_ + (next.rz / now.rz) * p_;
+        const double again = next.rz / now.rz;
+        workers_->for_ranges(inverse_.size(), [&](std::size_t begin, std::size_t end) {
+          const auto at = to_index(D * begin), n = to_index(D * (end - begin));
+          p_.segment(at, n) = z_.segment(at, n) + again * p_.segment(at, n);
+        });
       }
       now = next;
     }
-    a.multiply(x, q_);
+    a.multiply(x, q_, *workers_);
     r_ = b_ - q_;
     const double rr = r_.squaredNorm();
     report.residual = std::sqrt(rr / bb);

@@ -26,8 +26,9 @@ class ConjugateGradients final : public LinearSolver<D> {
     int most_iterations = 1000;  ///< of a solve; more show that rounding or the sheet has spoilt it
     bool is_set_up = false;      ///< with the matrix at hand
   };
-  ConjugateGradients(const SolverOptions& options, std::vector<Trial> trials)
-      : options_(options), trials_(std::move(trials)) {}
+  /// \param workers  must outlive this
+  ConjugateGradients(const SolverOptions& options, std::vector<Trial> trials, Workers& workers = Workers::none())
+      : options_(options), workers_(&workers), trials_(std::move(trials)) {}
   void setup(const SystemMatrix<D>& a) override;
   SolveReport solve(const Field& b, Field& x, const Field& start) override;
 
@@ -37,6 +38,12 @@ class ConjugateGradients final : public LinearSolver<D> {
   struct Products {
     double rr = 0, rdr = 0;  ///< r.r, and r.D^-1 r with the diagonal blocks D
     double rz = 0;           ///< r.z, z being the preconditioned residual
+    Products& operator+=(const Products& with) {
+      rr += with.rr;
+      rdr += with.rdr;
+      rz += with.rz;
+      return *this;
+    }
   };
   /// x += step p, r -= step A p, z = D^-1 r.
   Products advance(double step, Field& x);
@@ -46,7 +53,10 @@ class ConjugateGradients final : public LinearSolver<D> {
   void prepare();
   void give_up();
 
+  double dot(const Field& a, const Field& b) const;
+
   SolverOptions options_;
+  Workers* workers_;
   std::vector<Trial> trials_;
   std::size_t trial_ = 0;      ///< the one in use; past the end: the diagonal blocks
   std::size_t first_ = 0;      ///< the one that solves begin with

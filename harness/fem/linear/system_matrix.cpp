@@ -6,35 +6,36 @@
 
 namespace cutbench {
 
-/// Calls take(i, row i of A x). All parts row by row, so that each value of the product is written once.
+/// Calls take(i, row i of A x), in any order. All parts row by row, so that each value of the product is written once.
 template <int D>
 template <class Take>
-void SystemMatrix<D>::for_each_product(const Field& x, const Take& take) const {
-  const std::size_t n = vertices();
-  spread<D>(x, x_);
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t ahead = std::min(i + rows_ahead, n - 1);
-    blocks->prefetch_row(ahead);
-    Lanes sum = blocks->row_product(i, x_);
-    for (const auto& term : scalar) {
-      term.matrix->prefetch_row(ahead);
-      sum += term.factor * term.matrix->row_product(i, x_);
+void SystemMatrix<D>::for_each_product(const Field& x, Workers& workers, const Take& take) const {
+  spread<D>(x, x_, workers);
+  workers.for_ranges(vertices(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t ahead = std::min(i + rows_ahead, end - 1);
+      blocks->prefetch_row(ahead);
+      Lanes sum = blocks->row_product(i, x_);
+      for (const auto& term : scalar) {
+        term.matrix->prefetch_row(ahead);
+        sum += term.factor * term.matrix->row_product(i, x_);
+      }
+      take(i, sum);
     }
-    take(i, sum);
-  }
+  });
 }
 
 template <int D>
-void SystemMatrix<D>::add_product(const Field& x, Field& y) const {
-  for_each_product(x, [&](std::size_t i, Lanes sum) {
+void SystemMatrix<D>::add_product(const Field& x, Field& y, Workers& workers) const {
+  for_each_product(x, workers, [&](std::size_t i, Lanes sum) {
     for (std::size_t k = 0; k < D; ++k) y[to_index(D * i + k)] += sum[k];
   });
 }
 
 template <int D>
-void SystemMatrix<D>::multiply(const Field& x, Field& y) const {
+void SystemMatrix<D>::multiply(const Field& x, Field& y, Workers& workers) const {
   y.resize(x.size());
-  for_each_product(x, [&](std::size_t i, Lanes sum) {
+  for_each_product(x, workers, [&](std::size_t i, Lanes sum) {
     for (std::size_t k = 0; k < D; ++k) y[to_index(D * i + k)] = (*held)[D * i + k] ? 0 : sum[k];
   });
 }
@@ -57,15 +58,17 @@ typename BlockMatrix<D>::Block SystemMatrix<D>::diagonal(std::size_t i) const {
 
 /// Each row's block is in another line of the cache.
 template <int D>
-void SystemMatrix<D>::diagonals(std::vector<typename BlockMatrix<D>::Block>& all) const {
+void SystemMatrix<D>::diagonals(std::vector<typename BlockMatrix<D>::Block>& all, Workers& workers) const {
   constexpr std::size_t ahead = 4 * rows_ahead;
   all.resize(vertices());
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const std::size_t next = std::min(i + ahead, all.size() - 1);
-    blocks->prefetch_diagonal(next);
-    for (const auto& term : scalar) term.matrix->prefetch_diagonal(next);
-    all[i] = diagonal(i);
-  }
+  workers.for_ranges(all.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t next = std::min(i + ahead, end - 1);
+      blocks->prefetch_diagonal(next);
+      for (const auto& term : scalar) term.matrix->prefetch_diagonal(next);
+      all[i] = diagonal(i);
+    }
+  });
 }
 
 void project(const std::vector<std::uint8_t>& held, const Eigen::Ref<const Field>& b, Field& projected) {

@@ -8,6 +8,7 @@
 #include "harness/fem/algebra/block_matrix.h"
 #include "harness/fem/algebra/pattern_history.h"
 #include "harness/fem/algebra/strong_couplings.h"
+#include "harness/fem/algebra/workers.h"
 #include "harness/mesh/types.h"
 
 namespace cutbench {
@@ -29,17 +30,18 @@ struct SystemMatrix {
 
   std::size_t vertices() const { return blocks->rows(); }
   /// y += A x, for all unknowns alike.
-  void add_product(const Field& x, Field& y) const;
+  void add_product(const Field& x, Field& y, Workers& workers = Workers::none()) const;
   /// y = A x, zero where held. \pre x is zero there.
-  void multiply(const Field& x, Field& y) const;
+  void multiply(const Field& x, Field& y, Workers& workers = Workers::none()) const;
   /// The block on the diagonal of row i; a held unknown has 1 there and zeros beside it.
   typename BlockMatrix<D>::Block diagonal(std::size_t i) const;
-  void diagonals(std::vector<typename BlockMatrix<D>::Block>& all) const;  ///< of all rows
+  void diagonals(std::vector<typename BlockMatrix<D>::Block>& all,
+                 Workers& workers = Workers::none()) const;  ///< of all rows
 
  private:
   template <class Take>
-  void for_each_product(const Field& x, const Take& take) const;
-  mutable std::vector<Lanes> x_;  // working storage of the products, so they are not for two threads at a time
+  void for_each_product(const Field& x, Workers& workers, const Take& take) const;
+  mutable std::vector<Lanes> x_;  // working storage of the products, so they are not for two callers at a time
 };
 
 /// For solvers: b with zeros where unknowns are held.

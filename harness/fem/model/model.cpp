@@ -119,8 +119,8 @@ std::size_t Model<D>::unheld_pieces() const {
 // --- of a state ------------------------------------------------------------------------------------------------------
 
 template <int D>
-void Model<D>::rotate(const Field& x) {
-  membrane_.rotate(elements_, x);
+void Model<D>::rotate(const Field& x, Workers& workers) {
+  membrane_.rotate(elements_, x, workers);
   if (curved_) curved_->rotate(x);
 }
 
@@ -132,36 +132,45 @@ void Model<D>::add_internal_force(const Field& x, Field& f) const {
 }
 
 template <int D>
-void Model<D>::add_impulse(double h, const Field& x, double factor, const Field& v, Field& y) {
-  y += h * membrane_.force();
+void Model<D>::add_impulse(double h, const Field& x, double factor, const Field& v, Field& y, Workers& workers) {
   if (curved_) curved_->add_force(h, y);
   const BlockMatrix<1>* const bending = bending_matrix();
-  spread<D>(v, velocity_);
-  spread<D>(x, bent_);
-  for (std::size_t i = 0; i < vertices(); ++i)  // K_b (h x) and factor stiffness_factor K_b v at once
-    bent_[i] = h * bent_[i] + factor * stiffness_factor_ * velocity_[i];
-  for (std::size_t i = 0; i < vertices(); ++i) {
-    const std::size_t ahead = std::min(i + rows_ahead, vertices() - 1);
-    blocks_.prefetch_row(ahead);
-    if (bending) bending->prefetch_row(ahead);
-    Lanes sum = factor * blocks_.row_product(i, velocity_);
-    if (bending) sum += bending->row_product(i, bent_);
-    for (std::size_t k = 0; k < D; ++k) y[to_index(D * i + k)] -= sum[k];
-  }
+  spread<D>(v, velocity_, workers);
+  spread<D>(x, bent_, workers);
+  workers.for_ranges(vertices(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)  // K_b (h x) and factor stiffness_factor K_b v at once
+      bent_[i] = h * bent_[i] + factor * stiffness_factor_ * velocity_[i];
+  });
+  workers.for_ranges(vertices(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t ahead = std::min(i + rows_ahead, end - 1);
+      blocks_.prefetch_row(ahead);
+      if (bending) bending->prefetch_row(ahead);
+      Lanes sum = factor * blocks_.row_product(i, velocity_);
+      if (bending) sum += bending->row_product(i, bent_);
+      for (std::size_t k = 0; k < D; ++k) {
+        const auto u = to_index(D * i + k);
+        y[u] = (y[u] + h * membrane_.force()[u]) - sum[k];
+      }
+    }
+  });
   if (const auto* mass = mass_matrix()) add_product_per_coordinate(*mass, D, -factor * mass_factor_, v, y);
 }
 
 template <int D>
-void Model<D>::assemble(double mass_factor, double stiffness_factor) {
+void Model<D>::assemble(double mass_factor, double stiffness_factor, Workers& workers) {
   mass_factor_ = mass_factor;
   stiffness_factor_ = stiffness_factor;
-  blocks_.set_zero();
-  membrane_.add_stiffness(elements_, stiffness_factor, blocks_);
+  blocks_.set_zero(workers);
+  membrane_.add_stiffness(elements_, stiffness_factor, blocks_, workers);
   if constexpr (D == 3)
     if (curved_) curved_->add_stiffness(stiffness_factor, blocks_);
   if (consistent_mass_) return;
-  for (std::size_t v = 0; v < vertices(); ++v)
-    if (!blocks_.columns(v).empty()) blocks_.block(blocks_.first_slot(v)).diagonal().array() += mass_factor * mass_[v];
+  workers.for_ranges(vertices(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v)
+      if (!blocks_.columns(v).empty())
+        blocks_.block(blocks_.first_slot(v)).diagonal().array() += mass_factor * mass_[v];
+  });
 }
 
 template <int D>

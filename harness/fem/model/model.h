@@ -57,15 +57,17 @@ class Model {
   Field positions(const Sheet& sheet) const;
 
   // --- of a state ----------------------------------------------------------------------------------------------------
-  void rotate(const Field& x);  ///< the deformation of every element; the functions below refer to this x
+  /// The deformation of every element; the functions below refer to this x.
+  void rotate(const Field& x, Workers& workers = Workers::none());
   /// f += internal forces, of membrane and bending, N. \pre rotate(x).
   void add_internal_force(const Field& x, Field& f) const;
   /// y += h (internal forces at x) - factor A v, with A of the last assemble(). Faster than one by one: bending, which
   /// is linear, is in both. \pre rotate(x).
-  void add_impulse(double h, const Field& x, double factor, const Field& v, Field& y);
+  void add_impulse(double h, const Field& x, double factor, const Field& v, Field& y,
+                   Workers& workers = Workers::none());
   void add_external_force(Field& f) const { f += external_force(); }
   /// A = mass_factor M + stiffness_factor K, with K the tangent at the rotated state. \pre rotate().
-  void assemble(double mass_factor, double stiffness_factor);
+  void assemble(double mass_factor, double stiffness_factor, Workers& workers = Workers::none());
   /// Of the last assemble(). Refers to this model.
   SystemMatrix<D> system() const;
   ConstrainedSystem<D>* constrained() {

@@ -20,6 +20,7 @@ constexpr std::size_t most_factored = 200;                     // unknowns of a 
 constexpr double widest_for_floats = 1e5;                      // largest diagonal block over the median one
 constexpr double stiffest_for_floats = 1 << 20;                // diagonal of a free piece over the sum of its entries
 constexpr double smallest_pivot_for_floats = 1.0 / (1 << 20);  // of a stiff cluster, over its diagonal
+constexpr std::size_t most_parts_of_coarse_rows = 8;           // each has working storage of its own
 constexpr double same_trace = 0.01;                            // a larger change shows another step or material
 
 /// All places that are not finite are alike.
@@ -204,12 +205,21 @@ void Multigrid<D>::set_inverse(Level<S>& level, std::size_t i, Block diagonal, c
       diagonal(c, c) = 1;
     }
   Block inverse = inverse_of(diagonal);
-  for (std::size_t c = 0; c < D; ++c)
-    if (const auto k = to_int(c); is_held[c] || inverse(k, k) == 0) {
-      inverse(k, k) = 0;
-      level.idle.push_back({i, k});
-    }
+  for (std::size_t c = 0; c < D; ++c) {
+    const auto k = to_int(c);
+    level.is_idle[i][c] = is_held[c] || inverse(k, k) == 0;
+    if (level.is_idle[i][c]) inverse(k, k) = 0;
+  }
   level.matrix.set_inverse(i, inverse);
+}
+
+template <int D>
+template <class S>
+void Multigrid<D>::list_idle(Level<S>& level) {
+  level.idle.clear();
+  for (std::size_t i = 0; i < level.is_idle.size(); ++i)
+    for (std::size_t c = 0; c < D; ++c)
+      if (level.is_idle[i][c]) level.idle.push_back({i, to_int(c)});
 }
 
 /// The finest level. Rows and columns of held unknowns need not be zero: the sweeps leave these unknowns at zero.
@@ -217,20 +227,23 @@ template <int D>
 template <class S>
 void Multigrid<D>::fill(const SystemMatrix<D>& a, const Blocks& diagonals, Level<S>& level, bool& is_new) {
   if (is_new) {
-    level.matrix.follow(rows_, swept_, std::is_same_v<S, float>);
+    level.matrix.follow(rows_, swept_, order_, std::is_same_v<S, float>);
     level.resize();
     is_new = false;
   }
-  level.idle.clear();
+  level.is_idle.assign(a.vertices(), {});
   const auto columns_at = [&](std::size_t slot) { return columns_of<D>(a.blocks->block(slots_[slot]).data()); };
-  for (std::size_t i = 0; i < a.vertices(); ++i) {
-    a.blocks->prefetch_row(std::min(i + rows_ahead, a.vertices() - 1));
-    level.matrix.fill_row(i, columns_at);
-    if (rows_.blocks[i].empty()) continue;
-    std::array<bool, D> is_held{};
-    for (std::size_t c = 0; c < D; ++c) is_held[c] = (*a.held)[D * i + c] != 0;
-    set_inverse(level, i, diagonals[i] + swept_.left_out(i) * Block::Identity(), is_held);
-  }
+  workers_->for_ranges(a.vertices(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      a.blocks->prefetch_row(std::min(i + rows_ahead, end - 1));
+      level.matrix.fill_row(i, columns_at);
+      if (rows_.blocks[i].empty()) continue;
+      std::array<bool, D> is_held{};
+      for (std::size_t c = 0; c < D; ++c) is_held[c] = (*a.held)[D * i + c] != 0;
+      set_inverse(level, i, diagonals[i] + swept_.left_out(i) * Block::Identity(), is_held);
+    }
+  });
+  list_idle(level);
 }
 
 /// Only its factors tell whether floats do for the clusters; those of the last time mostly do, too.
@@ -251,49 +264,60 @@ void Multigrid<D>::fill_finest(const SystemMatrix<D>& a, const Blocks& diagonals
 }
 
 /// P^T A P, row by row: first that of P^T A, which is the sum of the members' rows, each times its weight; then columns
-/// with the same parent become one. `add_row(v, weight)` adds to fine.part_row; `ask_for(i)` prefetches what a row
-/// takes.
+/// with the same parent become one. `add_row(v, weight, part_row)` adds to that of P^T A; `ask_for(i)` prefetches what
+/// a row takes.
 template <int D>
 template <class S, class AskFor, class AddRow>
-void Multigrid<D>::fill_coarse(Level<S>& fine, CoarseLevel& level, const AskFor& ask_for, const AddRow& add_row) {
-  std::vector<Columns<S>> sums;
-  level.idle.clear();
+void Multigrid<D>::fill_coarse(std::vector<CoarseRow<S>>& rows, CoarseLevel& level, const AskFor& ask_for,
+                               const AddRow& add_row) {
   const bool is_first = level.blocks.empty();
   level.blocks.resize(level.rows.blocks.slots());
   if (is_first) cutbench::reserve_spare(level.blocks);
-  place_.resize(std::max(place_.size(), level.from.coarse_size()));
-  fine.part_row.resize(level.from.fine_size());
+  const std::size_t n = level.from.coarse_size();
+  level.is_idle.assign(n, {});
   const auto columns_at = [&](std::size_t slot) { return level.blocks[slot]; };
-  for (std::size_t i = 0; i < level.from.coarse_size(); ++i) {
-    ask_for(std::min(i + 1, level.from.coarse_size() - 1));
+  const auto compute = [&](CoarseRow<S>& row, std::size_t i) {
     const auto columns = level.rows.blocks[i];
-    if (columns.empty()) continue;
-    for (std::size_t k = 0; k < columns.size(); ++k) place_[to_size(columns[k])] = to_int32(k);
-    sums.assign(columns.size(), Columns<S>{});
-    fine.part_row.clear();
-    for (const auto& member : level.from.members(i)) add_row(to_size(member.other), S(member.weight));
-    const auto fine_columns = fine.part_row.columns();
-    const auto part = fine.part_row.sums();
+    if (columns.empty()) return;
+    for (std::size_t k = 0; k < columns.size(); ++k) row.place[to_size(columns[k])] = to_int32(k);
+    row.sums.assign(columns.size(), Columns<S>{});
+    row.part_row.clear();
+    for (const auto& member : level.from.members(i)) add_row(to_size(member.other), S(member.weight), row.part_row);
+    const auto fine_columns = row.part_row.columns();
+    const auto part = row.part_row.sums();
     for (std::size_t k = 0; k < part.size(); ++k)
       for (const auto& parent : level.from.parents(to_size(fine_columns[k]))) {
-        Columns<S>& sum = sums[to_size(place_[to_size(parent.other)])];
+        Columns<S>& sum = row.sums[to_size(row.place[to_size(parent.other)])];
         const S weight(parent.weight);
         for (std::size_t c = 0; c < D; ++c) sum[c] += weight * part[k][c];
       }
     Columns<float>* to = level.blocks.data() + level.rows.blocks.first_slot(i);
-    for (const Columns<S>& sum : sums) *to++ = converted<float, D>(sum);
+    for (const Columns<S>& sum : row.sums) *to++ = converted<float, D>(sum);
     level.matrix.fill_row(i, columns_at);
     const Block diagonal = level.matrix.diagonal(i);
     std::array<bool, D> is_held{};
     for (int c = 0; c < D; ++c) is_held[to_size(c)] = diagonal(c, c) == 0;  // all its members are
     set_inverse(level, i, diagonal, is_held);
-  }
+  };
+  const std::size_t parts = workers_->threads() == 1 ? 1 : most_parts_of_coarse_rows;
+  if (rows.size() < parts) rows.resize(parts);
+  workers_->run(parts, [&](std::size_t part) {
+    CoarseRow<S>& row = rows[part];
+    row.place.resize(std::max(row.place.size(), n));
+    row.part_row.resize(level.from.fine_size());
+    const std::size_t end = n * (part + 1) / parts;
+    for (std::size_t i = n * part / parts; i < end; ++i) {
+      ask_for(std::min(i + 1, end - 1));
+      compute(row, i);
+    }
+  });
+  list_idle(level);
 }
 
 /// From A itself. Rows and columns of held unknowns are zero here.
 template <int D>
 template <class S>
-void Multigrid<D>::fill_first_coarse(const SystemMatrix<D>& a, Level<S>& fine) {
+void Multigrid<D>::fill_first_coarse(const SystemMatrix<D>& a, std::vector<CoarseRow<S>>& rows) {
   const auto hold = [&](std::size_t i, std::size_t j, Columns<S>& columns) {
     for (std::size_t c = 0; c < D; ++c)
       for (std::size_t k = 0; k < D; ++k)
@@ -302,12 +326,12 @@ void Multigrid<D>::fill_first_coarse(const SystemMatrix<D>& a, Level<S>& fine) {
   const auto ask_for = [&](std::size_t i) {
     for (const auto& member : coarse_.front().from.members(i)) a.blocks->prefetch_row(to_size(member.other));
   };
-  fill_coarse(fine, coarse_.front(), ask_for, [&](std::size_t v, S weight) {
+  fill_coarse(rows, coarse_.front(), ask_for, [&](std::size_t v, S weight, RowSum<Columns<S>>& part_row) {
     std::size_t slot = rows_.blocks.first_slot(v);
     for (const std::int32_t j : rows_.blocks[v]) {
       Columns<S> columns = converted<S, D>(columns_of<D>(a.blocks->block(slots_[slot++]).data()));
       if (is_near_held_[v]) hold(v, to_size(j), columns);
-      Columns<S>& sum = fine.part_row[j];
+      Columns<S>& sum = part_row[j];
       for (std::size_t c = 0; c < D; ++c) sum[c] += weight * columns[c];
     }
   });
@@ -357,7 +381,7 @@ void Multigrid<D>::find_restiffened() {
 
 template <int D>
 void Multigrid<D>::setup(const SystemMatrix<D>& a) {
-  a.diagonals(diagonals_);
+  a.diagonals(diagonals_, *workers_);
   setup(a, diagonals_);
 }
 
@@ -404,14 +428,14 @@ template <int D>
 void Multigrid<D>::fill_coarse_levels(const SystemMatrix<D>& a) {
   coarse_trace_ = trace_;
   if (coarse_.empty()) return factor_coarsest();
-  in_doubles_ ? fill_first_coarse(a, finest_in_doubles_) : fill_first_coarse(a, finest_);
+  in_doubles_ ? fill_first_coarse(a, coarse_rows_in_doubles_) : fill_first_coarse(a, coarse_rows_);
   for (std::size_t l = 1; l < coarse_.size(); ++l) {
-    CoarseLevel& fine = coarse_[l - 1];
+    const CoarseLevel& fine = coarse_[l - 1];
     const auto ask_for = [](std::size_t) {};  // these are small
-    fill_coarse(static_cast<Level<float>&>(fine), coarse_[l], ask_for, [&](std::size_t v, float weight) {
+    fill_coarse(coarse_rows_, coarse_[l], ask_for, [&](std::size_t v, float weight, RowSum<Columns<float>>& part_row) {
       const Columns<float>* block = fine.blocks.data() + fine.rows.blocks.first_slot(v);
       for (const std::int32_t j : fine.rows.blocks[v]) {
-        Columns<float>& sum = fine.part_row[j];
+        Columns<float>& sum = part_row[j];
         for (std::size_t c = 0; c < D; ++c) sum[c] += weight * (*block)[c];
         ++block;
       }

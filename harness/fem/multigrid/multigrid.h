@@ -29,6 +29,8 @@ namespace cutbench {
 template <int D>
 class Multigrid final : public Preconditioner<D> {
  public:
+  /// \param workers  must outlive this
+  explicit Multigrid(Workers& workers = Workers::none()) : workers_(&workers) {}
   /// After cuts the levels follow the rows that have changed, where `a` knows its history; else, and where most rows
   /// have changed, they are made anew. Their matrices are computed every other time, and wherever the rows or the
   /// trace of `a` have changed.
@@ -61,8 +63,8 @@ class Multigrid final : public Preconditioner<D> {
       std::size_t vertex;
       int coordinate;
     };
-    std::vector<Unknown> idle;                  // unknowns that are held, or whose block is not positive definite
-    RowSum<Columns<S>> part_row{Columns<S>{}};  // of P^T A, with A this matrix
+    std::vector<Unknown> idle;                 // unknowns that are held, or whose block is not positive definite
+    std::vector<std::array<bool, D>> is_idle;  // per vertex and coordinate
     void set_idle_zero(PackedVector<S>& field) const {
       for (const Unknown& u : idle) field[u.vertex][u.coordinate] = 0;
     }
@@ -70,11 +72,19 @@ class Multigrid final : public Preconditioner<D> {
       for (auto* field : {&r, &z, &t}) field->resize(matrix.size());
     }
   };
+  /// Working storage for rows of a coarse matrix.
+  template <class S>
+  struct CoarseRow {
+    std::vector<std::int32_t> place;            // per coarse unknown: its place in the row at hand
+    std::vector<Columns<S>> sums;               // of the row at hand
+    RowSum<Columns<S>> part_row{Columns<S>{}};  // of P^T A, with A the fine matrix
+  };
   struct CoarseLevel : Level<float> {
     explicit CoarseLevel(double spacing) : from(spacing) {}
     Coarsening from;  // the next finer level
     LevelRows rows;
     SweptScalars swept;                  // of rows
+    SweepOrder order;                    // likewise
     std::vector<Columns<float>> blocks;  // per slot of rows.blocks
     Eigen::MatrixXd dense() const;
   };
@@ -87,6 +97,8 @@ class Multigrid final : public Preconditioner<D> {
   void find_held(const SystemMatrix<D>& a);
   template <class S>
   void set_inverse(Level<S>& level, std::size_t i, Block diagonal, const std::array<bool, D>& is_held);
+  template <class S>
+  void list_idle(Level<S>& level);
   void make_levels(const SystemMatrix<D>& a);
   void update_levels(const SystemMatrix<D>& a);
   /// What a level is made of.
@@ -106,9 +118,9 @@ class Multigrid final : public Preconditioner<D> {
   template <class S>
   void fill(const SystemMatrix<D>& a, const Blocks& diagonals, Level<S>& level, bool& is_new);
   template <class S, class AskFor, class AddRow>
-  void fill_coarse(Level<S>& fine, CoarseLevel& level, const AskFor& ask_for, const AddRow& add_row);
+  void fill_coarse(std::vector<CoarseRow<S>>& rows, CoarseLevel& level, const AskFor& ask_for, const AddRow& add_row);
   template <class S>
-  void fill_first_coarse(const SystemMatrix<D>& a, Level<S>& fine);
+  void fill_first_coarse(const SystemMatrix<D>& a, std::vector<CoarseRow<S>>& rows);
   void factor_coarsest();
   template <class S>
   void cycle(Level<S>& level, std::size_t next);
@@ -116,12 +128,14 @@ class Multigrid final : public Preconditioner<D> {
   template <class S>
   void correct(Level<S>& level, std::size_t next);
 
+  Workers* workers_;
   std::uint64_t pattern_ = 0;
   std::vector<double> factors_;             // of the scalar parts of A
   std::vector<std::uint8_t> is_near_held_;  // per vertex: it has a held unknown, or a block with one that has
   std::vector<Eigen::Index> held_;          // unknowns
   LevelRows rows_;                          // of A
   SweptScalars swept_;                      // of rows_
+  SweepOrder order_;                        // likewise
   std::vector<std::int32_t> slots_;         // per slot of rows_.blocks: where A keeps the block
   std::vector<Point2> places_;              // per vertex; NaN where no hat is wanted
   std::vector<std::int32_t> changed_;       // vertices whose rows the levels have not followed yet
@@ -144,8 +158,9 @@ class Multigrid final : public Preconditioner<D> {
   double trace_ = 0, coarse_trace_ = 0;  // of A, at the last setup() and when the coarse matrices were computed
   bool coarse_are_old_ = true;
   // Working storage.
-  std::vector<std::int32_t> place_;  // per coarse unknown: its place in the row at hand
-  RowSum<double> scalars_{0};        // of the row at hand
+  std::vector<CoarseRow<float>> coarse_rows_;
+  std::vector<CoarseRow<double>> coarse_rows_in_doubles_;
+  RowSum<double> scalars_{0};  // of the row at hand
   std::vector<double> sorted_, weights_;
   std::vector<std::int32_t> front_, place_in_front_;  // the second: per vertex, or -1
 };

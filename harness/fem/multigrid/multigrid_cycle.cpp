@@ -1,4 +1,5 @@
 // The cycle of multigrid: sweeps on each level, and between them what the coarser ones make of the residual.
+#include <algorithm>
 #include <type_traits>
 
 #include "harness/base/conversions.h"
@@ -14,14 +15,23 @@ constexpr double widest_for_product = 1000;
 
 /// The D values of each vertex over the largest one, so that floats hold them; returns that.
 template <int D, class Vector>
-double take_scaled(const Field& field, Vector& packed) {
+double take_scaled(const Field& field, Vector& packed, Workers& workers) {
   using S = std::decay_t<decltype(packed[0][0])>;
-  const double scale = field.cwiseAbs().maxCoeff(), inverse = scale > 0 ? 1 / scale : 0;
-  for (std::size_t i = 0; i < packed.size(); ++i) {
-    Quad<S> at{};
-    for (int c = 0; c < D; ++c) at[c] = static_cast<S>(inverse * field[to_index(D * i) + c]);
-    packed[i] = at;
-  }
+  struct Largest {
+    double value = 0;
+    void operator+=(const Largest& other) { value = std::max(value, other.value); }
+  };
+  const auto largest = [&](std::size_t begin, std::size_t end) -> Largest {
+    return {begin == end ? 0 : field.segment(to_index(D * begin), to_index(D * (end - begin))).cwiseAbs().maxCoeff()};
+  };
+  const double scale = workers.sum_ranges(packed.size(), largest).value, inverse = scale > 0 ? 1 / scale : 0;
+  workers.for_ranges(packed.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Quad<S> at{};
+      for (int c = 0; c < D; ++c) at[c] = static_cast<S>(inverse * field[to_index(D * i) + c]);
+      packed[i] = at;
+    }
+  });
   return scale;
 }
 
@@ -38,12 +48,12 @@ template <class S>
 void Multigrid<D>::cycle(Level<S>& level, std::size_t next) {
   if constexpr (std::is_same_v<S, float>)
     if (next == coarse_.size() && next > 0 && solves_coarsest_) return solve_coarsest(level);
-  sweep_forwards<Widest<S>>(level.matrix, level.r, level.z, level.t);
+  sweep_forwards<Widest<S>>(level.matrix, level.r, level.z, level.t, *workers_);
   level.set_idle_zero(level.t);
   if (next == 0) clusters_.correct_forwards(level.matrix, level.z, level.t);
   if (next < coarse_.size()) correct(level, next);
   if (next == 0) clusters_.correct_backwards(level.matrix, level.r, level.z);
-  sweep_backwards<Widest<S>>(level.matrix, level.r, level.z);
+  sweep_backwards<Widest<S>>(level.matrix, level.r, level.z, *workers_);
 }
 
 template <int D>
@@ -60,24 +70,30 @@ template <class S>
 void Multigrid<D>::correct(Level<S>& level, std::size_t next) {
   CoarseLevel& coarse = coarse_[next];
   level.set_idle_zero(level.t);
-  for (std::size_t k = 0; k < coarse.matrix.size(); ++k) {
-    Quad<S> sum{};
-    for (const auto& [i, weight] : coarse.from.members(k)) sum += S(weight) * level.t[to_size(i)];
-    coarse.r[k] = __builtin_convertvector(sum, Quad<float>);
-  }
+  workers_->for_ranges(coarse.matrix.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      Quad<S> sum{};
+      for (const auto& [i, weight] : coarse.from.members(k)) sum += S(weight) * level.t[to_size(i)];
+      coarse.r[k] = __builtin_convertvector(sum, Quad<float>);
+    }
+  });
   cycle(static_cast<Level<float>&>(coarse), next + 1);
-  for (std::size_t i = 0; i < level.matrix.size(); ++i)
-    for (const auto& [k, weight] : coarse.from.parents(i))
-      level.z[i] += S(weight) * __builtin_convertvector(coarse.z[to_size(k)], Quad<S>);
+  workers_->for_ranges(level.matrix.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (const auto& [k, weight] : coarse.from.parents(i))
+        level.z[i] += S(weight) * __builtin_convertvector(coarse.z[to_size(k)], Quad<S>);
+  });
   level.set_idle_zero(level.z);
 }
 
 template <int D>
 void Multigrid<D>::apply(const Field& r, Field& z) {
   const auto run = [&](auto& level) {
-    const double scale = take_scaled<D>(r, level.r);
+    const double scale = take_scaled<D>(r, level.r, *workers_);
     cycle(level, 0);
-    for (std::size_t i = 0; i < level.z.size(); ++i) give_scaled<D>(scale, level.z[i], i, z);
+    workers_->for_ranges(level.z.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) give_scaled<D>(scale, level.z[i], i, z);
+    });
   };
   if (in_doubles_)
     run(finest_in_doubles_);
@@ -88,9 +104,11 @@ void Multigrid<D>::apply(const Field& r, Field& z) {
 template <int D>
 bool Multigrid<D>::multiply_roughly(const Field& x, Field& y) {
   if (in_doubles_ || !(largest_size_ < widest_for_product * median_size_)) return false;
-  const double scale = take_scaled<D>(x, finest_.t);
-  for (std::size_t i = 0; i < finest_.t.size(); ++i)
-    give_scaled<D>(scale, row_product<Widest<float>>(finest_.matrix, i, finest_.t), i, y);
+  const double scale = take_scaled<D>(x, finest_.t, *workers_);
+  workers_->for_ranges(finest_.t.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      give_scaled<D>(scale, row_product<Widest<float>>(finest_.matrix, i, finest_.t), i, y);
+  });
   for (const Eigen::Index u : held_) y[u] = 0;
   return true;
 }

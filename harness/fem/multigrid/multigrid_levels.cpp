@@ -90,6 +90,7 @@ void Multigrid<D>::make_levels(const SystemMatrix<D>& a) {
   float_is_new_ = double_is_new_ = true;
   rows_.reserve_spare();
   swept_.follow(rows_);
+  order_.follow(rows_, swept_);
   cutbench::reserve_spare(slots_);
   slots_made_ = rows_.blocks.slots();
   double spacing = first_spacing * median_edge(rows_.blocks, places_);
@@ -103,7 +104,8 @@ void Multigrid<D>::make_levels(const SystemMatrix<D>& a) {
     level.from.reserve_spare();
     level.rows.reserve_spare();
     level.swept.follow(level.rows);
-    level.matrix.follow(level.rows, level.swept, false);
+    level.order.follow(level.rows, level.swept);
+    level.matrix.follow(level.rows, level.swept, level.order, false);
     level.resize();
     fine = finer_than_next(level);
     regrouping = {};
@@ -114,19 +116,21 @@ template <int D>
 void Multigrid<D>::update_levels(const SystemMatrix<D>& a) {
   Coarsening::Regrouping regrouping = regroup(a);
   swept_.follow(rows_, changes_.rows);
+  const auto to_pack = order_.follow(rows_, swept_, changes_.rows);
   if (!float_is_new_) {
-    finest_.matrix.follow(rows_, swept_, changes_.rows);
+    finest_.matrix.follow(rows_, swept_, order_, to_pack);
     finest_.resize();
   }
   if (!double_is_new_) {
-    finest_in_doubles_.matrix.follow(rows_, swept_, changes_.rows);
+    finest_in_doubles_.matrix.follow(rows_, swept_, order_, to_pack);
     finest_in_doubles_.resize();
   }
   Finer fine{&rows_, &swept_, &places_, &changes_};
   for (CoarseLevel& level : coarse_) {
     update_rows(level, fine, regrouping);
     level.swept.follow(level.rows, level.from.changes().rows);
-    level.matrix.follow(level.rows, level.swept, level.from.changes().rows);
+    level.matrix.follow(level.rows, level.swept, level.order,
+                        level.order.follow(level.rows, level.swept, level.from.changes().rows));
     level.resize();
     fine = finer_than_next(level);
     regrouping = {};

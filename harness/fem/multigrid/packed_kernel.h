@@ -14,6 +14,7 @@
 #include <cstring>
 #include <span>
 
+#include "harness/fem/algebra/workers.h"
 #include "harness/fem/multigrid/packed_rows.h"
 
 namespace cutbench {
@@ -111,23 +112,46 @@ Quad<S> times(const Quad<S>* columns, Quad<S> x) {
 
 // --- sweeps ----------------------------------------------------------------------------------------------------------
 
+/// Calls sweep(rows) for all rows, in the order of the sweeps or against it; for bands at the same time.
+template <class Sweep>
+void sweep_all(const SweepOrder& order, bool backwards, Workers& workers, const Sweep& sweep) {
+  const auto take_turn = [&](std::size_t turn) {
+    const auto bands = order.bands(turn);
+    workers.run(bands.size(), [&](std::size_t k) { sweep(std::span(bands[k])); });
+  };
+  if (backwards) sweep(std::span(order.rest()));
+  for (const std::size_t turn : {0, 1}) take_turn(backwards ? 1 - turn : turn);
+  if (!backwards) sweep(std::span(order.rest()));
+}
+
 /// z = (L + diagonal)^-1 r and t = r - A z, which is what the upper triangle leaves.
 template <class Wide, int D, class S>
-void sweep_forwards(const PackedRows<D, S>& a, const PackedVector<S>& r, PackedVector<S>& z, PackedVector<S>& t) {
+void sweep_forwards(const PackedRows<D, S>& a, const PackedVector<S>& r, PackedVector<S>& z, PackedVector<S>& t,
+                    Workers& workers = Workers::none()) {
   const S* const x = reinterpret_cast<const S*>(z.data());
-  for (std::size_t i = 0; i < a.size(); ++i)
-    z[i] = times<D, S>(a.inverse_columns(i), r[i] - part_sum<Wide>(a.below(), i, x));
-  for (std::size_t i = 0; i < a.size(); ++i) t[i] = -part_sum<Wide>(a.above(), i, x);
+  sweep_all(a.order(), false, workers, [&](std::span<const std::int32_t> rows) {
+    for (const std::int32_t row : rows) {
+      const auto i = to_size(row);
+      z[i] = times<D, S>(a.inverse_columns(i), r[i] - part_sum<Wide>(a.below(), i, x));
+    }
+  });
+  workers.for_ranges(a.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) t[i] = -part_sum<Wide>(a.above(), i, x);
+  });
 }
 
 /// z += (U + diagonal)^-1 (r - A z): the diagonal times z, and z itself, cancel out.
 template <class Wide, int D, class S>
-void sweep_backwards(const PackedRows<D, S>& a, const PackedVector<S>& r, PackedVector<S>& z) {
+void sweep_backwards(const PackedRows<D, S>& a, const PackedVector<S>& r, PackedVector<S>& z,
+                     Workers& workers = Workers::none()) {
   const S* const x = reinterpret_cast<const S*>(z.data());
-  for (std::size_t i = a.size(); i-- > 0;) {
-    const Quad<S> left = r[i] - part_sum<Wide>(a.below(), i, x);
-    z[i] = times<D, S>(a.inverse_columns(i), left - part_sum<Wide>(a.above(), i, x));
-  }
+  sweep_all(a.order(), true, workers, [&](std::span<const std::int32_t> rows) {
+    for (std::size_t k = rows.size(); k-- > 0;) {
+      const auto i = to_size(rows[k]);
+      const Quad<S> left = r[i] - part_sum<Wide>(a.below(), i, x);
+      z[i] = times<D, S>(a.inverse_columns(i), left - part_sum<Wide>(a.above(), i, x));
+    }
+  });
 }
 
 /// Row i of A x, with the small scalars. \pre the rows keep them

@@ -5,10 +5,19 @@
 
 namespace cutbench {
 
+namespace {
+
+/// Of PackedRows::Place.
+std::uint32_t place_at(std::size_t quad, std::uint32_t part) { return static_cast<std::uint32_t>(4 * quad) + part; }
+
+}  // namespace
+
 template <int D, class S>
-void PackedRows<D, S>::follow(const LevelRows& rows, const SweptScalars& swept, std::span<const std::int32_t> changed) {
+void PackedRows<D, S>::follow(const LevelRows& rows, const SweptScalars& swept, const SweepOrder& order,
+                              std::span<const std::int32_t> changed) {
   rows_ = &rows;
   swept_ = &swept;
+  order_ = &order;
   const std::size_t n = rows.size();
   for (auto* part : {&below_, &above_}) {
     part->pairs.resize(n);
@@ -23,12 +32,13 @@ void PackedRows<D, S>::follow(const LevelRows& rows, const SweptScalars& swept, 
 }
 
 template <int D, class S>
-void PackedRows<D, S>::follow(const LevelRows& rows, const SweptScalars& swept, bool keeps_small) {
+void PackedRows<D, S>::follow(const LevelRows& rows, const SweptScalars& swept, const SweepOrder& order,
+                              bool keeps_small) {
   std::vector<std::int32_t> all(rows.size());
   std::iota(all.begin(), all.end(), 0);
   *this = {};
   keeps_small_ = keeps_small;
-  follow(rows, swept, all);
+  follow(rows, swept, order, all);
   for (auto* part : {&below_, &above_}) {
     part->pairs.reserve_spare();
     part->scalars.reserve_spare();
@@ -38,10 +48,29 @@ void PackedRows<D, S>::follow(const LevelRows& rows, const SweptScalars& swept, 
   cutbench::reserve_spare(places_, diagonal_, inverse_);
 }
 
+/// The entries of row i beside its own in two lists. Which of them an entry belongs to is a coin toss, so there is no
+/// branch.
+template <int D, class S>
+void PackedRows<D, S>::part_row(const SweepRows& rows, std::size_t i) {
+  const auto columns = rows[i];
+  const auto own = to_int32(i);
+  before_.resize(columns.size() + 1);
+  after_.resize(columns.size() + 1);
+  std::size_t before = 0, after = 0;
+  auto slot = to_int32(rows.first_slot(i));
+  for (const std::int32_t j : columns) {
+    before_[before] = after_[after] = {j, slot++};
+    const bool is_before = order_->is_before(j, own);
+    before += is_before;
+    after += j != own && !is_before;
+  }
+  before_.resize(before);
+  after_.resize(after);
+}
+
 template <int D, class S>
 void PackedRows<D, S>::pack_row(std::size_t i) {
   const auto& [blocks, scalars, scalar] = *rows_;
-  const SweepRows& near = swept_->rows();
   if (keeps_small_) pack_small(i);
   if (blocks[i].empty()) {
     for (std::size_t k = D * i; k < D * (i + 1); ++k) diagonal_[k] = inverse_[k] = Quad<S>{};
@@ -56,53 +85,48 @@ void PackedRows<D, S>::pack_row(std::size_t i) {
     slot_of_[to_size(blocks[i][k])] = to_int32(slot);
     places_[slot].scalar = 0;
   }
-  if (near[i].empty()) {
-    pack_scalars({}, 0, below_.scalars, i);
-    pack_scalars({}, 0, above_.scalars, i);
-  } else {
-    pack_scalars(near.below(i), near.first_slot(i), below_.scalars, i);
-    pack_scalars(near.above(i), near.diagonal_slot(i) + 1, above_.scalars, i);
-    places_[blocks.diagonal_slot(i)].scalar = static_cast<S>(scalar[scalars.diagonal_slot(i)]);
-  }
-  pack_pairs(blocks.below(i), blocks.first_slot(i), below_, i);
-  pack_pairs(blocks.above(i), blocks.diagonal_slot(i) + 1, above_, i);
-  places_[blocks.diagonal_slot(i)].quad = static_cast<std::uint32_t>(D * i);
+  part_row(swept_->rows(), i);
+  pack_scalars(before_, below_.scalars, i);
+  pack_scalars(after_, above_.scalars, i);
+  Place& own = places_[blocks.diagonal_slot(i)];
+  if (!swept_->rows()[i].empty()) own.scalar = static_cast<S>(scalar[scalars.diagonal_slot(i)]);
+  own.at = place_at(D * i, 1);
+  part_row(blocks, i);
+  pack_pairs(before_, below_, i);
+  pack_pairs(after_, above_, i);
   for (const std::int32_t j : blocks[i]) slot_of_[to_size(j)] = -1;
 }
 
 /// The blocks on one side of the diagonal, the farthest first. An odd one gets zeros beside it that read the same
 /// vertex, so nothing else can make them NaN.
 template <int D, class S>
-void PackedRows<D, S>::pack_pairs(std::span<const std::int32_t> columns, std::size_t slot, PackedPart<D, S>& part,
-                                  std::size_t i) {
-  blocks_.clear();
-  for (const std::int32_t j : columns) blocks_.push_back({j, to_int32(slot++)});
+void PackedRows<D, S>::pack_pairs(Entries& blocks, PackedPart<D, S>& part, std::size_t i) {
   const bool is_below = &part == &below_;
-  std::sort(blocks_.begin(), blocks_.end(),
-            [&](const Entry& a, const Entry& b) { return is_below ? a.column < b.column : a.column > b.column; });
-  const std::size_t n = blocks_.size();
-  if (n % 2) blocks_.push_back(blocks_.back());
+  std::sort(blocks.begin(), blocks.end(), [&](const Entry& a, const Entry& b) {
+    return is_below ? order_->is_before(a.column, b.column) : order_->is_before(b.column, a.column);
+  });
+  const std::size_t n = blocks.size();
+  if (n % 2) blocks.push_back(blocks.back());
   pairs_.clear();
-  for (std::size_t k = 0; k < n; k += 2) pairs_.push_back({{4 * blocks_[k].column, 4 * blocks_[k + 1].column}});
+  for (std::size_t k = 0; k < n; k += 2) pairs_.push_back({{4 * blocks[k].column, 4 * blocks[k + 1].column}});
   part.pairs.set(i, pairs_);
   part.values.resize(D * part.pairs.slots());
   const std::size_t first = part.pairs.begin(i);
   for (std::size_t k = 0; k < n; ++k)
-    places_[to_size(blocks_[k].slot)].quad = static_cast<std::uint32_t>(2 * D * (first + k / 2) + k % 2);
+    places_[to_size(blocks[k].slot)].at = place_at(2 * D * (first + k / 2) + k % 2, is_below ? 0 : 2);
   if (n % 2) std::fill_n(part.values.begin() + to_index(D * (first + n / 2)), D, typename PackedPart<D, S>::Values{});
 }
 
 /// The scalars on one side of the diagonal: in the places of blocks, and the others. Which it is is a coin toss, so
 /// there is no branch.
 template <int D, class S>
-void PackedRows<D, S>::pack_scalars(std::span<const std::int32_t> columns, std::size_t slot,
-                                    GrowingRows<TwoScalars<S>>& to, std::size_t i) {
-  scalars_.resize(columns.size() + 1);
+void PackedRows<D, S>::pack_scalars(const Entries& entries, GrowingRows<TwoScalars<S>>& to, std::size_t i) {
+  scalars_.resize(entries.size() + 1);
   std::size_t n = 0;
   Place nowhere{};
-  for (const std::int32_t j : columns) {
+  for (const auto& [j, slot] : entries) {
     const std::int32_t block = slot_of_[to_size(j)];
-    const auto value = static_cast<S>(swept_->values()[slot++]);
+    const auto value = static_cast<S>(swept_->values()[to_size(slot)]);
     (block < 0 ? nowhere : places_[to_size(block)]).scalar = value;
     scalars_[n] = {j, value};
     n += block < 0;

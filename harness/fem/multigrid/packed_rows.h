@@ -1,6 +1,7 @@
 // The matrix of one level of a multigrid hierarchy, packed in the order in which its sweeps read it.
 //
-// A row has two parts, the entries below its diagonal and those above it, and each part of all rows is a stream of its
+// A row has two parts, the entries below its diagonal and those above it: those of the rows that come before it and
+// after it in the order of the sweep (sweep_order.h). Each part of all rows is a stream of its
 // own. Blocks stand two by two: eight lanes hold a column of the one and a column of the other, each with a zero behind
 // it. A scalar in the place of a block is added to its diagonal; the other scalars stand two by two, too. The columns
 // of blocks rise below the diagonal and fall above it, so that a sweep, either way, needs the row before it last.
@@ -16,7 +17,7 @@
 
 #include "harness/base/conversions.h"
 #include "harness/fem/algebra/lanes.h"
-#include "harness/fem/multigrid/swept_scalars.h"
+#include "harness/fem/multigrid/sweep_order.h"
 
 namespace cutbench {
 
@@ -85,10 +86,14 @@ class PackedRows {
   using Vector = PackedVector<S>;
   using Block = Eigen::Matrix<double, D, D>;
 
-  /// Packs these rows anew; the values of blocks are missing. Both must outlive this, and stay where they are.
+  /// Packs these rows anew; the values of blocks are missing. All three must outlive this, and stay where they are.
+  /// \param changed      SweepOrder::follow()
   /// \param keeps_small  the product is wanted, which takes the small scalars, too
-  void follow(const LevelRows& rows, const SweptScalars& swept, std::span<const std::int32_t> changed);
-  void follow(const LevelRows& rows, const SweptScalars& swept, bool keeps_small);  ///< all, with room to grow by half
+  void follow(const LevelRows& rows, const SweptScalars& swept, const SweepOrder& order,
+              std::span<const std::int32_t> changed);
+  /// All, with room to grow by half.
+  void follow(const LevelRows& rows, const SweptScalars& swept, const SweepOrder& order, bool keeps_small);
+  const SweepOrder& order() const { return *order_; }
   std::size_t size() const { return inverse_.size() / D; }
   /// Entries beside the diagonal that a sweep reads, with those that fill up pairs.
   std::size_t block_count() const { return count(&PackedPart<D, S>::pairs); }
@@ -102,13 +107,12 @@ class PackedRows {
       std::size_t stride;  // from column to column
     };
     const std::array<Target, 3> targets{{{begin(below_), 8}, {begin(diagonal_), 4}, {begin(above_), 8}}};
-    const SweepRows& blocks = rows_->blocks;
-    const std::size_t first = blocks.first_slot(i), own = blocks.diagonal_slot(i), end = first + blocks[i].size();
+    const std::size_t first = rows_->blocks.first_slot(i), end = first + rows_->blocks[i].size();
     for (std::size_t slot = first; slot < end;
          ++slot) {  // a loop for each target would end where no processor foresees
       const Place& place = places_[slot];
-      const Target& target = targets[to_size(slot >= own) + to_size(slot > own)];
-      pack(columns_at(slot), place.scalar, target.stride, target.begin + 4 * place.quad);
+      const Target& target = targets[place.at % 4];
+      pack(columns_at(slot), place.scalar, target.stride, target.begin + (place.at - place.at % 4));
     }
   }
   /// The block on the diagonal of row i of the swept matrix. \pre the row is filled, and not empty
@@ -149,20 +153,21 @@ class PackedRows {
  private:
   /// Where a block goes.
   struct Place {
-    std::uint32_t quad;  // where its first column begins, below, on or above the diagonal
-    S scalar;            // in the same place
+    std::uint32_t at;  // four times where its first column begins, plus 0 to 2: below, on or above the diagonal
+    S scalar;          // in the same place
   };
   struct Entry {
     std::int32_t column, slot;
   };
+  using Entries = std::vector<Entry>;
   struct Scalar {
     std::int32_t column;
     S value;
   };
-  using Columns = std::span<const std::int32_t>;
+  void part_row(const SweepRows& rows, std::size_t i);
   void pack_row(std::size_t i);
-  void pack_pairs(Columns columns, std::size_t slot, PackedPart<D, S>& part, std::size_t i);
-  void pack_scalars(Columns columns, std::size_t slot, GrowingRows<TwoScalars<S>>& to, std::size_t i);
+  void pack_pairs(Entries& blocks, PackedPart<D, S>& part, std::size_t i);
+  void pack_scalars(const Entries& entries, GrowingRows<TwoScalars<S>>& to, std::size_t i);
   void pack_small(std::size_t i);
   void set_scalars(std::size_t n, GrowingRows<TwoScalars<S>>& to, std::size_t i);
   /// Writes columns `stride` values apart, with a scalar on the diagonal and zeros behind each.
@@ -189,6 +194,7 @@ class PackedRows {
 
   const LevelRows* rows_ = nullptr;
   const SweptScalars* swept_ = nullptr;
+  const SweepOrder* order_ = nullptr;
   PackedPart<D, S> below_, above_;
   bool keeps_small_ = false;
   GrowingRows<TwoScalars<S>> small_;
@@ -197,7 +203,7 @@ class PackedRows {
   PackedVector<S> inverse_;    // D columns per row
   // Working storage of pack_row().
   std::vector<std::int32_t> slot_of_;  // per column: of its block in the row at hand, or -1
-  std::vector<Entry> blocks_;
+  Entries before_, after_;             // of the row at hand
   std::vector<PackedPair> pairs_;
   std::vector<Scalar> scalars_;
   std::vector<TwoScalars<S>> two_scalars_;

@@ -21,54 +21,55 @@ template <int D>
 using Trials = std::vector<typename ConjugateGradients<D>::Trial>;
 
 template <int D>
-Solver<D> conjugate_gradients(const SolverOptions& options, std::unique_ptr<Preconditioner<D>> preconditioner) {
+Solver<D> conjugate_gradients(const SolverOptions& options, Workers& workers,
+                              std::unique_ptr<Preconditioner<D>> preconditioner) {
   Trials<D> trials;
   trials.push_back({.preconditioner = std::move(preconditioner)});
-  return std::make_unique<ConjugateGradients<D>>(options, std::move(trials));
+  return std::make_unique<ConjugateGradients<D>>(options, std::move(trials), workers);
 }
 
 template <int D>
-Solver<D> plain(const SolverOptions& options) {
-  return std::make_unique<ConjugateGradients<D>>(options, Trials<D>{});
+Solver<D> plain(const SolverOptions& options, Workers& workers) {
+  return std::make_unique<ConjugateGradients<D>>(options, Trials<D>{}, workers);
 }
 
 template <int D>
-Solver<D> sliver_blocks(const SolverOptions& options) {
-  return conjugate_gradients<D>(options, std::make_unique<SliverBlocks<D>>());
+Solver<D> sliver_blocks(const SolverOptions& options, Workers& workers) {
+  return conjugate_gradients<D>(options, workers, std::make_unique<SliverBlocks<D>>());
 }
 
 template <int D>
-Solver<D> stale_factor(const SolverOptions& options) {
-  return conjugate_gradients<D>(options, std::make_unique<StaleFactor<D>>(options.factor));
+Solver<D> stale_factor(const SolverOptions& options, Workers& workers) {
+  return conjugate_gradients<D>(options, workers, std::make_unique<StaleFactor<D>>(options.factor));
 }
 
 template <int D>
-Solver<D> constant_factor(const SolverOptions& options) {
-  return conjugate_gradients<D>(options, std::make_unique<ConstantFactor<D>>(options.factor));
+Solver<D> constant_factor(const SolverOptions& options, Workers& workers) {
+  return conjugate_gradients<D>(options, workers, std::make_unique<ConstantFactor<D>>(options.factor));
 }
 
 /// Where a sheet is cut to pieces the V-cycle stalls; the constant factor does not, but costs more where the cycle
 /// works.
 template <int D>
-Solver<D> multigrid(const SolverOptions& options) {
+Solver<D> multigrid(const SolverOptions& options, Workers& workers) {
   Trials<D> trials;
-  trials.push_back({.preconditioner = std::make_unique<Multigrid<D>>(), .most_iterations = 100});
+  trials.push_back({.preconditioner = std::make_unique<Multigrid<D>>(workers), .most_iterations = 100});
   trials.push_back({.preconditioner = std::make_unique<ConstantFactor<D>>(options.factor)});
-  return std::make_unique<ConjugateGradients<D>>(options, std::move(trials));
+  return std::make_unique<ConjugateGradients<D>>(options, std::move(trials), workers);
 }
 
 template <int D, FactorOrder order>
-Solver<D> cholmod(const SolverOptions&) {
+Solver<D> cholmod(const SolverOptions&, Workers&) {
   return std::make_unique<FactorSolver<D>>(make_cholmod_factor<D>(order));
 }
 
 template <int D>
-Solver<D> eigen_ldlt(const SolverOptions&) {
+Solver<D> eigen_ldlt(const SolverOptions&, Workers&) {
   return std::make_unique<FactorSolver<D>>(make_eigen_factor<D>());
 }
 
 template <int D, EigenPreconditioner preconditioner>
-Solver<D> eigen_cg(const SolverOptions& options) {
+Solver<D> eigen_cg(const SolverOptions& options, Workers&) {
   return make_eigen_cg<D>(options, preconditioner);
 }
 
@@ -76,7 +77,7 @@ template <int D>
 struct SolverRow {
   const char* name;
   const char* help;
-  Solver<D> (*make)(const SolverOptions&);
+  Solver<D> (*make)(const SolverOptions&, Workers&);
   bool by_cholmod = false;
   bool is_there() const { return !by_cholmod || has_cholmod(); }
 };
@@ -133,14 +134,14 @@ void check_solver_names(const std::vector<std::string>& names, const std::string
 }
 
 template <int D>
-std::unique_ptr<LinearSolver<D>> make_solver(const SolverOptions& options) {
+std::unique_ptr<LinearSolver<D>> make_solver(const SolverOptions& options, Workers& workers) {
   check_solver_names({options.name}, "solver");
   const auto row =
       std::find_if(std::begin(rows<D>), std::end(rows<D>), [&](auto& r) { return options.name == r.name; });
-  return row->make(options);
+  return row->make(options, workers);
 }
 
-template std::unique_ptr<LinearSolver<2>> make_solver(const SolverOptions&);
-template std::unique_ptr<LinearSolver<3>> make_solver(const SolverOptions&);
+template std::unique_ptr<LinearSolver<2>> make_solver(const SolverOptions&, Workers&);
+template std::unique_ptr<LinearSolver<3>> make_solver(const SolverOptions&, Workers&);
 
 }  // namespace cutbench

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/fem/algebra/workers.h"
 #include "harness/fem/linear/solver_options.h"
 
 namespace cutbench {
@@ -20,7 +21,8 @@ void check_solver_names(const std::vector<std::string>& names, const std::string
 std::string solver_help();
 
 /// Throws InputError as check_solver_names() does.
+/// \param workers  of solvers that use some; they must outlive it
 template <int D>
-std::unique_ptr<LinearSolver<D>> make_solver(const SolverOptions& options);
+std::unique_ptr<LinearSolver<D>> make_solver(const SolverOptions& options, Workers& workers = Workers::none());
 
 }  // namespace cutbench

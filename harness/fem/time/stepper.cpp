@@ -29,8 +29,8 @@ void project(const Model<D>& model, Field& f) {
 }  // namespace
 
 template <int D>
-Stepper<D>::Stepper(const StepOptions& options) : options_(options) {
-  if (solves(options.integrator)) solver_ = make_solver<D>(options.solver);
+Stepper<D>::Stepper(const StepOptions& options) : options_(options), workers_(options.solver.threads.value_or(1)) {
+  if (solves(options.integrator)) solver_ = make_solver<D>(options.solver, workers_);
 }
 
 template <int D>
@@ -80,7 +80,7 @@ StepReport Stepper<D>::step(Model<D>& model, State& state) {
 template <int D>
 void Stepper<D>::forces(Model<D>& model, const Field& x, StepReport& report) {
   PhaseClock clock(report.time_us.rotate);
-  model.rotate(x);
+  model.rotate(x, workers_);
   force_.setZero(x.size());
   model.add_internal_force(x, force_);
   model.add_external_force(force_);
@@ -149,12 +149,12 @@ void Stepper<D>::implicit_step(Model<D>& model, State& state, double h, StepRepo
     if (!first) x_ += h * v_;
     {
       PhaseClock clock(report.time_us.rotate);
-      model.rotate(x_);
+      model.rotate(x_, workers_);
       if (options_.robust) before = model.energy(x_, state.v);
     }
     {
       PhaseClock clock(report.time_us.assemble);
-      model.assemble(mass_factor, stiffness_factor);
+      model.assemble(mass_factor, stiffness_factor, workers_);
     }
     right_hand_side(model, state, h, first, report);
     solve(model, first ? state.dv : Field(), report);
@@ -189,10 +189,10 @@ void Stepper<D>::right_hand_side(Model<D>& model, const State& state, double h, 
   const double alpha = model.material().mass_damping, beta = model.material().stiffness_damping;
   rhs_ = h * model.external_force();
   model.add_mass_product(1, state.v, rhs_);
-  if (first) return model.add_impulse(h, x_, 1, v_, rhs_);
+  if (first) return model.add_impulse(h, x_, 1, v_, rhs_, workers_);
   // beta K v from A v: K v = (A v - (1 + h alpha) M v) / (h beta + h^2)
   const double damped = beta / (beta + h);
-  model.add_impulse(h, x_, damped, v_, rhs_);
+  model.add_impulse(h, x_, damped, v_, rhs_, workers_);
   model.add_mass_product((damped - 1) * (1 + h * alpha), v_, rhs_);
 }
 
@@ -202,9 +202,9 @@ void Stepper<D>::explicit_step(Model<D>& model, State& state, StepReport& report
   forces(model, state.x, report);
   if (beta > 0) {
     PhaseClock clock(report.time_us.assemble);
-    model.assemble(0, beta);
+    model.assemble(0, beta, workers_);
     product_.setZero(state.v.size());
-    model.system().add_product(state.v, product_);
+    model.system().add_product(state.v, product_, workers_);
     force_ -= product_;
   }
   {
@@ -327,7 +327,7 @@ void Stepper<D>::equilibrium(Model<D>& model, State& state, StepReport& report) 
     if (iteration == options_.newton) break;
     {
       PhaseClock clock(report.time_us.assemble);
-      model.assemble(0, 1);
+      model.assemble(0, 1, workers_);
     }
     solve(model, Field(), report);
     if (report.verdict != Verdict::ok) return;
@@ -337,7 +337,7 @@ void Stepper<D>::equilibrium(Model<D>& model, State& state, StepReport& report) 
     double fraction = 1;
     for (;; fraction /= 2) {
       x_ = state.x + fraction * dv_;
-      model.rotate(x_);
+      model.rotate(x_, workers_);
       const double reached = model.energy(x_, still).total();
       // Near the minimum rounding hides what is gained: above all in bending, which is a small difference of positions.
       if (reached <= energy.total() + 1e-4 * fraction * slope + 1e-10 * size || fraction < 1e-10) break;

@@ -22,6 +22,7 @@
 #include <memory>
 #include <string>
 
+#include "harness/fem/algebra/workers.h"
 #include "harness/fem/linear/linear_solver.h"
 #include "harness/fem/linear/mass_solver.h"
 #include "harness/fem/model/state.h"
@@ -45,9 +46,10 @@ struct StepOptions {
 template <int D>
 class Stepper {
  public:
-  /// Throws InputError for an unknown solver. Symplectic Euler and sweeps take no consistent mass (scenes refuse it), and
-  /// no constrained vertices, except that symplectic Euler takes those whose unknowns have a mass of their own
-  /// (Constraints::lumped), without an added one; sweeps no elements of several triangles and no added mass either.
+  /// Throws InputError for an unknown solver, and for less than one thread. Symplectic Euler and sweeps take no
+  /// consistent mass (scenes refuse it), and no constrained vertices, except that symplectic Euler takes those whose
+  /// unknowns have a mass of their own (Constraints::lumped), without an added one; sweeps no elements of several
+  /// triangles and no added mass either.
   explicit Stepper(const StepOptions& options);
   StepReport step(Model<D>& model, State& state);
 
@@ -68,6 +70,7 @@ class Stepper {
   void forces(Model<D>& model, const Field& x, StepReport& report);
 
   StepOptions options_;
+  Workers workers_;
   std::unique_ptr<LinearSolver<D>> solver_;
   MassSolver<D> mass_solver_;
   Xpbd<D> xpbd_;

@@ -41,7 +41,7 @@ template <int D>
 double Stepper<D>::merit(Model<D>& model, const State& state, double h, const Field& v, const Field& x,
                          Energy& energy) {
   const double alpha = model.material().mass_damping, beta = model.material().stiffness_damping;
-  model.rotate(x);
+  model.rotate(x, workers_);
   energy = model.energy(x, v);
   const Field dv = v - state.v;
   product_.setZero(v.size());
@@ -49,7 +49,7 @@ double Stepper<D>::merit(Model<D>& model, const State& state, double h, const Fi
   double phi = energy.membrane + energy.bending + energy.potential + dv.dot(product_) / 2 + h * alpha * energy.kinetic;
   if (beta == 0) return phi;
   product_.setZero(v.size());
-  model.system().add_product(v, product_);  // A v, with the K of the last assemble()
+  model.system().add_product(v, product_, workers_);  // A v, with the K of the last assemble()
   const double stiffness = (v.dot(product_) - 2 * (1 + h * alpha) * energy.kinetic) / (h * beta + h * h);
   return phi + h * beta * stiffness / 2;
 }
@@ -66,11 +66,11 @@ void Stepper<D>::finish_robustly(Model<D>& model, const State& state, double h, 
     PhaseClock clock(report.time_us.rotate);
     // The linearisation at x0: phi(0) - b'v + v'A v / 2, with b = h (f + f_ext) + M v0, where A v = b but where held.
     impulse_.setZero(v_.size());
-    model.add_impulse(h, state.x, 0, v_, impulse_);
+    model.add_impulse(h, state.x, 0, v_, impulse_, workers_);
     impulse_ += h * model.external_force();
     model.add_mass_product(1, state.v, impulse_);
     product_.setZero(v_.size());
-    model.system().add_product(v_, product_);
+    model.system().add_product(v_, product_, workers_);
     const double expected =
         before.membrane + before.bending + before.potential + before.kinetic - v_.dot(impulse_) + v_.dot(product_) / 2;
     place_at_end(model, state, h, v_, x_);
@@ -80,7 +80,7 @@ void Stepper<D>::finish_robustly(Model<D>& model, const State& state, double h, 
   for (int iteration = 1; iteration < most_iterations && report.verdict == Verdict::ok; ++iteration) {
     {
       PhaseClock clock(report.time_us.assemble);
-      model.assemble(mass_factor, stiffness_factor);
+      model.assemble(mass_factor, stiffness_factor, workers_);
     }
     right_hand_side(model, state, h, false, report);
     solve(model, Field(), report);
