@@ -38,7 +38,6 @@ struct HeldMethod {
   std::unique_ptr<CuttingMethod> make() const { return row.make(parameter); }
 };
 
-
 struct HeldCut {
   SheetPointer before, after;
   std::vector<Curve> curves;
