@@ -147,6 +147,23 @@ TEST(Blade, InTheEndTheIncisionIsThatOfTheCutAtOnce) {
   }
 }
 
+/// Of methods whose tips go to vertices, the parts of a blade join, too: the sheet comes apart as by one cut.
+TEST(Blade, PartsJoinWhereTipsGoToVertices) {
+  for (const char* name : {"edge_release", "snap_or_split", "vertex_snap"}) {
+    const MethodRow row = find_method(name);
+    for (const char* family : {"grid", "delaunay"}) {
+      Table by_parts(make_sheet(family, 10), row, row.parameter.value);
+      const Blade blade({Curve::Kind::polyline, false, {{-0.1, 0.37}, {1.1, 0.61}}});
+      double reached = 0;
+      for (const double to : {0.31, 0.52, 0.68, 0.97, blade.length()}) {
+        ASSERT_EQ(by_parts.cut(blade.part(reached, to), CutOptions().chord_tolerance), "") << name << ", " << family;
+        reached = to;
+      }
+      EXPECT_EQ(count_pieces(by_parts.sheet), 2u) << name << ", " << family;
+    }
+  }
+}
+
 /// In the simulation: the incision ends where the blade is, at most one edge behind it.
 TEST(Blade, AdvancesWithTheTime) {
   Scene scene;

@@ -261,7 +261,9 @@ TEST(Problems, AMovedMouthConvergesToo) {
 
 /// The same final geometry by one cut and by two.
 TEST(Problems, TwoCutsAreAsGoodAsOne) {
-  for (const auto& row : whole_sheet_methods())
+  for (const auto& row : whole_sheet_methods()) {
+    if (row.name == "edge_release")
+      continue;  // the first cut ends at a vertex, which is not where the second one begins
     for (std::size_t index = 0; index < 4; ++index) {
       const Problem &one = find_problem("centre_crack"), &two = find_problem("two_cuts_one_geometry");
       const Specimen a = one.specimen("alternating", 24, 1, index), b = two.specimen("alternating", 24, 1, index);
@@ -270,6 +272,7 @@ TEST(Problems, TwoCutsAreAsGoodAsOne) {
                   (row.promises.keeps_vertices ? 0.02 : 0.05) * measure_of(by_one, "released_energy").exact)
           << row.name << ' ' << index;
     }
+  }
 }
 
 }  // namespace

@@ -125,10 +125,10 @@ std::vector<std::string> notes_of(int left_out, const SheetLevels& sheets, const
 /// Why no run can help, all reasons at once: empty where runs can.
 std::vector<std::string> refusals(const Scene& scene, const SheetLevels& sheets) {
   std::vector<std::string> all;
-  if (scene.integrator == Integrator::xpbd)
-    all.push_back(
-        "xpbd's stiffness depends on its steps and sweeps, so that there is no converged value; name another "
-        "integrator");
+  if (sweeps(scene.integrator))
+    all.push_back(std::string(name_of(integrator_names, scene.integrator)) +
+                  "'s stiffness depends on its steps and sweeps, so that there is no converged value; name another "
+                  "integrator");
   if (sheets.own() > most_triangles)
     all.push_back("the sheet has " + std::to_string(sheets.own()) + " triangles, and at most " +
                   std::to_string(most_triangles) + " are run; give a coarser one");

@@ -62,6 +62,7 @@ Curve Blade::part(double from, double to) const {
     }
     part.points.push_back(at(b));
   }
+  part.goes_on = to < length();
   return part;
 }
 

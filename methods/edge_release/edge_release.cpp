@@ -2,10 +2,10 @@
 
 namespace cutbench {
 
-void EdgeRelease::adapt(Sheet& sheet, Subdivision& trace, const Polyline&) {
+void EdgeRelease::adapt(Sheet& sheet, Subdivision& trace, const Polyline& asked) {
   path_.read(sheet, trace);
   for (int n = 0; n < path_.size(); ++n) path_.straighten(n);
-  const auto crossings = path_.approaches(0.5), tips = path_.tips(1);
+  const auto crossings = path_.approaches(0.5), tips = path_.tips(1, asked);
   const auto release = [&](int node, VertexIndex v) {
     if (path_.find_run(node, v, 1, run_)) path_.contract(run_);
   };

@@ -2,8 +2,8 @@
 
 namespace cutbench {
 
-void SnapOrSplit::adapt(Sheet& sheet, Subdivision& trace, const Polyline&) {
-  snap_to_vertices(sheet, trace, tolerance_, path_);
+void SnapOrSplit::adapt(Sheet& sheet, Subdivision& trace, const Polyline& asked) {
+  snap_to_vertices(sheet, trace, asked, tolerance_, path_);
 }
 
 }  // namespace cutbench

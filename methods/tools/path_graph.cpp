@@ -247,11 +247,16 @@ bool PathGraph::is_tip(int node) const {
   return n.place.kind == Place::Kind::face || !sheet_->separates(n.place.edge);
 }
 
-std::vector<PathGraph::Approach> PathGraph::tips(double reach) const {
+std::vector<PathGraph::Approach> PathGraph::tips(double reach, const Polyline& path) const {
+  const auto goes_on = [&](int node) {
+    if (!path.goes_on) return false;
+    const Point2 p = point(node);
+    return squared_length(p - path.points.back()) < squared_length(p - path.points.front());
+  };
   std::vector<Approach> found;
   for (int i = 0; i < size() && reach > 0; ++i) {
     const Place& place = at(i).place;
-    if (place.kind == Place::Kind::vertex || !is_tip(i)) continue;
+    if (place.kind == Place::Kind::vertex || !is_tip(i) || goes_on(i)) continue;
     const std::size_t first = found.size();
     const auto add = [&](VertexIndex v, double coordinate) {
       if (1 - coordinate <= reach) found.push_back({i, v, 1 - coordinate});
@@ -376,9 +381,10 @@ bool PathGraph::straighten(int node) {
   return true;
 }
 
-void snap_to_vertices(const Sheet& sheet, Subdivision& trace, double tolerance, PathGraph& path) {
+void snap_to_vertices(const Sheet& sheet, Subdivision& trace, const Polyline& asked, double tolerance,
+                      PathGraph& path) {
   path.read(sheet, trace);
-  const auto near = path.approaches(tolerance), tips = path.tips(tolerance);
+  const auto near = path.approaches(tolerance), tips = path.tips(tolerance, asked);
   PathGraph::Run run;
   for (const auto& tip : tips)
     if (path.find_tip_run(tip.node, tip.vertex, tolerance, run)) path.contract(run);

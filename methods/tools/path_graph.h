@@ -53,8 +53,9 @@ class PathGraph {
   bool find_run(int node, VertexIndex vertex, double reach, Run& run) const;
 
   /// Tips inside triangles and on edges, with the vertices of that triangle or edge where its barycentric coordinate is
-  /// at least 1 - `reach`: tip by tip, the nearest vertex first. The fraction is 1 less that coordinate.
-  std::vector<Approach> tips(double reach) const;
+  /// at least 1 - `reach`: tip by tip, the nearest vertex first. The fraction is 1 less that coordinate. Without the
+  /// end of a path that goes on.
+  std::vector<Approach> tips(double reach, const Polyline& path) const;
   /// What passes `vertex` on the way to a tip, the tip included, which is the first or the last node of the run and has
   /// nothing on its other side. False where find_run() would be, or
   /// - the vertex lies on the border or an older incision;
@@ -127,6 +128,6 @@ class PathGraph {
 /// The path goes through the vertex instead of every crossing at most `tolerance` of its edge from it, the nearest
 /// first, together with its neighbours as near as that. Before that its tips go to vertices as near as that
 /// (PathGraph::tips()). `path` is working storage.
-void snap_to_vertices(const Sheet& sheet, Subdivision& trace, double tolerance, PathGraph& path);
+void snap_to_vertices(const Sheet& sheet, Subdivision& trace, const Polyline& asked, double tolerance, PathGraph& path);
 
 }  // namespace cutbench

@@ -55,7 +55,7 @@ bool VertexSnap::stays_near(const Sheet& sheet, int tip) const {
 
 void VertexSnap::adapt(Sheet& sheet, Subdivision& trace, const Polyline&) {
   path_.read(sheet, trace);
-  const auto near = path_.approaches(options_.reach), tips = path_.tips(options_.reach);
+  const auto near = path_.approaches(options_.reach), tips = path_.tips(options_.reach, Polyline());  // they stay
   const auto move_to = [&](Point2 to) {
     if (worst_aspect(sheet, run_.vertex, to) <= options_.max_aspect && sheet.move(run_.vertex, to))
       path_.contract(run_);

@@ -6,7 +6,7 @@ namespace cutbench {
 
 void WarpAndRefine::adapt(Sheet& sheet, Subdivision& trace, const Polyline& path) {
   curve_.read(sheet, trace, path);
-  if (options_.before == Before::snap) snap_to_vertices(sheet, trace, options_.snap, path_);
+  if (options_.before == Before::snap) snap_to_vertices(sheet, trace, path, options_.snap, path_);
   if (options_.before == Before::warp || options_.before == Before::warp_and_thin) warp_.run(sheet, trace, curve_);
 }
 

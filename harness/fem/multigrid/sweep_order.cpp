@@ -49,7 +49,7 @@ void SweepOrder::follow(const LevelRows& rows, const SweptScalars& swept) {
   band_.assign(n, none);
   rank_.assign(n, 0);
   if (n >= fewest_in_bands_)
-    for (const std::size_t bands : {32, 16, 8, 4})
+    for (const std::size_t bands : {16, 8, 4})
       if (make_bands(rows, swept, bands)) return;
   for (auto& of_turn : bands_) of_turn.clear();
   for (std::size_t i = 0; i < n; ++i) put(i, none);
