@@ -18,7 +18,7 @@ namespace {
 /// a vertex of any sensible sheet.
 constexpr std::size_t most_searched = 200;
 
-std::size_t next(std::size_t k) { return to_size(next_corner(to_int(k))); }
+std::size_t after(std::size_t k) { return to_size(next_corner(to_int(k))); }
 
 class Carrier {
  public:
@@ -59,8 +59,8 @@ class Carrier {
     const TriangleIndex here = triangle_of(h), there = triangle_of(o);
     const std::size_t k = to_size(corner_of(h)), l = to_size(corner_of(o));
     const auto &mine = before_.triangle(here).deformed, &other = before_.triangle(there).deformed;
-    return mine[k] == other[next(l)] && mine[next(k)] == other[l] && of(here)[k] == of(there)[next(l)] &&
-           of(here)[next(k)] == of(there)[l];
+    return mine[k] == other[after(l)] && mine[after(k)] == other[l] && of(here)[k] == of(there)[after(l)] &&
+           of(here)[after(k)] == of(there)[l];
   }
 
   /// The old triangle that has all of `parts`, the first one from `start` on without a step over a seam.
@@ -91,7 +91,7 @@ class Carrier {
     const auto c = before_.corners(old);
     const double area2 = cross(c[1] - c[0], c[2] - c[0]);
     Point2 sum;
-    for (std::size_t k = 0; k < 3; ++k) sum = sum + cross(c[next(k)] - p, c[next(next(k))] - p) / area2 * of(old)[k];
+    for (std::size_t k = 0; k < 3; ++k) sum = sum + cross(c[after(k)] - p, c[after(after(k))] - p) / area2 * of(old)[k];
     return sum;
   }
 

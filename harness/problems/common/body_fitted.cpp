@@ -55,9 +55,9 @@ Point2 centre_of(const Triangulation::Face_handle& face) {
 /// As Criteria, with a size that depends on the place.
 class GradedCriteria {
  public:
-  using Face_handle = Triangulation::Face_handle;
+  using Face_handle = Triangulation::Face_handle;  // NOLINT(readability-identifier-naming): CGAL's name
   using Quality = Criteria::Quality;
-  class Is_bad {
+  class Is_bad {  // NOLINT(readability-identifier-naming): CGAL's name
    public:
     Is_bad(const Sizing& sizing, double far) : sizing_(sizing), far_(far) {}
     CGAL::Mesh_2::Face_badness operator()(const Quality& quality) const { return rule(far_)(quality); }

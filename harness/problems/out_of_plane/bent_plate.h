@@ -58,8 +58,9 @@ class BentPlate : public Problem {
     Specimen result{.mesh = make_sheet(family, n), .cuts = {}};
     result.origin = {0.5 + numbers.between(-0.5, 0.5) / n, 0.5 + numbers.between(-0.5, 0.5) / n};
     // In turns near a mesh line, 0.5e-3 to 0.5 widths of a triangle from it, as slit_strip has it, and anywhere.
+    const int middle = n / 2;
     if (index % 2 == 0)
-      result.origin.y = (n / 2 + 0.5 * std::pow(10, numbers.between(-3, 0)) * (numbers.coin() ? 1 : -1)) / n;
+      result.origin.y = (middle + 0.5 * std::pow(10, numbers.between(-3, 0)) * (numbers.coin() ? 1 : -1)) / n;
     else
       result.angle = numbers.between(0, 2 * std::numbers::pi);
     result.cuts = {cut_ == Cut::hole ? arc(radius, 0, 2 * std::numbers::pi) : line({-2, 0}, {0, 0})};

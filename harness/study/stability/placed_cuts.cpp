@@ -24,7 +24,7 @@ Point2 turned(Point2 d, double radians) {
   return {c * d.x - s * d.y, s * d.x + c * d.y};
 }
 Point2 left_of(Point2 d) { return {-d.y, d.x}; }
-Curve line(Point2 a, Point2 b) { return {Curve::Kind::polyline, false, {a, b}}; }
+Curve segment(Point2 a, Point2 b) { return {Curve::Kind::polyline, false, {a, b}}; }
 
 double distance(Point2 p, Point2 a, Point2 b) {
   const Point2 d = b - a;
@@ -81,7 +81,7 @@ class Placer {
     const double back = random_.between(1, 2.5), on = random_.between(1, 2.5), h = h_;
     return {[=](double place) {
               const Point2 near = at + place * h * left_of(d);
-              return std::vector{line(near - back * h * d, near + on * h * d)};
+              return std::vector{segment(near - back * h * d, near + on * h * d)};
             },
             {v}};
   }
@@ -92,7 +92,7 @@ class Placer {
     const double back = random_.between(0.2, 1), on = random_.between(0.2, 1), h = h_;
     return {[=](double place) {
               const Point2 aside = place * h * left_of(d);
-              return std::vector{line(a + aside - back * h * d, b + aside + on * h * d)};
+              return std::vector{segment(a + aside - back * h * d, b + aside + on * h * d)};
             },
             {sheet_.origin(e), sheet_.target(e)}};
   }
@@ -115,7 +115,7 @@ class Placer {
     const Point2 middle = a + random_.between(0.4, 0.6) * (b - a);
     const Point2 d = turned(left_of(unit(b - a)), random_.between(-0.3, 0.3));
     const double back = random_.between(1, 2.5), h = h_;
-    return {[=](double place) { return std::vector{line(middle - back * h * d, middle - place * h * d)}; }, {}};
+    return {[=](double place) { return std::vector{segment(middle - back * h * d, middle - place * h * d)}; }, {}};
   }
 
   Spot recut() {
@@ -123,7 +123,7 @@ class Placer {
     const double h = h_;
     return {[=](double degrees) {
               const Point2 e = turned(d, degrees * std::numbers::pi / 180);
-              return std::vector{line(c - 2 * h * d, c + 2 * h * d), line(c - 2 * h * e, c + 2 * h * e)};
+              return std::vector{segment(c - 2 * h * d, c + 2 * h * d), segment(c - 2 * h * e, c + 2 * h * e)};
             },
             {},
             false,
@@ -135,8 +135,8 @@ class Placer {
     const double h = h_;
     return {[=](double place) {
               const Point2 aside = place * h * left_of(d);
-              return std::vector{line(c - 1.5 * h * d, c + 1.5 * h * d),
-                                 line(c + aside - 1.5 * h * d, c + aside + 1.5 * h * d)};
+              return std::vector{segment(c - 1.5 * h * d, c + 1.5 * h * d),
+                                 segment(c + aside - 1.5 * h * d, c + aside + 1.5 * h * d)};
             },
             {}};
   }
