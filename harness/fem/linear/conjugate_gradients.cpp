@@ -113,9 +113,11 @@ SolveReport ConjugateGradients<D>::solve(const Field& b, Field& x, const Field& 
   const Products all = advance(0, x);  // p = q = 0
   const double bb = all.rr, share = options_.tolerance * options_.tolerance, enough = share * bb,
                enough_rdr = share * all.rdr;
+  // Of a residual that is not the last one.
+  const auto floats_do = [&] { return options_.tolerance >= tolerance_for_floats && trial_ < trials_.size(); };
   if (start.size() == b.size()) {
     project(*a.held, start, x);
-    a.multiply(x, q_, *workers_);
+    if (!(floats_do() && trials_[trial_].preconditioner->multiply_roughly(x, q_))) a.multiply(x, q_, *workers_);
     r_ -= q_;
     if (!(r_.squaredNorm() < bb)) {
       x.setZero();
@@ -130,7 +132,7 @@ SolveReport ConjugateGradients<D>::solve(const Field& b, Field& x, const Field& 
     precondition(now);
     p_ = z_;
     bool broken = !positive_blocks_;
-    bool is_rough = restart == 0 && options_.tolerance >= tolerance_for_floats && trial_ < trials_.size();
+    bool is_rough = restart == 0 && floats_do();
     while (!broken && (now.rr > enough || now.rdr > enough_rdr) && report.iterations < most) {
       is_rough = is_rough && trials_[trial_].preconditioner->multiply_roughly(p_, q_);
       if (!is_rough) a.multiply(p_, q_, *workers_);
