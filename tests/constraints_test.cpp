@@ -100,21 +100,91 @@ TEST(Constraints, PatchTest) {
 }
 
 /// Constraints join what triangles do, and nothing more: the pieces of the system are those of the sheet.
+void expect_open(const Sheet& sheet, const Constraints& constraints) {
+  Pieces pieces(sheet);
+  EXPECT_EQ(pieces.count(), count_pieces(sheet));
+  const auto first = to_int32(sheet.deformed_slots());
+  pieces.root.resize(to_size(first) + constraints.phantoms.size(), -1);
+  std::vector<std::uint8_t> is_constrained(pieces.root.size());
+  for (const Constraint& constraint : constraints.constraints) {
+    EXPECT_FALSE(is_constrained[constraint.vertex()]) << "twice";
+    is_constrained[constraint.vertex()] = 1;
+  }
+  for (const Constraint& constraint : constraints.constraints)
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_FALSE(is_constrained[constraint.masters[k]()] && constraint.weights[k] != 0) << "a chain";
+      if (constraint.weights[k] != 0) pieces.join(constraint.masters[k].value, constraint.vertex.value);
+    }
+  EXPECT_EQ(pieces.count(), count_pieces(sheet));
+}
+
 TEST(Constraints, CutsStayOpen) {
-  for_each_constrained_cut(constraining_methods, 9, 3, 641, [&](const ConstrainedCut& cut) {
-    Pieces pieces(cut.sheet());
-    EXPECT_EQ(pieces.count(), count_pieces(cut.sheet()));
-    const auto first = to_int32(cut.sheet().deformed_slots());
-    pieces.root.resize(to_size(first) + cut.constraints.phantoms.size(), -1);
-    std::vector<std::uint8_t> is_constrained(pieces.root.size());
-    for (const Constraint& constraint : cut.constraints.constraints) is_constrained[constraint.vertex()] = 1;
-    for (const Constraint& constraint : cut.constraints.constraints)
-      for (std::size_t k = 0; k < 3; ++k) {
-        EXPECT_FALSE(is_constrained[constraint.masters[k]()] && constraint.weights[k] != 0) << "a chain";
-        if (constraint.weights[k] != 0) pieces.join(constraint.masters[k].value, constraint.vertex.value);
+  for_each_constrained_cut(constraining_methods, 9, 3, 641,
+                           [&](const ConstrainedCut& cut) { expect_open(cut.sheet(), cut.constraints); });
+}
+
+/// The masters' places, weighted, are the vertex's own, on its side of all incisions: what the last cut left alone, too.
+TEST(SplitAndTie, ConstraintsFollowTheLastCut) {
+  std::size_t kept = 0, turn = 0;
+  for (const std::string cuts : {"several", "recut", "self_crossing"})
+    for (const std::string& family : families_in_turn(turn))
+      for (std::size_t i = 0; i < scaled(4); ++i) {
+        SCOPED_TRACE(family + ", " + cuts + " " + std::to_string(i));
+        const Sheet before(make_sheet(family, 16));
+        Table table(make_sheet(family, 16), find_method("split_and_tie"), 0.1);
+        const auto method = find_method("split_and_tie").make(0.1);
+        Constraints last;
+        std::vector<Curve> curves = make_case(cuts, 642, i, before);
+        for (const Curve& more : make_case("curved", 643, i, before)) curves.push_back(more);
+        for (const Curve& curve : curves) {
+          EXPECT_EQ(table.cut(curve, 0.05), "");
+          if (table.outcome.status == Status::noop) continue;
+          const Constraints next = method->constraint_source()->next_constraints(before, table.sheet, last, {});
+          expect_open(table.sheet, next);
+          for (const Constraint& constraint : next.constraints) {
+            Point2 p{0, 0};
+            for (std::size_t k = 0; k < 3; ++k)
+              p = p + constraint.weights[k] * table.sheet.rest(table.sheet.rest_vertex(constraint.masters[k]));
+            EXPECT_LE(length(p - table.sheet.rest(table.sheet.rest_vertex(constraint.vertex))), 1e-12);
+          }
+          last = next;
+        }
+        // Pieces that consist of slivers only are as stiff as before, also by a search from nothing.
+        const Constraints anew = constraints_of(*method, before, table.sheet);
+        const double found = largest_eigenvalue(table.sheet, last),
+                     from_nothing = largest_eigenvalue(table.sheet, anew);
+        EXPECT_LE(found, 3 * std::max(from_nothing, 60 * largest_eigenvalue(before)));
+        kept += last.constraints.size();
       }
-    EXPECT_EQ(pieces.count(), count_pieces(cut.sheet()));
-  });
+  EXPECT_GT(kept, scaled(1000));
+}
+
+/// Of two cuts that are far apart the constraints are those that a search from nothing finds.
+TEST(SplitAndTie, AFarCutChangesNoConstraint) {
+  for (const std::string family : sheet_families()) {
+    SCOPED_TRACE(family);
+    const Sheet before(make_sheet(family, 24));
+    Table table(make_sheet(family, 24), find_method("split_and_tie"), 0.1);
+    const auto method = find_method("split_and_tie").make(0.1);
+    Constraints last;
+    for (const double y : {0.203, 0.797}) {
+      EXPECT_EQ(table.cut({Curve::Kind::polyline, false, {{-0.1, y}, {1.1, y + 0.02}}}, 0.05), "");
+      last = method->constraint_source()->next_constraints(before, table.sheet, last, {});
+    }
+    const auto in_order = [](std::vector<Constraint> all) {
+      std::sort(all.begin(), all.end(), [](const Constraint& a, const Constraint& b) { return a.vertex < b.vertex; });
+      return all;
+    };
+    const auto followed = in_order(last.constraints),
+               anew = in_order(constraints_of(*method, before, table.sheet).constraints);
+    ASSERT_EQ(followed.size(), anew.size());
+    EXPECT_GT(anew.size(), 20u);
+    for (std::size_t i = 0; i < anew.size(); ++i) {
+      EXPECT_EQ(followed[i].vertex, anew[i].vertex);
+      EXPECT_EQ(followed[i].masters, anew[i].masters);
+      EXPECT_EQ(followed[i].weights, anew[i].weights);
+    }
+  }
 }
 
 /// Four cuts after which two slivers' vertices once stood for each other, and the search for a free one went on for

@@ -20,7 +20,8 @@ struct Constraint {
   DeformedIndex vertex;
   std::array<DeformedIndex, 3> masters;  ///< unconstrained vertices, or phantom node i as Sheet::deformed_slots() + i
   std::array<double, 3>
-      weights;  ///< barycentric coordinates of the vertex, of any sign, with sum 1; 0 leaves the master out
+      weights;       ///< barycentric coordinates of the vertex, of any sign, with sum 1; 0 leaves the master out
+  double reach = 0;  ///< of the search that found it, at rest: what happens farther from the vertex does not change it
 };
 
 /// A penalty on the jump of the normal derivative, sum of jump[k] q[unknown[k]], across an edge at which two parts are

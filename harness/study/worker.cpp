@@ -33,19 +33,23 @@ CutRun Worker::measure(const BaseSheet& base, const std::vector<Curve>& cuts, co
 
 CutRun Worker::cut_restored(const BaseSheet& base, const std::vector<Curve>& cuts, const CutOptions& options) {
   double constrain_us = 0;
-  const auto find_constraints = [&](std::size_t /*cut*/) {
-    StopWatch watch;
-    constraints = constraints_of(*method, base.sheet, sheet);
-    constrain_us += watch.lap();
-  };
   constraints = {};
   const ConstraintSource* const source = method->constraint_source();
   const bool makes_polygons = source && source->constraint_kind() == ConstraintKind::polygons;
-  const bool anew_after_each = source && !makes_polygons;
+  const auto after_cut = [&](std::size_t /*cut*/) {
+    StopWatch watch;
+    constraints = source->next_constraints(base.sheet, sheet, constraints, {});
+    constrain_us += watch.lap();
+  };
+  const bool follows = source && !makes_polygons;
   CutRun run = cut_all(sheet, locator_, cutter, cuts, *method, options,
-                       anew_after_each ? std::function<void(std::size_t)>(find_constraints) : nullptr);
-  // A scene's polygons follow each cut (next_constraints), which takes about as long as all of them at once.
-  if (makes_polygons && (run.status == Status::ok || run.status == Status::deviated)) find_constraints(cuts.size());
+                       follows ? std::function<void(std::size_t)>(after_cut) : nullptr);
+  // A scene's polygons follow each cut, too, which takes about as long as all of them at once.
+  if (makes_polygons && (run.status == Status::ok || run.status == Status::deviated)) {
+    StopWatch watch;
+    constraints = source->constraints(base.sheet, sheet);
+    constrain_us += watch.lap();
+  }
   run.time_us.constrain = constrain_us;
   return run;
 }

@@ -13,4 +13,9 @@ Constraints SplitAndTie::constraints(const Sheet& before, const Sheet& cut) cons
   return constrain_slivers(before, cut, options_.thinness, true);
 }
 
+Constraints SplitAndTie::next_constraints(const Sheet& before, const Sheet& cut, const Constraints& last,
+                                          const PolygonsLeft& /*left*/) const {
+  return constrain_new_slivers(before, cut, options_.thinness, last);
+}
+
 }  // namespace cutbench

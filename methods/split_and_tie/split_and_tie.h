@@ -11,7 +11,7 @@
 // Promises: the exact path, area, conforming, no vertex moved; an affine displacement is reproduced exactly.
 // Where it fails: on pieces that consist of slivers only, and with an explicit integrator, since the mass is no longer
 // lumped. The triangles stay ill-shaped for every other use. Vertices near a cut jump to the field of their master
-// triangle at the instant of the cut. Which vertices are constrained is found again after each cut, from all cuts.
+// triangle at the instant of the cut. In motion constraints stay where a cut did not come near.
 #pragma once
 
 #include "harness/cut/constraint_source.h"
@@ -31,6 +31,8 @@ class SplitAndTie : public CuttingMethod, private ConstraintSource {
  private:
   ConstraintKind constraint_kind() const override { return ConstraintKind::vertices; }
   Constraints constraints(const Sheet& before, const Sheet& cut) const override;
+  Constraints next_constraints(const Sheet& before, const Sheet& cut, const Constraints& last,
+                               const PolygonsLeft& left) const override;
 
   Options options_;
 };

@@ -15,21 +15,78 @@ namespace cutbench {
 
 namespace {
 
+/// The vertices of the triangles that the last cut made or changed.
+class ChangedPlaces {
+ public:
+  explicit ChangedPlaces(const Sheet& cut) : cut_(cut) {
+    for (const auto& touched : cut.log().touched) add(touched.slot);
+    for (std::size_t t = cut.log().triangles_before; t < cut.triangle_slots(); ++t) add(TriangleIndex(t));
+    std::sort(vertices_.begin(), vertices_.end());
+    vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+    for (const DeformedIndex d : vertices_) places_.push_back(cut.rest(cut.rest_vertex(d)));
+    std::sort(places_.begin(), places_.end(), [](Point2 a, Point2 b) { return a.x < b.x; });
+  }
+  const std::vector<DeformedIndex>& vertices() const { return vertices_; }
+  bool holds(DeformedIndex d) const { return std::binary_search(vertices_.begin(), vertices_.end(), d); }
+  bool reaches(Point2 p, double distance) const {
+    const auto first = std::lower_bound(places_.begin(), places_.end(), p.x - distance,
+                                        [](Point2 place, double x) { return place.x < x; });
+    for (auto place = first; place != places_.end() && place->x <= p.x + distance; ++place)
+      if (length(*place - p) < distance) return true;
+    return false;
+  }
+
+ private:
+  void add(TriangleIndex t) {
+    if (!cut_.triangle(t).alive()) return;
+    for (const DeformedIndex d : cut_.triangle(t).deformed) vertices_.push_back(d);
+  }
+  const Sheet& cut_;
+  std::vector<DeformedIndex> vertices_;  // in rising order
+  std::vector<Point2> places_;           // by rising x
+};
+
 /// The constraints of one cut sheet.
 class SliverConstraints {
  public:
-  SliverConstraints(const Sheet& before, const Sheet& cut, double thinness, bool only_divided)
+  SliverConstraints(const Sheet& before, const Sheet& cut, double thinness)
       : sheet_(cut),
         thinness_(thinness),
         before_(before),
         longest_(cut.vertex_slots()),
-        number_(cut.deformed_slots(), -1) {
-    collect(new_triangles(before, cut, only_divided));
+        number_(cut.deformed_slots(), -1),
+        kept_(cut.deformed_slots()) {}
+
+  /// Of all vertices that cuts made.
+  void choose_among(const std::vector<TriangleIndex>& triangles) {
+    for (const TriangleIndex t : triangles)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (is_new(triangle(t).vertex[k])) corners_.push_back({triangle(t).deformed[k], t, k});
+  }
+  /// Of those that the last cut may have changed. All others stay.
+  void choose_after(const Constraints& last) {
+    const ChangedPlaces changed(sheet_);
+    std::vector<DeformedIndex> vertices;
+    for (const DeformedIndex d : changed.vertices())
+      if (is_new(sheet_.rest_vertex(d))) vertices.push_back(d);
+    for (const Constraint& constraint : last.constraints) {
+      if (changed.holds(constraint.vertex)) continue;  // it is among these already
+      const bool stays = std::none_of(constraint.masters.begin(), constraint.masters.end(),
+                                      [&](DeformedIndex d) { return changed.holds(d); }) &&
+                         !changed.reaches(place(constraint.vertex), constraint.reach);
+      stays ? keep(constraint) : vertices.push_back(constraint.vertex);
+    }
+    for (const DeformedIndex d : vertices)
+      for_each_round(sheet_.rest_vertex(d), [&](HalfEdge h) {
+        if (triangle(triangle_of(h)).deformed[to_size(corner_of(h))] == d)
+          corners_.push_back({d, triangle_of(h), to_size(corner_of(h))});
+      });
   }
 
   Constraints run() {
+    collect();
     choose_free();
-    Constraints constraints;
+    Constraints constraints = std::move(kept_constraints_);
     for (const New& v : new_)
       if (!is_free(v.vertex))
         if (const auto constraint = constraint_of(v)) constraints.constraints.push_back(*constraint);
@@ -53,6 +110,15 @@ class SliverConstraints {
     DeformedIndex stands_for = {};           ///< itself where it is free, the nearest free one where it is constrained
     std::array<DeformedIndex, 2> flat = {};  ///< the edge that it is too near to, where it is constrained for that
   };
+
+  /// An old constraint: its vertex stands for the nearest of its masters, as when it was found.
+  void keep(const Constraint& constraint) {
+    const Point2 p = place(constraint.vertex);
+    kept_[constraint.vertex()] = *std::min_element(
+        constraint.masters.begin(), constraint.masters.end(),
+        [&](DeformedIndex a, DeformedIndex b) { return squared_length(place(a) - p) < squared_length(place(b) - p); });
+    kept_constraints_.constraints.push_back(constraint);
+  }
 
   bool is_new(VertexIndex v) const { return sheet_.is_newer(v, before_); }
   const Triangle& triangle(TriangleIndex t) const { return sheet_.triangle(t); }
@@ -94,10 +160,7 @@ class SliverConstraints {
     return one;
   }
 
-  void collect(const std::vector<TriangleIndex>& triangles) {
-    for (const TriangleIndex t : triangles)
-      for (std::size_t k = 0; k < 3; ++k)
-        if (is_new(triangle(t).vertex[k])) corners_.push_back({triangle(t).deformed[k], t, k});
+  void collect() {
     std::sort(corners_.begin(), corners_.end(), [](const Corner& a, const Corner& b) {
       return std::tuple(a.vertex, a.triangle) < std::tuple(b.vertex, b.triangle);
     });
@@ -138,7 +201,7 @@ class SliverConstraints {
   }
   DeformedIndex stand_in(DeformedIndex d) const {
     const New* const v = find_new(d);
-    return v ? v->stands_for : d;
+    return v ? v->stands_for : kept_[d()].valid() ? kept_[d()] : d;
   }
   bool is_free(DeformedIndex d) const { return stand_in(d) == d; }
   /// What stands for d, by way of what has been constrained itself since.
@@ -270,7 +333,7 @@ class SliverConstraints {
         const std::pair score{met, *std::min_element(weights.begin(), weights.end())};
         if (met > 0 && (!constraint || score > best)) {
           best = score;
-          constraint = Constraint{made.vertex, masters, weights};
+          constraint = Constraint{made.vertex, masters, weights, made.scale};
         }
       }
       for (int k = 0; k < 3; ++k) {
@@ -288,19 +351,29 @@ class SliverConstraints {
   const Sheet& sheet_;
   double thinness_;
   const Sheet& before_;
-  // Filling these two is all that takes the longer, the larger the sheet is.
+  // Filling these three is all that takes the longer, the larger the sheet is.
   std::vector<double> longest_;       // per vertex; 0: not asked for yet
   std::vector<std::int32_t> number_;  // in new_, per vertex of the opened sheet; -1 for old ones
-  std::vector<Corner> corners_;       // by vertex
-  std::vector<New> new_;              // in the order in which they are made free
-  std::vector<TriangleIndex> seen_;   // working storage, as the next two
+  std::vector<DeformedIndex> kept_;   // per vertex of the opened sheet: what stands for it since before the last cut
+  Constraints kept_constraints_;
+  std::vector<Corner> corners_;      // by vertex
+  std::vector<New> new_;             // in the order in which they are made free
+  std::vector<TriangleIndex> seen_;  // working storage, as the next two
   std::vector<DeformedIndex> near_, companions_;
 };
 
 }  // namespace
 
 Constraints constrain_slivers(const Sheet& before, const Sheet& cut, double thinness, bool only_divided) {
-  return SliverConstraints(before, cut, thinness, only_divided).run();
+  SliverConstraints all(before, cut, thinness);
+  all.choose_among(new_triangles(before, cut, only_divided));
+  return all.run();
+}
+
+Constraints constrain_new_slivers(const Sheet& before, const Sheet& cut, double thinness, const Constraints& last) {
+  SliverConstraints all(before, cut, thinness);
+  all.choose_after(last);
+  return all.run();
 }
 
 }  // namespace cutbench

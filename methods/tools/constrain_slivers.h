@@ -39,4 +39,10 @@ namespace cutbench {
 ///                      else it looks at all vertices, too (new_triangles()).
 Constraints constrain_slivers(const Sheet& before, const Sheet& cut, double thinness, bool only_divided);
 
+/// All constraints after one more cut, that of the log of `cut`, which was only divided. Those of `last` stay where the cut
+/// changed no triangle within their reach, and no master of theirs. So the order in which slivers are looked at may differ
+/// from that of constrain_slivers() where cuts are near each other, and with it the choice; the rules hold all the same.
+/// \param last  the constraints before that cut, of this function or of constrain_slivers()
+Constraints constrain_new_slivers(const Sheet& before, const Sheet& cut, double thinness, const Constraints& last);
+
 }  // namespace cutbench
