@@ -66,5 +66,6 @@ def figure_of(file, note):
         width, height = image.size
     whole = file.with_suffix(".caption.txt")
     caption = f": {whole.read_text(encoding='utf-8').strip()}" if whole.is_file() else ""
-    return (f'<figure><img src="{inlined(file)}" width="{width}" height="{height}" alt="{escape(file.stem)}">'
+    words = html.escape(" ".join((file.stem + caption).split()))
+    return (f'<figure><img src="{inlined(file)}" width="{width}" height="{height}" alt="{words}">'
             f"<figcaption>{escape(file.stem + note + caption)}</figcaption></figure>")
