@@ -264,6 +264,7 @@ def check_missing_columns(results):
 def check_kinds():
     """Kinds weigh alike, and one that a method refuses counts as the base's times the method's ratio to it elsewhere."""
     sys.path.insert(0, str(PLOTS))
+    import numpy as np
     import pandas as pd
     from analysis.accuracy import intervals
     from analysis.methods import kinds
@@ -274,6 +275,10 @@ def check_kinds():
     table = pd.DataFrame({"kind": ["crack"] * 9 + ["hole"], "ratio": [1.0] * 9 + [4.0]})
     mean, ends = intervals.interval(table, "ratio")
     expect(f"kinds do not weigh alike: {mean}, {ends}", abs(mean - 100) < 1e-9 and ends == "+5 to +280")  # of four draws
+    logs = pd.Series(np.log([2.0, 2.0, 2.0, 8.0, 50.0]))
+    problems = pd.Series(["centre_crack", "inclined_crack", "centre_crack", "kirsch_hole", kinds.TWICE])
+    found = np.round(kinds.weighed_alike(logs, problems))  # of 2 and 8, and of the draws 2 2, 2 8, 8 2, 8 8
+    expect(f"kinds do not weigh alike in weighed_alike(): {found}", list(found) == [300, 111, 659])
     named = [kinds.kind_of(problem) for problem in ("corner_315", "elliptic_hole_3", "free_strip", "flap")]
     expect(f"kinds of problems: {named}", named == ["corner", "ellipse", "frequency", None])
 

@@ -278,15 +278,6 @@ def drawn_means(values, draws=10000):
     return np.random.default_rng(1).choice(values, (draws, len(values))).mean(axis=1)
 
 
-def drawn_group_means(values, groups, draws=100000):
-    """As drawn_means(), but whole groups are drawn, each with all of its values."""
-    sums = values.groupby(groups).agg(["sum", "size"]).to_numpy()
-    n = len(sums)
-    which = np.array(list(itertools.product(range(n), repeat=n))) if n <= 6 else np.random.default_rng(1).integers(0, n, (draws, n))
-    drawn = sums[which].sum(axis=1)
-    return drawn[:, 0] / drawn[:, 1]
-
-
 def front_layers(x, y):
     """Per point the number of its front: 1 where no other is at least as small in both and smaller in one, 2 where
     only those of 1 are, and so on. 0 for points that are not finite."""

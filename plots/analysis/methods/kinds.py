@@ -46,6 +46,13 @@ def interval(kinds):
     return 100 * (np.exp(np.quantile(means, [0.025, 0.975])) - 1)
 
 
+def weighed_alike(logs, problems):
+    """\\param logs  of ratios, a row per case. The geometric mean of kinds and the ends of its interval, 95 %, kinds drawn anew: each
+    minus one, in percent. A problem of no kind (TWICE) is left out."""
+    by_kind = dict(100 * np.expm1(logs.groupby(problems.map(kind_of)).mean()))
+    return (mean_over(by_kind), *interval(by_kind)) if by_kind else (np.nan,) * 3
+
+
 def in_words(ends):
     return " to ".join(f"{end:+.0f}" for end in ends) if np.isfinite(ends).all() else "-"
 

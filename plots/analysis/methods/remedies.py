@@ -3,8 +3,7 @@
 import numpy as np
 
 from analysis import load, shares
-from analysis.accuracy.ranking import at_equal_unknowns, made_by_all, mean_excess
-from analysis.accuracy.records import Records
+from analysis.accuracy.ranking import made_by_all
 from analysis.load import of
 from analysis.methods import kinds
 
@@ -22,26 +21,20 @@ def label(method, parameter, mass=""):
     return NAMES.get(method, method.replace("_", " ")) + (f", {parameter}" if several else "") + (f", {mass} mass" if mass else "")
 
 
-def errors(folder):
-    """Excess error in percent, by (method, parameter): over a fitted mesh of as many unknowns, of the cases that no method
-    failed, solved directly, with its 95 % interval; and after 100 iterations over one of as many triangles. Also how many
-    cases of how many problems these are."""
-    records = at_equal_unknowns(Records(folder)).ranked()
+def errors(records):
+    """Of records ranked, at_equal_unknowns(). Excess error in percent, by (method, parameter): over a fitted mesh of as many
+    unknowns, of the cases that no method failed, solved directly, with its 95 % interval, kinds of problems drawn anew; and after
+    100 iterations over one of as many triangles. Kinds weigh alike. Also how many cases of how many kinds these are."""
     common = made_by_all(records.table)
     found = {}
     for variant in records.methods:
         made = of(common, variant)
         direct = made[made["direct"] & (made["ratio_equal"] > 0)]
-        found[variant] = [mean_excess(direct, "ratio_equal"), interval(direct), mean_excess(made[~made["direct"]], "ratio")]
-        used = len(direct), direct["problem"].nunique()
+        short = made[~made["direct"] & (made["ratio"] > 0)]
+        mean, *ends = kinds.weighed_alike(np.log(direct["ratio_equal"]), direct["problem"])
+        found[variant] = [mean, np.array(ends), kinds.weighed_alike(np.log(short["ratio"]), short["problem"])[0]]
+        used = len(direct), direct["problem"].map(kinds.kind_of).nunique()
     return found, *used
-
-
-def interval(direct):
-    """The ends of that of the mean excess at equal unknowns in percent, 95 %: problems drawn anew (bootstrap)."""
-    if direct.empty:  # one size of sheets alone
-        return np.full(2, np.nan)
-    return 100 * np.expm1(np.quantile(load.drawn_group_means(np.log(direct["ratio_equal"]), direct["problem"]), [0.025, 0.975]))
 
 
 def in_words(ends):

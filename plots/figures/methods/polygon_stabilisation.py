@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The error of cut_polygons over its stabilisation, by measure: the excess over a fitted mesh of as many triangles, solved directly,
-with 95 % intervals that draw the problems anew. The marks are squares with the hourglass energy of other elements
+with 95 % intervals that draw the kinds of problems anew. The marks are squares with the hourglass energy of other elements
 (harness/fem/elements/compound_sheet.h)."""
 
 import sys
@@ -11,6 +11,7 @@ from matplotlib.lines import Line2D
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 from analysis import load, naming, pareto
+from analysis.methods import kinds
 from figures.common import style
 
 STEM = "polygon_stabilisation"
@@ -21,13 +22,10 @@ SQUARES = {0.333333: "exact in bending", 0.4945: "bilinear", 1.29: "tr(C) / 2", 
 
 
 def excess(table, measure):
-    """In percent with the ends of its interval; geometric mean."""
+    """In percent with the ends of its interval; geometric mean, kinds of problems weigh alike."""
     column = "excess_error" if measure == "error" else f"excess_{measure}"
     logs = np.log1p(table[column]).replace([np.inf, -np.inf], np.nan).dropna()
-    if logs.empty:
-        return np.full(3, np.nan)
-    drawn = load.drawn_group_means(logs, table.loc[logs.index, "problem"])
-    return 100 * np.expm1([logs.mean(), *np.quantile(drawn, [0.025, 0.975])])
+    return np.array(kinds.weighed_alike(logs, table.loc[logs.index, "problem"]))
 
 
 def in_words(numbers):
@@ -54,7 +52,7 @@ def figure_of(run, table, taus):
     ax.set_xlabel("tau: stabilisation over Young's modulus")
     ax.set_ylabel("excess error, %")
     lines = [*ax.get_lines()[0:2 * len(MEASURES) - 2:2], Line2D([], [], color="#444444", linestyle=":", label=SPLIT)]
-    style.finish(figure, [], "Excess error of cut_polygons over a fitted mesh of as many triangles; bands: 95 %, problems drawn anew. Upright: "
+    style.finish(figure, [], "Excess error of cut_polygons over a fitted mesh of as many triangles; bands: 95 %, kinds of problems drawn anew. Upright: "
                  f"a square is then as stiff in its hourglass mode as what is named. {naming.provenance(run, table)}", lines)
     return figure
 

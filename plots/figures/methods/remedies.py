@@ -56,7 +56,7 @@ def figure_of(run, rows, cases, problems):
               for kind, (colour, marker, _) in KINDS.items()]
     style.finish(figure, [], " ".join([
         "Left and low is good. Of two changes the colour is that of the mass, else of the unknowns. "
-        f"Errors: geometric means over {cases} cases of {problems} plane problems, solved directly; upright lines: 95 %, problems drawn anew. "
+        f"Errors: geometric means over {cases} cases of {problems} kinds of plane problems, which weigh alike, solved directly; upright lines: 95 %, kinds drawn anew. "
         f"Eigenvalues: of single and several cuts. {shares.HOLLOW}", naming.provenance(run, run.rows, with_crosses=False, per=())]), legend)
     return figure
 
@@ -72,13 +72,14 @@ def main():
     folder = load.results_folder(STEM, __doc__)
     ratios = [f"{mass}{kind}eigenvalue_ratio" for mass in ("", *(f"{m}_" for m in ADDED_MASS)) for kind in ("", "bending_")]
     run = load.read(folder, [*ratios, "scaled_mass_added", "scaled_bending_mass_added", "geometry_us", "crossed_triangles"])
-    excess, *used = errors(folder.with_name("remedies_accuracy"))
+    accuracy = at_equal_unknowns(Records(folder.with_name("remedies_accuracy"))).ranked()
+    excess, *used = errors(accuracy)
     rows, counts, beside = rows_of(run.first_repetition(), excess), counts_of(run), beside_split(run.first_repetition())
     style.save(figure_of(run.first_repetition(), [r for r in rows if r[-1] != "scaled"], *used), folder, STEM)  # no remedy: heavier
     columns = ["method", "eigenvalue, median", "95 %", "worst", "95 %, without several", "worst", "with bending", "95 %",
                "error %, equal unknowns", "its 95 %", "error %, 100 CG", "us", "over split"]
-    load.print_table("Remedies: eigenvalues over the uncut sheet's, errors over a fitted mesh's of {} cases of {} problems with 95 % "
-                     "intervals (problems drawn anew), warm geometry per crossed triangle, "
+    load.print_table("Remedies: eigenvalues over the uncut sheet's, errors over a fitted mesh's of {} cases of {} kinds of problems with 95 % "
+                     "intervals (kinds drawn anew), warm geometry per crossed triangle, "
                      "eigenvalue over a plain split's on the cuts that both made (median)".format(*used), columns, [
                          [label_of(r, counts), *r[2:10], in_words(r[10]), *r[11:-1], np.nan if r[-1] else beside.get((r[0], r[1]), np.nan)]
                          for r in rows])
@@ -87,7 +88,7 @@ def main():
     load.print_table("Mass that scaling adds to the sheet's after conventional_split, %", ["", "median", "95 %", "worst"],
                      [[words, *(100 * np.quantile(added[column], [0.5, 0.95, 1]))] for words, column in
                       [("membrane", "scaled_mass_added"), ("with bending", "scaled_bending_mass_added")]])
-    by_kind = kinds.table_of(at_equal_unknowns(Records(folder.with_name("remedies_accuracy"))).ranked())
+    by_kind = kinds.table_of(accuracy)
     columns = [c for c in by_kind.columns if c not in ("method", "parameter")]
     load.print_table(kinds.WHAT, ["method", *columns], [[label(r["method"], r["parameter"]), *(r[c] for c in columns)]
                                                         for _, r in by_kind.iterrows()])

@@ -54,12 +54,7 @@ class Published:
     def remedies(self):
         """Of each remedy a row as analysis.methods.remedies.rows_of()."""
         records = Records(self.folder, "remedies_accuracy.direct.records.csv.xz", "remedies_accuracy.context.json")
-        common = remedies.made_by_all(at_equal_unknowns(records).ranked().table)
-        excess = {}
-        for variant in records.methods:
-            direct = load.of(common, variant)
-            direct = direct[direct["direct"] & (direct["ratio_equal"] > 0)]
-            excess[variant] = [remedies.mean_excess(direct, "ratio_equal"), remedies.interval(direct), float("nan")]
+        excess, *_ = remedies.errors(at_equal_unknowns(records).ranked())
         return remedies.rows_of(self.run("remedies", REMEDIES).first_repetition(), excess)
 
     @cached_property
