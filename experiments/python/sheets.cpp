@@ -53,16 +53,13 @@ std::vector<std::array<std::int32_t, 3>> corners_of(const Array<std::int32_t>& t
 /// What 32 bits do not hold is -1.
 std::vector<std::array<std::int32_t, 3>> corners_of(const Array<std::int64_t>& triangles) {
   std::vector<std::array<std::int32_t, 3>> rows(to_size(triangles.shape(0)));
-  const std::int64_t* const wide = triangles.data();
-  std::int32_t* const narrow = rows.empty() ? nullptr : rows.front().data();
-  const py::ssize_t count = triangles.size();
-  std::int64_t lost = 0;
-  for (py::ssize_t i = 0; i < count; ++i) {  // without a branch: some at a time
-    narrow[i] = static_cast<std::int32_t>(wide[i]);
-    lost |= wide[i] ^ narrow[i];
-  }
-  for (py::ssize_t i = 0; lost != 0 && i < count; ++i)
-    if (narrow[i] != wide[i]) narrow[i] = -1;
+  const std::int64_t* next = triangles.data();
+  for (auto& row : rows)
+    for (std::int32_t& corner : row) {
+      const auto low = static_cast<std::int32_t>(*next);
+      corner = low == *next ? low : -1;  // without a branch
+      ++next;
+    }
   return rows;
 }
 
