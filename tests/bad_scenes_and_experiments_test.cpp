@@ -18,8 +18,7 @@ TEST_F(BadInput, MethodsThatDoNotFit) {
   write_mesh(make_sheet("delaunay", 4), folder_ / "irregular.off");
   expect({"cut --method cisamr --mesh irregular.off --path path.json --out out.obj", 2, "cisamr refuses this cut: "});
   write(folder_ / "of_a_file.toml", scene_of("[sheet]\nfile = \"sheet.off\"\n"));
-  expect(
-      {"simulate of_a_file.toml --resolution 200", 2, "this scene's sheet is read from a file; leave the option out"});
+  expect({"simulate of_a_file.toml --resolution 200", 2, "this scene's sheet is given; leave the option out"});
 
   // In a scene the sheet goes on moving without that cut; the program says so, and that it fell short.
   const std::string cut = "[[cuts]]\ntime = 0\npolyline = [[0.2, 0.3], [0.8, 0.6]]\n[sheet]\nresolution = 200\n";

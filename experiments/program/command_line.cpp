@@ -111,7 +111,7 @@ int run_subcommand(const std::vector<Command>& commands, int argc, char** argv) 
 
 namespace cutbench {
 
-int command_line(int argc, char** argv, const std::vector<MethodRow>& more_methods) {
+int command_line(int argc, char** argv, const std::vector<MethodRow>& more_methods, const Scene* scene) {
   std::signal(SIGXFSZ, SIG_IGN);  // a limit of the file size is then an error of the write, like a full disk
   Options app("cutbench: which way of cutting a deformable sheet to use");
   app.require_subcommand();
@@ -129,8 +129,8 @@ int command_line(int argc, char** argv, const std::vector<MethodRow>& more_metho
                                       add_cut(app),
                                       add_score(app),
                                       add_simulate(app),
-                                      add_ablate(app),
-                                      add_recommend(app),
+                                      add_ablate(app, scene),
+                                      add_recommend(app, scene),
                                       add_run(app),
                                       add_reduce(app),
                                       add_merge(app),

@@ -85,7 +85,8 @@ MeshData mesh_of(const Array<double>& vertices, const Array<Number>& triangles,
 }
 
 /// \param sewn  per vertex, the same number where they are one point of the sheet (MeshData::sewn)
-/// \param from  where rest positions come from without `rest`: one of rest_names
+/// \param from  where rest positions come from without `rest`: one of rest_names. With it, "space": they are of an
+/// unrolled sheet
 template <class Number>
 std::shared_ptr<HeldSheet> sheet_of(const Array<double>& vertices, const Array<Number>& triangles,
                                     const std::optional<Array<double>>& rest,
@@ -93,7 +94,10 @@ std::shared_ptr<HeldSheet> sheet_of(const Array<double>& vertices, const Array<N
   MeshData mesh = mesh_of(vertices, triangles, rest);
   if (sewn) mesh.sewn.assign(sewn->data(), sewn->data() + sewn->size());
   const py::gil_scoped_release others_go_on;
-  if (mesh.rest.empty()) take_rest(mesh, "sheet", *value_named(rest_names, from));
+  if (mesh.rest.empty())
+    take_rest(mesh, "sheet", *value_named(rest_names, from));
+  else
+    mesh.unrolled = from == "space";
   check_and_repair(mesh, "sheet");
   return std::make_shared<HeldSheet>(std::move(mesh));
 }
@@ -144,6 +148,7 @@ void bind_sheets(py::module_& m) {
           "texture",
           [](const py::object& self) { return view_of<double>(self.cast<const HeldSheet&>().texture, self); })
       .def("take_texture", &take_texture)
+      .def_property_readonly("unrolled", [](const HeldSheet& s) { return s.mesh.unrolled; })
       .def_property_readonly("notes", [](const HeldSheet& s) { return s.mesh.notes; })
       .def_property_readonly("mean_edge", [](const HeldSheet& s) { return s.sheet->mean_edge(); })
       .def_property_readonly("pieces", [](const HeldSheet& s) { return array_of<std::int32_t>(pieces_of(s.mesh)); })

@@ -175,8 +175,7 @@ void bind_scenes(py::module_& m) {
              return scene;
            })
       .def("with_resolution", [](Scene scene, int triangles) {
-        if (!scene.mesh_file.empty())
-          throw InputError("resolution: this scene's sheet is read from a file; leave it out");
+        if (scene.mesh) throw InputError("resolution: this scene's sheet is given; leave it out");
         scene.resolution = triangles;
         return scene;
       });

@@ -153,6 +153,27 @@ const tests = {
       expect('two sheets of other methods are cut by the same stroke', (await numbers(tab)).length === 2 && (await numbers(tab)).every(n => n.status === 'ok'))
     })
   },
+  async another() {  // what a newcomer does: a stroke, the button, and which method made worse triangles is said
+    await visit('#n=800&h=corners', phone, async tab => {
+      await ready(tab)
+      expect('nothing to make again yet', await tab.locator('#another').isHidden())
+      await run(tab, 600)
+      for (const place of await seen(tab, [[0.2, 0.31], [0.4, 0.5], [0.6, 0.2], [0.8, 0.43]])) await tab.touchscreen.tap(...place)
+      await cut(tab, 1)
+      expect('the thinnest triangle is said', /thinnest triangle is [\d.]+ times/.test(await tab.textContent('#hint')))
+      const button = await tab.locator('#another').boundingBox()
+      expect(`the button is in sight on a phone: ${JSON.stringify(button)}`, button.y + button.height <= 780)
+      await tab.screenshot({ path: join(shots, 'another_phone.png') })
+      await tab.tap('#another')
+      await ready(tab)
+      await run(tab, 480 + 60)
+      const all = await numbers(tab)
+      expect('two methods made the cut, two seconds from the start', all.length === 2 && all.every(n => n.status === 'ok') && (await strokes(tab))[0].step === 480)
+      expect('the worse one is said', all[1].aspect_ratio > all[0].aspect_ratio && /^Worst triangles: conventional_split/.test(await tab.textContent('#hint')))
+      await tab.waitForTimeout(300)
+      await tab.screenshot({ path: join(shots, 'another.png') })
+    })
+  },
   async presets() {
     const names = ['fig5a', 'fig5b', 'fig6a', 'fig6b', 'fig7a', 'fig7b', 'fig8', 'fig10', 'recut', 'forty']
     await visit('', desktop, async tab => {

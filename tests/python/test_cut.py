@@ -1,5 +1,6 @@
 """What a cut says of itself."""
 
+import ast
 import doctest
 import inspect
 import pickle
@@ -178,6 +179,33 @@ class Results(unittest.TestCase):
         for name, body in re.findall(r"^class (\w+):\n((?:    .*\n)+)", stub, re.M):
             has = {n for n in vars(getattr(_core, name)) if not n.startswith("_")}
             self.assertEqual(set(re.findall(r"    def ([a-z]\w*)", body)), has, name)
+
+    def test_stubs_of_the_package(self):
+        """They name what there is to call, with the same arguments and defaults."""
+        tree = ast.parse(Path(cutbench.__file__).with_suffix(".pyi").read_text())
+        for node in tree.body:
+            if isinstance(node, ast.FunctionDef):
+                self.same_arguments(node, getattr(cutbench, node.name))
+            elif isinstance(node, ast.ClassDef) and node.name != "_Mesh":
+                self.same_members(node, getattr(cutbench, node.name))
+        named = {node.name for node in tree.body if isinstance(node, (ast.FunctionDef, ast.ClassDef))}
+        self.assertEqual(named - {"_Mesh"} | {"cut_families", "sheet_families"}, set(cutbench.__all__))
+
+    def same_members(self, node, real):
+        methods = [each for each in node.body if isinstance(each, ast.FunctionDef)]
+        for each in methods:
+            self.same_arguments(each, getattr(real, each.name))
+        named = {each.name for each in methods} | {each.target.id for each in node.body if isinstance(each, ast.AnnAssign)}
+        mesh = {"vertices", "rest", "triangles", "texture", "pieces", "incision", "plot", "to_meshio"}
+        own = {name for name in vars(real) if not name.startswith("_")}
+        self.assertLessEqual(own - mesh, named, node.name)
+
+    def same_arguments(self, node, real):
+        there = inspect.signature(real).parameters.values()
+        given = [each.arg for each in node.args.args] + ([node.args.kwarg.arg] if node.args.kwarg else [])
+        self.assertEqual([each for each in given if each != "cls"], [each.name for each in there], node.name)
+        defaults = [ast.literal_eval(each) for each in node.args.defaults]
+        self.assertEqual(defaults, [each.default for each in there if each.default is not each.empty], node.name)
 
 
 class Threads(unittest.TestCase):

@@ -126,6 +126,22 @@ class Experiments(unittest.TestCase):
                                     quiet=True)
         self.assertIn("chosen", advice)
 
+    def test_advice_on_a_sheet_of_arrays(self):
+        sheet = cutbench.Sheet.family("grid", 200)
+        scene = cutbench.Scene(sheet=(sheet.vertices.copy(), sheet.triangles.copy()), duration=0.1,
+                               material={"density": 0.3, "stiffness": 60.0}, physics={"gravity": [0, -9.81, 0.5]},
+                               pins=[{"box": [[-1.0, 1.0], [2.0, 1.0]]}],
+                               cuts=[{"time": 0.0, "polyline": [[0.2, 0.5], [0.8, 0.5]]}])
+        table = cutbench.ablate(scene, borrowed, quiet=True)
+        self.assertEqual((table.verdict[0], table.without[0]), ("ok", ""))
+        self.assertIn("three of four triangles", set(table.without))
+        advice = cutbench.recommend(scene, reference=True, methods=["conventional_split"], time_limit=5, quiet=True)
+        self.assertGreater(advice["value_m"], 0)
+        with self.assertRaisesRegex(cutbench.InputError, "^give max_error"):
+            cutbench.recommend(scene, quiet=True)
+        with self.assertRaisesRegex(cutbench.InputError, "^resolution: .*sheet"):
+            cutbench.ablate(scene, resolution=200, quiet=True)
+
 
 if __name__ == "__main__":
     unittest.main()

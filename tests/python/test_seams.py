@@ -56,6 +56,9 @@ class Seams(unittest.TestCase):
         for method in ("conventional_split", "warp_and_refine", "cut_polygons"):
             pieces = sheet.cut(ring, method).sheet.pieces
             self.assertEqual(pieces.max(), 1)
+        for same in (sheet, pickle.loads(pickle.dumps(sheet))):
+            with self.assertRaisesRegex(cutbench.InputError, "is unrolled, so places at rest mean nothing"):
+                same.cut([[0.1, 0.2], [0.5, 0.4]])
 
     def test_rest_words(self):
         vertices, triangles = tube()

@@ -39,6 +39,8 @@ class Scenes(unittest.TestCase):
         scene = hanging()
         self.assertEqual((scene.dimension, scene.duration), (3, 0.25))
         self.assertEqual(len(scene.sheet.triangles), 200)
+        with self.assertRaisesRegex(cutbench.InputError, "resolution"):
+            scene.with_resolution(800)
 
 
 class Steps(unittest.TestCase):
@@ -242,6 +244,23 @@ class Pins(unittest.TestCase):
             x = simulation.step(10).x
             wanted = x if wanted is None else wanted
             self.assertTrue(np.allclose(x, wanted, atol=1e-7), solver)
+
+    def test_integrators_without_solves(self):
+        """Sweeps over triangles and over vertices."""
+        for name in ("xpbd", "vbd"):
+            simulation = cutbench.Simulation(hanging(integrator={"name": name, "step": 1 / 480, "sweeps": 8},
+                                                     physics={"gravity": [0, -9.81, 0.5]}))
+            low = simulation.x[:, 1].min()
+            simulation.step(48)
+            self.assertEqual(simulation.cut([[0.2, 0.55], [0.83, 0.5]])["status"], "ok")
+            simulation.step(48)
+            self.assertLess(simulation.x[:, 1].min(), low - 0.01)
+            self.assertEqual((simulation.verdict, len(simulation.budget)), ("ok", 0))
+
+    def test_threads_share_a_step(self):
+        """The same bits."""
+        one, other = (cutbench.Simulation(hanging(solver={"name": "multigrid", "threads": threads})).step(10).x for threads in (1, 2))
+        self.assertTrue(np.array_equal(one, other))
 
     def test_each_step(self):
         """A loop of one's own: a gripper that swings."""

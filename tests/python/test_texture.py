@@ -35,6 +35,8 @@ class Texture(unittest.TestCase):
         corners = cut.rest[cut.triangles]
         right = corners @ MAP + 7 * (corners.mean(axis=1)[:, 0] > 0.5)[:, None, None]
         self.assertLess(abs(cut.texture - right).max(), 1e-12)
+        straight = cutbench.cut(plain.vertices, plain.triangles, [[0.1, 0.33], [0.9, 0.41]], "conventional_split", texture=texture)
+        self.assertTrue((straight.texture == cut.texture).all())
         self.assertIsNone(plain.cut([[0.1, 0.33], [0.9, 0.41]]).texture)
 
     def test_bad_ones_are_refused(self):

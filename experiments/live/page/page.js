@@ -216,10 +216,31 @@ function told(due) {
   showNumbers()
   const lines = panels.map(({ method, numbers: n, stopped }) => `${method}: ${stopped || outcome(n)}`)
   $('announce').textContent = `Cut ${state.strokes.filter(s => s.done).length}. ${lines.join('. ')}`
-  hint(panels.every(p => p.numbers.status === 'noop') ? 'Nothing to cut there.' : '')
+  hint(panels.every(p => p.numbers.status === 'noop') ? 'Nothing to cut there.' : thinnest())
   askBeside()
 }
 const outcome = n => (n.status === 'refused' || n.status === 'failed' ? `${n.status}: ${n.reason}` : `${n.added} triangles more, ${n.pieces} ${n.pieces === 1 ? 'piece' : 'pieces'}`)
+
+/** Who made worse triangles, in a sentence. */
+function thinnest() {
+  const [worst, ...others] = running().filter(p => !['refused', 'failed'].includes(p.numbers.status)).sort((a, b) => b.numbers.aspect_ratio - a.numbers.aspect_ratio)
+  if (!worst) return ''
+  const times = p => `${plain(p.numbers.aspect_ratio)} times`
+  if (others.length && others.every(p => times(p) === times(worst))) return `The thinnest triangles are alike, ${times(worst)} as long as they are high.`
+  if (!others.length) return `The thinnest triangle is ${times(worst)} as long as it is high; 2 is good.`
+  return `Worst triangles: ${worst.method}. The thinnest is ${times(worst)} as long as it is high; ${others.map(p => `${p.method}: ${times(p)}`).join('; ')}. 2 is good.`
+}
+
+/** The strokes again, by two methods; the first of them no later than two seconds from the start. */
+function another() {
+  const [first] = state.methods, done = state.strokes.filter(s => s.done)
+  const wait = state.hands.length ? 0 : Math.max(0, done[0].step - 2 * rate)
+  state.methods = [first, first === 'conventional_split' ? 'warp_and_refine' : 'conventional_split']
+  state.colour = 1
+  showControls()
+  restart(done.map(s => ({ ...s, step: s.step - wait })))
+  hint('Both sheets start again, and are cut at the same moment. Thin triangles are dark, with rings.')
+}
 
 async function undo() {
   const done = state.strokes.filter(s => s.done)
@@ -521,13 +542,14 @@ function showNumbers() {
   })
   showTimes()
   $('named').textContent = state.methods[0]
+  $('another').hidden = panels.length > 1 || !state.strokes.some(s => s.done)
 }
 function showTimes() {
   panels.forEach((panel, i) => {
     const { numbers: n } = panel
     const caption = panel.figure.querySelector('figcaption')
     caption.firstChild.textContent = panel.method
-    caption.lastChild.textContent = n.status && n.status !== 'ok' ? `${n.status} ${n.reason ? '(' + n.reason + ')' : ''}` : n.triangles ? `${n.triangles} triangles · ${n.pieces} ${n.pieces === 1 ? 'piece' : 'pieces'} · aspect ratio ${plain(n.aspect_ratio)}` : ''
+    caption.lastChild.textContent = n.status && n.status !== 'ok' ? `${n.status} ${n.reason ? '(' + n.reason + ')' : ''}` : n.triangles ? `${n.triangles} triangles · ${n.pieces} ${n.pieces === 1 ? 'piece' : 'pieces'} · thinnest triangle ${plain(n.aspect_ratio)} (2 is good)` : ''
     const at = rows.findIndex(row => row[4] === 'ms'), cell = document.querySelectorAll('#numbers tbody tr')[at]
     if (cell && cell.children[i + 1]) cell.children[i + 1].textContent = rows[at][3](panel) + (i === 0 ? ` (${Math.round(frames.rate)} frames a second, drawing ${plain(frames.drawn, 2)} ms)` : '')
   })
@@ -751,6 +773,7 @@ function listenToControls() {
     $('slow').setAttribute('aria-pressed', time.slow)
   }
   $('undo').onclick = undo
+  $('another').onclick = another
   $('restart').onclick = again
   $('compare').onclick = compare
   $('stop').onclick = () => fine.end('Stopped.')
@@ -795,13 +818,24 @@ const lacking = text => {
   $('lack').textContent = text
 }
 
+/** Of base 85 (bundle.mjs). */
+function bytesOf(text, size) {
+  const digits = new Uint8Array(128), bytes = new DataView(new ArrayBuffer((text.length / 5) * 4))
+  for (let code = 35, digit = 0; code < 127; ++code) if (!"'<\\".includes(String.fromCharCode(code))) digits[code] = digit++
+  for (let i = 0; i < text.length; i += 5) {
+    let four = 0
+    for (let k = i; k < i + 5; ++k) four = four * 85 + digits[text.charCodeAt(k)]
+    bytes.setUint32((i / 5) * 4, four)
+  }
+  return new Uint8Array(bytes.buffer, 0, size)
+}
+
 async function begin() {
   const missing = await lacks()
   const newer = 'Chrome or Edge 95, Firefox 113, Safari 16.4 and newer have it.'
   if (missing.length) return lacking(`This browser lacks ${missing.join(', ')}, which this page needs. ${newer}`)
   try {
-    const bytes = Uint8Array.from(atob(wasmText), c => c.charCodeAt(0))
-    module = await WebAssembly.compile(await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer())
+    module = await WebAssembly.compile(await new Response(new Blob([bytesOf(wasmText, wasmSize)]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer())
   } catch (error) {
     return lacking(`This browser can't run the cutting program (${error.message}): it needs WebAssembly with exceptions and SIMD. ${newer}`)
   }

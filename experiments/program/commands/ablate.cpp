@@ -22,9 +22,9 @@ struct AblateArguments {
   double time_limit = 600;
 };
 
-Exit run_ablation(const AblateArguments& arguments) {
+Exit run_ablation(const AblateArguments& arguments, const Scene* given) {
   if (!arguments.report.empty()) check_writable(arguments.report, "--report");
-  Scene scene = read_scene(arguments.scene);
+  Scene scene = given ? *given : read_scene(arguments.scene);
   set_resolution(scene, arguments.resolution);
   const auto method = arguments.method.row().make(arguments.method.parameter());
   const double load = load_average();
@@ -37,7 +37,7 @@ Exit run_ablation(const AblateArguments& arguments) {
 
 }  // namespace
 
-Command add_ablate(Options& app) {
+Command add_ablate(Options& app, const Scene* given) {
   auto arguments = std::make_shared<AblateArguments>();
   auto command =
       app.add_subcommand("ablate", "leave out one part of a scene's model at a time: what changes, what it saves");
@@ -56,7 +56,7 @@ Command add_ablate(Options& app) {
       "  0  the whole model ended as ok\n"
       "  1  it did not, or a file can't be written\n"
       "  2  bad input: an option or a file");
-  return {command, [arguments](const std::string&) { return run_ablation(*arguments); }};
+  return {command, [arguments, given](const std::string&) { return run_ablation(*arguments, given); }};
 }
 
 }  // namespace cutbench

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "experiments/program/options.h"
+#include "harness/simulation/scene.h"
 
 namespace cutbench {
 
@@ -17,12 +18,12 @@ struct Command {
   std::function<Exit(const std::string& command_line)> run;
 };
 
-/// Each adds its subcommand to `app`.
+/// Each adds its subcommand to `app`. \param given  a scene instead of the file of one
 Command add_cut(Options& app);
 Command add_score(Options& app);
 Command add_simulate(Options& app);
-Command add_ablate(Options& app);
-Command add_recommend(Options& app);
+Command add_ablate(Options& app, const Scene* given);
+Command add_recommend(Options& app, const Scene* given);
 Command add_run(Options& app);
 Command add_reduce(Options& app);
 Command add_merge(Options& app);

@@ -100,8 +100,7 @@ MeshReading ReadingOptions::reading() const {
 void set_resolution(Scene& scene, int resolution) {
   if (resolution == 0) return;
   squares_per_side(resolution);
-  if (!scene.mesh_file.empty())
-    throw InputError("--resolution: this scene's sheet is read from a file; leave the option out");
+  if (scene.mesh) throw InputError("--resolution: this scene's sheet is given; leave the option out");
   scene.resolution = resolution;
 }
 

@@ -62,13 +62,13 @@ Exit run_choice(const RecommendArguments& arguments) {
   return done;
 }
 
-Exit run_recommendation(RecommendArguments& arguments) {
+Exit run_recommendation(RecommendArguments& arguments, const Scene* given) {
   if (arguments.scene.empty()) return run_choice(arguments);
   RecommendOptions& options = arguments.options;
   if (!arguments.report.empty()) check_writable(arguments.report, "--report");
   if (!arguments.reference && options.max_error == 0)
     throw InputError("give --max-error E, such as 0.05 for 5 %, or --reference for the converged value alone");
-  const Scene scene = read_scene(arguments.scene);
+  const Scene scene = given ? *given : read_scene(arguments.scene);
   for (const std::string& method : options.methods) find_method(method);
   check_solver_names(options.solvers, "--solvers");
   options.cut = arguments.chord_tolerance.cut_options();
@@ -98,7 +98,7 @@ Exit run_recommendation(RecommendArguments& arguments) {
 
 }  // namespace
 
-Command add_recommend(Options& app) {
+Command add_recommend(Options& app, const Scene* given) {
   auto arguments = std::make_shared<RecommendArguments>();
   auto command = app.add_subcommand("recommend",
                                     "the cheapest method, solver, resolution and step for a scene whose error is small "
@@ -147,7 +147,7 @@ Command add_recommend(Options& app) {
       "  0  a choice whose error is small enough for certain, or a method without a scene\n"
       "  1  unknown, a guess for a scene unlike those of the calibration, or a file can't be written\n"
       "  2  bad input: an option or a file");
-  return {command, [arguments](const std::string&) { return run_recommendation(*arguments); }};
+  return {command, [arguments, given](const std::string&) { return run_recommendation(*arguments, given); }};
 }
 
 }  // namespace cutbench

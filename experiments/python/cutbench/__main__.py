@@ -6,7 +6,7 @@ from . import _core
 
 
 def main():
-    sys.exit(_core.command_line(sys.argv[1:], []))
+    sys.exit(_core.command_line(sys.argv[1:], [], None))
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ def as_keywords(text):
     text = re.sub(r"--rest (auto|vt|plane|space)\b", r'rest="\1"', text)
     text = re.sub(r"--sew ([\d.]+)", r"sew=\1", text)
     text = re.sub(r"--(allow-miss|triangulate)\b", lambda found: found[1].replace("-", "_") + "=True", text)
-    return re.sub(r"--(rest|sew)\b", r"\1", text)
+    return re.sub(r"--([a-z]+(-[a-z]+)*)", lambda found: found[1].replace("-", "_"), text)
 
 
 class InputError(ValueError):

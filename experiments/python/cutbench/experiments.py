@@ -15,21 +15,22 @@ from pathlib import Path
 from . import _core
 from .errors import InputError, OutputError, RunError
 from .method import function_name, method_of
+from .simulation import Scene
 from .tables import table
 
 CALIBRATION = Path(__file__).with_name("recommend_calibration.toml")
 
 
-def _child(arguments, methods, terminal, output):
+def _child(arguments, methods, scene, terminal, output):
     os.dup2(terminal, 2)
     os.dup2(output, 1)
-    code = _core.command_line(arguments, [method_of(method, {}) for method in methods])
+    code = _core.command_line(arguments, [method_of(method, {}) for method in methods], scene and scene._core)
     sys.stdout.flush()
     os._exit(code)
 
 
-def _run_program(arguments, methods=(), say=print, progress=None):
-    """Runs the program with the arguments. Its output is said at the end.
+def _run_program(arguments, methods=(), scene=None, say=print, progress=None):
+    """Runs the program with the arguments, and with a Scene where it asks for the file of one. Its output is said at the end.
 
     Returns:
         The exit code: 0, or 1 where a result is not as it should be; and the lines that it wrote to standard error.
@@ -37,7 +38,7 @@ def _run_program(arguments, methods=(), say=print, progress=None):
     reader, terminal = pty.openpty()
     with tempfile.TemporaryFile() as output:
         child = multiprocessing.get_context("fork").Process(
-            target=_child, args=(arguments, methods, terminal, output.fileno()))
+            target=_child, args=(arguments, methods, scene, terminal, output.fileno()))
         child.start()
         os.close(terminal)
         try:
@@ -165,57 +166,71 @@ def records(folder):
     return frame
 
 
-def _report(arguments, methods=(), quiet=False):
+def _report(command, scene, options, methods=(), quiet=False):
+    scene = scene if isinstance(scene, Scene) else Scene(scene)
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "report.json"
-        _run_program([*arguments, "--report", str(file)], methods, say=None if quiet else print)
+        _run_program([command, "scene", *options, "--report", str(file)], methods, scene, say=None if quiet else print)
         if not file.exists():
             raise RunError("the run wrote no report")
         return json.loads(file.read_text())
 
 
-def recommend(scene, max_error, max_ms=None, methods=None, solvers=None, quantity=None, time_limit=None,
-              calibration=None, quiet=False):
+def _options(**values):
+    """Options of a command: lists are separated by commas, True is a flag, None is left out."""
+    options = []
+    for name, value in values.items():
+        if value is None or value is False:
+            continue
+        options.append("--" + name.replace("_", "-"))
+        if value is not True:
+            options.append(",".join(value) if isinstance(value, (list, tuple)) else str(value))
+    return options
+
+
+def recommend(scene, max_error=None, max_ms=None, methods=None, solvers=None, quantity=None, time_limit=None,
+              calibration=None, quiet=False, reference=False, exhaustive=False, chord_tolerance=None):
     """The cheapest method, solver, resolution and step for a scene whose error is small enough, as `cutbench recommend`
     finds it.
 
     Args:
-        scene: a TOML file.
+        scene: a TOML file, a Scene, whose sheet may be of arrays, or a dict that makes one.
         max_error: relative, such as 0.05; of the largest gape or deflection at the end (`quantity`).
         max_ms: milliseconds of processor time for a simulated second.
         methods, solvers: names to choose from.
         time_limit: s of processor time for each run.
         calibration: how well extrapolated values are known; the benchmark's own where it is None.
+        reference: the converged value alone, without max_error.
+        exhaustive: runs and times all, also what can't be the cheapest.
+        chord_tolerance: of cuts, in mean rest edges.
 
     Returns:
         A dict: what `--report` writes. `chosen` is None where nothing is certain.
     """
-    arguments = ["recommend", os.fspath(scene), "--max-error", str(max_error)]
-    for option, value in (("--max-ms", max_ms), ("--methods", methods and ",".join(methods)),
-                          ("--solvers", solvers and ",".join(solvers)), ("--quantity", quantity),
-                          ("--time-limit", time_limit), ("--calibration", calibration or CALIBRATION)):
-        if value is not None:
-            arguments += [option, str(value)]
-    return _report(arguments, quiet=quiet)
+    options = _options(max_error=max_error, max_ms=max_ms, methods=methods, solvers=solvers, quantity=quantity,
+                       time_limit=time_limit, calibration=calibration or CALIBRATION, reference=bool(reference),
+                       exhaustive=bool(exhaustive), chord_tolerance=chord_tolerance)
+    return _report("recommend", scene, options, quiet=quiet)
 
 
-def ablate(scene, method="conventional_split", resolution=None, time_limit=None, quiet=False, **parameters):
+def ablate(scene, method="conventional_split", resolution=None, time_limit=None, quiet=False, chord_tolerance=None,
+           **parameters):
     """What each part of a scene's model is worth: the change of the result without it, and the time saved, as `cutbench
     ablate` finds it.
 
     Args:
-        scene: a TOML file.
+        scene: a TOML file, a Scene, whose sheet may be of arrays, or a dict that makes one.
         method: a name or a function. resolution: triangles, instead of the scene's.
         time_limit: s of processor time for each run.
+        chord_tolerance: of cuts, in mean rest edges.
+        **parameters: of the method.
 
     Returns:
         A table with a row for the whole model and for each part that is left out.
     """
-    name = method if isinstance(method, str) else function_name(method)
-    arguments = ["ablate", os.fspath(scene), "--method", name]
+    functions = () if isinstance(method, str) else (method,)
+    options = _options(method=function_name(method) if functions else method, resolution=resolution,
+                       time_limit=time_limit, chord_tolerance=chord_tolerance)
     for key, value in parameters.items():
-        arguments += ["--set", f"{key}={value}"]
-    for option, value in (("--resolution", resolution), ("--time-limit", time_limit)):
-        if value is not None:
-            arguments += [option, str(value)]
-    return table(_report(arguments, () if isinstance(method, str) else (method,), quiet))
+        options += ["--set", f"{key}={value}"]
+    return table(_report("ablate", scene, options, functions, quiet))

@@ -205,14 +205,15 @@ class Sheet:
         return pictures.to_meshio(self)
 
     def __reduce__(self):  # to be sent to another process
-        return _again, (self.vertices, self.triangles, self.rest, self.sewn if len(self.sewn) else None, self.texture)
+        return _again, (self.vertices, self.triangles, self.rest, self.sewn if len(self.sewn) else None, self.texture,
+                        "space" if self._core.unrolled else "auto")
 
     def __repr__(self):
         return f"<cutbench.Sheet: {len(self.vertices)} vertices, {len(self.triangles)} triangles>"
 
 
-def _again(vertices, triangles, rest, sewn, texture):
-    core = _core.sheet(vertices, triangles, rest, sewn, "auto")
+def _again(vertices, triangles, rest, sewn, texture, rest_from):
+    core = _core.sheet(vertices, triangles, rest, sewn, rest_from)
     if texture is not None:
         core.take_texture(np.ascontiguousarray(texture.reshape(-1, 6)))
     return Sheet._of(core)
@@ -340,7 +341,7 @@ def sheet_of(anything):
 
 
 def cut(vertices, triangles=None, path=None, method="warp_and_refine", rest="auto", chord_tolerance=0.05,
-        allow_miss=False, **parameters):
+        allow_miss=False, texture=None, **parameters):
     """Cuts a sheet along a path.
 
     Args:
@@ -348,10 +349,12 @@ def cut(vertices, triangles=None, path=None, method="warp_and_refine", rest="aut
         triangles: m x 3 ints, vertices from 0.
         path: a polyline of k x 2 points at rest; cutbench.bezier(...); k x 3 points in space on the sheet;
             cutbench.rays(...); a path file; or a list of these, cut one after the other.
-        method: a name (cutbench.methods()), or a function (cutbench.method).
-        rest: n x 2 or n x 3 rest positions, or "auto" or "plane"; see Sheet.
+        method: a name (cutbench.methods()), or a function of a Sheet and a curve that returns the sheet after.
+        rest: n x 2 or n x 3 rest positions; m x 3 x 2, one for each corner, where the sheet has seams; or "auto", "plane" or
+            "space"; see Sheet.
         chord_tolerance: largest distance of the incision from a curved path, in mean rest edges, or inf.
         allow_miss: a path that misses the sheet cuts nothing, instead of being an error.
+        texture: n x 2 or m x 3 x 2 coordinates that the cut carries over, to `texture` of the result.
         **parameters: of the method, such as reach=0.3.
 
     Returns:
@@ -369,7 +372,9 @@ def cut(vertices, triangles=None, path=None, method="warp_and_refine", rest="aut
     2
     """
     if triangles is None:
+        if texture is not None:
+            raise InputError("texture: the sheet has its own; leave it out")
         return sheet_of(vertices).cut(path, method, chord_tolerance, allow_miss, **parameters)
     if path is None:
         raise InputError("path: is not given")
-    return Sheet(vertices, triangles, rest).cut(path, method, chord_tolerance, allow_miss, **parameters)
+    return Sheet(vertices, triangles, rest, texture).cut(path, method, chord_tolerance, allow_miss, **parameters)
