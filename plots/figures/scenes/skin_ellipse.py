@@ -11,5 +11,5 @@ from figures.common.scene_panels import Shot, main
 
 if __name__ == "__main__":
     main("skin_ellipse", __doc__,
-         [Shot("skin_ellipse", "", 0.145, Camera(centre=(0, 0, 0), azimuth=15, elevation=40, distance=0.6), ground=None,
+         [Shot("skin_ellipse", "", 0.133, Camera(centre=(0, 0, 0), azimuth=15, elevation=40, distance=0.6), ground=None,
                sheet="a curved patch, 0.1 m")])
