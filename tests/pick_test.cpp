@@ -331,9 +331,9 @@ TEST_F(PickedScene, APathOverSeamsIsOneCutAndCanBeScored) {
       run("cut --mesh sewn.obj --method conventional_split --path world.json --out a.obj --parents p.json");
   ASSERT_EQ(result.code, 0) << result.error;
   const std::string parents = read(folder_ / "p.json");
-  EXPECT_NE(parents.find("\"cut\": 0"), std::string::npos);
-  EXPECT_NE(parents.find("\"cut\": 1"), std::string::npos);
-  EXPECT_EQ(parents.find("\"cut\": 2"), std::string::npos);
+  EXPECT_NE(parents.find("\"cut\":0"), std::string::npos);
+  EXPECT_NE(parents.find("\"cut\":1"), std::string::npos);
+  EXPECT_EQ(parents.find("\"cut\":2"), std::string::npos);
   const auto right = run("score --mesh sewn.obj --path world.json --result a.obj");
   EXPECT_EQ(right.code, 0) << right.out << right.error;
   EXPECT_NE(right.out.find("1 pieces (1 expected)"), std::string::npos) << right.out;

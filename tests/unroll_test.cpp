@@ -8,7 +8,9 @@
 #include "harness/base/random.h"
 #include "harness/cut/cut_all.h"
 #include "harness/judge/judged_sheet.h"
+#include "harness/judge/oracle_request.h"
 #include "harness/mesh/rest_choice.h"
+#include "harness/oracle/surface.h"
 #include "harness/path/pick.h"
 #include "harness/simulation/simulation.h"
 #include "methods/registry.h"
@@ -347,6 +349,37 @@ TEST(Unroll, AWayOverASphereHasTheLengthOfAnArc) {
   EXPECT_LT(coarse, 0.08);
   EXPECT_GT(coarse / fine, 3);
   EXPECT_GT(fine / finest, 3);
+}
+
+/// A path over a net of seams is in one piece: each stretch ends where the next one begins, as the oracle sees it.
+TEST(Unroll, TheStretchesOfAPathMeetAtSeams) {
+  const MeshData dome = surface(12, 9, false, [](double u, double v) {
+    return Point3{u, v, 0.4 * std::sin(4 * u) * std::sin(3 * v)};
+  });
+  int crossings = 0;
+  for (const MeshData& raw : {tube(16, 8, 2), cone(16, 8), dome, sphere(5)}) {
+    const MeshData mesh = unrolled(raw);
+    oracle::Surface surface{{{}, mesh.triangles}, mesh.sewn};
+    for (const Point2 p : mesh.rest) surface.mesh.rest.push_back({p.x, p.y});
+    const Sheet sheet(mesh);
+    const Picker picker(sheet);
+    Random random(3);
+    const auto place = [&] {
+      const auto& t = mesh.triangles[to_size(random.unit() * to_double(mesh.triangles.size()))];
+      const double a = random.unit(), b = (1 - a) * random.unit();
+      const auto at = [&](std::size_t k) { return mesh.deformed[to_size(t[k])]; };
+      return (1 - a - b) * at(0) + a * at(1) + b * at(2);
+    };
+    for (int i = 0; i < 50; ++i) {
+      const PickedCurve path{Curve::Kind::polyline, i % 5 == 0, {{place(), {}}, {place(), {}}, {place(), {}}}};
+      std::vector<oracle::Curve> cuts;
+      for (const Curve& curve : picker.rest_curves(path, "it")) cuts.push_back(for_oracle(curve));
+      const auto found = oracle::judge_surface(surface, cuts, surface.mesh, 1e-11);
+      EXPECT_EQ(found.alone, 0) << mesh.triangles.size() << " triangles, path " << i;
+      crossings += found.crossings;
+    }
+  }
+  EXPECT_GT(crossings, 1000);
 }
 
 /// A cap is cut off. At rest no area is lost by any method that keeps it; in space none by those that leave the sheet's

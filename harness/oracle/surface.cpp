@@ -216,7 +216,7 @@ class SurfaceJudge {
   void judge_crossings() {
     std::set<std::pair<int, Point>> met, all;
     for (const End& a : ends_) {
-      all.insert({a.curve, a.point});
+      if (is_inside(a)) all.insert({a.curve, a.point});
       const Side& side = seams_.sides()[to_size(a.side)];
       const bool goes_on = std::any_of(ends_.begin(), ends_.end(), [&](const End& b) {
         const Side& other = seams_.sides()[to_size(b.side)];
@@ -224,14 +224,17 @@ class SurfaceJudge {
       });
       if (!goes_on || !met.insert({a.curve, a.point}).second) continue;
       ++result_.crossings;
-      result_.unopened += is_whole_at(a);
+      result_.unopened += is_inside(a) && is_whole_at(a);
     }
-    result_.alone = to_int(all.size() - met.size());
+    for (const auto& end : met) all.erase(end);
+    result_.alone = to_int(all.size());
   }
 
-  /// Whether the result's border runs through the place, without two vertices there. Not asked at the seam's ends.
+  /// Not at an end of the seam, where others begin.
+  static bool is_inside(const End& end) { return end.share >= doubtful && end.share <= 1 - doubtful; }
+
+  /// Whether the result's border runs through the place, without two vertices there.
   bool is_whole_at(const End& end) const {
-    if (end.share < doubtful || end.share > 1 - doubtful) return false;
     int before = -1, after = -1;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       const Along& part = parts_[i];

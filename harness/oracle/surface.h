@@ -22,7 +22,7 @@ struct SurfaceJudgement {
   int expected = 0;         ///< of the path, without pieces thinner than `tip`
   int least = 0, most = 0;  ///< where it hangs on less than a ten thousandth of a seam's length
   int crossings = 0;        ///< ends of curves on a seam from where another curve goes on at the other side
-  int alone = 0;            ///< ends of curves on a seam where none does
+  int alone = 0;            ///< ends of curves on a seam, but not at an end of it, where none does
   int unopened = 0;         ///< crossings where the result's border goes on uncut
 };
 
