@@ -33,6 +33,14 @@ Point2 at_share(const Sheet& sheet, HalfEdge h, double share) {
   return share >= 1 - at_the_end ? to : from + share * (to - from);
 }
 
+/// Does a line share more than a point with a side? \param near  what is nearer is on it
+bool runs_along(Point2 from, Point2 to, Point2 begin, Point2 end, double near) {
+  const Point2 way = (1 / length(end - begin)) * (end - begin);
+  const auto off = [&](Point2 p) { return std::abs(cross(way, p - begin)); };
+  const auto [low, high] = std::minmax({dot(way, from - begin), dot(way, to - begin)});
+  return off(from) <= near && off(to) <= near && std::min(high, length(end - begin)) - std::max(low, 0.0) > near;
+}
+
 bool holds(const Sheet& sheet, TriangleIndex t, Point2 p) {
   const auto corners = sheet.corners(t);
   for (std::size_t k = 0; k < 3; ++k)
@@ -452,6 +460,23 @@ std::vector<Curve> Router::route(const std::vector<PlaceAtRest>& places, bool cl
     }
     if (next != 0) go_on(places[next].point);
   }
+  const auto along_seam = [&](Point2 from, Point2 to) {
+    const double near = arrived * sheet_.mean_edge();
+    const auto begins_before = [&](std::size_t edge) {
+      return sides(edge).first < std::min(from.x, to.x) - widest_ - near;
+    };
+    const auto first = std::partition_point(by_x_.begin(), by_x_.end(), begins_before);
+    const auto last = std::find_if(first, by_x_.end(),
+                                   [&](std::size_t edge) { return sides(edge).first > std::max(from.x, to.x) + near; });
+    return std::any_of(first, last, [&](std::size_t i) {
+      const HalfEdge h = edges_[i].edge;
+      return runs_along(from, to, sheet_.rest(sheet_.origin(h)), sheet_.rest(sheet_.target(h)), near);
+    });
+  };
+  for (const Curve& curve : curves)
+    for (std::size_t i = 1; i < curve.points.size(); ++i)
+      if (along_seam(curve.points[i - 1], curve.points[i]))
+        throw InputError(name + ": runs along a seam, where a cut opens nothing; put the points a little beside it");
   if (curves.size() == 1) {
     curves.front().closed = closed;
     return curves;
