@@ -350,6 +350,21 @@ TEST_F(PickedScene, APathOverSeamsIsOneCutAndCanBeScored) {
   EXPECT_NE(wrong.out.find("crosses a seam where a side of it is whole"), std::string::npos) << wrong.out;
 }
 
+/// Vertices that the file has twice: the same sheet by --sew, for both commands.
+TEST_F(PickedScene, ASheetThatIsSewnOnRequestCanBeScored) {
+  MeshData panels = in_panels(make_sheet("delaunay", 6), [](Point2 p) { return p.x > 0.5 ? 1 : 0; });
+  panels.sewn.clear();
+  panels.file_vertices.clear();
+  write_mesh(panels, folder_ / "twice.obj");
+  write(folder_ / "world.json", R"({"cuts": [{"space": "world", "polyline": [[0.1, 0.3, 0], [0.9, 0.4, 0]]}]})");
+  const std::string common = " --mesh twice.obj --path world.json ";
+  EXPECT_EQ(run("cut --method conventional_split --out a.obj" + common).code, 2);  // nothing joins the panels
+  const auto result = run("cut --method conventional_split --out a.obj --sew 1e-9" + common);
+  ASSERT_EQ(result.code, 0) << result.error;
+  const auto right = run("score --result a.obj --sew 1e-9" + common);
+  EXPECT_EQ(right.code, 0) << right.out << right.error;
+}
+
 /// Of a tube, whose rest shape is the mesh itself.
 TEST_F(PickedScene, ACutOfATubeCanBeScored) {
   MeshData mesh = tube(12, 5, 2);
