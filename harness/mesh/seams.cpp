@@ -162,8 +162,6 @@ std::vector<SewnEdge> sewn_edges(const Sheet& sheet) {
   return edges;
 }
 
-std::map<HalfEdge, HalfEdge> edges_across_seams(const Sheet& sheet) { return SeamEdges(sheet).across(); }
-
 SeamEdges::SeamEdges(const Sheet& sheet) : edges_(sheet.seams().size()) {
   if (edges_.empty()) return;
   grid_ = std::make_shared<const SideGrid>(sheet.seams());
