@@ -338,6 +338,10 @@ TEST_F(PickedScene, APathOverSeamsIsOneCutAndCanBeScored) {
   EXPECT_EQ(right.code, 0) << right.out << right.error;
   EXPECT_NE(right.out.find("1 pieces (1 expected)"), std::string::npos) << right.out;
 
+  ASSERT_EQ(run("cut --mesh sewn.obj --method element_deletion --path world.json --out d.obj").code, 0);
+  const auto deleted = run("score --mesh sewn.obj --path world.json --result d.obj --deletes");
+  EXPECT_EQ(deleted.code, 0) << deleted.out << deleted.error;
+
   // One panel is cut, and the next one left whole.
   const auto path = read_path_with_picks(folder_ / "world.json");
   auto stretches = curves_at_rest(path, Sheet(read_mesh(folder_ / "sewn.obj")), "it");

@@ -106,10 +106,14 @@ std::vector<double> cut(const MeshData& mesh, const PickedCurve& path, const std
   Sheet sheet(mesh);
   Locator locator(sheet);
   Cutter cutter;
-  const CutRun run = cut_all(sheet, locator, cutter, Picker(sheet).rest_curves(path, "it"), *tool, {});
+  const std::vector<Curve> curves = Picker(sheet).rest_curves(path, "it");
+  const CutRun run = cut_all(sheet, locator, cutter, curves, *tool, {});
   if (run.status == Status::refused) return {};
   EXPECT_TRUE(run.status == Status::ok || run.status == Status::deviated) << method << ": " << run.reason;
   EXPECT_TRUE(check(sheet).empty());
+  const Judgement judgement =
+      judge_one_by_one(Sheet(mesh), sheet, curves, row.promises, row.make(row.parameter.value), {});
+  EXPECT_TRUE(judgement.ok) << method << ": " << judgement.problems.front();
   return areas_of_pieces(sheet);
 }
 

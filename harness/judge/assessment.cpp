@@ -158,10 +158,10 @@ struct Exam {
     }
     assessment.connected = judgement.verdict != Verdict::not_finite && judgement.verdict != Verdict::bad_index &&
                            oracle::half_edges(mesh).repeated.empty();
-    if (assessment.connected && asked.keeps_area) {
+    if (assessment.connected) {
       Leeway leeway;
       leeway.add(judgement);
-      judge_on_surface(judgement, before, cuts, mesh, asked.exact_incision, leeway);
+      judge_on_surface(judgement, before, cuts, mesh, asked, leeway);
     }
     assessment.measured = can_be_measured(judgement, mesh);
     find_faults(assessment, request, mesh, result.deformed);

@@ -90,7 +90,7 @@ Judgement judge_one_by_one(const Sheet& start, const Sheet& result, std::span<co
   }
   if (const std::string what = difference(again.sheet, result); !what.empty())
     return stop(Verdict::not_reproduced, {"not_reproduced: made once more, the cuts leave another sheet: " + what});
-  if (as_asked) judge_on_surface(all, start, cuts, for_oracle(result), promises.exact_incision, leeway);
+  if (as_asked) judge_on_surface(all, start, cuts, for_oracle(result), promises, leeway);
   return all;
 }
 

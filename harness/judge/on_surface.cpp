@@ -25,11 +25,12 @@ void Leeway::add(const Judgement& judgement) {
 }
 
 void judge_on_surface(Judgement& judgement, const Sheet& before, std::span<const Curve> cuts, const oracle::Mesh& after,
-                      bool exact_incision, const Leeway& leeway) {
+                      const Promises& promises, const Leeway& leeway) {
   if (before.seams().empty()) return;
   const oracle::SurfaceJudgement found =
       oracle::judge_surface(surface_of(before), for_oracle(cuts), after, line_tolerance * before.snap());
   judgement.pieces = found.pieces;
+  if (!promises.keeps_area) return;
   judgement.expected_pieces = found.expected;
   judgement.least_pieces = std::max(1, found.least - leeway.fewer);
   judgement.most_pieces = found.most + leeway.more;
@@ -41,7 +42,7 @@ void judge_on_surface(Judgement& judgement, const Sheet& before, std::span<const
   if (found.pieces < judgement.least_pieces || found.pieces > judgement.most_pieces)
     add(Verdict::wrong_pieces,
         std::to_string(found.pieces) + " instead of " + std::to_string(found.expected) + ", over seams");
-  if (exact_incision && found.unopened > 0)
+  if (promises.exact_incision && found.unopened > 0)
     add(Verdict::incision, "the path crosses a seam where a side of it is whole, at " + std::to_string(found.unopened) +
                                " of " + std::to_string(found.crossings) + " ends of its parts");
 }

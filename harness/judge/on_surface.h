@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "harness/cut/method_row.h"
 #include "harness/judge/judgement.h"
 #include "harness/mesh/sheet.h"
 #include "harness/path/curve.h"
@@ -16,10 +17,11 @@ struct Leeway {
 };
 
 /// Replaces the numbers of pieces, which the oracle has of each panel by itself, and finds `wrong_pieces`, and
-/// `incision` where the path is to be opened exactly and is not where it crosses a seam.
+/// `incision` where the path is to be opened exactly and is not where it crosses a seam; nothing where triangles are
+/// taken out.
 /// \param cuts  all that were made of `before`; it may not have any seam: then nothing is done
 /// \pre the judgement found no fault that makes pieces unknown
 void judge_on_surface(Judgement& judgement, const Sheet& before, std::span<const Curve> cuts, const oracle::Mesh& after,
-                      bool exact_incision, const Leeway& leeway);
+                      const Promises& promises, const Leeway& leeway);
 
 }  // namespace cutbench
