@@ -180,5 +180,22 @@ TEST(CurvedBending, FollowsCuts) {
     }
   }
 }
+
+/// Seams that it does not touch are left alone.
+TEST(CurvedBending, ASmallCutRebuildsWhatIsNearIt) {
+  Sheet sheet = unrolled(tube(24, 20, 4));
+  Bending bending(sheet, BendingKind::hinges, 0.1, 0.3);
+  ASSERT_EQ(bending.rebuilt().size(), sheet.triangle_slots());
+  PickedCurve slit{Curve::Kind::polyline, false, {}};
+  for (const double x : {2.07, 2.21}) slit.picks.push_back({{x, 0, 0}, Point3{0, -std::cos(0.1), -std::sin(0.1)}});
+  const auto curves = Picker(sheet).rest_curves(slit, "slit");
+  ASSERT_EQ(curves.size(), 1u);
+  Locator locator(sheet);
+  const auto method = find_method("conventional_split").make(0);
+  ASSERT_EQ(Cutter().cut(sheet, locator, curves.front(), *method, {}).status, Status::ok);
+  bending.update(sheet);
+  EXPECT_GT(bending.rebuilt().size(), 4u);
+  EXPECT_LT(bending.rebuilt().size(), 60u);
+}
 }  // namespace
 }  // namespace cutbench

@@ -7,12 +7,14 @@
 
 #include "harness/base/conversions.h"
 #include "harness/files/mesh_file.h"
+#include "harness/files/path_file.h"
 #include "harness/files/scene_file.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/sew.h"
 #include "harness/simulation/simulation.h"
 #include "methods/registry.h"
 #include "tests/program.h"
+#include "tests/sewn_sheets.h"
 
 namespace cutbench {
 namespace {
@@ -304,9 +306,84 @@ TEST_F(PickedScene, APathFileMayBeInWorldSpace) {
   EXPECT_EQ(miss.code, 2);
   EXPECT_EQ(miss.error.rfind("miss.json, cut 0, point 1: the point misses the sheet by ", 0), 0u) << miss.error;
   EXPECT_FALSE(fs::exists(folder_ / "c.obj"));
-  const auto scored = run("score --mesh bent.obj --path world.json --result a.obj");
-  EXPECT_EQ(scored.code, 2);
-  EXPECT_NE(scored.error.find("is in world space, which only `cutbench cut` takes"), std::string::npos);
+  for (const char* made : {"a.obj", "b.obj"}) {
+    const auto scored = run(std::string("score --mesh bent.obj --path world.json --result ") + made);
+    EXPECT_EQ(scored.code, 0) << scored.out << scored.error;
+  }
+  const auto wrong = run("score --mesh bent.obj --path world.json --result bent.obj");
+  EXPECT_EQ(wrong.code, 1) << wrong.error;
+  try {
+    read_path(folder_ / "world.json");
+    ADD_FAILURE() << "not refused";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("is in world space, which needs a sheet"), std::string::npos)
+        << error.what();
+  }
+}
+
+/// A path over seams is one cut of the user's file, whatever stretches it is made in.
+TEST_F(PickedScene, APathOverSeamsIsOneCutAndCanBeScored) {
+  const MeshData panels = in_panels(make_sheet("delaunay", 6), [](Point2 p) { return to_int(std::floor(3 * p.x)); });
+  write_mesh(panels, folder_ / "sewn.obj");
+  write(folder_ / "world.json", R"({"cuts": [{"space": "world", "polyline": [[0.2, 0.6, 0], [0.3, 0.62, 0]]},
+    {"space": "world", "polyline": [[0.1, 0.3, 0], [0.9, 0.4, 0]]}]})");
+  const auto result =
+      run("cut --mesh sewn.obj --method conventional_split --path world.json --out a.obj --parents p.json");
+  ASSERT_EQ(result.code, 0) << result.error;
+  const std::string parents = read(folder_ / "p.json");
+  EXPECT_NE(parents.find("\"cut\":0"), std::string::npos);
+  EXPECT_NE(parents.find("\"cut\":1"), std::string::npos);
+  EXPECT_EQ(parents.find("\"cut\":2"), std::string::npos);
+  const auto right = run("score --mesh sewn.obj --path world.json --result a.obj");
+  EXPECT_EQ(right.code, 0) << right.out << right.error;
+  EXPECT_NE(right.out.find("1 pieces (1 expected)"), std::string::npos) << right.out;
+
+  ASSERT_EQ(run("cut --mesh sewn.obj --method element_deletion --path world.json --out d.obj").code, 0);
+  const auto deleted = run("score --mesh sewn.obj --path world.json --result d.obj --deletes");
+  EXPECT_EQ(deleted.code, 0) << deleted.out << deleted.error;
+
+  // One panel is cut, and the next one left whole.
+  const auto path = read_path_with_picks(folder_ / "world.json");
+  auto stretches = curves_at_rest(path, Sheet(read_mesh(folder_ / "sewn.obj")), "it");
+  EXPECT_EQ(stretches.cut, (std::vector<std::size_t>{0, 1, 1, 1}));
+  stretches.curves.pop_back();
+  write_path(stretches.curves, folder_ / "part.json");
+  ASSERT_EQ(run("cut --mesh sewn.obj --method conventional_split --path part.json --out b.obj").code, 0);
+  const auto wrong = run("score --mesh sewn.obj --path world.json --result b.obj");
+  EXPECT_EQ(wrong.code, 1) << wrong.out;
+  EXPECT_NE(wrong.out.find("crosses a seam where a side of it is whole"), std::string::npos) << wrong.out;
+}
+
+/// Vertices that the file has twice: the same sheet by --sew, for both commands.
+TEST_F(PickedScene, ASheetThatIsSewnOnRequestCanBeScored) {
+  MeshData panels = in_panels(make_sheet("delaunay", 6), [](Point2 p) { return p.x > 0.5 ? 1 : 0; });
+  panels.sewn.clear();
+  panels.file_vertices.clear();
+  write_mesh(panels, folder_ / "twice.obj");
+  write(folder_ / "world.json", R"({"cuts": [{"space": "world", "polyline": [[0.1, 0.3, 0], [0.9, 0.4, 0]]}]})");
+  const std::string common = " --mesh twice.obj --path world.json ";
+  EXPECT_EQ(run("cut --method conventional_split --out a.obj" + common).code, 2);  // nothing joins the panels
+  const auto result = run("cut --method conventional_split --out a.obj --sew 1e-9" + common);
+  ASSERT_EQ(result.code, 0) << result.error;
+  const auto right = run("score --result a.obj --sew 1e-9" + common);
+  EXPECT_EQ(right.code, 0) << right.out << right.error;
+}
+
+/// Of a tube, whose rest shape is the mesh itself.
+TEST_F(PickedScene, ACutOfATubeCanBeScored) {
+  MeshData mesh = tube(12, 5, 2);
+  mesh.rest.assign(mesh.deformed.size(), {});
+  write_mesh(mesh, folder_ / "tube.off");  // in space alone
+  write(folder_ / "ring.json", R"({"cuts": [{"space": "world", "closed": true, "polyline": [
+    {"origin": [0.9, 0.1, 5], "direction": [0, 0, -1]}, {"origin": [0.9, 5, 0.1], "direction": [0, -1, 0]},
+    {"origin": [0.9, 0.12, -5], "direction": [0, 0, 1]}, {"origin": [0.9, -5, 0.11], "direction": [0, 1, 0]}]}]})");
+  const auto result =
+      run("cut --mesh tube.off --method conventional_split --path ring.json --out a.obj --report r.json");
+  ASSERT_EQ(result.code, 0) << result.error;
+  EXPECT_NE(result.out.find(" 2 pieces"), std::string::npos) << result.out;
+  const auto right = run("score --mesh tube.off --path ring.json --result a.obj");
+  EXPECT_EQ(right.code, 0) << right.out << right.error;
+  EXPECT_NE(right.out.find("2 pieces (2 expected)"), std::string::npos) << right.out;
 }
 
 }  // namespace

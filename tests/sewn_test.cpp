@@ -6,7 +6,9 @@
 
 #include "harness/base/random.h"
 #include "harness/cut/cut_all.h"
+#include "harness/judge/judged_sheet.h"
 #include "harness/mesh/mesh_text.h"
+#include "harness/mesh/seam_edges.h"
 #include "harness/path/pick.h"
 #include "harness/simulation/simulation.h"
 #include "methods/registry.h"
@@ -122,6 +124,12 @@ Outcome cut_in_space(const MeshData& mesh, const std::vector<PickedCurve>& cuts,
     outcome.made = outcome.made && (run.status == Status::ok || run.status == Status::noop);
   }
   EXPECT_TRUE(check(sheet).empty()) << check(sheet).front();
+  if (outcome.made) {
+    const Judgement judgement =
+        judge_one_by_one(Sheet(mesh), sheet, curves, row.promises, row.make(row.parameter.value), {});
+    EXPECT_TRUE(judgement.ok) << method << ": " << judgement.problems.front();
+    EXPECT_EQ(to_size(judgement.pieces), count_pieces(sheet)) << method;
+  }
   outcome.pieces = count_pieces(sheet);
   for (std::size_t i = 0; i < sheet.triangle_slots(); ++i)
     if (const TriangleIndex t(i); sheet.triangle(t).alive()) {
@@ -157,6 +165,32 @@ TEST(Sewn, RandomCutsOverSeamsGiveThePiecesOfTheWholeSheet) {
   EXPECT_GT(severed, made / 10);
   RecordProperty("made", to_int(made));
   RecordProperty("severed", to_int(severed));
+}
+
+TEST(Sewn, EdgesAcrossSeamsFollowCuts) {
+  const MeshData panels = in_panels(make_sheet("delaunay", 10), in_quarters);
+  std::size_t all = 0, looked_at = 0;
+  for (const char* method : {"conventional_split", "delaunay_refine", "adaptive_remesh", "element_deletion"}) {
+    const MethodRow row = find_method(method);
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+      Sheet sheet(panels);
+      Locator locator(sheet);
+      Cutter cutter;
+      const auto tool = row.make(row.parameter.value);
+      SeamEdges kept(sheet);
+      for (const PickedCurve& picked : random_cuts(seed))
+        for (const Curve& curve : Picker(Sheet(panels)).rest_curves(picked, "cut")) {
+          if (cutter.cut(sheet, locator, curve, *tool, {}).status != Status::ok) continue;
+          kept.update(sheet);
+          const SeamEdges anew(sheet);
+          ASSERT_EQ(kept.across(), anew.across()) << method << ", seed " << seed;
+          all += anew.across().size();
+          looked_at += kept.changed().size();
+        }
+    }
+  }
+  EXPECT_GT(all, 1000u);
+  EXPECT_LT(looked_at, all / 2);
 }
 
 /// Four clicks on different panels, and a ring of two Beziers: the pieces have the areas that the curves enclose.

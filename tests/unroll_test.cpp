@@ -7,7 +7,10 @@
 
 #include "harness/base/random.h"
 #include "harness/cut/cut_all.h"
+#include "harness/judge/judged_sheet.h"
+#include "harness/judge/oracle_request.h"
 #include "harness/mesh/rest_choice.h"
+#include "harness/oracle/surface.h"
 #include "harness/path/pick.h"
 #include "harness/simulation/simulation.h"
 #include "methods/registry.h"
@@ -103,10 +106,14 @@ std::vector<double> cut(const MeshData& mesh, const PickedCurve& path, const std
   Sheet sheet(mesh);
   Locator locator(sheet);
   Cutter cutter;
-  const CutRun run = cut_all(sheet, locator, cutter, Picker(sheet).rest_curves(path, "it"), *tool, {});
+  const std::vector<Curve> curves = Picker(sheet).rest_curves(path, "it");
+  const CutRun run = cut_all(sheet, locator, cutter, curves, *tool, {});
   if (run.status == Status::refused) return {};
   EXPECT_TRUE(run.status == Status::ok || run.status == Status::deviated) << method << ": " << run.reason;
   EXPECT_TRUE(check(sheet).empty());
+  const Judgement judgement =
+      judge_one_by_one(Sheet(mesh), sheet, curves, row.promises, row.make(row.parameter.value), {});
+  EXPECT_TRUE(judgement.ok) << method << ": " << judgement.problems.front();
   return areas_of_pieces(sheet);
 }
 
@@ -182,14 +189,26 @@ TEST(Unroll, ARingRoundATubeGivesTwoPiecesByEveryMethod) {
   EXPECT_GT(made, 3 * 15u);
 }
 
-TEST(Unroll, ARingRoundASphereGivesTwoPieces) {
-  const MeshData mesh = unrolled(sphere(6));
+/// Of rays from outside.
+PickedCurve ring_at_height(double height) {
   PickedCurve path = ring([](double) { return Point3{}; }, 16);
-  for (std::size_t i = 0; i < path.picks.size(); ++i) {  // rays from outside, at the height 0.31
+  for (std::size_t i = 0; i < path.picks.size(); ++i) {
     const double angle = 2 * pi * to_double(i) / to_double(path.picks.size()) + 0.1;
     const Point3 out{std::cos(angle), std::sin(angle), 0};
-    path.picks[i] = {2.0 * out + Point3{0, 0, 0.31}, -1.0 * out};
+    path.picks[i] = {2.0 * out + Point3{0, 0, height}, -1.0 * out};
   }
+  return path;
+}
+
+double length_of(const Curve& curve) {
+  double sum = 0;
+  for (std::size_t i = 1; i < curve.points.size(); ++i) sum += length(curve.points[i] - curve.points[i - 1]);
+  return sum;
+}
+
+TEST(Unroll, ARingRoundASphereGivesTwoPieces) {
+  const MeshData mesh = unrolled(sphere(6));
+  const PickedCurve path = ring_at_height(0.31);
   for (const char* method : {"conventional_split", "cgal_cdt", "cut_polygons"}) {
     const std::vector<double> areas = cut(mesh, path, method);
     EXPECT_EQ(areas.size(), 2u) << method;
@@ -231,24 +250,24 @@ PickedCurve walk(const MeshData& mesh, std::uint64_t seed) {
   return path;
 }
 
-/// The areas of the pieces; none where a part of the cut was not made as asked for.
+/// The areas of the pieces; none where a part of the cut was not made as asked for. Every cut is judged, in its panels
+/// and on the surface.
 std::vector<double> cut_if_made(const MeshData& mesh, const PickedCurve& path, const char* method) {
   const MethodRow row = find_method(method);
   const auto tool = row.make(row.parameter.value);
   Sheet sheet(mesh);
   Locator locator(sheet);
   Cutter cutter;
-  std::vector<Curve> curves;
-  try {
-    curves = Picker(sheet).rest_curves(path, "it");
-  } catch (const InputError&) {  // no straight way, by a vertex with more or less than 360 degrees
-    return {};
-  }
+  const std::vector<Curve> curves = Picker(sheet).rest_curves(path, "it");
   for (const Curve& curve : curves) {
     const CutRun run = cut_all(sheet, locator, cutter, {&curve, 1}, *tool, {});
     if (run.status != Status::ok && run.status != Status::noop) return {};
   }
   EXPECT_TRUE(check(sheet).empty());
+  const Judgement judgement =
+      judge_one_by_one(Sheet(mesh), sheet, curves, row.promises, row.make(row.parameter.value), {});
+  EXPECT_TRUE(judgement.ok) << method << ": " << judgement.problems.front();
+  EXPECT_EQ(to_size(judgement.pieces), count_pieces(sheet));
   return areas_of_pieces(sheet);
 }
 
@@ -282,6 +301,168 @@ TEST(Unroll, RandomCutsGiveTheSamePiecesWhereverTheSeamsAre) {
   EXPECT_GT(severed, compared / 20);
   RecordProperty("compared", to_int(compared));
   RecordProperty("severed", to_int(severed));
+}
+
+/// The way over a cone is straight in the plane that it is unrolled in, wherever its seam is.
+TEST(Unroll, AWayOverAConeIsStraight) {
+  const MeshData mesh = unrolled(cone(24, 7));
+  const Sheet sheet(mesh);
+  const Picker picker(sheet);
+  const auto pick = [](double turn, double height) {
+    const double angle = 2 * pi * turn;
+    return Pick{{0, 0, height}, Point3{std::cos(angle), std::sin(angle), 0}};
+  };
+  for (int i = 0; i < 24; ++i) {
+    const double begin = (i + 0.5) / 24, end = begin + 9.0 / 24;
+    const PickedCurve path{Curve::Kind::polyline, false, {pick(begin, 0.9), pick(end, 1.4)}};
+    double along = 0;
+    for (const Curve& curve : picker.rest_curves(path, "it")) along += length_of(curve);
+    // Each of the 24 facets has the same angle at the tip.
+    const double r = std::cos(pi / 24);
+    const double side = std::sqrt(1 + 4.0), half = std::asin(std::sin(pi / 24) / side);
+    const double facet = 2 * half, a = 0.45 * std::sqrt(r * r + 4), b = 0.7 * std::sqrt(r * r + 4);
+    EXPECT_NEAR(along, std::sqrt(a * a + b * b - 2 * a * b * std::cos(9 * facet)), 1e-9) << i;
+  }
+}
+
+/// The way over a sphere is an arc of a great circle but for the size of its triangles, squared.
+TEST(Unroll, AWayOverASphereHasTheLengthOfAnArc) {
+  const auto largest_error = [](int n) {
+    const MeshData mesh = unrolled(sphere(n));
+    const Sheet sheet(mesh);
+    const Picker picker(sheet);
+    Random random(7);
+    double largest = 0;
+    for (int i = 0; i < 40; ++i) {
+      const auto direction = [&] {
+        const double z = 2 * random.unit() - 1, angle = 2 * pi * random.unit(), r = std::sqrt(1 - z * z);
+        return Point3{r * std::cos(angle), r * std::sin(angle), z};
+      };
+      const Point3 a = direction(), b = direction();
+      const double arc = std::acos(a.x * b.x + a.y * b.y + a.z * b.z);
+      if (arc > 2) continue;  // there are several ways that are hardly longer
+      const PickedCurve path{Curve::Kind::polyline, false, {{2.0 * a, -1.0 * a}, {2.0 * b, -1.0 * b}}};
+      double along = 0;
+      for (const Curve& curve : picker.rest_curves(path, "it")) along += length_of(curve);
+      largest = std::max(largest, std::abs(along - arc));
+    }
+    return largest;
+  };
+  const double coarse = largest_error(5), fine = largest_error(10), finest = largest_error(20);
+  RecordProperty("errors", std::to_string(coarse) + " " + std::to_string(fine) + " " + std::to_string(finest));
+  EXPECT_LT(coarse, 0.08);
+  EXPECT_GT(coarse / fine, 3);
+  EXPECT_GT(fine / finest, 3);
+}
+
+/// It would open nothing there.
+TEST(Unroll, APathAlongASeamIsRefused) {
+  const MeshData raw = tube(8, 4, 2), mesh = unrolled(raw);
+  const Sheet sheet(mesh);
+  const Picker picker(sheet);
+  std::size_t refused = 0, opened = 0;
+  for (std::size_t i = 0; i < 8; ++i) {  // lines of edges, from end to end
+    const PickedCurve path{Curve::Kind::polyline, false, {{raw.deformed[i], {}}, {raw.deformed[4 * 8 + i], {}}}};
+    try {
+      Sheet cut = sheet;
+      Locator locator(cut);
+      Cutter cutter;
+      const auto tool = find_method("conventional_split").make(0);
+      for (const Curve& curve : picker.rest_curves(path, "it"))
+        EXPECT_EQ(cutter.cut(cut, locator, curve, *tool, {}).status, Status::ok);
+      opened += cut.deformed_count() == sheet.deformed_count() + 5;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("along a seam"), std::string::npos) << error.what();
+      ++refused;
+    }
+  }
+  EXPECT_GE(refused, 1u);
+  EXPECT_EQ(refused + opened, 8u);
+}
+
+/// A path over a net of seams is in one piece: each stretch ends where the next one begins, as the oracle sees it.
+TEST(Unroll, TheStretchesOfAPathMeetAtSeams) {
+  const MeshData dome = surface(12, 9, false, [](double u, double v) {
+    return Point3{u, v, 0.4 * std::sin(4 * u) * std::sin(3 * v)};
+  });
+  int crossings = 0;
+  for (const MeshData& raw : {tube(16, 8, 2), cone(16, 8), dome, sphere(5)}) {
+    const MeshData mesh = unrolled(raw);
+    oracle::Surface surface{{{}, mesh.triangles}, mesh.sewn};
+    for (const Point2 p : mesh.rest) surface.mesh.rest.push_back({p.x, p.y});
+    const Sheet sheet(mesh);
+    const Picker picker(sheet);
+    Random random(3);
+    const auto place = [&] {
+      const auto& t = mesh.triangles[to_size(random.unit() * to_double(mesh.triangles.size()))];
+      const double a = random.unit(), b = (1 - a) * random.unit();
+      const auto at = [&](std::size_t k) { return mesh.deformed[to_size(t[k])]; };
+      return (1 - a - b) * at(0) + a * at(1) + b * at(2);
+    };
+    for (int i = 0; i < 50; ++i) {
+      const PickedCurve path{Curve::Kind::polyline, i % 5 == 0, {{place(), {}}, {place(), {}}, {place(), {}}}};
+      std::vector<oracle::Curve> cuts;
+      for (const Curve& curve : picker.rest_curves(path, "it")) cuts.push_back(for_oracle(curve));
+      const auto found = oracle::judge_surface(surface, cuts, surface.mesh, 1e-11);
+      EXPECT_EQ(found.alone, 0) << mesh.triangles.size() << " triangles, path " << i;
+      crossings += found.crossings;
+    }
+  }
+  EXPECT_GT(crossings, 1000);
+}
+
+/// A cap is cut off. At rest no area is lost by any method that keeps it; in space none by those that leave the sheet's
+/// vertices and edges where they are, and by the others less than the square of the triangles' size.
+TEST(Unroll, ACutOfASphereKeepsItsArea) {
+  const auto in_space = [](const MeshData& mesh) {
+    double sum = 0;
+    for (const auto& [i, j, k] : mesh.triangles) {
+      const auto at = [&](std::int32_t v) { return mesh.deformed[to_size(v)]; };
+      const Point3 u = at(j) + -1.0 * at(i), v = at(k) + -1.0 * at(i);
+      sum += length(Point3{u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x}) / 2;
+    }
+    return sum;
+  };
+  const std::set<std::string> swap_edges{"cgal_cdt", "cgal_refine", "delaunay_refine", "longest_edge"};
+  std::size_t made = 0;
+  for (const int n : {6, 12}) {
+    const MeshData mesh = unrolled(sphere(n));
+    const double before = in_space(mesh);
+    const PickedCurve path = ring_at_height(0.31);
+    for (const MethodRow& row : all_methods()) {
+      if (!row.promises.keeps_area) continue;
+      const auto tool = row.make(row.parameter.value);
+      Sheet sheet(mesh);
+      Locator locator(sheet);
+      Cutter cutter;
+      const CutRun run = cut_all(sheet, locator, cutter, Picker(sheet).rest_curves(path, "it"), *tool, {});
+      if (run.status == Status::refused) continue;
+      ++made;
+      double at_rest = 0;
+      for (const double area : areas_of_pieces(sheet)) at_rest += area;
+      EXPECT_NEAR(at_rest, before, 1e-11) << row.name;
+      const double lost = std::abs(in_space(sheet.to_mesh_data()) - before);
+      const bool is_exact = row.promises.keeps_vertices && !swap_edges.contains(row.name);
+      EXPECT_LT(lost, is_exact ? 1e-11 : 1.0 / (n * n)) << row.name << ", " << n;
+    }
+  }
+  EXPECT_GT(made, 2 * 12u);
+}
+
+/// A chart beside a net of seams: how far its lengths are off is said, and is what unrolling allows at most.
+TEST(Unroll, TheDistortionOfAChartIsSaid) {
+  MeshData mesh = surface(16, 16, false, [](double u, double v) {
+    const double x = 0.1 * u - 0.05, y = 0.1 * v - 0.05;
+    return Point3{x, y, std::sqrt(0.0625 - x * x - y * y)};
+  });
+  const MeshData laid = unrolled(mesh);
+  const double off = distortion(laid);
+  EXPECT_GT(off, 1e-9);
+  EXPECT_LT(off, unrolled_gap);
+  EXPECT_GT(Sheet(laid).seams().size(), 50u);
+  char said[48];
+  std::snprintf(said, sizeof said, "lengths kept to %.1g", off);
+  EXPECT_NE(laid.notes.back().find(said), std::string::npos) << laid.notes.back() << ", " << off;
 }
 
 TEST(Unroll, ATubeTurnedInSpaceHasNoForces) {

@@ -9,6 +9,7 @@
 #include "harness/files/whole_file.h"
 #include "harness/judge/assessment.h"
 #include "harness/judge/result_svg.h"
+#include "harness/path/pick.h"
 #include "harness/records/report_json.h"
 #include "methods/registry.h"
 
@@ -83,17 +84,14 @@ void print(const Assessment& a, double h, std::size_t cuts) {
 }  // namespace
 
 bool score(const ScoreArguments& arguments, const CutOptions& options) {
-  const std::vector<Curve> cuts = read_path(arguments.path);
+  const std::vector<AnyCurve> path = read_path_with_picks(arguments.path);
   const MeshData data = read_mesh(arguments.mesh, arguments.reading);
-  if (data.unrolled)
-    throw InputError(
-        arguments.mesh +
-        ": no rest positions, which score judges by; give a flat mesh, or an OBJ with vt (rest positions)");
   for (const auto& note : data.notes) std::cerr << "note: " << note << '\n';
   const bool texture = leaves_vt(arguments.mesh, arguments.reading);
   const MeshReading of_result{texture ? RestFrom::automatic : RestFrom::vt, arguments.reading.triangulate};
   const MeshData result = read_mesh_as_is(arguments.result, of_result);
   const Sheet before(data);
+  const std::vector<Curve> cuts = curves_at_rest(path, before, arguments.path).curves;
   Promises asked = promises_of_everybody;
   if (arguments.deletes) asked = find_method("element_deletion").promises;
   asked.keeps_vertices = arguments.keeps_vertices;
@@ -104,7 +102,7 @@ bool score(const ScoreArguments& arguments, const CutOptions& options) {
   if (arguments.json)
     std::cout << score_as_json(a, h);
   else
-    print(a, h, cuts.size());
+    print(a, h, path.size());
   return a.judgement.ok;
 }
 

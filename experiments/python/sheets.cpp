@@ -33,7 +33,7 @@ std::vector<Curve> in_rest_space(const std::vector<AnyCurve>& path, const Sheet&
     else
       check_picks(std::get<PickedCurve>(path[i]), name);
   }
-  return curves_at_rest(path, posed, "path");
+  return curves_at_rest(path, posed, "path").curves;
 }
 
 namespace {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "harness/base/conversions.h"
+#include "harness/judge/on_surface.h"
 #include "harness/judge/oracle_request.h"
 #include "harness/oracle/sheet_topology.h"
 
@@ -124,7 +125,6 @@ Assessment assess(const Sheet& before, const Sheet& after, const Judgement& judg
                   std::span<const oracle::ForcedCorner> forced) {
   Assessment result;
   result.judgement = judgement;
-  if (!before.seams().empty()) result.judgement.pieces = to_int(count_pieces(after));  // the oracle knows of no seam
   const oracle::Mesh mesh = for_oracle(after);
   measure(result, mesh, changed_triangles(for_oracle(before), mesh), forced, before.mean_edge());
   result.vertices_added = difference(after.vertex_count(), before.vertex_count());
@@ -158,6 +158,11 @@ struct Exam {
     }
     assessment.connected = judgement.verdict != Verdict::not_finite && judgement.verdict != Verdict::bad_index &&
                            oracle::half_edges(mesh).repeated.empty();
+    if (assessment.connected) {
+      Leeway leeway;
+      leeway.add(judgement);
+      judge_on_surface(judgement, before, cuts, mesh, asked, leeway);
+    }
     assessment.measured = can_be_measured(judgement, mesh);
     find_faults(assessment, request, mesh, result.deformed);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "harness/judge/on_surface.h"
 #include "harness/judge/oracle_request.h"
 #include "harness/judge/same_sheet.h"
 
@@ -60,6 +61,8 @@ Judgement judge_one_by_one(const Sheet& start, const Sheet& result, std::span<co
                            const Promises& promises, std::unique_ptr<CuttingMethod> method, const CutOptions& options) {
   JudgedSheet again(start, promises, std::move(method));
   Judgement all;
+  Leeway leeway;
+  bool as_asked = true;
   const auto stop = [&all](Verdict verdict, std::vector<std::string> problems) {
     all.ok = false;
     all.verdict = verdict;
@@ -71,6 +74,8 @@ Judgement judge_one_by_one(const Sheet& start, const Sheet& result, std::span<co
         cuts.size() > 1 ? "cut " + std::to_string(i + 1) + " of " + std::to_string(cuts.size()) + ": " : "";
     const JudgedSheet::Finding finding = again.cut(cuts[i], options);
     const Judgement& last = again.judgement;
+    leeway.add(last);
+    as_asked = as_asked && (again.outcome.status == Status::ok || again.outcome.status == Status::noop);
     all.pieces = last.pieces;
     all.expected_pieces = last.expected_pieces;
     all.incision_error = std::max(all.incision_error, last.incision_error);
@@ -85,6 +90,7 @@ Judgement judge_one_by_one(const Sheet& start, const Sheet& result, std::span<co
   }
   if (const std::string what = difference(again.sheet, result); !what.empty())
     return stop(Verdict::not_reproduced, {"not_reproduced: made once more, the cuts leave another sheet: " + what});
+  if (as_asked) judge_on_surface(all, start, cuts, for_oracle(result), promises, leeway);
   return all;
 }
 

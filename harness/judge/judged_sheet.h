@@ -74,8 +74,8 @@ class JudgedSheet {
 /// Judges a sheet that was cut several times, no cut refused: makes the cuts once more, and judges each on the sheet
 /// that the one before left. (An incision lies only within the tolerance of its curve, so a later cut may rightly meet
 /// it elsewhere than the curves meet.) Stops at the first cut that is not ok. Returns the number of pieces after the
-/// last cut, the largest incision error and the total change of area. Verdict `not_reproduced` where the cuts do not
-/// make `result`, bit for bit.
+/// last cut, the largest incision error and the total change of area. Of a sheet with seams the pieces are those of the
+/// surface after all cuts (on_surface.h). Verdict `not_reproduced` where the cuts do not make `result`, bit for bit.
 /// \param method  a new one, of the same kind
 Judgement judge_one_by_one(const Sheet& start, const Sheet& result, std::span<const Curve> cuts,
                            const Promises& promises, std::unique_ptr<CuttingMethod> method, const CutOptions& options);

@@ -44,9 +44,6 @@ constexpr double seam_rounding = 1e-7;
 /// All of them, in order of the seams, the first side before the second, each from 0 to 1. Cost: the whole sheet.
 std::vector<SewnEdge> sewn_edges(const Sheet& sheet);
 
-/// For each half-edge on a seam, that of the other side which lies at its middle. Cost: the whole sheet.
-std::map<HalfEdge, HalfEdge> edges_across_seams(const Sheet& sheet);
-
 /// What a seam asks of a vertex of the opened sheet: it goes along with one or two others.
 struct SeamTie {
   DeformedIndex vertex;

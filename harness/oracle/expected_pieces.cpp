@@ -219,39 +219,11 @@ int root(std::vector<int>& parent, int i) {
   return i;
 }
 
-/// For each face whether it lies inside the sheet, whose border the first segments are.
-std::vector<char> inside_faces(const PlanarMap& map, std::size_t border_count) {
-  struct Crossing {
-    int face;
-    bool toggles;
-  };
-  std::vector<std::vector<Crossing>> neighbours(map.faces.size());
-  for (const auto& [segments, left, right] : map.edges) {
-    const auto of_border = std::lower_bound(segments.begin(), segments.end(), to_int(border_count)) - segments.begin();
-    neighbours[left].push_back({right, of_border % 2 == 1});
-    neighbours[right].push_back({left, of_border % 2 == 1});
-  }
-  std::vector<char> inside(neighbours.size(), 0), seen(neighbours.size(), 0);
-  std::vector<int> open{0};
-  seen.front() = 1;
-  while (!open.empty()) {
-    const int face = open.back();
-    open.pop_back();
-    for (const auto& [other, toggles] : neighbours[face]) {
-      if (seen[other]) continue;
-      seen[other] = 1;
-      inside[other] = inside[face] != static_cast<char>(toggles);
-      open.push_back(other);
-    }
-  }
-  return inside;
-}
-
 /// For each face a representative of those it is joined to where the extensions, the last segments, are left out.
 std::vector<int> faces_without_extensions(const PlanarMap& map, std::size_t first_extension) {
   std::vector<int> parent(map.faces.size());
   std::iota(parent.begin(), parent.end(), 0);
-  for (const auto& [segments, left, right] : map.edges)
+  for (const auto& [segments, left, right, ends] : map.edges)
     if (segments.front() >= to_int(first_extension)) parent[root(parent, left)] = root(parent, right);
   for (int i = 0; i < to_int(parent.size()); ++i) parent[i] = root(parent, i);
   return parent;

@@ -233,6 +233,7 @@ class Builder {
       map_.faces[cycle.face].perimeter += cycle.perimeter;
     }
     for (std::size_t e = 0; e < ends_.size(); ++e) {
+      map_.edges[e].ends = {vertices_[ends_[e][0]].rounded, vertices_[ends_[e][1]].rounded};
       map_.edges[e].left = face_left_of(2 * e);
       map_.edges[e].right = face_left_of(2 * e + 1);
     }
@@ -299,5 +300,32 @@ class Builder {
 }  // namespace
 
 PlanarMap planar_map(const std::vector<Segment>& segments) { return Builder(segments).build(); }
+
+std::vector<char> inside_faces(const PlanarMap& map, std::size_t border_count) {
+  struct Crossing {
+    int face;
+    bool toggles;
+  };
+  std::vector<std::vector<Crossing>> neighbours(map.faces.size());
+  for (const auto& [segments, left, right, ends] : map.edges) {
+    const auto of_border = std::lower_bound(segments.begin(), segments.end(), to_int(border_count)) - segments.begin();
+    neighbours[left].push_back({right, of_border % 2 == 1});
+    neighbours[right].push_back({left, of_border % 2 == 1});
+  }
+  std::vector<char> inside(neighbours.size(), 0), seen(neighbours.size(), 0);
+  std::vector<int> open{0};
+  seen.front() = 1;
+  while (!open.empty()) {
+    const int face = open.back();
+    open.pop_back();
+    for (const auto& [other, toggles] : neighbours[face]) {
+      if (seen[other]) continue;
+      seen[other] = 1;
+      inside[other] = inside[face] != static_cast<char>(toggles);
+      open.push_back(other);
+    }
+  }
+  return inside;
+}
 
 }  // namespace cutbench::oracle

@@ -4,6 +4,7 @@
 // thirds of the time of judging a cut.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "harness/oracle/plane.h"
@@ -15,6 +16,7 @@ struct PlanarMap {
   struct Edge {
     std::vector<int> segments;  ///< those that it is a part of, in rising order
     int left = 0, right = 0;    ///< faces
+    Segment ends = {};          ///< rounded, from left to right, or upwards
   };
   /// A connected part of the plane without the segments; holes are cut out of it.
   struct Face {
@@ -28,5 +30,9 @@ struct PlanarMap {
 
 /// Segments may cross, touch and overlap in any way; those without length are left out.
 PlanarMap planar_map(const std::vector<Segment>& segments);
+
+/// For each face whether it lies inside the sheet, whose border the first segments are: where a walk from the infinite
+/// face has crossed an odd number of them.
+std::vector<char> inside_faces(const PlanarMap& map, std::size_t border_count);
 
 }  // namespace cutbench::oracle

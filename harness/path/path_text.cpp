@@ -93,7 +93,8 @@ std::vector<Curve> read_path_text(const std::string& text, const std::string& na
   for (auto& cut : read_path_text_with_picks(text, name)) {
     if (!std::holds_alternative<Curve>(cut))
       throw InputError(name + ", cut " + std::to_string(cuts.size()) +
-                       ": is in world space, which only `cutbench cut` takes; give it in rest space");
+                       ": is in world space, which needs a sheet to be picked on (`cutbench cut`, `cutbench score`); "
+                       "give it in rest space");
     cuts.push_back(std::get<Curve>(std::move(cut)));
   }
   return cuts;

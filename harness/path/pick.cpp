@@ -176,21 +176,25 @@ std::vector<PlaceAtRest> Picker::flattened(const std::vector<PlaceAtRest>& contr
   return places;
 }
 
-std::vector<Curve> curves_at_rest(std::span<const AnyCurve> path, const Sheet& posed, const std::string& name) {
-  std::vector<Curve> curves;
+CurvesAtRest curves_at_rest(std::span<const AnyCurve> path, const Sheet& posed, const std::string& name) {
+  CurvesAtRest at_rest;
+  const auto add = [&](Curve curve, std::size_t cut) {
+    at_rest.curves.push_back(std::move(curve));
+    at_rest.cut.push_back(cut);
+  };
   std::optional<Picker> picker;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const std::string which = name + ", cut " + std::to_string(i);
     if (const auto* curve = std::get_if<Curve>(&path[i])) {
       if (posed.unrolled())
         throw InputError(which + ": the sheet is unrolled, so places at rest mean nothing; give places in space");
-      curves.push_back(*curve);
+      add(*curve, i);
       continue;
     }
     if (!picker) picker.emplace(posed);
-    for (const Curve& curve : picker->rest_curves(std::get<PickedCurve>(path[i]), which)) curves.push_back(curve);
+    for (const Curve& curve : picker->rest_curves(std::get<PickedCurve>(path[i]), which)) add(curve, i);
   }
-  return curves;
+  return at_rest;
 }
 
 void check_picks(const PickedCurve& curve, const std::string& name) {

@@ -61,10 +61,15 @@ class Picker {
   double mean_edge_;  // m
 };
 
+struct CurvesAtRest {
+  std::vector<Curve> curves;
+  std::vector<std::size_t> cut;  ///< per curve: the number of the cut that it is a part of
+};
+
 /// All of them in rest space. Nothing moves between them, so all picks are made on the same sheet.
 /// Throws InputError, beginning with `name` and the number of the cut: as Picker::rest_curves(), and places at rest of a
 /// sheet that is unrolled, where they mean nothing.
-std::vector<Curve> curves_at_rest(std::span<const AnyCurve> path, const Sheet& posed, const std::string& name);
+CurvesAtRest curves_at_rest(std::span<const AnyCurve> path, const Sheet& posed, const std::string& name);
 
 /// Throws InputError: too few points for the kind, a closed Bezier that doesn't end where it began, no direction, or a
 /// number that is not finite or beyond 1e60. `name` says where the curve comes from.

@@ -19,7 +19,6 @@ namespace {
 constexpr double at_the_end = 1e-9;
 /// In mean edges: a straight way that arrives this near to its goal, by another chart's rounding, has arrived.
 constexpr double arrived = 1e-6;
-constexpr int most_splits = 8;
 /// Lengths at rest and in space that differ by a smaller share are the same: parts lie beside each other in both.
 constexpr double beside = 1e-3;
 
@@ -32,6 +31,14 @@ Point2 at_share(const Sheet& sheet, HalfEdge h, double share) {
   const Point2 from = sheet.rest(sheet.origin(h)), to = sheet.rest(sheet.target(h));
   if (share <= at_the_end) return from;
   return share >= 1 - at_the_end ? to : from + share * (to - from);
+}
+
+/// Does a line share more than a point with a side? \param near  what is nearer is on it
+bool runs_along(Point2 from, Point2 to, Point2 begin, Point2 end, double near) {
+  const Point2 way = (1 / length(end - begin)) * (end - begin);
+  const auto off = [&](Point2 p) { return std::abs(cross(way, p - begin)); };
+  const auto [low, high] = std::minmax({dot(way, from - begin), dot(way, to - begin)});
+  return off(from) <= near && off(to) <= near && std::min(high, length(end - begin)) - std::max(low, 0.0) > near;
 }
 
 bool holds(const Sheet& sheet, TriangleIndex t, Point2 p) {
@@ -65,6 +72,12 @@ Router::Router(const Sheet& sheet) : sheet_(sheet), edges_(sewn_edges(sheet)), p
       joined.join(triangle_of(a.edge)(), triangle_of(b.edge)());
     }
   }
+  for (std::size_t i = 0; i < edges_.size(); ++i) {
+    by_x_.push_back(i);
+    widest_ = std::max(widest_, sides(i).second - sides(i).first);
+  }
+  std::sort(by_x_.begin(), by_x_.end(),
+            [this](std::size_t a, std::size_t b) { return sides(a).first < sides(b).first; });
   part_.resize(sheet.triangle_slots());
   for (std::size_t i = 0; i < part_.size(); ++i) part_[i] = joined.find(i);
 }
@@ -90,33 +103,49 @@ std::vector<Router::Step> Router::steps_out_of(TriangleIndex t) const {
   return steps;
 }
 
-/// The shortest one through the middles of triangles and edges (Dijkstra 1959); empty where there is none.
-std::vector<Router::Step> Router::way(TriangleIndex from, TriangleIndex to) const {
+/// Dijkstra's (1959) over triangles, by the length of the straight way to each one's middle, laid flat. Where that would
+/// not lead through the edge of the last step, it bends at an end of it. Empty where there is none.
+std::vector<Router::Step> Router::way(const PlaceAtRest& from, TriangleIndex to) const {
+  struct Reached {
+    Step last;
+    Point2 apex;                                           // where it bent last, in the plane of the triangle
+    double before = 0;                                     // length up to there
+    double all = std::numeric_limits<double>::infinity();  // up to the middle
+    bool done = false;
+  };
   using Entry = std::pair<double, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  std::vector<double> shortest(sheet_.triangle_slots(), std::numeric_limits<double>::infinity());
-  std::vector<Step> last(sheet_.triangle_slots());
-  shortest[from()] = 0;
-  open.emplace(0, from());
-  while (!open.empty()) {
-    const auto [length_so_far, number] = open.top();
-    const TriangleIndex t(number);
+  std::vector<Reached> reached(sheet_.triangle_slots());
+  const auto enter = [&](TriangleIndex t, const Reached& r) {
+    if (r.all >= reached[t()].all || reached[t()].done) return;
+    reached[t()] = r;
+    open.emplace(r.all, t());
+  };
+  enter(from.triangle, {{}, from.point, 0, length(centroid(sheet_, from.triangle) - from.point)});
+  while (!open.empty() && !reached[to()].done) {
+    const TriangleIndex t(open.top().second);
     open.pop();
-    if (t == to) break;
-    if (length_so_far > shortest[number]) continue;
+    if (std::exchange(reached[t()].done, true)) continue;
     for (const Step& step : steps_out_of(t)) {
       const TriangleIndex next = triangle_of(step.in);
-      const double all = length_so_far + length(at_share(sheet_, step.out, 0.5) - centroid(sheet_, t)) +
-                         length(at_share(sheet_, step.in, 0.5) - centroid(sheet_, next));
-      if (all >= shortest[next()]) continue;
-      shortest[next()] = all;
-      last[next()] = step;
-      open.emplace(all, next());
+      const Point2 middle = centroid(sheet_, next);
+      Reached r{step, across(step)(reached[t()].apex), reached[t()].before};
+      const Gate through = gate(step);
+      const std::array ends{at_share(sheet_, step.in, through.in[0]), at_share(sheet_, step.in, through.in[1])};
+      const auto by_way_of = [&](Point2 p) { return length(p - r.apex) + length(middle - p); };
+      if (cross(middle - r.apex, ends[0] - r.apex) * cross(middle - r.apex, ends[1] - r.apex) > 0) {
+        const Point2 bend = by_way_of(ends[0]) < by_way_of(ends[1]) ? ends[0] : ends[1];
+        r.before += length(bend - r.apex);
+        r.apex = bend;
+      }
+      r.all = r.before + length(middle - r.apex);
+      enter(next, r);
     }
   }
   std::vector<Step> steps;
-  if (from != to && !last[to()].out.valid()) return steps;
-  for (TriangleIndex t = to; t != from; t = triangle_of(last[t()].out)) steps.push_back(last[t()]);
+  if (from.triangle != to && !reached[to()].last.out.valid()) return steps;
+  for (TriangleIndex t = to; t != from.triangle; t = triangle_of(reached[t()].last.out))
+    steps.push_back(reached[t()].last);
   std::reverse(steps.begin(), steps.end());
   return steps;
 }
@@ -213,44 +242,207 @@ bool Router::meets_seam(Point2 from, Point2 to) const {
   const auto parts = [](Point2 a, Point2 b, Point2 p, Point2 q) {
     return orientation(a, b, p) * orientation(a, b, q) < 0;
   };
-  return std::any_of(edges_.begin(), edges_.end(), [&](const SewnEdge& edge) {
-    const Point2 a = sheet_.rest(sheet_.origin(edge.edge)), b = sheet_.rest(sheet_.target(edge.edge));
-    return parts(from, to, a, b) && parts(a, b, from, to);
-  });
+  const double low = std::min(from.x, to.x) - widest_, high = std::max(from.x, to.x);
+  const auto begins = [this](std::size_t i) { return sides(i).first; };
+  auto i = std::partition_point(by_x_.begin(), by_x_.end(), [&](std::size_t edge) { return begins(edge) < low; });
+  for (; i != by_x_.end() && begins(*i) <= high; ++i) {
+    const HalfEdge edge = edges_[*i].edge;
+    const Point2 a = sheet_.rest(sheet_.origin(edge)), b = sheet_.rest(sheet_.target(edge));
+    if (parts(from, to, a, b) && parts(a, b, from, to)) return true;
+  }
+  return false;
 }
 
-bool Router::join(const PlaceAtRest& from, const PlaceAtRest& to, int splits, std::vector<Bend>& bends) const {
-  if (from.triangle == to.triangle) return true;
-  const std::vector<Step> steps = way(from.triangle, to.triangle);
-  if (steps.empty()) return false;
-  if (const auto found = straight(from, to, steps)) {
-    bends.insert(bends.end(), found->begin(), found->end());
-    return true;
+/// The least and the largest x of an edge on a seam.
+std::pair<double, double> Router::sides(std::size_t edge) const {
+  const HalfEdge h = edges_[edge].edge;
+  return std::minmax({sheet_.rest(sheet_.origin(h)).x, sheet_.rest(sheet_.target(h)).x});
+}
+
+/// Where a step leads through its edges: shares of both at its right and at its left end, as a triangle that is
+/// counter-clockwise is left.
+Router::Gate Router::gate(const Step& step) const {
+  if (!step.seam) return {{0, 1}, {1, 0}};
+  const SewnEdge &out = edges_[to_size(first_edge_[step.out()])], &in = edges_[to_size(first_edge_[step.in()])];
+  std::array<double, 2> ends{std::max(out.low(), in.low()), std::min(out.high(), in.high())};
+  if (out.end < out.begin) std::swap(ends[0], ends[1]);
+  Gate gate;
+  for (std::size_t k = 0; k < 2; ++k) {
+    gate.out[k] = std::clamp((ends[k] - out.begin) / (out.end - out.begin), 0.0, 1.0);
+    gate.in[k] = std::clamp((ends[k] - in.begin) / (in.end - in.begin), 0.0, 1.0);
   }
-  // In one panel it is straight at rest, as in a sheet without seams, also over holes.
-  const bool in_one = std::none_of(steps.begin(), steps.end(), [](const Step& step) { return step.seam.has_value(); });
-  if (in_one && !meets_seam(from.point, to.point)) return true;
-  // A vertex with other than 360 degrees lies between the two ways: by the middle of the one along the triangles.
-  if (steps.size() == 1) {
-    const Point2 middle = at_share(sheet_, steps.front().out, 0.5);
-    Bend bend{middle, middle, false};
-    if (steps.front().seam) {
-      const auto over = over_seam(steps.front().out, 0.5, bend);
-      if (!over || triangle_of(over->in) != to.triangle) return false;
+  return gate;
+}
+
+/// The triangles along `way` laid flat beside each other, in the plane of the first one. \pre `way` is not empty
+Router::Strip Router::laid_flat(const PlaceAtRest& from, const PlaceAtRest& to, std::vector<Step> way) const {
+  Strip strip{std::move(way), {}, from.point, {}};
+  Laying laying;
+  std::vector<Point2> last{from.point};
+  const auto same = [&](Point2 p) {  // as before, where another chart's rounding is all the difference
+    for (const Point2 q : last)
+      if (length(p - q) <= arrived * sheet_.mean_edge()) return q;
+    return p;
+  };
+  for (const Step& step : strip.way) {
+    const Gate through = gate(step);
+    const auto back = [&laying](Point2 p) {  // the transposed matrix is the inverse one
+      const Point2 d = p - laying.shift;
+      return Point2{dot(laying.x, d), dot(laying.y, d)};
+    };
+    Portal portal{step, through, {}, cross(laying.x, laying.y) < 0};
+    for (std::size_t k = 0; k < 2; ++k)
+      portal.ends[portal.turned_over ? 1 - k : k] = same(back(at_share(sheet_, step.out, through.out[k])));
+    last = {portal.ends[0], portal.ends[1]};
+    strip.portals.push_back(portal);
+    if (step.seam) laying = across(step).after(laying);
+  }
+  const Point2 d = to.point - laying.shift;
+  strip.goal = same({dot(laying.x, d), dot(laying.y, d)});
+  return strip;
+}
+
+/// The shortest way within a strip, by its bends: ends of portals (Lee and Preparata 1984, in the form of Mononen 2010).
+std::vector<Router::Corner> Router::shortest(const Strip& strip) const {
+  std::vector<Corner> corners;
+  const std::size_t count = strip.portals.size();
+  Point2 apex = strip.begin;
+  std::array<Point2, 2> end{apex, apex};
+  std::array<std::size_t, 2> at{0, 0};
+  for (std::size_t i = 0; i <= count; ++i) {
+    for (const std::size_t side : {0, 1}) {  // right, left
+      const Point2 next = i < count ? strip.portals[i].ends[side] : strip.goal;
+      const double sign = side == 0 ? 1 : -1;
+      if (sign * cross(end[side] - apex, next - apex) < 0) continue;  // wider than before
+      const std::size_t other = 1 - side;
+      const bool is_open = apex == end[side] || apex == end[other] || next == end[other];
+      if (is_open || sign * cross(end[other] - apex, next - apex) < 0) {
+        end[side] = next;
+        at[side] = i;
+        continue;
+      }
+      apex = end[other];
+      const std::size_t portal = at[other];
+      corners.push_back({portal, other, apex});
+      end = {apex, apex};
+      at = {portal, portal};
+      i = portal;
+      break;
     }
-    bends.push_back(bend);
-    return true;
   }
-  if (splits == 0) return false;
-  const TriangleIndex t = triangle_of(steps[steps.size() / 2 - 1].in);
-  const PlaceAtRest middle{t, centroid(sheet_, t)};
-  if (!join(from, middle, splits - 1, bends)) return false;
-  bends.push_back({middle.point, middle.point, false});
-  return join(middle, to, splits - 1, bends);
+  return corners;
+}
+
+double Router::length_of(const Strip& strip, const std::vector<Corner>& corners) {
+  double sum = 0;
+  Point2 last = strip.begin;
+  for (const Corner& corner : corners) sum += length(corner.point - std::exchange(last, corner.point));
+  return sum + length(strip.goal - last);
+}
+
+/// `way` led past the other side of a point that it bends at; none where the sheet ends there.
+std::optional<std::vector<Router::Step>> Router::past(const Strip& strip, const Corner& corner) const {
+  const double near = arrived * sheet_.mean_edge();
+  const auto is_there = [&](std::size_t i) {
+    return length(strip.portals[i].ends[corner.side] - corner.point) <= near;
+  };
+  std::size_t first = corner.portal, last = corner.portal;
+  while (first > 0 && is_there(first - 1)) --first;
+  while (last + 1 < strip.portals.size() && is_there(last + 1)) ++last;
+  const Portal& portal = strip.portals[first];
+  // Round the point the other way, which in each triangle is at the other end of the gate.
+  std::size_t own = portal.turned_over ? 1 - corner.side : corner.side;
+  Point2 point = at_share(sheet_, portal.step.out, portal.gate.out[own]);
+  TriangleIndex t = triangle_of(portal.step.out);
+  const TriangleIndex goal = triangle_of(strip.portals[last].step.in);
+  std::vector<Step> round(strip.way.begin(), strip.way.begin() + to_index(first));
+  for (std::size_t steps = 0; t != goal; ++steps) {
+    if (steps > sheet_.triangle_slots()) return {};
+    std::optional<Step> next;
+    Gate through;
+    for (const Step& step : steps_out_of(t)) {
+      const Gate g = gate(step);
+      if (length(at_share(sheet_, step.out, g.out[1 - own]) - point) > near) continue;
+      next = step;
+      through = g;
+    }
+    if (!next) return {};
+    round.push_back(*next);
+    point = at_share(sheet_, next->in, through.in[1 - own]);
+    if (next->seam) {
+      const Laying laying = across(*next);
+      if (cross(laying.x, laying.y) < 0) own = 1 - own;
+    }
+    t = triangle_of(next->in);
+  }
+  round.insert(round.end(), strip.way.begin() + to_index(last) + 1, strip.way.end());
+  return round;
+}
+
+/// The way made as short as it can be made without a jump: past each point at which it bends and that it is shorter to
+/// pass on the other side (Xin and Wang 2007; Sharp and Crane 2020). What bends are left are at the border, at the tips
+/// of incisions, and at vertices with more than 360 degrees round them.
+std::vector<Router::Bend> Router::shortened(const PlaceAtRest& from, const PlaceAtRest& to,
+                                            const std::vector<Step>& way) const {
+  constexpr double shorter = 1 - 1e-12;
+  Strip strip = laid_flat(from, to, way);
+  std::vector<Corner> corners = shortest(strip);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const auto other_way = past(strip, corners[i]);
+    if (!other_way) continue;
+    Strip other = laid_flat(from, to, *other_way);
+    std::vector<Corner> its_corners = shortest(other);
+    if (length_of(other, its_corners) >= shorter * length_of(strip, corners)) continue;
+    strip = std::move(other);
+    corners = std::move(its_corners);
+    i = to_size(-1);  // from the first one again
+  }
+  return bends_of(strip, corners);
+}
+
+std::vector<Router::Bend> Router::bends_of(const Strip& strip, const std::vector<Corner>& corners) const {
+  std::vector<Bend> bends;
+  auto corner = corners.begin();
+  Point2 begin = strip.begin;
+  for (std::size_t i = 0; i < strip.portals.size(); ++i) {
+    const Portal& portal = strip.portals[i];
+    const Point2 end = corner != corners.end() ? corner->point : strip.goal;
+    const Point2 right = portal.ends[0], left = portal.ends[1];
+    const double r = cross(end - begin, right - begin), l = cross(end - begin, left - begin);
+    double share = r == l ? 0 : std::clamp(r / (r - l), 0.0, 1.0);  // from right to left
+    const bool bends_here = corner != corners.end() && corner->portal == i;
+    if (bends_here) share = to_double(corner->side);
+    if (portal.turned_over) share = 1 - share;
+    const auto at = [share](const std::array<double, 2>& ends) { return ends[0] + share * (ends[1] - ends[0]); };
+    const Point2 leaves = at_share(sheet_, portal.step.out, at(portal.gate.out));
+    const Point2 enters = at_share(sheet_, portal.step.in, at(portal.gate.in));
+    if (portal.step.seam || bends_here) bends.push_back({leaves, enters, portal.step.seam.has_value()});
+    while (corner != corners.end() && corner->portal == i) begin = (corner++)->point;
+  }
+  return bends;
+}
+
+bool Router::join(const PlaceAtRest& from, const PlaceAtRest& to, std::vector<Bend>& bends) const {
+  if (from.triangle == to.triangle) return true;
+  const std::vector<Step> steps = way(from, to.triangle);
+  if (steps.empty()) return false;
+  std::optional<std::vector<Bend>> found = straight(from, to, steps);
+  if (!found) {
+    // In one panel it is straight at rest, as in a sheet without seams, also over holes.
+    const bool in_one =
+        std::none_of(steps.begin(), steps.end(), [](const Step& step) { return step.seam.has_value(); });
+    if (in_one && !meets_seam(from.point, to.point)) return true;
+    found = shortened(from, to, steps);
+  }
+  bends.insert(bends.end(), found->begin(), found->end());
+  return true;
 }
 
 std::vector<Curve> Router::route(const std::vector<PlaceAtRest>& places, bool closed, const std::string& name) const {
   std::vector<Curve> curves{{Curve::Kind::polyline, false, {places.front().point}}};
+  const auto go_on = [&](Point2 p) {
+    if (!has_seams() || curves.back().points.back() != p) curves.back().points.push_back(p);
+  };
   const std::size_t ways = closed ? places.size() : places.size() - 1;
   for (std::size_t i = 0; i < ways; ++i) {
     const std::size_t next = (i + 1) % places.size();
@@ -260,23 +452,41 @@ std::vector<Curve> Router::route(const std::vector<PlaceAtRest>& places, bool cl
       throw InputError(which +
                        ": nothing joins the parts they are on; give each a path of its own, or sew them (--sew)");
     const bool is_in_one = part_[places[i].triangle()] == part_[places[next].triangle()];
-    if (has_seams() && is_in_one && !join(places[i], places[next], most_splits, bends))
-      throw InputError(which + ": no straight way over seams leads from one to the other; put points between them");
+    if (has_seams() && is_in_one && !join(places[i], places[next], bends))
+      throw InputError(which + ": no way over seams leads from one to the other");
     for (const Bend& bend : bends) {
-      curves.back().points.push_back(bend.leaves);
+      go_on(bend.leaves);
       if (bend.seam) curves.push_back({Curve::Kind::polyline, false, {bend.enters}});
     }
-    if (next != 0) curves.back().points.push_back(places[next].point);
+    if (next != 0) go_on(places[next].point);
   }
-  if (!closed) return curves;
+  const auto along_seam = [&](Point2 from, Point2 to) {
+    const double near = arrived * sheet_.mean_edge();
+    const auto begins_before = [&](std::size_t edge) {
+      return sides(edge).first < std::min(from.x, to.x) - widest_ - near;
+    };
+    const auto first = std::partition_point(by_x_.begin(), by_x_.end(), begins_before);
+    const auto last = std::find_if(first, by_x_.end(),
+                                   [&](std::size_t edge) { return sides(edge).first > std::max(from.x, to.x) + near; });
+    return std::any_of(first, last, [&](std::size_t i) {
+      const HalfEdge h = edges_[i].edge;
+      return runs_along(from, to, sheet_.rest(sheet_.origin(h)), sheet_.rest(sheet_.target(h)), near);
+    });
+  };
+  for (const Curve& curve : curves)
+    for (std::size_t i = 1; i < curve.points.size(); ++i)
+      if (along_seam(curve.points[i - 1], curve.points[i]))
+        throw InputError(name + ": runs along a seam, where a cut opens nothing; put the points a little beside it");
   if (curves.size() == 1) {
-    curves.front().closed = true;
+    curves.front().closed = closed;
     return curves;
   }
-  // The last one ends where the first one begins.
-  const std::vector<Point2>& first = curves.front().points;
-  curves.back().points.insert(curves.back().points.end(), first.begin(), first.end());
-  curves.erase(curves.begin());
+  if (closed) {  // the last one ends where the first one begins
+    for (const Point2 p : curves.front().points) go_on(p);
+    curves.erase(curves.begin());
+  }
+  // Of one point: where the way leads through a corner of a panel.
+  std::erase_if(curves, [](const Curve& curve) { return curve.points.size() == 1; });
   return curves;
 }
 

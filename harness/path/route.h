@@ -2,6 +2,7 @@
 // seam when the panels are laid against each other there.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -49,20 +50,49 @@ class Router {
     Point2 leaves, enters;
     bool seam;
   };
-  struct Walk;
+  /// The part of both edges that a step leads through, as shares of them: at its right end, and at its left one.
+  struct Gate {
+    std::array<double, 2> out, in;
+  };
+  struct Portal {
+    Step step;
+    Gate gate;
+    std::array<Point2, 2> ends;  ///< right and left of the way, in the strip's plane
+    bool turned_over;            ///< the triangle that is left lies there on its back
+  };
+  struct Strip {
+    std::vector<Step> way;
+    std::vector<Portal> portals;
+    Point2 begin, goal;
+  };
+  /// A bend of a way in a strip, at an end of a portal.
+  struct Corner {
+    std::size_t portal, side;
+    Point2 point;
+  };
 
   std::vector<Step> steps_out_of(TriangleIndex t) const;
-  std::vector<Step> way(TriangleIndex from, TriangleIndex to) const;
+  std::vector<Step> way(const PlaceAtRest& from, TriangleIndex to) const;
   Laying across(const Step& step) const;
   std::optional<Step> over_seam(HalfEdge out, double share, Bend& bend) const;
   std::optional<std::vector<Bend>> straight(const PlaceAtRest& from, const PlaceAtRest& to,
                                             const std::vector<Step>& way) const;
   bool meets_seam(Point2 from, Point2 to) const;
   bool are_apart(const PlaceAtRest& from, const PlaceAtRest& to) const;
-  bool join(const PlaceAtRest& from, const PlaceAtRest& to, int splits, std::vector<Bend>& bends) const;
+  std::pair<double, double> sides(std::size_t edge) const;
+  Gate gate(const Step& step) const;
+  Strip laid_flat(const PlaceAtRest& from, const PlaceAtRest& to, std::vector<Step> way) const;
+  std::vector<Corner> shortest(const Strip& strip) const;
+  static double length_of(const Strip& strip, const std::vector<Corner>& corners);
+  std::optional<std::vector<Step>> past(const Strip& strip, const Corner& corner) const;
+  std::vector<Bend> shortened(const PlaceAtRest& from, const PlaceAtRest& to, const std::vector<Step>& way) const;
+  std::vector<Bend> bends_of(const Strip& strip, const std::vector<Corner>& corners) const;
+  bool join(const PlaceAtRest& from, const PlaceAtRest& to, std::vector<Bend>& bends) const;
 
   const Sheet& sheet_;
   std::vector<SewnEdge> edges_;
+  std::vector<std::size_t> by_x_;                   // edges_, by where they begin in x
+  double widest_ = 0;                               // of them in x
   std::vector<std::vector<std::size_t>> partners_;  // per edge: those that it shares more than a point with
   std::vector<std::size_t> part_;                   // per triangle slot
   std::vector<std::int32_t> first_edge_;            // per half-edge: the first of edges_ that it is; -1: none

@@ -90,10 +90,10 @@ Exit cut_sheet(const CutArguments& arguments) {
 
   const Sheet before(data);
   StopWatch watch;
-  const std::vector<Curve> cuts = curves_at_rest(path, before, arguments.path);
+  const auto [cuts, cut_of] = curves_at_rest(path, before, arguments.path);
   const double pick_us = watch.lap();
   for (std::size_t i = 0; i < cuts.size(); ++i)
-    arguments.misses.check(before, cuts[i], arguments.path + ", cut " + std::to_string(i));
+    arguments.misses.check(before, cuts[i], arguments.path + ", cut " + std::to_string(cut_of[i]));
   Sheet sheet = before;
   Locator locator(sheet);
   Cutter cutter;
@@ -109,10 +109,12 @@ Exit cut_sheet(const CutArguments& arguments) {
       assess(before, sheet, judge_one_by_one(before, sheet, cuts, row.promises, row.make(parameter), options),
              forced_corners_of(before, cuts));
   const Parents all_parents = parents_of(before, sheet);
+  std::vector<IncisionEdge> incision = incisions.edges(sheet, cuts);
+  for (IncisionEdge& edge : incision) edge.cut = cut_of[edge.cut];
   const CutDetails details{data,
                            sheet,
                            all_parents,
-                           incisions.edges(sheet, cuts),
+                           incision,
                            constraints_of(*method, before, sheet),
                            carried_over(texture, before, sheet, all_parents)};
   WholeFile out = textured_file(sheet.to_mesh_data(), details.texture, arguments.out, details_columns(details));

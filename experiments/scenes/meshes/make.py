@@ -33,7 +33,8 @@ def cells(columns, rows):
 
 
 def shirt(cell=0.05):
-    """Body 0.4 x 0.6 m, sleeves 0.2 x 0.15 m, in each panel; sewn along sides, sleeves and shoulders."""
+    """Body 0.4 x 0.6 m, sleeves 0.2 x 0.15 m, in each panel; sewn along sides, sleeves and shoulders. It hangs along -z,
+    its front towards -y, and is filled out a little, as if it were worn."""
     columns, rows = 16, 12
 
     def is_cloth(i, j):
@@ -56,6 +57,12 @@ def shirt(cell=0.05):
             edge = frozenset((triangle[k], triangle[(k + 1) % 3]))
             uses[edge] = uses.get(edge, 0) + 1
     sewn = {p for edge, count in uses.items() if count == 1 and not is_open(*edge) for p in edge}
+
+    def depth(p):
+        """Of the front; 0 where it is sewn to the back."""
+        away = min((math.hypot(p[0] - q[0], p[1] - q[1]) for q in sewn), default=0)
+        return 0.03 * (1 - (1 - min(away / 4, 1)) ** 2)
+
     points, places, number_of, triangles = [], [], {}, []
     for side in (1, -1):
         for triangle in kept:
@@ -64,7 +71,7 @@ def shirt(cell=0.05):
                 own = (p, 0 if p in sewn else side)
                 if own not in number_of:
                     number_of[own] = len(points)
-                    points.append((cell * p[0], cell * p[1], 0 if p in sewn else 0.0005 * side))
+                    points.append((cell * p[0], -side * depth(p), cell * p[1]))
                 place = (cell * p[0], cell * p[1]) if side == 1 else (1.8 - cell * p[0], cell * p[1])
                 if place not in places:
                     places.append(place)
@@ -78,8 +85,8 @@ def sleeve(around=18, along=16):
     for j in range(along + 1):
         radius = 0.07 - 0.02 * j / along
         for i in range(around):
-            angle = 2 * math.pi * i / around
-            points.append((0.4 * j / along, radius * math.cos(angle), radius * math.sin(angle)))
+            angle = -2 * math.pi * i / around
+            points.append((radius * math.cos(angle), radius * math.sin(angle), -0.4 * j / along))
     triangles = [[((j * around + i % around),) * 2 for i, j in t] for _, t in cells(around, along)]
     write("sleeve.obj", ["a sleeve, m: its rest shape is the mesh itself"], points, [], triangles)
 

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "harness/base/conversions.h"
-#include "harness/mesh/seams.h"
 
 namespace cutbench {
 
@@ -13,7 +12,7 @@ Bending::Bending(const Sheet& sheet, BendingKind kind, double rigidity, double p
   resize(sheet.triangle_slots(), sheet.deformed_slots());
   work_.elements = elements;
   ++work_.call;
-  find_seams(sheet);
+  if (!kind_->has_slopes) seams_ = SeamEdges(sheet);  // hinges go over seams; patches end there, as at the border
   for (std::size_t t = 0; t < sheet.triangle_slots(); ++t) mark_stale(TriangleIndex(t), 0);
   rebuild(sheet);
 }
@@ -31,14 +30,9 @@ void Bending::update(const Sheet& sheet, const ElementTable* elements, std::span
   work_.elements = elements;
   ++work_.call;
   take_replaced_away();
-  find_seams(sheet);
+  if (!kind_->has_slopes) seams_.update(sheet);
   find_stale(sheet, regrouped);
   rebuild(sheet);
-}
-
-/// Hinges go over seams; patches end there, as at the border.
-void Bending::find_seams(const Sheet& sheet) {
-  if (!kind_->has_slopes) seams_ = edges_across_seams(sheet);
 }
 
 double Bending::energy(const Field& x, int dimension) const {
@@ -108,7 +102,7 @@ void Bending::find_stale(const Sheet& sheet, std::span<const TriangleIndex> regr
   for (const TriangleIndex t : regrouped) mark_stale(t, 0);
   for (const auto& touched : sheet.log().touched) mark_stale(touched.slot, 0);
   for (std::size_t t = sheet.log().triangles_before; t < sheet.triangle_slots(); ++t) mark_stale(TriangleIndex(t), 0);
-  for (const auto& [side, other] : seams_) mark_stale(triangle_of(side), 0);
+  for (const TriangleIndex t : seams_.changed()) mark_stale(t, 0);
   for (std::size_t i = 0; i < work_.stale.size(); ++i) {
     const auto [t, distance] = work_.stale[i];
     if (!sheet.triangle(t).alive() || distance > longest_reach_) continue;
@@ -131,9 +125,12 @@ bool Bending::stencil_is_stale(const Sheet& sheet, TriangleIndex t) const {
 void Bending::rebuild(const Sheet& sheet) {
   for (const auto& [t, distance] : work_.stale)
     if (t == members(t).front() && distance <= reach_[t()]) fit_patch(sheet, t);
-  BendingStencil stencil{sheet, rigidity_, poisson_, work_.elements, slopes_, work_.place, work_.terms, seams_};
+  BendingStencil stencil{sheet,   rigidity_,   poisson_,    work_.elements,
+                         slopes_, work_.place, work_.terms, seams_.across()};
+  work_.rebuilt.clear();
   for (const auto& [t, distance] : work_.stale) {
     if (!stencil_is_stale(sheet, t)) continue;
+    work_.rebuilt.push_back(t);
     work_.terms.clear();
     if (sheet.triangle(t).alive() && t == members(t).front()) kind_->add_rows(stencil, t);
     replace_stencil(t());

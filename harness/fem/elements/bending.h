@@ -18,6 +18,7 @@
 #include "harness/fem/elements/element_table.h"
 #include "harness/fem/elements/physics.h"
 #include "harness/fem/elements/slope_patch.h"
+#include "harness/mesh/seam_edges.h"
 #include "harness/mesh/sheet.h"
 
 namespace cutbench {
@@ -57,11 +58,15 @@ class Bending {
   /// N/m. Force = -K x, energy = x K x / 2, for each coordinate. Rows of freed vertices are empty.
   const BlockMatrix<1>& matrix() const { return matrix_; }
   const std::vector<std::int32_t>& written_rows() const { return work_.rows; }  ///< by the last update()
+  /// The triangle slots whose stencils the last update() made again, or the constructor.
+  const std::vector<TriangleIndex>& rebuilt() const { return work_.rebuilt; }
   double energy(const Field& x, int dimension) const;
   /// The three rows of a triangle's energy, in sqrt(N/m); none where it is free, or not the first of its element.
   std::span<const StencilTerm> stencil(std::size_t triangle) const { return stencils_[triangle]; }
   /// Side k of a triangle as the one on its other side has it, also over a seam.
-  HalfEdge across(const Sheet& sheet, TriangleIndex t, std::size_t k) const { return other_side(sheet, seams_, t, k); }
+  HalfEdge across(const Sheet& sheet, TriangleIndex t, std::size_t k) const {
+    return other_side(sheet, seams_.across(), t, k);
+  }
   std::span<const Holder> stencils_of(std::size_t vertex) const { return stencils_of_[vertex]; }
   void reserve_spare();  ///< room to grow by half, before anything has to be copied
 
@@ -70,7 +75,6 @@ class Bending {
     TriangleIndex triangle;
     int distance;  ///< in unseparated edges, from the nearest triangle that changed
   };
-  void find_seams(const Sheet& sheet);
   void resize(std::size_t triangles, std::size_t vertices);
   void take_replaced_away();
   void mark_stale(TriangleIndex t, int distance);
@@ -93,7 +97,7 @@ class Bending {
   GrowingRows<Holder> stencils_of_;    ///< per deformed vertex: the stencils that hold it, in order
   BlockMatrix<1> matrix_;
   std::vector<TriangleIndex> replaced_;
-  std::map<HalfEdge, HalfEdge> seams_;  ///< edges_across_seams(), of a kind without slopes
+  SeamEdges seams_;  ///< of a kind without slopes
 
   /// Working storage, kept between calls so that they don't allocate.
   struct Work {
@@ -103,6 +107,7 @@ class Bending {
     std::vector<std::uint32_t> stale_in, refitted_in;  ///< per triangle slot: the call that listed it, fitted its patch
     std::vector<std::uint32_t> listed_in;              ///< per deformed vertex: the call that put it in `rows`
     std::uint32_t call = 0;
+    std::vector<TriangleIndex> rebuilt;
     std::vector<std::int32_t> rows;   ///< to be written
     std::vector<std::int32_t> place;  ///< per deformed vertex: in `terms`; -1: none
     std::vector<StencilTerm> terms;

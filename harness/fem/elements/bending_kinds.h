@@ -35,7 +35,7 @@ struct BendingStencil {
   const GrowingRows<StencilTerm>& slopes;  ///< per triangle slot: SlopePatch::terms(), of a kind with slopes
   std::vector<std::int32_t>& place;        ///< per deformed vertex: in `terms`; -1: none
   std::vector<StencilTerm>& terms;
-  const std::map<HalfEdge, HalfEdge>& seams;  ///< edges_across_seams()
+  const std::map<HalfEdge, HalfEdge>& seams;  ///< SeamEdges::across()
 
   /// The sums of this vertex, which begin at zero.
   std::array<double, 3>& at(std::int32_t vertex) {

@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <stdexcept>
+#include <utility>
 
 #include "harness/base/conversions.h"
 
@@ -34,8 +36,8 @@ Matrix3d cross_with(const Vector3d& a) {
 
 /// The doubled area vector of a triangle, and its derivative by each corner.
 struct AreaVector {
-  AreaVector(const Field& x, const std::array<std::int32_t, 3>& corners) {
-    const Vector3d first = at(x, corners[1]) - at(x, corners[0]), second = at(x, corners[2]) - at(x, corners[0]);
+  explicit AreaVector(const std::array<Vector3d, 3>& corners) {
+    const Vector3d first = corners[1] - corners[0], second = corners[2] - corners[0];
     value = first.cross(second);
     derivative[1] = -cross_with(second);
     derivative[2] = cross_with(first);
@@ -50,34 +52,30 @@ std::array<std::int32_t, 3> corners_of(const Sheet& sheet, TriangleIndex t) {
   return {d[0].value, d[1].value, d[2].value};
 }
 
-Field rest_positions(const Sheet& sheet) {
-  Field x(3 * to_index(sheet.deformed_slots()));
-  for (std::size_t v = 0; v < sheet.deformed_slots(); ++v) {
-    const Point3 p = sheet.position(DeformedIndex(v));
-    x.segment<3>(3 * to_index(v)) = Eigen::Vector3d(p.x, p.y, p.z);
-  }
-  return x;
+std::array<Vector3d, 3> corners_at(const Field& x, const std::array<std::int32_t, 3>& corners) {
+  return {at(x, corners[0]), at(x, corners[1]), at(x, corners[2])};
+}
+
+Vector3d in_space(const Sheet& sheet, std::int32_t vertex) {
+  const Point3 p = sheet.position(DeformedIndex(to_size(vertex)));
+  return {p.x, p.y, p.z};
 }
 
 }  // namespace
 
 void CurvedBending::update(const Sheet& sheet, const Bending& bending) {
-  hinges_.clear();
-  const Field rest = rest_positions(sheet);
-  for (std::size_t i = 0; i < sheet.triangle_slots(); ++i) {
-    const TriangleIndex t(i);
-    if (!sheet.triangle(t).alive()) continue;
+  hinges_.resize(3 * sheet.triangle_slots());
+  derived_ = false;
+  for (const TriangleIndex t : bending.rebuilt())
     for (std::size_t k = 0; k < 3; ++k) {
+      Hinge& hinge = hinges_[3 * t() + k];
+      hinge = {};
+      if (!sheet.triangle(t).alive()) continue;
       const HalfEdge across = bending.across(sheet, t, k);
       if (!across.valid()) continue;
-      Hinge hinge = hinge_of(sheet, bending, t, k, across);
-      hinge.rest = at_rest(hinge, rest);
-      hinges_.push_back(hinge);
+      hinge = hinge_of(sheet, bending, t, k, across);
+      hinge.rest = at_rest(hinge, sheet);
     }
-  }
-  std::size_t pairs = 0;
-  for (const Hinge& hinge : hinges_) pairs += hinge.size * hinge.size;
-  places_.assign(pairs, 0);
 }
 
 CurvedBending::Hinge CurvedBending::hinge_of(const Sheet& sheet, const Bending& bending, TriangleIndex t, std::size_t k,
@@ -103,57 +101,82 @@ CurvedBending::Hinge CurvedBending::hinge_of(const Sheet& sheet, const Bending& 
   return hinge;
 }
 
-double CurvedBending::at_rest(const Hinge& hinge, const Field& x) {
+double CurvedBending::at_rest(const Hinge& hinge, const Sheet& sheet) {
+  const auto normal = [&](const std::array<std::int32_t, 3>& corners) {
+    const AreaVector area({in_space(sheet, corners[0]), in_space(sheet, corners[1]), in_space(sheet, corners[2])});
+    return Direction(area.value).unit;
+  };
   Vector row = Vector::Zero();
-  for (std::size_t i = 0; i < hinge.size; ++i) row += hinge.factor[i] * at(x, hinge.vertex[i]);
-  const Vector first = Direction(AreaVector(x, hinge.corners[0]).value).unit;
-  const Vector second = Direction(AreaVector(x, hinge.corners[1]).value).unit;
+  for (std::size_t i = 0; i < hinge.size; ++i) row += hinge.factor[i] * in_space(sheet, hinge.vertex[i]);
+  const Vector first = normal(hinge.corners[0]), second = normal(hinge.corners[1]);
   return row.dot(Direction(first + hinge.second_side * second).unit);
 }
 
-void CurvedBending::place(Hinge& hinge, const Field& x) {
-  hinge.excess.setZero();
-  for (std::size_t i = 0; i < hinge.size; ++i) {
-    hinge.excess += hinge.factor[i] * at(x, hinge.vertex[i]);
-    hinge.derivative[i] = hinge.factor[i] * Matrix3d::Identity();
-  }
-  const std::array<AreaVector, 2> area{AreaVector(x, hinge.corners[0]), AreaVector(x, hinge.corners[1])};
+CurvedBending::Vector CurvedBending::excess_at(const Hinge& hinge, const Field& x) {
+  Vector excess = Vector::Zero();
+  for (std::size_t i = 0; i < hinge.size; ++i) excess += hinge.factor[i] * at(x, hinge.vertex[i]);
+  const Vector first = Direction(AreaVector(corners_at(x, hinge.corners[0])).value).unit;
+  const Vector second = Direction(AreaVector(corners_at(x, hinge.corners[1])).value).unit;
+  return excess - hinge.rest * Direction(first + hinge.second_side * second).unit;
+}
+
+CurvedBending::Derivatives CurvedBending::derivatives_at(const Hinge& hinge, const Field& x) {
+  Derivatives derivative{};
+  for (std::size_t i = 0; i < hinge.size; ++i) derivative[i] = hinge.factor[i] * Matrix3d::Identity();
+  const std::array<AreaVector, 2> area{AreaVector(corners_at(x, hinge.corners[0])),
+                                       AreaVector(corners_at(x, hinge.corners[1]))};
   const std::array<Direction, 2> normal{Direction(area[0].value), Direction(area[1].value)};
   const std::array<double, 2> side{1, hinge.second_side};
   const Direction bisector(normal[0].unit + side[1] * normal[1].unit);
-  hinge.excess -= hinge.rest * bisector.unit;
   for (std::size_t n = 0; n < 2; ++n) {
     const Matrix3d by_area = hinge.rest * side[n] * bisector.derivative * normal[n].derivative;
     for (std::size_t k = 0; k < 3; ++k) {
       const auto i =
           to_size(std::find(hinge.vertex.begin(), hinge.vertex.end(), hinge.corners[n][k]) - hinge.vertex.begin());
-      hinge.derivative[i] -= by_area * area[n].derivative[k];
+      derivative[i] -= by_area * area[n].derivative[k];
     }
   }
+  return derivative;
 }
 
 void CurvedBending::rotate(const Field& x) {
-  for (Hinge& hinge : hinges_) place(hinge, x);
+  x_ = x;
+  derived_ = false;
+  for (Hinge& hinge : hinges_)
+    if (hinge.size > 0) hinge.excess = excess_at(hinge, x);
+}
+
+const std::vector<CurvedBending::Derivatives>& CurvedBending::derivatives() const {
+  if (std::exchange(derived_, true)) return derivatives_;
+  derivatives_.resize(hinges_.size());
+  for (std::size_t h = 0; h < hinges_.size(); ++h)
+    if (hinges_[h].size > 0) derivatives_[h] = derivatives_at(hinges_[h], x_);
+  return derivatives_;
 }
 
 void CurvedBending::add_force(double factor, Field& f) const {
-  for (const Hinge& hinge : hinges_)
-    for (std::size_t i = 0; i < hinge.size; ++i)
-      f.segment<3>(3 * to_index(to_size(hinge.vertex[i]))) -= factor * hinge.derivative[i].transpose() * hinge.excess;
+  const std::vector<Derivatives>& by = derivatives();
+  for (std::size_t h = 0; h < hinges_.size(); ++h)
+    for (std::size_t i = 0; i < hinges_[h].size; ++i)
+      f.segment<3>(3 * to_index(to_size(hinges_[h].vertex[i]))) -= factor * by[h][i].transpose() * hinges_[h].excess;
 }
 
 void CurvedBending::add_stiffness(double factor, BlockMatrix<3>& blocks) {
-  auto place = places_.begin();
-  for (const Hinge& hinge : hinges_)
+  const std::vector<Derivatives>& by = derivatives();
+  for (std::size_t h = 0; h < hinges_.size(); ++h) {
+    Hinge& hinge = hinges_[h];
+    auto place = hinge.places.begin();
     for (std::size_t i = 0; i < hinge.size; ++i) {
       const auto row = to_size(hinge.vertex[i]);
       const auto columns = blocks.columns(row);
       for (std::size_t k = 0; k < hinge.size; ++k, ++place) {
         if (to_size(*place) >= columns.size() || columns[to_size(*place)] != hinge.vertex[k])
           *place = to_int32(std::find(columns.begin(), columns.end(), hinge.vertex[k]) - columns.begin());
-        blocks.block(blocks.first_slot(row) + *place) += factor * hinge.derivative[i].transpose() * hinge.derivative[k];
+        if (to_size(*place) == columns.size()) throw std::logic_error("curved bending: a row lacks a hinge's column");
+        blocks.block(blocks.first_slot(row) + *place) += factor * by[h][i].transpose() * by[h][k];
       }
     }
+  }
 }
 
 double CurvedBending::energy() const {

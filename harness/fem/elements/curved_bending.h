@@ -23,10 +23,11 @@ namespace cutbench {
 
 class CurvedBending {
  public:
-  /// Takes over the rows and the rest positions in space (Sheet::position()). Cost: the whole sheet.
-  /// \pre `bending` is of hinges, and up to date
+  /// Takes over the rows that were made last, and the rest positions in space (Sheet::position()).
+  /// \pre `bending` is of hinges, and up to date, and was so at each of its updates before
   void update(const Sheet& sheet, const Bending& bending);
-  /// The functions below refer to these positions, three numbers a vertex.
+  /// The functions below refer to these positions, three numbers a vertex. Derivatives are computed where the first of
+  /// them asks for them.
   void rotate(const Field& x);
   void add_force(double factor, Field& f) const;  ///< N
   /// blocks += factor T. \pre each row has the columns of the stencils that hold its vertex
@@ -40,18 +41,22 @@ class CurvedBending {
     std::array<std::int32_t, 6> vertex{};                  // these, each once
     std::array<double, 6> factor{};                        // c
     std::size_t size = 0;
-    double second_side = 1;  // -1: the second triangle is turned over, as one of a Moebius strip
-    double rest = 0;         // s
-    // At the positions of rotate().
-    Vector excess = Vector::Zero();               // r - s n
-    std::array<Eigen::Matrix3d, 6> derivative{};  // of it, by each vertex
+    double second_side = 1;                 // -1: the second triangle is turned over, as one of a Moebius strip
+    double rest = 0;                        // s
+    Vector excess = Vector::Zero();         // r - s n, at the positions of rotate()
+    std::array<std::int32_t, 36> places{};  // of the blocks in their rows, pair by pair: where they were last
   };
+  using Derivatives = std::array<Eigen::Matrix3d, 6>;  // of a hinge's excess, by each vertex
   static Hinge hinge_of(const Sheet& sheet, const Bending& bending, TriangleIndex t, std::size_t k, HalfEdge across);
-  static void place(Hinge& hinge, const Field& x);
-  static double at_rest(const Hinge& hinge, const Field& x);
+  static Vector excess_at(const Hinge& hinge, const Field& x);
+  static Derivatives derivatives_at(const Hinge& hinge, const Field& x);
+  static double at_rest(const Hinge& hinge, const Sheet& sheet);
+  const std::vector<Derivatives>& derivatives() const;
 
-  std::vector<Hinge> hinges_;
-  std::vector<std::int32_t> places_;  // of the blocks in their rows, pair by pair: where they were last
+  std::vector<Hinge> hinges_;  // three for each triangle slot; of size 0 where there is none
+  Field x_;                    // of rotate()
+  mutable std::vector<Derivatives> derivatives_;
+  mutable bool derived_ = false;
 };
 
 }  // namespace cutbench

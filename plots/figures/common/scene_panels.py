@@ -21,7 +21,7 @@ class Shot:
     title: str
     time: float  # s
     camera: render.Camera = render.Camera()
-    ground: float = -0.6  # m
+    ground: float | None = -0.6  # m; None: no shadow
     box: tuple = ()  # (x0, x1, y0, y1) of the picture, m at the camera's centre; empty: all that moves
     sheet: str = "1 m square, the skin of paper_table1"
 

@@ -44,7 +44,7 @@ def main():
     results = parser.parse_args().results
     folders = overview.folders_of(results)
     descriptions = [frame_files.read_description(d) for d in folders]
-    n = scene_frames.same((d["triangles_before"] for d in descriptions), "the number of triangles")
+    n = ", ".join(map(str, sorted({d["triangles_before"] for d in descriptions})))
     columns = min(4, len(folders))
     rows = -(-len(folders) // columns)
     figure, axes = plt.subplots(rows, columns, figsize=(style.PAGE, 1.05 * rows), squeeze=False, sharey=True)

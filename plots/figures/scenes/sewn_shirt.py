@@ -11,5 +11,5 @@ from figures.common.scene_panels import Shot, main
 
 if __name__ == "__main__":
     main("sewn_shirt", __doc__,
-         [Shot("sewn_shirt", "", 0.5, Camera(centre=(0.4, 0.3, 0), azimuth=20, elevation=25, distance=3), ground=-0.6,
+         [Shot("sewn_shirt", "", 0.4, Camera(centre=(0.4, 0, 0.3), azimuth=25, elevation=15, distance=4), ground=None,
                sheet="two panels of cotton with six seams")])

@@ -11,5 +11,5 @@ from figures.common.scene_panels import Shot, main
 
 if __name__ == "__main__":
     main("skin_ellipse", __doc__,
-         [Shot("skin_ellipse", "", 0.2, Camera(centre=(0, 0, 0.02), azimuth=20, elevation=50, distance=0.6), ground=-0.05,
+         [Shot("skin_ellipse", "", 0.133, Camera(centre=(0, 0, 0), azimuth=15, elevation=40, distance=0.6), ground=None,
                sheet="a curved patch, 0.1 m")])

@@ -11,5 +11,5 @@ from figures.common.scene_panels import Shot, main
 
 if __name__ == "__main__":
     main("sleeve_ring", __doc__,
-         [Shot("sleeve_ring", "", 0.25, Camera(centre=(0.25, 0, 0), azimuth=30, elevation=20, distance=2), ground=-0.5,
-               sheet="0.5 m of a sleeve")])
+         [Shot("sleeve_ring", "", 0.2, Camera(centre=(0, 0, -0.25), azimuth=25, elevation=20, distance=3), ground=None,
+               box=(-0.2, 0.2, -0.25, 0.29), sheet="0.4 m of a sleeve")])
