@@ -285,6 +285,31 @@ void append_tolerances(std::vector<MethodRow>& all) {
   });
 }
 
+/// adaptive_remesh with another weight of what the deformed sheet asks for.
+void append_deformed_terms(std::vector<MethodRow>& all) {
+  const auto append = [&](const char* name, const char* of, Parameter parameter, double DeformedTerms::*of_term) {
+    parameter.value = DeformedTerms().*of_term;
+    all.push_back({std::string("adaptive_remesh:") + name, std::string("adaptive_remesh with another term of ") + of,
+                   parameter, promises_of(all, "adaptive_remesh"), [of_term](double value) {
+                     AdaptiveRemesh::Options options;
+                     options.deformed.*of_term = value;
+                     return std::make_unique<AdaptiveRemesh>(options);
+                   }});
+  };
+  append("angle", "curvature",
+         {"angle",
+          0,
+          "by which the sheet bends along an edge at most, radians; 0: no such term",
+          {.least = 0.05, .most = 3, .or_zero = true}},
+         &DeformedTerms::angle);
+  append("compression", "compression",
+         {"amplitude",
+          0,
+          "amplitude of the buckles for which a compressed sheet is made fine, mean rest edges; 0: no such term",
+          {.least = 0.01, .most = 10, .or_zero = true}},
+         &DeformedTerms::compression);
+}
+
 /// The paper's local split, read otherwise.
 void append_split_readings(std::vector<MethodRow>& all) {
   using Reading = SplitReading::Reading;
@@ -308,31 +333,7 @@ std::vector<MethodRow>& nameable_table() {
     all.insert(all.end(), ablation_methods().begin(), ablation_methods().end());
     append_tolerances(all);
     append_split_readings(all);
-    all.push_back({"adaptive_remesh:angle",
-                   "adaptive_remesh with another term of curvature",
-                   {"angle",
-                    DeformedTerms().angle,
-                    "by which the sheet bends along an edge at most, radians; 0: no such term",
-                    {.least = 0.05, .most = 3, .or_zero = true}},
-                   promises_of(all, "adaptive_remesh"),
-                   [](double angle) {
-                     AdaptiveRemesh::Options options;
-                     options.deformed.angle = angle;
-                     return std::make_unique<AdaptiveRemesh>(options);
-                   }});
-    all.push_back({"adaptive_remesh:compression",
-                   "adaptive_remesh with another term of compression",
-                   {"amplitude",
-                    DeformedTerms().compression,
-                    "amplitude of the buckles for which a compressed sheet is made fine, mean rest edges; 0: no such "
-                    "term",
-                    {.least = 0.01, .most = 10, .or_zero = true}},
-                   promises_of(all, "adaptive_remesh"),
-                   [](double amplitude) {
-                     AdaptiveRemesh::Options options;
-                     options.deformed.compression = amplitude;
-                     return std::make_unique<AdaptiveRemesh>(options);
-                   }});
+    append_deformed_terms(all);
     all.push_back({"cut_polygons:stabilisation",
                    "cut_polygons with another stabilisation",
                    {"tau",

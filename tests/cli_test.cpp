@@ -284,6 +284,108 @@ TEST_F(Cli, SimulateSaysWhatStepsCost) {
   expect_refused(run("simulate '" + scene + "' --steps none/s.csv"), "none");
 }
 
+/// A sheet that hangs from its left side, and is cut from the right; more lines for [physics] and [integrator].
+std::string hanging(const std::string& physics, const std::string& integrator) {
+  return "effect = \"e\"\ntruth = \"t\"\nduration = 0.1\n[sheet]\nfamily = \"grid\"\nsize = 1.0\nresolution = 200\n"
+         "[material]\ndensity = 2.2\nstiffness = 1000.0\npoisson = 0.3\nbending = 4e-4\n"
+         "[physics]\ngravity = [0.0, 0.0, -9.81]\n" +
+         physics + "\n[[pins]]\nbox = [[-inf, -inf], [0.0, inf]]\n[integrator]\n" + integrator +
+         "\n[[cuts]]\ntime = 0.05\npolyline = [[0.52, 0.47], [1.1, 0.53]]\n";
+}
+
+TEST_F(Cli, SimulateSaysThatACutWasRefused) {
+  write(folder_ / "s.toml", hanging("bending = \"hinges\"", "name = \"backward_euler\"\nstep = 0.01"));
+  const auto result = run("simulate s.toml --method cut_polygons --report r.json --frames frames");
+  EXPECT_EQ(result.code, 1) << result.error;
+  EXPECT_EQ(lines_of(result.out).back().find("ok, but 1 of 1 cuts was refused: the method's polygons have no hinges"),
+            0u)
+      << lines_of(result.out).back();
+  for (const char* file : {"r.json", "frames/simulation.json"}) {
+    const auto report = nlohmann::json::parse(read(folder_ / file));
+    EXPECT_EQ(report["verdict"], "ok");
+    EXPECT_EQ(report["cuts_refused"], 1);
+    EXPECT_EQ(report["reason"].get<std::string>().find("1 of 1 cuts was refused: the method's"), 0u);
+  }
+}
+
+/// No energy, no residual, and no solver where steps are sweeps or explicit.
+TEST_F(Cli, SimulateSaysWhatItDidNotJudge) {
+  for (const std::string integrator : {"xpbd", "vbd", "symplectic_euler"}) {
+    const bool sweeps = integrator != "symplectic_euler";
+    write(folder_ / "s.toml", hanging("bending = \"hinges\"", "name = \"" + integrator + "\"\nstep = " +
+                                                                  (sweeps ? "0.005\nsweeps = 4" : "1e-4")));
+    const auto result = run("simulate s.toml --method edge_release --report r.json --steps s.csv");
+    ASSERT_EQ(result.code, 0) << result.error << result.out;
+    EXPECT_EQ(lines_of(result.out).back().find("no energy is judged") != std::string::npos, sweeps);
+    EXPECT_EQ(result.out.find("largest residual"), std::string::npos);
+    const auto report = nlohmann::json::parse(read(folder_ / "r.json"));
+    EXPECT_EQ(report["energy_judged"], !sweeps);
+    EXPECT_TRUE(report["cost"]["iterations"]["largest_residual"].is_null());
+    EXPECT_TRUE(report["solver"].is_null());
+    EXPECT_EQ(lines_of(read(folder_ / "s.csv"))[1].back(), ',');
+    expect_refused(run("simulate s.toml --solver multigrid"), "--solver: " + integrator);
+  }
+}
+
+TEST_F(Cli, SimulateCountsNothingAfterTheVerdict) {
+  std::string scene = hanging("", "name = \"backward_euler\"\nnewton = 1\nstep = 0.05");
+  const auto replace = [&](const std::string& what, const std::string& by) {
+    scene.replace(scene.find(what), what.size(), by);
+  };
+  replace("duration = 0.1", "duration = 2.0");
+  replace("stiffness = 1000.0", "stiffness = 1e6");
+  replace("density = 2.2", "density = 0.2");
+  replace("time = 0.05", "time = 1.9");
+  write(folder_ / "s.toml", scene);
+  const auto result = run("simulate s.toml --report r.json --frames frames");
+  const auto report = nlohmann::json::parse(read(folder_ / "r.json"));
+  ASSERT_EQ(report["verdict"], "energy_growth") << result.out;
+  const double time = report["verdict_time_s"];
+  ASSERT_LT(time, 1.5);
+  EXPECT_NEAR(report["cost"]["simulated_s"].get<double>(), time, 1e-9);
+  EXPECT_EQ(report["cuts"], 0);
+  char until[48];
+  std::snprintf(until, sizeof until, "budget until %.4g s:", time);
+  EXPECT_NE(result.out.find(until), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("1 more cuts came after the verdict"), std::string::npos) << result.out;
+  // The gain that is printed is the one that the verdict names.
+  std::smatch named, printed;
+  const std::string reason = report["reason"];
+  ASSERT_TRUE(std::regex_search(reason, named, std::regex("rose by ([^ ]+) %")));
+  const auto& gains = report["gains"];
+  char text[32];
+  bool is_one = false;
+  for (const auto& gain : gains) {
+    std::snprintf(text, sizeof text, "%.2g", 100 * gain.get<double>());
+    is_one |= named[1] == text;
+  }
+  EXPECT_TRUE(is_one) << reason << gains;
+}
+
+/// A run that goes on where it was stopped prints the table of all its rows.
+TEST_F(Cli, AResumedRunPrintsTheTableOfAllRows) {
+  write(folder_ / "e.toml", small_experiment("every_edge = true\ncold = true\n"));
+  const auto whole = run("run e.toml --out whole");
+  ASSERT_EQ(whole.code, 0);
+  const auto table_of = [](const Result& result) {  // without the times, in the last columns but two
+    std::multiset<std::string> rows;
+    for (const std::string& line : lines_of(result.out)) rows.insert(line.substr(0, 85));
+    return rows;
+  };
+  fs::create_directories(folder_ / "r/e/records.csv/in_the_way");  // so that the run ends without its records
+  EXPECT_EQ(run("run e.toml --out r").code, 1);
+  fs::remove_all(folder_ / "r/e/records.csv");
+  const fs::path part = folder_ / "r/e/records.csv.part";
+  const auto lines = lines_of(read(part));
+  std::string text;
+  for (std::size_t i = 0; i < 10; ++i) text += lines.at(i) + "\n";
+  write(part, text);
+  const auto resumed = run("run e.toml --out r");
+  ASSERT_EQ(resumed.code, 0);
+  EXPECT_NE(resumed.error.find("resumed, 9 rows"), std::string::npos) << resumed.error;
+  EXPECT_EQ(table_of(resumed), table_of(whole)) << resumed.out << whole.out;
+}
+
 TEST_F(Cli, ShardsPartTheCases) {
   write(folder_ / "e.toml", small_experiment());
   ASSERT_EQ(run("run e.toml --out whole").code, 0);

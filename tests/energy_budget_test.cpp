@@ -106,6 +106,59 @@ TEST(EnergyBudget, JumpsAreJudgedByThemselves) {
   EXPECT_NE(budget.fault().find("jumps"), std::string::npos);
 }
 
+TEST(EnergyBudget, PotentialEnergyThatLeavesWithMaterialIsNoError) {
+  Balance first, fewer;
+  first.energy = {.membrane = 10, .potential = -50};
+  fewer.energy = {.membrane = 9, .potential = -20};
+  EnergyBudget kept(first), less(first);
+  kept.add_cut(first, fewer);
+  EXPECT_NE(kept.fault().find("jumps"), std::string::npos);
+  less.add_cut(first, fewer, false);
+  EXPECT_EQ(less.fault(), "");
+  EXPECT_EQ(less.rows().back().jumps, 29) << "the budget closes all the same";
+}
+
+TEST(EnergyBudget, WhatFollowsTheVerdictDoesNotCount) {
+  Balance first, more;
+  first.energy.membrane = 10;
+  more.energy.membrane = 13;
+  EnergyBudget budget(first);
+  budget.stop_judging();
+  budget.add_cut(first, more);
+  EXPECT_EQ(budget.gains().jumps, 0);
+  EXPECT_EQ(budget.rows().back().jumps, 3);
+}
+
+/// A jump that the step right after loses again, in a cut that made a fold sharper, has moved nothing.
+TEST(EnergyBudget, ARobustStepShowsWhatIsLeftOfAJump) {
+  for (const bool robust : {false, true}) {
+    Body<3> body = shaken(Mass::lumped, skin);
+    StepOptions options = steps_of(1.0 / 120);
+    options.robust = robust;
+    Stepper<3> stepper(options);
+    EnergyBudget budget(balance_of(body.model, body.state), Integrator::backward_euler, 0, 0, robust);
+    const auto step = [&] {
+      const State before = body.state;
+      ASSERT_EQ(stepper.step(body.model, body.state).verdict, Verdict::ok);
+      budget.add_step(body.model, before, body.state, 1.0 / 120);
+    };
+    for (int n = 0; n < 10; ++n) step();
+    const Balance before = balance_of(body.model, body.state);
+    const Eigen::Index inner = 3 * 40;
+    body.state.x[inner + 2] += 0.02;  // as if a cut had done it: a dent
+    const Balance after = balance_of(body.model, body.state);
+    budget.add_cut(before, after);
+    for (int n = 0; n < 5; ++n) step();
+    const double jump = after.energy.total() - before.energy.total();
+    const BudgetRow& end = budget.rows().back();
+    EXPECT_NEAR(end.jumps, jump, 1e-12);
+    if (robust)
+      EXPECT_LT(budget.gains().jumps, 0.5 * jump / (after.energy.membrane + after.energy.bending));
+    else
+      EXPECT_GT(budget.gains().jumps, 0.9 * jump / (after.energy.membrane + after.energy.bending + 10));
+  }
+}
+
 /// A push: velocities made larger between two steps are energy out of nowhere. So much damping that the total falls
 /// even so.
 TEST(EnergyBudget, GrowthIsWhatNothingExplains) {

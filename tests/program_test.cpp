@@ -14,6 +14,13 @@ namespace {
 
 const std::string split = "python3 " CUTBENCH_EXPERIMENTS "/examples/split.py {mesh} {path} {out}";
 
+std::string to_text(const Promises& p) {
+  std::ostringstream text;
+  text << p.exact_incision << p.keeps_area << p.conforming << p.keeps_vertices << ' ' << p.incision_bound.longest_edges
+       << ' ' << p.incision_bound.chord_tolerances;
+  return text.str();
+}
+
 class Programs : public Program {
  protected:
   void SetUp() override {
@@ -47,6 +54,58 @@ TEST_F(Programs, CutASheet) {
   EXPECT_EQ(report["geometry_us"], report["process_us"]);
   EXPECT_TRUE(report["embed_us"].is_null());
   EXPECT_EQ(run("score --mesh sheet.obj --path path.json --result out.obj").code, 0);
+}
+
+/// The method element_deletion as a program: it is judged, and taken over, as the method is.
+TEST_F(Programs, MayDeleteTriangles) {
+  EXPECT_EQ(to_text(promises_of_deleting_programs), to_text(find_method("element_deletion").promises));
+  const std::string program =
+      std::string(CUTBENCH_PROGRAM) + " cut --mesh {mesh} --path {path} --out {out} --method element_deletion";
+  const std::vector<std::string> cuts{R"({"cuts":[{"polyline":[[0.21,0.33],[0.52,0.41],[0.83,0.64]]}]})",
+                                      R"({"cuts":[{"polyline":[[0.2,0.7],[0.7,0.2],[0.9,0.9]]}]})",  // across the first
+                                      R"({"cuts":[{"polyline":[[0,0.5],[1,0.5]]}]})",  // along edges of the grid
+                                      R"({"cuts":[{"bezier":[[-0.1,0.3],[0.3,0.9],[0.6,0.1],[1.1,0.7]]}]})"};
+  for (const std::string family : {"delaunay", "grid"}) {
+    write_mesh(lifted(make_sheet(family, 10)), folder_ / "by_program.obj");
+    write_mesh(lifted(make_sheet(family, 10)), folder_ / "by_method.obj");
+    for (const std::string& path : cuts) {
+      write(folder_ / "path.json", path);
+      const Result made =
+          run("cut --mesh by_program.obj --path path.json --out by_program.obj --deletes --command '" + program + "'");
+      const Result own = run("cut --mesh by_method.obj --path path.json --out by_method.obj --method element_deletion");
+      EXPECT_EQ(made.code, own.code) << path << made.error << own.error;
+      EXPECT_EQ(made.out.substr(0, made.out.find(" pieces")), own.out.substr(0, own.out.find(" pieces")));
+    }
+    const Sheet a(read_mesh(folder_ / "by_program.obj")), b(read_mesh(folder_ / "by_method.obj"));
+    EXPECT_EQ(a.triangle_count(), b.triangle_count());
+    EXPECT_EQ(a.deformed_count(), b.deformed_count()) << "as many vertices: the same is open";
+  }
+  const Result without = cut_by(program);
+  EXPECT_EQ(without.code, 1);
+  EXPECT_NE(without.error.find("lost_triangle"), std::string::npos) << without.error;
+  EXPECT_EQ(cut_by(split, "--deletes").code, 1) << "it divides";
+  EXPECT_EQ(run("cut --mesh sheet.obj --path path.json --out out.obj --method example --deletes").code, 2);
+}
+
+TEST_F(Programs, ThatDeleteAreRowsOfAComparison) {
+  const std::string program =
+      std::string(CUTBENCH_PROGRAM) + " cut --mesh {mesh} --path {path} --out {out} --method element_deletion";
+  std::string experiment = small_experiment();
+  const std::size_t begin = experiment.find("methods = ");
+  experiment.replace(
+      begin, experiment.find('\n', begin) - begin,
+      "methods = [\"element_deletion\", {name = \"named\", deletes = true, command = \"" + program + "\"}]");
+  write(folder_ / "e.toml", experiment);
+  const Result made = run("run e.toml --cases 1 --out r --command 'given=" + program + "' --deletes given");
+  ASSERT_EQ(made.code, 0) << made.error;
+  std::map<std::string, std::vector<std::string>> by_method;
+  for (const Record& row : records("e"))
+    if (row.get("repetition") == "0")
+      by_method[row.get("method")].push_back(row.get("status") + row.get("verdict") + row.get("triangles_added") +
+                                             row.get("pieces"));
+  EXPECT_EQ(by_method["named"], by_method["element_deletion"]);
+  EXPECT_EQ(by_method["given"], by_method["element_deletion"]);
+  EXPECT_EQ(run("run e.toml --cases 1 --out r --deletes none").code, 2);
 }
 
 TEST_F(Programs, TheirOwnTimeCounts) {

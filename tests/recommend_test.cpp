@@ -109,6 +109,7 @@ TEST_F(Recommend, TheConvergedValueIsThatOfTheExactMotion) {
 TEST_F(Recommend, TheChoiceIsTheCheapestWhoseErrorIsSmallEnough) {
   const auto result = run(command("--max-error 0.05"));
   ASSERT_EQ(result.code, 0) << result.out << result.error;
+  EXPECT_NE(result.error.find("running "), std::string::npos) << "it takes minutes, and says what it is at";
   const auto r = report();
   const auto& chosen = r["trials"][r["chosen"].get<std::size_t>()];
   bool one_is_too_coarse = false;
@@ -274,6 +275,8 @@ TEST_F(Recommend, QuestionsLeadToAMethod) {
     EXPECT_NE(result.out.find("take " + method), std::string::npos) << result.out;
     EXPECT_NE(result.out.find("--method " + method + "\n"), std::string::npos) << result.out;
     EXPECT_EQ(result.out.find("{}"), std::string::npos) << result.out;
+    const auto has = [&](const char* text) { return result.out.find(text) != std::string::npos; };
+    EXPECT_EQ(has("cut_polygons"), has("no hinges")) << "a scene with hinges refuses polygons: " << result.out;
     return result.out;
   };
   takes("--yes explicit,diagonal", "", "cut_polygons");

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "harness/base/conversions.h"
+#include "harness/base/products_in_space.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/mesh_text.h"
 #include "harness/mesh/overlaps.h"
@@ -174,7 +175,7 @@ TEST(RestChoice, OverlapsAsByAllPairs) {
 
 double area(const std::vector<Point3>& p, const std::array<std::size_t, 3>& t) {
   const Point3 a = p[t[1]] + -1.0 * p[t[0]], b = p[t[2]] + -1.0 * p[t[0]];
-  return length(Point3{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}) / 2;
+  return length(cross(a, b)) / 2;
 }
 
 TEST(Triangulate, ShorterDiagonalAndEars) {

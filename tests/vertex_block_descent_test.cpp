@@ -4,40 +4,21 @@
 #include <gtest/gtest.h>
 
 #include "harness/base/conversions.h"
-#include "harness/fem/time/stepper.h"
-#include "tests/fem_helpers.h"
+#include "tests/cut_flag.h"
 
 namespace cutbench {
 namespace {
 
-const Material skin{
-    .density = 2.2, .stiffness = 100, .poisson = 0.3, .bending = 1e-2, .mass_damping = 0.5, .stiffness_damping = 2e-3};
 constexpr double h = 1.0 / 60;
 
 StepOptions swept(int sweeps, double step = h) {
   return {.integrator = Integrator::vbd, .step = step, .sweeps = sweeps, .solver = {}};
 }
 
-/// Hangs from its left side, with a cut from the right, and falls.
-template <int D>
-Body<D> cut_flag(Strain strain, BendingKind bending = BendingKind::none, Material material = skin) {
-  Body<D> body(make_sheet("delaunay", 4), material,
-               {.dimension = D, .strain = strain, .bending = bending, .gravity = {0, -9.81, D == 3 ? -5.0 : 0}},
-               {{.where = {{0, 0}, {0, 1}}}});
-  EXPECT_EQ(body.cut(line({0.45, 0.52}, {1.1, 0.47})), Status::ok);
-  return body;
-}
-
-template <int D>
-void advance(Body<D>& body, const StepOptions& options, int steps) {
-  Stepper<D> stepper(options);
-  for (int i = 0; i < steps; ++i) ASSERT_EQ(stepper.step(body.model, body.state).verdict, Verdict::ok);
-}
-
 template <int D>
 void expect_backward_euler(Strain strain, BendingKind bending, double damping) {
   SCOPED_TRACE(name_of(strain_names, strain));
-  Material material = skin;
+  Material material = flag_skin;
   material.stiffness_damping = damping;
   auto swept_sheet = cut_flag<D>(strain, bending, material), solved_sheet = swept_sheet;
   const Field start = swept_sheet.state.x;
@@ -62,7 +43,7 @@ TEST(VertexBlockDescent, ManySweepsAreBackwardEuler) {
 
 /// The energy that a step minimises falls with every sweep, also where the sheet is very stiff and torn about.
 TEST(VertexBlockDescent, EverySweepGoesDownhill) {
-  Material stiff = skin;
+  Material stiff = flag_skin;
   stiff.stiffness = 1e5;
   stiff.stiffness_damping = stiff.mass_damping = 0;
   auto body = cut_flag<3>(Strain::corotational, BendingKind::patches, stiff);

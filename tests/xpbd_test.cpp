@@ -7,14 +7,11 @@
 #include <random>
 
 #include "harness/base/conversions.h"
-#include "harness/fem/time/stepper.h"
-#include "tests/fem_helpers.h"
+#include "tests/cut_flag.h"
 
 namespace cutbench {
 namespace {
 
-const Material skin{
-    .density = 2.2, .stiffness = 100, .poisson = 0.3, .bending = 1e-2, .mass_damping = 0.5, .stiffness_damping = 2e-3};
 constexpr double h = 1.0 / 60;
 
 StepOptions swept(int sweeps, double step = h) {
@@ -24,25 +21,9 @@ StepOptions solved(int newton) {
   return {.integrator = Integrator::backward_euler, .step = h, .newton = newton, .solver = {.name = "cholmod"}};
 }
 
-/// Hangs from its left side, with a cut from the right, and falls.
-template <int D>
-Body<D> cut_flag(Strain strain, BendingKind bending = BendingKind::none) {
-  Body<D> body(make_sheet("delaunay", 4), skin,
-               {.dimension = D, .strain = strain, .bending = bending, .gravity = {0, -9.81, D == 3 ? -5.0 : 0}},
-               {{.where = {{0, 0}, {0, 1}}}});
-  EXPECT_EQ(body.cut(line({0.45, 0.52}, {1.1, 0.47})), Status::ok);
-  return body;
-}
-
 template <int D>
 double largest_difference(const Body<D>& a, const Body<D>& b) {
   return (a.state.x - b.state.x).cwiseAbs().maxCoeff();
-}
-
-template <int D>
-void advance(Body<D>& body, const StepOptions& options, int steps) {
-  Stepper<D> stepper(options);
-  for (int i = 0; i < steps; ++i) ASSERT_EQ(stepper.step(body.model, body.state).verdict, Verdict::ok);
 }
 
 /// All constraints are linear then, so that sweeps converge to the one solution, with both dampings.
@@ -93,7 +74,7 @@ TEST(Xpbd, SmallStepsAreBetterThanOneSweep) {
 
 /// Sweeps move vertices against each other only: a sheet that is held nowhere keeps its momentum.
 TEST(Xpbd, ASweepKeepsTheMomentum) {
-  Material undamped = skin;
+  Material undamped = flag_skin;
   undamped.mass_damping = 0;
   for (const Strain strain : {Strain::linear, Strain::corotational, Strain::green, Strain::springs}) {
     SCOPED_TRACE(name_of(strain_names, strain));
@@ -114,7 +95,7 @@ TEST(Xpbd, ASweepKeepsTheMomentum) {
 /// Pins move as they are told, and what is between them follows.
 TEST(Xpbd, PinsDrawASheetApart) {
   std::vector<Pin> pins{{.where = {{0, 0}, {0, 1}}}, {.where = {{1, 0}, {1, 1}}, .velocity = {0.5, 0, 0}}};
-  Body<2> body(make_sheet("grid", 4), skin, {.dimension = 2}, pins);
+  Body<2> body(make_sheet("grid", 4), flag_skin, {.dimension = 2}, pins);
   advance(body, swept(200), 12);
   double mean = 0, count = 0;
   for (std::size_t v = 0; v < body.model.vertices(); ++v) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "experiments/advice/scene_run.h"
 #include "harness/base/conversions.h"
@@ -48,6 +49,9 @@ SceneTrial SceneTrials::run(const Choice& choice, double tolerance, double time_
   Scene scene = scene_of(choice);
   scene.solver.tolerance = tolerance;
   const auto method = method_of(choice);
+  // Some take minutes, and nobody knows beforehand how many there will be.
+  std::fprintf(stderr, "running %s, %s, %d triangles, %d steps\n", choice.method.c_str(), choice.solver.c_str(),
+               choice.resolution, choice.steps);
   const SceneRun made = run_to_end(scene, *method, cut_, time_limit);
   return {.choice = choice,
           .verdict = made.verdict,

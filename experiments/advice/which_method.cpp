@@ -25,7 +25,8 @@ MethodChoice choice_of(const TomlReader& row) {
           .says = row.value<std::string>("says"),
           .because = row.value<std::string>("because"),
           .runner_up = row.value<std::string>("runner_up"),
-          .runner_up_because = row.value<std::string>("runner_up_because")};
+          .runner_up_because = row.value<std::string>("runner_up_because"),
+          .but = row.value<std::string>("but", "")};
 }
 
 void print_command(const std::string& method) {
@@ -43,7 +44,7 @@ WhichMethod which_method_table() {
     table.questions.push_back({question.value<std::string>("key"), question.value<std::string>("asks")});
   for (const TomlReader& row : reader.sections("rows", "row",
                                                {"if", "yes", "no", "any", "method", "setting", "number", "value",
-                                                "says", "because", "runner_up", "runner_up_because"}))
+                                                "says", "because", "but", "runner_up", "runner_up_because"}))
     table.rows.push_back(choice_of(row));
   return table;
 }
@@ -73,6 +74,7 @@ void print_choice(const MethodChoice& choice) {
               choice.setting.empty() ? "" : (", with " + choice.setting + " in [physics] of the scene").c_str());
   std::printf("  %s (published records; in brackets 95 %%)\n", says.c_str());
   std::printf("  because: %s\n", choice.because.c_str());
+  if (!choice.but.empty()) std::printf("  but: %s\n", choice.but.c_str());
   std::printf("runner-up: %s, %s\n", choice.runner_up.c_str(), choice.runner_up_because.c_str());
   std::printf("try both:\n");
   print_command(choice.method);

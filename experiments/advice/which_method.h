@@ -18,6 +18,7 @@ struct MethodChoice {
   std::string method, setting;            ///< setting: of a scene's [physics]; may be empty
   std::string value, says;                ///< a number of the published records, and a sentence with {} in its place
   std::string because, runner_up, runner_up_because;
+  std::string but;  ///< what the method does not go with; may be empty
 };
 
 struct WhichMethod {

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 
 #include "experiments/program/cures.h"
 #include "experiments/program/drawing.h"
@@ -90,7 +91,8 @@ void print_balance(Simulation& motion) {
 }
 
 void print_cuts(const Simulation& motion) {
-  for (const MotionCut& cut : motion.made_cuts()) {
+  const std::size_t count = motion.outcome().cuts, later = motion.made_cuts().size() - count;
+  for (const MotionCut& cut : std::span(motion.made_cuts()).first(count)) {
     const Energy &a = cut.before.energy, &b = cut.after.energy;
     const std::string parts = cut.parts <= 1 ? "" : ", in " + std::to_string(cut.parts) + " parts";
     std::printf(
@@ -99,13 +101,16 @@ void print_cuts(const Simulation& motion) {
         b.bending - a.bending, b.kinetic - a.kinetic, cut.after.residual - cut.before.residual);
     if (cut.cut.status == Status::refused) std::printf("     %s\n", cut.reason.c_str());
   }
+  if (later > 0) std::printf("%zu more cuts came after the verdict, and do not count\n", later);
 }
 
 void print_budget(const EnergyBudget& budget) {
-  const BudgetRow& end = budget.rows().back();
+  const BudgetRow& end = budget.end();
   const EnergyBudget::Gains gains = budget.gains();
-  std::printf("budget: damping %.4g J, numerical loss %.4g J, work of pins %.4g J, jumps %.3g J, remainder %.3g J\n",
-              -end.damping, -end.numerical_loss, end.pin_work, end.jumps, end.remainder);
+  std::printf(
+      "budget until %.4g s: damping %.4g J, numerical loss %.4g J, work of pins %.4g J, jumps %.3g J, remainder %.3g "
+      "J\n",
+      end.time, -end.damping, -end.numerical_loss, end.pin_work, end.jumps, end.remainder);
   std::printf("gains of kinetic and elastic energy: remainder %.2g %%, jumps %.2g %%\n", 100 * gains.remainder,
               100 * gains.jumps);
 }
@@ -142,7 +147,9 @@ std::string description(const Scene& scene, const Simulation& motion, const Simu
                                   {"newton", scene.newton},
                                   {"verdict", name_of(motion.outcome().verdict)},
                                   {"reason", motion.outcome().reason}};
+  if (!solves(scene.integrator)) document["solver"] = document["solver_tolerance"] = nullptr;
   if (std::isfinite(options.cut.chord_tolerance)) document["chord_tolerance"] = options.cut.chord_tolerance;
+  document["cuts_refused"] = motion.outcome().refused;
   document["cuts"] = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < motion.made_cuts().size(); ++i) {
     const CutRun& made = motion.made_cuts()[i].cut;
@@ -164,7 +171,7 @@ std::string description(const Scene& scene, const Simulation& motion, const Simu
 
 void write_report(const Scene& scene, const SimulateOptions& options, const Simulation& motion,
                   const nlohmann::ordered_json& limits, const nlohmann::ordered_json& summary) {
-  const SimulationOutcome& outcome = motion.outcome();
+  const SimulationOutcome outcome = motion.outcome();
   nlohmann::ordered_json document{{"scene", scene.stem},
                                   {"method", options.method},
                                   {"integrator", name_of(integrator_names, scene.integrator)},
@@ -172,7 +179,11 @@ void write_report(const Scene& scene, const SimulateOptions& options, const Simu
                                   {"solver_tolerance", scene.solver.tolerance},
                                   {"step_s", scene.step},
                                   {"verdict", name_of(outcome.verdict)},
-                                  {"reason", outcome.reason}};
+                                  {"reason", outcome.reason},
+                                  {"cuts", outcome.cuts},
+                                  {"cuts_refused", outcome.refused},
+                                  {"energy_judged", motion.budget() != nullptr}};
+  if (!solves(scene.integrator)) document["solver"] = document["solver_tolerance"] = nullptr;
   document["verdict_time_s"] =
       outcome.verdict == Verdict::ok ? nlohmann::ordered_json() : nlohmann::ordered_json(outcome.time);
   document["explicit_step_limit_s"] = limits;
@@ -208,8 +219,7 @@ void make_steps(const Scene& scene, Simulation& motion, CuttingMethod& method, c
 void print_outcome(const SimulationOutcome& outcome, const Sheet& sheet) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  std::printf("%s", name_of(outcome.verdict));
-  if (outcome.verdict != Verdict::ok) std::printf(" at %.4g s: %s", outcome.time, outcome.reason.c_str());
+  std::printf("%s", outcome.text().c_str());
   std::printf("; %zu triangles, %zu pieces; peak memory %.0f MB\n", sheet.triangle_count(), count_pieces(sheet),
               to_double(usage.ru_maxrss) / 1024);
 }
@@ -231,18 +241,19 @@ bool simulate(const Scene& scene, CuttingMethod& method, const SimulateOptions& 
   const std::size_t triangles_before = motion->sheet().triangle_count();
   print_sheet(scene, *motion);
   make_steps(scene, *motion, method, options, frames ? &*frames : nullptr);
+  const SimulationOutcome outcome = motion->outcome();
   print_cuts(*motion);
   if (motion->budget()) print_budget(*motion->budget());
   const bool static_solve = scene.integrator == Integrator::equilibrium;
   nlohmann::ordered_json summary, limits;
-  if (!motion->steps().empty() && !static_solve) summary = summary_of(motion->steps(), motion->time());
+  const std::span counted = std::span(motion->steps()).first(outcome.steps);
+  if (!counted.empty() && !static_solve) summary = summary_of(counted, scene.step * to_double(counted.size()));
   if (!summary.is_null()) {
     print_summary(summary);
     std::fputs(busy_note(load).c_str(), stdout);
   }
   if (scene.integrator == Integrator::symplectic_euler || !options.report.empty()) limits = limits_of(*motion);
   print_limits(limits, scene.step);
-  const SimulationOutcome& outcome = motion->outcome();
   const Sheet sheet = motion->posed_sheet();
   print_outcome(outcome, sheet);
   if (outcome.verdict != Verdict::ok) std::printf("try %s\n", cure_of(scene, outcome, motion->step_limits()).c_str());
@@ -255,9 +266,7 @@ bool simulate(const Scene& scene, CuttingMethod& method, const SimulateOptions& 
   if (!options.out.empty()) write_mesh(sheet.to_mesh_data(), options.out);
   if (!options.steps.empty()) WholeFile(options.steps, table_of(motion->steps(), scene.step)).place();
   if (!options.report.empty()) write_report(scene, options, *motion, limits, summary);
-  const auto refused = [](const MotionCut& cut) { return cut.cut.status == Status::refused; };
-  const auto& cuts = motion->made_cuts();
-  return outcome.verdict == Verdict::ok && std::none_of(cuts.begin(), cuts.end(), refused);
+  return outcome.verdict == Verdict::ok && outcome.refused == 0;
 }
 
 }  // namespace cutbench

@@ -12,7 +12,7 @@ namespace cutbench {
 namespace {
 
 /// Median and worst of something over steps, us to ms. The median of an even number is the mean of the middle two.
-nlohmann::ordered_json spread(const std::vector<LoggedStep>& steps,
+nlohmann::ordered_json spread(std::span<const LoggedStep> steps,
                               const std::function<double(const LoggedStep&)>& microseconds) {
   std::vector<double> values;
   for (const LoggedStep& step : steps) values.push_back(microseconds(step) / 1000);
@@ -21,7 +21,7 @@ nlohmann::ordered_json spread(const std::vector<LoggedStep>& steps,
   return {{"median", (values[(n - 1) / 2] + values[n / 2]) / 2}, {"worst", values.back()}};
 }
 
-nlohmann::ordered_json phases_of(const std::vector<LoggedStep>& steps) {
+nlohmann::ordered_json phases_of(std::span<const LoggedStep> steps) {
   return {{"rotate", spread(steps, [](const LoggedStep& s) { return s.step.time_us.rotate; })},
           {"assemble", spread(steps, [](const LoggedStep& s) { return s.step.time_us.assemble; })},
           {"setup", spread(steps, [](const LoggedStep& s) { return s.step.time_us.setup; })},
@@ -31,9 +31,10 @@ nlohmann::ordered_json phases_of(const std::vector<LoggedStep>& steps) {
 
 }  // namespace
 
-nlohmann::ordered_json summary_of(const std::vector<LoggedStep>& steps, double seconds) {
+nlohmann::ordered_json summary_of(std::span<const LoggedStep> steps, double seconds) {
   std::vector<LoggedStep> with_cut;
   double computed_us = 0, residual = 0;
+  bool solved = false;
   long iterations = 0, worst = 0, fallbacks = 0;
   for (const LoggedStep& s : steps) {
     if (s.has_cut) with_cut.push_back(s);
@@ -42,6 +43,7 @@ nlohmann::ordered_json summary_of(const std::vector<LoggedStep>& steps, double s
     fallbacks += s.step.fallbacks;
     worst = std::max(worst, static_cast<long>(s.step.iterations));
     residual = std::max(residual, s.step.residual);
+    solved |= s.step.newton > 0;
   }
   nlohmann::ordered_json summary{{"steps", steps.size()},
                                  {"simulated_s", seconds},
@@ -50,7 +52,7 @@ nlohmann::ordered_json summary_of(const std::vector<LoggedStep>& steps, double s
                                  {"step_ms", phases_of(steps)}};
   summary["iterations"] = {{"mean", to_double(iterations) / to_double(steps.size())},
                            {"worst", worst},
-                           {"largest_residual", residual},
+                           {"largest_residual", solved ? nlohmann::ordered_json(residual) : nullptr},
                            {"fallbacks", fallbacks}};
   nlohmann::ordered_json cuts{{"steps", with_cut.size()}};
   if (!with_cut.empty()) {
@@ -70,11 +72,12 @@ std::string table_of(const std::vector<LoggedStep>& steps, double step) {
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const LoggedStep& s = steps[i];
     const StepTimes& us = s.step.time_us;
-    char row[256];
-    std::snprintf(row, sizeof row, "%.6g,%d,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%d,%.3g\n", step * to_double(i + 1),
+    char row[256], residual[32];
+    std::snprintf(residual, sizeof residual, "%.3g", s.step.residual);
+    std::snprintf(row, sizeof row, "%.6g,%d,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%d,%s\n", step * to_double(i + 1),
                   s.has_cut, s.geometry_us / 1000, s.update_us / 1000, s.bending_us / 1000, us.rotate / 1000,
                   us.assemble / 1000, us.setup / 1000, us.solve / 1000, s.total_us() / 1000, s.step.iterations,
-                  s.step.residual);
+                  s.step.newton > 0 ? residual : "");
     table += row;
   }
   return table;
@@ -97,8 +100,11 @@ void print_summary(const nlohmann::ordered_json& summary) {
     row("total", cuts["step_ms"]["total"]);
   }
   const auto& solver = summary["iterations"];
-  std::printf("iterations a step: %.1f in the mean, %d at most; largest residual %.2g\n", solver["mean"].get<double>(),
-              solver["worst"].get<int>(), solver["largest_residual"].get<double>());
+  if (solver["worst"].get<int>() > 0)
+    std::printf("iterations a step: %.1f in the mean, %d at most\n", solver["mean"].get<double>(),
+                solver["worst"].get<int>());
+  if (!solver["largest_residual"].is_null())
+    std::printf("largest residual of a solve: %.2g\n", solver["largest_residual"].get<double>());
   if (const int n = solver["fallbacks"].get<int>(); n > 0)
     std::printf("in %d solves the preconditioner had given up, and the next took its place\n", n);
 }

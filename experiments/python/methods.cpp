@@ -39,8 +39,8 @@ Function shared(py::function function) {
 /// Asks for the whole cut, as a program of its own would be: what it returns is judged, and taken over.
 class FunctionMethod final : public CuttingMethod, public CutProgram {
  public:
-  FunctionMethod(std::string name, Function function)
-      : name_("python: " + std::move(name)), function_(std::move(function)) {}
+  FunctionMethod(std::string name, Function function, bool deletes)
+      : name_("python: " + std::move(name)), function_(std::move(function)), deletes_(deletes) {}
 
   CutProgram* program() override { return this; }
   const std::string& command() const override { return name_; }
@@ -50,7 +50,7 @@ class FunctionMethod final : public CuttingMethod, public CutProgram {
     const auto start = std::chrono::steady_clock::now();
     const MeshData result = ask(held, curve, options.chord_tolerance);
     const std::chrono::duration<double, std::micro> us = std::chrono::steady_clock::now() - start;
-    take_over(sheet, trace, result, curve, options);
+    take_over(sheet, trace, result, curve, options, deletes_);
     return us.count();
   }
 
@@ -74,15 +74,17 @@ class FunctionMethod final : public CuttingMethod, public CutProgram {
 
   std::string name_;
   Function function_;
+  bool deletes_;
 };
 
-HeldMethod method_of_function(const std::string& name, py::function function) {
+HeldMethod method_of_function(const std::string& name, py::function function, bool deletes) {
   const Function held = shared(std::move(function));
-  MethodRow row{.name = name,
-                .summary = "a function of Python",
-                .parameter = {},
-                .promises = promises_of_programs,
-                .factory = [name, held](double) { return std::make_unique<FunctionMethod>(name, held); }};
+  MethodRow row{
+      .name = name,
+      .summary = "a function of Python",
+      .parameter = {},
+      .promises = deletes ? promises_of_deleting_programs : promises_of_programs,
+      .factory = [name, held, deletes](double) { return std::make_unique<FunctionMethod>(name, held, deletes); }};
   return {std::move(row), 0};
 }
 

@@ -6,10 +6,12 @@
 #include <atomic>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "experiments/program/step_summary.h"
 #include "experiments/python/arrays.h"
 #include "experiments/python/held.h"
+#include "harness/base/conversions.h"
 #include "harness/base/errors.h"
 #include "harness/files/scene_file.h"
 #include "harness/simulation/simulation.h"
@@ -224,8 +226,9 @@ void bind_simulations(py::module_& m) {
       .def_property_readonly("time", [](const HeldSimulation& s) { return s.idle().time(); })
       .def_property_readonly("outcome",
                              [](const HeldSimulation& s) {
-                               const SimulationOutcome& outcome = s.idle().outcome();
-                               return py::make_tuple(name_of(outcome.verdict), outcome.reason, outcome.time);
+                               const SimulationOutcome outcome = s.idle().outcome();
+                               return py::make_tuple(name_of(outcome.verdict), outcome.reason, outcome.time,
+                                                     outcome.refused, outcome.text());
                              })
       .def_property_readonly("cuts",
                              [](const HeldSimulation& s) {
@@ -234,7 +237,11 @@ void bind_simulations(py::module_& m) {
                                return cuts;
                              })
       .def("steps_csv", [](const HeldSimulation& s) { return table_of(s.idle().steps(), s.scene.step); })
-      .def("summary_json", [](const HeldSimulation& s) { return summary_of(s.idle().steps(), s.idle().time()).dump(); })
+      .def("summary_json",
+           [](const HeldSimulation& s) {
+             const auto counted = std::span(s.idle().steps()).first(s.idle().outcome().steps);
+             return summary_of(counted, s.scene.step * to_double(counted.size())).dump();
+           })
       .def("budget_csv",
            [](const HeldSimulation& s) { return s.idle().budget() ? s.idle().budget()->csv() : std::string(); });
 }

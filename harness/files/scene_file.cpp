@@ -7,11 +7,10 @@
 #include <utility>
 
 #include "harness/base/conversions.h"
-#include "harness/cases/cut_families.h"
 #include "harness/fem/elements/bending_kinds.h"
 #include "harness/fem/solvers/solver_table.h"
 #include "harness/files/mesh_file.h"
-#include "harness/files/path_file.h"
+#include "harness/files/scene_file_cuts.h"
 #include "harness/files/toml_reader.h"
 #include "harness/mesh/families.h"
 #include "harness/path/blade.h"
@@ -19,11 +18,6 @@
 namespace cutbench {
 
 namespace {
-
-void exclude(const TomlReader& reader, const char* present, std::initializer_list<const char*> others) {
-  for (const char* key : others)
-    if (reader.has(key)) reader.refuse(std::string("\"") + key + "\" does not go with " + present + "; leave it out");
-}
 
 /// Zero where the key is not there.
 Point3 read_vector(const TomlReader& reader, const char* key, const Physics& physics) {
@@ -136,18 +130,6 @@ Material read_material(const TomlReader& file, const Physics& physics) {
   return m;
 }
 
-/// Three numbers of a place, an array in TOML.
-Point3 read_place(const TomlReader& reader, const toml::array* numbers, const std::string& what) {
-  Point3 p;
-  if (numbers == nullptr || numbers->size() != 3) reader.refuse(what + " is [x, y, z]");
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto x = (*numbers)[i].value<double>();
-    if (!x) reader.refuse(what + " is [x, y, z], three numbers");
-    (i == 0 ? p.x : i == 1 ? p.y : p.z) = *x;
-  }
-  return p;
-}
-
 std::array<Point3, 2> read_space_box(const TomlReader& reader) {
   const toml::array* const corners = reader.table["box"].as_array();
   if (corners == nullptr || corners->size() != 2)
@@ -186,73 +168,6 @@ ScenePin read_pin(const TomlReader& reader, const Physics& physics) {
 Traction read_traction(const TomlReader& reader, const Physics& physics) {
   if (!reader.has("force")) reader.refuse("\"force\" is missing: N per m of border");
   return {read_box(reader), read_vector(reader, "force", physics)};
-}
-
-PickedCurve read_picks(const TomlReader& reader, const char* key) {
-  exclude(reader, "a curve", {"seed", "case"});
-  PickedCurve curve{key == std::string("bezier") ? Curve::Kind::bezier : Curve::Kind::polyline,
-                    reader.value<bool>("closed", false),
-                    {}};
-  for (const auto& node : reader.array(key)) {
-    const std::string point = "point " + std::to_string(curve.picks.size());
-    const toml::table* ray = node.as_table();
-    if (ray == nullptr) {
-      curve.picks.push_back({read_place(reader, node.as_array(), point + " in world space"), {}});
-      continue;
-    }
-    check_keys(*ray, {"origin", "direction"}, reader.where + ", " + point);
-    curve.picks.push_back({read_place(reader, (*ray)["origin"].as_array(), point + ": \"origin\""),
-                           read_place(reader, (*ray)["direction"].as_array(), point + ": \"direction\"")});
-  }
-  check_picks(curve, reader.where);
-  return curve;
-}
-
-Curve read_curve(const TomlReader& reader, bool bezier) {
-  exclude(reader, "a curve", {"seed", "case"});
-  const Curve curve{bezier ? Curve::Kind::bezier : Curve::Kind::polyline, reader.value<bool>("closed", false),
-                    reader.points(bezier ? "bezier" : "polyline")};
-  check_curve(curve, reader.where);
-  return curve;
-}
-
-Scene::Cut read_cut(const TomlReader& reader) {
-  const bool bezier = reader.has("bezier"), polyline = reader.has("polyline"), seeded = reader.has("family");
-  if (bezier + polyline + seeded != 1) reader.refuse("give either \"bezier\", \"polyline\", \"path\" or \"family\"");
-  Scene::Cut cut;
-  cut.time = reader.positive_or_zero("time", 0);
-  if (!seeded) {
-    if (reader.has("speed")) cut.speed = reader.positive("speed", 0);
-    constexpr EnumNames<bool, 2> spaces{{{false, "rest"}, {true, "world"}}};
-    const bool world = reader.choice<bool>("space", false, spaces);
-    if (world) cut.picked = read_picks(reader, bezier ? "bezier" : "polyline");
-    if (!world) cut.curve = read_curve(reader, bezier);
-    return cut;
-  }
-  exclude(reader, "\"family\"", {"closed", "space", "speed"});
-  cut.family = reader.value<std::string>("family");
-  check_names({cut.family}, cut_families(), reader.where + ": cut family");
-  cut.seed = static_cast<std::uint64_t>(reader.value<std::int64_t>("seed", 1));
-  const auto index = reader.value<std::int64_t>("case", 0);
-  if (index < 0) reader.refuse("\"case\" must be positive, or 0");
-  cut.index = to_size(index);
-  return cut;
-}
-
-/// Those of a path file, whose lengths are in the unit of the sheet's file.
-std::vector<Scene::Cut> read_cuts_of_path(const TomlReader& reader, const std::filesystem::path& folder, double scale) {
-  exclude(reader, "\"path\"", {"space", "bezier", "polyline", "closed", "family", "seed", "case"});
-  std::vector<Scene::Cut> cuts;
-  for (const auto& curve : read_path_with_picks(folder / reader.value<std::string>("path"))) {
-    Scene::Cut& cut = cuts.emplace_back();
-    cut.time = reader.positive_or_zero("time", 0);
-    if (reader.has("speed")) cut.speed = reader.positive("speed", 0);
-    if (const auto* rest = std::get_if<Curve>(&curve)) cut.curve = *rest;
-    if (const auto* picked = std::get_if<PickedCurve>(&curve)) cut.picked = *picked;
-    for (Point2& p : cut.curve.points) p = scale * p;
-    for (Pick& pick : cut.picked.picks) pick.origin = scale * pick.origin;
-  }
-  return cuts;
 }
 
 void read_integrator(const TomlReader& file, Scene& scene) {
@@ -377,13 +292,7 @@ Scene read_scene(const toml::table& table, const std::filesystem::path& file) {
     scene.tractions.push_back(read_traction(traction, scene.physics));
   read_integrator(reader, scene);
   scene.solver = read_solver(reader);
-  for (const auto& cut : reader.sections(
-           "cuts", "cut", {"time", "speed", "space", "path", "bezier", "polyline", "closed", "family", "seed", "case"}))
-    if (!cut.has("path"))
-      scene.cuts.push_back(read_cut(cut));
-    else
-      for (const Scene::Cut& of_file : read_cuts_of_path(cut, file.parent_path(), sheet_file.scale))
-        scene.cuts.push_back(of_file);
+  scene.cuts = read_cuts(reader, file.parent_path(), sheet_file.scale);
   check_times(scene, reader.where);
   check_scene_suits_active_radius(scene, reader.where);
   if (!scene.mesh_file.empty()) scene.mesh = read_scaled(scene.mesh_file, sheet_file);

@@ -42,6 +42,13 @@ struct MeshColumn {
   std::vector<double> values;  ///< those of the first vertex or triangle, those of the second, ...
 };
 
+/// The lines `v` of an OBJ, and for each vertex the number of its own, from 1: vertices that are sewn together have one.
+struct ObjPoints {
+  std::string lines;
+  std::vector<std::size_t> number;
+};
+ObjPoints obj_points(const MeshData& mesh);
+
 /// Numbers with the fewest digits that read back bit for bit.
 std::string obj_text(const MeshData& mesh);
 std::string off_text(const MeshData& mesh);  ///< the deformed positions alone

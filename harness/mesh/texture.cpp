@@ -8,6 +8,7 @@
 
 #include "harness/base/conversions.h"
 #include "harness/base/number_from_chars.h"
+#include "harness/mesh/mesh_text.h"
 #include "harness/mesh/row_numbers.h"
 
 namespace cutbench {
@@ -149,16 +150,8 @@ std::vector<Point2> texture_of_vertices(const MeshData& mesh, const Texture& tex
 }
 
 std::string textured_obj_text(const MeshData& mesh, const Texture& texture) {
-  std::string text = std::string(vt_are_texture) + '\n';
-  std::vector<std::size_t> point(mesh.deformed.size());  // its `v`, from 1: sewn vertices have one
-  std::map<std::int32_t, std::size_t> point_of_sewn;
-  for (std::size_t v = 0; v < point.size(); ++v) {
-    const std::int32_t sewn = mesh.sewn.empty() ? to_int32(v) : mesh.sewn[v];
-    const auto [place, is_new] = point_of_sewn.try_emplace(sewn, point_of_sewn.size() + 1);
-    point[v] = place->second;
-    const Point3 p = mesh.deformed[v];
-    if (is_new) text += "v " + number(p.x) + ' ' + number(p.y) + ' ' + number(p.z) + '\n';
-  }
+  const ObjPoints points = obj_points(mesh);
+  std::string text = std::string(vt_are_texture) + '\n' + points.lines;
   Numbers numbers;
   std::string faces;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -166,7 +159,7 @@ std::string textured_obj_text(const MeshData& mesh, const Texture& texture) {
     faces += 'f';
     for (std::size_t k = 0; k < 3; ++k) {
       const auto v = to_size(mesh.triangles[t][k]);
-      faces += ' ' + std::to_string(point[v]) + '/' + std::to_string(numbers.of(texture[t][k]));
+      faces += ' ' + std::to_string(points.number[v]) + '/' + std::to_string(numbers.of(texture[t][k]));
       rest += ' ' + std::to_string(v + 1);
     }
     faces += '\n' + rest + '\n';

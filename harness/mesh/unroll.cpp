@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "harness/base/conversions.h"
+#include "harness/base/products_in_space.h"
 #include "harness/base/union_find.h"
 #include "harness/mesh/overlaps.h"
 #include "harness/mesh/predicates.h"
@@ -18,8 +19,6 @@ namespace cutbench {
 
 namespace {
 
-double dot(Point3 a, Point3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Point3 cross(Point3 a, Point3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 Point3 minus(Point3 a, Point3 b) { return a + -1.0 * b; }
 
 /// Where the third corner is that lies left of a -> b, as far along it and away from it as in space.

@@ -58,10 +58,9 @@ std::vector<std::int32_t> pieces_of(const MeshData& mesh) {
   return result;
 }
 
-std::string obj_text(const MeshData& mesh) {
+ObjPoints obj_points(const MeshData& mesh) {
   Text text;
-  text << vt_are_rest << '\n';
-  std::vector<std::size_t> point(mesh.deformed.size());  // its `v`, from 1: sewn vertices have one
+  std::vector<std::size_t> point(mesh.deformed.size());
   std::map<std::int32_t, std::size_t> point_of_sewn;
   for (std::size_t v = 0; v < point.size(); ++v) {
     const std::int32_t sewn = mesh.sewn.empty() ? to_int32(v) : mesh.sewn[v];
@@ -69,8 +68,15 @@ std::string obj_text(const MeshData& mesh) {
     point[v] = place->second;
     if (is_new) text << "v " << mesh.deformed[v] << '\n';
   }
+  return {text.str(), point};
+}
+
+std::string obj_text(const MeshData& mesh) {
+  Text text;
+  const auto [points, point] = obj_points(mesh);
+  text << vt_are_rest << '\n' << points;
   for (const Point2& p : mesh.rest) text << "vt " << p << '\n';
-  const auto point_of = [&](std::int32_t v) {  // what is broken stays so
+  const auto point_of = [&, &point = point](std::int32_t v) {  // what is broken stays so
     return v >= 0 && v < std::ssize(point) ? to_int64(point[to_size(v)]) : to_int64(v) + 1;
   };
   for (const auto& triangle : mesh.triangles) {

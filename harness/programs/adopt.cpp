@@ -51,7 +51,29 @@ class Adoption {
       throw CutRefused("parts of the result lie too close together to be taken over (" + faults.front() + ")");
   }
 
+  /// No triangle of the result is new.
+  void delete_triangles() {
+    match_triangles();
+    for (const TriangleIndex t : kept_)
+      if (!t.valid()) throw CutRefused("a program that deletes triangles makes no new ones; leave --deletes out");
+    sheet_.remove(removed_);
+    for (std::size_t t = 0; t < kept_.size(); ++t)
+      for (int k = 0; k < 3; ++k) {
+        const HalfEdge h = half_edge(TriangleIndex(t), k);
+        if (after_.mark(h) != EdgeMark::incision) continue;
+        const HalfEdge mine = same_side(kept_[t], after_.rest(after_.origin(h)));
+        if (!sheet_.on_border(mine) && sheet_.mark(mine) == EdgeMark::none) sheet_.set_mark(mine, EdgeMark::path);
+      }
+  }
+
  private:
+  /// The side of the sheet's triangle that begins there.
+  HalfEdge same_side(TriangleIndex t, Point2 origin) const {
+    int k = 0;
+    while (k < 2 && !(sheet_.rest(sheet_.triangle(t).vertex[at(k)]) == origin)) ++k;
+    return half_edge(t, k);
+  }
+
   /// Which triangles stay: those whose corners are in both.
   void match_triangles() {
     std::map<RestCorners, TriangleIndex, Earlier> known;
@@ -219,6 +241,12 @@ class Adoption {
 
 }  // namespace
 
-void adopt(Sheet& sheet, const MeshData& result) { Adoption(sheet, result).run(); }
+void adopt(Sheet& sheet, const MeshData& result, bool deletes) {
+  Adoption adoption(sheet, result);
+  if (deletes)
+    adoption.delete_triangles();
+  else
+    adoption.run();
+}
 
 }  // namespace cutbench

@@ -70,7 +70,7 @@ class Program final : public CuttingMethod, public CutProgram {
     if (end.how == ProgramEnd::How::timed_out) throw CutFailed(Verdict::timed_out, end.text());
     if (!end.succeeded()) throw CutFailed(Verdict::crashed, end.text());
     const MeshData result = read_result(files.out);
-    take_over(sheet, trace, result, curve, options);
+    take_over(sheet, trace, result, curve, options, settings_.deletes);
     const double own = reported_us(files.time);
     if (own <= 0 && settings_.command.find("{time}") != std::string::npos) note_no_time();
     return own > 0 ? own : end.us;
@@ -120,24 +120,26 @@ MethodRow method_of_program(const ProgramSettings& settings) {
   return {.name = settings.name,
           .summary = "a program: " + settings.command,
           .parameter = {},
-          .promises = promises_of_programs,
+          .promises = settings.deletes ? promises_of_deleting_programs : promises_of_programs,
           .factory = [settings](double) { return std::make_unique<Program>(settings); }};
 }
 
-void take_over(Sheet& sheet, Subdivision& trace, const MeshData& result, const Curve& curve,
-               const CutOptions& options) {
-  const Assessment a = judge_result(sheet, result, {&curve, 1}, promises_of_everybody, options);
+void take_over(Sheet& sheet, Subdivision& trace, const MeshData& result, const Curve& curve, const CutOptions& options,
+               bool deletes) {
+  const Promises& asked = deletes ? promises_of_deleting_programs : promises_of_everybody;
+  const Assessment a = judge_result(sheet, result, {&curve, 1}, asked, options);
   if (!a.judgement.ok) {
     const Finding& f = a.findings.front();
     throw CutFailed(a.judgement.verdict, f.cause + ": " + f.text + "\nmend: " + f.mend);
   }
-  adopt(sheet, result);
+  adopt(sheet, result, deletes);
   trace.along.clear();  // what the path runs along is open as well
 }
 
 std::string fingerprint_of_program(const ProgramSettings& settings) {
   std::ostringstream text;
-  text << settings.command << ' ' << settings.limits.time_s << ' ' << settings.limits.memory_mb;
+  text << settings.command << ' ' << settings.limits.time_s << ' ' << settings.limits.memory_mb
+       << (settings.deletes ? " deletes" : "");
   std::istringstream command(settings.command);
   for (std::string word; command >> word;) {
     std::error_code none;

@@ -19,11 +19,14 @@ struct ProgramSettings {
   std::string command;           ///< for /bin/sh, with {mesh}, {path} and {out}, and {time} where it reports its own
   std::filesystem::path folder;  ///< where it runs
   ProgramLimits limits;
+  bool deletes = false;  ///< it takes the triangles that the path crosses out, instead of dividing them
 };
 
 /// What every program promises, as `cutbench score` asks of it: the path is opened up to the chord tolerance, the area
 /// stays, the result is conforming. Vertices may move.
 constexpr Promises promises_of_programs{.keeps_area = true, .conforming = true};
+/// And one that deletes, as `cutbench score --deletes` asks: those of the method element_deletion.
+constexpr Promises promises_of_deleting_programs{.conforming = true, .incision_bound = {.longest_edges = 1}};
 
 /// A row of the table of methods. A cut is the program's alone, as it stands in the file, once the oracle has accepted
 /// it. Else the cut has failed, with the oracle's verdict, or `crashed` (it ended by a signal or with another exit code
@@ -39,7 +42,9 @@ constexpr int exit_refused = 3;
 /// What a program does with its result, for whoever makes results in this process: the sheet takes `result` over, as
 /// adopt() does, once the oracle accepts it as `cutbench score` would. Throws CutFailed with the oracle's verdict and
 /// the mend, and CutRefused. \pre begin_cut()
-void take_over(Sheet& sheet, Subdivision& trace, const MeshData& result, const Curve& curve, const CutOptions& options);
+/// \param deletes  see ProgramSettings
+void take_over(Sheet& sheet, Subdivision& trace, const MeshData& result, const Curve& curve, const CutOptions& options,
+               bool deletes = false);
 
 /// The command and what it runs, for telling one version of a program from another: names, sizes and times of the files
 /// that the command names.

@@ -88,11 +88,26 @@ void EnergyBudget::add_step(Model<D>& model, const State& before, const State& a
   }
   const double change = row.energy.total() - rows_.front().energy.total();
   row.remainder = change - row.jumps - row.pin_work + row.damping + row.numerical_loss;
+  count_jump(row.numerical_loss - rows_.back().numerical_loss);
   rows_.push_back(row);
   judge_last();
 }
 
-void EnergyBudget::add_cut(const Balance& before, const Balance& after) {
+/// \param loss  J: numerical, of the step
+void EnergyBudget::count_jump(double loss) {
+  if (has_cut_)
+    counted_jumps_ += new_jump_ - std::clamp(loss - usual_loss_, 0.0, std::max(new_jump_, 0.0));
+  else
+    usual_loss_ = loss;
+  new_jump_ = 0;
+  has_cut_ = false;
+}
+
+void EnergyBudget::add_cut(const Balance& before, const Balance& after, bool keeps_mass) {
+  double jump = after.energy.total() - before.energy.total();
+  if (!keeps_mass) jump -= after.energy.potential - before.energy.potential;
+  (exact_loss_ ? new_jump_ : counted_jumps_) += jump;
+  has_cut_ = true;
   rows_.back().jumps += after.energy.total() - before.energy.total();
   rows_.back().energy = after.energy;
   judge_last();
@@ -105,12 +120,13 @@ void EnergyBudget::add_work(const Balance& before, const Balance& after) {
 }
 
 void EnergyBudget::judge_last() {
+  if (judged_rows_ > 0) return;
   const BudgetRow& row = rows_.back();
   // Potential energy has rounding errors of its own size.
   scale_ = std::max(
       {scale_, row.energy.kinetic + row.energy.membrane + row.energy.bending, 1e-12 * std::abs(row.energy.potential)});
   remainder_.add(row.remainder);
-  jumps_.add(row.jumps);
+  jumps_.add(counted_jumps_);
   unexplained_.add(row.energy.total() - rows_.front().energy.total() - row.pin_work - row.jumps);
 }
 

@@ -74,12 +74,18 @@ class EnergyBudget {
   /// After a step from `before` to `after`: \pre the model's matrix is still that step's.
   template <int D>
   void add_step(Model<D>& model, const State& before, const State& after, double step);
-  void add_cut(const Balance& before, const Balance& after);
+  /// \param keeps_mass  no material left the sheet. Potential energy that leaves with it is no error: its sign is that
+  /// of the height over an origin which nobody chose.
+  void add_cut(const Balance& before, const Balance& after, bool keeps_mass = true);
   /// After other pins or forces were set: what that changes is work of theirs.
   void add_work(const Balance& before, const Balance& after);
 
   const std::vector<BudgetRow>& rows() const { return rows_; }
   Gains gains() const;
+  /// From now on the rows go on, but gains and fault stay as they are.
+  void stop_judging() { judged_rows_ = rows_.size(); }
+  /// The last row that gains and fault count.
+  const BudgetRow& end() const { return judged_rows_ == 0 ? rows_.back() : rows_[judged_rows_ - 1]; }
   /// What exceeds its bound, in words; empty: nothing.
   std::string fault() const;
   std::string csv() const;  ///< a row for each moment, under a head
@@ -91,11 +97,17 @@ class EnergyBudget {
     void add(double value) { lowest = std::min(lowest, value), largest = std::max(largest, value - lowest); }
   };
   void judge_last();
+  void count_jump(double loss);
 
   Integrator integrator_;
   bool exact_loss_;  // of robust steps
   std::vector<BudgetRow> rows_;
   double scale_;
+  double counted_jumps_ = 0;     ///< J: sum of what the jumps count
+  double new_jump_ = 0;          ///< J: of robust steps, until the next one shows what is left of it
+  double usual_loss_ = 0;        ///< J: numerical, of the last step without a cut before it
+  bool has_cut_ = false;         ///< since the last step
+  std::size_t judged_rows_ = 0;  ///< 0: all, for it still judges
   Rise remainder_, jumps_, unexplained_;
 };
 

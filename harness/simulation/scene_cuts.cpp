@@ -10,6 +10,7 @@
 #include "harness/base/stop_watch.h"
 #include "harness/cut/constraint_source.h"
 #include "harness/fem/elements/bending_kinds.h"
+#include "harness/fem/model/settle.h"
 #include "harness/mesh/one_ring.h"
 #include "harness/simulation/active_region.h"
 
@@ -182,6 +183,7 @@ template <int D>
 MotionCut SceneCuts<D>::cut_with_balances(std::span<const Curve> curves, CuttingMethod& method,
                                           const CutOptions& options, EnergyBudget* budget) {
   const Balance before = now_.balance();
+  const double mass = now_.model.lumped_mass().sum();
   MotionCut made = cut(now_, curves, cutter_, method, options);
   made.before = before;
   made.after = now_.balance();
@@ -189,7 +191,8 @@ MotionCut SceneCuts<D>::cut_with_balances(std::span<const Curve> curves, Cutting
   log_.geometry_us += made.cut.time_us.total();
   log_.bending_us += made.bending_us;
   log_.update_us += made.transfer_us + made.pattern_us;
-  if (budget) budget->add_cut(made.before, made.after);
+  const bool keeps_mass = std::abs(now_.model.lumped_mass().sum() - mass) <= 1e-9 * mass;
+  if (budget) budget->add_cut(made.before, made.after, keeps_mass);
   return made;
 }
 
@@ -207,6 +210,7 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, std::span<const Curve> curve
   }
   for (const Curve& curve : curves) {
     const std::size_t vertices_before = moving.sheet.deformed_slots();
+    const double bending = bending_of(moving);
     const CutRun run = cut_all(moving.sheet, moving.locator, cutter, {&curve, 1}, method, options);
     result.cut.status = run.status;
     result.cut.verdict = run.verdict;
@@ -227,7 +231,11 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, std::span<const Curve> curve
     result.pattern_us += watch.lap();
     moving.model.update_bending(moving.sheet);
     result.bending_us += watch.lap();
-    if (!source && moving.sheet.seams().empty()) continue;
+    if (!source && moving.sheet.seams().empty()) {
+      if (bending_of(moving) > bending) settle_new_vertices(moving.model, moving.sheet, moving.state.x);
+      result.transfer_us += watch.lap();
+      continue;
+    }
     Constraints constraints;
     if (source)
       constraints = source->next_constraints(before_cuts_, moving.sheet, moving.constraints,
@@ -245,6 +253,13 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, std::span<const Curve> curve
     result.reason = *refusal;
   }
   return result;
+}
+
+/// The energy, J, where steps are robust; else nobody asks.
+template <int D>
+double SceneCuts<D>::bending_of(const MovingSheet<D>& moving) const {
+  if (!scene_.robust || !moving.model.bending()) return 0;
+  return moving.model.bending()->energy(moving.state.x, D);
 }
 
 /// A method can't be used in this scene for what it constrains; empty: it can.

@@ -21,6 +21,11 @@ namespace {
 /// In space a share of slivers is turned over in any bent sheet, with no area and no harm.
 constexpr double most_turned = 0.01;
 
+std::string refusal(const SimulationOutcome& outcome, const MotionCut& first) {
+  const std::string n = std::to_string(outcome.refused) + " of " + std::to_string(outcome.cuts) + " cuts ";
+  return n + (outcome.refused == 1 ? "was refused: " : "were refused; the first: ") + first.reason;
+}
+
 template <int D>
 class SceneInMotion : public Simulation {
  public:
@@ -41,7 +46,22 @@ class SceneInMotion : public Simulation {
     begin_budget();
   }
   const EnergyBudget* budget() const override { return budget_ ? &*budget_ : nullptr; }
-  const SimulationOutcome& outcome() const override { return outcome_; }
+  SimulationOutcome outcome() const override {
+    SimulationOutcome outcome = outcome_;
+    if (outcome.verdict == Verdict::ok) {
+      outcome.steps = steps_.size();
+      outcome.cuts = cuts_.made().size();
+    }
+    outcome.only_shapes = watched_ && sweeps(scene_.integrator);
+    const MotionCut* first = nullptr;
+    for (std::size_t i = 0; i < outcome.cuts; ++i) {
+      if (cuts_.made()[i].cut.status != Status::refused) continue;
+      ++outcome.refused;
+      if (!first) first = &cuts_.made()[i];
+    }
+    if (first && outcome.verdict == Verdict::ok) outcome.reason = refusal(outcome, *first);
+    return outcome;
+  }
   void limit_time(double seconds) override {
     time_limit_ = seconds;
     stop_at_ = to_double(std::clock()) + seconds * CLOCKS_PER_SEC;
@@ -90,8 +110,8 @@ class SceneInMotion : public Simulation {
     if (budget_) before_ = now_.state;
     StepReport report = stepper_.step(now_.model, now_.state);
     if (budget_ && report.verdict == Verdict::ok) budget_->add_step(now_.model, before_, now_.state, scene_.step);
-    if (watched_ && report.verdict == Verdict::ok) judge_state(report);
     steps_.push_back(cuts_.take_log());
+    if (watched_ && report.verdict == Verdict::ok) judge_state(report);
     steps_.back().step = report;
     end_where_bad(report);
     return report;
@@ -164,7 +184,18 @@ class SceneInMotion : public Simulation {
   }
 
   void end_where_bad(const StepReport& report) {
-    if (report.verdict != Verdict::ok) outcome_ = {report.verdict, report.reason, now_.state.time};
+    if (report.verdict != Verdict::ok) conclude(report.verdict, report.reason);
+  }
+
+  void conclude(Verdict verdict, const std::string& reason) {
+    const bool is_first = outcome_.verdict == Verdict::ok;
+    outcome_.verdict = verdict;
+    outcome_.reason = reason;
+    outcome_.time = now_.state.time;
+    if (!is_first) return;  // no more steps count than before
+    outcome_.steps = steps_.size();
+    outcome_.cuts = cuts_.made().size();
+    if (budget_) budget_->stop_judging();
   }
 
   /// \pre the step is in the budget, where one is kept.
@@ -181,9 +212,9 @@ class SceneInMotion : public Simulation {
     char text[96];
     std::snprintf(text, sizeof text, "%zu triangles, %.2g %% of the rest area, are turned over", turned.triangles,
                   100 * turned.area);
-    if (inverted) outcome_ = {Verdict::inverted, text, now_.state.time};
-    if (const std::string fault = budget_ ? budget_->fault() : ""; outcome_.verdict == Verdict::ok && !fault.empty())
-      outcome_ = {Verdict::energy_growth, fault, now_.state.time};
+    if (inverted) return conclude(Verdict::inverted, text);
+    if (const std::string fault = budget_ ? budget_->fault() : ""; !fault.empty())
+      conclude(Verdict::energy_growth, fault);
   }
 
   void begin_budget() {
@@ -206,6 +237,15 @@ class SceneInMotion : public Simulation {
 };
 
 }  // namespace
+
+std::string SimulationOutcome::text() const {
+  std::string text = name_of(verdict);
+  char when[32];
+  std::snprintf(when, sizeof when, " at %.4g s: ", time);
+  if (verdict != Verdict::ok) return text + when + reason;
+  if (!reason.empty()) text += ", but " + reason;
+  return only_shapes ? text + "; by its shapes alone: no energy is judged where steps are sweeps" : text;
+}
 
 std::unique_ptr<Simulation> Simulation::start(const Scene& scene) {
   if (scene.physics.dimension == 2) return std::make_unique<SceneInMotion<2>>(scene);

@@ -24,10 +24,16 @@ namespace cutbench {
 ///   timed_out       it took longer than limit_time(): ends it
 ///   inverted        triangles are turned over (turned_over.h): any in the plane, over 1 % of the area in space
 ///   energy_growth   energy came from nowhere (EnergyBudget::fault())
+/// What follows a verdict that is not ok does not count, neither steps nor cuts.
 struct SimulationOutcome {
   Verdict verdict = Verdict::ok;
-  std::string reason;
-  double time = 0;  ///< s, simulated: when it was found
+  std::string reason;        ///< of a verdict that is not ok; of one that is: which cuts were refused, and why
+  double time = 0;           ///< s, simulated: when it was found
+  std::size_t steps = 0;     ///< that count
+  std::size_t cuts = 0;      ///< that count
+  std::size_t refused = 0;   ///< of these cuts
+  bool only_shapes = false;  ///< were judged, for the integrator keeps no energy budget
+  std::string text() const;  ///< one line: "ok", or "ok, but ...", or the verdict with its time and its reason
 };
 
 /// Largest stable steps of symplectic Euler, s (explicit_step_limit()); NaN with constrained vertices and of springs.
@@ -79,7 +85,7 @@ class Simulation {
   virtual void watch() = 0;
   virtual const EnergyBudget* budget() const = 0;  ///< none where it isn't watched, and in equilibrium
   /// Of the steps so far, and of cuts that advance() made; energies and shapes only where it is watched.
-  virtual const SimulationOutcome& outcome() const = 0;
+  virtual SimulationOutcome outcome() const = 0;
   /// advance() makes no more steps once the process has taken so long from now on. \param seconds  of processor time
   virtual void limit_time(double seconds) = 0;
   /// Of the sheet as it is cut now, at rest and with nothing held; NaN where the method constrains vertices. Looks at

@@ -82,6 +82,7 @@ ProgramSettings read_program(const TomlReader& reader, const std::filesystem::pa
   if (program.folder.empty()) program.folder = ".";
   program.limits.time_s = reader.positive("time_limit_s", program.limits.time_s);
   program.limits.memory_mb = reader.positive("memory_limit_mb", program.limits.memory_mb);
+  program.deletes = reader.value<bool>("deletes", program.deletes);
   return program;
 }
 
@@ -95,7 +96,7 @@ void read_entry(const toml::node& node, const std::filesystem::path& file, Exper
         where + ": an entry of \"methods\" is a name, {name = ..., parameter = [...]} or {name = ..., command = ...}");
   const TomlReader reader{*table, where + ", methods"};
   if (table->contains("command")) {
-    check_keys(*table, {"name", "command", "time_limit_s", "memory_limit_mb"}, reader.where);
+    check_keys(*table, {"name", "command", "time_limit_s", "memory_limit_mb", "deletes"}, reader.where);
     e.programs.push_back(read_program(reader, file.parent_path()));
     return e.methods.push_back({e.programs.back().name, {}});
   }

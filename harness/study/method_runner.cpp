@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <set>
+#include <string>
 
 #include "harness/base/conversions.h"
 #include "harness/base/own_seed.h"
@@ -29,6 +31,8 @@ namespace {
 
 /// The skin of experiments/scenes, whose side is 1 m: 2 mm thick.
 constexpr Elasticity bent_skin{.poisson = 0.45, .bending = BendingKind::patches, .bending_length2 = 4.2e-7};
+
+constexpr const char* every_edge_row = "every_edge";  // in the column of methods
 
 /// A cut that takes longer, its judgement included, is ended.
 constexpr double longest_cut_s = 600;
@@ -80,6 +84,33 @@ class Runner : public StudyRun {
     }
   }
 
+  /// What was wrong in a case's judgement, its first repetition, is wrong in all.
+  void add_row(const Record& row, RightResults& results) override {
+    results.add(row);
+    const std::string &cache = row.get("cache"), &method = row.get("method");
+    const bool is_wrong = row.get("verdict") != "ok";
+    if (cache == "cold") return;
+    if (cache == "simulation") {
+      if (is_wrong) summary_.add_failure();
+      return;
+    }
+    std::string of_case;
+    for (const char* key : {"sheet", "resolution", "method", "parameter", "cut_family", "case"})
+      of_case += row.get(key) + ',';
+    if (is_wrong && method != every_edge_row) wrong_cases_.insert(of_case);
+    const auto number = [&](const char* column) {
+      const std::string& text = row.get(column);
+      return text.empty() ? -1 : std::stod(text);
+    };
+    summary_.add(to_int(std::stoul(row.get("resolution"))), method, row.get("parameter"),
+                 {.ok = !wrong_cases_.contains(of_case),
+                  .refused = row.get("status") == name_of(Status::refused),
+                  .crossed_triangles = number("crossed_triangles"),
+                  .vertices_added = number("vertices_added"),
+                  .ar_max_cut = number("ar_max_cut"),
+                  .over_3_cut = number("over_3_cut"),
+                  .geometry_us = number("geometry_us")});
+  }
   void print_summary() const override { summary_.print(experiment_.stem); }
   bool all_ok() const override { return summary_.all_ok(); }
 
@@ -113,11 +144,10 @@ class Runner : public StudyRun {
   }
 
   /// Cuts and fills the row of the first repetition.
-  void judge(Case& c, Worker& worker, Record& row, Summary::Cut& summary) {
+  void judge(Case& c, Worker& worker, Record& row) {
     const CutRun run = worker.cut(base_, c.cuts, cut_options_);
     if (c.forced.empty() && plan_.quality) c.forced = forced_corners_of(base_.sheet, c.cuts);
-    judge_into(row, summary, worker, c.cuts, c.forced, run);
-    summary.crossed_triangles = to_double(run.crossed_triangles);
+    judge_into(row, worker, c.cuts, c.forced, run);
     if (to_int(c.number) < plan_.eigenvalue_cases && row.get("verdict") == "ok" &&
         (run.status == Status::ok || run.status == Status::deviated))
       fill_eigenvalues(row, worker);
@@ -126,7 +156,6 @@ class Runner : public StudyRun {
   /// What a child process tells of a cut.
   struct Told {
     std::array<char, 4000> line{};
-    Summary::Cut summary;
   };
 
   void judge_on_all_cores(const std::string& sheet, int resolution, const std::string& family,
@@ -141,7 +170,7 @@ class Runner : public StudyRun {
         missing.size(), longest_cut_s,
         [&](std::size_t k, Told& told) {
           Record row = start_row(*missing[k].first, *missing[k].second, 0, "warm");
-          judge(*missing[k].first, *missing[k].second, row, told.summary);
+          judge(*missing[k].first, *missing[k].second, row);
           for (const std::string& time : columns_of({Group::time})) row.set(time, std::string());
           row.line().copy(told.line.data(), told.line.size() - 1);
         },
@@ -150,27 +179,22 @@ class Runner : public StudyRun {
 
   void record(const Case& c, const Worker& worker, const Told& told, Fate fate) {
     Record row = start_row(c, worker, 0, "warm");
-    Summary::Cut summary = told.summary;
     if (fate == Fate::done) {
       row = Record(column_names(), told.line.data());
     } else {
       row.set("status", std::string(name_of(Status::failed)));
       set_fate(row, fate);
-      summary.ok = false;
     }
     file_.append(row);
-    summary.refused = row.get("status") == name_of(Status::refused);
-    summary_.add(c.resolution, worker.variant.row->name, worker.variant.parameter_text(), summary);
   }
 
   void run_case(Case c) {
     // A first, unrecorded cut by each method, which is judged and warms up; then the repetitions with the methods in
     // turn, so that a slow spell of the machine hits all alike.
     std::vector<Record> judged;
-    std::vector<Summary::Cut> summaries(workers_.size());
     for (std::size_t w = 0; w < workers_.size(); ++w) {
       Record& row = judged.emplace_back(start_row(c, workers_[w], 0, "warm"));
-      if (!file_.has(row)) judge(c, workers_[w], row, summaries[w]);
+      if (!file_.has(row)) judge(c, workers_[w], row);
     }
     std::size_t crossed = 0;
     for (int r = 0; r < plan_.repetitions + (plan_.cold ? 1 : 0); ++r) {
@@ -188,13 +212,11 @@ class Runner : public StudyRun {
         else
           fill(row, {.cut = &run});
         file_.append(row);
-        if (!cold) summarize(c.resolution, worker.variant, summaries[w], run);
       }
       if (plan_.every_edge && crossed == 0)  // all rows but this one were there
         for (Worker& worker : workers_)
           crossed = std::max(crossed, worker.cut(base_, c.cuts, cut_options_).crossed_triangles);
-      if (plan_.every_edge)
-        time_every_edge(c.cuts, start_row(c, "every_edge", "", repetition, cache), c.resolution, crossed, cold);
+      if (plan_.every_edge) time_every_edge(c.cuts, start_row(c, every_edge_row, "", repetition, cache), crossed, cold);
     }
     if (!motion_ || c.number >= to_size(plan_.scene_cases)) return;
     for (Worker& worker : workers_) run_in_motion(c.cuts, worker, start_row(c, worker, 0, "simulation"));
@@ -241,35 +263,20 @@ class Runner : public StudyRun {
                                      : RebuildTimes();
     fill(row, {.cut = &m.cut, .motion = &m, .rebuild = rebuild});
     file_.append(row);
-    if (m.verdict != Verdict::ok) summary_.add_failure();
   }
 
-  void summarize(int resolution, const Variant& variant, Summary::Cut cut, const CutRun& run) {
-    cut.geometry_us = run.time_us.total();
-    cut.crossed_triangles = to_double(run.crossed_triangles);
-    cut.refused = run.status == Status::refused;
-    cut.ok = cut.ok && run.verdict == Verdict::ok;
-    summary_.add(resolution, variant.row->name, variant.parameter_text(), cut);
-  }
-
-  void judge_into(Record& row, Summary::Cut& summary, const Worker& worker, const std::vector<Curve>& cuts,
+  void judge_into(Record& row, const Worker& worker, const std::vector<Curve>& cuts,
                   const std::vector<oracle::ForcedCorner>& forced, const CutRun& run) {
     fill(row, {.cut = &run, .judged = true});
-    summary.ok = run.verdict == Verdict::ok;
     if (run.status == Status::failed || run.status == Status::refused) return;
     const Variant& v = worker.variant;
     const Judgement judgement =
         judge_one_by_one(base_.sheet, worker.sheet, cuts, v.row->promises, v.row->make(v.parameter), cut_options_);
     const Assessment a = assess(base_.sheet, worker.sheet, judgement, forced);
     fill(row, {.h = base_.sheet.mean_edge(), .cut = &run, .judged = true, .assessment = &a, .shapes = plan_.quality});
-    summary.ok = a.judgement.ok;
-    summary.vertices_added = to_double(a.vertices_added);
-    if (!plan_.quality) return;
-    if (a.cut.triangles > 0) summary.ar_max_cut = a.cut.ar_max;
-    summary.over_3_cut = to_double(a.cut.over_3);
   }
 
-  void time_every_edge(const std::vector<Curve>& cuts, Record row, int resolution, std::size_t crossed, bool cold) {
+  void time_every_edge(const std::vector<Curve>& cuts, Record row, std::size_t crossed, bool cold) {
     if (file_.has(row)) return;
     if (cold) chill_caches();
     const auto start = std::chrono::steady_clock::now();
@@ -282,10 +289,6 @@ class Runner : public StudyRun {
     row.set("verdict", std::string(name_of(crossings > 0 ? Verdict::ok : Verdict::not_terminated)));
     row.set("crossed_triangles", to_int64(crossed));  // the cut's, as a unit
     file_.append(row);
-    Summary::Cut summary;
-    summary.geometry_us = us;
-    summary.crossed_triangles = to_double(crossed);
-    if (!cold) summary_.add(resolution, "every_edge", "", summary);
   }
 
   const CutStudy& plan_;
@@ -296,6 +299,7 @@ class Runner : public StudyRun {
   Scene scene_;                                    // on the sheet of now
   std::unique_ptr<Simulation> motion_;
   Summary summary_;
+  std::set<std::string> wrong_cases_;
 };
 
 }  // namespace

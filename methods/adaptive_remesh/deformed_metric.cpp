@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "harness/base/conversions.h"
+#include "harness/base/products_in_space.h"
 
 namespace cutbench {
 
@@ -26,8 +27,6 @@ struct Tensor {
 };
 
 Point3 minus(Point3 a, Point3 b) { return a + -1 * b; }
-double dot3(Point3 a, Point3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Point3 cross3(Point3 a, Point3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 
 std::array<Point3, 3> positions(const Sheet& sheet, TriangleIndex t) {
   const auto& d = sheet.triangle(t).deformed;
@@ -36,7 +35,7 @@ std::array<Point3, 3> positions(const Sheet& sheet, TriangleIndex t) {
 
 Point3 normal(const Sheet& sheet, TriangleIndex t) {
   const auto p = positions(sheet, t);
-  return cross3(minus(p[1], p[0]), minus(p[2], p[0]));
+  return cross(minus(p[1], p[0]), minus(p[2], p[0]));
 }
 
 Tensor curvature(const Sheet& sheet, TriangleIndex t) {
@@ -61,7 +60,7 @@ Tensor strain(const Sheet& sheet, TriangleIndex t) {
   const Point3 x = minus(p[1], p[0]), y = minus(p[2], p[0]);
   const double twice = cross(u, v);
   const Point3 along_x = minus(v.y / twice * x, u.y / twice * y), along_y = minus(u.x / twice * y, v.x / twice * x);
-  return {dot3(along_x, along_x) - 1, dot3(along_x, along_y), dot3(along_y, along_y) - 1};
+  return {dot(along_x, along_x) - 1, dot(along_x, along_y), dot(along_y, along_y) - 1};
 }
 
 }  // namespace
@@ -71,8 +70,8 @@ double bend_angle(const Sheet& sheet, HalfEdge h) {
   const auto p = positions(sheet, t);
   const Point3 edge = minus(p[to_size(next_corner(corner_of(h)))], p[to_size(corner_of(h))]);
   const Point3 n = normal(sheet, t), m = normal(sheet, triangle_of(sheet.opposite(h)));
-  const double length = std::sqrt(dot3(edge, edge));
-  return length > 0 ? std::atan2(dot3(edge, cross3(n, m)) / length, dot3(n, m)) : 0;
+  const double length = std::sqrt(dot(edge, edge));
+  return length > 0 ? std::atan2(dot(edge, cross(n, m)) / length, dot(n, m)) : 0;
 }
 
 double deformed_metric(const Sheet& sheet, TriangleIndex t, double angle, double c) {

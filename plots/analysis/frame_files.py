@@ -60,8 +60,11 @@ def read_vtu(time, file):
 
 
 def read_description(folder):
-    """What was simulated, from simulation.json."""
+    """What was simulated, from simulation.json. A verdict that is ok says which cuts were refused."""
     try:
-        return json.loads((folder / "simulation.json").read_text(encoding="utf-8"))
+        description = json.loads((folder / "simulation.json").read_text(encoding="utf-8"))
+        if description["verdict"] == "ok" and description.get("cuts_refused"):
+            description["verdict"] = f"ok, but {description['cuts_refused']} of {len(description['cuts'])} cuts refused"
+        return description
     except (OSError, ValueError) as error:
         stop(f"{folder / 'simulation.json'} can't be read: {error}; `cutbench simulate --frames` makes it")

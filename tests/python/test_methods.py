@@ -32,6 +32,13 @@ def tuned(sheet, path, reach=0.1):
     return sheet.cut(path, "warp_and_refine", reach=reach)
 
 
+def deleting(sheet, path):
+    return sheet.cut(path, "element_deletion")
+
+
+deleting.deletes = True
+
+
 class Functions(unittest.TestCase):
     def test_is_a_method(self):
         sheet = cutbench.Sheet.family("delaunay", 200)
@@ -61,6 +68,14 @@ class Functions(unittest.TestCase):
         self.assertIn("not_opened", table.reason["idle"])
         self.assertIn("not on a Friday", table.reason["unwilling"])
         self.assertIn("wordy: returned a str", table.reason["wordy"])
+
+    def test_that_deletes_triangles(self):
+        table = cutbench.compare(["element_deletion", deleting])
+        self.assertEqual(list(table.verdict), ["ok", "ok"], table.reason["deleting"])
+        self.assertEqual(table.triangles_added["deleting"], table.triangles_added["element_deletion"])
+        self.assertLess(table.triangles_added["deleting"], 0)
+        silent = cutbench.compare([lambda sheet, path: deleting(sheet, path)])
+        self.assertEqual(list(silent.status), ["failed"])
 
     def test_compare_all(self):
         table = cutbench.compare(sheet=cutbench.Sheet.family("grid", 200))

@@ -271,6 +271,16 @@ class Pins(unittest.TestCase):
         self.assertAlmostEqual(simulation.x[upper, 0].mean() - 0.5, 0.5 * np.sin(20 * 0.2) / 20, delta=2e-3)
         self.assertEqual(simulation.verdict, "ok", simulation.reason)
 
+    def test_a_refused_cut_is_said(self):
+        scene = hanging(physics={"gravity": [0, -9.81, 0.5], "bending": "hinges"})
+        simulation = cutbench.Simulation(scene, method="cut_polygons").step(2)
+        self.assertEqual((simulation.outcome, simulation.cuts_refused), ("ok", 0))
+        self.assertEqual(simulation.cut([[0.2, 0.55], [0.83, 0.5]])["status"], "refused")
+        simulation.step()
+        self.assertEqual((simulation.verdict, simulation.cuts_refused), ("ok", 1))
+        self.assertIn("ok, but 1 of 1 cuts was refused: the method's polygons have no hinges", simulation.outcome)
+        self.assertIn(simulation.outcome, repr(simulation))
+
 
 if __name__ == "__main__":
     unittest.main()

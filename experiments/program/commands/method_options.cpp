@@ -41,6 +41,8 @@ void MethodOptions::add_to(Options& app) {
   app.add_option("--command", command,
                  "a program that cuts instead of a method, such as: python3 mine.py {mesh} {path} {out}")
       .excludes(by_name);
+  app.add_flag("--deletes", deletes,
+               "the program of --command takes the triangles that the path crosses out, instead of dividing them");
   app.add_option("--command-time-limit", limits.time_s, "of each cut by the program, in seconds")
       .shows_default()
       .positive();
@@ -54,7 +56,8 @@ void MethodOptions::add_to(Options& app) {
 }
 
 MethodRow MethodOptions::row() const {
-  if (!command.empty()) return method_of_program({"program", command, ".", limits});
+  if (!command.empty()) return method_of_program({"program", command, ".", limits, deletes});
+  if (deletes) throw InputError("--deletes: says what the program of --command does; leave it out");
   if (method.empty() && !by_name.given())
     throw InputError("give --method NAME, or --command for a program of your own");
   return find_method(method);

@@ -24,6 +24,7 @@ struct ChordTolerance {
 struct MethodOptions {
   std::string method;
   std::string command = {};  ///< of a program that cuts instead
+  bool deletes = false;      ///< it takes triangles out
   ProgramLimits limits = {};
   Option by_name = {};                     ///< --method; owned by the app
   std::vector<std::string> settings = {};  ///< of --set

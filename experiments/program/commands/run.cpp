@@ -21,7 +21,7 @@ namespace cutbench {
 namespace {
 
 struct RunArguments {
-  std::vector<std::string> experiments, methods, more_methods, commands, sweeps;
+  std::vector<std::string> experiments, methods, more_methods, commands, deletes, sweeps;
   std::vector<int> resolutions;
   int cases = 0, repetitions = 0, jobs = 0;
   std::string seed, out = "results", shard = "1/1";
@@ -72,9 +72,9 @@ ProgramSettings program_in(const std::string& text) {
 
 /// The options that rows depend on. All are named here, so that a new one can't be forgotten.
 std::string text_of_options(const RunArguments& arguments) {
-  const auto& [experiments, methods, more_methods, commands, sweeps, resolutions, cases, repetitions, jobs, seed, out,
-               shard] = arguments;
-  return nlohmann::json{methods, more_methods, commands, sweeps, resolutions, cases, repetitions, seed}.dump();
+  const auto& [experiments, methods, more_methods, commands, deletes, sweeps, resolutions, cases, repetitions, jobs,
+               seed, out, shard] = arguments;
+  return nlohmann::json{methods, more_methods, commands, deletes, sweeps, resolutions, cases, repetitions, seed}.dump();
 }
 
 void set_cases(AccuracyStudy& study, int cases) {
@@ -113,6 +113,12 @@ Experiment read_part(const std::string& file, const RunArguments& arguments, con
   for (const std::string& command : arguments.commands) {
     e.programs.push_back(program_in(command));
     more.push_back({e.programs.back().name, {}});
+  }
+  for (const std::string& name : arguments.deletes) {
+    const auto named = [&](const ProgramSettings& program) { return program.name == name; };
+    const auto program = std::find_if(e.programs.begin(), e.programs.end(), named);
+    if (program == e.programs.end()) throw InputError("--deletes " + name + ": is no program; name one of --command");
+    program->deletes = true;
   }
   for (const std::string& one : arguments.more_methods) {
     const std::string name = one.substr(0, one.find('='));
@@ -197,6 +203,10 @@ Command add_run(Options& app) {
       .comma_separated();
   command.add_option("--command", arguments->commands,
                      "NAME=COMMAND: a program as one more method, such as: mine=python3 mine.py {mesh} {path} {out}");
+  command
+      .add_option("--deletes", arguments->deletes,
+                  "names of --command that take triangles out instead of dividing them, comma-separated")
+      .comma_separated();
   command.add_option("--resolutions", arguments->resolutions, "only these of the experiment (triangles)")
       .comma_separated();
   command.add_option("--sweeps", arguments->sweeps, "only these [[sweeps]] of the experiment").comma_separated();

@@ -83,8 +83,14 @@ Exit run_scene(const SimulateArguments& arguments, const std::string& command_li
   set_resolution(scene, arguments.resolution);
   if (!arguments.solver.empty()) {
     check_solver_names({arguments.solver}, "--solver");
+    if (!solves(scene.integrator))
+      throw InputError(std::string("--solver: ") + name_of(integrator_names, scene.integrator) +
+                       " solves no system; leave the option out");
     scene.solver.name = arguments.solver;
   }
+  if (!solves(scene.integrator) && scene.solver.name != SolverOptions().name)
+    std::fprintf(stderr, "note: the scene's solver is not asked: %s solves no system\n",
+                 name_of(integrator_names, scene.integrator));
   const MeshData mesh = mesh_of(scene);
   print_notes(mesh);
   if (arguments.threads || !scene.solver.threads) scene.solver.threads = arguments.threads.value_or(threads_for(mesh));

@@ -77,7 +77,7 @@ def _follow(reader, progress):
             if found := re.search(r": +(\d+) % of (\d+) cases", text):
                 if progress:
                     progress(int(found[1]), int(found[2]))
-            elif text:
+            elif text and not text.startswith("running "):  # what recommend is at
                 lines.append(text)
         if not more:
             return lines

@@ -45,7 +45,8 @@ def _named(name):
 
 
 def method_of(method, parameters):
-    """The core's method of a name or a function, with parameters."""
+    """The core's method of a name or a function, with parameters. A function whose attribute `deletes` is true takes the
+    triangles that the path crosses out, and is judged so."""
     if isinstance(method, str):
         if not parameters:
             return _named(method)
@@ -63,4 +64,4 @@ def method_of(method, parameters):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             return _answer(method, method(Sheet._of(core), curve, **parameters))
-    return _core.method_of_function(name, ask)
+    return _core.method_of_function(name, ask, bool(getattr(method, "deletes", False)))

@@ -193,7 +193,11 @@ class Simulation:
     energy = property(lambda self: self._core.energy, doc="A dict, J: membrane, bending, kinetic, potential, total.")
     cuts = property(lambda self: self._core.cuts, doc="What came of the cuts so far: a list of dicts, see cut().")
     verdict = property(lambda self: self._core.outcome[0], doc="Of all steps so far (harness/simulation/simulation.h).")
-    reason = property(lambda self: self._core.outcome[1], doc="Of a verdict that is not ok.")
+    reason = property(lambda self: self._core.outcome[1],
+                      doc="Of a verdict that is not ok; of one that is: which cuts were refused, and why. Else empty.")
+    cuts_refused = property(lambda self: self._core.outcome[3], doc="A number, up to a verdict that is not ok.")
+    outcome = property(lambda self: self._core.outcome[4],
+                       doc='One line, as `cutbench simulate` ends with: "ok", "ok, but 1 of 2 cuts was refused: ..."')
 
     @property
     def times(self):
@@ -221,7 +225,7 @@ class Simulation:
         return pictures.animate(self, frames=frames, every=every, each=each, **how)
 
     def __repr__(self):
-        return f"<cutbench.Simulation: {self.time:.4g} s, {self.verdict}, {len(self.triangles)} triangles>"
+        return f"<cutbench.Simulation: {self.time:.4g} s, {self.outcome}, {len(self.triangles)} triangles>"
 
 
 def _table_of_csv(text):

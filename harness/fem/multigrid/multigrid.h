@@ -15,6 +15,7 @@
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <array>
 #include <deque>
 #include <vector>
@@ -95,6 +96,10 @@ class Multigrid final : public Preconditioner<D> {
   bool read_place(const SystemMatrix<D>& a, std::size_t i);  // true: it is another
   Coarsening::Regrouping regroup(const SystemMatrix<D>& a);
   void find_held(const SystemMatrix<D>& a);
+  static bool is_held_altogether(const SystemMatrix<D>& a, std::size_t i) {
+    const auto held = a.held->begin() + to_index(D * i);
+    return std::find(held, held + D, 0) == held + D;
+  }
   template <class S>
   void set_inverse(Level<S>& level, std::size_t i, Block diagonal, const std::array<bool, D>& is_held);
   template <class S>

@@ -239,11 +239,11 @@ void Stepper<D>::position_step(Model<D>& model, State& state, StepReport& report
   hold(model, state, h);
   x_ = state.x + h * v_;
   if (options_.integrator == Integrator::vbd) {
-    const Field inertial = x_;
-    x_ = expected_positions(model, state);
+    inertial_ = x_;
+    expect_positions(model, state, x_);
     for (std::size_t i = 0; i < model.held().size(); ++i)
-      if (model.held()[i]) x_[to_index(i)] = inertial[to_index(i)];
-    vertex_block_descent_.solve(model, h, options_.sweeps, state.x, inertial, x_);
+      if (model.held()[i]) x_[to_index(i)] = inertial_[to_index(i)];
+    vertex_block_descent_.solve(model, h, options_.sweeps, state.x, inertial_, x_);
     state.dv = (x_ - state.x) / h - state.v;
   } else {
     xpbd_.solve(model, h, options_.sweeps, state.x, x_);
@@ -256,9 +256,9 @@ void Stepper<D>::position_step(Model<D>& model, State& state, StepReport& report
 /// Where a step of vertex block descent begins: by velocity, and by as much of the outer acceleration as the last step
 /// had of it, none to all.
 template <int D>
-Field Stepper<D>::expected_positions(const Model<D>& model, const State& state) const {
+void Stepper<D>::expect_positions(const Model<D>& model, const State& state, Field& x) const {
   const double h = options_.step;
-  Field x = state.x + h * state.v;
+  x = state.x + h * state.v;
   for (std::size_t v = 0; v < model.vertices(); ++v) {
     const double mass = model.lumped_mass()[to_index(v)];
     const auto at = to_index(D * v);
@@ -269,7 +269,6 @@ Field Stepper<D>::expected_positions(const Model<D>& model, const State& state) 
       share = std::clamp(state.dv.template segment<D>(at).dot(outer) / (h * outer.squaredNorm()), 0.0, 1.0);
     x.template segment<D>(at) += h * h * share * outer;
   }
-  return x;
 }
 
 /// Corrects the velocities in v_ where vertices have added mass: M dv = h (f - alpha M v0), with dv given where held.

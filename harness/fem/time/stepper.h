@@ -61,7 +61,7 @@ class Stepper {
   void right_hand_side(Model<D>& model, const State& state, double h, bool first, StepReport& report);
   void explicit_step(Model<D>& model, State& state, StepReport& report);
   void position_step(Model<D>& model, State& state, StepReport& report);
-  Field expected_positions(const Model<D>& model, const State& state) const;
+  void expect_positions(const Model<D>& model, const State& state, Field& x) const;
   void solve_added_mass(const Model<D>& model, const State& state, StepReport& report);
   void equilibrium(Model<D>& model, State& state, StepReport& report);
   void solve(Model<D>& model, const Field& start, StepReport& report);
@@ -76,7 +76,7 @@ class Stepper {
   Xpbd<D> xpbd_;
   VertexBlockDescent<D> vertex_block_descent_;
   std::uint64_t mass_of_ = 0;  // the change of the model that it was set up after
-  Field v_, x_, force_, rhs_, dv_, product_, reduced_, impulse_, trial_;  // kept between steps
+  Field v_, x_, force_, rhs_, dv_, product_, reduced_, impulse_, trial_, inertial_;  // kept between steps
 };
 
 }  // namespace cutbench

@@ -147,7 +147,7 @@ class Point {
   void move() {
     at("the motion");
     const auto motion = moved(scene_);
-    const SimulationOutcome& outcome = motion->outcome();
+    const SimulationOutcome outcome = motion->outcome();
     conclude(outcome.verdict, outcome.reason);
     for (const MotionCut& made : motion->made_cuts())
       if (made.cut.status == Status::refused) conclude(Verdict::refused, made.reason);

@@ -36,7 +36,7 @@ def commits(described):
 def solvers(shots, panels):
     """`cholmod`, or by scene where they differ; of each scene it is the same."""
     def named(description):
-        return description["solver"] + (f" to {description['solver_tolerance']:g}" if description["solver"] == "cg" else "")
+        return (description["solver"] or "no solver") + (f" to {description['solver_tolerance']:g}" if description["solver"] == "cg" else "")
     names = [same((named(d) for d, _ in column), "the solver") for column in panels]
     names = [name + (f", {column[0][0]['newton']} solves a step" if column[0][0].get("newton", 1) > 1 else "")
              for name, column in zip(names, panels)]

@@ -27,13 +27,17 @@ def with_values(published, text):
     return re.sub(r'^(number = "(.*)"\nvalue = ").*(")$', lambda m: m[1] + NUMBERS[f"{m[2]}.interval"](published) + m[3], text, flags=re.M)
 
 
+def but(row):
+    return "; " + row["but"] if "but" in row else ""
+
+
 @table("decision_short")
 def short(published):
-    return ["if", "take", "you get"], [[row["if"], answer(row), filled(published, row)] for row in rows()]
+    return ["if", "take", "you get"], [[row["if"], answer(row), filled(published, row) + but(row)] for row in rows()]
 
 
 @table("decision")
 def long(published):
     return ["if", "take", "you get", "because", "runner-up"], [
-        [row["if"], answer(row), filled(published, row, interval=True), row["because"], f"`{row['runner_up']}`: {row['runner_up_because']}"]
+        [row["if"], answer(row), filled(published, row, interval=True), row["because"] + but(row), f"`{row['runner_up']}`: {row['runner_up_because']}"]
         for row in rows()]
