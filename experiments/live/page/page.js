@@ -223,12 +223,13 @@ const outcome = n => (n.status === 'refused' || n.status === 'failed' ? `${n.sta
 
 /** Who made worse triangles, in a sentence. */
 function thinnest() {
-  const [worst, ...others] = running().filter(p => !['refused', 'failed'].includes(p.numbers.status)).sort((a, b) => b.numbers.aspect_ratio - a.numbers.aspect_ratio)
-  if (!worst) return ''
-  const times = p => `${plain(p.numbers.aspect_ratio)} times`
-  if (others.length && others.every(p => times(p) === times(worst))) return `The thinnest triangles are alike, ${times(worst)} as long as they are high.`
-  if (!others.length) return `The thinnest triangle is ${times(worst)} as long as it is high; 2 is good.`
-  return `Worst triangles: ${worst.method}. The thinnest is ${times(worst)} as long as it is high; ${others.map(p => `${p.method}: ${times(p)}`).join('; ')}. 2 is good.`
+  const all = running().filter(p => !['refused', 'failed'].includes(p.numbers.status)).sort((a, b) => b.numbers.aspect_ratio - a.numbers.aspect_ratio)
+  if (!all.length) return ''
+  const times = p => `${plain(p.numbers.aspect_ratio)} times`, named = p => p.method + (p.numbers.polygons ? ' (inside polygons)' : '')
+  const worst = all.filter(p => times(p) === times(all[0])), others = all.slice(worst.length)
+  if (all.length === 1) return `The thinnest triangle is ${times(all[0])} as long as it is high; 2 is good.`
+  if (!others.length) return `The thinnest triangles are alike, ${times(all[0])} as long as they are high.`
+  return `Worst triangles: ${worst.map(named).join(', ')}. The thinnest is ${times(all[0])} as long as it is high; ${others.map(p => `${named(p)}: ${times(p)}`).join('; ')}. 2 is good.`
 }
 
 /** The strokes again, by two methods; the first of them no later than two seconds from the start. */
