@@ -1,6 +1,6 @@
-// The way from one place of a sheet to the next over its seams: straight in every panel, and straight over a seam when the
-// panels are laid against each other there. Where more than 360 degrees meet it may bend: it is a shortest way, at least
-// among those near it.
+// The way from one place of a sheet to the next over its seams: straight in every panel, and straight over a seam when
+// the panels are laid against each other there. Where more than 360 degrees meet it may bend: it is a shortest way, at
+// least among those near it.
 #pragma once
 
 #include <array>
