@@ -82,7 +82,7 @@ void run_member(const CatalogueMember& member, const Trial& trial, double chord)
   const auto read_cuts = [&] {
     cuts = cuts_of(member);
     const std::vector<AnyCurve> path(cuts.begin(), cuts.end());
-    cuts = curves_at_rest(path, Sheet(mesh), "path");
+    cuts = curves_at_rest(path, Sheet(mesh), "path").curves;
   };
   if (is_refused(expect, "path_error", read_cuts)) return;
   std::string notes;

@@ -13,7 +13,7 @@ namespace cutbench {
 
 class SideGrid;
 
-/// For each half-edge on a seam, that of the other side which lies at its middle: of a sheet that is cut again and again.
+/// For each half-edge on a seam, that of the other side which lies at its middle.
 class SeamEdges {
  public:
   SeamEdges() = default;

@@ -103,7 +103,7 @@ std::vector<Router::Step> Router::steps_out_of(TriangleIndex t) const {
   return steps;
 }
 
-/// Dijkstra's (1959) over triangles, by the length of the straight way to each one's middle, laid flat. Where that would
+/// Dijkstra's (1959) over triangles, by the length of the straight way to each one's middle, laid flat. Where that does
 /// not lead through the edge of the last step, it bends at an end of it. Empty where there is none.
 std::vector<Router::Step> Router::way(const PlaceAtRest& from, TriangleIndex to) const {
   struct Reached {
@@ -302,7 +302,7 @@ Router::Strip Router::laid_flat(const PlaceAtRest& from, const PlaceAtRest& to, 
   return strip;
 }
 
-/// The shortest way within a strip, by its bends: ends of portals (Lee and Preparata 1984, in the form of Mononen 2010).
+/// The shortest way within a strip, by its bends: ends of portals (Lee and Preparata 1984; in Mononen's form, 2010).
 std::vector<Router::Corner> Router::shortest(const Strip& strip) const {
   std::vector<Corner> corners;
   const std::size_t count = strip.portals.size();

@@ -1,5 +1,6 @@
-// The way from one place of a sheet to the next over its seams: straight in every panel, and straight where it crosses a
-// seam when the panels are laid against each other there.
+// The way from one place of a sheet to the next over its seams: straight in every panel, and straight over a seam when
+// the panels are laid against each other there. Where more than 360 degrees meet it may bend: it is a shortest way, at
+// least among those near it.
 #pragma once
 
 #include <array>
@@ -22,14 +23,15 @@ struct PlaceAtRest {
   Point3 in_space = {};
 };
 
-/// The seams of the sheet, to which it refers. Cost: the whole sheet, once; of a route the triangles that it could lead through.
+/// The seams of the sheet, to which it refers. Cost: the whole sheet, once; of a route the triangles that it could lead
+/// through.
 class Router {
  public:
   explicit Router(const Sheet& sheet);
   /// The polyline through the places, in a curve for each stretch between two seams: open, in their order, each ending
   /// on the border where the next begins. Without seams on the way it is one curve of these points, closed if `closed`.
   /// \throw InputError, beginning with `name` and the numbers of two places: they are on parts that nothing joins, and
-  /// that don't lie beside each other at rest as in space; or no straight way leads from one to the other
+  /// that don't lie beside each other at rest as in space; or the way runs along a seam, where a cut opens nothing
   std::vector<Curve> route(const std::vector<PlaceAtRest>& places, bool closed, const std::string& name) const;
   bool has_seams() const { return !edges_.empty(); }
 
