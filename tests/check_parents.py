@@ -24,6 +24,7 @@ import numpy as np
 CUTS, TOLERANCE = 10, 1e-12
 PLAIN = {"cisamr"}  # cuts structured grids alone, which have no incision yet
 ROUNDED = 4 * 2.0 ** -52  # what is nearer to an edge of the unit sheet lies on it
+FLAT = 1e-12  # the sine of a new triangle's angle: its sides are one line to rounding
 root = pathlib.Path(__file__).resolve().parents[1]
 faults = []
 
@@ -98,6 +99,11 @@ class OldSheet:
         areas = np.stack([cross(c[:, (k + 1) % 3] - p, c[:, (k + 2) % 3] - p) for k in range(3)], axis=1)
         return areas / self.lengths[triangles]
 
+    def near(self, p):
+        """All triangles that p is in or on."""
+        here = np.array(self.cells[tuple(self.cell(p).tolist())] or range(len(self.corners)))
+        return here[self.distances(here, p).min(axis=1) >= -ROUNDED]
+
     def triangle(self, p, inside):
         """The triangle that p is in or on, seen from `inside`, a point of a new triangle at p."""
         here = np.array(self.cells[tuple(self.cell(p).tolist())] or range(len(self.corners)))
@@ -134,7 +140,7 @@ class OldSheet:
 
 
 def widest_corners(mesh):
-    """Per vertex, the centroid of the triangle that is widest there."""
+    """Per vertex, the centroid of the triangle that is widest there, and the sine of its angle."""
     c = mesh.rest[mesh.triangles]
     best = {}
     for k in range(3):
@@ -143,7 +149,7 @@ def widest_corners(mesh):
         for t, vertex in enumerate(mesh.triangles[:, k].tolist()):
             if vertex not in best or sine[t] > best[vertex][0]:
                 best[vertex] = sine[t], c[t].mean(axis=0)
-    return {vertex: centre for vertex, (_, centre) in best.items()}
+    return {vertex: centre for vertex, (_, centre) in best.items()}, {vertex: sine for vertex, (sine, _) in best.items()}
 
 
 def curve_points(cut):
@@ -179,12 +185,17 @@ class Check:
         if len(parents["vertices"]) != len(new.rest):
             return self.fault("not one entry for each vertex")
         attribute = np.array([self.rng.uniform(0, 1) for _ in old.mesh.rest])
-        beside = widest_corners(new)
+        beside, sine = widest_corners(new)
         carried = np.array([sum(w * attribute[o] for o, w in parts) for parts in parents["vertices"]])
         place = np.array([sum(w * old.mesh.rest[o] for o, w in parts) for parts in parents["vertices"]])
         count = np.array([len(parts) for parts in parents["vertices"]])
         in_triangle = np.array([old.triangle(p, beside[v]) for v, p in enumerate(new.rest)])
         error = np.nanmin(abs(carried[:, None] - old.values(in_triangle, new.rest, attribute)), axis=1)
+        for v in (v for v in range(len(new.rest)) if sine[v] < FLAT):  # nothing tells on which lip it is: on one of those there
+            near = old.near(new.rest[v])
+            values = old.values(near, np.repeat(new.rest[v][None], len(near), axis=0), attribute)
+            error[v] = np.nanmin(np.append(abs(carried[v] - values), error[v]))
+            self.count["flat"] += 1
         rounded = ROUNDED / 2 * abs(old.corners[in_triangle]).max(axis=(1, 2))
         off_corner = np.linalg.norm(old.corners[in_triangle] - new.rest[:, None], axis=2).min(axis=1)
         on_side = (old.sides(in_triangle, new.rest).min(axis=1) <= rounded) & (off_corner > 1e-13)  # nearer, sides of several triangles are
@@ -272,7 +283,7 @@ class Check:
     def line(self):
         parts = [f"{self.count[f'of {n}']} of {n}" for n in (1, 2, 3)]
         return (f"{self.method['name']:20} {self.count['cuts']:5} cuts, {self.count['refused']} refused, {self.count['failed']} failed; "
-                f"vertices {', '.join(parts)}, {self.count['thin']} in thin old triangles, {self.count['renumbered']} renumbered; {self.count['polygons']} polygons, "
+                f"vertices {', '.join(parts)}, {self.count['thin']} in thin old triangles, {self.count['flat']} in flat new ones, {self.count['renumbered']} renumbered; {self.count['polygons']} polygons, "
                 f"{self.count['constraints']} constraints; " +
                 ", ".join(f"{what} {value:.1e}" for what, value in sorted(self.largest.items())))
 

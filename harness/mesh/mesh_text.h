@@ -42,7 +42,7 @@ struct MeshColumn {
   std::vector<double> values;  ///< those of the first vertex or triangle, those of the second, ...
 };
 
-/// The lines `v` of an OBJ, and for each vertex the number of its own, from 1: vertices that are sewn together have one.
+/// The lines `v` of an OBJ, and for each vertex the number of its own, from 1: sewn vertices have one.
 struct ObjPoints {
   std::string lines;
   std::vector<std::size_t> number;

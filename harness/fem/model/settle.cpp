@@ -121,8 +121,8 @@ class NearVertices {
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
 };
 
-/// Vertices of the opened sheet that the cut made or moved, with a group for each place in space: lips that are together
-/// stay so. Those of an older incision, which are apart, have a group each.
+/// Vertices of the opened sheet that the cut made or moved, with a group for each place in space: lips that are
+/// together stay so. Those of an older incision, which are apart, have a group each.
 std::vector<Mover> movers_of(const Model<3>& model, const Sheet& sheet, const Field& x, std::int32_t& groups) {
   std::vector<VertexIndex> rest = sheet.log().new_vertices;
   for (const auto& moved : sheet.log().moved) rest.push_back(moved.vertex);

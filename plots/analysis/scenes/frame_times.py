@@ -19,7 +19,8 @@ def row_of(frames, limits):
     frames = frames.iloc[1:]
     total, cuts = frames["total_ms"], frames[frames["has_cut"] == 1]
     tenth = max(1, len(frames) // 10)
-    row = {"verdict": frames["verdict"].iloc[0], "frames": len(frames), "median": total.median(),
+    refused = frames["cuts_refused"].iloc[0] if "cuts_refused" in frames else 0  # of older runs nobody knows
+    row = {"verdict": frames["verdict"].iloc[0] + (f", {refused} cuts refused" if refused else ""), "frames": len(frames), "median": total.median(),
            "p99": total.quantile(0.99), "worst": total.max(), "cut median": cuts["total_ms"].median(),
            "cut worst": cuts["total_ms"].max(), "iterations": frames["iterations"].mean(),
            "growth": total.iloc[-tenth:].median() / total.iloc[:tenth].median()}
