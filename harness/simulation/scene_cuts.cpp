@@ -210,7 +210,9 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, std::span<const Curve> curve
   }
   for (const Curve& curve : curves) {
     const std::size_t vertices_before = moving.sheet.deformed_slots();
+    StopWatch before;
     const double bending = bending_of(moving);
+    result.transfer_us += before.lap();
     const CutRun run = cut_all(moving.sheet, moving.locator, cutter, {&curve, 1}, method, options);
     result.cut.status = run.status;
     result.cut.verdict = run.verdict;
