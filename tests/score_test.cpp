@@ -453,7 +453,9 @@ TEST_F(Score, BadInputIsRefused) {
                                      {"bad.off", "OFF"}})
     expect_refused(files + "--result " + result, what);
   expect_refused("--mesh none.obj --path path.json --result out.obj", "none.obj");
-  expect_refused("--mesh curved.obj --path path.json --result out.obj", "no rest positions");
+  expect_refused("--mesh curved.obj --rest vt --path path.json --result out.obj", "vt");
+  EXPECT_EQ(run("score --mesh curved.obj --path path.json --result out.obj"), 2);
+  EXPECT_NE(error_.find("path.json, cut 0: the sheet is unrolled, so places at rest mean nothing"), std::string::npos);
   expect_refused("--mesh sheet.obj --path none.json --result out.obj", "none.json");
   expect_refused("--mesh sheet.obj --path bad.json --result out.obj", "bad.json");
   expect_refused("--mesh sheet.obj --path path.json --result out.obj --report nowhere/s.json", "nowhere");
