@@ -1,6 +1,7 @@
 // Scene files: what is written arrives.
 #include "harness/simulation/scene.h"
 
+#include <cstdlib>
 #include <fstream>
 #include <set>
 
@@ -24,6 +25,8 @@ std::vector<fs::path> toml_files(const fs::path& folder) {
 }
 
 TEST(Scenes, OfTheRepositoryAreRead) {
+  ASSERT_EQ(std::system(("python3 " + (experiments / "scenes/meshes/make.py").string()).c_str()),
+            0);  // for three of them
   const auto files = toml_files(experiments / "scenes");
   EXPECT_GE(files.size(), 3u);
   for (const auto& file : files) {
