@@ -324,6 +324,8 @@ MeshData read_obj(std::string_view text, const std::string& name, bool as_is, co
 
 Texture read_obj_texture(std::string_view text, const std::string& name, const MeshReading& reading,
                          const MeshData& read) {
+  const bool may_take_vt = reading.rest == RestFrom::automatic || reading.rest == RestFrom::vt;
+  if ((may_take_vt && text.starts_with(vt_are_rest)) || text.find("vt") == std::string_view::npos) return {};
   ObjReader reader(name, false, reading);
   if (reader.took_vt(reader.read(text))) return {};
   return reader.texture(read);
