@@ -60,10 +60,14 @@ TEST(Surface, AnUncutSheetIsOnePiece) {
   EXPECT_EQ(found.expected, 2);
 }
 
+/// Both panels cut: the first along first_half, the second along this.
+SurfaceJudgement both_cut(const std::vector<Point>& second) {
+  return judge_surface(two_panels(4, false), {in_panel(first_half, 0), in_panel(second, 1)},
+                       both(cut(4, first_half), cut(4, second)), tip);
+}
+
 TEST(Surface, ACutOverASeamPartsBothPanels) {
-  const Surface sheet = two_panels(4, false);
-  const std::vector<Curve> cuts{in_panel(first_half, 0), in_panel(second_half, 1)};
-  const auto found = judge_surface(sheet, cuts, both(cut(4, first_half), cut(4, second_half)), tip);
+  const auto found = both_cut(second_half);
   EXPECT_EQ(found.expected, 2);
   EXPECT_EQ(found.least, 2);
   EXPECT_EQ(found.most, 2);
@@ -98,19 +102,14 @@ TEST(Surface, APathThatEndsAtASeamIsAlone) {
 
 /// Ends that differ by rounding are one place; a ten thousandth of the seam is another.
 TEST(Surface, PlacesOnBothSidesMayDifferByRounding) {
-  const Surface sheet = two_panels(4, false);
   for (const double off : {1e-13, -1e-13, 1e-10}) {
-    const std::vector<Point> second{{0, 0.511 + off}, {1.1, 0.7}};
-    const std::vector<Curve> cuts{in_panel(first_half, 0), in_panel(second, 1)};
-    const auto found = judge_surface(sheet, cuts, both(cut(4, first_half), cut(4, second)), tip);
+    const auto found = both_cut({{0, 0.511 + off}, {1.1, 0.7}});
     EXPECT_EQ(found.expected, 2) << off;
     EXPECT_EQ(found.pieces, 2) << off;
     EXPECT_EQ(found.crossings, 2) << off;
     EXPECT_EQ(found.unopened, 0) << off;
   }
-  const std::vector<Point> elsewhere{{0, 0.521}, {1.1, 0.7}};
-  const std::vector<Curve> cuts{in_panel(first_half, 0), in_panel(elsewhere, 1)};
-  const auto found = judge_surface(sheet, cuts, both(cut(4, first_half), cut(4, elsewhere)), tip);
+  const auto found = both_cut({{0, 0.521}, {1.1, 0.7}});
   EXPECT_EQ(found.expected, 1);
   EXPECT_EQ(found.pieces, 1);
   EXPECT_EQ(found.alone, 2);

@@ -73,6 +73,10 @@ class Router {
     Point2 point;
   };
 
+  /// In mean edges: a way that arrives this near to its goal, by another chart's rounding, has arrived.
+  static constexpr double arrived = 1e-6;
+
+  Point2 at_share(HalfEdge h, double share) const;
   std::vector<Step> steps_out_of(TriangleIndex t) const;
   std::vector<Step> way(const PlaceAtRest& from, TriangleIndex to) const;
   Laying across(const Step& step) const;
@@ -82,6 +86,8 @@ class Router {
   bool meets_seam(Point2 from, Point2 to) const;
   bool are_apart(const PlaceAtRest& from, const PlaceAtRest& to) const;
   std::pair<double, double> sides(std::size_t edge) const;
+
+  // route_shortest.cpp
   Gate gate(const Step& step) const;
   Strip laid_flat(const PlaceAtRest& from, const PlaceAtRest& to, std::vector<Step> way) const;
   std::vector<Corner> shortest(const Strip& strip) const;
@@ -89,6 +95,7 @@ class Router {
   std::optional<std::vector<Step>> past(const Strip& strip, const Corner& corner) const;
   std::vector<Bend> shortened(const PlaceAtRest& from, const PlaceAtRest& to, const std::vector<Step>& way) const;
   std::vector<Bend> bends_of(const Strip& strip, const std::vector<Corner>& corners) const;
+
   bool join(const PlaceAtRest& from, const PlaceAtRest& to, std::vector<Bend>& bends) const;
 
   const Sheet& sheet_;

@@ -113,7 +113,7 @@ SolveReport ConjugateGradients<D>::solve(const Field& b, Field& x, const Field& 
   const Products all = advance(0, x);  // p = q = 0
   const double bb = all.rr, share = options_.tolerance * options_.tolerance, enough = share * bb,
                enough_rdr = share * all.rdr;
-  // Of a residual that is not the last one.
+  // Whether products in floats do before the first restart: what is returned was judged by one in doubles.
   const auto floats_do = [&] { return options_.tolerance >= tolerance_for_floats && trial_ < trials_.size(); };
   if (start.size() == b.size()) {
     project(*a.held, start, x);

@@ -71,8 +71,10 @@ class NearVertices {
     return dx.allFinite();
   }
 
-  void add(double share, const Field& dx, Field& x) const {
-    for (const auto& [vertex, group] : movers_) x.segment<3>(3 * vertex) += share * dx.segment<3>(3 * group);
+  /// Moves them to `from`, plus a share of a step.
+  void place(const std::vector<Eigen::Vector3d>& from, double share, const Field& dx, Field& x) const {
+    for (std::size_t i = 0; i < movers_.size(); ++i)
+      x.segment<3>(3 * movers_[i].vertex) = from[i] + share * dx.segment<3>(3 * movers_[i].group);
   }
 
  private:
@@ -157,21 +159,21 @@ void settle_new_vertices(const Model<3>& model, const Sheet& sheet, Field& x) {
   const std::vector<Mover> movers = movers_of(model, sheet, x, groups);
   if (movers.empty()) return;
   NearVertices near(model, movers, groups);
-  Field force, dx, trial;
+  Field force, dx;
+  std::vector<Eigen::Vector3d> from(movers.size());
   double energy = near.energy(x);
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     if (!near.solve(x, force, dx)) return;
     const double slope = force.dot(dx);
     if (!(slope > settled * energy)) return;
+    for (std::size_t i = 0; i < movers.size(); ++i) from[i] = x.segment<3>(3 * movers[i].vertex);
     double share = 1, reached = energy;
     for (int halving = 0; halving <= most_halvings; ++halving, share /= 2) {
-      trial = x;
-      near.add(share, dx, trial);
-      reached = near.energy(trial);
+      near.place(from, share, dx, x);
+      reached = near.energy(x);
       if (reached <= energy - sufficient_decrease * share * slope) break;
     }
-    if (!(reached < energy)) return;
-    x = trial;
+    if (!(reached < energy)) return near.place(from, 0, dx, x);
     energy = reached;
   }
 }
