@@ -74,7 +74,7 @@ def stability(folder):
         ax.tick_params(labelsize=7.5)
     figure.text(0.008, 0.945, "Largest explicit step after a cut, over that of the uncut sheet", fontsize=10, fontweight="bold")
     verdicts = set(rows.loc[rows["sweep"].isin(shown), "verdict"])
-    bands = [*panels.legends(set())[0][1], *panels.legends(verdicts)[2][1]]
+    bands = [handle for _, handles in panels.legends(verdicts, ["explicit"]) for handle in handles]
     figure.legend(handles=bands, loc="lower left", ncol=len(bands), bbox_to_anchor=(0.125, 0.155), fontsize=8.5, handlelength=1.2,
                   columnspacing=1.4)
     figure.text(0.008, 0.02, "To the right the cut comes nearer; at $10^{-12}$ h, below the snap distance, it goes through the vertex or along the border. "

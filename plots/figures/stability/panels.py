@@ -116,15 +116,20 @@ def share_ok(ax, rows, y, x, ylabels=True):
     ax.grid(False), ax.spines[:].set_visible(False), ax.tick_params(length=0, labelsize=5.5)
 
 
-def legends(verdicts, panel=None):
-    """(what it is about, handles) for each row of the legend. For a `panel` alone: those of its colours."""
-    def patches(bands):
-        return [Patch(color=colour, label=words) for _, colour, words in bands]
-    unknown = Patch(**HATCHED, label="not known")
-    explicit = ("ok, explicit step:", [*patches(EXPLICIT_BANDS), unknown])
-    cost = ("ok, cost of a step:", patches(COST_BANDS) + [Patch(color=OK, label="not timed")])
-    others = ("not ok:", patches((v, *VERDICTS[v]) for v in VERDICTS if v in verdicts))
-    if panel is None:
-        return [explicit, cost, others]
+def legends(verdicts, bands=("explicit", "cost")):
+    """(what it is about, handles) for each row of a legend: those of the `bands`, and of the verdicts that are not ok. Without bands ok
+    has one colour."""
+    def patches(of):
+        return [Patch(color=colour, label=words) for _, colour, words in of]
+    rows = {"explicit": ("ok, explicit step:", [*patches(EXPLICIT_BANDS), Patch(**HATCHED, label="not known")]),
+            "cost": ("ok, cost of a step:", patches(COST_BANDS) + [Patch(color=OK, label="not timed")])}
+    others = patches((v, *VERDICTS[v]) for v in VERDICTS if v in verdicts)
+    if not bands:
+        return [("", [Patch(color=OK, label="ok"), *others])]
+    return [rows[band] for band in bands] + ([("not ok:", others)] if others else [])
+
+
+def bands_of(panel):
+    """Of legends(): those of a panel."""
     timed = panel.endswith("solvers") or panel in ("iterations", "tolerance", "vertex_mass", "vertex_stress")
-    return [cost if timed else ("", [Patch(color=OK, label="ok")]) if panel in PLAIN else explicit, others]
+    return ["cost"] if timed else [] if panel in PLAIN else ["explicit"]

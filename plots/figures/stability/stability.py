@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The stability sweeps: one page of small multiples, a figure for each sweep, and the table of breaking points. Reads
-results/stability; writes stability.png, stability_SWEEP.png and stability.md there."""
+"""The stability sweeps: pages of at most six panels, a figure for each sweep, and the table of breaking points. Reads
+results/stability; writes stability_PAGE.png, stability_SWEEP.png and stability.md there."""
 
 import sys
 from pathlib import Path
@@ -44,21 +44,36 @@ CELLS = {  # a panel: title, label of the x axis; column of the group, of x, tho
     "vertex_stress": ("stiffness from stress: none, positive, full", DISTANCE, "name", "place",
                       ("stress_stiffness", "pose_amount", "newton", "solver"), "cost", NEAR),
 }
-ON_THE_PAGE = [  # rows of the page: height and the space below, inches, and the panels
-    (1.5, 0.45, ["vertex", "edge", "border", "tip"]),
-    (1.5, 0.55, ["angle", "strip", "piece", "in_a_row"]),
-    (1.5, 0.62, ["single_cuts", "several_cuts", "explicit"]),
-    (1.8, 0.55, ["vertex_solvers", "angle_solvers", "strip_solvers", "in_a_row_solvers"]),
-    (0.85, 0.55, ["map_0", "map_1", "map_2", "map_3", "map_4", "map_5", "map_6", "map_7"]),
-    (1.2, 0.3, ["iterations", "tolerance", "rolled", "turned_over", "step_poisson"]),
-]
+PAGES = {  # stem: title, rows of panels, height of a row in inches, legends, what the caption says of it
+    "stability_near": (
+        "One cut comes near something: what is left of an explicit step", [["vertex", "edge", "border"], ["tip", "angle", "strip"]], 2.0,
+        ["explicit"],
+        "A cell is one setting and one method: the worst of its cuts; to the right the cut comes nearer. The explicit step, bending included, is a "
+        "share of the uncut sheet's. Why it shrinks: the largest eigenvalue of the membrane grows as (h / altitude)² of the thinnest triangle, that of "
+        "bending faster. At 1e-12 h, below the snap distance, the path goes through the vertex. Tie: corners of thin triangles follow their neighbours. "
+        "Ghost: a penalty on jumps of the gradient across the edges of cut triangles. Stabilised mass: thin triangles of a conventional split get mass "
+        "against their stiff modes; hatched: its eigenvalue came out as no number. Ties and copies: their explicit step is predicted, the program makes none."),
+    "stability_cuts": (
+        "Small pieces, many cuts, ordinary cuts: what is left of an explicit step",
+        [["piece", "in_a_row"], ["single_cuts", "several_cuts", "explicit"]], 2.0, ["explicit"],
+        "Above, a cell is one setting and one method: the worst of its cuts. Below, a dot is the median of the explicit step and a line leads to what 95 % "
+        "of the cuts have; dashed 0.3, dotted 0.1; green: above both. Single cuts: time of a cut (without finding polygons or ties) over that of the "
+        "conventional split, and incision error, medians. Right: 300 steps of symplectic Euler without damping, ok where the energy stays."),
+    "stability_solvers": (
+        "Implicit steps of 1/240 s: which solver works, and what a step costs",
+        [["vertex_solvers", "angle_solvers"], ["strip_solvers", "in_a_row_solvers"]], 2.7, ["cost"],
+        "The sheet is stretched, cut, and springs open. Five rows a method, from the top: CG, sliver blocks, multigrid, CHOLMOD, constant factor. A cell "
+        "is the worst of its cuts; to the right they are harder."),
+    "stability_steps": (
+        "How long may an implicit step be, and how stiff the sheet?", [["map_0", "map_1", "map_4"], ["map_2", "map_3", "map_6"]], 1.15, [],
+        "Steps right after a cut by conventional split, solved by CHOLMOD. A row is a stiffness, a column a step."),
+    "stability_limits": (
+        "Solvers cut short, and large deformations", [["iterations", "tolerance", "rolled"], ["turned_over", "step_poisson"]], 1.9, ["cost"],
+        "In each method a row is a solver (CG, sliver blocks, multigrid, constant factor; the first three for the tolerance), or an integrator with "
+        "1 and 3 Newton iterations: backward Euler, then midpoint."),
+}
 OWN_ROWS = {"in_a_row", "explicit", "in_a_row_solvers", "step_poisson"}  # panels whose methods are not those to their left
 MAPS = [(integrator, newton, damping) for damping in (0.0, 1e-3) for integrator in INTEGRATORS for newton in (1, 3)]
-SECTIONS = ["a   one cut comes near something: explicit step (bending included), as a share of the uncut sheet's", None,
-            "b   after single cuts: time of the cut (without finding polygons or ties), explicit step; after four; explicit runs",
-            "c   implicit steps of 1/240 s; rows of a method, from the top: CG, sliver blocks, multigrid, CHOLMOD, constant factor",
-            "d   step × stiffness right after a cut by conventional split: verdicts, solved by CHOLMOD",
-            "e   solvers cut short, and large deformations (in each method by solvers, or by integrators × Newton iterations)"]
 
 
 def draw(ax, rows, panel, ylabels=True):
@@ -90,29 +105,29 @@ def draw_map(ax, rows, which, ylabels):
     panels.cells(ax, some, "stiffness_n_m", "step_s", ylabels=ylabels, labels=panels.short, ticks=STEPS)
     if ylabels:
         ax.set_ylabel("E t, N/m", fontsize=5.5, labelpad=1)
-    return f"{INTEGRATORS[integrator]}\n{newton} it.{', damped' if damping else ''}"
+    return f"{INTEGRATORS[integrator]}, {newton} Newton it.{', damped' if damping else ''}"
 
 
-def page(rows, caption):
-    above, below = 0.42, 0.9  # inches
-    total = sum(height + gap for height, gap, _ in ON_THE_PAGE) + above + below
+def page(rows, stem, caption):
+    title, panels_of_rows, height, bands, _ = PAGES[stem]
+    sweeps = {"step_stiffness" if name.startswith("map_") else name for names in panels_of_rows for name in names}
+    legends = panels.legends(set(rows[rows["sweep"].isin(sweeps)]["verdict"]), bands)
+    above, gap, below = 0.55, 0.47, 0.36 + 0.17 * len(legends)  # inches
+    total = above + len(panels_of_rows) * (height + gap) + below
     figure = plt.figure(figsize=(style.PAGE, total))
+    figure.text(0.05 / style.PAGE, (total - 0.16) / total, title, fontsize=8, fontweight="bold", va="center")
     top = total - above
-    for (height, space, names), section in zip(ON_THE_PAGE, SECTIONS):
-        if section:
-            figure.text(0.05 / style.PAGE, (top + 0.2) / total, section, fontsize=7, fontweight="bold", va="bottom")
-        left = 0.5 if names[0] == "map_0" else 0.95
-        gaps = [left] + [0.95 if name in OWN_ROWS else 0.08 for name in names[1:]]
+    for names in panels_of_rows:
+        gaps = [0.5 if names[0].startswith("map_") else 0.95] + [0.95 if name in OWN_ROWS else 0.08 for name in names[1:]]
         width = (style.PAGE - 0.05 - sum(gaps)) / len(names)
         x = 0
-        for name, gap in zip(names, gaps):
-            x += gap
+        for name, space in zip(names, gaps):
+            x += space
             ax = figure.add_axes([x / style.PAGE, (top - height) / total, width / style.PAGE, height / total])
-            draw(ax, rows, name, ylabels=gap >= 0.5)
+            draw(ax, rows, name, ylabels=space >= 0.5)
             x += width
-        top -= height + space
-    drawn = {name for _, _, names in ON_THE_PAGE for name in names if name in CELLS} | {"step_stiffness"}
-    for y, (words, handles) in zip((0.78, 0.61, 0.44), panels.legends(set(rows[rows["sweep"].isin(drawn)]["verdict"]))):
+        top -= height + gap
+    for y, (words, handles) in zip((below - 0.02 - 0.17 * i for i in range(len(legends))), legends):
         figure.text(0.05 / style.PAGE, y / total, words, fontsize=6, va="center")
         figure.legend(handles=handles, loc="center left", ncol=len(handles), bbox_to_anchor=(0.16, y / total), fontsize=6,
                       handlelength=1.1, handleheight=0.9, columnspacing=0.9, handletextpad=0.4, borderpad=0)
@@ -126,7 +141,7 @@ def alone(rows, panel, folder):
     figure, ax = plt.subplots(figsize=(style.WIDTH, 2.8))
     figure.subplots_adjust(left=0.27, right=0.99, top=0.93, bottom=0.26)
     draw(ax, rows, panel)
-    handles = [h for _, some in panels.legends(set(rows[rows["sweep"] == panel]["verdict"]), panel) for h in some]
+    handles = [h for _, some in panels.legends(set(rows[rows["sweep"] == panel]["verdict"]), panels.bands_of(panel)) for h in some]
     if handles:
         figure.legend(handles=handles, loc="lower center", ncol=4, fontsize=5.5, handlelength=1)
     path = folder / f"stability_{panel}.png"
@@ -136,18 +151,10 @@ def alone(rows, panel, folder):
 def main():
     folder = load.results_folder("stability", __doc__)
     rows, context = points.read(folder), load.read_context(folder / "context.json")
-    caption = ("A cell is one setting and one method: the worst of its cuts. Values go from harmless (left) to harmful; h is the "
-               "mean edge of the uncut sheet. Why steps shrink: the largest eigenvalue of the membrane grows as (h / altitude)² of the thinnest "
-               "triangle, that of bending faster. At 1e-12 h, below the snap distance, the path goes through the vertex. Tie: corners of thin triangles "
-               "follow their neighbours. Ghost: a penalty on jumps of the gradient across the edges of cut triangles. Stabilised mass: "
-               "thin triangles of a conventional split get mass against their stiff modes; hatched: in some cases its eigenvalue came out as no number. (To scale all of "
-               "their mass would add 88 times the sheet's.) Ties and phantom nodes: their explicit step is predicted, the program makes none. b, left: time of a cut (without finding ties or polygons) over that of the conventional "
-               "split, and incision error, medians; a dot at the median of the explicit step, a line to what 95 % of the cuts have; dashed "
-               "0.3, dotted 0.1; green: above both. b, right: 300 steps of symplectic Euler without damping, ok where the energy stays. d: a row "
-               f"is a stiffness, a column a step. e: Euler, midpoint with 1 and 3 Newton iterations each. {len(rows)} points, "
-               f"{rows['sweep'].nunique()} sweeps; seed {context.get('seed')}, commit {str(context.get('commit'))[:10]}. How to read "
-               f"it: docs/explanation/stability.md. Command: {context.get('command')}")
-    style.save(page(points.on_the_page(rows), caption), folder, "stability")
+    source = (f"{len(rows)} points, {rows['sweep'].nunique()} sweeps; seed {context.get('seed')}, commit {str(context.get('commit'))[:10]}. How to "
+              f"read it: docs/explanation/stability.md. Command: {context.get('command')}")
+    for stem, (*_, words) in PAGES.items():
+        style.save(page(points.on_the_page(rows), stem, f"{words} {source}"), folder, stem)
     for panel in set(CELLS) & set(rows["sweep"]):
         alone(rows, panel, folder)
     load.write_beside(folder / "stability.md", table.text_of(rows, context))
