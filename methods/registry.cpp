@@ -44,7 +44,7 @@ std::vector<MethodRow>& table() {
        exact_split,
        [](double) { return std::make_unique<ConventionalSplit>(); }},
       {"active_node",
-       "the tip is a vertex that moves with the blade, flips edges, takes in what is near and leaves a path vertex "
+       "after a Delaunay split a node goes along the path, flips edges, takes in what is near and leaves a vertex "
        "every h",
        {"spacing",
         1,
@@ -69,7 +69,7 @@ std::vector<MethodRow>& table() {
         .incision_bound = {.longest_edges = 0, .chord_tolerances = 1}},
        [](double tip) { return std::make_unique<AdaptiveRemesh>(AdaptiveRemesh::Options{.tip = tip}); }},
       {"bowyer_watson",
-       "the paper's method: Bowyer-Watson in each crossed triangle, then local split",
+       "the paper's method: Bowyer-Watson in each crossed triangle, then rounds of local split",
        {"rounds",
         1,
         "rounds of the local split; 0: the best diagonal alone",
@@ -93,7 +93,7 @@ std::vector<MethodRow>& table() {
              CgalRefine::Options{.bound = bound == 0 ? std::numeric_limits<double>::infinity() : bound});
        }},
       {"cisamr",
-       "one phase of CISAMR, on structured grids: vertices near the path move onto it; no refinement, no rule for tips",
+       "two of CISAMR's three phases, on structured grids: vertices near the path move onto it; no refinement, no tips",
        {},
        {.exact_incision = false,
         .keeps_area = true,

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""The documents: every relative link and anchor of the .md files leads somewhere.
+"""The documents: every relative link and anchor of the .md files and the notebooks leads somewhere.
 usage: tests/check_links.py      exit code 1 and a line for each fault"""
 
+import json
 import pathlib
 import re
 import sys
@@ -46,9 +47,16 @@ def check_link(file, line, target):
         faults.append(f"{where}: there is no such heading")
 
 
-files = [f for f in sorted(root.rglob("*.md")) if not SKIPPED & set(f.relative_to(root).parts)]
+def text_of(file):
+    if file.suffix != ".ipynb":
+        return file.read_text(encoding="utf-8")
+    cells = json.loads(file.read_text(encoding="utf-8"))["cells"]
+    return "\n".join("".join(cell["source"]) for cell in cells if cell["cell_type"] == "markdown")
+
+
+files = [f for end in ("*.md", "*.ipynb") for f in sorted(root.rglob(end)) if not SKIPPED & set(f.relative_to(root).parts)]
 for file in files:
-    text = without_code(file.read_text(encoding="utf-8"))
+    text = without_code(text_of(file))
     for link in re.finditer(r"\]\(\s*<?([^)\s>]+)>?(?:\s+\"[^\"]*\")?\s*\)", text):
         check_link(file, text.count("\n", 0, link.start()) + 1, link[1])
 

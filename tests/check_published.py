@@ -54,9 +54,14 @@ def check_reference(program):
     today = re.search(r"suite version (\d+)", said)[1]
     expect(f"results/reference: rows of suite version {max(versions)}, and the program's is {today}",
            max(map(int, versions)) <= int(today))
+    about = publish.read_about(REFERENCE)
+    commits = {stage["commit"] for stage in about.values()}
+    expect(f"results/reference: stages of commits {', '.join(sorted(c[:7] for c in commits))}; publish them at one", len(commits) == 1)
+    expect(f"results/reference/publish.json: stages {', '.join(about)}, and experiments/publish.toml has others", set(about) == set(stages))
     for file in sorted(REFERENCE.glob("*.context.json")):
         context = json.loads(file.read_text(encoding="utf-8"))
         expect(f"results/reference/{file.name}: of a tree with changes that no commit holds", context["dirty"] is False)
+        expect(f"results/reference/{file.name}: of another commit than publish.json", context["commit"] in commits)
         expect(f"results/reference/{file.name}: its command has a path of one machine: {context['command']}",
                " /" not in context["command"])
 

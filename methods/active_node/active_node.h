@@ -1,4 +1,4 @@
-// The active node: the tip of the incision is a vertex that moves with the blade, and leaves a vertex of the path
+// The active node: after a Delaunay split of the whole path one node goes along it, and leaves a vertex of the path
 // behind every `spacing` mean edges.
 //
 // How it works. adapt: where the path meets a straight part of the border close to a vertex of it, that vertex moves
@@ -19,9 +19,8 @@
 // where the chord would leave the requested curve by more than 0.05 mean edges or the chord tolerance.
 //
 // Source: Nienhuys and van der Stappen, A Delaunay approach to interactive cutting in triangulated surfaces, 2004 (WAFR
-// 2002), and A surgery simulation supporting cuts and finite element deformation, 2001; the texts were not at hand, so
-// this follows the authors' page and what others say of them. Differences known: the whole way is embedded before the
-// node moves, so that it moves from crossing to crossing; vertices in the way are removed at a distance of our choice;
+// 2002); the text was not at hand, so this follows the authors' page and what others say of it. Differences known: the
+// whole way is embedded before the node moves (there no points are inserted, a vertex moves with the blade), so that it moves from crossing to crossing; vertices in the way are removed at a distance of our choice;
 // chords are held to a tolerance; the last pieces are no shorter than the others, which takes knowing where a cut ends.
 // Promises: area, conforming. The incision error is at most the chord tolerance, since each step is checked against the
 // requested curve (methods/tools/path_curve.h). Neither the exact path (chords of length h) nor that vertices stay.

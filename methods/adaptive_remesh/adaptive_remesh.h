@@ -24,10 +24,10 @@
 // Source: Narain, Samii and O'Brien, Adaptive anisotropic remeshing for cloth simulation, ACM TOG 31(6), 2012 (split,
 // flip, collapse; not read, but dynamicremesh.cpp of their program ARCSim); Pfaff, Narain, de Joya, O'Brien, Adaptive
 // tearing and cracking of thin sheets, ACM TOG 33(4), 2014 (fine at tips, coarse behind; not read). As in ARCSim a
-// vertex on a border or a marked line goes along it alone, a triangle may be as thin as 12 sqrt(3) area / perimeter^2 =
-// 0.2, which is an aspect ratio of about 6, no edge of a fold is flipped, and the field has terms of curvature and
+// vertex on a marked line goes along it alone, no edge of a fold is flipped, and the field has terms of curvature and
 // compression (methods/adaptive_remesh/deformed_metric.h).
-// Not as there: its field is a tensor, here it is a number. Its terms of velocity and obstacles are left out, since a
+// Not as there: vertices of the border and of older incisions never go, there they go along it. A collapse may leave an
+// aspect ratio of 6, there 12 sqrt(3) area / perimeter^2 = 0.2, which is 12 to 13. Its field is a tensor, here it is a number. Its terms of velocity and obstacles are left out, since a
 // method is told of neither; for that of fracture the tips stand. It remeshes the whole sheet in every step, here it is
 // the zone of a cut. It splits above 1 and makes no edge longer than 0.9 by a collapse, which has no lower bound, here
 // both bounds are those of a quasi-unit mesh (Frey and George, Mesh Generation, 2000; not read), so that it keeps

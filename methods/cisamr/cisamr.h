@@ -1,5 +1,6 @@
-// One phase of CISAMR: on a structured grid, vertices near the path move onto it, and the triangles that are still
-// crossed are divided, in one pass. It is not the method of its source, and says nothing about that one's bound.
+// Two of CISAMR's three phases, relocation and sub-triangulation: on a structured grid, vertices near the path move onto
+// it, and the triangles that are still crossed are divided; then flips. It is not the method of its source, and says
+// nothing about that one's bound.
 //
 // How it works: for sheets of which at least half of the triangles are halves of equal squares along the axes; others
 // are refused. adapt: where a crossing lies at up to half its edge from an end, that end moves to the nearest crossing
@@ -12,10 +13,11 @@
 // modeling fracture problems, Computational Mechanics 59, 2017 (only the abstract was read). It names three phases:
 // refinement of the background grid, relocation of the nodes of cut elements, sub-triangulation of these and of
 // elements with hanging nodes; and "the required considerations for the treatment of crack tips and branching cracks".
-// It claims that "aspect ratios of conforming elements are lower than three", without iterations.
+// It claims that "aspect ratios of conforming elements are lower than three", without iterative smoothing or
+// optimisation.
 // What is left out here: the refinement, with its hanging nodes, and every treatment of tips and branches, since the
 // abstract does not say what they are. What is ours: that vertices move to crossings of their own edges, the tolerance
-// of the path, the order of diagonals. So no aspect ratio is promised, and none measured here judges the source.
+// of the path, flips until none changes. So no aspect ratio is promised, and none measured here judges the source.
 // Promises: area, conforming; neither the exact path (between moved vertices it takes short cuts) nor that vertices
 // stay. The incision error is at most the chord tolerance, since every move is checked against the requested curve.
 // Where it fails: on any other sheet; where two moved vertices face each other; at tips and corners of the path, to

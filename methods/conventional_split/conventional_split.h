@@ -4,8 +4,9 @@
 // becomes three, one in which the path goes from a corner to the opposite edge becomes two, and one in which it ends
 // becomes four, in an order that does not depend on the shapes.
 //
-// Source: the "conventional" or "traditional" subdivision of Xin et al. 2018, 4.1.2, 5.2 and figures 1, 8, 9; the
-// three-way split of the earlier literature (Bielser et al. 2004 and others).
+// Source: the "conventional" or "traditional" subdivision of Xin et al. 2018, 4.1.2, 5.2 and figures 1, 8, 9,
+// which divides a triangle into three along the path. Which diagonal is theirs is not said; from the entering point is
+// our choice. (Bielser et al. 2004, whom they cite, divide tetrahedra; abstract read.)
 // Promises: the exact path, area, conforming, no vertex moved.
 // Where it fails: shapes. A crossing at fraction t of an edge makes triangles of aspect ratio up to 2/t, without limit.
 #pragma once

@@ -10,8 +10,8 @@
 // the crossing is split instead, and the tip stays; so does the end of a blade that goes on. embed: the Delaunay split of the triangles that are still crossed.
 //
 // Source: libigl's cut_mesh and cloth tearing, which release edges and nothing else; Nienhuys and van der Stappen,
-// Supporting cuts and finite element deformation in interactive surgery simulation, UU-CS-2001-16, 2001, cut along
-// faces of the mesh (only its abstract was read). How each rounds a tip was not found in a text.
+// Combining finite element deformation with cutting for surgery simulations, Eurographics 2000 (not read), whose cut
+// was jagged by the authors' page. (Their version of 2001 moves nodes, too, as vertex_snap does.) How each rounds a tip was not found in a text.
 // Promises: area, conforming, no vertex moved; not the exact path. The incision error is at most the sheet's longest
 // edge plus the chord tolerance, since a crossing moves along its own edge at most to that edge's other end, and a tip
 // stays in its own triangle. Measured: at most 1.6 mean edges on sheets whose edges differ in length.

@@ -6,7 +6,7 @@
 //
 // Source: carving in surgery simulators and tearing in games, where a broken element is no longer drawn; SOFA's carving
 // plugin. The same in fracture by finite elements: Song, Wang and Belytschko, A comparative study on finite element
-// methods for dynamic fracture, Computational Mechanics 42, 2008 (element deletion).
+// methods for dynamic fracture, Computational Mechanics 42, 2008 (element deletion; not read).
 // Promises: conforming; the remaining triangles keep their shapes. Not the exact path: the new border is within the
 // longest edge of the path, since every removed triangle is crossed. Not the area: a band of one to two triangles'
 // width is removed, the more the longer the cut, and a tip lies where its triangle ended. Not that vertices stay: none

@@ -1,4 +1,5 @@
-// Local split by longest edges (LEPP-Delaunay), the reading of the paper's local split that works best.
+// Local split by longest edges (LEPP-Delaunay without its operations at the boundary), in place of the paper's; it is no
+// reading of that one.
 //
 // How it works. embed: the Delaunay split. improve: edges round the new vertices are flipped to constrained Delaunay.
 // Then, for each triangle that the cut made or changed and whose aspect ratio exceeds 3, the longest-edge propagation
@@ -9,13 +10,15 @@
 // are triangles in a forced wedge (methods/tools/forced_wedges.h).
 //
 // Source: Rivara, New longest-edge algorithms for the refinement and/or improvement of unstructured triangulations,
-// 1997 (LEPP-Delaunay); Xin et al. 2018, 4.1.3, for the step that it replaces. Flips: harness/mesh/local_delaunay.h.
+// 1997 (LEPP-Delaunay; not read); Bedregal and Rivara, Procedia Engineering 124, 2015 (abstract read); Xin et al. 2018,
+// 4.1.3, for the step that it replaces. Flips: harness/mesh/local_delaunay.h.
+// Not as there: the authors insert points of their own where a midpoint comes close to the boundary, against
+// non-convergence. With these, angles above 25.66 degrees are proved where constrained angles are 30 degrees or more,
+// which is an aspect ratio up to about 4.2. So what fails here does not judge the source.
 // Promises: the exact path, area, conforming, no vertex moved.
-// Where it fails: no bound on the aspect ratio is proved for the midpoint variant, and 3 is not reached in most cuts:
-// it goes on halving edges beside a constrained edge that a new midpoint encroaches upon. Hence the strict cap. It is
-// reached in most cuts, which is reported as stopping early: the cost is then that of the cap. A vertex close to the
-// path costs dozens of vertices,
-// and the small distance itself stays. Flips of old edges change the deformed surface where the sheet is bent.
+// Where it fails: 3 is not reached in most cuts: it goes on halving edges beside a constrained edge that a new midpoint
+// encroaches upon. Hence the strict cap. It is reached in most cuts, which is reported as stopping early: the cost is
+// then that of the cap. A vertex close to the path costs dozens of vertices, and the small distance itself stays. Flips of old edges change the deformed surface where the sheet is bent.
 #pragma once
 
 #include "harness/cut/cutting_method.h"

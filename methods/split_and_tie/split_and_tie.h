@@ -7,7 +7,7 @@
 // tips, junctions and the border.
 //
 // Source: aggregated finite elements (Badia, Verdugo and Martin, The aggregated unfitted finite element method for
-// elliptic problems, CMAME 336, 2018); there the cut cells are integrated and not split.
+// elliptic problems, CMAME 336, 2018; not read); there the cut cells are integrated and not split.
 // Promises: the exact path, area, conforming, no vertex moved; an affine displacement is reproduced exactly.
 // Where it fails: on pieces that consist of slivers only, and with an explicit integrator, since the mass is no longer
 // lumped. The triangles stay ill-shaped for every other use. Vertices near a cut jump to the field of their master

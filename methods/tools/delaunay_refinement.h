@@ -14,7 +14,7 @@
 //
 // Source: Ruppert, A Delaunay refinement algorithm for quality 2-dimensional mesh generation, J. Algorithms 18, 1995
 // (encroachment, shells); Ungor, Off-centers: a new type of Steiner points for computing size-optimal
-// quality-guaranteed Delaunay triangulations, LATIN 2004. Flips: harness/mesh/local_delaunay.h.
+// quality-guaranteed Delaunay triangulations, LATIN 2004 (neither read). Flips: harness/mesh/local_delaunay.h.
 #pragma once
 
 #include <vector>

@@ -20,7 +20,7 @@
 // border: the ligament is real, and no topology changes. The deformed position of a moved vertex is that of the same
 // material point before (Sheet::move).
 //
-// Source: own. Related: isosurface stuffing (Labelle and Shewchuk 2007) warps a lattice onto a surface where that is
+// Source: own. Related (none read): isosurface stuffing (Labelle and Shewchuk 2007) warps a lattice onto a surface where that is
 // near and cuts it elsewhere; universal meshes (Rangarajan and Lew 2014) move the nodes of triangles along a curve onto
 // it; CISAMR (Soghrati, Xiao and Nagarajan 2017) relocates the nodes of a structured grid and divides the rest;
 // vertex_snap. Flips and moves that lower the worst aspect ratio: Freitag and Ollivier-Gooch 1997.

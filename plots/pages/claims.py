@@ -18,10 +18,11 @@ from analysis.load import of
 from analysis.methods.kinds import kind_of
 from analysis.paper import fig9_aspect_ratio, table1_timing
 
-HELD, NOT_HELD, UNDECIDED, CONDITION = "held", "not held", "undecided", "held under a condition"
+HELD, NOT_HELD, UNDECIDED, CONDITION = "held", "not held", "undecided", "held in part"
 PAPERS = ("bowyer_watson", "rounds=1")  # with one round of the local split
 GENERATION = ("bowyer_watson", "rounds=0")  # Bowyer-Watson alone
 CONVENTIONAL = ("conventional_split", "")
+ROUNDS = {"rounds=0": "without local split", "rounds=1": "with one round", "rounds=3": "with three rounds"}
 FEW = 0.1  # of the sheet's vertices: "a small number of additional DOFs"
 
 
@@ -57,7 +58,7 @@ def summed_up(verdicts):
     """Of {condition: verdict} of the same claim: the one they share, else on which conditions it held."""
     if len(set(verdicts.values())) == 1:
         return next(iter(verdicts.values()))
-    where = {v: ", ".join(c for c, verdict in verdicts.items() if verdict == v) for v in (HELD, UNDECIDED, NOT_HELD)}
+    where = {v: "; ".join(c for c, verdict in verdicts.items() if verdict == v) for v in (HELD, UNDECIDED, NOT_HELD)}
     if where[HELD]:
         return f"{CONDITION}: {where[HELD]}"
     return f"{NOT_HELD}: {where[NOT_HELD]}; {UNDECIDED}: {where[UNDECIDED]}"
@@ -71,15 +72,16 @@ def below_limit(column, what, figure, share):
     def find(run):
         parts, verdicts = [], {}
         for parameter, cuts in fig9_aspect_ratio.paper_method(run).items():
+            label = ROUNDS.get(parameter, parameter or "default")
             good, n = fig9_aspect_ratio.held(cuts, column)
-            parts.append(f"{parameter or 'default'}: {good} of {n} cuts")
+            parts.append(f"{label}: {good} of {n} cuts")
             counts = {naming.sheet_title(sheet): fig9_aspect_ratio.held(cuts.select(sheet=sheet), column)
                       for sheet in naming.sheet_order(cuts.everything()["sheet"])}
             held = [sheet for sheet, (here, tried) in counts.items() if here >= share * tried]
             where = f" on {', '.join(held)}" if held and len(held) < len(counts) else ""
-            verdicts[f"{parameter or 'default'}{where}"] = HELD if held else NOT_HELD
+            verdicts[f"{label}{where}"] = HELD if held else NOT_HELD
             if where:
-                verdicts[f"{parameter or 'default'} elsewhere"] = NOT_HELD
+                verdicts[f"{label} elsewhere"] = NOT_HELD
         if not parts:
             return None
         return Finding(summed_up(verdicts), f"{what} below {fig9_aspect_ratio.LIMIT} (held: in {100 * share:g} % of the cuts on a "

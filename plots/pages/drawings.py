@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The drawings of docs/explanation/how_a_cut_works.md: docs/pictures/phases.svg, the phases of a cut of a small sheet by the
-program, and docs/pictures/families.svg, what families of methods do where a path passes close to a vertex."""
+"""The drawings of docs/explanation: docs/pictures/phases.svg, the phases of a cut of a small sheet by the program; families.svg, what
+families of methods do where a path passes close to a vertex; local_split.svg, why the local split of the paper leaves a smaller copy."""
 
 import json
 import math
@@ -189,10 +189,41 @@ def families():
             ("refine", [ASKED] + shapes(refined()) + [line([P[0], P[3]])])]
 
 
+# ---- the local split: a triangle, and the circle that shows its half-size copy to be Delaunay
+
+T = [(-0.95, -0.45), (0.95, -0.45), (0.55, -0.1)]  # its two longest edges meet in the first corner
+
+
+def middle(a, b):
+    return (a[0] + b[0]) / 2, (a[1] + b[1]) / 2
+
+
+def circle_through(a, b, c):
+    """Centre and radius."""
+    (bx, by), (cx, cy) = ((p[0] - a[0], p[1] - a[1]) for p in (b, c))
+    d = 2 * (bx * cy - by * cx)
+    x, y = (cy * (bx * bx + by * by) - by * (cx * cx + cy * cy)) / d, (bx * (cx * cx + cy * cy) - cx * (bx * bx + by * by)) / d
+    return (a[0] + x, a[1] + y), math.hypot(x, y)
+
+
+def local_split():
+    a, b, c = T
+    p, q = middle(a, b), middle(a, c)
+    centre, radius = circle_through(a, p, q)
+    (x, y), scale = place(*centre), PANEL / 2 - 4
+    circle = f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{radius * scale:.1f}" fill="none" stroke="{PATH}" stroke-width="1.5"/>'
+    names = [f'<text x="{place(*at)[0] + dx:.1f}" y="{place(*at)[1] + dy:.1f}">{name}</text>'
+             for name, at, dx, dy in (("a", a, -3, 14), ("p", p, 2, 14), ("q", q, 0, -6), ("b", b, -6, 14), ("c", c, 0, -6))]
+    dots = [dot(place(*at), MARK) for at in (a, b, c, p, q)]
+    halves = shapes([(p, b, c), (p, c, q)]) + shapes([(a, p, q)], SLIVER)
+    return [("a thin triangle", shapes([T], SLIVER) + dots + names[:1] + names[3:]), ("after one round", [circle, *halves, *dots, *names])]
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         load.write_page(PICTURES / "phases.svg", drawing(phases(Path(folder)), PANEL))
     load.write_page(PICTURES / "families.svg", drawing(families(), PANEL))
+    load.write_page(PICTURES / "local_split.svg", drawing(local_split(), PANEL))
 
 
 if __name__ == "__main__":

@@ -90,7 +90,7 @@ def entries(table, scale=1.0):
     handles = [Line2D([], [], linestyle="", marker=f.marker, color=f.colour, markersize=4 * scale, label=f.name)
                for f in FAMILIES if there & set(f.methods)]
     grey = dict(linestyle="", marker="o", markeredgecolor="#444444", markersize=4 * scale)
-    strengths = {"behind the front": 0} if "share" not in table else {"on the front in all draws": 1, "in half of them": 0.5, "in none": 0}
+    strengths = {"behind the front": 0} if "share" not in table else {"on the front in all draws": 1, "on it in half of the draws": 0.5, "in none": 0}
     handles += [Line2D([], [], color="#444444", alpha=PALE + (1 - PALE) * share, label=words, **grey)
                 for words, share in strengths.items()]
     if (table["grew"] > 0.5).any():
