@@ -140,12 +140,14 @@ def time_after_twenty(method):
 PAGE = "docs/how-to/choose_a_method.md"
 NAMES = {4: "eigenvalue", 5: "eigenvalue, 95 %", 6: "AR < 3", 9: "vertices added", 10: "us"}  # columns of its table
 OF_MEASURED = {4: 0, 5: 1, 6: 5, 9: 7, 10: 8}  # and their places in measured()
+OLD = {"phantom_node:consistent_mass": "phantom_node"}  # as rows of suites up to 5 are named
 
 
 def check_table(truth, error):
     seen = set()
     for cells in rows_of((ROOT / PAGE).read_text(encoding="utf-8"), "## All methods in one table"):
-        name = method = cells[0].strip("`")
+        name = cells[0].strip("`")
+        method = OLD.get(name, name)
         seen.add(method)
         for place, what in NAMES.items():
             if cells[place] != "none changed":

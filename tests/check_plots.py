@@ -1,14 +1,18 @@
 #!/usr/bin/env python3
 """The rooms of plots/: analysis computes and knows no figure, figures draw what it computes, pages put both into documents.
-No module of analysis loads matplotlib, and no import goes the other way. Each stem of an experiment has one script.
+No module of analysis loads matplotlib, and no import goes the other way. Each stem of an experiment has one script. Scripts that no other test runs draw the published rows.
 usage: tests/check_plots.py      exit code 1 and a line per fault"""
 
 import ast
+import lzma
+import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 PLOTS = Path(__file__).resolve().parent.parent / "plots"
+REFERENCE = PLOTS.parent / "results/reference"
 ABOVE = {"analysis": {"figures", "pages", "matplotlib"}, "figures": {"pages"}, "pages": set()}  # not to be imported there
 LOADED = """import importlib, sys
 for name in sys.argv[1:]:
@@ -55,8 +59,23 @@ def check_stems():
                   if file.stem not in stems)
 
 
+def check_drawn():
+    """Scripts that no other test runs, of the published rows of their experiment."""
+    for stem in ("out_of_plane",):
+        with tempfile.TemporaryDirectory() as temporary:
+            folder = Path(temporary) / stem
+            folder.mkdir()
+            (folder / "records.csv").write_bytes(lzma.decompress((REFERENCE / f"{stem}.records.csv.xz").read_bytes()))
+            shutil.copyfile(REFERENCE / f"{stem}.context.json", folder / "context.json")
+            done = subprocess.run([sys.executable, PLOTS / f"figures/accuracy/{stem}.py", "--results", folder], capture_output=True, text=True,
+                                  check=False)
+            if done.returncode != 0 or not (folder / f"{stem}.png").is_file():
+                faults.append(f"plots/figures/accuracy/{stem}.py: {done.stderr.strip()[-400:]}")
+
+
 check_arrows()
 check_loaded()
 check_stems()
+check_drawn()
 print("\n".join(faults))
 sys.exit(1 if faults else 0)

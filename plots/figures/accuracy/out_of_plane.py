@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
-from analysis import load, naming, pareto
+from analysis import load, naming, pareto, shares
 from analysis.accuracy.out_of_plane import PROBLEMS, REFERENCE, rows_of, wide
 from analysis.load import of
 from analysis.methods import distribution
@@ -31,10 +31,11 @@ def main():
     finest = table[table["resolution"] == table["resolution"].max()]
     order = list(finest[~finest["failed"]].groupby(load.VARIANT)["error"].median().sort_values().index)
     cut = [v for v in order if v != REFERENCE]
-    measures = [SimpleNamespace(column=p, label=label, worst=np.inf, linear=False, limits=limits, written=distribution.two_digits)
+    measures = [SimpleNamespace(column=p, beside=None, label=label, worst=np.inf, linear=False, limits=limits, written=distribution.two_digits)
                 for p, (label, limits) in PROBLEMS.items()]
     rows = wide(finest)
-    figure = dots.figure_of(rows[rows["method"] != REFERENCE[0]], cut, measures, [1, 1, 1], ())
+    counts = {variant: shares.counted(here, here["failed"]) for variant, here in finest.groupby(load.VARIANT)}
+    figure = dots.figure_of(rows[rows["method"] != REFERENCE[0]], cut, measures, [1, 1, 1], (), counts)
     for ax, problem in zip(figure.axes, PROBLEMS):
         ax.axvline(load.median(of(rows, REFERENCE)[problem]), color="#111111", linewidth=0.8, linestyle="--", zorder=1)
     style.finish(figure, [], " ".join([

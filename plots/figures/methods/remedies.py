@@ -20,8 +20,8 @@ KINDS = {  # colour, marker, and the methods whose remedy is of this kind
     "the mesh": ("#0072b2", "s", ["active_node", "warp_and_refine", "delaunay_refine", "adaptive_remesh"]),
     "the path": ("#7b3294", "v", ["snap_or_split", "edge_release"]),
     "the unknowns": ("#d55e00", "o", ["cut_polygons", "split_and_tie", "phantom_node", "phantom_node:consistent_mass", "virtual_node",
-                                      "ablation:warp+thin:tie"]),
-    "the mass": ("#009e73", "^", []),  # all with an added mass
+                                          "ablation:warp+thin:tie"]),
+    "the mass": ("#009e73", "^", ["phantom_node:lumped_mass"]),  # and all with an added mass
     "nothing": ("#444444", "D", ["conventional_split"]),
 }
 

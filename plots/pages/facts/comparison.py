@@ -10,8 +10,7 @@ IDEAS = {"warp_and_refine": ("moves vertices", "no", "no"), "active_node": ("tak
          "vertex_snap": ("moves vertices", "no", "no"), "cisamr": ("moves vertices; structured grids only", "no", "no"),
          "snap_or_split": ("moves the path", "no", "yes"), "edge_release": ("moves the path", "no", "yes"),
          "cut_polygons": ("merges", "yes", "yes"), "split_and_tie": ("constrains", "yes", "yes"), "phantom_node": ("copies", "yes", "yes"),
-         "virtual_node": ("copies", "yes", "yes"),
-         "adaptive_remesh": ("remeshes", "no", "no"), "global_remesh": ("remeshes", "no", "no"),
+         "adaptive_remesh": ("remeshes", "yes*", "no"), "global_remesh": ("remeshes", "yes*", "no"),
          "delaunay_refine": ("refines", "yes", "yes"), "cgal_refine": ("refines", "yes", "yes"), "longest_edge": ("refines", "yes", "yes"),
          "conventional_split": ("splits", "yes", "yes"), "cgal_cdt": ("splits", "yes", "yes"), "bowyer_watson": ("splits", "yes", "yes"),
          "example": ("splits", "yes", "yes"), "element_deletion": ("deletes triangles", "no", "no")}
@@ -75,7 +74,7 @@ def methods(published):
         here, errors = of(published, method), published.error_kinds.loc[method]
         eigenvalues, changed = even(here)["eigenvalue_ratio"], here["ar_max_cut_strict"].notna().any()
         low, high = errors["error, its 95 %"].split(" to ")
-        rows.append([f"`{method}`", *idea, plain(eigenvalues.median()), plain(eigenvalues.quantile(0.95)),
+        rows.append([f"`{published.today(method)}`", *idea, plain(eigenvalues.median()), plain(eigenvalues.quantile(0.95)),
                      percent(below_three(here)) if changed else "none changed",
                      f"{signed(errors['error, kinds'])} [{low}, {high}]", signed(errors["error, hole"]),
                      plain(here["vertices_per_crossed"].median()), plain(here["us_per_crossed"].median())])
