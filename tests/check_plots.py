@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The rooms of plots/: analysis computes and knows no figure, figures draw what it computes, pages put both into documents.
-No module of analysis loads matplotlib, and no import goes the other way. Each stem of an experiment has one script. Scripts that no other test runs draw the published rows.
+No module of analysis loads matplotlib, and no import goes the other way. Each stem of an experiment has one script.
+Scripts that no other test runs draw the published rows.
 usage: tests/check_plots.py      exit code 1 and a line per fault"""
 
 import ast

@@ -20,8 +20,9 @@
 //
 // Source: Nienhuys and van der Stappen, A Delaunay approach to interactive cutting in triangulated surfaces, 2004 (WAFR
 // 2002); the text was not at hand, so this follows the authors' page and what others say of it. Differences known: the
-// whole way is embedded before the node moves (there no points are inserted, a vertex moves with the blade), so that it moves from crossing to crossing; vertices in the way are removed at a distance of our choice;
-// chords are held to a tolerance; the last pieces are no shorter than the others, which takes knowing where a cut ends.
+// whole way is embedded before the node moves (there no points are inserted, a vertex moves with the blade), so that it
+// moves from crossing to crossing; vertices in the way are removed at a distance of our choice; chords are held to a
+// tolerance; the last pieces are no shorter than the others, which takes knowing where a cut ends.
 // Promises: area, conforming. The incision error is at most the chord tolerance, since each step is checked against the
 // requested curve (methods/tools/path_curve.h). Neither the exact path (chords of length h) nor that vertices stay.
 // Where it fails: shapes have no bound. Where the path meets an older incision, or a corner of the border, beside a

@@ -27,13 +27,14 @@
 // vertex on a marked line goes along it alone, no edge of a fold is flipped, and the field has terms of curvature and
 // compression (methods/adaptive_remesh/deformed_metric.h).
 // Not as there: vertices of the border and of older incisions never go, there they go along it. A collapse may leave an
-// aspect ratio of 6, there 12 sqrt(3) area / perimeter^2 = 0.2, which is 12 to 13. Its field is a tensor, here it is a number. Its terms of velocity and obstacles are left out, since a
-// method is told of neither; for that of fracture the tips stand. It remeshes the whole sheet in every step, here it is
-// the zone of a cut. It splits above 1 and makes no edge longer than 0.9 by a collapse, which has no lower bound, here
-// both bounds are those of a quasi-unit mesh (Frey and George, Mesh Generation, 2000; not read), so that it keeps
-// its own resolution. Its flips weigh the field, here they are those of Delaunay. Nothing is moved but a vertex on a
-// straight border, onto the end of a path close by, which is the collapse of the edge between the two. Its filter
-// against the pop of remeshing (popfilter.cpp) is left out.
+// aspect ratio of 6, there 12 sqrt(3) area / perimeter^2 = 0.2, which is 12 to 13. Its field is a tensor, here it is a
+// number. Its terms of velocity and obstacles are left out, since a method is told of neither; for that of fracture the
+// tips stand. It remeshes the whole sheet in every step, here it is the zone of a cut. It splits above 1 and makes no
+// edge longer than 0.9 by a collapse, which has no lower bound, here both bounds are those of a quasi-unit mesh (Frey
+// and George, Mesh Generation, 2000; not read), so that it keeps its own resolution. Its flips weigh the field, here
+// they are those of Delaunay. Nothing is moved but a vertex on a straight border, onto the end of a path close by,
+// which is the collapse of the edge between the two. Its filter against the pop of remeshing (popfilter.cpp) is left
+// out.
 // Promises: area, conforming, an incision within the chord tolerance of the curve; neither the exact path nor that
 // vertices stay: those too close together are removed, and what they carried is lost.
 // Where it fails: no aspect ratio is promised. Vertices of the border and of older incisions stay, however close

@@ -11,8 +11,8 @@
 // not split, and the split stops after `most_vertices` new vertices.
 //
 // Source: Xin et al. 2018, 4.1.2 and 4.1.3; Bowyer 1981; Watson 1981.
-// Not as there: its points are those where the path crosses edges, and tips. That is a chord tolerance of infinity, which
-// the paper's figures have here; comparisons add the points of curves inside triangles, as for all methods.
+// Not as there: its points are those where the path crosses edges, and tips. That is a chord tolerance of infinity,
+// which the paper's figures have here; comparisons add the points of curves inside triangles, as for all methods.
 // Promises: the exact path, area, conforming, no vertex moved.
 // Where it fails: the local split, read literally, cannot lower the largest aspect ratio. The circle through a corner A
 // and the midpoints P, Q of the two long edges at A meets each of these edges only in A and its midpoint, so it holds

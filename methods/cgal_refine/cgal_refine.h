@@ -13,12 +13,11 @@
 // refinement algorithms for triangular mesh generation, 2002 (neither read); CGAL 5.5, Delaunay_mesher_2 with the Epick
 // kernel.
 // Promises: the exact path, area, conforming, no vertex moved.
-// Where it fails: termination is proved for smallest angles up to 20.7 degrees where input angles are not small, which neither an
-// aspect ratio of 3 nor a cut promises. So
-// there is a limit on vertices, at which it stops and leaves the remaining triangles. A vertex close to the path stays
-// and costs dozens of vertices round it, the smallest triangles as small as its distance from the path: the step of an
-// explicit integrator shrinks as it does after the conventional split. Flips of old edges change the deformed surface
-// where the sheet is bent.
+// Where it fails: termination is proved for smallest angles up to 20.7 degrees where input angles are not small, which
+// neither an aspect ratio of 3 nor a cut promises. So there is a limit on vertices, at which it stops and leaves the
+// remaining triangles. A vertex close to the path stays and costs dozens of vertices round it, the smallest triangles
+// as small as its distance from the path: the step of an explicit integrator shrinks as it does after the conventional
+// split. Flips of old edges change the deformed surface where the sheet is bent.
 #pragma once
 
 #include "harness/cut/cutting_method.h"

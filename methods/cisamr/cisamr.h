@@ -1,6 +1,6 @@
-// Two of CISAMR's three phases, relocation and sub-triangulation: on a structured grid, vertices near the path move onto
-// it, and the triangles that are still crossed are divided; then flips. It is not the method of its source, and says
-// nothing about that one's bound.
+// Two of CISAMR's three phases, relocation and sub-triangulation: on a structured grid, vertices near the path move
+// onto it, and the triangles that are still crossed are divided; then flips. It is not the method of its source, and
+// says nothing about that one's bound.
 //
 // How it works: for sheets of which at least half of the triangles are halves of equal squares along the axes; others
 // are refused. adapt: where a crossing lies at up to half its edge from an end, that end moves to the nearest crossing

@@ -14,8 +14,8 @@
 //    triangles do.
 //
 // Source: CutVEM (Rangarajan and Sukumar, arXiv 2508.10570, 2025, abstract read), for fields on fixed meshes; Beirao da
-// Veiga, Brezzi, Cangiani, Manzini, Marini and Russo, M3AS 23 (2013; not read), for the element. Not CutVEM itself: there cells
-// are merged for the eigenvalues of their matrices, and every vertex stays an unknown. The variant
+// Veiga, Brezzi, Cangiani, Manzini, Marini and Russo, M3AS 23 (2013; not read), for the element. Not CutVEM itself:
+// there cells are merged for the eigenvalues of their matrices, and every vertex stays an unknown. The variant
 // `cut_polygons:all_unknowns` keeps them: it makes no polygon with a vertex inside.
 // Promises: the exact path, area, conforming, no vertex moved; an affine displacement is reproduced exactly.
 // The error depends on the stabilisation (`cut_polygons:stabilisation` has it as its parameter): small values make a

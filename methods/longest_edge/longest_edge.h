@@ -1,5 +1,5 @@
-// Local split by longest edges (LEPP-Delaunay without its operations at the boundary), in place of the paper's; it is no
-// reading of that one.
+// Local split by longest edges (LEPP-Delaunay without its operations at the boundary), in place of the paper's; it is
+// no reading of that one.
 //
 // How it works. embed: the Delaunay split. improve: edges round the new vertices are flipped to constrained Delaunay.
 // Then, for each triangle that the cut made or changed and whose aspect ratio exceeds 3, the longest-edge propagation
@@ -18,7 +18,8 @@
 // Promises: the exact path, area, conforming, no vertex moved.
 // Where it fails: 3 is not reached in most cuts: it goes on halving edges beside a constrained edge that a new midpoint
 // encroaches upon. Hence the strict cap. It is reached in most cuts, which is reported as stopping early: the cost is
-// then that of the cap. A vertex close to the path costs dozens of vertices, and the small distance itself stays. Flips of old edges change the deformed surface where the sheet is bent.
+// then that of the cap. A vertex close to the path costs dozens of vertices, and the small distance itself stays. Flips
+// of old edges change the deformed surface where the sheet is bent.
 #pragma once
 
 #include "harness/cut/cutting_method.h"

@@ -20,9 +20,9 @@
 // A part with almost no material makes unknowns with almost no stiffness and mass. What bounds the consequences:
 //  - The mass is lumped, a third of a part's to each corner of its parent: then no part that is not slit has a larger
 //    eigenvalue of the membrane than its parent, for stiffness and mass have the same factor. (Menouillard, Rethore,
-//    Combescure and Bung, IJNME 68 (2006; summary read), show a step of the same order for another lumping.) A lip in a slit part stiffens copies whose mass may come
-//    from a thin part alone, the one beyond the edge. So the limit that keeps a tip closed is lower here, by the share
-//    that this part has of its parent's area.
+//    Combescure and Bung, IJNME 68 (2006; summary read), show a step of the same order for another lumping.) A lip in a
+//    slit part stiffens copies whose mass may come from a thin part alone, the one beyond the edge. So the limit that
+//    keeps a tip closed is lower here, by the share that this part has of its parent's area.
 //  - `phantom_node:consistent_mass` has the mass of the linear fields instead, exact, and no such bound. Its `ghost` is
 //    a penalty, for sheets at rest, on the jump of the normal derivative across the edges at which the parts of a
 //    divided parent are joined to its neighbours: `ghost` times edge length squared in K, to the fourth power in M.
@@ -35,11 +35,11 @@
 // part that is slit bends as a whole. This is this program's reading: no source here has bending. It has no bound for
 // thin parts, since whole neighbours bend against their corners, too.
 //
-// Source: Hansbo and Hansbo, CMAME 193 (2004; not read); Song, Areias and Belytschko, IJNME 67 (2006; abstract read), of
-// which only the doubling is here: no growing cracks, no shear bands, no quadrilaterals with one point; Rabczuk, Zi,
+// Source: Hansbo and Hansbo, CMAME 193 (2004; not read); Song, Areias and Belytschko, IJNME 67 (2006; abstract read),
+// of which only the doubling is here: no growing cracks, no shear bands, no quadrilaterals with one point; Rabczuk, Zi,
 // Gerstenberger and Wall, IJNME 75 (2008), for a jump that vanishes at a tip inside a triangle (cited from memory;
-// theirs is another element); Richardson, Hegemann, Sifakis, Hellrung and Teran, IJNME 88 (2011; not read), for
-// parts and junctions; Burman and Hansbo, Applied Numerical Mathematics 62 (2012; not read), for the ghost penalty.
+// theirs is another element); Richardson, Hegemann, Sifakis, Hellrung and Teran, IJNME 88 (2011; not read), for parts
+// and junctions; Burman and Hansbo, Applied Numerical Mathematics 62 (2012; not read), for the ghost penalty.
 // Promises: the exact path, area, conforming, no vertex moved; an affine displacement is reproduced exactly.
 // Where it fails: the opening is too short where the tip rule cannot hold, and at a bend of the path inside a triangle
 // the stress is constant. With a consistent mass, thin parts are as ill-conditioned as slivers; no penalty reaches a

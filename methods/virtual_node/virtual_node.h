@@ -14,11 +14,11 @@
 //  - In motion and bending: as phantom_node.
 //
 // Source: Molino, Bao and Fedkiw, A virtual node algorithm for changing mesh topology during simulation (2004; its
-// abstract alone was read), for copies with the material of a piece; Sifakis, Der and Fedkiw, Arbitrary cutting of deformable
-// tetrahedralized objects (2007; not read), for any number of pieces in one element; Wang, Jiang, Schroeder and Teran,
-// An adaptive virtual node algorithm with robust mesh cutting (2014; its abstract alone was read), for cuts through
-// vertices and edges. The first shows thin shells, too; how they bend was not read. The other two
-// are about tetrahedra. The bending and the rule for tips are this program's reading.
+// abstract alone was read), for copies with the material of a piece; Sifakis, Der and Fedkiw, Arbitrary cutting of
+// deformable tetrahedralized objects (2007; not read), for any number of pieces in one element; Wang, Jiang, Schroeder
+// and Teran, An adaptive virtual node algorithm with robust mesh cutting (2014; its abstract alone was read), for cuts
+// through vertices and edges. The first shows thin shells, too; how they bend was not read. The other two are about
+// tetrahedra. The bending and the rule for tips are this program's reading.
 // Promises: the exact path, area, conforming, no vertex moved; an affine displacement is reproduced exactly.
 // Where it fails: a cut is too short by up to a triangle at each tip, and one within a triangle opens nothing. With
 // bending thin pieces have no bound, since whole neighbours bend against their corners, too.

@@ -20,10 +20,10 @@
 // border: the ligament is real, and no topology changes. The deformed position of a moved vertex is that of the same
 // material point before (Sheet::move).
 //
-// Source: own. Related (none read): isosurface stuffing (Labelle and Shewchuk 2007) warps a lattice onto a surface where that is
-// near and cuts it elsewhere; universal meshes (Rangarajan and Lew 2014) move the nodes of triangles along a curve onto
-// it; CISAMR (Soghrati, Xiao and Nagarajan 2017) relocates the nodes of a structured grid and divides the rest;
-// vertex_snap. Flips and moves that lower the worst aspect ratio: Freitag and Ollivier-Gooch 1997.
+// Source: own. Related (none read): isosurface stuffing (Labelle and Shewchuk 2007) warps a lattice onto a surface
+// where that is near and cuts it elsewhere; universal meshes (Rangarajan and Lew 2014) move the nodes of triangles
+// along a curve onto it; CISAMR (Soghrati, Xiao and Nagarajan 2017) relocates the nodes of a structured grid and
+// divides the rest; vertex_snap. Flips and moves that lower the worst aspect ratio: Freitag and Ollivier-Gooch 1997.
 // Promises: area, conforming; the pieces that the exact path makes in the sheet as it is, whose older incisions lie
 // within the tolerance of their curves. The incision error is at most the chord tolerance, since every step is checked
 // against the requested curve (methods/tools/path_curve.h). Neither the exact path (its vertices lie on it, except

@@ -6,7 +6,8 @@ from analysis.stability.points import EXPLICIT
 from pages.facts.table import bracket, condition, drawn_whole, number, plain, table
 
 NAMES = {"`conventional_split`": "conventional split", "the same, stabilised mass": "stabilised mass", "`cut_polygons`": "cut polygons",
-         "`phantom_node`": "phantom node", "`virtual_node`": "virtual node", "`active_node`": "active node", "`edge_release`": "edge release", "`warp_and_refine`": "warp and refine",
+         "`phantom_node`": "phantom node", "`virtual_node`": "virtual node", "`active_node`": "active node",
+         "`edge_release`": "edge release", "`warp_and_refine`": "warp and refine",
          "`snap_or_split`": "snap or split", "`adaptive_remesh`": "adaptive remesh", "`delaunay_refine`": "Delaunay refine"}
 
 
@@ -90,3 +91,22 @@ def everything_for_single_cuts(published):
         return steps.median() >= 0.3 and steps.quantile(0.05) >= 0.1
     return (long("cut polygons", "single_cuts") and not long("cut polygons", "several_cuts")
             and all(long(name, sweep) for name in LONG for sweep in ("single_cuts", "several_cuts")))
+
+
+def share_not_ok(rows):
+    """By solver."""
+    return (rows["rank"] > 0).groupby(rows["solver"]).mean()
+
+
+@condition("strips_are_harder", "by each solver more points of strip_solvers are not ok than of vertex_solvers")
+def strips_are_harder(published):
+    rows = published.stability
+    strips, vertices = (share_not_ok(rows[rows["sweep"] == f"{sweep}_solvers"]) for sweep in ("strip", "vertex"))
+    return bool((strips > vertices).all())
+
+
+@condition("ten_iterations", "with 10 iterations allowed no point is ok by cg and cg_sliver_blocks, all are by multigrid")
+def ten_iterations(published):
+    rows = published.stability
+    bad = share_not_ok(rows[(rows["sweep"] == "iterations") & (rows["max_iterations"] == 10)])
+    return bool(bad["cg"] == 1 and bad["cg_sliver_blocks"] == 1 and bad["multigrid"] == 0)
