@@ -9,8 +9,8 @@ namespace cutbench {
 
 const std::vector<MethodRow>& all_methods();
 
-/// Adds rows of methods that are not in this tree. To be called while nobody keeps a row of the table. Throws InputError:
-/// a name that is there.
+/// Adds rows of methods that are not in this tree. To be called while nobody keeps a row of the table. Throws
+/// InputError: a name that is there.
 void add_methods(const std::vector<MethodRow>& more);
 
 /// The steps of warp_and_refine in every constraint_matrix, named "ablation:BEFORE:AFTER". BEFORE is the step before

@@ -123,7 +123,8 @@ TEST(Constraints, CutsStayOpen) {
                            [&](const ConstrainedCut& cut) { expect_open(cut.sheet(), cut.constraints); });
 }
 
-/// The masters' places, weighted, are the vertex's own, on its side of all incisions: what the last cut left alone, too.
+/// The masters' places, weighted, are the vertex's own, on its side of all incisions: what the last cut left alone,
+/// too.
 TEST(SplitAndTie, ConstraintsFollowTheLastCut) {
   std::size_t kept = 0, turn = 0;
   for (const std::string cuts : {"several", "recut", "self_crossing"})

@@ -7,8 +7,8 @@
 namespace cutbench {
 namespace {
 
-/// Everything is homogeneous in length and decided by exact signs, so that a power of two changes no digit. The deformed
-/// sheet counts for nothing, but in adaptive_remesh, where it is scaled, too.
+/// Everything is homogeneous in length and decided by exact signs, so that a power of two changes no digit. The
+/// deformed sheet counts for nothing, but in adaptive_remesh, where it is scaled, too.
 TEST_P(EveryVariant, IsScaledByPowersOfTwoBitForBit) {
   for_each_case(
       scaled(1), 411,

@@ -116,7 +116,8 @@ TEST(EdgeRelease, LeavesCornersInsideTrianglesOut) {
   }
 }
 
-/// The aspect ratio after a cut of two tips whose last tip stops close before an edge, as those of the stability sweeps.
+/// The aspect ratio after a cut of two tips whose last tip stops close before an edge, as those of the stability
+/// sweeps.
 double worst_aspect_before_an_edge(const std::string& method, const std::string& family, Point2 from, double gap) {
   Table table(make_sheet(family, 20), find_method(method), find_method(method).parameter.value);
   VertexIndex v{0};

@@ -185,8 +185,8 @@ TEST_P(Converges, LoadedLips) {
 }
 
 TEST_P(Converges, Corner) {
-  // The square of the error is in proportion to h^2 times the integral of r^(2 q - 4), from r = h to 1: that has the rate
-  // q at last, and long before, where q is nearly 1, this one.
+  // The square of the error is in proportion to h^2 times the integral of r^(2 q - 4), from r = h to 1: that has the
+  // rate q at last, and long before, where q is nearly 1, this one.
   const auto rate = [&](const std::string& name, double degrees, bool sliding) {
     auto all = series("corner_" + name);
     const double q = Corner{degrees / 2 * pi / 180, sliding}.exponent(), power = std::pow(1.0 / 32, 2 * q - 2);

@@ -218,8 +218,8 @@ TEST(Unroll, ARingRoundASphereGivesTwoPieces) {
   }
 }
 
-/// A walk from triangle to triangle, or a ring through those round a vertex; a random place in each. Neighbours have one
-/// straight way between them, which places farther apart on a curved sheet need not.
+/// A walk from triangle to triangle, or a ring through those round a vertex; a random place in each. Neighbours have
+/// one straight way between them, which places farther apart on a curved sheet need not.
 PickedCurve walk(const MeshData& mesh, std::uint64_t seed) {
   Random random(seed);
   std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> left_of;

@@ -1,5 +1,6 @@
-// `cutbench recommend` without a scene: which method, by a few questions. The table is experiments/advice/which_method.toml,
-// which is compiled in; README.md and docs/how-to/choose_a_method.md show it, too.
+// `cutbench recommend` without a scene: which method, by a few questions. The table is
+// experiments/advice/which_method.toml, which is compiled in; README.md and docs/how-to/choose_a_method.md show it,
+// too.
 #pragma once
 
 #include <functional>

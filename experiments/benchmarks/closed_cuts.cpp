@@ -1,7 +1,7 @@
-// Cuts that stay closed: the path is embedded and improved, and its lips stay constrained. Nothing should move then; what does
-// is an artefact of the method's new triangles. By every method at its default parameter, on a loaded sheet at rest: how far
-// the equilibrium jumps (pop), what is out of balance before it relaxes, and how much data carried per triangle drift
-// over many closed cuts. usage: cutbench_closed_cuts [TRIANGLES [CUTS]]
+// Cuts that stay closed: the path is embedded and improved, and its lips stay constrained. Nothing should move then;
+// what does is an artefact of the method's new triangles. By every method at its default parameter, on a loaded sheet
+// at rest: how far the equilibrium jumps (pop), what is out of balance before it relaxes, and how much data carried per
+// triangle drift over many closed cuts. usage: cutbench_closed_cuts [TRIANGLES [CUTS]]
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
@@ -66,8 +66,8 @@ Eigen::Vector2d rest_of(const Sheet& sheet, std::size_t d) {
   return {p.x, p.y};
 }
 
-/// Norm of the forces out of balance at displacement u, over that of the load; where vertices are constrained, once they are
-/// where their masters are, and of what these bear.
+/// Norm of the forces out of balance at displacement u, over that of the load; where vertices are constrained, once
+/// they are where their masters are, and of what these bear.
 double out_of_balance(const Sheet& sheet, const Field& u, const Constraints& constraints) {
   Model<2> model(sheet, {.stiffness = elastic.young, .poisson = elastic.poisson},
                  {.dimension = 2, .strain = Strain::linear, .bending = BendingKind::none}, {}, {});

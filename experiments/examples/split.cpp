@@ -1,5 +1,6 @@
 // split.py once more, as a C++ program that needs nothing of this project: every crossed edge gets a vertex, which
-// divides the triangles beside it; edges on the path are opened. Build it anywhere: g++ -O2 -std=c++20 split.cpp -o split
+// divides the triangles beside it; edges on the path are opened.
+// Build it anywhere: g++ -O2 -std=c++20 split.cpp -o split
 // usage: split mesh.obj path.json out.obj
 #include <algorithm>
 #include <array>

@@ -1,7 +1,8 @@
-// The same work in this build and in another: hashes of a motion with cuts, or times. tests/live/check and experiments/live/times run both.
+// The same work in this build and in another: hashes of a motion with cuts, or times. tests/live/check and
+// experiments/live/times run both.
 // usage: live_bench motion   a line for each method: hash of all positions after 600 steps with three cuts
 //        live_bench times    ms of warm cuts and of steps, the least of several rounds; a line for each
-//        live_bench verdicts FILE   what the oracle says of the cases in FILE (tests/live/catalogue_cases.cpp) by each method
+//        live_bench verdicts FILE   the oracle's verdicts on the cases in FILE (tests/live/catalogue_cases.cpp)
 #include <algorithm>
 #include <chrono>
 #include <cinttypes>

@@ -14,7 +14,7 @@ extern "C" {
 const char* cutbench_make(const char* scene);
 void cutbench_free(int sheet);
 
-/* Makes at most so many steps, each of the scene's length; {"steps": made} or, of a simulation that broke, its error. */
+/* Makes at most so many steps, each of the scene's length; {"steps": made}, or its error where the simulation broke. */
 const char* cutbench_step(int sheet, int steps);
 
 /* Where the ray from x, y, z along dx, dy, dz first meets the sheet: {"rest": [x, y]}. */
@@ -48,8 +48,8 @@ const double* cutbench_rest(int sheet, int* count);
 const int* cutbench_triangles(int sheet, int* count);
 const float* cutbench_draw(int sheet, int colour, int at_rest, int* count);
 
-/* Without a simulation, in the sheet of `scene` at rest: the oracle's verdict on the cuts, made one after the other; and
- * the time of the last one, repeated on warm copies. */
+/* Without a simulation, in the sheet of `scene` at rest: the oracle's verdict on the cuts, made one after the other;
+ * and the time of the last one, repeated on warm copies. */
 const char* cutbench_judge(const char* scene, const char* method, double parameter, const char* path);
 const char* cutbench_time(const char* scene, const char* method, double parameter, const char* path);
 

@@ -1,5 +1,5 @@
-// A sheet in motion that is cut, pulled and poked between two steps: what the page and the C API hold. Text in and out is
-// JSON, as docs/reference/browser.md describes it.
+// A sheet in motion that is cut, pulled and poked between two steps: what the page and the C API hold. Text in and out
+// is JSON, as docs/reference/browser.md describes it.
 #pragma once
 
 #include <array>

@@ -25,8 +25,8 @@ void translate(std::exception_ptr thrown) {
   }
 }
 
-/// A cut frees some MB that the next one needs again. glibc would hand them to the system and ask for them anew, page by
-/// page: a quarter of the time at 12,800 triangles.
+/// A cut frees some MB that the next one needs again. glibc would hand them to the system and ask for them anew, page
+/// by page: a quarter of the time at 12,800 triangles.
 void keep_freed_memory() {
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 64 << 20);

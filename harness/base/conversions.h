@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <type_traits>
 
-/// Conversions between kinds of numbers, with names short enough for an index. Precondition: the value fits the kind asked
-/// for, as with static_cast.
+/// Conversions between kinds of numbers, with names short enough for an index. Precondition: the value fits the kind
+/// asked for, as with static_cast.
 namespace cutbench {
 
 template <typename T>

@@ -1,4 +1,5 @@
-// What became of a cut, of its result, of steps and of an answer: the words of the column `verdict` (results/README.md).
+// What became of a cut, of its result, of steps and of an answer: the words of the column `verdict`
+// (results/README.md).
 #pragma once
 
 #include <cstdint>

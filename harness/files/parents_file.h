@@ -1,8 +1,9 @@
 // What a user takes home of a cut beside its triangles: JSON, and columns of a VTU. All numbers are counted from 0.
 //
 // JSON, one key a line:
-//   "vertices"     per vertex of the result [[old, weight], ...]: vertices of the sheet's file, and weights that add up to
-//                  1. One where it is an old vertex, two on an old edge, three inside an old triangle (mesh/parents.h)
+//   "vertices"     per vertex of the result [[old, weight], ...]: vertices of the sheet's file, and weights that add up
+//                  to 1. One where it is an old vertex, two on an old edge, three inside an old triangle
+//                  (mesh/parents.h)
 //   "triangles"    per triangle of the result, the old one that holds its centroid
 //   "incision"     per edge that a cut opened, cut by cut along the path {"cut": its number in the path file,
 //                  "left": [triangle, from, to], "right": [triangle, from, to]}: the edge on each lip, both along the
@@ -14,10 +15,10 @@
 //   "texture"      per triangle of the result [[u, v], [u, v], [u, v]] at its corners, where the file had a texture
 //                  (mesh/texture.h)
 //
-// A VTU has for each vertex parents and parent_weights (three each; -1 and 0 where there are fewer), and where there are
-// constraints masters and master_weights in the same way, with the copies as field data; for each triangle parent, and lips: for its edge from corner k
-// to the next n on the left lip of cut n - 1, -n on its right one, else 0; and where there are polygons the number of its
-// polygon, else -1.
+// A VTU has for each vertex parents and parent_weights (three each; -1 and 0 where there are fewer), and where there
+// are constraints masters and master_weights in the same way, with the copies as field data. For each triangle it has
+// parent and lips: for its edge from corner k to the next n on the left lip of cut n - 1, -n on its right one, else 0;
+// and where there are polygons the number of its polygon, else -1.
 #pragma once
 
 #include <string>

@@ -33,7 +33,8 @@ void check_and_repair(MeshData& mesh, const std::string& name, bool of_vt = fals
 void take_rest_from_plane(MeshData& mesh, const std::string& name);
 /// Is its rest shape the mesh itself: RestFrom::space, or RestFrom::automatic where it is not flat?
 bool lies_in_space(const MeshData& mesh, RestFrom from);
-/// Gives a mesh without rest positions those of its plane, or unrolls it (unroll.h) where it lies in space. \throw InputError, beginning with `name`
+/// Gives a mesh without rest positions those of its plane, or unrolls it (unroll.h) where it lies in space.
+/// \throw InputError, beginning with `name`
 void take_rest(MeshData& mesh, const std::string& name, RestFrom from);
 
 }  // namespace cutbench

@@ -1,4 +1,5 @@
-// What the rest positions of a mesh are: its texture coordinates (`vt`), the plane it lies in, or its own shape in space.
+// What the rest positions of a mesh are: its texture coordinates (`vt`), the plane it lies in, or its own shape in
+// space.
 //
 // `vt` are rest positions in some files and a texture in others; nothing in a file says which. What is known is how
 // much longer things are in space than in the `vt`: the two principal stretches of each triangle. The rule of

@@ -1,5 +1,6 @@
-// Seams: edges of the border at rest that are one line of the sheet, as where the panels of a garment are sewn together,
-// or a tube is cut open to lie flat. Each side of a seam has vertices of its own at rest; in space they are one.
+// Seams: edges of the border at rest that are one line of the sheet, as where the panels of a garment are sewn
+// together, or a tube is cut open to lie flat. Each side of a seam has vertices of its own at rest; in space they are
+// one.
 //
 // Nothing of a seam is kept up to date: what is sewn to what follows from the border and the seams of the uncut sheet.
 // Vertices that have seams are held at rest (Sheet::hold), and no border moves but along itself, so that an edge of the

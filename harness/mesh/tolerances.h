@@ -58,8 +58,8 @@ constexpr double careful_move_tolerance = 1e-4;
 /// would be divided for ever.
 constexpr double shortest_refined_edge = 1e-4;
 /// A forced wedge is the area between its legs while they are nearer than this, and a disc of this radius round its
-/// apex (docs/explanation/measuring.md): closer, not even one good triangle fits between. The oracle has the same numbers of its
-/// own.
+/// apex (docs/explanation/measuring.md): closer, not even one good triangle fits between. The oracle has the same
+/// numbers of its own.
 constexpr double forced_wedge_width = 0.3;
 constexpr double forced_wedge_disc = 0.25;
 

@@ -19,8 +19,8 @@ constexpr double unrolled_gap = 1e-3;
 /// come out counter-clockwise, also those of a side that a Moebius strip turns over. Parts that would cover each other
 /// lie apart. O(n log n) for each part that is laid apart.
 /// \pre `mesh.rest` is empty
-/// \throw InputError, beginning with `name`: a corner beyond the vertices, an edge of three triangles, a triangle without
-/// area, or more parts than `most_parts`
+/// \throw InputError, beginning with `name`: a corner beyond the vertices, an edge of three triangles, a triangle
+/// without area, or more parts than `most_parts`
 void unroll(MeshData& mesh, const std::string& name);
 
 constexpr std::size_t most_parts = 1000;

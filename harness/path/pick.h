@@ -67,8 +67,8 @@ struct CurvesAtRest {
 };
 
 /// All of them in rest space. Nothing moves between them, so all picks are made on the same sheet.
-/// Throws InputError, beginning with `name` and the number of the cut: as Picker::rest_curves(), and places at rest of a
-/// sheet that is unrolled, where they mean nothing.
+/// Throws InputError, beginning with `name` and the number of the cut: as Picker::rest_curves(), and places at rest of
+/// a sheet that is unrolled, where they mean nothing.
 CurvesAtRest curves_at_rest(std::span<const AnyCurve> path, const Sheet& posed, const std::string& name);
 
 /// Throws InputError: too few points for the kind, a closed Bezier that doesn't end where it began, no direction, or a

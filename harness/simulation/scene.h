@@ -67,7 +67,8 @@ struct Scene {
 MeshData mesh_of(const Scene& scene);
 
 /// The pins, those near a point as boxes without extent round the vertex nearest to it in rest space, and so round all
-/// its copies on an incision; those in space as one such box for each vertex. \pre `sheet` is not cut yet: a cut's own vertices may be nearer.
+/// its copies on an incision; those in space as one such box for each vertex.
+/// \pre `sheet` is not cut yet: a cut's own vertices may be nearer.
 std::vector<Pin> pins_of(const Scene& scene, const Sheet& sheet);
 
 /// \throw InputError  the sheet has seams, and what the scene asks for knows none: an integrator without constraints,

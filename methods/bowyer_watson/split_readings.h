@@ -3,8 +3,8 @@
 //
 //  - grouped: every ill-shaped triangle of a round gets its two midpoints first. Then all that lies in one triangle
 //    of the sheet before the cut is made Delaunay again, with the path kept;
-//  - region: the two midpoints, then Bowyer-Watson over all that the cut changed, with the path kept (by Lawson's flips,
-//    which end with the same triangulation, harness/mesh/local_delaunay.h), triangle after triangle;
+//  - region: the two midpoints, then Bowyer-Watson over all that the cut changed, with the path kept (by Lawson's
+//    flips, which end with the same triangulation, harness/mesh/local_delaunay.h), triangle after triangle;
 //  - longest_edge: the same with the midpoint of the longest edge alone.
 //
 // Open lips, each split on its own, are no variant: a closed path has the same vertices on both sides. What bounds the

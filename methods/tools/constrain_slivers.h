@@ -5,11 +5,10 @@
 // times L; a triangle with a short altitude is a sliver. The rules:
 //  - Vertices of the sheet before its first cut stay free, also those on its border and on both lips.
 //  - Of the vertices that cuts made, one is constrained (a) where an edge path to a free vertex is short. Candidates
-//  are
-//    taken in turns: tips first, then by their smallest altitude, the largest first. Of the rest, one is constrained
-//    (b) where it is a short distance from the opposite edge of a triangle, the shortest first, unless a corner of that
-//    triangle was constrained for this reason. A constrained vertex counts as lying at the nearest free vertex, its
-//    stand-in.
+//    are taken in turns: tips first, then by their smallest altitude, the largest first. Of the rest, one is
+//    constrained (b) where it is a short distance from the opposite edge of a triangle, the shortest first, unless a
+//    corner of that triangle was constrained for this reason. A constrained vertex counts as lying at the nearest free
+//    vertex, its stand-in.
 //  - The master triangle is no sliver when constrained corners are replaced by their stand-ins. It has the vertex's
 //    stand-in for a corner and, where one triangle has them all, the stand-ins of the other stiff corners of the
 //    vertex's thinnest triangle. Of several, the one is taken in which the vertex lies farthest inside, or least
@@ -34,14 +33,14 @@ namespace cutbench {
 
 /// \param before  the sheet before its first cut: its vertices are never constrained.
 /// \param thinness  of a sliver: altitude over L, >= 0; 0 constrains nothing
-/// \param only_divided  `cut` was divided, but not changed otherwise. Then the cost is that of the neighbourhood of the
-/// cuts,
-///                      else it looks at all vertices, too (new_triangles()).
+/// \param only_divided  `cut` was divided, but not changed otherwise. Then the cost is that of the neighbourhood of
+///                      the cuts, else it looks at all vertices, too (new_triangles()).
 Constraints constrain_slivers(const Sheet& before, const Sheet& cut, double thinness, bool only_divided);
 
-/// All constraints after one more cut, that of the log of `cut`, which was only divided. Those of `last` stay where the cut
-/// changed no triangle within their reach, and no master of theirs. So the order in which slivers are looked at may differ
-/// from that of constrain_slivers() where cuts are near each other, and with it the choice; the rules hold all the same.
+/// All constraints after one more cut, that of the log of `cut`, which was only divided. Those of `last` stay where the
+/// cut changed no triangle within their reach, and no master of theirs. So the order in which slivers are looked at may
+/// differ from that of constrain_slivers() where cuts are near each other, and with it the choice; the rules hold all
+/// the same.
 /// \param last  the constraints before that cut, of this function or of constrain_slivers()
 Constraints constrain_new_slivers(const Sheet& before, const Sheet& cut, double thinness, const Constraints& last);
 

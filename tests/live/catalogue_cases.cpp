@@ -1,4 +1,5 @@
-// The catalogue as lines of JSON, one for each sheet that can be read: for a build that reads no files (tests/live/check).
+// The catalogue as lines of JSON, one for each sheet that can be read: for a build that reads no files
+// (tests/live/check).
 #include <cmath>
 #include <cstdio>
 

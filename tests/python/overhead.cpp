@@ -1,5 +1,5 @@
 // Arrays in, arrays out, in C++: what tests/python/measure.py compares cutbench.cut() with.
-// usage: cutbench_python_overhead METHOD REPETITIONS < ARRAYS      prints the processor's microseconds of each repetition
+// usage: cutbench_python_overhead METHOD REPETITIONS < ARRAYS   prints the processor's microseconds of each repetition
 // ARRAYS: three numbers (vertices, triangles, points of the polyline), and then theirs, as text.
 #include <time.h>
 

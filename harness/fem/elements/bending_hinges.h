@@ -10,8 +10,8 @@
 namespace cutbench {
 
 /// Row k: the hinge of side k, whose energy D/2 3/(A0 + A1) |sum c x|^2 the two triangles share. Bergou's cotangents
-/// add up to c x = side length x (slope on this side + slope on the other, both inward). Over a seam the other triangle's
-/// side may have another length: then it counts as one that is scaled along its side to ours.
+/// add up to c x = side length x (slope on this side + slope on the other, both inward). Over a seam the other
+/// triangle's side may have another length: then it counts as one that is scaled along its side to ours.
 inline void hinge_rows(BendingStencil& stencil, TriangleIndex t) {
   const Sheet& sheet = stencil.sheet;
   const double twice = twice_area(sheet.corners(t));

@@ -7,8 +7,8 @@
 //   E = |r - s n|^2 / 2,
 //
 // the quadratic hinge's where s = 0. It does not change with rigid motions of any size. The tangent is J' J with
-// J = d(r - s n)/dx, exact at rest and positive semi-definite (Gauss and Newton's). Garg et al., Cubic shells, 2007, not
-// read, have curved rest by a cubic term.
+// J = d(r - s n)/dx, exact at rest and positive semi-definite (Gauss and Newton's). Garg et al., Cubic shells, 2007,
+// not read, have curved rest by a cubic term.
 #pragma once
 
 #include <array>

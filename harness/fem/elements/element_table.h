@@ -1,7 +1,8 @@
 // What the physics knows of the mesh: one row per triangle slot, and the polygons that some triangles are members of.
 // To what lies above this room an element is an element: it has corners, gradients and areas, be it a triangle or a
 // polygon. An element of several triangles is a compound, and it is a polygon in this table, polygon_element.h and
-// compound_sheet.h alone. The elements of methods that don't re-mesh may overlap in rest space and be made of material in part only.
+// compound_sheet.h alone. The elements of methods that don't re-mesh may overlap in rest space and be made of material
+// in part only.
 #pragma once
 
 #include <array>

@@ -4,7 +4,8 @@
 // near a conic, so that several quadratics fit them, the patch grows ring by ring and the quadratic is the best fit
 // (weighted least squares).
 //
-// A compound, an element of several triangles, has one patch, which begins with all its corners; vertices inside it are in none.
+// A compound, an element of several triangles, has one patch, which begins with all its corners; vertices inside it
+// are in none.
 // The patch does not contain vertices behind an incision, or out of sight of the triangle's centroid, for example
 // behind a tip.
 #pragma once

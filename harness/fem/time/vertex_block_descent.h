@@ -1,5 +1,6 @@
-// Vertex block descent: backward Euler's step as a minimum, sought vertex by vertex without a matrix (Chen, Liu, Yang and
-// Yuksel, Vertex block descent, ACM Transactions on Graphics 43(4), 2024; read in its abstract and public summaries).
+// Vertex block descent: backward Euler's step as a minimum, sought vertex by vertex without a matrix (Chen, Liu, Yang
+// and Yuksel, Vertex block descent, ACM Transactions on Graphics 43(4), 2024; read in its abstract and public
+// summaries).
 //
 //   x = argmin (1 + h alpha) (x - y)' M (x - y) / (2 h^2) + E(x),   y = x0 + h v0 + h^2 a, without inner forces
 //
