@@ -23,8 +23,9 @@ class Published:
         self.folder = folder
 
     def today(self, method):
-        """The name that a method of these rows has today."""
-        return CONSISTENT.get(method, method) if int(self.cuts["suite_version"].iloc[0]) <= 5 else method
+        """The name that a method of `remedies` has today."""
+        old = int(self.run("remedies", REMEDIES).rows["suite_version"].iloc[0]) <= 5
+        return CONSISTENT.get(method, method) if old else method
 
     def run(self, stem, measures):
         return load.run_of(self.folder / f"{stem}.records.csv.xz", self.folder / f"{stem}.context.json", measures)

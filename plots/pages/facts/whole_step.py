@@ -59,11 +59,12 @@ def cut_share(published):
     return plain(load.median(100 * front["cut_ms"] / front["ms"]))
 
 
-@condition("cut_is_small_part", "on the fronts cut and update take less than 10 % of the time, and the method with the fastest cut, example, "
-           "is not the one with the fastest motion")
+@condition("cut_is_small_part", "on the fronts cut and update take less than 2 % of the time in the median, less than 15 % everywhere, and the "
+           "method with the fastest cut, example, is not the one with the fastest motion")
 def cut_is_small_part(published):
     front = published.fronts.query("layer == 1")
-    return (front["cut_ms"] / front["ms"]).max() < 0.1 and load.median(ratios(published, "example", 1)["ratio"]) > 0.9
+    share = front["cut_ms"] / front["ms"]
+    return load.median(share) < 0.02 and share.max() < 0.15 and load.median(ratios(published, "example", 1)["ratio"]) > 0.9
 
 
 @condition("refining_is_dear", "after twenty cuts the medians of delaunay_refine, cgal_refine, global_remesh and longest_edge surely lie above "
