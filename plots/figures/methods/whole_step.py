@@ -142,7 +142,7 @@ def pages(table, column, context, by_solver, errors_commit):
 def summary(table, methods, context):
     """readme_chart.png: one setting, each method by its fastest solver. \\param table  with the share of draws on the front"""
     figure, ax = plt.subplots(figsize=(9, 6))
-    figure.subplots_adjust(left=0.07, right=0.995, top=0.9, bottom=0.17)
+    figure.subplots_adjust(left=0.07, right=0.995, top=0.87, bottom=0.17)
     drawn = draw(ax, table, 1.9)
     ax.set_xlim(drawn["ms"].min() / 1.5, drawn["ms"].max() * 1.8)
     ax.set_xlabel("ms for a cut and the 0.25 s of motion after it", fontsize=9.5)
@@ -150,7 +150,7 @@ def summary(table, methods, context):
     ax.tick_params(labelsize=9)
     write_names(ax, drawn[(drawn["layer"] == 1) | (drawn["resolution"] == drawn["resolution"].max())], drawn, 8, False)
     handles = entries(drawn, 1.6)
-    figure.legend(handles=handles, loc="upper left", ncol=-(-len(handles) // 2), fontsize=9, borderaxespad=0.2, handletextpad=0.3,
+    figure.legend(handles=handles, loc="upper left", ncol=-(-len(handles) // 3), fontsize=9, borderaxespad=0.2, handletextpad=0.3,
                   columnspacing=1.2)
     figure.text(0.02, 0.012, f"Lower left is better. {setting_name(setting_of(table)).replace('E t', 'stiffness')}; medians of {spoken(table['n'])} such sheets. "
                 f"{sizes_of(table)}, by size of marker. "
