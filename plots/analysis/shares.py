@@ -29,7 +29,7 @@ class Share:
         return self.made < LEAST * self.tried
 
     def text(self):
-        """Percent of the cuts tried, made / refused / wrong: never 100 or 0 but for all or none."""
+        """Percent of the cuts tried, made / refused / failed: never 100 or 0 but for all or none."""
         if not self.tried:
             return "-"
         return "/".join(percent(n, self.tried) for n in (self.made, self.refused, self.wrong))
@@ -39,7 +39,7 @@ class Share:
         return f" [{self.text()} %]" if self.made < self.tried else ""
 
 
-NAMES = "In brackets beside a name: % of its cuts made / refused / wrong, where not all were made."
+NAMES = "In brackets beside a name: % of its cuts made / refused / failed, where not all were made."
 HOLLOW = f"Hollow, and last: made under half of its cuts. {NAMES}"
 
 

@@ -75,6 +75,15 @@ def refining_is_dear(published):
             and all(interval(ratios(published, m, 20))[1] < 0.67 for m in SHORT))
 
 
+@condition("polygons_gain_energy", "in the motions of the whole step by multigrid, at 1/60 s and 10,000 N/m, energy grows in over 40 % after "
+           "every method, and after none more often than after cut_polygons")
+def polygons_gain_energy(published):
+    motions = published.motions[(published.motions["solver"] == runs.SAME) & (published.motions["step_s"] > 0.01)
+                                & (published.motions["stiffness_n_m"] == 10000)]
+    grew = (motions["verdict"] == "energy_growth").groupby(motions["method"]).mean()
+    return grew.min() > 0.4 and grew.idxmax() == "cut_polygons"
+
+
 @number("whole_step.error.conventional_split")
 def error_of_split(published):
     return plain(100 * error(published, SPLIT)["error"])
