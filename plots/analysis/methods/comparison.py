@@ -45,7 +45,7 @@ SHAPES = [Measure("eigenvalue_ratio", "largest eigenvalue / uncut", short="large
 PRICE = [Measure("us_per_crossed", "µs per crossed triangle", short="time"),
          Measure("incision_error_h", "incision error, h", limits=(0.004, 2), short="incision error"),
          Measure("vertices_per_crossed", "vertices added per crossed tri.", linear=True,
-                 short="vertices added per crossed tri.")]
+                 short="vertices / crossed tri.")]
 ROUNDING = 1e-12  # relative jumps below it are rounding errors
 
 

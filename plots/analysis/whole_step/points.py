@@ -31,7 +31,7 @@ class Measure(NamedTuple):
         return folder / f"{self.stem}.records.csv.xz", folder / f"{self.stem.removesuffix('.direct')}.context.json"
 
 
-def _in_plane(table):
+def _by_kind(table):
     return table["problem"].map(kind_of)
 
 
@@ -45,10 +45,10 @@ def _in_motion(table):
 
 LEADS = "energy_norm"  # has no sign: nothing cancels in it
 MEASURES = {
-    LEADS: Measure("energy norm", "kinds of problems in plane at rest", "method_comparison_accuracy.direct", "error_energy_norm",
-                   _in_plane),
-    "released_energy": Measure("primary measure of each problem", "kinds of problems in plane at rest",
-                               "method_comparison_accuracy.direct", "error", _in_plane),
+    LEADS: Measure("energy norm", "kinds of problems at rest", "method_comparison_accuracy.direct", "error_energy_norm",
+                   _by_kind),
+    "released_energy": Measure("primary measure of each problem", "kinds of problems at rest",
+                               "method_comparison_accuracy.direct", "error", _by_kind),
     "out_of_plane": Measure("out of plane", "problems out of plane at rest", "out_of_plane", "error", _out_of_plane),
     "motion": Measure("gape in motion", "sheets, hanging sheet, backward Euler", "motion", "error_gape_motion", _in_motion)}
 

@@ -51,9 +51,10 @@ def draw(folder, beside):
         left.hlines(y, *(1 + kinds.interval(kinds.completed(errors, base)) / 100), color=colour, linewidth=2.6, alpha=0.45, zorder=2)
         for kind, value in errors.items():
             left.plot(1 + value / 100, y + BESIDE, color="#555555", zorder=5, **KINDS[kind])
-            if 1 + value / 100 > SHOWN:
-                left.annotate(f"{kind} {value:+,.0f} % →", (1, y + 2 * BESIDE), xycoords=left.get_yaxis_transform(),
-                              ha="right", va="center", fontsize=7, color="#555555")
+        beyond = ", ".join(f"{kind} {value:+,.0f} %" for kind, value in errors.items() if 1 + value / 100 > SHOWN)
+        if beyond:
+            left.annotate(f"{beyond} →", (1, y + 2 * BESIDE), xycoords=left.get_yaxis_transform(), ha="right", va="center",
+                          fontsize=7, color="#555555")
         left.plot(1 + row["error, kinds"] / 100, y, color=colour, **dots.MEDIAN | dict(markersize=5) | filled)
         numbers[0][y] = row["error, kinds"]
         if some_stopped:
@@ -79,7 +80,7 @@ def draw(folder, beside):
     entries += [Line2D([], [], label=kind, **grey, **KINDS[kind]) for kind in kinds.KINDS if f"error, {kind}" in by_kind]
     style.finish(figure, [], records.caption(
         f"Errors over those of a mesh that fits the cut, {measure.short.removeprefix('over a fitted mesh ')}: left of 0 is better. "
-        "Mean over kinds of problems in plane; the interval draws the kinds anew. Times: of these cuts, which are others than those of "
+        "Mean over kinds of problems; the interval draws the kinds anew. Times: of these cuts, which are others than those of "
         "the table of all methods. "
         f"Error: of each problem's primary measure, over that of {measure.fitted}, minus one; geometric means over sheets, sizes "
         f"and members.{' ' * bool(measure.note)}{measure.note}{naming.PROGRAM_TIME * bool(records.programs)}"

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Speed against accuracy: the time of a cut and of the 0.25 s of motion after it, by every method (results/whole_step), against
-published errors of the cut sheets: in plane at rest (method_comparison_accuracy), out of plane, and in motion. A Pareto chart per
+published errors of the cut sheets: at rest (method_comparison_accuracy), out of plane, and in motion. A Pareto chart per
 setting and error, each method by its fastest solver and all by the same one; readme_chart.png, one setting; and whole_step.txt,
 the fronts in numbers."""
 

@@ -43,7 +43,7 @@ class Published:
 
     @cached_property
     def error_kinds(self):
-        """The excess errors in plane, solved directly, by method: over kinds of problems, and by kind."""
+        """The excess errors at rest, solved directly, by method: over kinds of problems, and by kind."""
         records = Records(self.folder, "method_comparison_accuracy.direct.records.csv.xz", "method_comparison_accuracy.context.json")
         return kinds.table_of(at_equal_unknowns(records).ranked()).set_index("method")
 

@@ -44,7 +44,7 @@ COLUMNS = [
            "Median over sheets and cuts of one cut, its update and the 0.25 s after it, by the method's fastest solver; the setting is "
            "below the table. Motions that ended early are infinitely slow.", ("sheet", "triangles")),
     Column("error_percent", "error", "%", "method_comparison_accuracy", ("error",),
-           "Relative error of a direct solve in the energy norm, geometric mean over kinds of problems in plane, of the cases that no "
+           "Relative error of a direct solve in the energy norm, geometric mean over kinds of problems, of the cases that no "
            "method failed (always the project's own run).", ("sheet", "triangles")),
     Column("eigenvalue_ratio", "largest eigenvalue / uncut", "", "method_comparison", ("eigenvalue_ratio",), HALF),
     Column("ar_max_cut", "worst aspect ratio", "", "method_comparison", ("ar_max_cut",), HALF),
