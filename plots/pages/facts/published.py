@@ -15,17 +15,9 @@ REMEDIES = ["eigenvalue_ratio", "bending_eigenvalue_ratio", "stabilised_eigenval
             "geometry_us", "crossed_triangles"]
 
 
-CONSISTENT = {"phantom_node": "phantom_node:consistent_mass", "phantom_node:lumped_mass": "phantom_node"}  # as docs/reference/names.md says
-
-
 class Published:
     def __init__(self, folder):
         self.folder = folder
-
-    def today(self, method):
-        """The name that a method of `remedies` has today."""
-        old = int(self.run("remedies", REMEDIES).rows["suite_version"].iloc[0]) <= 5
-        return CONSISTENT.get(method, method) if old else method
 
     def run(self, stem, measures):
         return load.run_of(self.folder / f"{stem}.records.csv.xz", self.folder / f"{stem}.context.json", measures)

@@ -4,8 +4,8 @@ from analysis.methods import remedies
 from pages.facts.table import condition, number, plain, signed, table
 
 COLUMNS = {"conventional_split": "-", "cut_polygons": "the unknowns", "split_and_tie": "the unknowns", "active_node": "the mesh",
-           "phantom_node": "the unknowns", "phantom_node:lumped_mass": "unknowns and mass", "warp_and_refine": "the mesh",
-           "snap_or_split": "the path", "edge_release": "the path", "adaptive_remesh": "the mesh", "delaunay_refine": "the mesh"}
+           "phantom_node": "unknowns and mass", "phantom_node:consistent_mass": "the unknowns", "virtual_node": "unknowns and mass",
+           "warp_and_refine": "the mesh", "snap_or_split": "the path", "edge_release": "the path", "adaptive_remesh": "the mesh", "delaunay_refine": "the mesh"}
 MEDIAN, HIGH, WORST, ERROR, ENDS, MASS = 2, 3, 4, 9, 10, -1  # places in rows_of()
 
 
@@ -19,7 +19,7 @@ def of_remedies(published):
     rows = []
     for row in filter(shown, published.remedies):
         changes = COLUMNS[row[0]] if not row[MASS] else "the mass" if row[0] == "conventional_split" else "mesh and mass"
-        rows.append([remedies.label(published.today(row[0]), "", row[MASS]), changes, plain(row[MEDIAN]), plain(row[HIGH]),
+        rows.append([remedies.label(row[0], "", row[MASS]), changes, plain(row[MEDIAN]), plain(row[HIGH]),
                      f"{signed(row[ERROR])} [{', '.join(signed(end) for end in row[ENDS])}]"])
     return head, rows
 
