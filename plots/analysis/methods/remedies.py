@@ -12,7 +12,7 @@ ADDED_MASS = {  # columns of the records, and the methods that are shown with su
     "stabilised": ["conventional_split", "delaunay_refine", "warp_and_refine"],
     "scaled": ["conventional_split"],
 }
-NAMES = {"ablation:warp+thin:tie": "warp + thin + tie", "phantom_node:lumped_mass": "phantom node, lumped mass",
+NAMES = {"ablation:warp+thin:tie": "warp + thin + tie",
          "phantom_node:consistent_mass": "phantom node, consistent mass"}
 
 

@@ -21,7 +21,7 @@ KINDS = {  # colour, marker, and the methods whose remedy is of this kind
     "the path": ("#7b3294", "v", ["snap_or_split", "edge_release"]),
     "the unknowns": ("#d55e00", "o", ["cut_polygons", "split_and_tie", "phantom_node", "phantom_node:consistent_mass", "virtual_node",
                                           "ablation:warp+thin:tie"]),
-    "the mass": ("#009e73", "^", ["phantom_node:lumped_mass"]),  # and all with an added mass
+    "the mass": ("#009e73", "^", []),  # all with an added mass
     "nothing": ("#444444", "D", ["conventional_split"]),
 }
 
@@ -51,13 +51,13 @@ def figure_of(run, rows, cases, problems):
     ax.margins(x=0.12, y=0.08)
     marked = [(x, row[9]) for row in rows for x in np.geomspace(row[2], row[3], 40)]
     marked += [(x, 0) for x in np.geomspace(*ax.get_xlim(), 120)]
-    names.place(ax, [(row[2], row[9], label_of(row, counts), KINDS[kind_of(row)][0]) for row in rows], marked, 6.2)
     legend = [Line2D([], [], color=colour, marker=marker, linestyle="none", markersize=4, label=f"changes {kind}")
               for kind, (colour, marker, _) in KINDS.items()]
     style.finish(figure, [], " ".join([
         "Left and low is good. Of two changes the colour is that of the mass, else of the unknowns. "
         f"Errors: geometric means over {cases} cases of {problems} kinds of plane problems, which weigh alike, solved directly; upright lines: 95 %, kinds drawn anew. "
         f"Eigenvalues: of single and several cuts. {shares.HOLLOW}", naming.provenance(run, run.rows, with_crosses=False, per=())]), legend)
+    names.place(ax, [(row[2], row[9], label_of(row, counts), KINDS[kind_of(row)][0]) for row in rows], marked, 6.2)
     return figure
 
 
