@@ -23,8 +23,8 @@ sys.dont_write_bytecode = True
 loader.exec_module(publish)
 
 # Stages of the publication before, which wait to be made anew at the commit that all others name
-WAITING = {"parameters", "limits", "solvers", "paper",
-           "robustness", "realtime", "in_a_row", "recommend", "swirl", "closed", "models", "claims"}
+WAITING = {"parameters", "limits", "solvers", "paper", "robustness", "realtime", "in_a_row", "recommend",
+           "swirl", "closed", "models", "claims"}
 problems = []
 
 
