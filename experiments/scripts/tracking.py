@@ -131,7 +131,7 @@ def callgrind(command, options, folder):
                           check=False, cwd=folder)
     if done.returncode != 0:
         said = [line for line in (done.stderr or done.stdout).splitlines() if not line.startswith("--")]
-        raise RuntimeError(f"{' '.join(map(str, command))}: {' '.join(said)}")
+        raise RuntimeError(f"`{' '.join(map(str, command))}` ended with {done.returncode}:\n" + "\n".join(said[:12]))
     return done.stdout, *events(out)
 
 

@@ -40,12 +40,15 @@ Vector3d any_orthogonal(const Vector3d& v) {
   return v.cross(Vector3d::Unit(smallest)).normalized();
 }
 
+/// Eigen's norm() may become an instruction that valgrind 3.19 doesn't know (docs/how-to/track_speed.md).
+double length(const Vector3d& v) { return std::sqrt(v.squaredNorm()); }
+
 /// Orthonormal vectors that span the plane of f's columns; any plane through them where they span none.
 Eigen::Matrix<double, 3, 2> tangent_frame(const Eigen::Matrix<double, 3, 2>& f) {
-  const double a = f.col(0).norm(), b = f.col(1).norm();
+  const double a = length(f.col(0)), b = length(f.col(1));
   const Vector3d normal = f.col(0).cross(f.col(1));
   Eigen::Matrix<double, 3, 2> frame;
-  if (normal.norm() > 1e-14 * a * b) {
+  if (length(normal) > 1e-14 * a * b) {
     frame.col(0) = f.col(0) / a;
     frame.col(1) = normal.normalized().cross(frame.col(0));
   } else if (std::max(a, b) > 0) {
