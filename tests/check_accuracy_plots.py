@@ -15,7 +15,7 @@ import sys
 from pathlib import Path
 
 PLOTS = Path(__file__).resolve().parent.parent / "plots"
-LABELS = ["conventional split", "Bowyer-Watson, rounds=0", "Bowyer-Watson, rounds=1"]
+LABELS = ["conventional split", "bowyer watson, rounds=0", "bowyer watson, rounds=1"]
 FITTED = "body-fitted mesh (reference)"
 problems = []
 

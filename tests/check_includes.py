@@ -14,10 +14,12 @@ import sys
 LIBRARIES = {  # from the ground up: a library's rooms, and the libraries below it that it may use
     "cut": [],
     "oracle": [],  # the oracle shares no code with what it judges
+    "judge": ["cut", "oracle"],
+    "files": ["cut"],
     "fem": ["cut"],
-    "files": ["cut", "fem"],
-    "bench": ["cut", "fem", "files", "oracle"],
-    "command_line": ["cut", "fem", "files", "oracle", "bench"],
+    "scenes": ["cut", "files", "fem"],
+    "bench": ["cut", "oracle", "judge", "files", "fem", "scenes"],
+    "command_line": ["cut", "oracle", "judge", "files", "fem", "scenes", "bench"],
 }
 ROOMS = {  # from the ground up: a room (a folder, or one file), its library, and the rooms below it that it may use
     "base": ("cut", []),
@@ -27,6 +29,8 @@ ROOMS = {  # from the ground up: a room (a folder, or one file), its library, an
     "cases": ("cut", ["base", "mesh", "path"]),
     "methods": ("cut", ["base", "mesh", "path", "cut"]),
     "oracle": ("oracle", []),
+    "judge": ("judge", ["base", "mesh", "path", "cut", "oracle"]),
+    "files": ("files", ["base", "mesh", "path"]),
     "fem/algebra": ("fem", ["base"]),
     "fem/elements": ("fem", ["base", "mesh", "fem/algebra"]),
     "fem/linear": ("fem", ["base", "mesh", "fem/algebra"]),  # it knows of no element
@@ -38,8 +42,7 @@ ROOMS = {  # from the ground up: a room (a folder, or one file), its library, an
     "fem/time": ("fem", ["base", "mesh", "fem/algebra", "fem/elements", "fem/linear", "fem/solvers", "fem/model"]),
     "simulation": ("fem", ["base", "mesh", "path", "cut", "cases", "fem/elements", "fem/linear", "fem/solvers", "fem/model",
                            "fem/time"]),
-    "files": ("files", ["base", "mesh", "path", "cases", "fem/elements", "fem/solvers", "simulation"]),
-    "judge": ("bench", ["base", "mesh", "path", "cut", "oracle"]),
+    "scenes": ("scenes", ["base", "mesh", "path", "cases", "files", "fem/elements", "fem/solvers", "simulation"]),
     "processes": ("bench", ["base"]),
     "programs": ("bench", ["base", "mesh", "path", "cut", "files", "judge", "processes"]),
     "problems/common": ("bench", ["base", "mesh", "path", "cut", "fem"]),
@@ -47,8 +50,8 @@ ROOMS = {  # from the ground up: a room (a folder, or one file), its library, an
     "problems/out_of_plane": ("bench", ["base", "mesh", "fem", "problems/common"]),
     "problems/in_motion": ("bench", ["base", "mesh", "fem", "problems/common", "problems/out_of_plane"]),
     "problems": ("bench", ["base", "problems/common", "problems/in_plane", "problems/out_of_plane", "problems/in_motion"]),
-    "records": ("bench", ["base", "mesh", "cut", "files", "judge", "simulation"]),
-    "study": ("bench", ["base", "mesh", "path", "cut", "cases", "fem", "files", "judge", "processes", "programs",
+    "records": ("bench", ["base", "mesh", "cut", "judge", "files", "scenes", "simulation"]),
+    "study": ("bench", ["base", "mesh", "path", "cut", "cases", "judge", "fem", "scenes", "processes", "programs",
                         "problems/common", "records", "simulation"]),
     "study/robustness": ("bench", ["base", "mesh", "path", "cut", "cases", "files", "oracle", "judge", "processes",
                                    "programs", "records", "study"]),
@@ -56,7 +59,7 @@ ROOMS = {  # from the ground up: a room (a folder, or one file), its library, an
                                   "study"]),
     "study/run_experiment": ("bench", ["records", "study", "study/robustness", "study/stability"]),
 }
-FORBIDDEN = ("filesystem", "fstream", "thread", "mutex", "atomic", "unistd.h")  # in the library `cut`: files, processes
+FORBIDDEN = ("filesystem", "fstream", "thread", "mutex", "atomic", "unistd.h")  # in the libraries `cut` and `judge`: files, processes
 
 root = pathlib.Path(__file__).resolve().parent.parent
 faults = 0
@@ -103,8 +106,8 @@ for file in sorted([*root.glob("harness/**/*.[hc]*"), *root.glob("methods/**/*.[
         fault(f"{name}: is in no room; add its folder to the table")
         continue
     for number, line in enumerate(file.read_text().splitlines(), 1):
-        if ROOMS[room][0] == "cut" and (include := re.match(r"#include <(.*)>", line)) and include[1] in FORBIDDEN:
-            fault(f"{name}:{number}: {room} reads and writes strings and arrays; <{include[1]}> belongs to harness/files or above")
+        if ROOMS[room][0] in ("cut", "judge") and (include := re.match(r"#include <(.*)>", line)) and include[1] in FORBIDDEN:
+            fault(f"{name}:{number}: {room} reads and writes strings and arrays; <{include[1]}> belongs to harness/files")
         if not (include := re.match(r'#include "((?:harness|methods|experiments|tests)/[^"]*)"', line)):
             continue
         other = room_of(include[1])

@@ -23,7 +23,7 @@ sys.dont_write_bytecode = True
 loader.exec_module(publish)
 
 # Stages of the publication before, which wait to be made anew at the commit that all others name
-WAITING = {"parameters", "limits", "solvers", "paper", "robustness", "realtime", "in_a_row", "recommend",
+WAITING = {"limits", "solvers", "paper", "robustness", "realtime", "in_a_row", "recommend",
            "swirl", "closed", "models", "claims"}
 problems = []
 
@@ -86,10 +86,10 @@ def check_reference(program):
 
 # --- a small project ----------------------------------------------------------------------------------------------------
 
-ROWS = ("suite_version,problem,step_s,budget,reason,kept_us,left_us\n5,a,0.0041666666666666666,0,,1.23456789,1\n5,a,1,100,,,1\n"
-        "5,b,1,0,it broke,2.99999998,1\n")
-PACKED = ["suite_version,problem,step_s,budget,reason,kept_us", "5,a,0.0041666666666666666,0,,1.23457", "5,a,1,100,,",
-          "5,b,1,0,it broke,2.99999998"]
+ROWS = ("suite_version,problem,step_s,budget,reason,kept,kept_us,left_us\n5,a,0.0041666666666666666,0,,1.23456789,123456.789,1\n"
+        "5,a,1,100,,,,1\n5,b,1,0,it broke,2.99999998,2.99999998,1\n")
+PACKED = ["suite_version,problem,step_s,budget,reason,kept,kept_us", "5,a,0.0041666666666666666,0,,1.23457,1.235e5", "5,a,1,100,,,",
+          "5,b,1,0,it broke,2.99999998,3"]
 
 
 def git(folder, *words):
@@ -167,7 +167,7 @@ def check_assembled(folder):
     (folder / "results/a/a.md").write_text("[a](a/a.png) [b](b.md)", encoding="utf-8")
     for old in ("old.png", "tracking.md"):
         (reference / old).write_text(old, encoding="utf-8")
-    stages = {"s": {"records": ["a"], "direct": ["a"], "columns": ["kept_us"],
+    stages = {"s": {"records": ["a"], "direct": ["a"], "columns": ["kept", "kept_us"],
                     "files": ["renamed.txt=a/a.txt", "a/a.png", "a/a.md", "table.csv.xz=a/records.csv"]}}
     state = {"seconds": {"s": 90.0}}
     new = folder / "results/publish/reference"

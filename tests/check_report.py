@@ -142,7 +142,7 @@ def check_swirl():
                         columns=["cut", "material", "method", "degrees"])
     (name, ratio, low, high, n), = swirl.ratios(rows)
     expect(f"the swirl's ratio: {name} {ratio} [{low}, {high}] {n}",
-           np.allclose([ratio, low, high, n], [1, 0.5, 2, 2]) and name == "CGAL CDT")
+           np.allclose([ratio, low, high, n], [1, 0.5, 2, 2]) and name == "cgal cdt")
 
 
 check_lips()

@@ -2,7 +2,7 @@
 #include <string>
 #include <utility>
 
-#include "harness/files/scene_file.h"
+#include "harness/scenes/scene_file.h"
 #include "tests/mesh_checks.h"
 #include "tests/scene_file.h"
 

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "harness/files/scene_file.h"
+#include "harness/scenes/scene_file.h"
 #include "harness/simulation/scene.h"
 #include "tests/mesh_checks.h"
 

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "harness/cases/cut_families.h"
-#include "harness/files/scene_file.h"
+#include "harness/scenes/scene_file.h"
 #include "harness/study/experiment.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"

@@ -10,8 +10,8 @@
 #include "experiments/advice/scene_run.h"
 #include "experiments/advice/sheet_levels.h"
 #include "harness/base/conversions.h"
-#include "harness/files/toml_reader.h"
 #include "harness/mesh/families.h"
+#include "harness/scenes/toml_reader.h"
 
 namespace cutbench {
 

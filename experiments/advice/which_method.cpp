@@ -5,7 +5,7 @@
 #include <map>
 
 #include "experiments/advice/which_method_text.h"
-#include "harness/files/toml_reader.h"
+#include "harness/scenes/toml_reader.h"
 
 namespace cutbench {
 

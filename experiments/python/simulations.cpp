@@ -13,7 +13,7 @@
 #include "experiments/python/held.h"
 #include "harness/base/conversions.h"
 #include "harness/base/errors.h"
-#include "harness/files/scene_file.h"
+#include "harness/scenes/scene_file.h"
 #include "harness/simulation/simulation.h"
 
 namespace cutbench::python {

@@ -10,8 +10,8 @@
 
 #include "harness/base/errors.h"
 #include "harness/base/json_reader.h"
-#include "harness/files/toml_reader.h"
 #include "harness/files/whole_file.h"
+#include "harness/scenes/toml_reader.h"
 
 namespace cutbench {
 

@@ -11,9 +11,9 @@
 #include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"
 #include "harness/fem/solvers/solver_table.h"
-#include "harness/files/toml_reader.h"
 #include "harness/mesh/families.h"
 #include "harness/problems/common/problem.h"
+#include "harness/scenes/toml_reader.h"
 
 namespace cutbench {
 

@@ -8,7 +8,7 @@
 #include "harness/base/conversions.h"
 #include "harness/fem/elements/bending_kinds.h"
 #include "harness/fem/solvers/solver_table.h"
-#include "harness/files/scene_file.h"
+#include "harness/scenes/scene_file.h"
 
 namespace cutbench {
 

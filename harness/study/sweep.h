@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/files/toml_reader.h"
+#include "harness/scenes/toml_reader.h"
 #include "harness/simulation/scene.h"
 
 namespace cutbench {

@@ -32,8 +32,7 @@ def family(method):
 
 def name(method, programs=()):
     """A method without its parameter."""
-    known = next((look.label.partition(",")[0] for (m, _), look in naming.KNOWN.items() if m == method), None)
-    return (known or method.replace("_", " ").replace(":", ", ")) + naming.PROGRAM * (method in programs)
+    return naming.words(method).replace(":", ", ") + naming.PROGRAM * (method in programs)
 
 
 def grouped(methods):

@@ -34,10 +34,10 @@ class Look:
 
 KNOWN = {  # in the order of the legend
     ("conventional_split", ""): Look("conventional split", "#444444", "s", width=2.4),
-    ("bowyer_watson", "rounds=0"): Look("Bowyer-Watson, rounds=0", "#56b4e9", "o", width=2.1),
-    ("bowyer_watson", "rounds=1"): Look("Bowyer-Watson, rounds=1", "#0072b2", "^"),
-    ("bowyer_watson", "rounds=3"): Look("Bowyer-Watson, rounds=3", "#0b2f66", "v"),
-    ("cgal_cdt", ""): Look("CGAL CDT", "#d55e00", "D"),
+    ("bowyer_watson", "rounds=0"): Look("bowyer watson, rounds=0", "#56b4e9", "o", width=2.1),
+    ("bowyer_watson", "rounds=1"): Look("bowyer watson, rounds=1", "#0072b2", "^"),
+    ("bowyer_watson", "rounds=3"): Look("bowyer watson, rounds=3", "#0b2f66", "v"),
+    ("cgal_cdt", ""): Look("cgal cdt", "#d55e00", "D"),
     ("body_fitted (reference)", ""): Look("body-fitted mesh (reference)", "#111111", "*", "--"),
     ("body_fitted_graded (reference)", ""): Look("body-fitted mesh, graded at tips", "#555555", "*", ":"),
     ("every_edge", ""): Look("every edge tested", "#8a8a8a", "h", ":"),
@@ -50,6 +50,11 @@ FREE_MARKERS = ["P", "X", "<", ">", "p", "H", "d", "8"]
 SHEETS = {"grid": "the paper's grid", "alternating": "alternating", "delaunay": "Delaunay", "graded": "graded"}
 
 
+def words(method):
+    """A method's name in figures and their tables: the one that the program knows, with blanks."""
+    return method.replace("_", " ")
+
+
 def looks(variants, programs=(), counts=None):
     """The Look of each (method, parameter), in the order of the legend; those whose method is one of `programs` say so. A method
     that KNOWN does not name gets the free colour its name hashes to (the next one if another method of this figure has
@@ -57,7 +62,6 @@ def looks(variants, programs=(), counts=None):
     chosen = {v: look for v, look in KNOWN.items() if v in variants}
     unknown = sorted(set(variants) - set(KNOWN), key=lambda v: (v[0], natural(v[1])))
     colours = {method: look.colour for (method, _), look in reversed(KNOWN.items())}
-    names = {method: look.label.partition(",")[0] for (method, _), look in KNOWN.items()}
     for method in dict.fromkeys(method for method, _ in unknown):
         if method not in colours:
             slot = zlib.crc32(method.encode())
@@ -66,7 +70,7 @@ def looks(variants, programs=(), counts=None):
                 slot += 1
             colours[method] = FREE_COLOURS[slot % len(FREE_COLOURS)]
         for i, (_, parameter) in enumerate(v for v in unknown if v[0] == method):
-            label = names.get(method, method.replace("_", " ")) + (f", {parameter}" if parameter else "")
+            label = words(method) + (f", {parameter}" if parameter else "")
             label += PROGRAM * (method in programs)
             marker = FREE_MARKERS[(zlib.crc32(method.encode()) + i) % len(FREE_MARKERS)]
             line = ("-", "--", "-.", ":")[(i + any(m == method for m, _ in KNOWN)) % 4]

@@ -7,9 +7,9 @@
 
 #include "experiments/program/commands/command.h"
 #include "experiments/program/commands/method_options.h"
-#include "harness/files/scene_file.h"
 #include "harness/files/whole_file.h"
 #include "harness/records/context.h"
+#include "harness/scenes/scene_file.h"
 
 namespace cutbench {
 

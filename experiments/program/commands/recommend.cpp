@@ -12,10 +12,10 @@
 #include "experiments/program/commands/method_options.h"
 #include "harness/base/errors.h"
 #include "harness/fem/solvers/solver_table.h"
-#include "harness/files/scene_file.h"
-#include "harness/files/toml_reader.h"
 #include "harness/files/whole_file.h"
 #include "harness/records/context.h"
+#include "harness/scenes/scene_file.h"
+#include "harness/scenes/toml_reader.h"
 
 namespace cutbench {
 

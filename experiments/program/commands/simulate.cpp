@@ -16,11 +16,11 @@
 #include "harness/fem/algebra/workers.h"
 #include "harness/fem/solvers/solver_table.h"
 #include "harness/files/mesh_file.h"
-#include "harness/files/scene_file.h"
-#include "harness/files/toml_reader.h"
 #include "harness/files/whole_file.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/rest_choice.h"
+#include "harness/scenes/scene_file.h"
+#include "harness/scenes/toml_reader.h"
 
 namespace cutbench {
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from analysis import load, shares
+from analysis import load, naming, shares
 
 STEM = "motion"
 INTEGRATORS = {"midpoint": "midpoint rule", "backward_euler": "backward Euler"}
@@ -43,7 +43,7 @@ def names_of(everything, failed):
     def error(method):
         return sum(np.log(errors_of(of_problem(made, problem), method, counts[method].is_few).mean()) for problem in PROBLEMS)
     order = sorted(dict.fromkeys(made["method"]), key=lambda method: (counts[method].is_few, error(method), method))
-    return {method: method.replace("_", " ") + counts[method].beside() for method in order}
+    return {method: naming.words(method) + counts[method].beside() for method in order}
 
 
 def interval(errors):

@@ -30,7 +30,7 @@ class Measure:
     linear: bool = False
     limits: tuple = ()  # of the axis; empty: what the values need
     written: Callable = distribution.two_digits  # a median as text
-    short: str = ""  # of the label, where it is drawn over that of shares.BASE
+    short: str = ""  # of the label, where it is drawn over that of shares.BASE; empty: it is drawn as it is
 
     @property
     def beside(self):
@@ -43,7 +43,7 @@ SHAPES = [Measure("eigenvalue_ratio", "largest eigenvalue / uncut", short="large
           Measure("angle_max_deg_cut", "largest angle, °", linear=True, limits=(88, 183), written="{:.0f}".format,
                   short="largest angle, °")]
 PRICE = [Measure("us_per_crossed", "µs per crossed triangle", short="time"),
-         Measure("incision_error_h", "incision error, h", limits=(0.004, 2), short="incision error"),
+         Measure("incision_error_h", "incision error, h", limits=(0.004, 2)),
          Measure("vertices_per_crossed", "vertices added per crossed tri.", linear=True,
                  short="vertices / crossed tri.")]
 ROUNDING = 1e-12  # relative jumps below it are rounding errors
@@ -196,7 +196,7 @@ def cuts_of(run):
     table["failed"] = (table["verdict"] != "ok") | table["status"].isin(["failed", "refused"])
     # A kind of sheet that a method is not made for says nothing about it.
     table = table[~shares.is_outside(table, load.programs(run.everything(), run.context))].copy()
-    for m in SHAPES + PRICE:
+    for m in (m for m in SHAPES + PRICE if m.short):
         beside = shares.over_base(table, m.column, m.linear)
         if beside is not None:
             table[m.beside] = beside

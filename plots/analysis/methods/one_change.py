@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analysis import load, shares
+from analysis import load, naming, shares
 
 STEM = "one_change"
 PATH = ["cut", "case"]
@@ -22,7 +22,7 @@ class Change:
     tips: int = 0
 
     def label(self):
-        parts = [self.method.replace("_", " ")] if self.kind not in ("functions", "mass", "solver") else []
+        parts = [naming.words(self.method)] if self.kind not in ("functions", "mass", "solver") else []
         parts += ["tip functions"] * self.tips
         parts += [f"{self.mass} mass"] if self.mass != "lumped" else []
         parts += [self.solver] if self.solver != "cg" else []
@@ -32,7 +32,7 @@ class Change:
         """For the figure."""
         if self.kind != "together":
             return f"{self.kind}: {self.label()}"
-        return f"{self.method.replace('_', ' ')}, tips, {'mass, ' if self.mass != 'lumped' else ''}multigrid"
+        return f"{naming.words(self.method)}, tips, {'mass, ' if self.mass != 'lumped' else ''}multigrid"
 
 
 BASE = Change("nothing")

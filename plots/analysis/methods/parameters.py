@@ -18,10 +18,10 @@ def below_three(rows):
 
 
 def settings_by_method(table):
-    """{method: [(variant, what is written below it)]}, the settings of a parameter in their order. A variant `method:part` is
-    the last setting of the method."""
+    """{method: [(variant, what is written below it)]}, the settings of a parameter in their order. A variant `method:part` is a
+    setting of the method, too."""
     found = {}
     for method, parameter in sorted(set(zip(table["method"], table["parameter"])), key=lambda v: (v[0], naming.natural(v[1]))):
         name, _, part = method.partition(":")
-        found.setdefault(name, []).append(((method, parameter), part.replace("_", "\n") or parameter.partition("=")[2] or "-"))
+        found.setdefault(name, []).append(((method, parameter), parameter.partition("=")[2] or part.replace("_", "\n") or "default"))
     return found

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from analysis import load, shares
+from analysis import load, naming, shares
 from analysis.accuracy.ranking import made_by_all
 from analysis.load import of
 from analysis.methods import kinds
@@ -18,7 +18,7 @@ NAMES = {"ablation:warp+thin:tie": "warp + thin + tie",
 
 def label(method, parameter, mass=""):
     several = method.startswith("phantom_node") and parameter
-    return NAMES.get(method, method.replace("_", " ")) + (f", {parameter}" if several else "") + (f", {mass} mass" if mass else "")
+    return NAMES.get(method, naming.words(method)) + (f", {parameter}" if several else "") + (f", {mass} mass" if mass else "")
 
 
 def errors(records):

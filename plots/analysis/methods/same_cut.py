@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from analysis import cut_result, load
+from analysis import cut_result, load, naming
 
 PROGRAM = load.REPOSITORY / "build/release/cutbench"
 SQUARES = 20
@@ -68,4 +68,4 @@ def cut_by_all(methods):
 def title(method):
     """Its name, and its parameter's default."""
     parameter = f" {method['parameter']['default']:g}" if method["parameter"] else ""
-    return method["name"].replace("_", " ") + parameter
+    return naming.words(method["name"]) + parameter

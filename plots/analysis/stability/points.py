@@ -2,21 +2,17 @@
 
 import numpy as np
 
-from analysis import load, shares
+from analysis import load, naming, shares
 
 EXPLICIT = "explicit_step_ratio"
 WORST_LAST = ["ok", "refused", "solver_stalled", "newton_failed", "inverted", "energy_growth", "not_finite", "failed",
               "wrong", "timed_out", "crashed"]
 UNMADE = {"refused", "failed", "wrong", "timed_out", "crashed"}
 CUT = ["sweep", "sheet", "resolution", "cut", "place", "case", "repetition"]
-NAMES = {"conventional_split": "conventional split", "bowyer_watson": "Bowyer-Watson", "cgal_cdt": "CGAL CDT",
-         "delaunay_refine": "Delaunay refine", "cgal_refine": "CGAL refine", "longest_edge": "longest edge",
-         "global_remesh": "global remesh", "warp_and_refine": "warp and refine", "vertex_snap": "vertex snap", "active_node": "active node",
-         "snap_or_split": "snap or split", "edge_release": "edge release", "split_and_tie": "split and tie", "cut_polygons": "cut polygons",
-         "ablation:warp+thin:tie": "warp, thin, tie", "element_deletion": "element deletion"}
 ADDED_MASS = ["stabilised", "scaled"]  # values of `mass` that are remedies
 SOLVERS = {"cg": "CG", "cg_sliver_blocks": "sliver blocks", "multigrid": "multigrid", "cholmod": "CHOLMOD",
            "constant_factor": "constant factor"}
+INTEGRATORS = {"backward_euler": "backward Euler", "midpoint": "midpoint"}
 
 
 def read(folder):
@@ -35,7 +31,9 @@ def read(folder):
 def name_of(method, parameter, mass):
     if mass in ADDED_MASS:  # after a conventional split
         return f"{mass} mass"
-    return f"phantom, ghost {parameter.partition('=')[2]}" if method.startswith("phantom_node") and parameter else NAMES.get(method, method.replace("_", " "))
+    if method.startswith("phantom_node") and parameter:
+        return f"phantom, ghost {parameter.partition('=')[2]}"
+    return {"ablation:warp+thin:tie": "warp, thin, tie"}.get(method) or naming.words(method)
 
 
 def on_the_page(rows):
@@ -75,6 +73,11 @@ def breaking_point(values, good):
             return last, value
         last = value
     return last, None
+
+
+def words(column, value):
+    """What a row of cells is called."""
+    return {"solver": SOLVERS, "integrator": INTEGRATORS}.get(column, {}).get(value, f"{value:g} Newton" if column == "newton" else str(value))
 
 
 def text(value):

@@ -1,7 +1,6 @@
 """A cut sheet in rest space: triangles by their aspect ratios, the requested path, the incision, and what a method makes of
 the triangles: polygons, vertices that go along with others, copies. Needs numpy and matplotlib alone."""
 
-import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.lines import Line2D

@@ -89,7 +89,7 @@ def beside_split(table, measures):
     """The sentence for captions where figure_of() draws cuts beside those of conventional_split."""
     if not any(m.beside in table for m in measures):
         return ""
-    return ("Each cut beside the same cut by conventional_split, of the cuts that both made: ratios, of angles and vertices "
+    return ("Where an axis says split's: each cut beside the same cut by conventional_split, of the cuts that both made, ratios or "
             "differences. ")
 
 

@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 import pandas as pd
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
-from analysis import load
+from analysis import load, naming
 from figures.common import style
 
 DASHES = {"cg": "-", "multigrid": "-", "constant_factor": "-", "cholmod": "-", "eigen_cg": ":", "eigen_ldlt": ":"}
@@ -41,7 +41,7 @@ def draw(rows, path):
     figure, axes = plt.subplots(1, 3, figsize=(style.PAGE, 2.9), sharey=True)
     for axis, method in zip(axes, ("warp_and_refine", "conventional_split")):
         draw_lines(axis, size[size["method"] == method], "resolution", colours)
-        axis.set(xlabel="triangles", title=f"{method.replace('_', ' ')}, 4 cuts")
+        axis.set(xlabel="triangles", title=f"{naming.words(method)}, 4 cuts")
         axis.axhline(16.7, color="black", linewidth=0.7, linestyle="--")
     draw_lines(axes[2], cuts, "cuts", colours)
     axes[2].set_xticks([0.5, 1, 4, 20], ["none", "1", "4", "20"])

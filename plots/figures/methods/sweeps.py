@@ -6,7 +6,7 @@ from matplotlib.colors import LogNorm, Normalize
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from analysis import families
+from analysis import families, naming
 from analysis.load import of
 from analysis.methods.parameters import AFTER, BEFORE, below_three, median_of, settings_by_method
 from figures.common import style
@@ -30,12 +30,12 @@ def draw_parameters(folder, table, caption, defaults):
     for ax in axes.flat[len(methods):]:
         ax.set_visible(False)
     for (method, settings), ax in zip(methods.items(), axes.flat):
-        parameter = next((k.partition("=")[0] for (_, k), _ in settings if k), "")
-        joined = slice(method in OFF_AT_ZERO, len(settings) - sum(":" in m for (m, _), _ in settings))
+        part, parameter = next(((m.partition(":")[2], k.partition("=")[0]) for (m, k), _ in settings if k), ("", ""))
+        joined = [i for i, ((_, k), value) in enumerate(settings) if k and not (method in OFF_AT_ZERO and value == "0")]
         for column, _, looks in CURVES:
             values = [median_of(of(table, variant), column) for variant, _ in settings]
             x = np.arange(len(values))
-            ax.plot(x[joined], values[joined], **looks | dict(marker=""))
+            ax.plot(x[joined], np.array(values)[joined], **looks | dict(marker=""))
             ax.plot(x, values, **looks | dict(linestyle=""))
         for x, (variant, _) in enumerate(settings):
             if variant in defaults:
@@ -44,7 +44,7 @@ def draw_parameters(folder, table, caption, defaults):
         ax.set_xticks(range(len(settings)), [written for _, written in settings])
         ax.grid(axis="x", visible=False)
         ax.set_title(families.name(method), loc="left", fontweight="bold", color=families.family(method).colour)
-        ax.set_title(parameter, loc="right")
+        ax.set_title(parameter + f", {naming.words(part)}" * bool(part), loc="right")
     entries = [Line2D([], [], label=label, **looks) for _, label, looks in CURVES]
     style.finish(figure, [], caption, entries + [Patch(color="#e6e6e6", label="default")])
     style.save(figure, folder, "method_comparison_parameters")

@@ -14,7 +14,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
-from analysis import load
+from analysis import load, naming
 from analysis.families import FAMILIES, family
 from analysis.whole_step import points
 from analysis.whole_step.points import SETTING
@@ -69,7 +69,7 @@ def draw(ax, table, scale=1.0):
 
 def name_of(p, with_solver):
     """`with_solver`: also the solver, unless it is SAME."""
-    return p["method"].replace("_", " ") + (f" ({SOLVERS.get(p['solver'], p['solver'])})" if with_solver and p["solver"] != SAME else "")
+    return naming.words(p["method"]) + (f" ({SOLVERS.get(p['solver'], p['solver'])})" if with_solver and p["solver"] != SAME else "")
 
 
 def along(best):
@@ -161,7 +161,7 @@ def summary(table, methods, context):
 
 def absent(drawn, methods):
     """Which methods are in no panel, in words."""
-    lost = [m.replace("_", " ") for m in methods if m not in set(drawn["method"])]
+    lost = [naming.words(m) for m in methods if m not in set(drawn["method"])]
     return f"Not shown (refuses the scene, ended early, no published error, or an error over {FAR} times the median): {', '.join(lost)}." if lost else ""
 
 

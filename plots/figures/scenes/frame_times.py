@@ -14,7 +14,7 @@ import pandas as pd
 from PIL import Image
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
-from analysis import frame_files
+from analysis import frame_files, naming
 from analysis.families import family
 from analysis.scenes.frame_times import KEYS, read, row_of, write_table
 from figures.common import render, style
@@ -44,7 +44,7 @@ def draw(frames, limits, path):
                 continue
             ordered = np.sort(mine["total_ms"])
             share.step(ordered, 100 * (1 - np.arange(len(ordered)) / len(ordered)), where="post", **looks[method],
-                       label=method.replace("_", " "))
+                       label=naming.words(method))
             second = mine.groupby(np.floor(mine["time_s"] - 1e-9))["total_ms"].median()
             run.plot(second.index + 0.5, second, **looks[method])
         for axis in (share, run):
@@ -98,7 +98,7 @@ def frame_picture(frame, camera, box, description, costs, limit):
     strip.tick_params(labelsize=4.5)
     strip.set_xlabel("s", fontsize=4.5, labelpad=0)
     strip.set_ylabel("ms a frame", fontsize=4.5, labelpad=1)
-    name = description["method"].split(" ")[0].replace("_", " ")
+    name = naming.words(description["method"].split(" ")[0])
     figure.text(0.02, 0.99, f"{name}, {description['triangles_before']} triangles at first; red: frames with a cut",
                 fontsize=5, va="top")
     last = past["total_ms"].iloc[-1] if len(past) else 0

@@ -3,6 +3,7 @@
 import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch, Rectangle
+from matplotlib.patheffects import withStroke
 
 from analysis import shares
 from analysis.stability import points
@@ -19,6 +20,7 @@ EXPLICIT_BANDS = [(0.3, "#1a9850", "≥ 0.3"), (0.1, "#91cf60", "≥ 0.1"), (0.0
 COST_BANDS = [(3, "#006d2c", "≤ 3 ms"), (10, "#41ab5d", "≤ 10"), (30, "#a1d99b", "≤ 30"), (np.inf, "#d5e8a8", "> 30")]
 OK, UNKNOWN = "#74c476", "#f7f7f7"
 HATCHED = dict(facecolor=UNKNOWN, edgecolor="#888888", linewidth=0, hatch="/" * 7)
+MOST_NAMED = 6  # rows of a group that are named
 PLAIN = {"rolled", "turned_over", "step_poisson", "vertex_static", "piece_static"}  # panels without bands
 
 
@@ -36,7 +38,7 @@ def band_colour(row, measure):
 
 def cells(ax, rows, group, x, inner=(), measure="", ylabels=True, ticks=None, labels=str):
     """A cell for each point: rows of cells for each value of `group`, labelled, and in them one for each combination of the
-    columns `inner`, in the order of the records; in each the values of x from left to right."""
+    columns `inner`, in the order of the records, named in the first group where they are few; in each the values of x from left to right."""
     groups, xs = list(dict.fromkeys(rows[group])), list(dict.fromkeys(rows[x]))
     inner = list(inner)
     combinations = list(dict.fromkeys(zip(*(rows[c] for c in inner)))) if inner else [()]
@@ -56,6 +58,10 @@ def cells(ax, rows, group, x, inner=(), measure="", ylabels=True, ticks=None, la
         ax.axvline(i - 0.5, color="white", linewidth=0.4)
     for i in range(1, len(image)):
         ax.axhline(i - 0.5, color="white", linewidth=0.3 if i % len(combinations) else 1.4 if inner else 0.4)
+    if 1 < len(combinations) <= MOST_NAMED:
+        for i, combination in enumerate(combinations):
+            ax.text(-0.42, i, ", ".join(points.words(*pair) for pair in zip(inner, combination)), fontsize=4, va="center",
+                    path_effects=[withStroke(linewidth=1, foreground="white")])
     shown = [i for i, value in enumerate(xs) if ticks is None or value in ticks]
     ax.set_xticks(shown, [short(xs[i]) for i in shown])
     middles = (np.arange(len(groups)) + 0.5) * len(combinations) - 0.5

@@ -14,7 +14,6 @@ from figures.common import style
 from figures.stability import panels
 
 DISTANCE, NUMBER = "distance, h", "number of cuts"
-INTEGRATORS = {"backward_euler": "backward Euler", "midpoint": "midpoint"}
 STEPS = [1e-4, 1e-2, 1]
 NEAR = [0.5, 0.01, 1e-6, 1e-12]
 CELLS = {  # a panel: title, label of the x axis; column of the group, of x, those within the group, measure, ticks
@@ -62,18 +61,18 @@ PAGES = {  # stem: title, rows of panels, height of a row in inches, legends, wh
     "stability_solvers": (
         "Implicit steps of 1/240 s: which solver works, and what a step costs",
         [["vertex_solvers", "angle_solvers"], ["strip_solvers", "in_a_row_solvers"]], 2.7, ["cost"],
-        "The sheet is stretched, cut, and springs open. Five rows a method, from the top: CG, sliver blocks, multigrid, CHOLMOD, constant factor. A cell "
+        "The sheet is stretched, cut, and springs open. A row of a method is a solver, named in the first. A cell "
         "is the worst of its cuts; to the right they are harder."),
     "stability_steps": (
         "How long may an implicit step be, and how stiff the sheet?", [["map_0", "map_1", "map_4"], ["map_2", "map_3", "map_6"]], 1.15, [],
         "Steps right after a cut by conventional split, solved by CHOLMOD. A row is a stiffness, a column a step."),
     "stability_limits": (
         "Solvers cut short, and large deformations", [["iterations", "tolerance", "rolled"], ["turned_over", "step_poisson"]], 1.9, ["cost"],
-        "In each method a row is a solver (CG, sliver blocks, multigrid, constant factor; the first three for the tolerance), or an integrator with "
-        "1 and 3 Newton iterations: backward Euler, then midpoint."),
+        "A row of a method is a solver, or an integrator with 1 or 3 Newton iterations, named in the first. Step × Poisson's ratio: backward Euler with 1 "
+        "and 3, then midpoint."),
 }
 OWN_ROWS = {"in_a_row", "explicit", "in_a_row_solvers", "step_poisson"}  # panels whose methods are not those to their left
-MAPS = [(integrator, newton, damping) for damping in (0.0, 1e-3) for integrator in INTEGRATORS for newton in (1, 3)]
+MAPS = [(integrator, newton, damping) for damping in (0.0, 1e-3) for integrator in points.INTEGRATORS for newton in (1, 3)]
 
 
 def draw(ax, rows, panel, ylabels=True):
@@ -105,7 +104,7 @@ def draw_map(ax, rows, which, ylabels):
     panels.cells(ax, some, "stiffness_n_m", "step_s", ylabels=ylabels, labels=panels.short, ticks=STEPS)
     if ylabels:
         ax.set_ylabel("E t, N/m", fontsize=5.5, labelpad=1)
-    return f"{INTEGRATORS[integrator]}, {newton} Newton it.{', damped' if damping else ''}"
+    return f"{points.INTEGRATORS[integrator]}, {newton} Newton it.{', damped' if damping else ''}"
 
 
 def page(rows, stem, caption):

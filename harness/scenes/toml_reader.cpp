@@ -1,4 +1,4 @@
-#include "harness/files/toml_reader.h"
+#include "harness/scenes/toml_reader.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "harness/files/scene_file_cuts.h"
+#include "harness/scenes/scene_file_cuts.h"
 
 #include "harness/base/conversions.h"
 #include "harness/cases/cut_families.h"

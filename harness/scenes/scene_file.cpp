@@ -1,4 +1,4 @@
-#include "harness/files/scene_file.h"
+#include "harness/scenes/scene_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +10,10 @@
 #include "harness/fem/elements/bending_kinds.h"
 #include "harness/fem/solvers/solver_table.h"
 #include "harness/files/mesh_file.h"
-#include "harness/files/scene_file_cuts.h"
-#include "harness/files/toml_reader.h"
 #include "harness/mesh/families.h"
 #include "harness/path/blade.h"
+#include "harness/scenes/scene_file_cuts.h"
+#include "harness/scenes/toml_reader.h"
 
 namespace cutbench {
 
