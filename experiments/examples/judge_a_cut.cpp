@@ -1,5 +1,5 @@
-// Every method cuts the sheet of a mesh file along a path file, and the oracle judges each cut. Links cutbench::judge and
-// cutbench::files.
+// Every method cuts the sheet of a mesh file along a path file, and the oracle judges each cut. Links cutbench::judge
+// and cutbench::files.
 #include <cutbench/base/errors.h>
 #include <cutbench/files/mesh_file.h>
 #include <cutbench/files/path_file.h>
