@@ -13,6 +13,7 @@ TITLES = {
     "fig7_recut_and_multiple_recut": "Figure 7: a cut across a cut", "fig8_edge_quality_patches": "Figure 8: the cut edge",
     "fig8_edge_quality_cg": "Figure 8, by CG", "fig8_edge_quality_hinges": "Figure 8, hinges",
     "fig8_edge_quality_unconverged": "Figure 8, CG stopped early", "fig10_level_of_detail": "Figure 10: a winding cut",
+    "sewn_shirt": "A shirt is cut up the front", "skin_ellipse": "An ellipse out of skin", "sleeve_ring": "A sleeve is cut round",
 }
 
 

@@ -44,7 +44,8 @@ def draw_parameters(folder, table, caption, defaults):
         ax.set_xticks(range(len(settings)), [written for _, written in settings])
         ax.grid(axis="x", visible=False)
         ax.set_title(families.name(method), loc="left", fontweight="bold", color=families.family(method).colour)
-        ax.set_title(parameter + f", {naming.words(part)}" * bool(part), loc="right")
+        ax.set_title(parameter, loc="right")
+        ax.text(0.98, 0.97, naming.words(part), transform=ax.transAxes, ha="right", va="top", fontsize=6)
     entries = [Line2D([], [], label=label, **looks) for _, label, looks in CURVES]
     style.finish(figure, [], caption, entries + [Patch(color="#e6e6e6", label="default")])
     style.save(figure, folder, "method_comparison_parameters")

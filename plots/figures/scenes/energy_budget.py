@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """The energy budget of each scene. Stacked areas: kinetic energy, elastic energy (membrane and bending), and the losses by
-damping and by backward Euler. Line: work of gravity and of the pinned vertices. The gap between the line and the areas is
-the remainder, which is the error of the linearisation, and the jumps at cuts; energy_budget.txt has both in numbers. Dotted:
-time of a cut, or start of a blade's cut."""
+damping and by backward Euler. Line: the energy at first, and the work of gravity and of the pinned vertices. The gap between
+the line and the areas is the remainder, which is the error of the linearisation, and the jumps at cuts; energy_budget.txt has
+both in numbers. Dotted: time of a cut, or start of a blade's cut."""
 
 import argparse
 import contextlib
@@ -21,15 +21,16 @@ from analysis.scenes import overview, scene_frames
 from analysis.scenes.energy_budget import numbers, read_budget
 from figures.common import style
 
+LIGHT = 0.2  # of the largest energy: a sheet that has less
 PARTS = {"kinetic": "#56b4e9", "elastic": "#009e73", "damping": "#d9b38c", "numerical loss": "#b9b9b9"}
 
 
 def panel(ax, folder, description):
     b = read_budget(folder)
     parts = [b["kinetic_j"], b["membrane_j"] + b["bending_j"], b["damping_j"], b["numerical_loss_j"]]
-    parts = [p - p.iloc[0] for p in parts]
+    at_first = sum(p.iloc[0] for p in parts)
     ax.stackplot(b["time_s"], parts, colors=PARTS.values(), linewidth=0)
-    ax.plot(b["time_s"], b["potential_j"].iloc[0] - b["potential_j"] + b["pin_work_j"], color="black", linewidth=0.8)
+    ax.plot(b["time_s"], at_first + b["potential_j"].iloc[0] - b["potential_j"] + b["pin_work_j"], color="black", linewidth=0.8)
     for cut in description["cuts"]:
         ax.axvline(cut["time_s"], color="#b0001e", linewidth=0.7, linestyle=":")
     ax.set_xlim(0, b["time_s"].iloc[-1])
@@ -47,7 +48,7 @@ def main():
     n = ", ".join(map(str, sorted({d["triangles_before"] for d in descriptions})))
     columns = min(4, len(folders))
     rows = -(-len(folders) // columns)
-    figure, axes = plt.subplots(rows, columns, figsize=(style.PAGE, 1.05 * rows), squeeze=False, sharey=True)
+    figure, axes = plt.subplots(rows, columns, figsize=(style.PAGE, 1.05 * rows), squeeze=False)
     for ax in axes.flat[len(folders):]:
         ax.axis("off")
     for i, (ax, folder, description) in enumerate(zip(axes.flat, folders, descriptions)):
@@ -55,13 +56,17 @@ def main():
         ax.set_ylabel("" if i % columns else "energy, J")
         ax.set_xlabel("time, s" if i + columns >= len(folders) else "")
         ax.xaxis.set_major_locator(MaxNLocator(3))
-    axes[0, 0].set_ylim(0)
+    most = [ax.dataLim.y1 for ax in axes.flat[:len(folders)]]
+    for i, (ax, own) in enumerate(zip(axes.flat, most)):
+        is_light = own < LIGHT * max(most)  # has an axis of its own
+        ax.set_ylim(0, 1.05 * (own if is_light else max(most)))
+        ax.tick_params(axis="y", labelleft=is_light or not i % columns)
     by = " or ".join(sorted({d["method"] for d in descriptions}))
     style.finish(figure, [], f"{' '.join(__doc__.split())} By {by}; n = {n} triangles before the cuts, "
                  f"{' or '.join(sorted({d['solver'] for d in descriptions}))}, as the scene files state. No seed: the cuts are in experiments/scenes; {scene_frames.commits(descriptions)}. "
                  "Command: plots/figures/scenes/energy_budget.py",
                  [Patch(color=c, label=name) for name, c in PARTS.items()]
-                 + [Line2D([], [], color="black", linewidth=0.8, label="work of gravity and pins")])
+                 + [Line2D([], [], color="black", linewidth=0.8, label="energy at first, work of gravity and pins")])
     style.save(figure, results, "energy_budget")
     text = io.StringIO()
     with contextlib.redirect_stdout(text):

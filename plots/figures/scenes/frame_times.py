@@ -58,10 +58,10 @@ def draw(frames, limits, path):
             axis.set_major_formatter(lambda value, _: f"{value:g}")
     axes[0][0].set_ylabel("frames that take longer, %")
     axes[1][0].set_ylabel("ms a frame, median of each second")
-    figure.legend(*axes[0][0].get_legend_handles_labels(), loc="lower center", ncols=len(methods))
+    figure.legend(*axes[0][0].get_legend_handles_labels(), loc="lower center", ncols=min(5, len(methods)))
     names = " and ".join(f"{limit:g} ms ({'dashed' if k == 0 else 'dotted'})" for k, limit in enumerate(limits[:2]))
     figure.suptitle(f"A swinging sheet, cut every quarter of a second. Lines: {names}.", fontsize=7)
-    figure.tight_layout(rect=(0, 0.08, 1, 1))
+    figure.tight_layout(rect=(0, 0.05 + 0.035 * -(-len(methods) // 5), 1, 1))
     style.write_png(figure, path)
 
 
