@@ -75,7 +75,7 @@ def breaking_point(values, good):
     return last, None
 
 
-def words(column, value):
+def row_words(column, value):
     """What a row of cells is called."""
     return {"solver": SOLVERS, "integrator": INTEGRATORS}.get(column, {}).get(value, f"{value:g} Newton" if column == "newton" else str(value))
 

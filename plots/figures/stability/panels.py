@@ -60,7 +60,7 @@ def cells(ax, rows, group, x, inner=(), measure="", ylabels=True, ticks=None, la
         ax.axhline(i - 0.5, color="white", linewidth=0.3 if i % len(combinations) else 1.4 if inner else 0.4)
     if 1 < len(combinations) <= MOST_NAMED:
         for i, combination in enumerate(combinations):
-            ax.text(-0.42, i, ", ".join(points.words(*pair) for pair in zip(inner, combination)), fontsize=4, va="center",
+            ax.text(-0.42, i, ", ".join(points.row_words(*pair) for pair in zip(inner, combination)), fontsize=4, va="center",
                     path_effects=[withStroke(linewidth=1, foreground="white")])
     shown = [i for i, value in enumerate(xs) if ticks is None or value in ticks]
     ax.set_xticks(shown, [short(xs[i]) for i in shown])
