@@ -23,7 +23,7 @@ sys.dont_write_bytecode = True
 loader.exec_module(publish)
 
 # Stages of the publication before, which wait to be made anew at the commit that all others name
-WAITING = {"limits", "models", "recommend"}
+WAITING = set()
 problems = []
 
 
