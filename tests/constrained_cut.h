@@ -9,6 +9,7 @@
 
 #include "harness/cases/cut_families.h"
 #include "harness/cut/constraint_source.h"
+#include "harness/fem/model/model.h"
 #include "harness/mesh/families.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
@@ -56,6 +57,33 @@ void for_each_constrained_cut(const std::vector<ConstrainingMethod>& methods, in
                        std::to_string(i));
           visit(ConstrainedCut(family, n, method, cuts, seed, i));
         }
+}
+
+/// The numbers that a model which has followed cuts has for those of a fresh one: phantom nodes have room before them.
+struct NumbersOf {
+  const Model<3>&followed, &fresh;
+  bool is_spare(std::size_t v) const { return v >= fresh.first_phantom() && v < followed.first_phantom(); }
+  std::size_t in_fresh(std::size_t v) const {
+    return v < followed.first_phantom() ? v : v - followed.first_phantom() + fresh.first_phantom();
+  }
+};
+
+template <int D>
+void expect_same(const BlockMatrix<D>& followed, const BlockMatrix<D>& fresh, const NumbersOf& numbers, double limit) {
+  for (std::size_t v = 0; v < followed.rows(); ++v) {
+    if (numbers.is_spare(v)) {
+      EXPECT_TRUE(followed.columns(v).empty());
+      continue;
+    }
+    const std::size_t row = numbers.in_fresh(v);
+    ASSERT_EQ(followed.columns(v).size(), fresh.columns(row).size());
+    std::int32_t slot = followed.first_slot(v);
+    for (const std::int32_t j : followed.columns(v)) {
+      const std::int32_t other = fresh.find(row, to_int32(numbers.in_fresh(to_size(j))));
+      ASSERT_GE(other, 0);
+      EXPECT_LE((followed.block(slot++) - fresh.block(other)).cwiseAbs().maxCoeff(), limit * max_entry(fresh));
+    }
+  }
 }
 
 }  // namespace cutbench

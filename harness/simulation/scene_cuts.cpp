@@ -226,7 +226,7 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, std::span<const Curve> curve
     if (run.status == Status::noop || run.status == Status::refused) continue;
     if (run.verdict != Verdict::ok) return result;
     StopWatch watch;
-    const State phantoms = take_phantoms(vertices_before, D, moving.state);
+    const State phantoms = take_phantoms(moving.model.first_phantom(), D, moving.state);
     transfer(moving.sheet.log(), moving.sheet.deformed_slots(), D, moving.state);
     result.transfer_us += watch.lap();
     moving.model.update(moving.sheet);
@@ -244,8 +244,7 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, std::span<const Curve> curve
                                              moving.model.elements().left_since_change());
     result.cut.time_us.constrain += watch.lap();
     moving.model.constrain(moving.sheet, constraints);
-    begin_phantoms(moving.sheet, moving.constraints, constraints, vertices_before, phantoms, moving.model.vertices(), D,
-                   moving.state);
+    begin_phantoms(moving.sheet, moving.constraints, constraints, vertices_before, phantoms, moving.model, moving.state);
     moving.constraints = std::move(constraints);
     moving.keep_together();  // the state of before the cut need not
     result.pattern_us += watch.lap();

@@ -53,7 +53,6 @@ class Doubling {
   }
 
   Constraints run() {
-    const std::size_t kept = phantoms_.size();
     number_phantoms();
     Constraints constraints;
     constraints.phantoms = phantoms_;
@@ -73,7 +72,7 @@ class Doubling {
             constraints.constraints.push_back({d, {one, one, one}, {1, 0, 0}});
         }
     add_elements(constraints);
-    if (options_.lumped_mass) lump(kept, constraints);
+    if (options_.lumped_mass) lump(constraints);
     return constraints;
   }
 
@@ -105,18 +104,18 @@ class Doubling {
     return u() < first ? u : DeformedIndex(cut_.deformed_slots() + to_size(kept_[u() - first]));
   }
 
+  /// Each that stays keeps its number, so that what is derived from the numbers stays, too.
   void keep_phantoms() {
     const std::size_t first = cut_.log().deformed_before;
+    phantoms_.assign(last_->phantoms.size(), DeformedIndex());
     kept_.assign(last_->phantoms.size(), -1);
     for (const CopiedElement& element : last_->copied)
       for (std::size_t k = 0; k < 3; ++k)
-        if (element.unknown[k]() >= first && stays(parts_.before().triangle(element.parent).vertex[k]))
-          kept_[element.unknown[k]() - first] = 0;
-    for (std::size_t i = 0; i < kept_.size(); ++i)
-      if (kept_[i] == 0) {
-        kept_[i] = to_int32(phantoms_.size());
-        phantoms_.push_back(last_->phantoms[i]);
-      }
+        if (element.unknown[k]() >= first && stays(parts_.before().triangle(element.parent).vertex[k])) {
+          const std::size_t i = element.unknown[k]() - first;
+          kept_[i] = to_int32(i);
+          phantoms_[i] = last_->phantoms[i];
+        }
   }
 
   /// Gives the copies of corners that stay the unknowns that they had.
@@ -135,7 +134,7 @@ class Doubling {
       for (std::size_t k = 0; k < 3; ++k)
         if (const VertexIndex v = parts_.parent(i).vertex[k]; stays(v))
           fixed_[copies_.find(copy(i, k))] =
-              now(was != all.end() ? was->unknown[k] : stands_for[parts_.number_of(corner_of_whole(i, v))]);
+              was != all.end() ? was->unknown[k] : stands_for[parts_.number_of(corner_of_whole(i, v))];
     }
   }
 
@@ -186,7 +185,13 @@ class Doubling {
 
   // --- all of it -----------------------------------------------------------------------------------------------------
 
+  /// New ones take the numbers that have become free; where more have, those with the last numbers do.
   void number_phantoms() {
+    std::size_t free = 0;
+    const auto next_free = [&] {
+      while (free < phantoms_.size() && phantoms_[free].valid()) ++free;
+      return free;
+    };
     phantom_.assign(3 * parts_.size(), -1);
     for (std::size_t i = 0; i < parts_.size(); ++i)
       for (std::size_t k = 0; k < 3; ++k) {
@@ -194,9 +199,16 @@ class Doubling {
         if (one < parts_.vertices().size() || is_fixed(one)) continue;
         auto& number = phantom_[one - parts_.vertices().size()];
         if (number >= 0) continue;
-        number = to_int32(phantoms_.size());
-        phantoms_.push_back(parts_.parent(i).deformed[k]);
+        number = to_int32(next_free());
+        new_phantoms_.push_back(number);
+        if (free == phantoms_.size()) phantoms_.emplace_back();
+        phantoms_[free] = parts_.parent(i).deformed[k];
       }
+    for (; next_free() < phantoms_.size(); phantoms_.pop_back()) {
+      if (!phantoms_.back().valid()) continue;
+      phantoms_[free] = phantoms_.back();
+      kept_[phantoms_.size() - 1] = to_int32(free);  // no new one is behind a free number
+    }
   }
 
   /// Each part, with what its corners have.
@@ -220,9 +232,8 @@ class Doubling {
   }
 
   /// A third of the mass of each part to each copy of its parent's corners, where it is slit to those that its vertices
-  /// depend on; of all other triangles to their corners.
-  /// \param kept  phantom nodes of before, whose mass is known
-  void lump(std::size_t kept, Constraints& constraints) {
+  /// depend on; of all other triangles to their corners. Of phantom nodes of before it is known.
+  void lump(Constraints& constraints) {
     const std::size_t kept_areas = constraints.lumped.size();
     std::unordered_map<std::int32_t, double> area;
     const auto add = [&](DeformedIndex u, double share) { area[u.value] += share; };
@@ -254,8 +265,8 @@ class Doubling {
       if (!parts_.is_new(v) && unknown(number) == d && !(stays(v) && was_lumped(d)))
         constraints.lumped.push_back({d, area[d.value]});
     }
-    for (std::size_t i = kept; i < phantoms_.size(); ++i) {
-      const DeformedIndex u(cut_.deformed_slots() + i);
+    for (const std::int32_t i : new_phantoms_) {
+      const DeformedIndex u(cut_.deformed_slots() + to_size(i));
       constraints.lumped.push_back({u, area[u.value]});
     }
     merge_in(constraints.lumped, kept_areas,
@@ -324,7 +335,7 @@ class Doubling {
   bool is_fixed(std::size_t one) const { return last_ && fixed_[one].valid(); }
   DeformedIndex unknown(std::size_t number) {
     const std::size_t one = copies_.find(number), vertices = parts_.vertices().size();
-    if (is_fixed(one)) return fixed_[one];
+    if (is_fixed(one)) return now(fixed_[one]);
     if (one < vertices) return parts_.vertices()[one];
     return DeformedIndex(cut_.deformed_slots() + to_size(phantom_[one - vertices]));
   }
@@ -352,14 +363,15 @@ class Doubling {
   const Parts parts_;
   const OpenTips tips_;
   const Sheet& cut_;
-  UnionFind copies_;                     // of vertices, and three for the corners of the parent of each part
-  std::vector<std::int32_t> phantom_;    // per copy that is no vertex: its number
-  std::vector<DeformedIndex> phantoms_;  // what each is a copy of
+  UnionFind copies_;                        // of vertices, and three for the corners of the parent of each part
+  std::vector<std::int32_t> phantom_;       // per copy that is no vertex: its number
+  std::vector<std::int32_t> new_phantoms_;  // their numbers
+  std::vector<DeformedIndex> phantoms_;     // what each is a copy of
   // Of the last cut; null where all cuts are looked at.
   const LastCut* last_cut_ = nullptr;
   const Constraints* last_ = nullptr;
   std::vector<std::int32_t> kept_;    // per phantom of before: its number now, -1: none
-  std::vector<DeformedIndex> fixed_;  // per class of copies: its unknown, where that stays
+  std::vector<DeformedIndex> fixed_;  // per class of copies: the unknown that it was, where that stays
 };
 
 }  // namespace

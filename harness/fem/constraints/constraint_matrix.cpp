@@ -8,26 +8,33 @@
 
 namespace cutbench {
 
-void ConstraintMatrix::set(const std::vector<Constraint>& constraints, std::size_t vertices, std::size_t phantoms) {
-  const auto free = [&](std::size_t i) { rows_[i] = {{to_int32(i)}, {1}, 1}; };
-  for (const std::int32_t v : constrained_) free(to_size(v));
-  for (std::size_t i = rows_.size(); i < vertices; ++i) {
-    rows_.emplace_back();
-    free(i);
-  }
-  constrained_.clear();
+std::vector<ConstraintMatrix::Changed> ConstraintMatrix::set(const std::vector<Constraint>& constraints,
+                                                             std::size_t vertices, std::size_t phantoms) {
+  const auto own = [](std::size_t i) { return Row{{to_int32(i)}, {1}, 1}; };
+  std::vector<Changed> changed;
+  const auto put = [&](std::size_t i, const Row& row) {
+    if (rows_[i] == row) return;
+    changed.push_back({i, rows_[i]});
+    rows_[i] = row;
+  };
+  for (std::size_t i = rows_.size(); i < vertices; ++i) rows_.push_back(own(i));
   phantoms_ = phantoms;
+  std::vector<std::int32_t> now;
   for (const Constraint& constraint : constraints) {
-    Row& row = rows_[constraint.vertex()];
-    row.size = 0;
+    Row row{};
     for (std::size_t k = 0; k < 3; ++k)
       if (constraint.weights[k] != 0) {
         row.unknown[row.size] = constraint.masters[k].value;
         row.weight[row.size++] = constraint.weights[k];
       }
-    constrained_.push_back(constraint.vertex.value);
+    put(constraint.vertex(), row);
+    now.push_back(constraint.vertex.value);
   }
-  std::sort(constrained_.begin(), constrained_.end());
+  std::sort(now.begin(), now.end());
+  constrained_.swap(now);
+  for (const std::int32_t v : now)
+    if (!is_constrained(to_size(v))) put(to_size(v), own(to_size(v)));
+  return changed;
 }
 
 void ConstraintMatrix::expand(int dimension, const Field& q, Field& x) const {
@@ -48,7 +55,10 @@ void ConstraintMatrix::reduce(int dimension, const Field& f, Field& r) const {
 
 template <int D>
 void ConstrainedSystem<D>::change(const Constraints& constraints, std::size_t vertices, std::size_t phantoms) {
-  constraint_matrix_.set(constraints.constraints, vertices, phantoms);
+  const auto changed = constraint_matrix_.set(constraints.constraints, vertices, phantoms);
+  changed_.insert(changed_.end(), changed.begin(), changed.end());
+  for (const GhostEdge& ghost : ghosts_)
+    for (const DeformedIndex u : ghost.unknown) left_by_ghosts_.push_back(u.value);
   ghosts_ = constraints.ghosts;
   is_changed_ = true;
 }
@@ -70,7 +80,7 @@ void ConstrainedSystem<D>::find_near(const SystemMatrix<D>& a) {
   for (const std::int32_t v : constraint_matrix_.constrained()) {
     const ConstraintMatrix::Row& row = constraint_matrix_.row(to_size(v));
     mark(to_size(v));
-    mark_all({row.unknown.data(), row.size});
+    mark_all(row.unknowns());
     mark_all(a.blocks->columns(to_size(v)));
     for (const auto& term : a.scalar) mark_all(term.matrix->columns(to_size(v)));
   }
@@ -79,39 +89,79 @@ void ConstrainedSystem<D>::find_near(const SystemMatrix<D>& a) {
   std::sort(near_rows_.begin(), near_rows_.end());
 }
 
-/// All rows, where it is not known which have changed.
+/// The rows that a changed row of A or C is a part of; all rows, where it is not known which have changed.
 template <int D>
 void ConstrainedSystem<D>::find_changed(const SystemMatrix<D>& a) {
+  const std::size_t unknowns = constraint_matrix_.unknowns();
+  for (const std::size_t u : changed_rows_) is_changed_row_[u] = 0;
   changed_rows_.clear();
-  if (pattern_ > 0 && a.history && a.history->holds(pattern_)) {
-    changed_rows_ = near_rows_;
-    for (const std::int32_t u : a.history->changed_since(pattern_)) changed_rows_.push_back(to_size(u));
-    std::sort(changed_rows_.begin(), changed_rows_.end());
-    changed_rows_.erase(std::unique(changed_rows_.begin(), changed_rows_.end()), changed_rows_.end());
-  } else {
+  is_changed_row_.resize(unknowns);
+  const auto mark = [&](std::span<const std::int32_t> rows) {
+    for (const std::int32_t u : rows)
+      if (!std::exchange(is_changed_row_[to_size(u)], 1)) changed_rows_.push_back(to_size(u));
+  };
+  const auto left_by_ghosts = std::exchange(left_by_ghosts_, {});
+  const auto changed = std::exchange(changed_, {});
+  const bool is_known =
+      pattern_ > 0 && a.history && a.history->holds(pattern_) && unknowns == constraint_matrix_.vertices();
+  if (!is_known) {
     blocks_ = {};
     scalars_.assign(a.scalar.size(), {});
-    for (std::size_t u = 0; u < constraint_matrix_.unknowns(); ++u) changed_rows_.push_back(u);
+    shares_ = {};
+    split_shares_.clear();
+    for (std::size_t u = 0; u < unknowns; ++u) {
+      const std::int32_t row = to_int32(u);
+      mark({&row, 1});
+    }
+    return;
+  }
+  const auto mark_near = [&](std::size_t i) {
+    mark(constraint_matrix_.row(i).unknowns());
+    for (const std::int32_t j : a.blocks->columns(i)) mark(constraint_matrix_.row(to_size(j)).unknowns());
+    for (const auto& term : a.scalar)
+      for (const std::int32_t j : term.matrix->columns(i)) mark(constraint_matrix_.row(to_size(j)).unknowns());
+  };
+  for (const auto& [vertex, before] : changed) {
+    const std::int32_t own = to_int32(vertex);
+    mark({&own, 1});
+    mark(before.unknowns());
+    mark_near(vertex);
+  }
+  mark(left_by_ghosts);
+  for (const GhostEdge& ghost : ghosts_)
+    for (const DeformedIndex u : ghost.unknown) mark({&u.value, 1});
+  for (const std::int32_t i : a.history->changed_since(pattern_)) {
+    mark({&i, 1});
+    mark_near(to_size(i));
+  }
+  std::sort(changed_rows_.begin(), changed_rows_.end());
+}
+
+/// The rows of A that add to a changed row near constraints.
+template <int D>
+void ConstrainedSystem<D>::find_sources(const SystemMatrix<D>& a) {
+  sources_.clear();
+  for (const std::size_t i : near_rows_) {
+    if (i >= a.vertices()) break;
+    const auto unknowns = constraint_matrix_.row(i).unknowns();
+    if (std::any_of(unknowns.begin(), unknowns.end(), [&](std::int32_t u) { return is_changed_row_[to_size(u)] != 0; }))
+      sources_.push_back(i);
   }
 }
 
-/// Calls act(part, i, j, slot, u, v, weight) for what each entry (i, j) of A in the rows above adds to entry (u, v).
+/// Calls act(part, j, slot, u, v, weight) for what each entry (i, j) of A adds to entry (u, v).
 template <int D>
 template <class Act>
-void ConstrainedSystem<D>::for_each_share(const SystemMatrix<D>& a, const Act& act) const {
+void ConstrainedSystem<D>::for_each_share(const SystemMatrix<D>& a, std::size_t i, const Act& act) const {
   const auto visit = [&](std::size_t number, const auto& part) {
-    for (const std::size_t i : near_rows_) {
-      if (i >= a.vertices()) break;
-      std::int32_t slot = part.first_slot(i);
-      const ConstraintMatrix::Row& row = constraint_matrix_.row(i);
-      for (const std::int32_t j : part.columns(i)) {
-        const ConstraintMatrix::Row& column = constraint_matrix_.row(to_size(j));
-        for (std::size_t k = 0; k < row.size; ++k)
-          for (std::size_t l = 0; l < column.size; ++l)
-            act(number, i, to_size(j), slot, to_size(row.unknown[k]), column.unknown[l],
-                row.weight[k] * column.weight[l]);
-        ++slot;
-      }
+    std::int32_t slot = part.first_slot(i);
+    const ConstraintMatrix::Row& row = constraint_matrix_.row(i);
+    for (const std::int32_t j : part.columns(i)) {
+      const ConstraintMatrix::Row& column = constraint_matrix_.row(to_size(j));
+      for (std::size_t k = 0; k < row.size; ++k)
+        for (std::size_t l = 0; l < column.size; ++l)
+          act(number, to_size(j), slot, to_size(row.unknown[k]), column.unknown[l], row.weight[k] * column.weight[l]);
+      ++slot;
     }
   };
   visit(0, *a.blocks);
@@ -129,7 +179,7 @@ bool ConstrainedSystem<D>::is_split(std::size_t vertex) const {
 template <int D>
 void ConstrainedSystem<D>::copy_rows(const SystemMatrix<D>& a) {
   for (const std::size_t u : changed_rows_) {
-    if (u >= constraint_matrix_.vertices() || near_[u]) continue;
+    if (near_[u]) continue;
     blocks_.set_row(u, a.blocks->columns(u));
     for (std::size_t k = 0; k < scalars_.size(); ++k) {
       scalars_[k].set_row(u, a.scalar[k].matrix->columns(u));
@@ -142,52 +192,66 @@ void ConstrainedSystem<D>::copy_rows(const SystemMatrix<D>& a) {
 
 template <int D>
 void ConstrainedSystem<D>::set_near_rows(const SystemMatrix<D>& a) {
-  const std::size_t parts = 1 + a.scalar.size(), rows = near_rows_.size();
+  std::vector<std::size_t> rows;  // near constraints, and changed
+  std::set_intersection(changed_rows_.begin(), changed_rows_.end(), near_rows_.begin(), near_rows_.end(),
+                        std::back_inserter(rows));
+  const std::size_t parts = 1 + a.scalar.size();
   const auto place = [&](std::size_t u) {
-    return to_size(std::lower_bound(near_rows_.begin(), near_rows_.end(), u) - near_rows_.begin());
+    return to_size(std::lower_bound(rows.begin(), rows.end(), u) - rows.begin());
   };
-  std::vector<std::vector<std::int32_t>> columns(parts * rows);
-  const auto part_of = [&](std::size_t part, std::size_t i, std::size_t j) {
-    return is_split(i) || is_split(j) ? 0 : part;  // a scalar acts on all axes alike
-  };
-  for_each_share(a, [&](std::size_t part, std::size_t i, std::size_t j, std::int32_t, std::size_t u, std::int32_t v,
-                        double) { columns[part_of(part, i, j) * rows + place(u)].push_back(v); });
+  std::vector<std::vector<std::int32_t>> columns(parts * rows.size());
+  for (const std::size_t i : sources_)
+    for_each_share(a, i, [&](std::size_t part, std::size_t j, std::int32_t, std::size_t u, std::int32_t v, double) {
+      if (!is_changed_row_[u]) return;
+      const bool split = is_split(i) || is_split(j);  // a scalar acts on all axes alike
+      columns[(split ? 0 : part) * rows.size() + place(u)].push_back(v);
+    });
   for (const GhostEdge& ghost : ghosts_)
     for (const DeformedIndex u : ghost.unknown)
       for (const DeformedIndex v : ghost.unknown) columns[place(u())].push_back(v.value);
   for (std::size_t part = 0; part < parts; ++part)
-    for (std::size_t r = 0; r < rows; ++r) {
-      auto& all = columns[part * rows + r];
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      auto& all = columns[part * rows.size() + r];
       std::sort(all.begin(), all.end());
       all.erase(std::unique(all.begin(), all.end()), all.end());
-      const auto own = std::find(all.begin(), all.end(), to_int32(near_rows_[r]));
+      const auto own = std::find(all.begin(), all.end(), to_int32(rows[r]));
       if (own != all.end()) std::rotate(all.begin(), own, own + 1);
       if (part == 0)
-        blocks_.set_row(near_rows_[r], all);
+        blocks_.set_row(rows[r], all);
       else
-        scalars_[part - 1].set_row(near_rows_[r], all);
+        scalars_[part - 1].set_row(rows[r], all);
     }
 }
 
 template <int D>
 void ConstrainedSystem<D>::set_shares(const SystemMatrix<D>& a) {
-  shares_.clear();
-  split_shares_.clear();
-  for_each_share(a, [&](std::size_t part, std::size_t i, std::size_t j, std::int32_t slot, std::size_t u,
-                        std::int32_t v, double weight) {
-    if (is_split(i) || is_split(j))
-      split_shares_.push_back({{slot, blocks_.find(u, v), weight}, part, i, j});
-    else if (part == 0)
-      shares_.push_back({slot, blocks_.find(u, v), weight});
-    else
-      scalars_[part - 1].block(scalars_[part - 1].find(u, v)) += weight * a.scalar[part - 1].matrix->block(slot);
+  shares_.resize(constraint_matrix_.vertices());
+  std::erase_if(split_shares_, [&](const SplitShare& split) {
+    return !near_[split.i] || std::binary_search(sources_.begin(), sources_.end(), split.i);
   });
+  std::vector<Share> shares;
+  for (const std::size_t i : sources_) {
+    shares.clear();
+    for_each_share(
+        a, i, [&](std::size_t part, std::size_t j, std::int32_t slot, std::size_t u, std::int32_t v, double weight) {
+          if (is_split(i) || is_split(j))
+            split_shares_.push_back({{slot, blocks_.find(u, v), weight}, part, i, j});
+          else if (part == 0)
+            shares.push_back({slot, blocks_.find(u, v), weight});
+          else if (is_changed_row_[u])
+            scalars_[part - 1].block(scalars_[part - 1].find(u, v)) += weight * a.scalar[part - 1].matrix->block(slot);
+        });
+    shares_.set(i, shares);
+  }
+  std::stable_sort(split_shares_.begin(), split_shares_.end(),
+                   [](const SplitShare& x, const SplitShare& y) { return x.i < y.i; });
 }
 
 template <int D>
 void ConstrainedSystem<D>::follow(const SystemMatrix<D>& a) {
   find_changed(a);
   find_near(a);
+  find_sources(a);
   blocks_.resize(constraint_matrix_.unknowns());
   for (auto& scalar : scalars_) scalar.resize(constraint_matrix_.unknowns());
   copy_rows(a);
@@ -195,9 +259,7 @@ void ConstrainedSystem<D>::follow(const SystemMatrix<D>& a) {
   set_shares(a);
   find_places(a);
   history_.begin_change();
-  for (const std::size_t u : changed_rows_)
-    if (u < constraint_matrix_.unknowns()) history_.mark(u);
-  for (const std::size_t u : near_rows_) history_.mark(u);
+  for (const std::size_t u : changed_rows_) history_.mark(u);
   pattern_ = a.pattern;
   is_changed_ = false;
 }
@@ -236,7 +298,10 @@ void ConstrainedSystem<D>::assemble(const SystemMatrix<D>& a, double stiffness) 
     std::int32_t from = a.blocks->first_slot(u), to = blocks_.first_slot(u);
     for (std::size_t n = blocks_.columns(u).size(); n > 0; --n) blocks_.block(to++) = a.blocks->block(from++);
   }
-  for (const Share& share : shares_) blocks_.block(share.to) += share.weight * a.blocks->block(share.from);
+  for (const std::size_t i : near_rows_) {
+    if (i >= a.vertices()) break;
+    for (const Share& share : shares_[i]) blocks_.block(share.to) += share.weight * a.blocks->block(share.from);
+  }
   for (const SplitShare& split : split_shares_) {
     typename BlockMatrix<D>::Block block;
     if (split.part == 0)

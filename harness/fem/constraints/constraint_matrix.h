@@ -20,16 +20,22 @@ class ConstraintMatrix {
     std::array<std::int32_t, 3> unknown;
     std::array<double, 3> weight;
     std::size_t size;  ///< 1 to 3
+    std::span<const std::int32_t> unknowns() const { return {unknown.data(), size}; }
+    bool operator==(const Row&) const = default;
+  };
+  struct Changed {
+    std::size_t vertex;
+    Row before;
   };
 
   ConstraintMatrix() = default;
   ConstraintMatrix(const Constraints& constraints, std::size_t vertices) {
     set(constraints.constraints, vertices, constraints.phantoms.size());
   }
-  /// Instead of those of before. \pre `vertices` is no less than then.
+  /// Instead of those of before; returns the rows that this changes. \pre `vertices` is no less than then.
   /// \param vertices  the sheet's; or with the phantom nodes, which are like vertices then
   /// \param phantoms  those that are not among the vertices
-  void set(const std::vector<Constraint>& constraints, std::size_t vertices, std::size_t phantoms);
+  std::vector<Changed> set(const std::vector<Constraint>& constraints, std::size_t vertices, std::size_t phantoms);
   std::size_t vertices() const { return rows_.size(); }
   std::size_t unknowns() const { return rows_.size() + phantoms_; }
   const Row& row(std::size_t vertex) const { return rows_[vertex]; }
@@ -66,8 +72,8 @@ class ConstrainedSystem {
   ConstrainedSystem(const Constraints& constraints, std::size_t vertices, std::size_t phantoms) {
     change(constraints, vertices, phantoms);
   }
-  /// The constraints after one more cut. Of all other rows only those follow that the history of A names, where it has
-  /// one.
+  /// The constraints after one more cut. Where A has a history, and phantom nodes are vertices of A, only the rows
+  /// follow that a row of A or a constraint which has changed is a part of.
   void change(const Constraints& constraints, std::size_t vertices, std::size_t phantoms);
 
   const ConstraintMatrix& constraint_matrix() const { return constraint_matrix_; }
@@ -105,8 +111,9 @@ class ConstrainedSystem {
 
   void extrapolate(std::int32_t constrained, const std::vector<std::uint8_t>& held, Field& x) const;
   void find_near(const SystemMatrix<D>& a);
+  void find_sources(const SystemMatrix<D>& a);
   template <class Act>
-  void for_each_share(const SystemMatrix<D>& a, const Act& act) const;
+  void for_each_share(const SystemMatrix<D>& a, std::size_t i, const Act& act) const;
   bool is_split(std::size_t vertex) const;
   void follow(const SystemMatrix<D>& a);
   void find_changed(const SystemMatrix<D>& a);
@@ -122,9 +129,13 @@ class ConstrainedSystem {
   bool is_changed_ = false;         // the constraints, since the last assemble()
   std::vector<std::uint8_t> near_;  // per unknown: its row is not that of A
   std::vector<std::size_t> near_rows_;
-  std::vector<std::size_t> changed_rows_;  // those of before that are near no more, and those of A that have changed
-  std::vector<Share> shares_;
-  std::vector<SplitShare> split_shares_;
+  std::vector<ConstraintMatrix::Changed> changed_;  // constraints, since the last assemble()
+  std::vector<std::int32_t> left_by_ghosts_;        // unknowns, since then
+  std::vector<std::size_t> changed_rows_;           // by the last follow()
+  std::vector<std::uint8_t> is_changed_row_;        // per unknown
+  std::vector<std::size_t> sources_;                // rows of A whose shares the last follow() found
+  GrowingRows<Share> shares_;                       // per row of A near constraints
+  std::vector<SplitShare> split_shares_;            // by rising i
   BlockMatrix<D> blocks_;
   std::vector<BlockMatrix<1>> scalars_;  // C^T (scalar matrix of A) C
   std::vector<double> factors_;

@@ -29,7 +29,6 @@ void Bending::update(const Sheet& sheet, const ElementTable* elements, std::span
   resize(sheet.triangle_slots(), std::max(sheet.deformed_slots(), matrix_.rows()));
   work_.elements = elements;
   ++work_.call;
-  take_replaced_away();
   if (!kind_->has_slopes) seams_.update(sheet);
   find_stale(sheet, regrouped);
   rebuild(sheet);
@@ -51,6 +50,7 @@ void Bending::resize(std::size_t triangles, std::size_t vertices) {
   slopes_.resize(triangles);
   reach_.resize(triangles);
   stencils_.resize(triangles);
+  is_replaced_.resize(triangles);
   work_.stale_in.resize(triangles);
   work_.refitted_in.resize(triangles);
   stencils_of_.resize(vertices);
@@ -65,21 +65,21 @@ void Bending::resize(std::size_t triangles, std::size_t vertices) {
 void Bending::replace(const ReplacedStencils& replaced, std::size_t vertices) {
   resize(stencils_.size(), vertices);
   ++work_.call;
-  take_replaced_away();
+  for (const TriangleIndex t : replaced.slots) is_replaced_[t()] = 0;
+  work_.terms.clear();
+  for (const TriangleIndex t : replaced_)
+    if (std::exchange(is_replaced_[t()], 0)) replace_stencil(t());
   for (std::size_t i = 0; i < replaced.slots.size(); ++i) {
-    const auto terms = replaced.rows[i];
+    const TriangleIndex t = replaced.slots[i];
+    const auto terms = replaced.rows[i], before = stencils_[t()];
+    is_replaced_[t()] = 1;
+    if (std::equal(terms.begin(), terms.end(), before.begin(), before.end())) continue;
     work_.terms.assign(terms.begin(), terms.end());
     for (std::size_t k = 0; k < terms.size(); ++k) work_.place[to_size(terms[k].vertex)] = to_int32(k);
-    replace_stencil(replaced.slots[i]());
+    replace_stencil(t());
   }
   replaced_ = replaced.slots;
   for (const std::int32_t vertex : work_.rows) write_row(to_size(vertex));
-}
-
-void Bending::take_replaced_away() {
-  work_.terms.clear();
-  for (const TriangleIndex t : replaced_) replace_stencil(t());
-  replaced_.clear();
 }
 
 // --- what a cut makes stale ------------------------------------------------------------------------------------------
@@ -134,6 +134,7 @@ void Bending::rebuild(const Sheet& sheet) {
     work_.terms.clear();
     if (sheet.triangle(t).alive() && t == members(t).front()) kind_->add_rows(stencil, t);
     replace_stencil(t());
+    is_replaced_[t()] = 0;
   }
   for (const std::int32_t vertex : work_.rows) write_row(to_size(vertex));
 }

@@ -48,16 +48,19 @@ class Bending {
   void update(const Sheet& sheet, const ElementTable* elements = nullptr,
               std::span<const TriangleIndex> regrouped = {});
 
-  /// From now on these slots have these stencils, until the next update() or replace(), which take them away.
+  /// From now on these slots have these stencils, until the next replace(), which is due after each update(): slots
+  /// that are no more among them have none. Only rows of vertices whose stencils change are written.
   /// \param vertices  that there are then: a stencil may hold more than the sheet has
   void replace(const ReplacedStencils& replaced, std::size_t vertices);
+  bool is_replaced() const { return !replaced_.empty(); }  ///< by the last replace(), any slot
 
   BendingKind kind() const { return kind_of_; }
   double rigidity() const { return rigidity_; }
   double poisson() const { return poisson_; }
   /// N/m. Force = -K x, energy = x K x / 2, for each coordinate. Rows of freed vertices are empty.
   const BlockMatrix<1>& matrix() const { return matrix_; }
-  const std::vector<std::int32_t>& written_rows() const { return work_.rows; }  ///< by the last update()
+  /// By the last update() or replace().
+  const std::vector<std::int32_t>& written_rows() const { return work_.rows; }
   /// The triangle slots whose stencils the last update() made again, or the constructor.
   const std::vector<TriangleIndex>& rebuilt() const { return work_.rebuilt; }
   double energy(const Field& x, int dimension) const;
@@ -76,7 +79,6 @@ class Bending {
     int distance;  ///< in unseparated edges, from the nearest triangle that changed
   };
   void resize(std::size_t triangles, std::size_t vertices);
-  void take_replaced_away();
   void mark_stale(TriangleIndex t, int distance);
   void find_stale(const Sheet& sheet, std::span<const TriangleIndex> regrouped);
   std::span<const TriangleIndex> members(const TriangleIndex& t) const;
@@ -96,8 +98,9 @@ class Bending {
   GrowingRows<StencilTerm> stencils_;  ///< per triangle slot: its three rows, in sqrt(N/m)
   GrowingRows<Holder> stencils_of_;    ///< per deformed vertex: the stencils that hold it, in order
   BlockMatrix<1> matrix_;
-  std::vector<TriangleIndex> replaced_;
-  SeamEdges seams_;  ///< of a kind without slopes
+  std::vector<TriangleIndex> replaced_;    ///< by the last replace()
+  std::vector<std::uint8_t> is_replaced_;  ///< per triangle slot: its stencil is not the sheet's
+  SeamEdges seams_;                        ///< of a kind without slopes
 
   /// Working storage, kept between calls so that they don't allocate.
   struct Work {

@@ -22,6 +22,7 @@ namespace cutbench {
 struct StencilTerm {
   std::int32_t vertex;
   std::array<double, 3> factor;
+  bool operator==(const StencilTerm&) const = default;
 };
 
 class SlopePatch {

@@ -38,8 +38,9 @@ class Model {
   /// share one with a new one. Forces, energies and the matrix remain those of all vertices; a solver solves for the
   /// unknowns of constrained(). Vertices inside such elements are no unknowns: they have no mass and are held, and
   /// follow() moves them. Of a sheet with seams it must be called at the beginning, too: it keeps them sewn.
-  /// Phantom nodes are vertices without triangles of their own: they follow those of the sheet, until the next
-  /// update(). Copied elements bend instead of their triangles; where the mass is lumped, they have theirs.
+  /// Phantom nodes are vertices without triangles of their own, behind those of the sheet, with some room between: a
+  /// cut changes the rows of those alone that it gives other elements. Copied elements bend instead of their triangles;
+  /// where the mass is lumped, they have theirs.
   /// \pre `sheet` is that of the last update().
   void constrain(const Sheet& sheet, const Constraints& constraints);
   /// From now on other pins hold the sheet, and forces pull at its vertices besides the scene's loads.
@@ -49,8 +50,10 @@ class Model {
   /// Gives the vertices inside elements their values, positions or velocities.
   void follow(Field& x) const { elements_.template follow<D>(x); }
 
-  std::size_t vertices() const { return to_size(mass_.size()); }  ///< slots of the opened sheet, then phantom nodes
-  std::size_t first_phantom() const { return first_phantom_; }
+  /// Slots of the opened sheet, room for more where there are phantom nodes, and these.
+  std::size_t vertices() const { return to_size(mass_.size()); }
+  /// vertices() where there is none.
+  std::size_t first_phantom() const { return phantoms_.empty() ? vertices() : first_phantom_; }
   /// The vertex of the sheet that each phantom node is a copy of.
   const std::vector<DeformedIndex>& phantoms() const { return phantoms_; }
   /// Positions of the sheet's vertices, m; a phantom node is where the vertex is that it is a copy of.
@@ -111,9 +114,12 @@ class Model {
   void refresh_loads(const Sheet& sheet, std::size_t v);
   void set_constraints(const Constraints& constraints);
   std::vector<std::uint8_t> pinned_vertices() const;
-  void leave_phantoms();
-  void take_phantoms(const Sheet& sheet, const Constraints& constraints);
-  void set_own_mass(const Sheet& sheet, std::size_t v, double mass);
+  void move_phantoms(const Sheet& sheet);
+  void take_phantoms(const Sheet& sheet, const std::vector<DeformedIndex>& phantoms);
+  void take_masses(const Sheet& sheet, const Constraints& constraints);
+  void take_copied_bending(const Sheet& sheet, const Constraints& constraints);
+  void clear_vertex(std::size_t v);
+  void set_mass(const Sheet& sheet, std::size_t v, double mass);
   void begin_marking();
   void mark(std::span<const DeformedIndex> vertices);
   void mark_regrouped();
@@ -136,7 +142,7 @@ class Model {
   bool is_constrained_ = false;  // since the last update()
   std::size_t first_phantom_ = 0;
   std::vector<DeformedIndex> phantoms_;
-  std::vector<DeformedIndex> own_mass_;            // vertices whose mass is that of copied elements
+  std::vector<DeformedIndex> own_mass_;            // vertices whose mass is that of copied elements, in rising order
   double mass_factor_ = 0, stiffness_factor_ = 0;  // of the last assemble()
   std::vector<double> mass_, external_;            // with room to grow, which a Field has not
   std::vector<std::uint8_t> held_;

@@ -14,7 +14,8 @@ void Model<D>::update(const Sheet& sheet) {
   is_constrained_ = false;
   elements_.begin_change();
   begin_marking();
-  leave_phantoms();
+  move_phantoms(sheet);
+  if (added_mass_) mark(std::exchange(own_mass_, {}));  // it is added to that of the triangles
   for (const auto& touched : log.touched) {
     if (!touched.before.alive()) continue;
     elements_.release(touched.slot, regrouped_);

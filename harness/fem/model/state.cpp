@@ -37,9 +37,9 @@ void transfer(const EditLog& log, std::size_t deformed_slots, int dimension, Sta
   }
 }
 
-State take_phantoms(std::size_t first, int dimension, State& state) {
+State take_phantoms(std::size_t first_phantom, int dimension, State& state) {
   State taken;
-  const Eigen::Index vertices = to_index(first) * dimension;
+  const Eigen::Index vertices = to_index(first_phantom) * dimension;
   const std::pair<Field*, Field*> fields[] = {
       {&state.x, &taken.x}, {&state.v, &taken.v}, {&state.anchor, &taken.anchor}, {&state.dv, &taken.dv}};
   for (const auto& [from, to] : fields) {
@@ -102,8 +102,9 @@ class ElementsBefore {
 
 }  // namespace
 
-void begin_phantoms(const Sheet& cut, const Constraints& last, const Constraints& now, std::size_t first,
-                    const State& phantoms, std::size_t vertices, int dimension, State& state) {
+template <int D>
+void begin_phantoms(const Sheet& cut, const Constraints& last, const Constraints& now, std::size_t vertices_before,
+                    const State& phantoms, const Model<D>& model, State& state) {
   const std::size_t first_now = cut.deformed_slots();
   std::vector<DeformedIndex> from(now.phantoms.size());
   const ElementsBefore before(cut, last);
@@ -120,13 +121,12 @@ void begin_phantoms(const Sheet& cut, const Constraints& last, const Constraints
       {&phantoms.x, &state.x}, {&phantoms.v, &state.v}, {&phantoms.anchor, &state.anchor}, {&phantoms.dv, &state.dv}};
   for (const auto& [old, field] : fields) {
     if (field->size() == 0) continue;
-    field->conservativeResize(to_index(vertices) * dimension);
-    field->tail(to_index(vertices - first_now) * dimension).setZero();
+    field->conservativeResize(to_index(D * model.vertices()));
+    field->tail(to_index(D * (model.vertices() - first_now))).setZero();
     for (std::size_t i = 0; i < from.size(); ++i) {
       const std::size_t d = from[i]();
-      const double* const begin =
-          d < first ? field->data() + d * to_size(dimension) : old->data() + (d - first) * to_size(dimension);
-      std::copy_n(begin, dimension, field->data() + (first_now + i) * to_size(dimension));
+      const double* const begin = d < vertices_before ? field->data() + D * d : old->data() + D * (d - vertices_before);
+      std::copy_n(begin, D, field->data() + D * (model.first_phantom() + i));
     }
   }
 }
@@ -193,6 +193,10 @@ Balance balance_of(Model<D>& model, const State& state) {
 
 template State initial_state(const Model<2>&, const Sheet&);
 template State initial_state(const Model<3>&, const Sheet&);
+template void begin_phantoms(const Sheet&, const Constraints&, const Constraints&, std::size_t, const State&,
+                             const Model<2>&, State&);
+template void begin_phantoms(const Sheet&, const Constraints&, const Constraints&, std::size_t, const State&,
+                             const Model<3>&, State&);
 template void place_phantoms(const Model<2>&, State&);
 template void place_phantoms(const Model<3>&, State&);
 template void hold_where_it_is(const Model<2>&, State&);

@@ -23,16 +23,17 @@ State initial_state(const Model<D>& model, const Sheet& sheet);
 void transfer(const EditLog& log, std::size_t deformed_slots, int dimension, State& state);
 
 /// Takes the phantom nodes out of the state, before transfer(); returns what it had for them, behind each other.
-/// \param first  of them: the sheet's deformed slots before the cut
-State take_phantoms(std::size_t first, int dimension, State& state);
+/// \param first_phantom  Model::first_phantom() before the cut
+State take_phantoms(std::size_t first_phantom, int dimension, State& state);
 
 /// After Model::constrain(): gives each phantom node of the new constraints what the element had at that corner that
 /// its own was a part of before the cut: a copy of before, or the sheet's triangle.
 /// \param last     the constraints of before the cut
-/// \param phantoms  the result of take_phantoms() with this `first`
-/// \param vertices  of the model
-void begin_phantoms(const Sheet& cut, const Constraints& last, const Constraints& now, std::size_t first,
-                    const State& phantoms, std::size_t vertices, int dimension, State& state);
+/// \param vertices_before  the sheet's deformed slots before the cut
+/// \param phantoms         the result of take_phantoms()
+template <int D>
+void begin_phantoms(const Sheet& cut, const Constraints& last, const Constraints& now, std::size_t vertices_before,
+                    const State& phantoms, const Model<D>& model, State& state);
 
 /// After Sheet::compact(). \param deformed  its map
 void renumber(const std::vector<DeformedIndex>& deformed, int dimension, State& state);
