@@ -70,6 +70,7 @@ struct NumbersOf {
 
 template <int D>
 void expect_same(const BlockMatrix<D>& followed, const BlockMatrix<D>& fresh, const NumbersOf& numbers, double limit) {
+  const double most = limit * max_entry(fresh);
   for (std::size_t v = 0; v < followed.rows(); ++v) {
     if (numbers.is_spare(v)) {
       EXPECT_TRUE(followed.columns(v).empty());
@@ -81,7 +82,7 @@ void expect_same(const BlockMatrix<D>& followed, const BlockMatrix<D>& fresh, co
     for (const std::int32_t j : followed.columns(v)) {
       const std::int32_t other = fresh.find(row, to_int32(numbers.in_fresh(to_size(j))));
       ASSERT_GE(other, 0);
-      EXPECT_LE((followed.block(slot++) - fresh.block(other)).cwiseAbs().maxCoeff(), limit * max_entry(fresh));
+      EXPECT_LE((followed.block(slot++) - fresh.block(other)).cwiseAbs().maxCoeff(), most);
     }
   }
 }

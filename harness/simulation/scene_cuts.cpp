@@ -244,7 +244,8 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, std::span<const Curve> curve
                                              moving.model.elements().left_since_change());
     result.cut.time_us.constrain += watch.lap();
     moving.model.constrain(moving.sheet, constraints);
-    begin_phantoms(moving.sheet, moving.constraints, constraints, vertices_before, phantoms, moving.model, moving.state);
+    begin_phantoms(moving.sheet, moving.constraints, constraints, vertices_before, phantoms, moving.model,
+                   moving.state);
     moving.constraints = std::move(constraints);
     moving.keep_together();  // the state of before the cut need not
     result.pattern_us += watch.lap();

@@ -65,10 +65,6 @@ void Bending::resize(std::size_t triangles, std::size_t vertices) {
 void Bending::replace(const ReplacedStencils& replaced, std::size_t vertices) {
   resize(stencils_.size(), vertices);
   ++work_.call;
-  for (const TriangleIndex t : replaced.slots) is_replaced_[t()] = 0;
-  work_.terms.clear();
-  for (const TriangleIndex t : replaced_)
-    if (std::exchange(is_replaced_[t()], 0)) replace_stencil(t());
   for (std::size_t i = 0; i < replaced.slots.size(); ++i) {
     const TriangleIndex t = replaced.slots[i];
     const auto terms = replaced.rows[i], before = stencils_[t()];
@@ -78,7 +74,15 @@ void Bending::replace(const ReplacedStencils& replaced, std::size_t vertices) {
     for (std::size_t k = 0; k < terms.size(); ++k) work_.place[to_size(terms[k].vertex)] = to_int32(k);
     replace_stencil(t());
   }
-  replaced_ = replaced.slots;
+  for (const std::int32_t vertex : work_.rows) write_row(to_size(vertex));
+}
+
+void Bending::clear_replaced() {
+  resize(stencils_.size(), matrix_.rows());
+  ++work_.call;
+  work_.terms.clear();
+  for (std::size_t t = 0; t < is_replaced_.size(); ++t)
+    if (std::exchange(is_replaced_[t], 0)) replace_stencil(t);
   for (const std::int32_t vertex : work_.rows) write_row(to_size(vertex));
 }
 

@@ -48,18 +48,22 @@ class Bending {
   void update(const Sheet& sheet, const ElementTable* elements = nullptr,
               std::span<const TriangleIndex> regrouped = {});
 
-  /// From now on these slots have these stencils, until the next replace(), which is due after each update(): slots
-  /// that are no more among them have none. Only rows of vertices whose stencils change are written.
+  /// From now on these slots have these stencils, until an update() makes them again, or clear_replaced(). Only rows of
+  /// vertices whose stencils change are written.
   /// \param vertices  that there are then: a stencil may hold more than the sheet has
   void replace(const ReplacedStencils& replaced, std::size_t vertices);
-  bool is_replaced() const { return !replaced_.empty(); }  ///< by the last replace(), any slot
+  /// Slots that replace() gave stencils have none.
+  void clear_replaced();
 
   BendingKind kind() const { return kind_of_; }
+  bool has_slopes() const { return kind_->has_slopes; }
+  /// Of the patch of a triangle, in unseparated edges; 0: it has none.
+  int reach(std::size_t triangle) const { return reach_[triangle]; }
   double rigidity() const { return rigidity_; }
   double poisson() const { return poisson_; }
   /// N/m. Force = -K x, energy = x K x / 2, for each coordinate. Rows of freed vertices are empty.
   const BlockMatrix<1>& matrix() const { return matrix_; }
-  /// By the last update() or replace().
+  /// By the last update(), replace() or clear_replaced().
   const std::vector<std::int32_t>& written_rows() const { return work_.rows; }
   /// The triangle slots whose stencils the last update() made again, or the constructor.
   const std::vector<TriangleIndex>& rebuilt() const { return work_.rebuilt; }
@@ -98,7 +102,6 @@ class Bending {
   GrowingRows<StencilTerm> stencils_;  ///< per triangle slot: its three rows, in sqrt(N/m)
   GrowingRows<Holder> stencils_of_;    ///< per deformed vertex: the stencils that hold it, in order
   BlockMatrix<1> matrix_;
-  std::vector<TriangleIndex> replaced_;    ///< by the last replace()
   std::vector<std::uint8_t> is_replaced_;  ///< per triangle slot: its stencil is not the sheet's
   SeamEdges seams_;                        ///< of a kind without slopes
 

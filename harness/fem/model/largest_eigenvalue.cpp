@@ -41,7 +41,7 @@ class ScaledStiffness {
     if (!constraints.lumped.empty()) lump(constraints);
     if (adds_mass(elasticity.mass)) add_mass(elasticity);
     if (bending_ && !constraints.copied.empty())  // no mass is added for how these bend
-      bending_->replace(copied_stencils(sheet, constraints, *bending_), constraint_matrix_.unknowns());
+      bending_->replace(CopiedBending().all(sheet, constraints, *bending_), constraint_matrix_.unknowns());
     factor();
   }
 

@@ -10,6 +10,7 @@
 #include "harness/fem/constraints/constraint_matrix.h"
 #include "harness/fem/elements/added_mass.h"
 #include "harness/fem/elements/bending.h"
+#include "harness/fem/elements/copied_bending.h"
 #include "harness/fem/elements/curved_bending.h"
 #include "harness/fem/elements/incidence.h"
 #include "harness/fem/elements/membrane_sheet.h"
@@ -135,6 +136,7 @@ class Model {
   BlockMatrix<D> blocks_;
   MembraneSheet<D> membrane_;
   std::optional<Bending> bending_;
+  CopiedBending copied_bending_;
   std::optional<CurvedBending> curved_;  // of a sheet that is curved at rest: in the place of bending_'s matrix
   std::optional<BlockMatrix<1>> consistent_mass_;
   std::optional<AddedMass> added_mass_;

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "harness/fem/constraints/with_seams.h"
-#include "harness/fem/elements/copied_bending.h"
 #include "harness/fem/model/model.h"
 
 namespace cutbench {
@@ -47,7 +46,7 @@ void Model<D>::constrain(const Sheet& sheet, const Constraints& constraints) {
   const Constraints moved = is_moved ? with_room(constraints, sheet.deformed_slots(), first_phantom_) : Constraints();
   const Constraints& own = is_moved ? moved : constraints;
   take_masses(sheet, own);
-  if (bending_) take_copied_bending(sheet, own);
+  if (bending_ && !own.copied.empty()) take_copied_bending(sheet, own);
   if (sheet.seams().empty())
     set_constraints(own);
   else
@@ -100,7 +99,11 @@ void Model<D>::move_phantoms(const Sheet& sheet) {
   history_.begin_change();
   for (std::size_t i = 0; i < phantoms_.size(); ++i) clear_vertex(first_phantom_ + i);
   phantoms_.clear();
-  if (bending_) take_copied_bending(sheet, {});
+  if (bending_) {
+    copied_bending_.clear();
+    bending_->clear_replaced();
+    for (const std::int32_t v : bending_->written_rows()) history_.mark(to_size(v));
+  }
   first_phantom_ =
       sheet.deformed_slots() + static_cast<std::size_t>(room_for_vertices * to_double(sheet.deformed_slots()));
 }
@@ -141,12 +144,10 @@ void Model<D>::take_masses(const Sheet& sheet, const Constraints& constraints) {
 
 template <int D>
 void Model<D>::take_copied_bending(const Sheet& sheet, const Constraints& constraints) {
-  if (!constraints.copied.empty())
-    bending_->replace(copied_stencils(sheet, constraints, *bending_), vertices());
-  else if (bending_->is_replaced())
-    bending_->replace({}, vertices());
-  else
-    return;
+  const bool is_first = copied_bending_.empty();
+  bending_->replace(is_first ? copied_bending_.all(sheet, constraints, *bending_)
+                             : copied_bending_.next(sheet, constraints, *bending_, bending_->rebuilt()),
+                    vertices());
   for (const std::int32_t v : bending_->written_rows()) history_.mark(to_size(v));
 }
 
