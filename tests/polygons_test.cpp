@@ -290,5 +290,39 @@ TEST(PolygonSheet, StiffnessIsThatOfTheForcesAndHasThreeNullModesPerPiece) {
   });
 }
 
+/// What corners depart from a quadratic along the normal costs what it says, in small pieces, too: else they fly off.
+TEST(PolygonSheet, NoCornerLeavesThePlaneForNothing) {
+  Random random(7);
+  std::size_t checked = 0;
+  for_each_constrained_cut({cut_polygons}, 5, 2, 877, [&](const ConstrainedCut& cut) {
+    Model<3> model(cut.sheet(), skin, {.bending = BendingKind::patches}, {}, {});
+    model.constrain(cut.sheet(), cut.constraints);
+    for (const Polygon& polygon : cut.constraints.polygons) {
+      const auto k = to_index(polygon.corners.size());
+      const double area = PolygonElement(cut.sheet(), polygon).area;
+      Eigen::MatrixXd quadratics(k, 6);
+      Eigen::VectorXd up(k);
+      const Point2 origin = cut.sheet().rest(cut.sheet().rest_vertex(polygon.corners[0]));
+      for (Eigen::Index i = 0; i < k; ++i) {
+        const Point2 p =
+            1 / std::sqrt(area) * (cut.sheet().rest(cut.sheet().rest_vertex(polygon.corners[to_size(i)])) - origin);
+        quadratics.row(i) << 1, p.x, p.y, p.x * p.x, p.x * p.y, p.y * p.y;
+        up[i] = random.between(-1e-6, 1e-6) * std::sqrt(area);
+      }
+      up -= quadratics * quadratics.completeOrthogonalDecomposition().solve(up);
+      if (k < 8 || up.norm() < 1e-7 * std::sqrt(area)) continue;
+      Field x = model.positions(cut.sheet());
+      for (Eigen::Index i = 0; i < k; ++i) x[3 * polygon.corners[to_size(i)].value + 2] = up[i];
+      model.rotate(x);
+      const Energy energy = model.energy(x, Field::Zero(x.size()));
+      const double stiffness =
+          std::min(8 * (1 - skin.poisson) * skin.bending / area, polygon.stabilisation * skin.stiffness);
+      EXPECT_GE(energy.membrane + energy.bending, 0.99 * stiffness * up.squaredNorm() / 2);
+      ++checked;
+    }
+  });
+  EXPECT_GT(checked, 100u);
+}
+
 }  // namespace
 }  // namespace cutbench

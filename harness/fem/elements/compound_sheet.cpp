@@ -102,19 +102,21 @@ void CompoundSheet<D>::rotate(const PolygonElement& polygon, const Field& x, Sta
   }
   const auto& d = state.departure;
   Eigen::Matrix<double, D, 2> pull = polygon.area * state.deformation.frame * state.deformation.stress;
-  const auto [in_plane, less] = stabilisation_of(polygon);
+  const auto [in_plane, less, twist] = stabilisation_of(polygon);
   Eigen::Matrix<double, D, Eigen::Dynamic> resisted = in_plane * d;
   state.across.setZero(k);
   state.tilt.setZero(D, k);
   if (D == 3 && less != 0) {
     const Eigen::Matrix<double, D, 1> n = normal_of<D>(state.deformation);
     state.across = d.transpose() * n;
-    resisted -= less * n * state.across.transpose();
+    state.unbent = polygon.unbent * state.across;
+    const Eigen::VectorXd back = twist * polygon.unbent.transpose() * state.unbent - less * state.across;
+    resisted += n * back.transpose();
     const Eigen::Matrix2d metric = map.gradient.transpose() * map.gradient;
     if (law_.strain != Strain::linear && metric.determinant() > 1e-14 * metric.squaredNorm()) {
       const Eigen::Matrix<double, D, 2> dual = map.gradient * metric.inverse();
       for (Eigen::Index i = 0; i < k; ++i) state.tilt.col(i) = dual * gradient(polygon, i);
-      pull += less * n * (d * state.across).transpose() * dual;
+      pull -= n * (d * back).transpose() * dual;
     }
   }
   resisted = resisted * polygon.departure;
@@ -129,9 +131,11 @@ double CompoundSheet<D>::energy(const ElementTable& elements) const {
   double sum = 0;
   for (std::size_t p = 0; p < elements.polygon_slots(); ++p) {
     if (!elements.polygon(p).alive()) continue;
-    const auto [in_plane, less] = stabilisation_of(elements.polygon(p));
+    const auto [in_plane, less, twist] = stabilisation_of(elements.polygon(p));
     sum += elements.polygon(p).area * states_[p].deformation.energy +
-           (in_plane * states_[p].departure.squaredNorm() - less * states_[p].across.squaredNorm()) / 2;
+           (in_plane * states_[p].departure.squaredNorm() - less * states_[p].across.squaredNorm() +
+            twist * states_[p].unbent.squaredNorm()) /
+               2;
   }
   return sum;
 }
@@ -144,7 +148,12 @@ void CompoundSheet<D>::add_stiffness(const ElementTable& elements, double factor
     const State& state = states_[p];
     const ElementStiffness<D> stiffness({}, factor * polygon.area, strain_of<D>(state.deformation), law_);
     const Eigen::Matrix<double, D, 1> n = normal_of<D>(state.deformation);
-    const auto [in_plane, less] = stabilisation_of(polygon);
+    const auto [in_plane, less, twist] = stabilisation_of(polygon);
+    Eigen::MatrixXd unbent;  // how c changes with the corners along n, times its transpose
+    if (twist != 0) {
+      const Eigen::MatrixXd change = polygon.unbent * (polygon.departure - state.departure.transpose() * state.tilt);
+      unbent = twist * change.transpose() * change;
+    }
     const Block flat = in_plane * Block::Identity() - less * n * n.transpose();
     const Eigen::VectorXd pulled = polygon.departure.transpose() * state.across;
     const double across = state.across.squaredNorm();
@@ -157,6 +166,7 @@ void CompoundSheet<D>::add_stiffness(const ElementTable& elements, double factor
           stabilisation +=
               less * (pulled[i] * state.tilt.col(j) * n.transpose() + pulled[j] * n * state.tilt.col(i).transpose() +
                       across * state.tilt.col(i).dot(state.tilt.col(j)) * n * n.transpose());
+        if (twist != 0) stabilisation += unbent(i, j) * n * n.transpose();
         blocks.block(state.slots[to_size(i * k + j)]) += Eigen::Map<const Block>(block.data()) + factor * stabilisation;
       }
   }

@@ -22,8 +22,14 @@
 // columns that adds tau E (g F^a) n to column a of the stress. The stiffness is that of Gauss and Newton, tau E J^T J
 // with the derivative J of the departure in the plane, positive semi-definite; without the share of n in it a bent
 // sheet gained energy. Without bending nothing else keeps the corners of a polygon in its plane, and all of d counts.
+//
+// Bending sees what a fit to many vertices sees: a corner may leave the plane, and others go the other way, at no cost,
+// and in a falling sheet corners flew off. So what they depart along n from a quadratic (PolygonElement::unbent), c,
+// has the energy 8 (1 - nu) D / A |c|^2 / 2: a square's for its twist, x y, of which each corner is a quarter of A away
+// from the plane (Kirchhoff's plate, own calculation). A quadratic costs nothing more, so the patch test holds.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -46,8 +52,8 @@ class CompoundStiffness {
 template <int D>
 class CompoundSheet {
  public:
-  /// \param bends  bending keeps them flat
-  CompoundSheet(const MembraneLaw& law, bool bends) : law_(law), young_(young_of(law.lame)), bends_(bends) {}
+  /// \param twist  (1 - nu) D of the bending that keeps them flat, N m; 0: none does
+  CompoundSheet(const MembraneLaw& law, double twist) : law_(law), young_(young_of(law.lame)), twist_(8 * twist) {}
 
   /// For the compound of t, new or of another shape.
   void reset(const ElementTable& elements, TriangleIndex t);
@@ -70,22 +76,24 @@ class CompoundSheet {
     Eigen::MatrixXd stabilisation;                       ///< departure matrix^T departure matrix
     Eigen::VectorXd across;                              ///< n d_i
     Eigen::Matrix<double, D, Eigen::Dynamic> tilt;       ///< F^a G_i,a: n turns by -tilt_i for a unit of x_i along n
+    Eigen::VectorXd unbent;                              ///< c
     std::vector<std::int32_t> slots;                     ///< k x k, row by row
   };
   using Block = Eigen::Matrix<double, D, D>;
-  /// What the departure is resisted with: tau E, N/m, in the element's plane, and what is less of it across.
+  /// What the departure is resisted with, N/m: tau E in the element's plane, what is less of it across, and what c is.
   struct Stabilisation {
-    double in_plane, less_across;
+    double in_plane, less_across, twist;
   };
   Stabilisation stabilisation_of(const PolygonElement& polygon) const {
     const double in_plane = polygon.polygon.stabilisation * young_;
-    return {in_plane, bends_ ? in_plane : 0};
+    if (D == 2 || twist_ == 0) return {in_plane, 0, 0};
+    return {in_plane, in_plane, std::min(in_plane, twist_ / polygon.area)};  // explicit steps have room for no more
   }
   void rotate(const PolygonElement& polygon, const Field& x, State& state, Field& force) const;
 
   MembraneLaw law_;
-  double young_;  // N/m
-  bool bends_;
+  double young_;               // N/m
+  double twist_;               // 8 (1 - nu) D, N m
   std::vector<State> states_;  // per polygon slot
 };
 

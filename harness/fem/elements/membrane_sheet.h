@@ -17,8 +17,8 @@ namespace cutbench {
 template <int D>
 class MembraneSheet {
  public:
-  /// \param bends  bending keeps compounds flat (compound_sheet.h)
-  explicit MembraneSheet(const MembraneLaw& law, bool bends = false) : law_(law), compounds_(law, bends) {}
+  /// \param twist  (1 - nu) D of bending, N m: it keeps compounds flat (compound_sheet.h); 0: none does
+  explicit MembraneSheet(const MembraneLaw& law, double twist = 0) : law_(law), compounds_(law, twist) {}
   void resize(std::size_t elements);
   void reserve_spare();
 

@@ -1,10 +1,31 @@
 #include "harness/fem/elements/polygon_element.h"
 
+#include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
 
 #include "harness/base/conversions.h"
 
 namespace cutbench {
+
+namespace {
+
+/// I - the projection onto quadratic functions of the places.
+Eigen::MatrixXd rest_of_quadratics(const std::vector<Point2>& places) {
+  const auto n = to_index(places.size());
+  double size = 0;
+  for (const Point2 p : places) size = std::max({size, std::abs(p.x), std::abs(p.y)});
+  Eigen::MatrixXd functions(n, 6);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Point2 p = 1 / size * places[to_size(i)];
+    functions.row(i) << 1, p.x, p.y, p.x * p.x, p.x * p.y, p.y * p.y;
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> fit(functions);
+  const Eigen::MatrixXd base = fit.householderQ() * Eigen::MatrixXd::Identity(n, fit.rank());
+  return Eigen::MatrixXd::Identity(n, n) - base * base.transpose();
+}
+
+}  // namespace
 
 PolygonElement::PolygonElement(const Sheet& sheet, const Polygon& of) : polygon(of) {
   const auto place = [&](DeformedIndex d) { return sheet.rest(sheet.rest_vertex(d)); };
@@ -24,6 +45,7 @@ PolygonElement::PolygonElement(const Sheet& sheet, const Polygon& of) : polygon(
   departure = Eigen::MatrixXd::Identity(n, n) - Eigen::MatrixXd::Constant(n, n, 1.0 / to_double(k));
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j) departure(i, j) -= dot(offset[to_size(i)], gradient[to_size(j)]);
+  unbent = rest_of_quadratics(offset);
 }
 
 Point2 PolygonElement::offset_of(DeformedIndex vertex) const {

@@ -41,6 +41,8 @@ struct PolygonElement {
   std::vector<Point2> offset;    ///< of corner i from the mean of all
   std::vector<Point2> inside;    ///< likewise of the vertices inside
   Eigen::MatrixXd departure;     ///< I - Pi at the corners, k x k
+  /// The corners' distance from the quadratic that fits them best, k x k: what the bending of a sheet may not see.
+  Eigen::MatrixXd unbent;
   double area = 0;
 
   std::size_t size() const { return polygon.corners.size(); }
