@@ -57,6 +57,8 @@ class Canonical {
 
 void expect_same(const Constraints& next, const Constraints& all, std::size_t vertices) {
   EXPECT_EQ(next.phantoms.size(), all.phantoms.size());
+  const auto by_unknown = [](const LumpedArea& a, const LumpedArea& b) { return a.unknown < b.unknown; };
+  EXPECT_TRUE(std::is_sorted(next.lumped.begin(), next.lumped.end(), by_unknown));
   const Canonical a(next, vertices), b(all, vertices);
   EXPECT_EQ(a.elements(), b.elements());
   EXPECT_EQ(a.constraints(), b.constraints());

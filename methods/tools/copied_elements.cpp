@@ -31,6 +31,8 @@ void merge_in(std::vector<T>& all, std::size_t first, const Less& less) {
   std::inplace_merge(all.begin(), middle, all.end(), less);
 }
 
+bool by_unknown(const LumpedArea& a, const LumpedArea& b) { return a.unknown < b.unknown; }
+
 class Doubling {
  public:
   Doubling(const Sheet& before, const Sheet& cut, const CopyOptions& options)
@@ -176,11 +178,11 @@ class Doubling {
     for (const auto& [u, area] : last_->lumped)
       if (u() < first ? stays(cut_.rest_vertex(u)) : kept_[u() - first] >= 0)
         constraints.lumped.push_back({now(u), area});
+    merge_in(constraints.lumped, 0, by_unknown);  // a phantom may have another number
   }
 
   bool was_lumped(DeformedIndex d) const {
-    return std::binary_search(last_->lumped.begin(), last_->lumped.end(), LumpedArea{d, 0},
-                              [](const LumpedArea& a, const LumpedArea& b) { return a.unknown < b.unknown; });
+    return std::binary_search(last_->lumped.begin(), last_->lumped.end(), LumpedArea{d, 0}, by_unknown);
   }
 
   // --- all of it -----------------------------------------------------------------------------------------------------
@@ -269,8 +271,7 @@ class Doubling {
       const DeformedIndex u(cut_.deformed_slots() + to_size(i));
       constraints.lumped.push_back({u, area[u.value]});
     }
-    merge_in(constraints.lumped, kept_areas,
-             [](const LumpedArea& x, const LumpedArea& y) { return x.unknown < y.unknown; });
+    merge_in(constraints.lumped, kept_areas, by_unknown);
   }
 
   /// The triangles that have this corner.
