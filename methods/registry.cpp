@@ -308,6 +308,18 @@ void append_deformed_terms(std::vector<MethodRow>& all) {
           "amplitude of the buckles for which a compressed sheet is made fine, mean rest edges; 0: no such term",
           {.least = 0.01, .most = 10, .or_zero = true}},
          &DeformedTerms::compression);
+  append("velocity", "velocity",
+         {"velocity",
+          0,
+          "by which the ends of an edge differ at most in a moving sheet, m/s; 0: no such term",
+          {.least = 0.01, .most = 100, .or_zero = true}},
+         &DeformedTerms::velocity);
+  append("stress", "stress",
+         {"stress",
+          0,
+          "over Young's modulus, for which a moving sheet is as fine as at a tip; 0: no such term",
+          {.least = 1e-4, .most = 10, .or_zero = true}},
+         &DeformedTerms::stress);
 }
 
 /// The paper's local split, read otherwise.

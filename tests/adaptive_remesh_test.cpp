@@ -230,13 +230,15 @@ TEST(AdaptiveRemesh, TakesItsTermsFromTheDeformedSheet) {
     const Point2 p = sheet.rest(sheet.rest_vertex(DeformedIndex(d)));
     sheet.set_position(DeformedIndex(d), {r * std::sin(p.x / r), p.y, r * std::cos(p.x / r)});
   }
+  const DeformedState state;
+  const DeformedTerms terms{.angle = angle, .compression = 0};
   double sum = 0;
   std::size_t count = 0;
   for (std::size_t t = 0; t < sheet.triangle_slots(); ++t) {
     bool inside = true;
     for (int k = 0; k < 3; ++k) inside &= !sheet.on_border(half_edge(TriangleIndex(t), k));
     if (!inside) continue;
-    sum += std::sqrt(deformed_metric(sheet, TriangleIndex(t), angle, 0));
+    sum += std::sqrt(deformed_metric(sheet, state, TriangleIndex(t), terms, 1, 1));
     ++count;
   }
   EXPECT_NEAR(sum / to_double(count), 1 / (r * angle), 0.02 / (r * angle));

@@ -20,6 +20,7 @@ namespace cutbench {
 
 class ConstraintSource;  // harness/cut/constraint_source.h
 class CutProgram;        // harness/cut/cut_program.h
+struct Motion;           // harness/cut/motion.h
 
 /// What a method may tell about the cut under way; new for every cut.
 struct MethodNotes {
@@ -34,6 +35,10 @@ class CuttingMethod {
 
   /// A reason, known before the cut, why this method can't cut this sheet: the cut is refused and nothing changed.
   virtual std::optional<std::string> why_unsupported(const Sheet&) const { return {}; }
+
+  /// How the sheet moves, told before each cut of a moving sheet; null after it. Without it the sheet is at rest where
+  /// Sheet::position() has it. The default does not look. \param motion  valid until the next call
+  virtual void see(const Motion* /*motion*/) {}
 
   /// Changes where the path goes, before anything is divided: moves vertices of the sheet to the path, or nodes of the
   /// trace to vertices. For methods that do not promise exact_incision; the default changes nothing. On return the

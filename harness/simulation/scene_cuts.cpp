@@ -9,6 +9,7 @@
 #include "harness/base/conversions.h"
 #include "harness/base/stop_watch.h"
 #include "harness/cut/constraint_source.h"
+#include "harness/cut/motion.h"
 #include "harness/fem/elements/bending_kinds.h"
 #include "harness/fem/model/settle.h"
 #include "harness/mesh/one_ring.h"
@@ -35,6 +36,19 @@ double distance_to_edges(const Sheet& sheet, Point2 p) {
     }
   }
   return std::sqrt(nearest2);
+}
+
+std::span<const double> span_of(const Field& field) { return {field.data(), to_size(field.size())}; }
+
+/// cut_all() by a method that sees how the sheet moves.
+CutRun cut_in_motion(Sheet& sheet, Locator& locator, Cutter& cutter, const Curve& curve, CuttingMethod& method,
+                     const CutOptions& options, const Motion& motion) {
+  struct Eyes {
+    CuttingMethod& method;
+    ~Eyes() { method.see(nullptr); }
+  } const eyes{method};
+  method.see(&motion);
+  return cut_all(sheet, locator, cutter, {&curve, 1}, method, options);
 }
 
 void add(const MotionCut& part, MotionCut& sum) {
@@ -213,7 +227,9 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, std::span<const Curve> curve
     StopWatch before;
     const double bending = bending_of(moving);
     result.transfer_us += before.lap();
-    const CutRun run = cut_all(moving.sheet, moving.locator, cutter, {&curve, 1}, method, options);
+    const Motion motion{
+        .x = span_of(moving.state.x), .v = span_of(moving.state.v), .dimension = D, .poisson = scene_.material.poisson};
+    const CutRun run = cut_in_motion(moving.sheet, moving.locator, cutter, curve, method, options, motion);
     result.cut.status = run.status;
     result.cut.verdict = run.verdict;
     result.cut.reason = run.reason;

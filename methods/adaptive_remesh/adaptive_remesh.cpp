@@ -127,10 +127,11 @@ void AdaptiveRemesh::find_zone(const Sheet& sheet) {
 /// What the deformed sheet asks for at the vertices of the zone.
 void AdaptiveRemesh::find_metrics(const Sheet& sheet) {
   constexpr double rounding = 1 + 1e-6;  // of slivers at rest
-  const double c = options_.deformed.compression * sheet.mean_edge();
+  const double mean_edge = sheet.mean_edge(), h_tip = options_.tip * mean_edge;
   metric_of_.clear(sheet.triangle_slots());
   const auto metric_of = [&](TriangleIndex t) {
-    if (metric_of_.insert(t)) metric_of_.at(t) = field_.bounded(deformed_metric(sheet, t, options_.deformed.angle, c));
+    if (metric_of_.insert(t))
+      metric_of_.at(t) = field_.bounded(deformed_metric(sheet, state_, t, options_.deformed, mean_edge, h_tip));
     return metric_of_.at(t);
   };
   measured_.clear(sheet.vertex_slots());
@@ -210,6 +211,7 @@ bool AdaptiveRemesh::split_long(Sheet& sheet, std::size_t most_vertices) {
 /// Lawson's flips from the doubtful triangles on, of edges with the zone on one side at least.
 void AdaptiveRemesh::flip(Sheet& sheet) {
   constexpr double sharpest = 40 * std::numbers::pi / 180;  // of the deformed sheet, as in ARCSim
+  state_.follow(sheet);
   open_.clear();
   const auto open = [&](TriangleIndex t) {
     for (int k = 0; k < 3; ++k) open_.push_back(half_edge(t, k));
@@ -223,7 +225,7 @@ void AdaptiveRemesh::flip(Sheet& sheet) {
     if (sheet.separates(h)) continue;
     const TriangleIndex t = triangle_of(h), u = triangle_of(sheet.opposite(h));
     if (!in_zone_.holds(t) && !in_zone_.holds(u)) continue;
-    if (std::abs(bend_angle(sheet, h)) >= sharpest) continue;
+    if (std::abs(bend_angle(sheet, state_, h)) >= sharpest) continue;
     const auto c = sheet.corners(t);
     if (in_circle(c[0], c[1], c[2], sheet.rest(sheet.origin(Sheet::previous(sheet.opposite(h))))) <= 0) continue;
     if (sheet.flip(h)) {
@@ -291,6 +293,7 @@ void AdaptiveRemesh::improve(Sheet& sheet, MethodNotes& notes) {
   constexpr int most_rounds = 10;
   constexpr std::size_t per_path_vertex = 20, at_least = 1000;
   tolerance_ = std::min(options_.tolerance * sheet.mean_edge(), curve_.chord_tolerance());
+  state_.begin(sheet);
   find_zone(sheet);
   const EditLog& log = sheet.log();
   const std::size_t most_vertices = log.new_vertices.size() + per_path_vertex * log.path_vertices.size() + at_least;

@@ -2,7 +2,7 @@
 //
 // How it works. embed: the Delaunay split. improve: in a zone round the path, edges are split, flipped and collapsed in
 // turn, until every edge fits the field (methods/adaptive_remesh/size_field.h: fine at tips, and where the deformed
-// sheet is curved or compressed), or for ten rounds:
+// sheet is curved, compressed or sheared by its motion), or for ten rounds:
 //  - an edge longer than sqrt(2) times the field at its middle is divided there, also one of the path, an incision or
 //    the border;
 //  - an edge that separates nothing is flipped where it is not Delaunay (exact in_circle), unless the deformed sheet is
@@ -24,17 +24,16 @@
 // Source: Narain, Samii and O'Brien, Adaptive anisotropic remeshing for cloth simulation, ACM TOG 31(6), 2012 (split,
 // flip, collapse; not read, but dynamicremesh.cpp of their program ARCSim); Pfaff, Narain, de Joya, O'Brien, Adaptive
 // tearing and cracking of thin sheets, ACM TOG 33(4), 2014 (fine at tips, coarse behind; not read). As in ARCSim a
-// vertex on a marked line goes along it alone, no edge of a fold is flipped, and the field has terms of curvature and
-// compression (methods/adaptive_remesh/deformed_metric.h).
+// vertex on a marked line goes along it alone, no edge of a fold is flipped, and the field has terms of curvature,
+// compression, velocity and stress (methods/adaptive_remesh/deformed_metric.h).
 // Not as there: vertices of the border and of older incisions never go, there they go along it. A collapse may leave an
 // aspect ratio of 6, there 12 sqrt(3) area / perimeter^2 = 0.2, which is 12 to 13. Its field is a tensor, here it is a
-// number. Its terms of velocity and obstacles are left out, since a method is told of neither; for that of fracture the
-// tips stand. It remeshes the whole sheet in every step, here it is the zone of a cut. It splits above 1 and makes no
-// edge longer than 0.9 by a collapse, which has no lower bound, here both bounds are those of a quasi-unit mesh (Frey
-// and George, Mesh Generation, 2000; not read), so that it keeps its own resolution. Its flips weigh the field, here
-// they are those of Delaunay. Nothing is moved but a vertex on a straight border, onto the end of a path close by,
-// which is the collapse of the edge between the two. Its filter against the pop of remeshing (popfilter.cpp) is left
-// out.
+// number, without terms of obstacles and plasticity. It remeshes the whole sheet in every step, here it is the zone of
+// a cut. It splits above 1 and makes no edge longer than 0.9 by a collapse, which has no lower bound, here both bounds
+// are those of a quasi-unit mesh (Frey and George, Mesh Generation, 2000; not read), so that it keeps its own
+// resolution. Its flips weigh the field, here they are those of Delaunay. Nothing is moved but a vertex on a straight
+// border, onto the end of a path close by, which is the collapse of the edge between the two. Its filter against the
+// pop of remeshing (popfilter.cpp) is left out.
 // Promises: area, conforming, an incision within the chord tolerance of the curve; neither the exact path nor that
 // vertices stay: those too close together are removed, and what they carried is lost.
 // Where it fails: no aspect ratio is promised. Vertices of the border and of older incisions stay, however close
@@ -68,6 +67,7 @@ class AdaptiveRemesh : public CuttingMethod {
   explicit AdaptiveRemesh(const Options& options)
       : options_(options), warp_({.reach = 0.35, .tolerance = options.tolerance, .border_only = true}) {}
 
+  void see(const Motion* motion) override { state_.see(motion); }
   void adapt(Sheet& sheet, Subdivision& trace, const Polyline& path) override;
   void embed(Sheet& sheet, Subdivision& trace, MethodNotes& notes) override;
   void improve(Sheet& sheet, MethodNotes& notes) override;
@@ -93,6 +93,7 @@ class AdaptiveRemesh : public CuttingMethod {
   Warp warp_;
   double tolerance_ = 0;  // rest units
   SizeField field_;
+  DeformedState state_;
   StampedTable<TriangleIndex, double> metric_of_;
   StampedSet<VertexIndex> measured_;
   std::vector<TriangleIndex> zone_;
