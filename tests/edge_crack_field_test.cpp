@@ -41,8 +41,8 @@ double k1_of(const ElasticField& field) {
 
 double gape_at(const ElasticField& field, double x) { return opening(field, {{{x, 0}, {0, 1}, 1}}).front(); }
 
-/// Half of what the line of the cut bore times what it gapes, which is what letting it go gives off. Places crowd towards
-/// the tip, where the gape goes like a root.
+/// Half of what the line of the cut bore times what it gapes, which is what letting it go gives off. Places crowd
+/// towards the tip, where the gape goes like a root.
 double energy_released(double depth) {
   const ElasticField field = field_of(depth);
   constexpr int steps = 400;
@@ -123,8 +123,8 @@ TEST(EdgeCrackField, IntensityAsInTheBooks) {
   }
 }
 
-/// At the mouth by the handbook's fit 4 s a V / E (Tada, Paris and Irwin; not read, from memory, where its 1 percent may
-/// be another's), at the tip by Williams's first term.
+/// At the mouth by the handbook's fit 4 s a V / E (Tada, Paris and Irwin; not read, from memory, which has it within 1
+/// percent; they differ by up to 1.6), at the tip by Williams's first term.
 TEST(EdgeCrackField, GapeAsInTheBooks) {
   for (const double depth : {0.3, 0.4, 0.5}) {
     const ElasticField field = field_of(depth);

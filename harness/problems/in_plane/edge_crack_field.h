@@ -20,9 +20,9 @@ inline constexpr int edge_crack_height = 4;  ///< of the strip, in widths: longe
 /// Their coefficients are the least squares of the tractions on the border. With other numbers of terms the gape is the
 /// same to 2e-7 of its norm, and K1 likewise, for depths of 0.2 to 0.5; 1e-6 up to 0.6; 1e-4 at 0.75. Tractions are
 /// off by at most 7e-6 of the pull up to 0.5, in the corners at the ends, which the lips hardly feel.
-/// Source: the boundary collocation of Gross, Srawley and Brown, NASA TN D-2395 (1964), not read but for the beginning of
-/// its summary. They fit Williams's series, which is the same phi with powers of z alone: 81 of those leave K1 2 to 7
-/// percent off. Poles that crowd towards corners: Gopal and Trefethen, SIAM J. Numer. Anal. 57 (2019); not read.
+/// Source: the boundary collocation of Gross, Srawley and Brown, NASA TN D-2395 (1964), not read but for the beginning
+/// of its summary. They fit Williams's series, which is the same phi with powers of z alone: 81 of those leave K1 2 to
+/// 7 percent off. Poles that crowd towards corners: Gopal and Trefethen, SIAM J. Numer. Anal. 57 (2019); not read.
 /// \pre 0 < depth < 1
 ElasticField edge_crack_field(const Elastic& elastic, const Axes& frame, double depth, double stress);
 
