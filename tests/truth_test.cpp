@@ -154,6 +154,7 @@ TEST_P(Converges, Arc) {
 
 TEST_P(Converges, EdgeCrack) {
   auto all = series("edge_crack_50", 24);
+  EXPECT_NEAR(all["opening"].rate(), 1, 0.2);
   EXPECT_NEAR(all["k1"].extrapolated(), 1, 0.01);
   EXPECT_NEAR(all["released_energy"].extrapolated(), 1, 0.02);  // few members on small sheets
 }
@@ -246,6 +247,25 @@ TEST(Problems, TruthIsThatOfTheRequestedCurve) {
   const Answer full = solved(problem, specimen, cut_by(specimen, "cgal_cdt"));
   const Answer lost = solved(problem, specimen, cut_by(shorter, "cgal_cdt"));
   for (std::size_t m = 0; m < 3; ++m) EXPECT_GT(lost.measures[m].error, 1.3 * full.measures[m].error);
+}
+
+/// A finer and finer graded mesh goes on to the exact gape, where the released energy ends at the fit's error.
+TEST(Problems, NoFitLimitsTheGapeOfAnEdgeCrack) {
+  auto graded = series_of(find_problem("edge_crack_40"), "grid", "graded_at_tips", 24);
+  EXPECT_NEAR(graded["opening"].rate(), 2, 0.4);
+  EXPECT_LT(graded["opening"].error[2], 0.006);
+}
+
+/// A cut that goes too far, too: its missing energy has the other sign, its gape has none.
+TEST(Problems, AnEdgeCrackThatIsTooShortOrTooLongGapesOtherwise) {
+  const Problem& problem = find_problem("edge_crack_40");
+  const Specimen specimen = problem.specimen("grid", 40, 1, 1);
+  const double full = measure_of(solved(problem, specimen, cut_by(specimen, "cgal_cdt")), "opening").error;
+  for (const double more : {-0.06, 0.06}) {
+    Specimen other = specimen;
+    other.cuts.front().points.back().x += more;
+    EXPECT_GT(measure_of(solved(problem, specimen, cut_by(other, "cgal_cdt")), "opening").error, 1.5 * full) << more;
+  }
 }
 
 /// The prescribed displacements jump where the method opened the border, not beside it: no edge of the border is torn.

@@ -1,6 +1,7 @@
 #include "harness/problems/common/lips.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "harness/base/conversions.h"
 
@@ -67,6 +68,16 @@ std::vector<double> opening(const ElasticField& field, const std::vector<LipSamp
     gapes.push_back((field.displacement(at, at + 1e-3 * normal) - field.displacement(at, at + -1e-3 * normal))
                         .dot(Eigen::Vector2d(normal.x, normal.y)));
   return gapes;
+}
+
+double opening_error(const std::vector<LipSample>& samples, const std::vector<double>& found,
+                     const std::vector<double>& exact) {
+  double off = 0, scale = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    off += samples[i].length * std::pow(found[i] - exact[i], 2);
+    scale += samples[i].length * std::pow(exact[i], 2);
+  }
+  return std::sqrt(off / scale);
 }
 
 }  // namespace cutbench

@@ -23,4 +23,9 @@ std::vector<double> opening(const Sheet& sheet, const Field& displacement, const
 /// The same of an exact field.
 std::vector<double> opening(const ElasticField& field, const std::vector<LipSample>& samples);
 
+/// The L2 norm of found - exact along the curve, over that of exact: the measure `opening`.
+/// \pre a value for each sample
+double opening_error(const std::vector<LipSample>& samples, const std::vector<double>& found,
+                     const std::vector<double>& exact);
+
 }  // namespace cutbench

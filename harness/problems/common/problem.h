@@ -68,8 +68,9 @@ class Problem {
   virtual std::string name() const = 0;
   virtual std::string effect() const = 0;  ///< one line: the one effect it shows
   virtual std::string truth() const = 0;   ///< one line: the answer and its source
-  /// What answer() measures, the primary one first: that which ranks. In the plane it is the energy norm of the error,
-  /// and the second one, but at an edge crack, is a norm, too: neither has a sign in which errors cancel.
+  /// What answer() measures, the primary one first: that which ranks. In the plane it is the energy norm of the error
+  /// (at an edge crack the root of the missing energy), and the second one is another norm: it has no sign in which
+  /// errors cancel.
   virtual std::vector<std::string> measures() const = 0;
   virtual bool takes_budgets() const { return true; }  ///< false: several linear solves, solved directly only
   /// False: it bends, which it does at the sheet's own vertices alone.

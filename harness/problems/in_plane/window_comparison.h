@@ -41,7 +41,6 @@ class WindowComparison {
   void find_rim();
   double work_on_lips() const;
   Sums sum(const StaticSolve::Solution& solution) const;
-  double opening_error(const StaticSolve::Solution& solution) const;
   double rim_error(const StaticSolve::Solution& solution) const;
   /// Over the tips where K is measured, of each tip's.
   StressIntensity mean(const std::function<StressIntensity(std::size_t i)>& of_tip) const;
