@@ -146,6 +146,20 @@ TEST(AdaptiveMotion, IsFineWhereVelocityOrStressChange) {
   EXPECT_GT(Moving("grid", pulled, still).vertices_after("adaptive_remesh:stress", 0.05), at_rest + 100);
 }
 
+/// The limit of vertices was met, and then a round changed nothing, as if all were done.
+TEST(AdaptiveMotion, SaysThatItMetTheLimitOfVertices) {
+  const Place wild = [](Point2 p) { return Point3{0, 0, 1000 * p.x}; };
+  Moving moving("grid", flat, wild);
+  const auto method = find_method("adaptive_remesh").make(0.1);
+  Locator locator(moving.sheet);
+  const Motion now = moving.motion();
+  method->see(&now);
+  const CutOutcome outcome = Cutter().cut(moving.sheet, locator, slanted, *method, {});
+  EXPECT_EQ(outcome.status, Status::ok);
+  EXPECT_GT(moving.sheet.log().new_vertices.size(), 1000U);
+  EXPECT_NE(outcome.reason, "");
+}
+
 /// Keeps what it was shown, and cuts as the default does.
 class Watcher : public CuttingMethod {
  public:

@@ -89,6 +89,7 @@ TEST_P(InARow, HoldsNoMemoryButTheMeshs) {
 /// Nor for cuts that find nothing to do, and those that are undone.
 TEST_P(InARow, CutsWithoutEffectTakeNoMemory) {
   if (heap_bytes() == 0) GTEST_SKIP() << "the heap can't be asked";
+  constexpr std::size_t undivided = 1000;  // rests of blocks that fitted; a block lost per cut is 6,000 bytes and more
   Sheet sheet(make_sheet("delaunay", 10));
   Locator locator(sheet);
   Cutter cutter;
@@ -102,7 +103,7 @@ TEST_P(InARow, CutsWithoutEffectTakeNoMemory) {
     ASSERT_TRUE(again == Status::noop || (i < 10 && !row().promises.exact_incision)) << name_of(again);
     if (i == 10) held = heap_bytes();
   }
-  EXPECT_LE(heap_bytes(), held);
+  EXPECT_LE(heap_bytes(), held + undivided);
   const Locator kept = locator;
   for (std::size_t i = 0; i < 200; ++i) {
     const Curve curve = make_case("recut", 3, i % 5, sheet).front();
@@ -111,7 +112,7 @@ TEST_P(InARow, CutsWithoutEffectTakeNoMemory) {
     locator = kept;
     if (i == 10) held = heap_bytes();
   }
-  EXPECT_LE(heap_bytes(), held);
+  EXPECT_LE(heap_bytes(), held + undivided);
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, InARow, testing::Range(std::size_t{0}, whole_sheet_methods().size()),

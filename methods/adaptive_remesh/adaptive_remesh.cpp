@@ -306,6 +306,7 @@ void AdaptiveRemesh::improve(Sheet& sheet, MethodNotes& notes) {
     flip(sheet);
     notes.stopped_early = changed;
   }
+  notes.stopped_early |= log.new_vertices.size() >= most_vertices;
 }
 
 }  // namespace cutbench

@@ -1,14 +1,16 @@
 // Adaptive remeshing: the triangles round the cut follow a size field that is fine at the tips.
 //
 // How it works. embed: the Delaunay split. improve: in a zone round the path, edges are split, flipped and collapsed in
-// turn, until every edge fits the field (methods/adaptive_remesh/size_field.h: fine at tips, and where the deformed
-// sheet is curved, compressed or sheared by its motion), or for ten rounds:
+// turn, by a size field (methods/adaptive_remesh/size_field.h: fine at tips, and where the deformed sheet is curved,
+// compressed, or moves at a velocity that varies). It ends when a round changes nothing, after ten rounds, or with 20
+// new vertices for each of the path and 1,000 more:
 //  - an edge longer than sqrt(2) times the field at its middle is divided there, also one of the path, an incision or
 //    the border;
 //  - an edge that separates nothing is flipped where it is not Delaunay (exact in_circle), unless the deformed sheet is
 //    bent there by 40 degrees or more;
-//  - an edge shorter than 1 / sqrt(2) of it is collapsed, where no new edge becomes too long, and no triangle gets an
-//    aspect ratio beyond 6 and beyond those that were there.
+//  - an edge shorter than 1 / sqrt(2) of it is collapsed, where no edge becomes longer than that and those that were
+//    there, and no triangle gets an aspect ratio beyond 6 and those that were there (twice those, if the edge is
+//    shorter than a quarter of the field).
 // The zone is what the split changed, and the triangles in the reach of the path's tips, and of tips of earlier cuts at
 // which the path goes on: behind the blade, where these are tips no more, collapses make the mesh coarse again. The
 // zone does not grow, so that the cost follows the triangles near the cut.
@@ -23,17 +25,19 @@
 //
 // Source: Narain, Samii and O'Brien, Adaptive anisotropic remeshing for cloth simulation, ACM TOG 31(6), 2012 (split,
 // flip, collapse; not read, but dynamicremesh.cpp of their program ARCSim); Pfaff, Narain, de Joya, O'Brien, Adaptive
-// tearing and cracking of thin sheets, ACM TOG 33(4), 2014 (fine at tips, coarse behind; not read). As in ARCSim a
-// vertex on a marked line goes along it alone, no edge of a fold is flipped, and the field has terms of curvature,
-// compression, velocity and stress (methods/adaptive_remesh/deformed_metric.h).
-// Not as there: vertices of the border and of older incisions never go, there they go along it. A collapse may leave an
-// aspect ratio of 6, there 12 sqrt(3) area / perimeter^2 = 0.2, which is 12 to 13. Its field is a tensor, here it is a
-// number, without terms of obstacles and plasticity. It remeshes the whole sheet in every step, here it is the zone of
-// a cut. It splits above 1 and makes no edge longer than 0.9 by a collapse, which has no lower bound, here both bounds
-// are those of a quasi-unit mesh (Frey and George, Mesh Generation, 2000; not read), so that it keeps its own
-// resolution. Its flips weigh the field, here they are those of Delaunay. Nothing is moved but a vertex on a straight
-// border, onto the end of a path close by, which is the collapse of the edge between the two. Its filter against the
-// pop of remeshing (popfilter.cpp) is left out.
+// tearing and cracking of thin sheets, ACM TOG 33(4), 2014 (fine at tips, coarse behind; not read). As in ARCSim no
+// edge of a fold is flipped, vertices of the border and of older incisions do not go, and the field has terms of
+// curvature, compression, velocity and stress (methods/adaptive_remesh/deformed_metric.h).
+// Not as there (the whole program as a reviewer read it): those vertices of the border that remeshing made may go along
+// it. It remeshes the sheet once a frame, and where it tears what is about to tear with two rings round it; here it is
+// the zone of a cut. Its tears move a vertex onto a line that they pass closely, and do not split there; here all
+// crossings are split first, and collapses remove what is too short. A collapse may leave an aspect ratio of 6; there
+// 12 sqrt(3) area / perimeter^2 is 0.2 in examples of cloth, which is 12 to 13, and 0.3 in one of tearing. Its field is
+// a tensor, here it is a number, without terms of obstacles and plasticity. It splits above 1 and makes no edge longer
+// than 0.9 by a collapse, which has no lower bound, here both bounds are those of a quasi-unit mesh (Frey and George,
+// Mesh Generation, 2000; not read), so that it keeps its own resolution. Its flips weigh the field, here they are those
+// of Delaunay. Nothing is moved but a vertex on a straight border, onto the end of a path close by, which is the
+// collapse of the edge between the two. Its filter against the pop of remeshing (popfilter.cpp) is left out.
 // Promises: area, conforming, an incision within the chord tolerance of the curve; neither the exact path nor that
 // vertices stay: those too close together are removed, and what they carried is lost.
 // Where it fails: no aspect ratio is promised. Vertices of the border and of older incisions stay, however close

@@ -8,8 +8,8 @@
 // |e| sqrt((m_a + m_b) / 2), which is that of ARCSim for a metric without direction.
 //
 // Source: a size field as in Narain, Samii and O'Brien 2012, there a tensor; fine at the tips as in Pfaff, Narain, de
-// Joya and O'Brien 2014, there from stress. g bounds the gradation (Borouchaki, Hecht and Frey 1998; not read) of the
-// first term alone.
+// Joya and O'Brien 2014, there from stress and round vertices that are about to tear. g bounds the gradation
+// (Borouchaki, Hecht and Frey 1998; not read) of the first term alone.
 #pragma once
 
 #include <algorithm>

@@ -17,7 +17,8 @@
 // optimisation.
 // What is left out here: the refinement, with its hanging nodes, and every treatment of tips and branches, since the
 // abstract does not say what they are. What is ours: that vertices move to crossings of their own edges, the tolerance
-// of the path, flips until none changes. So no aspect ratio is promised, and none measured here judges the source.
+// of the path, the Delaunay split of what is still crossed, flips until none changes. So no aspect ratio is promised,
+// and none measured here judges the source.
 // Promises: area, conforming; neither the exact path (between moved vertices it takes short cuts) nor that vertices
 // stay. The incision error is at most the chord tolerance, since every move is checked against the requested curve.
 // Where it fails: on any other sheet; where two moved vertices face each other; at tips and corners of the path, to

@@ -1,12 +1,13 @@
 // Phantom nodes: for the unknowns the sheet is not divided; its triangles are doubled where the path crosses them.
 //
 // How it works: the incision, and the triangles that integrals are taken over, are those of conventional_split. The
-// field on them is linear in each part into which the cuts divide a parent, which is a triangle of the sheet before the
-// first cut. A part has its own copy of its parent's three corners as its unknowns: a corner that belongs to the part
-// is that vertex of the sheet, any other is a phantom node. Parts on the two sides of an edge of the sheet that are
-// joined along it, or along a piece of it, share the copies of its two ends. All vertices that cuts made are
-// constrained to the corners of their part by their barycentric coordinates (Constraints, harness/mesh/constraints.h).
-// So sums over the triangles of a part are exact integrals over it, for any number of cuts, junctions and loops.
+// field on them is linear in each part (but one with a tip in it) into which the cuts divide a parent, which is a
+// triangle of the sheet before the first cut. A part has its own copy of its parent's three corners as its unknowns: a
+// corner that belongs to the part is that vertex of the sheet, any other is a phantom node. Parts on the two sides of
+// an edge of the sheet that are joined along it, or along a piece of it, share the copies of its two ends. All vertices
+// that cuts made are constrained to the corners of their part by their barycentric coordinates (Constraints,
+// harness/mesh/constraints.h). So sums over the triangles of a part are exact integrals over it, for any number of
+// cuts, junctions and loops.
 //  - Tip rule: a part that lies on both sides of an incision, because that ends inside, is slit. It has one copy of
 //    each corner, but its field is linear in each of its triangles only: where the incision enters, the two lips go
 //    along with the copies beyond the edge, and all other vertices, the tip among them, with the part's own. So the

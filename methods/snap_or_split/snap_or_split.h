@@ -10,11 +10,10 @@
 // leave one; where it would run along the border; where it would close a loop or a corner that is cut off; where a
 // single edge between tips would be left.
 //
-// Source: Steinemann, Harders, Gross and Szekely, Hybrid cutting of deformable solids, IEEE VR 2006, mix snapping and
-// splitting, too (not read; whether path or vertex moves there is not known here); SOFA's snapping thresholds
-// (TriangleSetTopologyAlgorithms.inl, read: SnapBorderPath gives a path's end inside a triangle to a corner within the
-// threshold, and to no edge inside the sheet; to one of the border, which is not done here, since it would cut
-// through).
+// Source: SOFA's snapping thresholds (TriangleSetTopologyAlgorithms.inl, read: SnapBorderPath gives a path's end inside
+// a triangle to a corner within the threshold, and to no edge inside the sheet; to one of the border, which is not done
+// here, since it would cut through). Related: Steinemann, Harders, Gross and Szekely, Hybrid cutting of deformable
+// solids, IEEE VR 2006 (not read), who mix snapping and splitting, too.
 // Promises: area, conforming, no vertex moved; not the exact path. A crossing moves by at most `tolerance` of its edge,
 // and a tip by that of the longer edge at the vertex, which is at most one half, so the incision error is at most half
 // the sheet's longest edge plus the chord tolerance.

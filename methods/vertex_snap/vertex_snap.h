@@ -14,9 +14,10 @@
 // that are still crossed.
 //
 // Source: Serby, Harders and Szekely, A new approach to cutting into finite element models, 2001; Nienhuys and van der
-// Stappen, A surgery simulation supporting cuts and finite element deformation, 2001 (both as others describe them);
-// SOFA's TriangleSetTopologyAlgorithms.inl (read: SnapAlongPath moves a vertex to the mean of the points of the path
-// within the threshold of it, points inside triangles by the same coordinate among them).
+// Stappen, A surgery simulation supporting cuts and finite element deformation, 2001 (both as others describe them, the
+// second on its authors' page, too); SOFA's TriangleSetTopologyAlgorithms.inl (read: SnapAlongPath moves a vertex, not
+// one of the border, that has a point of the path within the threshold to the mean of all crossings of its edges and of
+// the points inside triangles within it).
 // Promises: area, conforming; neither the exact path nor that vertices stay. Between moved vertices the incision takes
 // short cuts inside the triangles of one vertex, and the method checks no tolerance there, so it promises no more than
 // the sheet's longest edge. Measured: at most 0.28 mean edges.

@@ -5,7 +5,7 @@
 // corner (methods/tools/copied_elements.h); the surface goes along with the copy that its piece is in.
 //  - Material: a copy has the stiffness, the bending and the mass of a whole triangle times its piece's share of the
 //    area, the mass a third at each corner. So no copy has a larger eigenvalue of the membrane than the whole one, and
-//    explicit steps need not shrink.
+//    the bound that elements give for an explicit step stays.
 //  - Copies share the nodes of an edge where their pieces are joined along it. That is asked of the pieces and not of
 //    where the cut meets the edge, so cuts through vertices and along edges are as all others.
 //  - Tip inside an element: that does not separate it, so it is not copied, and its field is linear across the slit.

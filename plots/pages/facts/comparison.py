@@ -7,7 +7,7 @@ from pages.facts.table import bracket, condition, interval_of, medians, number, 
 SPLIT, REFINED = "conventional_split", "delaunay_refine"
 # Method: how it works, whether its path is exact, whether vertices stay. `cutbench methods` has the promises.
 IDEAS = {"warp_and_refine": ("moves vertices", "no", "no"), "active_node": ("takes vertices out", "no", "no"),
-         "vertex_snap": ("moves vertices", "no", "no"), "cisamr": ("moves vertices; structured grids only", "no", "no"),
+         "vertex_snap": ("moves vertices", "no", "no"), "cisamr": ("moves vertices; structured grids only; not all of CISAMR", "no", "no"),
          "snap_or_split": ("moves the path", "no", "yes"), "edge_release": ("moves the path", "no", "yes"),
          "cut_polygons": ("merges", "yes", "yes"), "split_and_tie": ("constrains", "yes", "yes"), "phantom_node": ("copies", "yes", "yes"),
          "virtual_node": ("copies", "yes", "yes"),
