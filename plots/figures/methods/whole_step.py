@@ -145,6 +145,7 @@ def summary(table, methods, context):
     figure.subplots_adjust(left=0.07, right=0.995, top=0.87, bottom=0.17)
     drawn = draw(ax, table, 1.9)
     ax.set_xlim(drawn["ms"].min() / 1.5, drawn["ms"].max() * 1.8)
+    ax.yaxis.set_major_locator(plt.FixedLocator([0.02, 0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3, 0.5]))
     ax.set_xlabel("ms for a cut and the 0.25 s of motion after it", fontsize=9.5)
     ax.set_ylabel(f"error of the cut sheet's solution, {points.MEASURES[points.LEADS].title}", fontsize=9.5)
     ax.tick_params(labelsize=9)
