@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """What the Python package costs beside C++, and what two threads gain: two minutes on a machine that does nothing else.
-usage: PYTHONPATH=build/python/package tests/python/measure.py build/python/cutbench_python_overhead"""
+usage: PYTHONPATH=build/python/package tests/python/measure.py build/python/cutbench_python_overhead [--instructions]
+  --instructions  of a cut, counted by callgrind, instead of times: the same on every machine, busy or not; three minutes"""
 
 import os
+import re
 import subprocess
 import sys
 import threading
@@ -16,10 +18,21 @@ PATH = np.array([[-0.1, 0.313], [0.42, 0.47], [0.63, 0.55]])
 METHOD = "conventional_split"
 
 
-def in_cpp(program, sheet, times):
+RESOLUTIONS = (200, 800, 3200, 12800)
+
+
+def arrays(resolution):
+    sheet = cutbench.Sheet.family("grid", resolution)
+    return sheet, sheet.vertices.copy(), sheet.triangles.astype(np.int64)
+
+
+def as_text(sheet):
     numbers = [len(sheet.vertices), len(sheet.triangles), len(PATH), *sheet.vertices.ravel(), *sheet.triangles.ravel(), *PATH.ravel()]
-    text = " ".join(repr(x.item() if hasattr(x, "item") else x) for x in numbers)
-    said = subprocess.run([program, METHOD, str(times)], input=text, capture_output=True, text=True, check=True).stdout
+    return " ".join(repr(x.item() if hasattr(x, "item") else x) for x in numbers)
+
+
+def in_cpp(program, sheet, times):
+    said = subprocess.run([program, METHOD, str(times)], input=as_text(sheet), capture_output=True, text=True, check=True).stdout
     rows = [line.split() for line in said.splitlines()]
     return [float(us) for us, _ in rows], int(rows[0][1])
 
@@ -37,9 +50,8 @@ def in_python(vertices, triangles, times):
 
 def overhead(program):
     print("triangles  C++ us  Python us  more us (of 8 pairs)   more %  wanted  (processor time; medians of runs in turns)")
-    for resolution in (200, 800, 3200, 12800):
-        sheet = cutbench.Sheet.family("grid", resolution)
-        vertices, triangles = sheet.vertices.copy(), sheet.triangles.astype(np.int64)
+    for resolution in RESOLUTIONS:
+        sheet, vertices, triangles = arrays(resolution)
         times = max(20, 200000 // resolution)
         pairs = []
         for _ in range(8):
@@ -52,6 +64,23 @@ def overhead(program):
         most = max(50.0, 0.01 * cpp)
         print(f"{resolution:9} {cpp:7.1f} {python:10.1f} {np.median(more):8.1f} ({more[0]:.1f} to {more[-1]:.1f}) "
               f"{100 * np.median(more) / cpp:8.1f} {most:7.1f}  {'yes' if np.median(more) <= most else 'NO'}", flush=True)
+
+
+def instructions_of_a_cut(command, text=""):
+    """From two numbers of cuts, so that what comes before and after them drops out. `command` gives the words for a number."""
+    few, many = 5, 25
+    counts = [int(re.search(r"Collected : (\d+)", subprocess.run(
+        ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", *command(times)], input=text, capture_output=True,
+        text=True, check=True).stderr)[1]) for times in (few, many)]
+    return (counts[1] - counts[0]) / (many - few)
+
+
+def instructions(program):
+    print("triangles  C++, thousands  Python, thousands  more, thousands  more, %  (instructions of a cut)")
+    for resolution in RESOLUTIONS:
+        cpp = instructions_of_a_cut(lambda times: [program, METHOD, str(times)], as_text(arrays(resolution)[0]))
+        python = instructions_of_a_cut(lambda times: [sys.executable, __file__, "cuts", str(resolution), str(times)])
+        print(f"{resolution:9} {cpp / 1e3:15.0f} {python / 1e3:18.0f} {(python - cpp) / 1e3:16.0f} {100 * (python / cpp - 1):8.2f}", flush=True)
 
 
 def threads():
@@ -78,5 +107,10 @@ def threads():
           f"1.7; load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
 
 
-overhead(sys.argv[1])
-threads()
+if sys.argv[1] == "cuts":  # what --instructions counts
+    in_python(*arrays(int(sys.argv[2]))[1:], int(sys.argv[3]))
+elif sys.argv[2:] == ["--instructions"]:
+    instructions(sys.argv[1])
+else:
+    overhead(sys.argv[1])
+    threads()
