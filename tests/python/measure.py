@@ -80,7 +80,8 @@ def instructions(program):
     for resolution in RESOLUTIONS:
         cpp = instructions_of_a_cut(lambda times: [program, METHOD, str(times)], as_text(arrays(resolution)[0]))
         python = instructions_of_a_cut(lambda times: [sys.executable, __file__, "cuts", str(resolution), str(times)])
-        print(f"{resolution:9} {cpp / 1e3:15.0f} {python / 1e3:18.0f} {(python - cpp) / 1e3:16.0f} {100 * (python / cpp - 1):8.2f}", flush=True)
+        print(f"{resolution:9} {cpp / 1e3:15.0f} {python / 1e3:18.0f} {(python - cpp) / 1e3:16.0f} "
+              f"{100 * (python / cpp - 1):8.2f}", flush=True)
 
 
 def threads():
