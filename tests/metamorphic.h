@@ -97,19 +97,19 @@ inline CutSheet cut_with(const MethodVariant& variant, const MeshData& mesh, con
 }
 
 /// A map of the plane onto itself that keeps doubles exact, and a new numbering.
-struct Motion {
+struct Isometry {
   std::string name;
   Point2 (*there)(Point2);
   Point2 (*back)(Point2);
   bool mirrors, renumbers;
 };
 
-inline Curve moved(Curve curve, const Motion& motion) {
+inline Curve moved(Curve curve, const Isometry& motion) {
   for (Point2& p : curve.points) p = motion.there(p);
   return curve;
 }
 
-inline MeshData moved(MeshData mesh, const Motion& motion, std::uint64_t seed) {
+inline MeshData moved(MeshData mesh, const Isometry& motion, std::uint64_t seed) {
   for (Point2& p : mesh.rest) p = motion.there(p);
   if (motion.mirrors)
     for (auto& t : mesh.triangles) std::swap(t[1], t[2]);

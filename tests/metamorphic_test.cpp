@@ -39,7 +39,7 @@ TEST_P(EveryVariant, IsScaledByPowersOfTwoBitForBit) {
       true);
 }
 
-const Motion motions[] = {
+const Isometry motions[] = {
     {"turned",
      [](Point2 p) {
        return Point2{-p.y, p.x};
@@ -158,7 +158,7 @@ TEST_P(EveryVariant, MovesWithTheSheet) {
     const CutSheet plain = cut_with(GetParam(), *c.mesh, c.cuts, c.chord_tolerance);
     const Shape expected = shape_of(plain.sheet);
     const double rounding = 4 * std::numeric_limits<double>::epsilon() * largest_coordinate(expected);
-    for (const Motion& motion : motions) {
+    for (const Isometry& motion : motions) {
       std::vector<Curve> cuts;
       for (const Curve& curve : c.cuts) cuts.push_back(moved(curve, motion));
       const CutSheet cut = cut_with(GetParam(), moved(*c.mesh, motion, tried), cuts, c.chord_tolerance);

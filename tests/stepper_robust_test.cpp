@@ -30,20 +30,20 @@ Scene springs_open(double stiffness, double step, Integrator integrator = Integr
   return scene;
 }
 
-struct Motion {
+struct Ran {
   Verdict verdict;
   std::vector<double> positions;
   int solves = 0;
 };
 
-Motion run(Scene scene, bool robust, int steps, const char* method) {
+Ran run(Scene scene, bool robust, int steps, const char* method) {
   scene.robust = robust;
   const auto motion = Simulation::start(scene);
   const MethodRow row = find_method(method);
   const auto tool = row.make(row.parameter.value);
   motion->watch();
   motion->advance(steps * scene.step, *tool, {});
-  Motion result{motion->outcome().verdict, {motion->positions().begin(), motion->positions().end()}};
+  Ran result{motion->outcome().verdict, {motion->positions().begin(), motion->positions().end()}};
   for (const LoggedStep& step : motion->steps()) result.solves += step.step.newton;
   return result;
 }
@@ -64,7 +64,7 @@ TEST(RobustStep, WhereOneSolveIsEnoughNothingChanges) {
     Scene scene = springs_open(100, 1e-4, integrator);
     scene.material.stiffness_damping = 1e-4;
     scene.material.mass_damping = 0.3;
-    const Motion plain = run(scene, false, 6, "conventional_split"), robust = run(scene, true, 6, "conventional_split");
+    const Ran plain = run(scene, false, 6, "conventional_split"), robust = run(scene, true, 6, "conventional_split");
     EXPECT_EQ(plain.positions, robust.positions);
     EXPECT_EQ(robust.solves, 6);
   }
