@@ -32,11 +32,12 @@ Field force_at(Model<D>& model, const Field& x) {
 /// K w from the matrix of the step: A = (1 + s alpha) M + (s beta + s^2) K, where s is the step or half of it; of the
 /// explicit step beta K, or nothing.
 template <int D>
-Field stiffness_times(const Model<D>& model, const Field& w, const Field& mass_w, bool is_explicit, double s) {
+Field stiffness_times(const Model<D>& model, const SystemMatrix<D>& a, const Field& w, const Field& mass_w,
+                      bool is_explicit, double s) {
   const double alpha = model.material().mass_damping, beta = model.material().stiffness_damping;
   Field product = Field::Zero(w.size());
   if (is_explicit && beta == 0) return product;
-  model.system().add_product(w, product);
+  a.add_product(w, product);
   if (is_explicit) return product / beta;
   return (product - (1 + s * alpha) * mass_w) / (s * beta + s * s);
 }
@@ -50,7 +51,8 @@ EnergyBudget::EnergyBudget(const Balance& first, Integrator integrator, double n
 }
 
 template <int D>
-void EnergyBudget::add_step(Model<D>& model, const State& before, const State& after, double step) {
+void EnergyBudget::add_step(Model<D>& model, const State& before, const State& after, double step,
+                            const SystemMatrix<D>* damping_matrix) {
   const double alpha = model.material().mass_damping, beta = model.material().stiffness_damping;
   const bool is_explicit = integrator_ == Integrator::symplectic_euler, midpoint = integrator_ == Integrator::midpoint;
   const Field mean_v = (before.v + after.v) / 2;
@@ -60,7 +62,8 @@ void EnergyBudget::add_step(Model<D>& model, const State& before, const State& a
   const Field dv = (midpoint ? 2 : 1) * (u - before.v);
   const Field& w = is_explicit ? before.v : u;
   const Field mass_w = mass_times(model, w), mass_dv = mass_times(model, dv);
-  const Field stiffness_w = stiffness_times(model, w, mass_w, is_explicit, midpoint ? step / 2 : step);
+  const SystemMatrix<D> a = damping_matrix ? *damping_matrix : model.system();
+  const Field stiffness_w = stiffness_times(model, a, w, mass_w, is_explicit, midpoint ? step / 2 : step);
 
   BudgetRow row = rows_.back();
   row.time = after.time;
@@ -163,7 +166,7 @@ std::string EnergyBudget::csv() const {
   return text;
 }
 
-template void EnergyBudget::add_step(Model<2>&, const State&, const State&, double);
-template void EnergyBudget::add_step(Model<3>&, const State&, const State&, double);
+template void EnergyBudget::add_step(Model<2>&, const State&, const State&, double, const SystemMatrix<2>*);
+template void EnergyBudget::add_step(Model<3>&, const State&, const State&, double, const SystemMatrix<3>*);
 
 }  // namespace cutbench

@@ -33,6 +33,8 @@ namespace cutbench {
 struct State;
 template <int D>
 class Model;
+template <int D>
+struct SystemMatrix;
 
 /// After a step; J. The values below the energy are sums from the beginning.
 struct BudgetRow {
@@ -72,8 +74,10 @@ class EnergyBudget {
                         double time = 0, bool robust = false);
 
   /// After a step from `before` to `after`: \pre the model's matrix is still that step's.
+  /// \param damping  Stepper::damping_matrix(); null: the model's
   template <int D>
-  void add_step(Model<D>& model, const State& before, const State& after, double step);
+  void add_step(Model<D>& model, const State& before, const State& after, double step,
+                const SystemMatrix<D>* damping = nullptr);
   /// \param keeps_mass  no material left the sheet. Potential energy that leaves with it is no error: its sign is that
   /// of the height over an origin which nobody chose.
   void add_cut(const Balance& before, const Balance& after, bool keeps_mass = true);

@@ -109,7 +109,10 @@ class SceneInMotion : public Simulation {
   StepReport step() override {
     if (budget_) before_ = now_.state;
     StepReport report = stepper_.step(now_.model, now_.state);
-    if (budget_ && report.verdict == Verdict::ok) budget_->add_step(now_.model, before_, now_.state, scene_.step);
+    if (budget_ && report.verdict == Verdict::ok) {
+      const SystemMatrix<D> damping = stepper_.damping_matrix(now_.model);
+      budget_->add_step(now_.model, before_, now_.state, scene_.step, &damping);
+    }
     steps_.push_back(cuts_.take_log());
     if (watched_ && report.verdict == Verdict::ok) judge_state(report);
     steps_.back().step = report;

@@ -34,6 +34,13 @@ Stepper<D>::Stepper(const StepOptions& options) : options_(options), workers_(op
 }
 
 template <int D>
+SystemMatrix<D> Stepper<D>::damping_matrix(const Model<D>& model) const {
+  SystemMatrix<D> a = model.system();
+  if (keeps_damping_) a.blocks = &damping_blocks_;
+  return a;
+}
+
+template <int D>
 StepReport Stepper<D>::step(Model<D>& model, State& state) {
   StepReport report;
   switch (options_.integrator) {
@@ -140,6 +147,7 @@ void Stepper<D>::implicit_step(Model<D>& model, State& state, double h, StepRepo
   const double alpha = model.material().mass_damping, beta = model.material().stiffness_damping;
   const double mass_factor = 1 + h * alpha, stiffness_factor = h * beta + h * h;
   Energy before;
+  keeps_damping_ = false;
   double before2 = 0, last2 = 0;  // dv'A dv of the last two solves: Newton's decrement, squared
   v_ = state.v;
   hold(model, state, h);
@@ -192,7 +200,12 @@ void Stepper<D>::right_hand_side(Model<D>& model, const State& state, double h, 
   if (first) return model.add_impulse(h, x_, 1, v_, rhs_, workers_);
   // beta K v from A v: K v = (A v - (1 + h alpha) M v) / (h beta + h^2)
   const double damped = beta / (beta + h);
-  model.add_impulse(h, x_, damped, v_, rhs_, workers_);
+  model.add_impulse(h, x_, keeps_damping_ ? 0 : damped, v_, rhs_, workers_);
+  if (keeps_damping_) {
+    product_.setZero(v_.size());
+    damping_matrix(model).add_product(v_, product_, workers_);
+    rhs_ -= damped * product_;
+  }
   model.add_mass_product((damped - 1) * (1 + h * alpha), v_, rhs_);
 }
 

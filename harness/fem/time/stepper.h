@@ -52,11 +52,17 @@ class Stepper {
   /// triangles and no added mass either.
   explicit Stepper(const StepOptions& options);
   StepReport step(Model<D>& model, State& state);
+  /// A of stepper.h with the K that the damping of the last step had: refers to this and the model. It is the model's,
+  /// but after further solves of a robust step: there the damping keeps that of the first, since solves whose damping
+  /// changes under them run in circles.
+  SystemMatrix<D> damping_matrix(const Model<D>& model) const;
 
  private:
   void implicit_step(Model<D>& model, State& state, double h, StepReport& report);
   void finish_robustly(Model<D>& model, const State& state, double h, const Energy& before, StepReport& report);
   double merit(Model<D>& model, const State& state, double h, const Field& v, const Field& x, Energy& energy);
+  double gain(Model<D>& model, const State& state, double h, StepReport& report);
+  bool may_gain(double gain, const Energy& energy);
   void place_at_end(const Model<D>& model, const State& state, double h, const Field& v, Field& x) const;
   void right_hand_side(Model<D>& model, const State& state, double h, bool first, StepReport& report);
   void explicit_step(Model<D>& model, State& state, StepReport& report);
@@ -75,7 +81,10 @@ class Stepper {
   MassSolver<D> mass_solver_;
   Xpbd<D> xpbd_;
   VertexBlockDescent<D> vertex_block_descent_;
-  std::uint64_t mass_of_ = 0;  // the change of the model that it was set up after
+  std::uint64_t mass_of_ = 0;               // the change of the model that it was set up after
+  double gained_ = 0, largest_energy_ = 0;  // J: of robust steps
+  bool keeps_damping_ = false;              // damping_matrix() is not the model's
+  BlockMatrix<D> damping_blocks_;
   Field v_, x_, force_, rhs_, dv_, product_, reduced_, impulse_, trial_, inertial_;  // kept between steps
 };
 
