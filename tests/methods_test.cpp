@@ -217,7 +217,7 @@ TEST(Parameter, IsTakenWithinItsRangeAlone) {
     }
     if (range.or_zero) expect_refused(row, range.least / 2);
   }
-  EXPECT_EQ(parameters, 24u);
+  EXPECT_EQ(parameters, 26u);
 }
 
 TEST(Parameter, ARangeSaysWhatItHas) {

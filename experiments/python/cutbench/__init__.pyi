@@ -134,6 +134,8 @@ class Simulation:
     time: float
     energy: dict[str, float]
     cuts: list[dict[str, Any]]
+    outcome: dict[str, Any]
+    cuts_refused: int
     verdict: str
     reason: str
     times: Table
