@@ -134,7 +134,7 @@ class Simulation:
     time: float
     energy: dict[str, float]
     cuts: list[dict[str, Any]]
-    outcome: dict[str, Any]
+    outcome: str
     cuts_refused: int
     verdict: str
     reason: str
