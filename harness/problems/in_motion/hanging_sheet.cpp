@@ -24,7 +24,7 @@ constexpr double gravity = 0.1;
 constexpr std::size_t samples = 8;  // along the cut
 
 /// What is read off a sheet in motion, at the end of each step, from t = 0 on.
-struct Motion {
+struct Course {
   std::vector<double> corner;  ///< displacement of the lower right one, m: two values each time
   std::vector<double> gapes;   ///< m, at places along the cut
   std::vector<double> strain_energy, kinetic_energy, total_energy;  ///< J
@@ -62,12 +62,12 @@ class UncutDisplacement {
 
 /// From meshes of which the second has half the size: all that is read has, for the tip, an error in proportion to the
 /// size.
-Motion extrapolated(const Motion& coarse, const Motion& fine) {
-  Motion result = fine;
+Course extrapolated(const Course& coarse, const Course& fine) {
+  Course result = fine;
   result.is_whole = coarse.is_whole && fine.is_whole;
   if (!result.is_whole) return result;
   for (const auto series :
-       {&Motion::corner, &Motion::gapes, &Motion::strain_energy, &Motion::kinetic_energy, &Motion::total_energy})
+       {&Course::corner, &Course::gapes, &Course::strain_energy, &Course::kinetic_energy, &Course::total_energy})
     for (std::size_t i = 0; i < (result.*series).size(); ++i)
       (result.*series)[i] += (fine.*series)[i] - (coarse.*series)[i];
   return result;
@@ -108,12 +108,12 @@ class HangingSheet : public Problem {
   std::vector<Answer> answer(const Specimen& specimen, const Sheet& sheet, std::span<const Budget> budgets,
                              const Constraints& constraints) const override {
     const auto squares = to_int(std::lround(std::sqrt(to_double(specimen.mesh.triangles.size()) / 2)));
-    const Motion& exact = fine_motion(specimen, squares);
+    const Course& exact = fine_motion(specimen, squares);
     const UncutDisplacement uncut(specimen);
     std::vector<Answer> answers;
     for (const Budget& budget : budgets) {
       Answer& answer = answers.emplace_back();
-      const Motion motion = swing(
+      const Course motion = swing(
           specimen, sheet, constraints, [&](Point2 p) { return uncut.at(p); }, budget.solver, squares, answer);
       if (motion.is_whole && exact.is_whole)
         answer.measures = compared_with(exact, motion);
@@ -127,7 +127,7 @@ class HangingSheet : public Problem {
 
  private:
   /// Computed once for each cut and number of steps; whoever asks first computes it.
-  const Motion& fine_motion(const Specimen& specimen, int squares) const {
+  const Course& fine_motion(const Specimen& specimen, int squares) const {
     const Point2 from = specimen.cuts[0].points[0], to = specimen.cuts[0].points[1];
     Truth* truth = nullptr;
     {
@@ -141,14 +141,14 @@ class HangingSheet : public Problem {
     return truth->motion;
   }
 
-  Motion fitted_motion(const Specimen& specimen, int fine, int squares) const {
+  Course fitted_motion(const Specimen& specimen, int fine, int squares) const {
     Answer answer;
     const Specimen uncut{.mesh = make_sheet("delaunay", fine), .cuts = specimen.cuts};
     const auto start = [](Point2 p) { return hanging_displacement(p.y); };
     return swing(specimen, body_fitted(uncut), {}, start, {.name = "cholmod_same_order"}, squares, answer);
   }
 
-  Motion swing(const Specimen& specimen, const Sheet& sheet, const Constraints& constraints,
+  Course swing(const Specimen& specimen, const Sheet& sheet, const Constraints& constraints,
                const std::function<double(Point2)>& start, const SolverOptions& solver, int squares,
                Answer& answer) const {
     constexpr double infinity = Box::infinity;
@@ -172,7 +172,7 @@ class HangingSheet : public Problem {
     for (const std::uint8_t held : model.held()) answer.unknowns += held == 0;
 
     const std::vector<LipSample> places = places_on(specimen.cuts[0]);
-    Motion motion;
+    Course motion;
     const auto read = [&] {
       Field displacement = state.x;
       for (const DeformedIndex d : vertices_in_use(sheet)) {
@@ -213,11 +213,11 @@ class HangingSheet : public Problem {
     return places;
   }
 
-  static std::vector<Measure> compared_with(const Motion& exact, const Motion& motion) {
+  static std::vector<Measure> compared_with(const Course& exact, const Course& motion) {
     const double flap = relative_error(motion.corner, exact.corner), gape = relative_error(motion.gapes, exact.gapes),
                  energy = relative_error(motion.strain_energy, exact.strain_energy);
     const double scale = std::ranges::max(exact.kinetic_energy);
-    const auto lost = [&](const Motion& of) { return (of.total_energy.front() - of.total_energy.back()) / scale; };
+    const auto lost = [&](const Course& of) { return (of.total_energy.front() - of.total_energy.back()) / scale; };
     return {{"flap_motion", flap, 0, flap},
             {"gape_motion", gape, 0, gape},
             {"strain_energy_motion", energy, 0, energy},
@@ -229,7 +229,7 @@ class HangingSheet : public Problem {
   int fine_;
   struct Truth {
     std::once_flag computed;
-    Motion motion;
+    Course motion;
   };
   mutable std::mutex mutex_;                                                 // of the map, not of what is in it
   mutable std::map<std::tuple<int, double, double, double>, Truth> truths_;  // by steps and cut
