@@ -283,7 +283,7 @@ def selected(rows, quick, prefix):
     rows = [row for row in rows if row.startswith(prefix or "")]
     if not rows:
         sys.exit(f"no row begins with {prefix}; build/release/cutbench_track list prints those of phases" if prefix else
-                 "there is no row; --quick keeps those of 800 triangles alone, so `sizes` has to name 800")
+                 "there is no row" + "; --quick keeps those of 800 triangles alone, so `sizes` has to name 800" * quick)
     return rows
 
 

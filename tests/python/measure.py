@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What the Python package costs beside C++, and what two threads gain: two minutes on a machine that does nothing else.
 usage: PYTHONPATH=build/python/package tests/python/measure.py build/python/cutbench_python_overhead [--instructions]
-  --instructions  of a cut, counted by callgrind, instead of times: the same on every machine, busy or not; three minutes"""
+  --instructions  of a cut, counted by callgrind, instead of times: the same on every machine, busy or not; some minutes"""
 
 import os
 import re
