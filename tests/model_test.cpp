@@ -265,6 +265,31 @@ TEST(Model, ImpulseIsForcesLessMatrixTimesVelocity) {
 }
 
 /// The order of vertices and triangles does not matter.
+/// What rotate_once() and energy() keep is gone with the next positions, and with the next cut.
+TEST(Model, KeepsNoRotationOfBefore) {
+  const Physics physics{.bending = BendingKind::patches, .gravity = {0, 0, -9.81}};
+  Body<3> body(make_sheet("delaunay", 6), {.bending = 4.2e-4}, physics, {{.where = {{0, 0}, {0, 1}}}});
+  const auto total = [](Model<3>& model, const Field& x) {
+    model.rotate_once(x);
+    return model.energy(x, 0.1 * x).total();
+  };
+  const auto expect_current = [&](const Field& x) {
+    Model<3> fresh = body.fresh_model();
+    const double expected = total(fresh, x);
+    EXPECT_NEAR(total(body.model, x), expected, 1e-11 * std::abs(expected));
+    EXPECT_NEAR(total(body.model, x), expected, 1e-11 * std::abs(expected)) << "for nothing";
+  };
+  body.state.x = bent(body.model, body.sheet);
+  expect_current(body.state.x);
+  expect_current(0.9 * body.state.x);
+  body.model.rotate(body.state.x);
+  expect_current(0.9 * body.state.x);
+  const double before = total(body.model, body.state.x);
+  ASSERT_EQ(body.cut(line({0.31, 0.2}, {0.48, 0.83})), Status::ok);
+  expect_current(body.state.x);
+  EXPECT_NE(total(body.model, body.state.x), before);
+}
+
 TEST(Model, P8NumberingDoesNotMatter) {
   MeshData mesh = make_sheet("delaunay", 8), shuffled = mesh;
   Random random(6);

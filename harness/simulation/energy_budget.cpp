@@ -22,7 +22,7 @@ Field mass_times(const Model<D>& model, const Field& x) {
 /// Of all but the pins.
 template <int D>
 Field force_at(Model<D>& model, const Field& x) {
-  model.rotate(x);
+  model.rotate_once(x);
   Field force = Field::Zero(x.size());
   model.add_internal_force(x, force);
   model.add_external_force(force);

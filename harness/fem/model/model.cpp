@@ -121,8 +121,22 @@ std::size_t Model<D>::unheld_pieces() const {
 
 template <int D>
 void Model<D>::rotate(const Field& x, Workers& workers) {
+  forget_rotation();
   membrane_.rotate(elements_, x, workers);
   if (curved_) curved_->rotate(x);
+}
+
+template <int D>
+void Model<D>::rotate_once(const Field& x, Workers& workers) {
+  if (std::equal(x.begin(), x.end(), rotated_to_.begin(), rotated_to_.end())) return;
+  rotate(x, workers);
+  rotated_to_ = x;
+}
+
+template <int D>
+void Model<D>::forget_rotation() {
+  rotated_to_.resize(0);
+  elastic_.reset();
 }
 
 template <int D>
@@ -136,18 +150,22 @@ template <int D>
 void Model<D>::add_impulse(double h, const Field& x, double factor, const Field& v, Field& y, Workers& workers) {
   if (curved_) curved_->add_force(h, y);
   const BlockMatrix<1>* const bending = bending_matrix();
-  spread<D>(v, velocity_, workers);
+  const bool has_product = factor != 0;
+  if (has_product) spread<D>(v, velocity_, workers);
   spread<D>(x, bent_, workers);
   workers.for_ranges(vertices(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)  // K_b (h x) and factor stiffness_factor K_b v at once
-      bent_[i] = h * bent_[i] + factor * stiffness_factor_ * velocity_[i];
+    for (std::size_t i = begin; i < end; ++i) {  // K_b (h x) and factor stiffness_factor K_b v at once
+      bent_[i] *= h;
+      if (has_product) bent_[i] += factor * stiffness_factor_ * velocity_[i];
+    }
   });
   workers.for_ranges(vertices(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t ahead = std::min(i + rows_ahead, end - 1);
-      blocks_.prefetch_row(ahead);
+      if (has_product) blocks_.prefetch_row(ahead);
       if (bending) bending->prefetch_row(ahead);
-      Lanes sum = factor * blocks_.row_product(i, velocity_);
+      Lanes sum{};
+      if (has_product) sum = factor * blocks_.row_product(i, velocity_);
       if (bending) sum += bending->row_product(i, bent_);
       for (std::size_t k = 0; k < D; ++k) {
         const auto u = to_index(D * i + k);
@@ -155,7 +173,8 @@ void Model<D>::add_impulse(double h, const Field& x, double factor, const Field&
       }
     }
   });
-  if (const auto* mass = mass_matrix()) add_product_per_coordinate(*mass, D, -factor * mass_factor_, v, y);
+  if (const auto* mass = mass_matrix(); mass && has_product)
+    add_product_per_coordinate(*mass, D, -factor * mass_factor_, v, y);
 }
 
 template <int D>
@@ -199,10 +218,12 @@ void Model<D>::add_mass_product(double factor, const Field& x, Field& y) const {
 }
 
 template <int D>
-Energy Model<D>::energy(const Field& x, const Field& v) const {
-  Energy energy;
-  energy.membrane = membrane_.energy(elements_);
-  if (bending_) energy.bending = curved_ ? curved_->energy() : bending_->energy(x, D);
+Energy Model<D>::energy(const Field& x, const Field& v) {
+  if (!elastic_) {
+    elastic_ = {.membrane = membrane_.energy(elements_)};
+    if (bending_) elastic_->bending = curved_ ? curved_->energy() : bending_->energy(x, D);
+  }
+  Energy energy = *elastic_;
   Field momentum = Field::Zero(v.size());
   add_mass_product(1, v, momentum);
   energy.kinetic = v.dot(momentum) / 2;

@@ -63,6 +63,8 @@ class Model {
   // --- of a state ----------------------------------------------------------------------------------------------------
   /// The deformation of every element; the functions below refer to this x.
   void rotate(const Field& x, Workers& workers = Workers::none());
+  /// The same; does nothing where the last call had this x and the model is unchanged.
+  void rotate_once(const Field& x, Workers& workers = Workers::none());
   /// f += internal forces, of membrane and bending, N. \pre rotate(x).
   void add_internal_force(const Field& x, Field& f) const;
   /// y += h (internal forces at x) - factor A v, with A of the last assemble(). Faster than one by one: bending, which
@@ -79,7 +81,7 @@ class Model {
   }  ///< null where no vertex is constrained
   /// y += factor M x.
   void add_mass_product(double factor, const Field& x, Field& y) const;
-  Energy energy(const Field& x, const Field& v) const;  ///< \pre rotate(x)
+  Energy energy(const Field& x, const Field& v);  ///< \pre rotate(x)
 
   // --- of the model --------------------------------------------------------------------------------------------------
   const ElementTable& elements() const { return elements_; }
@@ -124,6 +126,7 @@ class Model {
   void begin_marking();
   void mark(std::span<const DeformedIndex> vertices);
   void mark_regrouped();
+  void forget_rotation();
 
   Material material_;
   Physics physics_;
@@ -150,6 +153,8 @@ class Model {
   std::vector<std::uint8_t> held_;
   std::vector<std::int32_t> pin_of_;  // per unknown: the first pin that holds it, -1 where there is none
   std::vector<Point2> places_;        // per vertex, in rest space
+  Field rotated_to_;                  // by rotate_once(); empty: by another, or not since the last change
+  std::optional<Energy> elastic_;     // at the rotated positions; only what is elastic
   PatternHistory history_;            // of the system
   // Working storage of update().
   std::vector<std::uint32_t> marked_in_;

@@ -38,6 +38,7 @@ void Model<D>::update(const Sheet& sheet) {
 
 template <int D>
 void Model<D>::update_bending(const Sheet& sheet) {
+  forget_rotation();
   if (!bending_) return regrouped_.triangles.clear();
   bending_->update(sheet, &elements_, regrouped_.triangles);
   regrouped_.triangles.clear();
@@ -54,6 +55,7 @@ void Model<D>::update_bending(const Sheet& sheet) {
 
 template <int D>
 void Model<D>::begin_marking() {
+  forget_rotation();
   ++round_;
   marked_.clear();
 }

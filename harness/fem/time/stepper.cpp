@@ -157,14 +157,22 @@ void Stepper<D>::implicit_step(Model<D>& model, State& state, double h, StepRepo
     if (!first) x_ += h * v_;
     {
       PhaseClock clock(report.time_us.rotate);
-      model.rotate(x_, workers_);
-      if (options_.robust) before = model.energy(x_, state.v);
+      if (options_.robust) {
+        model.rotate_once(x_, workers_);
+        before = model.energy(x_, state.v);
+      } else {
+        model.rotate(x_, workers_);
+      }
     }
     {
       PhaseClock clock(report.time_us.assemble);
       model.assemble(mass_factor, stiffness_factor, workers_);
     }
     right_hand_side(model, state, h, first, report);
+    if (options_.robust) {
+      first_rhs_ = rhs_;
+      first_v_ = v_;
+    }
     solve(model, first ? state.dv : Field(), report);
     if (first) state.dv = dv_;
     v_ += dv_;
@@ -200,12 +208,7 @@ void Stepper<D>::right_hand_side(Model<D>& model, const State& state, double h, 
   if (first) return model.add_impulse(h, x_, 1, v_, rhs_, workers_);
   // beta K v from A v: K v = (A v - (1 + h alpha) M v) / (h beta + h^2)
   const double damped = beta / (beta + h);
-  model.add_impulse(h, x_, keeps_damping_ ? 0 : damped, v_, rhs_, workers_);
-  if (keeps_damping_) {
-    product_.setZero(v_.size());
-    damping_matrix(model).add_product(v_, product_, workers_);
-    rhs_ -= damped * product_;
-  }
+  model.add_impulse(h, x_, damped, v_, rhs_, workers_);
   model.add_mass_product((damped - 1) * (1 + h * alpha), v_, rhs_);
 }
 

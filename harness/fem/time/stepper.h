@@ -61,7 +61,8 @@ class Stepper {
   void implicit_step(Model<D>& model, State& state, double h, StepReport& report);
   void finish_robustly(Model<D>& model, const State& state, double h, const Energy& before, StepReport& report);
   double merit(Model<D>& model, const State& state, double h, const Field& v, const Field& x, Energy& energy);
-  double gain(Model<D>& model, const State& state, double h, StepReport& report);
+  void residual(Model<D>& model, const State& state, double h);
+  double gain(Model<D>& model);
   bool may_gain(double gain, const Energy& energy);
   void place_at_end(const Model<D>& model, const State& state, double h, const Field& v, Field& x) const;
   void right_hand_side(Model<D>& model, const State& state, double h, bool first, StepReport& report);
@@ -85,7 +86,7 @@ class Stepper {
   double gained_ = 0, largest_energy_ = 0;  // J: of robust steps
   bool keeps_damping_ = false;              // damping_matrix() is not the model's
   BlockMatrix<D> damping_blocks_;
-  Field v_, x_, force_, rhs_, dv_, product_, reduced_, impulse_, trial_, inertial_;  // kept between steps
+  Field v_, x_, force_, rhs_, dv_, product_, reduced_, first_rhs_, first_v_, trial_, inertial_;  // kept between steps
 };
 
 }  // namespace cutbench

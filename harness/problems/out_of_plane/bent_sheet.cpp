@@ -58,7 +58,7 @@ Point3 BentSheet::position(DeformedIndex d) const {
   return {state_.x[3 * d.value], state_.x[3 * d.value + 1], state_.x[3 * d.value + 2]};
 }
 
-Energy BentSheet::energy() const { return model_.energy(state_.x, state_.v); }
+Energy BentSheet::energy() { return model_.energy(state_.x, state_.v); }
 
 double BentSheet::bending_energy(const std::function<Point3(DeformedIndex)>& position) {
   Field x = state_.x;

@@ -37,7 +37,7 @@ class BentSheet {
 
   // --- after solve_to_equilibrium() ----------------------------------------------------------------------------------
   Point3 position(DeformedIndex d) const;  ///< m
-  Energy energy() const;
+  Energy energy();
   /// J: of these positions instead.
   double bending_energy(const std::function<Point3(DeformedIndex)>& position);
   /// N: what holds the vertex on its held axes, with the sheet's weight there.
