@@ -224,9 +224,6 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, std::span<const Curve> curve
   }
   for (const Curve& curve : curves) {
     const std::size_t vertices_before = moving.sheet.deformed_slots();
-    StopWatch before;
-    const double bending = bending_of(moving);
-    result.transfer_us += before.lap();
     const Motion motion{
         .x = span_of(moving.state.x), .v = span_of(moving.state.v), .dimension = D, .poisson = scene_.material.poisson};
     const CutRun run = cut_in_motion(moving.sheet, moving.locator, cutter, curve, method, options, motion);
@@ -243,14 +240,17 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, std::span<const Curve> curve
     if (run.verdict != Verdict::ok) return result;
     StopWatch watch;
     const State phantoms = take_phantoms(moving.model.first_phantom(), D, moving.state);
+    const bool settles = D == 3 && scene_.robust && !source && moving.sheet.seams().empty();
+    const Field places_before = settles ? moving.state.x : Field();
     transfer(moving.sheet.log(), moving.sheet.deformed_slots(), D, moving.state);
     result.transfer_us += watch.lap();
     moving.model.update(moving.sheet);
     result.pattern_us += watch.lap();
-    moving.model.update_bending(moving.sheet);
+    const PlacesAtCut places{places_before, moving.state.x};
+    const double bent = moving.model.update_bending(moving.sheet, settles ? &places : nullptr);
     result.bending_us += watch.lap();
     if (!source && moving.sheet.seams().empty()) {
-      if (bending_of(moving) > bending) settle_new_vertices(moving.model, moving.sheet, moving.state.x);
+      if (bent > 0) settle_new_vertices(moving.model, moving.sheet, moving.state.x);
       result.transfer_us += watch.lap();
       continue;
     }
@@ -271,13 +271,6 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, std::span<const Curve> curve
     result.reason = *refusal;
   }
   return result;
-}
-
-/// The energy, J, where steps are robust; else nobody asks.
-template <int D>
-double SceneCuts<D>::bending_of(const MovingSheet<D>& moving) const {
-  if (!scene_.robust || !moving.model.bending()) return 0;
-  return moving.model.bending()->energy(moving.state.x, D);
 }
 
 /// A method can't be used in this scene for what it constrains; empty: it can.

@@ -59,7 +59,6 @@ class SceneCuts {
   void advance_blade(DueCut& due, CuttingMethod& method, const CutOptions& options, EnergyBudget* budget);
   MotionCut cut_with_balances(std::span<const Curve> curves, CuttingMethod& method, const CutOptions& options,
                               EnergyBudget* budget);
-  double bending_of(const MovingSheet<D>& moving) const;
   std::string why_not(const ConstraintSource* source) const;
 
   const Scene& scene_;

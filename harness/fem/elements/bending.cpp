@@ -7,6 +7,17 @@
 
 namespace cutbench {
 
+double stencil_energy(std::span<const StencilTerm> terms, const Field& x, int dimension) {
+  double sum = 0;
+  for (int axis = 0; axis < dimension; ++axis) {
+    std::array<double, 3> row{};
+    for (const auto& [vertex, factor] : terms)
+      for (std::size_t k = 0; k < 3; ++k) row[k] += factor[k] * x[dimension * vertex + axis];
+    sum += row[0] * row[0] + row[1] * row[1] + row[2] * row[2];
+  }
+  return sum / 2;
+}
+
 Bending::Bending(const Sheet& sheet, BendingKind kind, double rigidity, double poisson, const ElementTable* elements)
     : kind_of_(kind), kind_(&row_of(kind)), rigidity_(rigidity), poisson_(poisson) {
   resize(sheet.triangle_slots(), sheet.deformed_slots());
@@ -25,25 +36,20 @@ void Bending::reserve_spare() {
   cutbench::reserve_spare(reach_, work_.stale_in, work_.refitted_in, work_.listed_in, work_.place);
 }
 
-void Bending::update(const Sheet& sheet, const ElementTable* elements, std::span<const TriangleIndex> regrouped) {
+double Bending::update(const Sheet& sheet, const ElementTable* elements, std::span<const TriangleIndex> regrouped,
+                       const PlacesAtCut* places) {
   resize(sheet.triangle_slots(), std::max(sheet.deformed_slots(), matrix_.rows()));
   work_.elements = elements;
   ++work_.call;
   if (!kind_->has_slopes) seams_.update(sheet);
   find_stale(sheet, regrouped);
-  rebuild(sheet);
+  return rebuild(sheet, places);
 }
 
 double Bending::energy(const Field& x, int dimension) const {
   double sum = 0;
-  for (std::size_t t = 0; t < stencils_.size(); ++t)
-    for (int axis = 0; axis < dimension; ++axis) {
-      std::array<double, 3> row{};
-      for (const auto& [vertex, factor] : stencils_[t])
-        for (std::size_t k = 0; k < 3; ++k) row[k] += factor[k] * x[dimension * vertex + axis];
-      sum += row[0] * row[0] + row[1] * row[1] + row[2] * row[2];
-    }
-  return sum / 2;
+  for (std::size_t t = 0; t < stencils_.size(); ++t) sum += stencil_energy(stencils_[t], x, dimension);
+  return sum;
 }
 
 void Bending::resize(std::size_t triangles, std::size_t vertices) {
@@ -126,21 +132,25 @@ bool Bending::stencil_is_stale(const Sheet& sheet, TriangleIndex t) const {
   return false;
 }
 
-void Bending::rebuild(const Sheet& sheet) {
+double Bending::rebuild(const Sheet& sheet, const PlacesAtCut* places) {
   for (const auto& [t, distance] : work_.stale)
     if (t == members(t).front() && distance <= reach_[t()]) fit_patch(sheet, t);
   BendingStencil stencil{sheet,   rigidity_,   poisson_,    work_.elements,
                          slopes_, work_.place, work_.terms, seams_.across()};
+  double change = 0;
   work_.rebuilt.clear();
   for (const auto& [t, distance] : work_.stale) {
     if (!stencil_is_stale(sheet, t)) continue;
     work_.rebuilt.push_back(t);
     work_.terms.clear();
     if (sheet.triangle(t).alive() && t == members(t).front()) kind_->add_rows(stencil, t);
+    if (places)
+      change += stencil_energy(work_.terms, places->after, 3) - stencil_energy(stencils_[t()], places->before, 3);
     replace_stencil(t());
     is_replaced_[t()] = 0;
   }
   for (const std::int32_t vertex : work_.rows) write_row(to_size(vertex));
+  return change;
 }
 
 void Bending::fit_patch(const Sheet& sheet, TriangleIndex t) {

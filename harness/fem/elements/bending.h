@@ -29,6 +29,15 @@ struct ReplacedStencils {
   GrowingRows<StencilTerm> rows;     ///< per slot
 };
 
+/// J: of three rows, at these positions, `dimension` per vertex.
+double stencil_energy(std::span<const StencilTerm> terms, const Field& x, int dimension);
+
+/// Positions of the vertices before a cut, and those after it, 3 per vertex.
+struct PlacesAtCut {
+  const Field& before;
+  const Field& after;
+};
+
 class Bending {
  public:
   /// A stencil that holds a vertex, and its place there; one is like another if the triangle is.
@@ -45,8 +54,9 @@ class Bending {
   /// After a cut: rebuilds the stencils near the slots in the sheet's log and the rows of the vertices in them. Equal
   /// to a new one but for the order of the columns within a row.
   /// \param regrouped  the triangles that joined or left an element of several since the last call
-  void update(const Sheet& sheet, const ElementTable* elements = nullptr,
-              std::span<const TriangleIndex> regrouped = {});
+  /// \return by how much the energy changed between these places, J; without them zero
+  double update(const Sheet& sheet, const ElementTable* elements = nullptr,
+                std::span<const TriangleIndex> regrouped = {}, const PlacesAtCut* places = nullptr);
 
   /// From now on these slots have these stencils, until an update() makes them again, or clear_replaced(). Only rows of
   /// vertices whose stencils change are written.
@@ -86,7 +96,7 @@ class Bending {
   void mark_stale(TriangleIndex t, int distance);
   void find_stale(const Sheet& sheet, std::span<const TriangleIndex> regrouped);
   std::span<const TriangleIndex> members(const TriangleIndex& t) const;
-  void rebuild(const Sheet& sheet);
+  double rebuild(const Sheet& sheet, const PlacesAtCut* places = nullptr);
   void fit_patch(const Sheet& sheet, TriangleIndex t);
   bool stencil_is_stale(const Sheet& sheet, TriangleIndex t) const;
   void replace_stencil(std::size_t t);

@@ -33,7 +33,8 @@ class Model {
   /// Call both after each single cut, before the next begin_cut() clears the log, and transfer() for the state: they
   /// replace indices and add elements (Xin et al. 2018, 4.2) where the sheet's log says so.
   void update(const Sheet& sheet);
-  void update_bending(const Sheet& sheet);  ///< nothing without bending
+  /// Nothing without bending. \return Bending::update()'s
+  double update_bending(const Sheet& sheet, const PlacesAtCut* places = nullptr);
   /// Constrains vertices and makes elements of several triangles; call it after update() and update_bending().
   /// Constraints of before are removed. Such elements of before stay, unless the cut touched their triangles or they
   /// share one with a new one. Forces, energies and the matrix remain those of all vertices; a solver solves for the

@@ -37,20 +37,24 @@ void Model<D>::update(const Sheet& sheet) {
 }
 
 template <int D>
-void Model<D>::update_bending(const Sheet& sheet) {
+double Model<D>::update_bending(const Sheet& sheet, const PlacesAtCut* places) {
   forget_rotation();
-  if (!bending_) return regrouped_.triangles.clear();
-  bending_->update(sheet, &elements_, regrouped_.triangles);
+  if (!bending_) {
+    regrouped_.triangles.clear();
+    return 0;
+  }
+  const double change = bending_->update(sheet, &elements_, regrouped_.triangles, places);
   regrouped_.triangles.clear();
   history_.begin_change();
   for (const std::int32_t v : bending_->written_rows()) history_.mark(to_size(v));
   if (curved_) refresh_curved_bending(sheet);
-  if (!added_mass_) return;
+  if (!added_mass_) return change;
   for (const std::int32_t v : bending_->written_rows()) {
     const DeformedIndex d(to_size(v));
     mark({&d, 1});
   }
   refresh_added_mass();
+  return change;
 }
 
 template <int D>
@@ -177,7 +181,7 @@ void Model<D>::set_pins_and_force(const Sheet& sheet, std::vector<Pin> pins, std
 
 // What the other files call; model.cpp instantiates the rest of the class.
 template void Model<2>::update(const Sheet&);
-template void Model<2>::update_bending(const Sheet&);
+template double Model<2>::update_bending(const Sheet&, const PlacesAtCut*);
 template void Model<2>::begin_marking();
 template void Model<2>::mark(std::span<const DeformedIndex>);
 template void Model<2>::mark_regrouped();
@@ -186,7 +190,7 @@ template void Model<2>::refresh_added_mass();
 template void Model<2>::refresh_curved_bending(const Sheet&);
 template void Model<2>::set_pins_and_force(const Sheet&, std::vector<Pin>, std::vector<double>);
 template void Model<3>::update(const Sheet&);
-template void Model<3>::update_bending(const Sheet&);
+template double Model<3>::update_bending(const Sheet&, const PlacesAtCut*);
 template void Model<3>::begin_marking();
 template void Model<3>::mark(std::span<const DeformedIndex>);
 template void Model<3>::mark_regrouped();

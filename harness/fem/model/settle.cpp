@@ -47,13 +47,7 @@ class NearVertices {
       const Element& element = model_.elements()[e];
       sum += element.material_area() * deformation_of<3>(element, x, law_.strain, law_.lame).energy;
     }
-    for (const std::size_t t : stencils_)
-      for (int axis = 0; axis < 3; ++axis) {
-        std::array<double, 3> row{};
-        for (const auto& [vertex, factor] : model_.bending()->stencil(t))
-          for (std::size_t k = 0; k < 3; ++k) row[k] += factor[k] * x[3 * vertex + axis];
-        sum += (row[0] * row[0] + row[1] * row[1] + row[2] * row[2]) / 2;
-      }
+    for (const std::size_t t : stencils_) sum += stencil_energy(model_.bending()->stencil(t), x, 3);
     return sum;
   }
 
