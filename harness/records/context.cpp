@@ -16,6 +16,7 @@
 
 #include "harness/base/conversions.h"
 #include "harness/mesh/mesh_data.h"
+#include "harness/records/built_commit.h"
 
 #if CUTBENCH_GMP
 #include <gmp.h>
@@ -87,9 +88,10 @@ std::string Context::identity(bool with_times) const {
 Context gather_context(const std::string& cholmod) {
   const std::string source = CUTBENCH_SOURCE_DIR, git = "git -C '" + source + "' ";
   Context context;
-  if (first_line_of(git + "rev-parse --show-toplevel") == source) {
-    context.commit = first_line_of(git + "rev-parse HEAD");
-    context.dirty = first_line_of(git + "status --porcelain").has_value();
+  if (const std::string commit = CUTBENCH_COMMIT; !commit.empty()) {
+    context.commit = commit;
+    const bool is_git = first_line_of(git + "rev-parse --show-toplevel") == source;
+    context.dirty = CUTBENCH_DIRTY || (is_git && first_line_of(git + "status --porcelain").has_value());
   } else {
     std::string line;
     std::ifstream file(source + "/harness/records/commit.txt");

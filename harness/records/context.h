@@ -9,9 +9,8 @@
 namespace cutbench {
 
 struct Context {
-  std::optional<std::string>
-      commit;                 ///< of the source tree, from git or, in an archive, from harness/records/commit.txt
-  std::optional<bool> dirty;  ///< uncommitted changes; unknown in an archive
+  std::optional<std::string> commit;  ///< that was built; of an archive, from harness/records/commit.txt
+  std::optional<bool> dirty;          ///< changes that are in no commit, when built or now; unknown in an archive
   std::string compiler, flags, build_type, cpu;
   std::map<std::string, std::string> versions;  ///< of libraries
   std::string date;                             ///< UTC
