@@ -42,9 +42,10 @@ WhichMethod which_method_table() {
   WhichMethod table;
   for (const TomlReader& question : reader.sections("questions", "question", {"key", "asks"}))
     table.questions.push_back({question.value<std::string>("key"), question.value<std::string>("asks")});
-  for (const TomlReader& row : reader.sections("rows", "row",
-                                               {"if", "yes", "no", "any", "method", "setting", "number", "value",
-                                                "says", "because", "but", "runner_up", "runner_up_because"}))
+  for (const TomlReader& row :
+       reader.sections("rows", "row",
+                       {"if", "yes", "no", "any", "method", "setting", "number", "value", "says", "because", "but",
+                        "runner_up", "runner_up_because", "rests_on"}))
     table.rows.push_back(choice_of(row));
   return table;
 }

@@ -104,6 +104,8 @@ def main():
         if new != old and not options.check:
             page.write_text(new, encoding="utf-8")
             print(page)
+    for row in decision.rows():
+        filler.judge(row["rests_on"], row["if"], decision.FILE.name)
     choices = decision.FILE.read_text(encoding="utf-8")
     filler.made(decision.FILE, decision.with_values(filler.published, choices), options.check)
     filler.made(PICTURE, bars.of_outcomes(filler.published), options.check)
