@@ -38,6 +38,7 @@ TEST(Scenes, OfTheRepositoryAreRead) {
       EXPECT_GT(pins_of(scene, sheet).size(), scene.pins.size());
     else
       EXPECT_EQ(pins_of(scene, sheet).size(), scene.pins.size());
+    EXPECT_TRUE(idle_pins(scene, sheet).empty());
     for (const auto& cut : scene.cuts) EXPECT_NE(curves_of(cut, sheet).empty(), cut.picked.picks.empty());
   }
 }
@@ -261,6 +262,13 @@ std::size_t distinct(const std::vector<Point2>& places) {
   std::set<std::pair<double, double>> known;
   for (Point2 p : places) known.emplace(p.x, p.y);
   return known.size();
+}
+
+TEST_F(SceneFile, PinsThatHoldNothingAreFound) {
+  const Scene s = read(
+      "[sheet]\nresolution = 200\n[[pins]]\nbox = [[0, 1], [1, 1]]\n[[pins]]\nbox = [[0.01, 0.01], [0.09, 0.09]]\n"
+      "[[pins]]\nnear = [7, 7]\n[[pins]]\nbox = [[0, 0, 0.1], [1, 1, 0.2]]\nspace = \"world\"\n");
+  EXPECT_EQ(idle_pins(s, Sheet(mesh_of(s))), (std::vector<std::size_t>{1, 3}));
 }
 
 TEST_F(SceneFile, PinsHoldTheNearestVertexAndAllItsCopies) {

@@ -9,7 +9,12 @@ namespace cutbench {
 
 Option Option::required() const { return Option(option_->required()); }
 Option Option::shows_default() const { return Option(option_->capture_default_str()); }
-Option Option::positive() const { return Option(option_->check(CLI::PositiveNumber)); }
+Option Option::positive() const {
+  return Option(option_->check([](const std::string& text) {
+    double value = 0;
+    return CLI::detail::lexical_cast(text, value) && value > 0 ? "" : text + " is not a number above 0";
+  }));
+}
 Option Option::comma_separated() const { return Option(option_->delimiter(',')); }
 Option Option::existing_folder() const { return Option(option_->check(CLI::ExistingDirectory)); }
 Option Option::one_of(std::initializer_list<const char*> values) const {

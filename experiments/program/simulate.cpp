@@ -76,6 +76,8 @@ void print_sheet(const Scene& scene, Simulation& motion) {
   std::printf("\n");
   std::fflush(stdout);
   warn_of_units(scene, size);
+  for (const std::size_t pin : idle_pins(scene, motion.sheet()))
+    std::fprintf(stderr, "note: [[pins]] %zu, from 0, hold no vertex of the sheet; is that meant?\n", pin);
 }
 
 void print_head(const Scene& scene) {

@@ -143,6 +143,7 @@ void bind_sheets(py::module_& m) {
                              [](const py::object& self) {
                                return view_of<std::int32_t>(self.cast<const HeldSheet&>().mesh.triangles, self);
                              })
+      .def_property_readonly("given", [](const HeldSheet& s) { return array_of<std::int32_t>(s.mesh.file_vertices); })
       .def_property_readonly("sewn", [](const HeldSheet& s) { return array_of<std::int32_t>(s.mesh.sewn); })
       .def_property_readonly(
           "texture",
@@ -179,15 +180,24 @@ void bind_sheets(py::module_& m) {
         check_curve(curve, "path");
         return curve;
       }))
-      .def_property_readonly("points", [](const Curve& c) { return array_of<double>(c.points); })
-      .def_property_readonly("bezier", [](const Curve& c) { return c.kind == Curve::Kind::bezier; })
+      .def_property_readonly(
+          "points", [](const Curve& c) { return array_of<double>(c.points); },
+          "k x 2 floats, at rest: of a polyline, or control points.")
+      .def_property_readonly(
+          "bezier", [](const Curve& c) { return c.kind == Curve::Kind::bezier; },
+          "It is a chain of cubic Bezier curves; else a polyline.")
       .def_readonly("closed", &Curve::closed)
-      .def("flattened", [](const Curve& c, double tolerance) {
-        Polyline line;
-        flatten(c, tolerance, 0, line);
-        if (line.closed && !line.points.empty()) line.points.push_back(line.points.front());
-        return array_of<double>(std::move(line.points));
-      });
+      .def(
+          "flattened",
+          [](const Curve& c, double tolerance) {
+            Polyline line;
+            flatten(c, tolerance, 0, line);
+            if (line.closed && !line.points.empty()) line.points.push_back(line.points.front());
+            return array_of<double>(std::move(line.points));
+          },
+          py::arg("tolerance"),
+          "k x 2 floats: the curve as a polyline that is nowhere farther from it than `tolerance`, in the unit of the "
+          "sheet's rest positions; such as 0.05 * sheet.mean_edge. A closed one ends with its first point.");
   py::class_<PickedCurve>(m, "PickedCurve")
       .def(py::init(
           [](bool bezier, const Array<double>& origins, const std::optional<Array<double>>& directions, bool closed) {

@@ -168,6 +168,8 @@ void bind_scenes(py::module_& m) {
       .def_readonly("step", &Scene::step)
       .def_readonly("duration", &Scene::duration)
       .def_property_readonly("dimension", [](const Scene& s) { return s.physics.dimension; })
+      .def("idle_pins",
+           [](const Scene& s, const HeldSimulation& motion) { return idle_pins(s, motion.idle().sheet()); })
       .def_property_readonly("at_rest", [](const Scene& s) { return s.integrator == Integrator::equilibrium; })
       .def("sheet", [](const Scene& s) { return std::make_shared<HeldSheet>(mesh_of(s)); })
       .def("with_sheet",
@@ -214,6 +216,8 @@ void bind_simulations(py::module_& m) {
              s.idle().pull({force.data(), to_size(force.size())});
            })
       .def("hold", [](HeldSimulation& s, const std::vector<Pin>& pins) { s.idle().hold(pins); })
+      .def("holds_a_vertex",
+           [](const HeldSimulation& s, const Pin& pin) { return holds_a_vertex({pin}, s.idle().sheet()); })
       .def_property_readonly("x", &HeldSimulation::seen_x)
       .def_property_readonly("v", &HeldSimulation::seen_v)
       .def_property_readonly("rest",

@@ -172,6 +172,9 @@ std::optional<Finding> Causes::beside_path() const {
       added.push_back(segment(after_, lips[0]));
   const auto [off, place] = farthest(added, path, [](const Point&) { return true; });
   if (off <= allowed()) return {};
+  if (!std::isfinite(off))
+    return Finding{"shifted", "the result has an incision at " + at(place) + ", but the path misses the sheet",
+                   "check that the path is read in rest positions, in the unit of the sheet", place};
   return Finding{"shifted",
                  "the incision at " + at(place) + " lies " + number(off / h_, "%.3g") +
                      " h beside the path (allowed: " + number(allowed() / h_, "%.3g") + " h)",

@@ -207,9 +207,10 @@ bool Causes::runs_against_neighbours(int t) const {
 }
 
 Finding Causes::other() const {
+  const bool is_unused = judgement_.verdict == Verdict::unused_vertex;
   return {"other",
           judgement_.problems.empty() ? name_of(judgement_.verdict) : judgement_.problems.front(),
-          "see the verdict in results/README.md",
+          is_unused ? "leave it out, and number those behind it anew" : "see the verdict in results/README.md",
           {}};
 }
 

@@ -181,7 +181,7 @@ class Judge {
     const std::vector<int> before = unused_vertices(request_.before);
     for (int v : unused_vertices(after_))
       if (!std::binary_search(before.begin(), before.end(), v))
-        problems_.add(Verdict::unused_vertex, std::to_string(v));
+        problems_.add(Verdict::unused_vertex, "no triangle has vertex " + std::to_string(v));
   }
 
   void check_borders(const Borders& borders) {

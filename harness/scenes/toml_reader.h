@@ -48,11 +48,19 @@ struct TomlReader {
   [[noreturn]] void refuse(const std::string& what) const { throw InputError(where + ": " + what); }
 
   template <class T>
+  static std::string kind() {
+    return std::is_same_v<T, bool>       ? "true or false"
+           : std::is_integral_v<T>       ? "a whole number"
+           : std::is_floating_point_v<T> ? "a number"
+                                         : "a word in quotes";
+  }
+
+  template <class T>
   T value(const char* key, std::optional<T> fallback = {}) const {
     const auto node = table[key];
     if (!node && fallback) return *fallback;
     if (const auto v = node.template value<T>()) return *v;
-    refuse(std::string("\"") + key + (node ? "\" has a value of the wrong kind" : "\" is missing"));
+    refuse(std::string("\"") + key + (node ? "\" has a value of the wrong kind; give " + kind<T>() : "\" is missing"));
   }
 
   template <class T>
@@ -60,7 +68,7 @@ struct TomlReader {
     std::vector<T> values;
     for (const auto& node : array(key)) {
       const auto v = node.value<T>();
-      if (!v) refuse(std::string("\"") + key + "\" has an entry of the wrong kind");
+      if (!v) refuse(std::string("\"") + key + "\" has an entry of the wrong kind; give " + kind<T>());
       values.push_back(*v);
     }
     return values;

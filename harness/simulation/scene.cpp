@@ -42,6 +42,14 @@ void add_pins_in_space(const ScenePin& scene_pin, const Sheet& sheet, std::vecto
   }
 }
 
+void add_pins(const ScenePin& p, const Sheet& sheet, std::vector<Pin>& pins) {
+  if (p.in_space) return add_pins_in_space(p, sheet, pins);
+  pins.push_back(p.pin);
+  if (!p.near) return;
+  const Point2 at = nearest_vertex(sheet, *p.near);
+  pins.back().where = {at, at};
+}
+
 }  // namespace
 
 MeshData mesh_of(const Scene& scene) {
@@ -54,17 +62,28 @@ MeshData mesh_of(const Scene& scene) {
 
 std::vector<Pin> pins_of(const Scene& scene, const Sheet& sheet) {
   std::vector<Pin> pins;
-  for (const ScenePin& p : scene.pins) {
-    if (p.in_space) {
-      add_pins_in_space(p, sheet, pins);
-      continue;
-    }
-    pins.push_back(p.pin);
-    if (!p.near) continue;
-    const Point2 at = nearest_vertex(sheet, *p.near);
-    pins.back().where = {at, at};
-  }
+  for (const ScenePin& p : scene.pins) add_pins(p, sheet, pins);
   return pins;
+}
+
+bool holds_a_vertex(const std::vector<Pin>& pins, const Sheet& sheet) {
+  for (std::size_t i = 0; i < sheet.vertex_slots(); ++i) {
+    const VertexIndex v(i);
+    if (!sheet.triangle_of_vertex(v).valid()) continue;
+    for (const Pin& pin : pins)
+      if (pin.where.contains(sheet.rest(v))) return true;
+  }
+  return false;
+}
+
+std::vector<std::size_t> idle_pins(const Scene& scene, const Sheet& sheet) {
+  std::vector<std::size_t> idle;
+  for (std::size_t i = 0; i < scene.pins.size(); ++i) {
+    std::vector<Pin> pins;
+    add_pins(scene.pins[i], sheet, pins);
+    if (!holds_a_vertex(pins, sheet)) idle.push_back(i);
+  }
+  return idle;
 }
 
 void check_scene_suits_seams(const Scene& scene, const Sheet& sheet) {

@@ -71,6 +71,11 @@ MeshData mesh_of(const Scene& scene);
 /// \pre `sheet` is not cut yet: a cut's own vertices may be nearer.
 std::vector<Pin> pins_of(const Scene& scene, const Sheet& sheet);
 
+bool holds_a_vertex(const std::vector<Pin>& pins, const Sheet& sheet);
+
+/// The scene's pins, from 0, none of which holds a vertex: hardly meant.
+std::vector<std::size_t> idle_pins(const Scene& scene, const Sheet& sheet);
+
 /// \throw InputError  the sheet has seams, and what the scene asks for knows none: an integrator without constraints,
 /// an active radius, or bending where the rest shape is curved
 void check_scene_suits_seams(const Scene& scene, const Sheet& sheet);

@@ -161,6 +161,57 @@ class BadArguments(unittest.TestCase):
         self.refuse(lambda: cutbench.score(sheet, P, (V[:, :1], T)), "after: its vertices")
         self.refuse(lambda: cutbench.score(sheet, P, (V, T, V)), "after: its rest positions")
         self.refuse(lambda: cutbench.score(3, P, sheet), "sheet: is a int")
+        self.refuse(lambda: cutbench.score(sheet, P, (V, T + 0.5)), "after: its triangles are of the type float64")
+        self.assertIn("misses the sheet", cutbench.score(sheet, P + 5, sheet.cut(P)).findings[0].text)
+        cut = sheet.cut(P, "conventional_split")
+        unused = cutbench.score(sheet, P, (np.vstack([cut.vertices, [[9, 9, 9]]]), cut.triangles, np.vstack([cut.rest, [[9, 9]]])))
+        self.assertIn(f"no triangle has vertex {len(cut.vertices)}", unused.findings[0].text)
+        self.assertIn("leave it out", unused.findings[0].mend)
+
+    def test_sheets_and_triangles_together(self):
+        sheet = cutbench.Sheet(V, T)
+        self.refuse(lambda: cutbench.cut(V, None, P), "give a Sheet, a Cut, or vertices together with triangles")
+        self.refuse(lambda: cutbench.cut(sheet, T, P), "triangles: the sheet has its own")
+        self.refuse(lambda: sheet.cut(P, "warp_and"), "cutbench.methods()")
+        fin = np.vstack([V[:, :2], [[0.2, 0.9]]]), np.vstack([T, [[0, 2, 4]]])
+        self.refuse(lambda: cutbench.cut(*fin, P), "triangle")
+
+    def test_numbers_of_steps_frames_and_cases(self):
+        sheet = cutbench.Sheet.family("grid", 200)
+        simulation = cutbench.Simulation(cutbench.Scene(sheet=sheet))
+        self.refuse(lambda: simulation.step(1.5), "n: 1.5 is not a whole number")
+        self.refuse(lambda: simulation.step(-1), "n: -1 is not 0 or more")
+        self.refuse(lambda: simulation.animate(frames=0), "frames: 0 is not 1 or more")
+        self.refuse(lambda: simulation.hold([(1, 2)]), "give a list of cutbench.Pin")
+        self.refuse(lambda: sheet.random_cut(case=-1), "case: -1 is not 0 or more")
+        self.refuse(lambda: cutbench.Scene(sheet=sheet, duration="long"), "give a number")
+        with self.assertRaisesRegex(cutbench.InputError, "0 is not a number above 0"):
+            cutbench.run("x.toml", cases=0)
+
+    def test_carried_values(self):
+        parents = cutbench.cut(V, T, P).parents
+        self.refuse(lambda: parents.carry(np.ones(5)), "values: 5 rows; give one for each of the 4 vertices before")
+        self.refuse(lambda: parents.carry(["a"] * 4), "values: has the type")
+
+    def test_one_exception_without_another_before_it(self):
+        for vertices, triangles in ((changed(V, (2, 1), NAN), T), (V, T + 1)):
+            with self.assertRaises(cutbench.InputError) as caught:
+                cutbench.Sheet(vertices, triangles)
+            self.assertTrue(caught.exception.__suppress_context__)
+
+    def test_notes_are_of_the_callers_line(self):
+        with self.assertWarns(UserWarning) as caught:
+            cutbench.cut(V, T[:, ::-1], P)
+        self.assertEqual(caught.filename, __file__)
+        simulation = cutbench.Simulation(cutbench.Scene(sheet=cutbench.Sheet(V, T)))
+        with self.assertWarnsRegex(UserWarning, "nothing was cut") as caught:
+            simulation.cut(P + 5)
+        self.assertEqual(caught.filename, __file__)
+        with self.assertWarnsRegex(UserWarning, "a pin holds no vertex"):
+            simulation.hold(cutbench.Pin([[7, 7], [8, 8]]))
+        with self.assertWarnsRegex(UserWarning, "pins 1, from 0, hold no vertex"):
+            cutbench.Simulation(cutbench.Scene(sheet=cutbench.Sheet(V, T), pins=[
+                {"box": [[-1, 1], [2, 1]]}, {"box": [[5, 5], [6, 6]]}]))
 
 
 class GoodArguments(unittest.TestCase):
@@ -172,6 +223,7 @@ class GoodArguments(unittest.TestCase):
         locked.flags.writeable = False
         for what, arguments in {
             "lists": (V.tolist(), T.tolist(), P.tolist()),
+            "a list of a list": (V, T, [P.tolist()]),
             "tuples": (tuple(map(tuple, V)), tuple(map(tuple, T)), tuple(map(tuple, P))),
             "two numbers": (V[:, :2], T, P),
             "read-only": (locked, T, P),

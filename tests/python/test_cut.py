@@ -253,5 +253,27 @@ class Threads(unittest.TestCase):
             thread.join()
 
 
+class CarriedValues(unittest.TestCase):
+    def test_arrays_of_which_a_part_is_used(self):
+        """The row of a vertex that no triangle has counts, for whoever gives values has it."""
+        vertices = np.array([[9.0, 9], [0, 0], [1, 0], [1, 1], [7, 7], [0, 1]])
+        with self.assertWarns(UserWarning):
+            cut = cutbench.cut(vertices, [[1, 2, 3], [1, 3, 5]], [[-0.1, 0.4], [1.1, 0.6]], "conventional_split")
+        np.testing.assert_array_equal(cut.before.given, [1, 2, 3, 5])
+        for axis in (0, 1):
+            np.testing.assert_allclose(cut.parents.carry(vertices[:, axis]), cut.rest[:, axis], atol=1e-15)
+            np.testing.assert_allclose(cut.parents.carry(cut.before.rest[:, axis]), cut.rest[:, axis], atol=1e-15)
+
+    def test_sheets_with_seams(self):
+        """A vertex with two positions at rest has one row in the arrays, and two in the sheet."""
+        vertices = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+        triangles = np.array([[0, 1, 2], [0, 2, 3]])
+        rest = vertices[triangles][:, :, :2].copy()
+        rest[1] += [0, 3]
+        cut = cutbench.cut(vertices, triangles, [[0.5, -0.1], [0.6, 0.9]], "conventional_split", rest=rest)
+        self.assertEqual(len(cut.before.vertices), 6)
+        np.testing.assert_allclose(cut.parents.carry(vertices), cut.vertices, atol=1e-15)
+
+
 if __name__ == "__main__":
     unittest.main()

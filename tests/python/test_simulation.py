@@ -148,9 +148,9 @@ class Steps(unittest.TestCase):
             return simulation.x
 
         simulation = cutbench.Simulation(hanging(), curious)
-        cut = simulation.cut([[0.2, 0.55], [0.83, 0.5]])
-        self.assertEqual(cut["verdict"], "crashed")
-        self.assertIn("being stepped", cut["reason"])
+        with self.assertRaisesRegex(cutbench.CutError, "being stepped") as caught:
+            simulation.cut([[0.2, 0.55], [0.83, 0.5]])
+        self.assertEqual(caught.exception.verdict, "crashed")
 
     def test_failure(self):
         scene = hanging(integrator={"name": "symplectic_euler", "step": 0.05})
@@ -270,6 +270,21 @@ class Pins(unittest.TestCase):
         upper = simulation.rest[:, 1] == 1
         self.assertAlmostEqual(simulation.x[upper, 0].mean() - 0.5, 0.5 * np.sin(20 * 0.2) / 20, delta=2e-3)
         self.assertEqual(simulation.verdict, "ok", simulation.reason)
+
+    def test_a_failed_cut_is_an_error(self):
+        """An exception of the method, and an incision that is wrong; the sheet goes on uncut."""
+        def breaks_down(sheet, path):
+            raise ValueError("boom")
+
+        def does_nothing(sheet, path):
+            return sheet
+
+        for method, words in ((breaks_down, "crashed: ValueError: boom"), (does_nothing, "")):
+            simulation = cutbench.Simulation(cutbench.Scene(sheet=cutbench.Sheet.family("grid", 200)), method=method)
+            with self.assertRaisesRegex(cutbench.CutError, words) as caught:
+                simulation.cut([[-0.1, 0.5], [1.1, 0.6]])
+            self.assertEqual(caught.exception.status, "failed")
+            self.assertEqual((len(simulation.step(3).triangles), simulation.verdict), (200, "ok"))
 
     def test_a_refused_cut_is_said(self):
         scene = hanging(physics={"gravity": [0, -9.81, 0.5], "bending": "hinges"})

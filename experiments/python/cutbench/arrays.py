@@ -1,6 +1,8 @@
 """Arrays as the library takes them: 64-bit numbers, 32-bit indices, one row after the other. Others are converted, or
 refused in one line that says what was given and what to give."""
 
+import operator
+
 import numpy as np
 
 from .errors import InputError
@@ -61,6 +63,9 @@ def of_indices(values, name):
     array = _rows(_array(values, name, "iu", "whole numbers"), name, (3,))
     if len(array) == 0:
         raise InputError(f"{name}: is empty; give at least one row")
+    if array.dtype == np.uint64 and array.max() > np.iinfo(np.int64).max:
+        row, corner = (int(i) for i in np.argwhere(array > np.iinfo(np.int64).max)[0])
+        raise InputError(f"{name}: row {row} has the corner {array[row, corner]}, which no sheet has")
     return np.ascontiguousarray(array, dtype=np.int32 if array.dtype == np.int32 else np.int64)
 
 
@@ -68,6 +73,17 @@ def check_indices(array, name, count):
     if array.min() < 0 or array.max() >= count:
         row, corner = (int(i) for i in np.argwhere((array < 0) | (array >= count))[0])
         raise InputError(f"{name}: row {row} has the corner {array[row, corner]}, but there are {count} vertices, from 0")
+
+
+def whole(value, name, least=0):
+    """A whole number, `least` or more."""
+    try:
+        number_given = operator.index(value)
+    except TypeError:
+        raise InputError(f"{name}: {value!r} is not a whole number") from None
+    if number_given < least:
+        raise InputError(f"{name}: {value} is not {least} or more")
+    return number_given
 
 
 def number(value, name):

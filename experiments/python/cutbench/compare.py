@@ -27,6 +27,9 @@ def compare(methods=None, sheet=None, path=None, chord_tolerance=0.05):
     from .sheet import Sheet
     if methods is None:
         methods = [row["method"] for row in _core.method_table()]
+    is_pair = isinstance(methods, tuple) and len(methods) == 2 and isinstance(methods[1], dict)
+    if is_pair or isinstance(methods, str) or callable(methods):
+        methods = [methods]
     sheet = Sheet.family() if sheet is None else sheet_of(sheet)
     path = sheet.random_cut() if path is None else curves_of(path)
     return table([_row(sheet, path, method, chord_tolerance) for method in methods], index="method")

@@ -5,6 +5,7 @@ import re
 
 def as_keywords(text):
     """The program's words, with keywords of functions in place of its options."""
+    text = text.replace("`cutbench methods` lists them", "cutbench.methods() lists them")
     text = re.sub(r"--rest (auto|vt|plane|space)\b", r'rest="\1"', text)
     text = re.sub(r"--sew ([\d.]+)", r"sew=\1", text)
     text = re.sub(r"--(allow-miss|triangulate)\b", lambda found: found[1].replace("-", "_") + "=True", text)

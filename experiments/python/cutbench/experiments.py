@@ -116,7 +116,7 @@ def run(experiment, methods=None, cases=None, resolutions=None, repetitions=None
         experiment: a TOML file, such as "experiments/method_comparison.toml".
         methods: names of the experiment's, and functions as further methods; all of the experiment's where it is None.
         cases, resolutions, repetitions, seed: instead of the experiment's.
-        out: the folder of results.
+        out: the folder of results; "results" of the folder that you are in, where it is not given.
         jobs: processes, where no times are recorded.
         quiet: no progress bar and no summary.
 

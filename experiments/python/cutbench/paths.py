@@ -61,6 +61,11 @@ def write_path(path, file):
     _core.write_path(curves_of(path), os.fspath(file))
 
 
+def _has_rows(one):
+    return np.ndim(one) != 1 if isinstance(one, np.ndarray) else (
+        isinstance(one, (list, tuple)) and len(one) > 0 and isinstance(one[0], (list, tuple, np.ndarray)))
+
+
 def curves_of(path):
     """The list of curves of whatever is taken for a path: a curve, an array of points, a path file, or a list of
     curves and arrays."""
@@ -75,6 +80,6 @@ def curves_of(path):
                          "of these")
     if len(path) == 0:
         raise InputError("path: is empty; give at least two points")
-    if any(isinstance(one, (Curve, PickedCurve, np.ndarray)) and np.ndim(one) != 1 for one in path):
+    if any(isinstance(one, (Curve, PickedCurve)) or _has_rows(one) for one in path):
         return [curve for one in path for curve in curves_of(one)]
     return [polyline(path)]

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from . import arrays
+
 PATH, INCISION, OLD = "#d62728", "#1f3b73", "#b0b0b0"
 
 
@@ -125,7 +127,8 @@ def animate(simulation, frames=48, every=4, each=None, elevation=20, azimuth=-70
     import matplotlib.pyplot as pyplot
     from matplotlib.animation import FuncAnimation
     moments = []
-    for _ in range(frames):
+    every = arrays.whole(every, "every", 1)
+    for _ in range(arrays.whole(frames, "frames", 1)):
         moments.append((simulation.time, simulation.x.copy(), simulation.triangles))
         simulation.step(every, each)
     flat = simulation.scene.dimension == 2
@@ -146,6 +149,7 @@ def animate(simulation, frames=48, every=4, each=None, elevation=20, azimuth=-70
             return
         ax.plot_trisurf(x[:, 0], x[:, 2], x[:, 1], triangles=triangles, cmap="viridis", linewidth=0)
         ax.set(xlim=(low[0], high[0]), ylim=(low[2], high[2]), zlim=(low[1], high[1]))
+        ax.set_box_aspect((high - low)[[0, 2, 1]])
         ax.view_init(elevation, azimuth)
 
     animation = FuncAnimation(figure, draw, frames=len(moments), interval=1000 * every * simulation.scene.step)

@@ -91,6 +91,8 @@ def _arrays_of(after):
     if not (isinstance(after, tuple) and len(after) in (2, 3)):
         raise InputError(f"after: is a {type(after).__name__}; give a Sheet, a Cut, or (vertices, triangles, rest)")
     vertices = np.array(after[0], dtype=np.float64, order="C")
+    if np.asarray(after[1]).dtype.kind not in "iu":
+        raise InputError(f"after: its triangles are of the type {np.asarray(after[1]).dtype}; give whole numbers")
     triangles = np.array(after[1], dtype=np.int32, order="C")
     if vertices.ndim != 2 or vertices.shape[1] not in (2, 3):
         raise InputError("after: its vertices are not n x 2 or n x 3")

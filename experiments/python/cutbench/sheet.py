@@ -2,6 +2,7 @@
 
 import json
 import os
+import sys
 import warnings
 from functools import cached_property
 
@@ -13,6 +14,14 @@ from .method import method_of
 from .paths import curves_of
 
 REST_WORDS = ("auto", "plane", "space")  # those of --rest that arrays without texture coordinates have
+
+
+def warn(text):
+    """Of the line that called this package."""
+    level, frame = 1, sys._getframe()
+    while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] == __package__:
+        level, frame = level + 1, frame.f_back
+    warnings.warn(as_keywords(text), stacklevel=level)
 
 
 def _rest(rest, vertices):
@@ -97,6 +106,8 @@ class Sheet:
 
     def __init__(self, vertices, triangles, rest="auto", texture=None):
         given = positions = arrays.of_points(vertices, "vertices", (2, 3))
+        if given.shape[1] == 2 and isinstance(rest, str) and rest == "auto":
+            rest = "plane"
         given_corners = corners = arrays.of_indices(triangles, "triangles")
         word, flat, sewn = "auto", None, None
         if isinstance(rest, str):
@@ -110,10 +121,10 @@ class Sheet:
             flat = _rest(rest, positions)
         try:
             self._core = _core.sheet(positions, corners, flat, sewn, word)
-        except InputError:
-            arrays.check_finite(positions, "vertices")  # may have better words for it
-            arrays.check_indices(corners, "triangles", len(positions))
-            raise
+        except InputError as error:
+            raise _in_better_words(error, positions, corners) from None
+        self._of_row = sewn
+        self._rows = len(given)
         if texture is not None:
             own = _texture(texture, given, given_corners, self)
             self._core.take_texture(np.ascontiguousarray(own.reshape(-1, 6)))
@@ -121,12 +132,12 @@ class Sheet:
 
     def _warn(self):
         for note in self._core.notes:
-            warnings.warn(as_keywords(note), stacklevel=3)
+            warn(note)
 
     @classmethod
     def _of(cls, core):
         sheet = cls.__new__(cls)
-        sheet._core = core
+        sheet._core, sheet._of_row, sheet._rows = core, None, None
         return sheet
 
     @classmethod
@@ -170,6 +181,13 @@ class Sheet:
         flat = self._core.texture
         return flat.reshape(-1, 3, 2) if len(flat) else None
 
+    @cached_property
+    def given(self):
+        """For each vertex the row of the arrays, or the number in the file, that it was made of: unused vertices were left out,
+        and a vertex may have been divided."""
+        own = self._core.given if len(self._core.given) else np.arange(len(self.vertices), dtype=np.int32)
+        return own if self._of_row is None else self._of_row[own]
+
     mean_edge = property(lambda self: self._core.mean_edge, doc="h: mean rest edge of the sheet before any cut.")
 
     @property
@@ -185,7 +203,7 @@ class Sheet:
 
     def random_cut(self, family="curved", seed=1, case=0):
         """Curves of a seeded cut of the benchmark. `family`: one of cutbench.cut_families."""
-        return self._core.random_cut(family, int(seed), int(case))
+        return self._core.random_cut(family, arrays.whole(seed, "seed"), arrays.whole(case, "case"))
 
     def cut(self, path, method="warp_and_refine", chord_tolerance=0.05, allow_miss=False, **parameters):
         """Cuts the sheet; see cutbench.cut()."""
@@ -219,6 +237,15 @@ def _again(vertices, triangles, rest, sewn, texture, rest_from):
     return Sheet._of(core)
 
 
+def _in_better_words(error, positions, corners):
+    try:
+        arrays.check_finite(positions, "vertices")
+        arrays.check_indices(corners, "triangles", len(positions))
+    except InputError as better:
+        return better
+    return error
+
+
 class Parents:
     """What the vertices and triangles of a cut sheet were before.
 
@@ -229,12 +256,24 @@ class Parents:
         triangles: m ints: the triangle before in which each triangle's centroid lies.
     """
 
-    def __init__(self, first, vertices, weights, triangles):
+    def __init__(self, before, first, vertices, weights, triangles):
+        self._before = before
         self.first, self.vertices, self.weights, self.triangles = first, vertices, weights, triangles
 
     def carry(self, values):
-        """Data of the vertices before (n_before x ...), as weighted means at the vertices after (n x ...)."""
+        """Data of the vertices before, as weighted means at the vertices after (n x ...).
+
+        Args:
+            values: a row for each vertex of the sheet before, or for each row of the arrays that it was made of.
+        """
         values = np.asarray(values)
+        if values.dtype.kind not in "biufc" or values.ndim == 0:
+            raise InputError(f"values: has the type {values.dtype} and the shape {values.shape}; give a row for each vertex")
+        vertices, rows = len(self._before.vertices), self._before._rows
+        if len(values) == rows:
+            values = values[self._before.given]
+        elif len(values) != vertices:
+            raise InputError(f"values: {len(values)} rows; give one for each of the {vertices} vertices before")
         shape = (-1,) + (1,) * (values.ndim - 1)
         return np.add.reduceat(values[self.vertices] * self.weights.reshape(shape), self.first[:-1], axis=0)
 
@@ -291,7 +330,7 @@ class Cut:
     @cached_property
     def parents(self):
         """What each vertex and triangle was before: Parents."""
-        return Parents(*self._core.parents())
+        return Parents(self.before, *self._core.parents())
 
     @cached_property
     def constraints(self):
@@ -337,7 +376,7 @@ def sheet_of(anything):
         return anything.sheet
     if isinstance(anything, tuple) and len(anything) in (2, 3):
         return Sheet(*anything)
-    raise InputError(f"sheet: is a {type(anything).__name__}; give a Sheet, a Cut, or (vertices, triangles, rest)")
+    raise InputError(f"sheet: is a {type(anything).__name__}; give a Sheet, a Cut, or vertices together with triangles")
 
 
 def cut(vertices, triangles=None, path=None, method="warp_and_refine", rest="auto", chord_tolerance=0.05,
@@ -371,6 +410,8 @@ def cut(vertices, triangles=None, path=None, method="warp_and_refine", rest="aut
     >>> square.pieces.max() + 1
     2
     """
+    if triangles is not None and isinstance(vertices, (Sheet, Cut)):
+        raise InputError("triangles: the sheet has its own; leave them out")
     if triangles is None:
         if texture is not None:
             raise InputError("texture: the sheet has its own; leave it out")

@@ -9,10 +9,10 @@ from functools import cached_property
 import numpy as np
 
 from . import _core, arrays
-from .errors import InputError, StepError
+from .errors import CutError, InputError, StepError
 from .method import method_of
 from .paths import Curve, curves_of
-from .sheet import Sheet, sheet_of
+from .sheet import Sheet, sheet_of, warn
 from .tables import table
 
 
@@ -134,6 +134,8 @@ class Simulation:
         self.scene = scene if isinstance(scene, Scene) else Scene(scene)
         self._core = _core.Simulation(self.scene._core, method_of(method, parameters),
                                       arrays.number(chord_tolerance, "chord_tolerance"), bool(watch))
+        for pin in self.scene._core.idle_pins(self._core):
+            warn(f"pins {pin}, from 0, hold no vertex of the sheet; is that meant?")
 
     def step(self, n=1, each=None):
         """Makes n steps, each with the scene's cuts that are due before it.
@@ -144,7 +146,7 @@ class Simulation:
         Raises:
             StepError: a step that ends the simulation.
         """
-        for _ in range(n):
+        for _ in range(arrays.whole(n, "n")):
             if each is not None:
                 each(self)
             verdict, reason = self._core.step()
@@ -165,9 +167,18 @@ class Simulation:
             path: in rest space, or picked on the sheet as it is now; see cutbench.cut().
 
         Returns:
-            A dict: status, verdict, reason, energies before and after (J), and microseconds.
+            A dict: status ("ok", "noop", "refused" or "deviated"), verdict, reason, energies before and after (J), and
+            microseconds.
+
+        Raises:
+            CutError: the method failed, or its incision is wrong; the sheet is as it was, and can be stepped on.
         """
-        return self._core.cut(curves_of(path))
+        made = self._core.cut(curves_of(path))
+        if made["status"] == "failed":
+            raise CutError(f"{made['verdict']}: {made['reason']}", "failed", made["verdict"])
+        if made["status"] == "noop":
+            warn(f"nothing was cut: {made['reason'] or 'the path misses the sheet'}")
+        return made
 
     def pull(self, force):
         """From now on forces pull at the vertices besides the scene's loads; 0 ends that.
@@ -182,6 +193,12 @@ class Simulation:
 
     def hold(self, pins):
         """From now on these Pins hold the sheet, and none of those before."""
+        pins = [pins] if isinstance(pins, Pin) else list(pins)
+        for pin in pins:
+            if not isinstance(pin, Pin):
+                raise InputError(f"pins: {pin!r} is a {type(pin).__name__}; give a list of cutbench.Pin")
+            if not self._core.holds_a_vertex(pin._core):
+                warn("a pin holds no vertex of the sheet; is that meant?")
         self._core.hold([pin._core for pin in pins])
 
     x = property(lambda self: self._core.x, doc="slots x dimension floats: positions now, m (a view).")
