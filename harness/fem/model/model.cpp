@@ -220,7 +220,7 @@ void Model<D>::add_mass_product(double factor, const Field& x, Field& y) const {
 template <int D>
 Energy Model<D>::energy(const Field& x, const Field& v) {
   if (!elastic_) {
-    elastic_ = {.membrane = membrane_.energy(elements_)};
+    elastic_ = Energy{.membrane = membrane_.energy(elements_)};
     if (bending_) elastic_->bending = curved_ ? curved_->energy() : bending_->energy(x, D);
   }
   Energy energy = *elastic_;
