@@ -55,6 +55,12 @@ const seen = (tab, points, index = 0) => tab.evaluate(([points, index]) => {
   const { view } = live.panels[index], r = view.canvas.getBoundingClientRect()
   return points.map(p => view.project(p)).map(([x, y]) => [r.left + x / view.ratio, r.top + y / view.ratio])
 }, [points, index])
+/** Whether what is up in the picture is up in the cut at rest. */
+const upright = tab => tab.evaluate(() => {
+  const places = live.panels[0].view.thin(0), mean = of => places.reduce((sum, p) => sum + of(p), 0) / places.length
+  const seen = mean(p => p.seen[1]), flat = mean(p => p.flat[1])
+  return mean(p => (p.seen[1] - seen) * (p.flat[1] - flat)) < 0  // on the canvas y points down
+})
 async function drag(tab, from, to, steps = 12) {
   await tab.mouse.move(...from)
   await tab.mouse.down()
@@ -77,6 +83,7 @@ const tests = {
       expect(`cut by warp_and_refine: ${JSON.stringify(n)}`, n.status === 'ok' && n.added > 0 && n.oracle.verdict === 'ok' && n.eigenvalue_ratio > 0.5)
       expect(`the stroke is Beziers, at step 100: ${JSON.stringify(stroke)}`, stroke.step === 100 && stroke.curve.bezier.length % 3 === 1)
       expect('it begins where the mouse went down', Math.hypot(stroke.curve.bezier[0][0] - 0.2, stroke.curve.bezier[0][1] - 0.4) < 0.01)
+      expect('the cut at rest is upside down', await upright(tab))
       expect('the cut is announced', /oracle says warp_and_refine: right/.test(await tab.textContent('#announce')))
       expect('the table says right', /right/.test(await tab.textContent('#numbers tbody')))
       const [p, outside] = await seen(tab, [[0.5, 0.7], [0.999, 0.7]])
@@ -187,6 +194,7 @@ const tests = {
         expect(`${name}: ${all.join('; ')}`, all.every(([, status, verdict, , stopped]) => ['ok', 'deviated'].includes(status) && verdict === 'ok' && !stopped))
         if (name === 'fig6b') expect('a piece falls out', all[0][3] === 2)
         await tab.waitForTimeout(200)
+        if (name === 'fig6a') expect('the cut at rest is upside down', await upright(tab))
         await tab.screenshot({ path: join(shots, name + '.png') })
       }
     })

@@ -255,6 +255,7 @@ async function undo() {
   while (time.busy) await new Promise(go => setTimeout(go, 2))
   time.busy = true
   const last = done.pop()
+  lastCut = null
   drawing.hands = []
   drawing.grabbed = null
   state.hands = state.hands.filter(h => h.done && h.after <= done.length)
@@ -431,7 +432,8 @@ const dark = matchMedia('(prefers-color-scheme: dark)')
 
 function draw(panel) {
   const { view } = panel, colours = dark.matches ? themes.dark : themes.light
-  view.draw(camera, { colours, mode: state.colour, wire: state.wire, inset: state.inset && lastCut })
+  const inset = state.inset && lastCut && { ...lastCut, up: held[state.pins].view === 'front' ? -1 : 1 }  // as the sheet hangs
+  view.draw(camera, { colours, mode: state.colour, wire: state.wire, inset })
   const c = view.over.getContext('2d'), ratio = view.ratio, r = view.canvas.getBoundingClientRect()
   c.clearRect(0, 0, view.over.width, view.over.height)
   if (!view.soup) return
@@ -481,7 +483,7 @@ function draw(panel) {
       c.arc(x, y, radius * ratio, 0, 7)
       c.stroke()
     }
-    for (const { seen, flat } of view.thin(10, view.insetSide && lastCut)) {
+    for (const { seen, flat } of view.thin(10)) {
       ring(seen, 4)
       if (flat && flat[0] > 0 && flat[0] < view.insetSide && flat[1] > 0 && flat[1] < view.insetSide) ring([flat[0], view.over.height - flat[1]], 3)
     }
@@ -507,9 +509,9 @@ const rows = [
   ['Oracle’s verdict', 'An independent judge with exact arithmetic looks at every cut: right, or what is wrong.', 'docs/explanation/measuring.md#judgement', ({ numbers: n }) => waitingFor(n, n.oracle, v => v.verdict === 'ok' ? 'right' : v.error || `${v.verdict}: ${v.reason}`)],
   ['Time of the cut', 'How long the computer cuts, without the motion: warmed up, the mean of many cuts of copies.', 'docs/explanation/measuring.md#time', ({ numbers: n }) => waitingFor(n, n.ms, timeText)],
   ['Time of a step', 'How long the computer takes for 1/240 s of motion; below 4.2 ms it keeps up with real time.', 'docs/explanation/which_solver.md', panel => panel.ms ? plain(panel.ms) + ' ms' : '–', 'ms'],
-  ['Triangles', 'How many the sheet has now, and how many more than before the cuts.', 'docs/explanation/measuring.md#shape', ({ numbers: n }) => n.triangles === undefined ? '–' : `${n.triangles} (+${n.triangles - n.triangles_before})` + (n.polygons ? `, ${n.polygons} polygons` : '')],
+  ['Triangles', 'How many the sheet has now, and how many more than before the cuts.', 'docs/explanation/measuring.md#shape', ({ numbers: n }) => n.triangles === undefined ? '–' : `${n.triangles} (${n.triangles < n.triangles_before ? '' : '+'}${n.triangles - n.triangles_before})` + (n.polygons ? `, ${n.polygons} polygons` : '')],
   ['Largest aspect ratio', 'How thin the thinnest triangle is: length over height. 2 is good, 100 is a hair.', 'docs/explanation/measuring.md#shape', ({ numbers: n }) => plain(n.aspect_ratio)],
-  ['Pieces', 'Parts that hang together by nothing any more.', 'docs/explanation/glossary.md', ({ numbers: n }) => plain(n.pieces)],
+  ['Pieces', 'Parts that nothing joins any more.', 'docs/explanation/glossary.md', ({ numbers: n }) => plain(n.pieces)],
   ['Eigenvalue ratio', 'How much stiffer the worst spot is than before: simple solvers need smaller steps by its root.', 'docs/explanation/measuring.md#stability', ({ numbers: n }) => waitingFor(n, n.eigenvalue_ratio, v => plain(v))],
   ['Error against a fine sheet', 'How far the sheet is from where a finer one would be now. On request, below.', 'docs/reference/browser.md#numbers', ({ numbers: n }) => n.error || '–']
 ]
@@ -633,7 +635,7 @@ function showControls() {
   $('count').value = state.methods.length
   $('methods').innerHTML = state.methods.map((chosen, i) => {
     const row = methods.find(m => m.name === chosen)
-    return `<div><label>Method <select data-sheet="${i}" aria-describedby="m${i}">${methods.map(m => `<option${m.name === chosen ? ' selected' : ''}>${m.name}`).join('')}</select></label><p id="m${i}">${row.summary}. <a href="${source}/methods/${chosen}/${chosen}.h">Its page</a></p></div>`
+    return `<div><label>Method <select data-sheet="${i}" aria-describedby="m${i}">${methods.map(m => `<option${m.name === chosen ? ' selected' : ''}>${m.name}`).join('')}</select></label><p id="m${i}">${row.summary.replaceAll('`', '')}. <a href="${source}/methods/${chosen}/${chosen}.h">Its page</a></p></div>`
   }).join('')
   const [from, to] = [['', ''], ['2: good', '100: a hair; rings: over 10'], ['0 %', '25 %'], ['', '']][state.colour]
   $('legend').hidden = !from
@@ -652,7 +654,10 @@ function take(chosen) {
   return restart()
 }
 
-const again = () => restart()
+function again() {
+  hint('')
+  return restart()
+}
 
 function lookAt([low, high]) {
   camera.middle = [(low[0] + high[0]) / 2, 0, -(high[1] - low[1]) / 2]
@@ -725,7 +730,10 @@ function listenToControls() {
   $('preset').append(Object.assign(document.createElement('option'), { value: '', textContent: 'Another', disabled: true }))
   options('pins', held)
   options('material', materials)
-  $('preset').onchange = () => take(presets[$('preset').value])
+  $('preset').onchange = () => {
+    hint('')
+    take(presets[$('preset').value])
+  }
   for (const key of ['triangles', 'family', 'pins', 'material', 'gravity'])
     $(key).onchange = () => {
       state[key] = typeof state[key] === 'number' ? +$(key).value : $(key).value

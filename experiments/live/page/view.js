@@ -70,8 +70,8 @@ class Camera {
   }
 }
 
-/** Rest space seen from above, x to the right and y upwards: a square round `middle`. */
-const flatMatrix = (middle, half) => new Float32Array([1 / half, 0, 0, 0, 0, 1 / half, 0, 0, 0, 0, -0.1, 0, -middle[0] / half, -middle[1] / half, 0, 1])
+/** Rest space, x to the right and y upwards, or downwards (up: -1): a square round `middle`. */
+const flatMatrix = ({ middle, half, up }) => new Float32Array([1 / half, 0, 0, 0, 0, up / half, 0, 0, 0, 0, -0.1, 0, -middle[0] / half, -up * middle[1] / half, 0, 1])
 
 class View {
   constructor(canvas, over) {
@@ -123,7 +123,7 @@ class View {
       if (canvas.width !== w || canvas.height !== h) Object.assign(canvas, { width: w, height: h })
     this.ratio = ratio
   }
-  /** \param inset  { middle, half } at rest, or null */
+  /** \param inset  { middle, half, up } at rest, or null */
   draw(camera, { colours, mode, wire, inset }) {
     const { gl, canvas, at } = this
     this.resize()
@@ -143,27 +143,28 @@ class View {
     gl.bindVertexArray(this.buffers[0].array)
     gl.drawArrays(gl.TRIANGLES, 0, this.buffers[0].length)
     this.insetSide = 0
-    if (!inset || !this.flat) return
+    this.inset = this.flat && inset
+    if (!this.inset) return
     const side = (this.insetSide = Math.round(0.36 * Math.min(canvas.width, canvas.height)))
     gl.enable(gl.SCISSOR_TEST)
     gl.scissor(0, 0, side, side)
     gl.viewport(0, 0, side, side)
     gl.clearColor(...colours.inset, 1)
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT)
-    gl.uniformMatrix4fv(at.camera, false, flatMatrix(inset.middle, inset.half))
+    gl.uniformMatrix4fv(at.camera, false, flatMatrix(inset))
     gl.uniform1f(at.wire, 1.6)
     gl.uniform1f(at.flatly, 1)
     gl.bindVertexArray(this.buffers[1].array)
     gl.drawArrays(gl.TRIANGLES, 0, this.buffers[1].length)
   }
   /** Where the triangles are that are thinner than `least`, while their shape is the colour: on the canvas and in the inset. */
-  thin(least, inset) {
-    const { soup, flat, insetSide } = this, found = []
+  thin(least) {
+    const { soup, flat, inset, insetSide } = this, found = []
     for (let i = 0; i < soup.length && found.length < 400; i += size) {
       const inPolygon = [1, 4, 16].some(one => Math.floor(soup[i + 4] / one) % 4 === 1)
       if (soup[i + 3] < least || inPolygon) continue
       const middle = of => [0, 1, 2].map(k => (of[i + k] + of[i + 5 + k] + of[i + 10 + k]) / 3), p = inset && middle(flat)
-      found.push({ seen: this.onCanvas(middle(soup)), flat: p && [0, 1].map(k => ((p[k] - inset.middle[k]) / inset.half + 1) * insetSide / 2) })
+      found.push({ seen: this.onCanvas(middle(soup)), flat: p && [0, 1].map(k => ((k ? inset.up : 1) * (p[k] - inset.middle[k]) / inset.half + 1) * insetSide / 2) })
     }
     return found
   }
