@@ -282,7 +282,7 @@ function usualHint() {
   if (drawing.tool === 'poke') return 'Tap the sheet to push it.'
   if (drawing.tool === 'turn') return 'Drag to turn the view.'
   const n = drawing.picks.length
-  return n ? `Point ${n} of 4. The fourth cuts; Undo takes a point back.` : 'Drag across the sheet to cut it, or click four points of a curve.'
+  return n ? `Point ${n} of 4. The fourth cuts; Undo takes a point back.` : 'Drag across the sheet to cut it. Or click four points: from the first to the fourth, bent by the two between.'
 }
 
 function listen(panel) {
@@ -507,12 +507,12 @@ const waitingFor = (n, value, text) => (n.status === undefined ? '–' : value =
 const rows = [
   ['Last cut', 'What the method did with the last stroke.', 'docs/explanation/measuring.md#judgement', ({ numbers: n, stopped }) => stopped ? 'stopped: ' + stopped : n.status === undefined ? 'no cut yet' : n.status === 'ok' ? 'done' : `${n.status}${n.reason ? ': ' + n.reason : ''}`],
   ['Oracle’s verdict', 'An independent judge with exact arithmetic looks at every cut: right, or what is wrong.', 'docs/explanation/measuring.md#judgement', ({ numbers: n }) => waitingFor(n, n.oracle, v => v.verdict === 'ok' ? 'right' : v.error || `${v.verdict}: ${v.reason}`)],
-  ['Time of the cut', 'How long the computer cuts, without the motion: warmed up, the mean of many cuts of copies.', 'docs/explanation/measuring.md#time', ({ numbers: n }) => waitingFor(n, n.ms, timeText)],
+  ['Time of the cut', 'How long the computer cuts, without the motion: the mean of many cuts of the same sheet.', 'docs/explanation/measuring.md#time', ({ numbers: n }) => waitingFor(n, n.ms, timeText)],
   ['Time of a step', 'How long the computer takes for 1/240 s of motion; below 4.2 ms it keeps up with real time.', 'docs/explanation/which_solver.md', panel => panel.ms ? plain(panel.ms) + ' ms' : '–', 'ms'],
   ['Triangles', 'How many the sheet has now, and how many more than before the cuts.', 'docs/explanation/measuring.md#shape', ({ numbers: n }) => n.triangles === undefined ? '–' : `${n.triangles} (${n.triangles < n.triangles_before ? '' : '+'}${n.triangles - n.triangles_before})` + (n.polygons ? `, ${n.polygons} polygons` : '')],
-  ['Largest aspect ratio', 'How thin the thinnest triangle is: length over height. 2 is good, 100 is a hair.', 'docs/explanation/measuring.md#shape', ({ numbers: n }) => plain(n.aspect_ratio)],
+  ['Thinnest triangle', 'Its length over its height, the aspect ratio. 2 is good, 100 is a hair.', 'docs/explanation/measuring.md#shape', ({ numbers: n }) => plain(n.aspect_ratio)],
   ['Pieces', 'Parts that nothing joins any more.', 'docs/explanation/glossary.md', ({ numbers: n }) => plain(n.pieces)],
-  ['Eigenvalue ratio', 'How much stiffer the worst spot is than before: simple solvers need smaller steps by its root.', 'docs/explanation/measuring.md#stability', ({ numbers: n }) => waitingFor(n, n.eigenvalue_ratio, v => plain(v))],
+  ['Eigenvalue ratio', 'How much stiffer the worst spot is than before. The stiffer, the smaller the steps that a simple program can make.', 'docs/explanation/measuring.md#stability', ({ numbers: n }) => waitingFor(n, n.eigenvalue_ratio, v => plain(v))],
   ['Error against a fine sheet', 'How far the sheet is from where a finer one would be now. On request, below.', 'docs/reference/browser.md#numbers', ({ numbers: n }) => n.error || '–']
 ]
 /** "< 0.1 ms": where the timer can't tell more, of as many cuts as were timed. */
@@ -552,7 +552,7 @@ function showTimes() {
     const { numbers: n } = panel
     const caption = panel.figure.querySelector('figcaption')
     caption.firstChild.textContent = panel.method
-    caption.lastChild.textContent = n.status && n.status !== 'ok' ? `${n.status} ${n.reason ? '(' + n.reason + ')' : ''}` : n.triangles ? `${n.triangles} triangles · ${n.pieces} ${n.pieces === 1 ? 'piece' : 'pieces'} · thinnest triangle ${plain(n.aspect_ratio)} (2 is good)` : ''
+    caption.lastChild.textContent = n.status && n.status !== 'ok' ? `${n.status} ${n.reason ? '(' + n.reason + ')' : ''}` : n.triangles ? `${n.triangles} triangles · ${n.pieces} ${n.pieces === 1 ? 'piece' : 'pieces'} · thinnest triangle${n.polygons ? ' inside polygons' : ''} ${plain(n.aspect_ratio)}\u00a0:\u00a01; 2\u00a0:\u00a01\u00a0is\u00a0good` : ''
     const at = rows.findIndex(row => row[4] === 'ms'), cell = document.querySelectorAll('#numbers tbody tr')[at]
     if (cell && cell.children[i + 1]) cell.children[i + 1].textContent = rows[at][3](panel) + (i === 0 ? ` (${Math.round(frames.rate)} frames a second, drawing ${plain(frames.drawn, 2)} ms)` : '')
   })
@@ -606,7 +606,7 @@ async function compare() {
       const error = Math.sqrt(sum / (points.length / 2))
       panel.numbers.error = `${plain(1000 * error)} mm (${plain((100 * error) / side, 2)} % of the side)`
     })
-    $('compared').textContent = `Compared after ${steps} steps, ${plain(steps / rate)} s.`
+    $('compared').textContent = `Compared at ${plain(steps / rate)} s of motion.`
     showNumbers()
   } catch (error) {
     $('compared').textContent = error.message
@@ -655,7 +655,7 @@ function take(chosen) {
 }
 
 function again() {
-  hint('')
+  hint(time.paused ? 'All is as at the start. Play lets it move.' : '')
   return restart()
 }
 
@@ -776,6 +776,7 @@ function listenToControls() {
   $('single').onclick = () => {
     time.paused = time.single = true
     showPause()
+    hint(`Step ${time.step + 1}: ${plain((time.step + 1) / rate)} s of motion.`)
   }
   $('slow').onclick = () => {
     time.slow = !time.slow
@@ -786,7 +787,10 @@ function listenToControls() {
   $('restart').onclick = again
   $('compare').onclick = compare
   $('stop').onclick = () => fine.end('Stopped.')
-  $('help').onclick = () => $('helps').showModal()
+  $('help').onclick = () => {
+    $('helps').showModal()
+    $('helps').scrollTop = 0  // the focus is on the button at its end
+  }
   $('share').onclick = async () => {
     keepAddress()
     const copied = await navigator.clipboard.writeText(location.href).then(() => true, () => false)
