@@ -12,9 +12,10 @@ from .compare import compare
 from .errors import CutError, InputError, OutputError, Refused, RunError, StepError
 from .experiments import ablate, recommend, records, run
 from .method import methods
+from .parents import Constraints, Parents
 from .paths import bezier, polyline, rays, read_path, write_path
 from .score import Finding, Score, score
-from .sheet import Constraints, Cut, Parents, Sheet, cut
+from .sheet import Cut, Sheet, cut
 from .simulation import Pin, Scene, Simulation
 
 __all__ = ["Constraints", "Cut", "CutError", "Finding", "InputError", "OutputError", "Parents", "Pin", "Refused",
