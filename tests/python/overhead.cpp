@@ -1,11 +1,11 @@
 // Arrays in, arrays out, in C++: what tests/python/measure.py compares cutbench.cut() with.
-// usage: cutbench_python_overhead METHOD REPETITIONS < ARRAYS   prints the processor's microseconds of each repetition
-// ARRAYS: three numbers (vertices, triangles, points of the polyline), and then theirs, as text.
+// A library that it loads, so that both cut in one process, in turns.
 #include <time.h>
 
-#include <cstdio>
-#include <iostream>
+#include <array>
+#include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "harness/base/conversions.h"
@@ -29,11 +29,11 @@ struct Made {
   MeshData mesh, result;
 };
 
-Made cut(const std::vector<Point3>& vertices, const std::vector<std::array<std::int32_t, 3>>& triangles,
-         const Curve& curve, const std::string& name) {
+Made cut(std::vector<Point3> vertices, std::vector<std::array<std::int32_t, 3>> triangles, const Curve& curve,
+         const std::string& name) {
   Made made;
-  made.mesh.deformed = vertices;
-  made.mesh.triangles = triangles;
+  made.mesh.deformed = std::move(vertices);
+  made.mesh.triangles = std::move(triangles);
   check_and_repair(made.mesh, "sheet");
   made.before = Sheet(made.mesh);
   made.after = made.before;
@@ -48,20 +48,17 @@ Made cut(const std::vector<Point3>& vertices, const std::vector<std::array<std::
 
 }  // namespace
 
-int main(int, char** argv) {
-  std::size_t n = 0, m = 0, k = 0;
-  std::cin >> n >> m >> k;
-  std::vector<Point3> vertices(n);
-  std::vector<std::array<std::int32_t, 3>> triangles(m);
+/// \param points  n x 3; \param corners  m x 3; \param path  k x 2, a polyline
+/// \return  microseconds of the processor; -1 where the cut failed
+extern "C" double us_of_a_cut(const char* method, std::size_t n, const Point3* points, std::size_t m,
+                              const std::array<std::int64_t, 3>* corners, std::size_t k, const Point2* path) {
   Curve curve;
-  curve.points.resize(k);
-  for (auto& [x, y, z] : vertices) std::cin >> x >> y >> z;
-  for (auto& [a, b, c] : triangles) std::cin >> a >> b >> c;
-  for (auto& [x, y] : curve.points) std::cin >> x >> y;
-  for (int i = 0; i < std::stoi(argv[2]); ++i) {
-    const double start = processor_us();
-    const Made made = cut(vertices, triangles, curve, argv[1]);
-    const double us = processor_us() - start;
-    std::printf("%.3f %zu\n", us, made.result.triangles.size());
-  }
+  curve.points.assign(path, path + k);
+  const double start = processor_us();
+  std::vector<std::array<std::int32_t, 3>> triangles(m);
+  for (std::size_t t = 0; t < m; ++t)
+    for (std::size_t i = 0; i < 3; ++i) triangles[t][i] = static_cast<std::int32_t>(corners[t][i]);
+  const Made made = cut({points, points + n}, std::move(triangles), curve, method);
+  const double us = processor_us() - start;
+  return made.result.triangles.size() > m ? us : -1;
 }

@@ -15,7 +15,7 @@ def _array(values, name, kinds, what):
         raise InputError(f"{name}: no array of {what}: {error}") from None
     if array.dtype.kind not in kinds or array.dtype.itemsize > 8:
         raise InputError(f"{name}: has the type {array.dtype}; give {what}")
-    if np.ma.isMaskedArray(values):
+    if isinstance(values, np.ma.MaskedArray):
         raise InputError(f"{name}: is a masked array; fill it first")
     return array
 

@@ -31,10 +31,14 @@ def bezier(points, closed=False):
 
 
 def _curve(is_bezier, points, closed):
-    points = arrays.points(points, "path", (2, 3))
-    if points.shape[1] == 2:
-        return Curve(is_bezier, points, bool(closed))
-    return PickedCurve(is_bezier, points, None, bool(closed))
+    points = arrays.of_points(points, "path", (2, 3))
+    try:
+        if points.shape[1] == 2:
+            return Curve(is_bezier, points, bool(closed))
+        return PickedCurve(is_bezier, points, None, bool(closed))
+    except InputError:
+        arrays.check_finite(points, "path")
+        raise
 
 
 def rays(origins, directions, bezier=False, closed=False):
