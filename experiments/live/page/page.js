@@ -176,17 +176,22 @@ function frame(now) {
     frames.from = now
     showTimes()
   }
+  if (!time.paused && !time.halted) time.debt = Math.min(time.debt + passed * rate * (time.slow ? 1 / 16 : 1), 24)
+  work()
+}
+
+/** What is due: hands, strokes, and the steps that time owes. Sheets that are behind don't wait for the next picture. */
+function work() {
   if (time.busy || time.halted || !running().length) return
   const due = drawing.hands.length > 0 || dueAt(state, time.step).length > 0
   if (time.single) {
     time.single = false
     advance(1)
   } else if (!time.paused) {
-    time.debt = Math.min(time.debt + passed * rate * (time.slow ? 1 / 16 : 1), 24)
-    const slowest = Math.max(0.01, ...running().map(p => p.ms)), most = Math.max(1, Math.floor(Math.max(40, 1000 * passed) / slowest))
+    const slowest = Math.max(0.01, ...running().map(p => p.ms)), most = Math.max(1, Math.floor(40 / slowest))
     const steps = Math.min(Math.floor(time.debt), most)
     time.debt -= steps
-    if (steps || due) advance(steps)
+    if (steps || due) advance(steps).then(() => time.debt >= 1 && work())
   } else if (due || time.changed) {
     time.changed = false
     refresh()
