@@ -273,6 +273,21 @@ class CarriedValues(unittest.TestCase):
         cut = cutbench.cut(vertices, triangles, [[0.5, -0.1], [0.6, 0.9]], "conventional_split", rest=rest)
         self.assertEqual(len(cut.before.vertices), 6)
         np.testing.assert_allclose(cut.parents.carry(vertices), cut.vertices, atol=1e-15)
+        with self.assertRaisesRegex(cutbench.InputError, "was not made of arrays"):
+            cut.cut([[0.8, 0.1], [0.9, 0.5]]).parents.carry(cut.vertices, of="arrays")
+
+    def test_as_many_rows_left_out_as_divided(self):
+        vertices = np.array([[8.0, 8, 0], [0, 0, 0], [1, 0, 0], [9, 9, 0], [1, 1, 0], [0, 1, 0]])
+        triangles = np.array([[1, 2, 4], [1, 4, 5]])
+        rest = vertices[triangles][:, :, :2].copy()
+        rest[1] += [0, 3]
+        with self.assertWarns(UserWarning):
+            cut = cutbench.cut(vertices, triangles, [[0.5, -0.1], [0.6, 0.9]], "conventional_split", rest=rest)
+        self.assertEqual(len(cut.before.vertices), len(vertices))
+        with self.assertRaisesRegex(cutbench.InputError, "Say of="):
+            cut.parents.carry(vertices)
+        np.testing.assert_allclose(cut.parents.carry(vertices, of="arrays"), cut.vertices, atol=1e-15)
+        np.testing.assert_allclose(cut.parents.carry(cut.before.vertices, of="sheet"), cut.vertices, atol=1e-15)
 
 
 if __name__ == "__main__":

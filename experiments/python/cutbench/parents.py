@@ -19,20 +19,31 @@ class Parents:
         self._before = before
         self.first, self.vertices, self.weights, self.triangles = first, vertices, weights, triangles
 
-    def carry(self, values):
+    def carry(self, values, of=None):
         """Data of the vertices before, as weighted means at the vertices after (n x ...).
 
         Args:
             values: a row for each vertex of the sheet before, or for each row of the arrays that it was made of.
+            of: "sheet" or "arrays", which of the two; only asked for where both have the same number of rows in another order.
         """
         values = np.asarray(values)
         if values.dtype.kind not in "biufc" or values.ndim == 0:
             raise InputError(f"values: has the type {values.dtype} and the shape {values.shape}; give a row for each vertex")
-        vertices, rows = len(self._before.vertices), self._before._rows
-        if len(values) == rows:
-            values = values[self._before.given]
-        elif len(values) != vertices:
-            raise InputError(f"values: {len(values)} rows; give one for each of the {vertices} vertices before")
+        if of not in (None, "sheet", "arrays"):
+            raise InputError(f'of: "{of}" is not known; known are sheet, arrays')
+        vertices, rows, given = len(self._before.vertices), self._before._rows, self._before.given
+        if of is None:
+            of = "arrays" if len(values) == rows else "sheet"
+            if rows == vertices and not np.array_equal(given, np.arange(vertices)):
+                raise InputError(f'values: are the {len(values)} rows of the sheet before, or of the arrays that it was made of? '
+                                 'Say of="sheet" or of="arrays"')
+        if of == "arrays" and rows is None:
+            raise InputError('of: the sheet before was not made of arrays; say of="sheet"')
+        wanted = rows if of == "arrays" else vertices
+        if len(values) != wanted:
+            raise InputError(f"values: {len(values)} rows; give one for each of the {wanted} vertices before")
+        if of == "arrays":
+            values = values[given]
         shape = (-1,) + (1,) * (values.ndim - 1)
         return np.add.reduceat(values[self.vertices] * self.weights.reshape(shape), self.first[:-1], axis=0)
 
