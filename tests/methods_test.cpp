@@ -15,6 +15,7 @@
 #include "harness/mesh/families.h"
 #include "harness/mesh/one_ring.h"
 #include "methods/registry.h"
+#include "methods/variants.h"
 #include "tests/helpers.h"
 
 namespace cutbench {

@@ -2,17 +2,23 @@
 // deformed corners are known is somewhere in space, and picked there it must come back.
 #include "harness/path/pick.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
 
 #include "harness/base/conversions.h"
+#include "harness/cut/cut.h"
 #include "harness/files/mesh_file.h"
 #include "harness/files/path_file.h"
 #include "harness/mesh/families.h"
+#include "harness/mesh/mesh_text.h"
 #include "harness/mesh/sew.h"
 #include "harness/scenes/scene_file.h"
 #include "harness/simulation/simulation.h"
 #include "methods/registry.h"
+#include "tests/mesh_checks.h"
 #include "tests/program.h"
 #include "tests/sewn_sheets.h"
 
@@ -367,6 +373,67 @@ TEST_F(PickedScene, ASheetThatIsSewnOnRequestCanBeScored) {
   ASSERT_EQ(result.code, 0) << result.error;
   const auto right = run("score --result a.obj --sew 1e-9" + common);
   EXPECT_EQ(right.code, 0) << right.out << right.error;
+}
+
+/// As Blender and PLY write a seam: two columns of a closed tube at one place, but for the last digit.
+TEST_F(PickedScene, VerticesThatAFileHasTwiceAreNamedAndSewnOnRequest) {
+  std::string text;
+  const int round = 12;
+  for (int j = 0; j <= 4; ++j)
+    for (int i = 0; i <= round; ++i) {
+      const double angle = 2 * std::numbers::pi * i / round;
+      text += "v " + std::to_string(std::cos(angle) + (i == round ? 2e-6 : 0)) + " " + std::to_string(std::sin(angle)) +
+              " " + std::to_string(0.5 * j) + "\n";
+    }
+  for (int j = 0; j < 4; ++j)
+    for (int i = 1; i <= round; ++i) {
+      const int a = j * (round + 1) + i, b = a + round + 1;
+      const auto face = [&](int p, int q, int r) {
+        text += "f " + std::to_string(p) + " " + std::to_string(q) + " " + std::to_string(r) + "\n";
+      };
+      face(a, a + 1, b + 1);
+      face(a, b + 1, b);
+    }
+  write(folder_ / "tube.obj", text);
+  const std::string notes = joined_notes(read_mesh(folder_ / "tube.obj"));
+  EXPECT_NE(
+      notes.find("vertices that lie where others do, though apart at rest: 5; the sheet is open there, --sew 3e-06"),
+      std::string::npos)
+      << notes;
+  EXPECT_FALSE(read_mesh(folder_ / "tube.obj", {RestFrom::automatic, false, 3e-6}).sewn.empty());
+}
+
+/// In a plane there is no telling a seam from an incision where the places are the same, bit for bit.
+TEST_F(PickedScene, SewingInAPlaneLeavesIncisionsOpen) {
+  const std::string left = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
+  write(folder_ / "same.obj", left + "v 1 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nf 5 6 7\nf 5 7 8\n");
+  write(folder_ / "near.obj", left + "v 1.000001 0 0\nv 2 0 0\nv 2 1 0\nv 1.000001 1 0\nf 5 6 7\nf 5 7 8\n");
+  const MeshData same = read_mesh(folder_ / "same.obj", {RestFrom::automatic, false, 1e-5});
+  EXPECT_EQ(same.deformed.size(), 8u);
+  EXPECT_NE(joined_notes(same).find("pairs of vertices at equal places in a plane: 2"), std::string::npos);
+  EXPECT_EQ(read_mesh(folder_ / "near.obj", {RestFrom::automatic, false, 1e-5}).deformed.size(), 6u);
+}
+
+/// Picks with the digits of a file lie a little inside of a border that runs askew, or outside; the sheet falls in two.
+TEST(Pick, EndsAtTheBorderReachIt) {
+  MeshData mesh = make_sheet("delaunay", 8);
+  for (Point2& p : mesh.rest) p = {0.8 * p.x - 0.6 * p.y, 0.6 * p.x + 0.8 * p.y};
+  for (std::size_t v = 0; v < mesh.rest.size(); ++v) mesh.deformed[v] = {mesh.rest[v].x, 0.1, mesh.rest[v].y};
+  const Sheet sheet(mesh);
+  for (int i = 1; i < 20; ++i) {
+    PickedCurve cut{Curve::Kind::polyline, false, {}};
+    for (const Point2 p : {Point2{0.05 * i, 0}, Point2{1 - 0.047 * i, 1}}) {
+      const auto digits = [](double c) { return std::round(1e6 * c) / 1e6; };
+      cut.picks.push_back({{digits(0.8 * p.x - 0.6 * p.y), 0.1, digits(0.6 * p.x + 0.8 * p.y)}, {}});
+    }
+    Sheet after = sheet;
+    Locator locator(after);
+    Cutter cutter;
+    const auto method = find_method("conventional_split").make(0);
+    for (const Curve& curve : Picker(sheet).rest_curves(cut, "it")) cutter.cut(after, locator, curve, *method, {});
+    const auto pieces = pieces_of(after.to_mesh_data());
+    EXPECT_EQ(*std::max_element(pieces.begin(), pieces.end()), 1) << i;
+  }
 }
 
 /// Of a tube, whose rest shape is the mesh itself.

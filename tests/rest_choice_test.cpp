@@ -71,10 +71,48 @@ TEST(RestChoice, SheetsAtRestAndDeformedOnesKeepTheirVt) {
   EXPECT_EQ(read(obj_of(pulled)).rest, rest);
   EXPECT_TRUE(has_note(read(obj_of(pulled)), "stretched in its plane"));
   EXPECT_EQ(read(obj_of(bent)).rest, rest);
-  EXPECT_EQ(joined_notes(read(obj_of(bent))), "");
+  EXPECT_TRUE(has_note(read(obj_of(bent)), "as of a sheet that hangs: lengths in space are 1 to 1.29"))
+      << joined_notes(read(obj_of(bent)));
+  const auto hardly = [](Point2 p) { return Point3{p.x, p.y, 0.1 * std::sin(3 * p.x)}; };
+  EXPECT_EQ(joined_notes(read(obj_of(hardly))), "");
   const MeshData texture = read_obj(obj_of(large), "m");
   EXPECT_TRUE(texture.rest.empty());
   EXPECT_TRUE(has_note(texture, "taken for a texture: lengths in space are 7 to 9"));
+}
+
+/// Of curved sheets, where no stretch is far from 1.
+TEST(RestChoice, TexturesOfCurvedSheetsAreNotRest) {
+  const auto rolled = [](Point2 p) { return Point3{std::cos(1.55 * p.x), 0.9 * p.y, std::sin(1.55 * p.x)}; };
+  const auto larger = [](Point2 p) { return Point3{std::cos(1.3 * p.x), 1.3 * p.y, std::sin(1.3 * p.x)}; };
+  const auto wavy = [](Point2 p) { return Point3{1.5 * p.x, p.y, 0.1 * std::sin(5 * p.x)}; };
+  for (const std::string& text : {obj_of(rolled, 16), obj_of(larger, 16), obj_of(wavy, 16)}) {
+    const MeshData mesh = read_obj(text, "m");
+    EXPECT_TRUE(mesh.rest.empty());
+    EXPECT_TRUE(has_note(mesh, "the vt are taken for a texture")) << joined_notes(mesh);
+  }
+}
+
+/// Islands of a texture each have a scale of their own: one that is right does not speak for the others.
+TEST(RestChoice, IslandsOfAnotherScaleAreATexture) {
+  for (const double height : {0.0, 0.2}) {
+    std::string text;
+    for (const int island : {0, 1}) {
+      const double scale = island == 0 ? 1 : 0.7;
+      const MeshData panel = placed([&](Point2 p) { return Point3{p.x, p.y + 2 * island, height * p.x * p.x}; });
+      for (const Point3& p : panel.deformed)
+        text += "v " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
+      for (const Point2 p : panel.rest)
+        text += "vt " + std::to_string(scale * p.x) + " " + std::to_string(scale * p.y + 2 * island) + "\n";
+      const auto corner = [&](std::int32_t v) {
+        const std::string number = std::to_string(v + 1 + island * to_int32(panel.rest.size()));
+        return " " + number + "/" + number;
+      };
+      for (const auto& [a, b, c] : panel.triangles) text += "f" + corner(a) + corner(b) + corner(c) + "\n";
+    }
+    const MeshData mesh = read_obj(text, "m");
+    EXPECT_TRUE(mesh.rest.empty());
+    EXPECT_TRUE(has_note(mesh, "the vt are taken for a texture")) << joined_notes(mesh);
+  }
 }
 
 TEST(RestChoice, FilesOfOurOwnSayThatVtAreRest) {
@@ -106,6 +144,9 @@ TEST(RestChoice, NearlyFlat) {
   EXPECT_EQ(mesh.rest, make_sheet("grid", 4).rest);
   MeshData curved = wavy(1e-3);
   expect_refused([&] { check_and_repair(curved, "m"); }, "z varies by 0.001, 0.00070710");
+  MeshData unrolled = wavy(1e-4);
+  take_rest(unrolled, "m", RestFrom::automatic);
+  EXPECT_TRUE(has_note(unrolled, "it is not flat: z varies by 0.0001, 7.07107e-05 of the mesh's size"));
 }
 
 TEST(RestChoice, BadVtAreNamed) {

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cctype>
+#include <cstdio>
 #include <string>
 
 #include "harness/mesh/sew.h"
@@ -22,7 +23,7 @@ MeshData read_unchecked(const std::filesystem::path& path, bool as_is, const Mes
   const std::string name = path.filename().string();
   const std::string extension = lower_case_extension(path);
   if (extension != ".obj" && extension != ".off" && extension != ".ply")
-    throw InputError(name + ": unknown mesh format; use .obj, .off or .ply");
+    throw InputError(name + ": unknown mesh format; use .obj, .off or .ply, as `meshio convert` writes them");
 
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error) || access(path.c_str(), R_OK) != 0)
@@ -47,14 +48,18 @@ MeshData read_mesh(const std::filesystem::path& path, const MeshReading& reading
   MeshData mesh = read_unchecked(path, false, reading);
   const std::string name = path.filename().string();
   const bool of_vt = !mesh.rest.empty();
-  if (!of_vt && reading.sew && lies_in_space(mesh, reading.rest)) weld_in_space(mesh, *reading.sew, name);
+  if (!of_vt && reading.sew) weld_in_space(mesh, *reading.sew, !lies_in_space(mesh, reading.rest), name);
   if (!of_vt && !mesh.triangles.empty()) take_rest(mesh, name, reading.rest);
   check_and_repair(mesh, name, of_vt);
   if (of_vt && reading.sew) sew(mesh, *reading.sew, name);
   // In a plane, what lies at one place in space does so at rest.
-  if (const std::size_t count = of_vt || mesh.unrolled ? unsewn(mesh) : 0; count > 0)
-    mesh.notes.push_back(name + ": vertices that lie where others do, though apart at rest: " + std::to_string(count) +
-                         "; the sheet is open there, --sew 0 sews it");
+  if (const Unsewn open = of_vt || mesh.unrolled ? unsewn(mesh) : Unsewn{}; open.count > 0) {
+    char distance[32];
+    std::snprintf(distance, sizeof distance, "%.0e", open.distance * 1.5);
+    mesh.notes.push_back(name +
+                         ": vertices that lie where others do, though apart at rest: " + std::to_string(open.count) +
+                         "; the sheet is open there, --sew " + (open.distance > 0 ? distance : "0") + " sews it");
+  }
   return mesh;
 }
 

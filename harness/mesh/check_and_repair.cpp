@@ -20,7 +20,8 @@ namespace {
 
 constexpr double largest_coordinate = 1e60;   // far enough from the overflow of a product of four
 constexpr double smallest_mean_side = 1e-60;  // and from its underflow
-constexpr double ulps_in_mean_side = 1e6;     // a cut rounds to the doubles there are: enough of them must be left
+constexpr double hardly_flat = 1e-3;       // of the mesh's size: less is more often an exporter's rounding than a shape
+constexpr double ulps_in_mean_side = 1e6;  // a cut rounds to the doubles there are: enough of them must be left
 
 /// A half-edge, 3 t + k, filed under the two vertices it joins.
 struct EdgeUse {
@@ -287,17 +288,21 @@ class Repair {
   std::vector<std::int32_t> welded_;  ///< per used vertex: one vertex number per rest position
 };
 
-void take_rest_from(const FlatPlane& plane, MeshData& mesh, const std::string& name) {
+std::string deviation_of(const FlatPlane& plane) {
   std::ostringstream off;
   off << plane.normal << " varies by " << plane.deviation << ", " << plane.deviation / plane.size
       << " of the mesh's size";
+  return off.str();
+}
+
+void take_rest_from(const FlatPlane& plane, MeshData& mesh, const std::string& name) {
   if (!plane.flat())
-    throw InputError(name + ": no rest positions: neither x, y nor z is constant (" + off.str() +
+    throw InputError(name + ": no rest positions: neither x, y nor z is constant (" + deviation_of(plane) +
                      "); give --rest space, use an OBJ with vt (rest positions), or flatten it");
   for (const Point3& p : mesh.deformed) mesh.rest.push_back(plane.rest_of(p));
   if (plane.normal == 'y')
     for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
-  const std::string nearly = plane.deviation > 0 ? ", nearly: " + off.str() : "";
+  const std::string nearly = plane.deviation > 0 ? ", nearly: " + deviation_of(plane) : "";
   if (plane.normal != 'z' || !nearly.empty())
     mesh.notes.push_back(name + ": rest positions are " + plane.text() + nearly);
 }
@@ -313,8 +318,11 @@ bool lies_in_space(const MeshData& mesh, RestFrom from) {
 void take_rest(MeshData& mesh, const std::string& name, RestFrom from) {
   if (from == RestFrom::space) return unroll(mesh, name);
   const FlatPlane plane = plane_of(mesh);  // takes as long as a check: once
-  if (from == RestFrom::automatic && !mesh.triangles.empty() && !plane.flat()) return unroll(mesh, name);
-  take_rest_from(plane, mesh, name);
+  if (from != RestFrom::automatic || mesh.triangles.empty() || plane.flat()) return take_rest_from(plane, mesh, name);
+  unroll(mesh, name);
+  if (plane.deviation <= hardly_flat * plane.size)
+    mesh.notes.push_back(name + ": it is not flat: " + deviation_of(plane) +
+                         "; up to 1e-06 is, so flatten it if it should be");
 }
 
 void check_and_repair(MeshData& mesh, const std::string& name, bool of_vt) { Repair(mesh, name, of_vt).run(); }

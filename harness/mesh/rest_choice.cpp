@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "harness/base/conversions.h"
+#include "harness/base/union_find.h"
 
 namespace cutbench {
 
@@ -82,21 +83,64 @@ std::string Stretches::text() const {
   return (low == high ? low : low + " to " + high) + " times";
 }
 
-Stretches stretches_of(const MeshData& mesh) {
-  Stretch low{infinity, infinity}, high{0, 0};
-  bool measured = !mesh.triangles.empty();
-  for (const auto& triangle : mesh.triangles) {
-    const Stretch s = in_range(mesh, triangle) ? stretch_of(mesh, triangle) : Stretch{infinity, infinity};
+namespace {
+
+/// Takes stretches one by one.
+class Gathered {
+ public:
+  void add(const Stretch& s) {
+    ++count_;
     if (!std::isfinite(s.largest) || !std::isfinite(s.smallest)) {
-      measured = false;
-      continue;
+      measured_ = false;
+      return;
     }
-    low = {std::min(low.largest, s.largest), std::min(low.smallest, s.smallest)};
-    high = {std::max(high.largest, s.largest), std::max(high.smallest, s.smallest)};
+    low_ = {std::min(low_.largest, s.largest), std::min(low_.smallest, s.smallest)};
+    high_ = {std::max(high_.largest, s.largest), std::max(high_.smallest, s.smallest)};
+    least_strain_ = std::min(least_strain_, s.strain());
   }
-  const auto same = [](double a, double b) { return b - a <= isometry_tolerance * b; };
-  const bool even = same(low.largest, high.largest) && same(low.smallest, high.smallest);
-  return {low.smallest, high.largest, measured, even};
+  std::size_t count() const { return count_; }
+  double least_strain() const { return least_strain_; }  ///< of the triangle that is nearest to its shape at rest
+  Stretches all() const {
+    const auto same = [](double a, double b) { return b - a <= isometry_tolerance * b; };
+    const bool even = same(low_.largest, high_.largest) && same(low_.smallest, high_.smallest);
+    return {low_.smallest, high_.largest, measured_ && count_ > 0, even};
+  }
+
+ private:
+  Stretch low_{infinity, infinity}, high_{0, 0};
+  double least_strain_ = infinity;
+  bool measured_ = true;
+  std::size_t count_ = 0;
+};
+
+Stretch stretch_if_in_range(const MeshData& mesh, const std::array<std::int32_t, 3>& triangle) {
+  return in_range(mesh, triangle) ? stretch_of(mesh, triangle) : Stretch{infinity, infinity};
+}
+
+/// Is there a part, of those that hang together in the `vt`, whose stretches are those of a texture?
+/// \pre all corners are in range
+bool any_part_is_texture(const MeshData& mesh, bool flat) {
+  UnionFind joined(mesh.rest.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    joined.join(to_size(a), to_size(b));
+    joined.join(to_size(b), to_size(c));
+  }
+  std::vector<Gathered> parts(mesh.rest.size());
+  for (const auto& triangle : mesh.triangles)
+    parts[joined.find(to_size(triangle[0]))].add(stretch_if_in_range(mesh, triangle));
+  return std::any_of(parts.begin(), parts.end(), [&](const Gathered& part) {
+    if (part.count() < fewest_of_a_part) return false;
+    const Stretches s = part.all();
+    return !s.isometric() && (s.even || (!flat && part.least_strain() > unstrained));
+  });
+}
+
+}  // namespace
+
+Stretches stretches_of(const MeshData& mesh) {
+  Gathered all;
+  for (const auto& triangle : mesh.triangles) all.add(stretch_if_in_range(mesh, triangle));
+  return all.all();
 }
 
 bool FlatPlane::flat() const { return deviation <= flatness_tolerance * size; }
@@ -144,8 +188,13 @@ RestDecision decide_rest(const MeshData& mesh) {
   const FlatPlane plane = plane_of(mesh);
   const bool moderate = s.measured && s.least >= 1 / largest_stretch && s.most <= largest_stretch;
   const std::string lengths = "lengths in space are " + s.text() + " those in the vt";
+  if (!plane.flat() && s.isometric()) return {true, ""};
+  const bool can_be = moderate && !s.isometric() && !any_part_is_texture(mesh, plane.flat());
   if (!plane.flat()) {
-    if (moderate) return {true, ""};
+    if (can_be && s.least >= 1 - worth_a_word && s.most <= 1 + worth_a_word) return {true, ""};
+    if (can_be)
+      return {true, "rest positions are the vt, as of a sheet that hangs: " + lengths +
+                        "; if they are a texture, give --rest space"};
     const std::string why = s.measured ? lengths : "some triangles have no area in the vt";
     return {false, "the vt are taken for a texture: " + why + "; --rest vt takes the vt"};
   }
@@ -154,7 +203,7 @@ RestDecision decide_rest(const MeshData& mesh) {
   if (isometric)
     return {true, "rest positions are the vt: " + lengths + ", but they are not " + plane.text() +
                       "; --rest plane takes these"};
-  if (moderate && !s.even)
+  if (can_be)
     return {true, "rest positions are the vt, as of a sheet that is stretched in its plane: " + lengths +
                       "; if they are a texture, give --rest plane"};
   const std::string why = s.measured ? lengths : "some triangles have no area in the vt, but the mesh is flat";

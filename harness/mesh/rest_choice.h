@@ -4,16 +4,17 @@
 // `vt` are rest positions in some files and a texture in others; nothing in a file says which. What is known is how
 // much longer things are in space than in the `vt`: the two principal stretches of each triangle. The rule of
 // RestFrom::automatic, where a file does not say it itself (mesh_text.h):
-//   - The mesh is not flat: the `vt` where all stretches lie within `largest_stretch`, as of a sheet that hangs; else
-//     its own shape (unroll.h).
-//   - It is flat, and all stretches are 1 within `isometry_tolerance`: the `vt`, the flat sheet itself, perhaps turned.
-//   - It is flat, and the stretches are others, but the same in all triangles: the plane. That is how a texture is laid
-//     onto a sheet; what is held or pulled hardly ever stretches so evenly.
-//   - It is flat, and they differ from triangle to triangle: the `vt` where all lie within `largest_stretch`, as in a
-//     sheet that is pulled in its plane; else the plane.
+//   - All stretches are 1 within `isometry_tolerance`: the `vt`; of a flat mesh the sheet itself, perhaps turned.
+//   - A part of the mesh is stretched alike in all its triangles: a texture. That is how one is laid onto a sheet; what
+//     is held or pulled hardly ever stretches so evenly.
+//   - In a part of a mesh that is not flat every triangle has a strain over `unstrained`: a texture. A sheet that hangs
+//     has a place near its free border that is hardly stretched.
+//   - Else the `vt`, where all stretches lie within `largest_stretch`.
+// Without the `vt`, rest is the plane, or where the mesh is not flat its own shape (unroll.h).
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -31,6 +32,12 @@ constexpr EnumNames<RestFrom, 4> rest_names{
 constexpr double isometry_tolerance = 1e-3;
 /// A sheet that is pulled may be twice as long as at rest, or half; beyond that, hardly any is still one.
 constexpr double largest_stretch = 2;
+/// A sheet that hangs has a place with less strain than this.
+constexpr double unstrained = 0.1;
+/// Where a sheet that is not flat has more strain than this, a note says that the `vt` were taken.
+constexpr double worth_a_word = 0.25;
+/// Of fewer triangles nothing is said by their stretches alone: a piece that was cut off may be one triangle.
+constexpr std::size_t fewest_of_a_part = 8;
 /// In sizes of the mesh (the diagonal of its box): a mesh this near to a plane is flat. Exporters write six digits.
 constexpr double flatness_tolerance = 1e-6;
 

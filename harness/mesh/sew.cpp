@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -16,14 +16,19 @@ namespace {
 
 /// Corners of edges that have one triangle, and are triangles' corners at all.
 std::vector<std::size_t> border_vertices(const MeshData& mesh) {
-  std::map<std::pair<std::int32_t, std::int32_t>, int> uses;
+  std::vector<std::pair<std::int32_t, std::int32_t>> edges;
+  edges.reserve(3 * mesh.triangles.size());
   for (const auto& t : mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) ++uses[std::minmax({t[k], t[(k + 1) % 3]})];
+    for (std::size_t k = 0; k < 3; ++k) edges.push_back(std::minmax({t[k], t[(k + 1) % 3]}));
+  std::sort(edges.begin(), edges.end());
   std::vector<std::size_t> vertices;
-  for (const auto& [ends, count] : uses)
-    if (count == 1)
-      for (const auto v : {ends.first, ends.second})
+  for (auto edge = edges.begin(); edge != edges.end();) {
+    const auto next = std::find_if(edge, edges.end(), [&](const auto& other) { return other != *edge; });
+    if (next - edge == 1)
+      for (const auto v : {edge->first, edge->second})
         if (v >= 0 && v < std::ssize(mesh.deformed)) vertices.push_back(to_size(v));
+    edge = next;
+  }
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   return vertices;
@@ -60,11 +65,15 @@ void sew(MeshData& mesh, double tolerance, const std::string& name) {
   mesh.notes.push_back(name + ": vertices sewn to others: " + std::to_string(count));
 }
 
-void weld_in_space(MeshData& mesh, double tolerance, const std::string& name) {
+void weld_in_space(MeshData& mesh, double tolerance, bool in_plane, const std::string& name) {
   UnionFind joined(mesh.deformed.size());
-  std::size_t count = 0;
+  std::size_t count = 0, lips = 0;
   for_each_pair(mesh, border_vertices(mesh), tolerance, [&](std::size_t a, std::size_t b) {
     if (joined.find(a) == joined.find(b)) return;
+    if (in_plane && mesh.deformed[a] == mesh.deformed[b]) {
+      ++lips;
+      return;
+    }
     joined.join(a, b);
     ++count;
   });
@@ -72,34 +81,40 @@ void weld_in_space(MeshData& mesh, double tolerance, const std::string& name) {
     for (auto& v : triangle)
       if (v >= 0 && v < std::ssize(mesh.deformed)) v = to_int32(joined.find(to_size(v)));
   mesh.notes.push_back(name + ": vertices sewn to others: " + std::to_string(count));
+  if (lips > 0)
+    mesh.notes.push_back(name + ": pairs of vertices at equal places in a plane: " + std::to_string(lips) +
+                         "; they are the lips of an incision, which --sew leaves open; if they are a seam, merge them "
+                         "in the file, or give --rest space");
 }
 
 namespace {
 
-/// Do two vertices lie at one place in space, but not at rest? Most meshes have none.
-bool any_apart_at_rest(const MeshData& mesh) {
-  std::vector<std::size_t> order(mesh.deformed.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto before = [&](std::size_t a, std::size_t b) {
-    const Point3 &p = mesh.deformed[a], &q = mesh.deformed[b];
-    return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z;
-  };
-  std::sort(order.begin(), order.end(), before);
-  for (std::size_t i = 1; i < order.size(); ++i)
-    if (!before(order[i - 1], order[i]) && mesh.rest[order[i - 1]] != mesh.rest[order[i]]) return true;
-  return false;
+/// Some of the last of six digits of the largest coordinate, but far less than any two neighbours are apart.
+double digits_of_files(const MeshData& mesh) {
+  double largest = 0, shortest = std::numeric_limits<double>::infinity();
+  for (const auto& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point3 &p = mesh.deformed[to_size(t[k])], &q = mesh.deformed[to_size(t[(k + 1) % 3])];
+      largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+      shortest = std::min(shortest, length(q + -1.0 * p));
+    }
+  return std::min(5e-6 * largest, 0.01 * shortest);
 }
 
 }  // namespace
 
-std::size_t unsewn(const MeshData& mesh) {
-  if (!any_apart_at_rest(mesh)) return 0;
+Unsewn unsewn(const MeshData& mesh) {
+  const double near = digits_of_files(mesh);
+  Unsewn found;
   std::vector<char> counted(mesh.deformed.size());
-  for_each_pair(mesh, border_vertices(mesh), 0, [&](std::size_t a, std::size_t b) {
+  for_each_pair(mesh, border_vertices(mesh), near, [&](std::size_t a, std::size_t b) {
     const bool sewn = !mesh.sewn.empty() && mesh.sewn[a] == mesh.sewn[b];
-    if (mesh.rest[a] != mesh.rest[b] && !sewn) counted[b] = 1;
+    if (mesh.rest[a] == mesh.rest[b] || sewn) return;
+    counted[b] = 1;
+    found.distance = std::max(found.distance, length(mesh.deformed[b] + -1.0 * mesh.deformed[a]));
   });
-  return to_size(std::count(counted.begin(), counted.end(), 1));
+  found.count = to_size(std::count(counted.begin(), counted.end(), 1));
+  return found;
 }
 
 }  // namespace cutbench

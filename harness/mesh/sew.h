@@ -12,11 +12,16 @@ namespace cutbench {
 /// many. \pre `mesh` has rest positions, and passed check_and_repair(). O(n log n)
 void sew(MeshData& mesh, double tolerance, const std::string& name);
 
-/// The same of a mesh without rest positions, whose rest shape is the mesh itself: such vertices become one, and the
-/// first one stays.
-void weld_in_space(MeshData& mesh, double tolerance, const std::string& name);
+/// The same of a mesh without rest positions: such vertices become one, and the first one stays.
+/// \param in_plane  it will be at rest in the plane that it lies in: there two borders at bit-equal places are an
+///     incision, which stays, and a note says so. Else it is at rest as it is in space
+void weld_in_space(MeshData& mesh, double tolerance, bool in_plane, const std::string& name);
 
-/// Vertices of the border that lie exactly where another one does, though apart at rest, and are not sewn to it.
-std::size_t unsewn(const MeshData& mesh);
+/// Vertices of the border that lie where another one does, though apart at rest, and are not sewn to it.
+struct Unsewn {
+  std::size_t count = 0;
+  double distance = 0;  ///< the largest between two such, no more than the last of a file's six digits
+};
+Unsewn unsewn(const MeshData& mesh);
 
 }  // namespace cutbench

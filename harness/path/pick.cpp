@@ -9,9 +9,11 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <set>
 
 #include "harness/base/conversions.h"
 #include "harness/base/errors.h"
+#include "harness/mesh/seams.h"
 
 namespace cutbench {
 
@@ -57,6 +59,15 @@ bool finite(Point3 p) {
   return std::abs(p.x) <= 1e60 && std::abs(p.y) <= 1e60 && std::abs(p.z) <= 1e60;  // NaN is not <= anything
 }
 
+/// An edge of the sheet's border.
+struct BorderEdge {
+  TriangleIndex triangle;
+  std::array<Point2, 2> rest;
+  std::array<Point3, 2> in_space;
+};
+
+double dot(Point3 a, Point3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
 }  // namespace
 
 struct Picker::Tree {
@@ -65,6 +76,7 @@ struct Picker::Tree {
   std::vector<TriangleIndex> number;
   Boxes boxes;
   Router router;
+  std::vector<BorderEdge> border;  ///< but seams
 
   explicit Tree(const Sheet& posed) : router(posed) {}
 
@@ -101,6 +113,39 @@ Picker::Picker(const Sheet& posed) : tree_(std::make_unique<Tree>(posed)), mean_
     tree_->number.emplace_back(i);
   }
   tree_->boxes.rebuild(tree_->deformed.cbegin(), tree_->deformed.cend());
+  add_border(posed);
+}
+
+void Picker::add_border(const Sheet& posed) {
+  std::set<HalfEdge> seams;
+  for (const SewnEdge& edge : sewn_edges(posed)) seams.insert(edge.edge);
+  for (const TriangleIndex t : tree_->number)
+    for (int k = 0; k < 3; ++k) {
+      const HalfEdge h = half_edge(t, k);
+      if (!posed.on_border(h) || seams.contains(h)) continue;
+      const auto& ends = posed.triangle(t).deformed;
+      tree_->border.push_back({t,
+                               {posed.rest(posed.origin(h)), posed.rest(posed.target(h))},
+                               {posed.position(ends[to_size(k)]), posed.position(ends[to_size((k + 1) % 3)])}});
+    }
+}
+
+PlaceAtRest Picker::on_border_if_near(const PlaceAtRest& place) const {
+  PlaceAtRest best = place;
+  double least = tolerance * mean_edge_;
+  for (const BorderEdge& edge : tree_->border) {
+    const auto& [a, b] = edge.in_space;
+    const Point3 ab = b + -1.0 * a;
+    const double share = std::clamp(dot(place.in_space + -1.0 * a, ab) / dot(ab, ab), 0.0, 1.0);
+    const Point3 foot = a + share * ab;
+    const double distance = length(place.in_space + -1.0 * foot);
+    const Point2 rest = edge.rest[0] + share * (edge.rest[1] - edge.rest[0]);
+    // A border that lies upon another part of a folded sheet is near in space alone.
+    if (!(distance <= least) || length(rest - place.point) > 4 * tolerance * mean_edge_) continue;
+    least = distance;
+    best = {edge.triangle, rest, foot};
+  }
+  return best;
 }
 
 Picker::~Picker() = default;
@@ -141,6 +186,8 @@ std::vector<Curve> Picker::rest_curves(const PickedCurve& picked, const std::str
   std::vector<PlaceAtRest> places;
   for (std::size_t i = 0; i < picked.picks.size(); ++i) {
     places.push_back(place(picked.picks[i], name + ", point " + std::to_string(i)));
+    const bool is_end = !picked.closed && (i == 0 || i + 1 == picked.picks.size());
+    if (is_end) places.back() = on_border_if_near(places.back());
     curve.points.push_back(places.back().point);
   }
   const bool is_bezier = curve.kind == Curve::Kind::bezier;

@@ -46,14 +46,18 @@ class Picker {
   /// Where in rest space the picked point is. A ray that runs within a triangle's plane meets it where it enters.
   /// Throws InputError, beginning with `name`: a miss, with its distance.
   Point2 rest_point(const Pick& pick, const std::string& name) const;
-  /// The curve in rest space; where it crosses seams, one for each stretch between two of them (route.h). A Bezier that
-  /// crosses one would be another curve on each side: it is taken as the curve in space of its picked points, and from
-  /// there to the nearest places of the sheet, in chords of `flatness` mean edges.
+  /// The curve in rest space. An end that is no farther from the border than `tolerance` is put onto it: else a cut to
+  /// the border would leave a bridge as wide as the last digit of a file. Where the curve crosses seams, one for each
+  /// stretch between two of them (route.h). A Bezier that crosses one would be another curve on each side: it is taken
+  /// as the curve in space of its picked points, and from there to the nearest places of the sheet, in chords of
+  /// `flatness` mean edges.
   /// Throws InputError, beginning with `name` and the number of the point: a miss, no way over the seams.
   std::vector<Curve> rest_curves(const PickedCurve& curve, const std::string& name) const;
 
  private:
   PlaceAtRest place(const Pick& pick, const std::string& name) const;
+  void add_border(const Sheet& posed);
+  PlaceAtRest on_border_if_near(const PlaceAtRest& place) const;
   std::vector<PlaceAtRest> flattened(const std::vector<PlaceAtRest>& control_points) const;
 
   struct Tree;

@@ -52,8 +52,9 @@ void warn_of_strain(const MeshData& mesh, double stiffness) {
   if (energy <= most_energy_at_first * area) return;
   std::fprintf(stderr,
                "note: the sheet holds about %.3g J before anything moves, %.2g of stiffness times area: lengths in "
-               "space are %s those at rest; if the vt are a texture, set rest = \"plane\" in [sheet]\n",
-               stiffness * energy, energy / area, stretches_of(mesh).text().c_str());
+               "space are %s those at rest; if the vt are a texture, set rest = \"%s\" in [sheet]\n",
+               stiffness * energy, energy / area, stretches_of(mesh).text().c_str(),
+               plane_of(mesh).flat() ? "plane" : "space");
 }
 
 /// Where nobody says: all cores, but for sheets so small that threads gain nothing.
