@@ -150,7 +150,8 @@ TEST_F(MeshIo, BadObjLinesAreNamed) {
       {"v 0 0 -inf\n", "'-inf' is not a finite number"},
       {"v 0 0 1e999\n", "'1e999' is not a finite number"},
       {"vt 0\n", "line 1: a number is missing"},
-      {two_triangles + "f 1 2\n", "line 9: a face with 2 corners"},
+      {two_triangles + "f 1 2\n", "line 9: a face with 2 corners; a triangle has three: delete it"},
+      {two_triangles + "l 1 2\nl 2 3\n", "bad.obj: lines and no faces; a sheet is made of triangles"},
       {two_triangles + "f 1 2 3 4\n", "line 9: a face with 4 corners; only triangles are read: triangulate the mesh"},
       {two_triangles + "f 1 2 3 4 1\n", "a face with 5 corners"},
       {two_triangles + "f 0 1 2\n", "'0' is not a face corner"},
@@ -191,7 +192,7 @@ TEST_F(MeshIo, BadOffFilesAreRefused) {
         "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n",
         "OFF\n3 1 0\n0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n", "OFF\n3 1 0\n0 0 0\n1 0 zero\n0 1 0\n3 0 1 2\n",
         "OFF\n2000000000 1 0\n0 0 0\n", "OFF\n-3 1 0\n0 0 0\n", "OFF\n3 2000000000 0\n0 0 0\n",
-        "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n1e18 0 1 2\n", "v 0 0 0\n",
+        "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n1e18 0 1 2\n", "x 0 0 0\n",
         "\x7f"
         "ELF\x02\x01"}) {
     SCOPED_TRACE(content);
@@ -232,6 +233,72 @@ TEST_F(MeshIo, Ply) {
   expect_refused([&] { read("bad.ply", head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n"); },
                  "triangle 1 of 1 has a corner beyond the 3 vertices");
   expect_refused([&] { read("bad.ply", head + "0 0 0\n1 0 0\n0 1 0\n4 0 1 2 1\n"); }, "face 1 of 1 has 4 corners");
+}
+
+/// In space the unit square, from four vertices of its own for each half.
+std::string ply_of_halves(const std::string& names, const std::vector<std::string>& textures) {
+  std::istringstream name(names);
+  std::string u, v;
+  name >> u >> v;
+  std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
+      "property float " +
+      u + "\nproperty float " + v + "\nelement face 2\nproperty list uchar ushort vertex_indices\nend_header\n";
+  const std::vector<std::string> places{"0 0 0", "1 0 0", "1 1 0", "0 0 0", "1 1 0", "0 1 0"};
+  for (std::size_t i = 0; i < 6; ++i) text += places[i] + " " + textures[i] + "\n";
+  return text + "3 0 1 2\n3 3 4 5\n";
+}
+
+TEST_F(MeshIo, TextureCoordinatesOfAPly) {
+  const std::vector<std::string> apart{"0 0", "1 0", "1 1", "5 0", "6 1", "5 1"};
+  const std::vector<std::string> texture{"0 0", ".1 0", ".1 .1", ".5 0", ".6 .1", ".5 .1"};
+  for (const char* names : {"s t", "u v", "texture_u texture_v"}) {
+    SCOPED_TRACE(names);
+    const MeshData mesh = read("apart.ply", ply_of_halves(names, apart));
+    EXPECT_EQ(mesh.rest[4], (Point2{6, 1}));
+    EXPECT_NE(joined_notes(mesh).find("--sew 0 sews it"), std::string::npos) << joined_notes(mesh);
+  }
+  const fs::path in_file = file("sewn.ply", ply_of_halves("s t", apart));
+  EXPECT_EQ(Sheet(read_mesh(in_file, {.sew = 0})).seams().size(), 1u);
+  EXPECT_EQ(read_mesh(in_file, {.rest = RestFrom::plane}).rest[4], (Point2{1, 1}));
+  const fs::path small = file("texture.ply", ply_of_halves("s t", texture));
+  EXPECT_EQ(read_mesh(small).rest[4], (Point2{1, 1}));
+  EXPECT_NE(joined_notes(read_mesh(small)).find("the vt are taken for a texture"), std::string::npos);
+  EXPECT_EQ(read_mesh(small, {.rest = RestFrom::vt}).rest[4].x, 0.6F);
+  const fs::path other = file("other.ply", ply_of_halves("confidence intensity", texture));
+  expect_refused([&] { read_mesh(other, {.rest = RestFrom::vt}); }, "other.ply: no vt");
+}
+
+TEST_F(MeshIo, OtherWaysToWriteAFile) {
+  const auto with_carriage_returns = [](std::string text) {
+    std::replace(text.begin(), text.end(), '\n', '\r');
+    return text;
+  };
+  const std::string obj = two_triangles + "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+  expect_bit_equal(read("a.obj", with_carriage_returns(obj)), read("b.obj", obj));
+  const std::string off = "OFF\n3 1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  expect_bit_equal(read("a.off", with_carriage_returns(off)), read("b.off", off));
+  const std::string ply = ply_of_halves("s t", {"0 0", "1 0", "1 1", "5 0", "6 1", "5 1"});
+  expect_bit_equal(read("a.ply", with_carriage_returns(ply)), read("b.ply", ply));
+
+  const std::string rename = ": by its text it is of the format ";
+  expect_refused([&] { read("c.off", obj); }, "c.off" + rename + "OBJ; rename it to .obj");
+  expect_refused([&] { read("c.ply", "# made by hand\n\n" + off); }, "c.ply" + rename + "OFF; rename it to .off");
+  expect_refused([&] { read("c.obj", ply); }, "c.obj" + rename + "PLY; rename it to .ply");
+  expect_refused([&] { read("d.obj", "solid\nfacet normal 0 0 1\n"); }, "d.obj" + rename + "STL; convert it");
+  expect_refused([&] { read("e.obj", "$MeshFormat\n"); }, "e.obj" + rename + "Gmsh; convert it");
+
+  expect_refused([&] { read("f.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n"); },
+                 "face 1 of 1 has 2 corners; a triangle has three: delete it");
+  expect_refused(
+      [&] {
+        read("strips.ply",
+             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+             "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+      },
+      "strips.ply: its triangles are strips (tristrips), which are not read; export them as faces");
+  expect_refused([&] { read("twice.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\nf 1 2 3\nf 1 3 4\nf 2 3 1\n"); },
+                 "twice.obj: triangle 3 of 3 has the same corners as triangle 1; delete one of them");
 }
 
 /// An opened sheet, bent, with numbers that need all 17 digits.

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <string>
 
+#include "harness/mesh/mesh_format.h"
 #include "harness/mesh/sew.h"
 #include "harness/mesh/texture.h"
 
@@ -19,6 +20,18 @@ std::string lower_case_extension(const std::filesystem::path& path) {
   return extension;
 }
 
+void check_format(const std::string& text, const std::string& name, const std::string& extension) {
+  const std::string format = format_of(text);
+  if (format == "OBJ" || format == "OFF" || format == "PLY") {
+    const std::string its_own = format == "OBJ" ? ".obj" : format == "OFF" ? ".off" : ".ply";
+    if (extension != its_own)
+      throw InputError(name + ": by its text it is of the format " + format + "; rename it to " + its_own);
+  } else if (!format.empty()) {
+    throw InputError(name + ": by its text it is of the format " + format +
+                     "; convert it to .obj, .off or .ply, as `meshio convert` does");
+  }
+}
+
 MeshData read_unchecked(const std::filesystem::path& path, bool as_is, const MeshReading& reading) {
   const std::string name = path.filename().string();
   const std::string extension = lower_case_extension(path);
@@ -29,11 +42,12 @@ MeshData read_unchecked(const std::filesystem::path& path, bool as_is, const Mes
   if (!std::filesystem::is_regular_file(path, error) || access(path.c_str(), R_OK) != 0)
     throw InputError(path.string() + ": no such file, or it can't be read; check the path");
   const std::string text = text_of(path);
+  check_format(text, name, extension);
   if (extension == ".obj") return read_obj(text, name, as_is, reading);
-  if (reading.rest == RestFrom::vt && !as_is)
+  MeshData mesh = extension == ".off" ? read_off(text, name, reading.triangulate) : read_ply(text, name, reading);
+  if (reading.rest == RestFrom::vt && mesh.rest.empty() && !as_is)
     throw InputError(name + ": no vt, so they can't be the rest positions; leave --rest vt out");
-  if (extension == ".off") return read_off(text, name, reading.triangulate);
-  return read_ply(text, name, reading.triangulate);
+  return mesh;
 }
 
 void check_extension(const std::filesystem::path& path) {

@@ -17,13 +17,13 @@ namespace cutbench {
 ///
 /// OBJ: `v`, `vt` and `f` (v, v/vt, v//vn, v/vt/vn, negative indices), continued lines; other keywords are ignored. A
 /// `v` used with several different `vt` becomes as many vertices, the first keeping its number. OFF, PLY: CGAL's
-/// readers, text or binary; colours, normals and texture coordinates are ignored.
+/// readers, text or binary; colours and normals are ignored. Texture coordinates of a PLY's vertices are its `vt`.
 ///
-/// Rest positions are the `vt` of the OBJ or the plane it lies in, as `reading` and harness/mesh/rest_choice.h say;
+/// Rest positions are the `vt` or the plane the mesh lies in, as `reading` and harness/mesh/rest_choice.h say;
 /// without `vt` see check_and_repair. `vt` that are not taken are left to read_texture(), with a note. Positions are
 /// taken as written, without a unit.
 /// \throw InputError naming the file, the element (counted from 1; lines in an OBJ) and what to do: no such file,
-/// unknown extension, cut short or not of its format, faces that aren't triangles, and all that check_and_repair
+/// unknown extension, a text of another format, cut short or not of its format, faces that aren't triangles, and all that check_and_repair
 /// refuses.
 MeshData read_mesh(const std::filesystem::path& path, const MeshReading& reading = {});
 

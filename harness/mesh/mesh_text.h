@@ -20,10 +20,11 @@ namespace cutbench {
 /// \throw InputError with the line's number; RestFrom::vt and no `vt`, but as is.
 MeshData read_obj(std::string_view text, const std::string& name, bool as_is = false, const MeshReading& reading = {});
 
-/// The same of an OFF or a PLY, text or binary. An index that 32 bits don't hold becomes -1; `rest` is empty.
+/// The same of an OFF or a PLY, text or binary. An index that 32 bits don't hold becomes -1. `rest` is empty; that of a
+/// PLY whose vertices have texture coordinates (s and t, u and v) as that of an OBJ with `vt`.
 /// \throw InputError beginning with `name`: cut short or not of the format, a face that isn't a triangle.
 MeshData read_off(const std::string& text, const std::string& name, bool triangulated = false);
-MeshData read_ply(const std::string& text, const std::string& name, bool triangulated = false);
+MeshData read_ply(const std::string& text, const std::string& name, const MeshReading& reading = {});
 
 /// The first line of an OBJ that says so itself; obj_text() writes it.
 constexpr std::string_view vt_are_rest = "# vt: rest positions";

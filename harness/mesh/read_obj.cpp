@@ -34,6 +34,7 @@ class ObjReader {
       throw InputError(name_ + ": not a text file, so not an OBJ; check the extension");
     if (constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF"; text.starts_with(byte_order_mark))
       text.remove_prefix(byte_order_mark.size());
+    if (text.find('\n') == std::string_view::npos) line_end_ = '\r';  // as old programs end lines
     comments_tell_ = text.starts_with(vt_are_texture);
     if ((comments_tell_ || text.starts_with(vt_are_rest)) && reading_.rest == RestFrom::automatic) rest_said_ = true;
     std::string line;
@@ -82,7 +83,7 @@ class ObjReader {
   void take_line(std::string_view& text, std::string& line) {
     line.clear();
     for (bool goes_on = true; goes_on && !text.empty(); ++line_) {
-      const std::size_t end = std::min(text.find('\n'), text.size());
+      const std::size_t end = std::min(text.find(line_end_), text.size());
       std::string_view part = text.substr(0, end);
       text.remove_prefix(std::min(end + 1, text.size()));
       if (part.ends_with('\r')) part.remove_suffix(1);
@@ -104,6 +105,8 @@ class ObjReader {
       textures_.push_back({u, v});
     } else if (keyword == "f") {
       read_face(line);
+    } else if (keyword == "l" || keyword == "curv") {
+      has_lines_ = true;
     } else if (comments_tell_ && keyword == "vr") {
       const double x = number(line), y = number(line);
       rest_.push_back({x, y});
@@ -141,9 +144,9 @@ class ObjReader {
     } else if (corners.size() > 3 && reading_.triangulate) {
       polygons_.push_back({faces_.size(), line_, std::move(corners)});
     } else {
-      fail(line_, "a face with " + std::to_string(corners.size()) +
-                      " corners; only triangles are read: triangulate the mesh" +
-                      (corners.size() > 3 ? ", or give --triangulate" : ""));
+      fail(line_, "a face with " + std::to_string(corners.size()) + " corners; " +
+                      (corners.size() > 3 ? "only triangles are read: triangulate the mesh, or give --triangulate"
+                                          : "a triangle has three: delete it"));
     }
   }
 
@@ -206,6 +209,8 @@ class ObjReader {
 
   MeshData build() {
     MeshData mesh;
+    if (faces_.empty() && polygons_.empty() && has_lines_)
+      throw InputError(name_ + ": lines and no faces; a sheet is made of triangles: mesh the area between the lines");
     if (!polygons_.empty()) triangulate_polygons(mesh);
     bool any_vt = false;
     for (Face& face : faces_)
@@ -308,8 +313,10 @@ class ObjReader {
   bool as_is_;
   MeshReading reading_;
   bool comments_tell_ = false;  ///< the rest positions, by vt_are_texture
-  bool rest_said_ = false;      ///< the file itself says which they are
-  std::size_t line_ = 0;        ///< of the line being read, from 1; where it was continued, its last
+  bool has_lines_ = false;
+  char line_end_ = '\n';
+  bool rest_said_ = false;  ///< the file itself says which they are
+  std::size_t line_ = 0;    ///< of the line being read, from 1; where it was continued, its last
   std::vector<Point3> positions_;
   std::vector<Point2> textures_, rest_;  ///< `vt` and `#vr`
   std::vector<Face> faces_;

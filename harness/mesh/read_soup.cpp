@@ -2,6 +2,8 @@
 #include <CGAL/IO/PLY.h>
 
 #include <algorithm>
+#include <array>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -46,9 +48,9 @@ MeshData from_soup(const SpacePoints& points, const Faces& faces, const std::str
   for (const Face& face : faces) {
     const std::string where = name + ": face " + std::to_string(++number) + " of " + std::to_string(faces.size());
     if (face.size() < 3 || (face.size() > 3 && !triangulated))
-      throw InputError(where + " has " + std::to_string(face.size()) +
-                       " corners; only triangles are read: triangulate the mesh" +
-                       (face.size() > 3 ? ", or give --triangulate" : ""));
+      throw InputError(where + " has " + std::to_string(face.size()) + " corners; " +
+                       (face.size() > 3 ? "only triangles are read: triangulate the mesh, or give --triangulate"
+                                        : "a triangle has three: delete it"));
     polygons += face.size() > 3;
     // check_and_repair looks at the range; here an index too large for 32 bits must only not turn into a good one.
     for (const auto& part : parts(mesh, face, where)) {
@@ -97,57 +99,100 @@ bool announces_more_than_it_holds(std::istream& in, std::uintmax_t bytes) {
   return result;
 }
 
-/// CGAL takes an element before the first `property` for granted, and any text without `end_header` for an empty mesh.
-bool has_ply_header(std::istream& in) {
-  bool has_element = false, sound = false;
-  std::string line, keyword;
-  for (int number = 1; !sound && std::getline(in, line); ++number) {
-    keyword.clear();
-    std::istringstream(line) >> keyword;
+/// What a PLY's header says before CGAL reads it. CGAL takes an element before the first `property` for granted, and
+/// any text without `end_header` for an empty mesh.
+struct PlyHeader {
+  bool sound = false;
+  std::set<std::string> elements;
+};
+
+PlyHeader header_of_ply(std::istream& in) {
+  PlyHeader header;
+  std::string line;
+  for (int number = 1; !header.sound && std::getline(in, line); ++number) {
+    std::string keyword, name;
+    std::istringstream(line) >> keyword >> name;
     if (number <= 2) continue;  // `ply` and `format`, which CGAL does look at
-    if (keyword == "property" && !has_element) break;
-    has_element = has_element || keyword == "element";
-    sound = keyword == "end_header";
+    if (keyword == "property" && header.elements.empty()) break;
+    if (keyword == "element") header.elements.insert(name);
+    header.sound = keyword == "end_header";
   }
   in.clear();
   in.seekg(0);
-  return sound;
+  return header;
 }
 
-template <class Integer>
-bool read_faces_of(std::istream& in, CGAL::IO::internal::PLY_element& element, Faces& faces, const char* tag) {
-  if (!element.has_property<std::vector<Integer>>(tag)) return false;
-  return CGAL::IO::internal::read_PLY_faces<Integer>(in, element, faces, CGAL::Emptyset_iterator(), tag);
+namespace ply = CGAL::IO::internal;
+
+/// Where programs put a vertex's texture coordinates.
+constexpr std::array<std::array<const char*, 2>, 4> ply_textures{
+    {{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}}};
+
+bool read_vertices(std::istream& in, ply::PLY_element& element, SpacePoints& points, std::vector<Point2>& textures) {
+  const auto has = [&](const char* tag) { return element.has_property<double>(tag); };
+  const auto texture = std::find_if(ply_textures.begin(), ply_textures.end(),
+                                    [&](const auto& tags) { return has(tags[0]) && has(tags[1]); });
+  for (std::size_t item = 0; item < element.number_of_items(); ++item) {
+    for (std::size_t k = 0; k < element.number_of_properties(); ++k) element.property(k)->get(in);
+    if (in.fail()) return false;
+    std::tuple<Kernel::Point_3> point;
+    ply::process_properties(element, point,
+                            CGAL::make_ply_point_reader(CGAL::make_nth_of_tuple_property_map<0>(point)));
+    points.push_back(std::get<0>(point));
+    if (texture == ply_textures.end()) continue;
+    Point2& place = textures.emplace_back();
+    element.assign(place.x, (*texture)[0]);
+    element.assign(place.y, (*texture)[1]);
+  }
+  return true;
 }
 
-bool read_narrow_faces(std::istream& in, CGAL::IO::internal::PLY_element& element, Faces& faces) {
+template <class... Integers>
+bool read_faces_of(std::istream& in, ply::PLY_element& element, Faces& faces, const char* tag) {
+  return ((element.has_property<std::vector<Integers>>(tag) &&
+           ply::read_PLY_faces<Integers>(in, element, faces, CGAL::Emptyset_iterator(), tag)) ||
+          ...);
+}
+
+bool read_faces(std::istream& in, ply::PLY_element& element, Faces& faces) {
+  using std::int16_t, std::int32_t, std::int8_t, std::uint16_t, std::uint32_t, std::uint8_t;
   for (const char* tag : {"vertex_indices", "vertex_index"})
-    if (read_faces_of<std::uint16_t>(in, element, faces, tag) || read_faces_of<std::int16_t>(in, element, faces, tag) ||
-        read_faces_of<std::uint8_t>(in, element, faces, tag) || read_faces_of<std::int8_t>(in, element, faces, tag))
-      return true;
+    if (read_faces_of<int32_t, uint32_t, int16_t, uint16_t, int8_t, uint8_t>(in, element, faces, tag)) return true;
   return false;
 }
 
-/// A PLY whose faces have indices of 8 or 16 bits, which CGAL::IO::read_PLY passes over. False where it has others.
-bool read_narrow_ply(std::istream& in, SpacePoints& points, Faces& faces) {
-  namespace ply = CGAL::IO::internal;
+/// By CGAL's parts: CGAL::IO::read_PLY passes over faces with indices of 8 or 16 bits, and texture coordinates.
+bool read_ply_parts(std::istream& in, SpacePoints& points, std::vector<Point2>& textures, Faces& faces) {
   ply::PLY_reader reader(false);
   if (!reader.init(in)) return false;
   for (std::size_t i = 0; i < reader.number_of_elements(); ++i) {
     ply::PLY_element& element = reader.element(i);
-    if (element.name() == "face" || element.name() == "faces") return read_narrow_faces(in, element, faces);
-    const bool vertices = element.name() == "vertex" || element.name() == "vertices";
-    for (std::size_t item = 0; item < element.number_of_items(); ++item) {
-      for (std::size_t k = 0; k < element.number_of_properties(); ++k) element.property(k)->get(in);
-      if (in.fail()) return false;
-      std::tuple<Kernel::Point_3> point;
-      if (vertices)
-        ply::process_properties(element, point,
-                                CGAL::make_ply_point_reader(CGAL::make_nth_of_tuple_property_map<0>(point)));
-      if (vertices) points.push_back(std::get<0>(point));
+    if (element.name() == "vertex" || element.name() == "vertices") {
+      if (!read_vertices(in, element, points, textures)) return false;
+    } else if (element.name() == "face" || element.name() == "faces") {
+      return read_faces(in, element, faces);
+    } else {
+      for (std::size_t item = 0; item < element.number_of_items(); ++item)
+        for (std::size_t k = 0; k < element.number_of_properties(); ++k) element.property(k)->get(in);
     }
   }
-  return false;
+  return !in.fail();
+}
+
+/// Old programs end lines by a carriage return alone.
+std::string with_line_feeds(std::string text) {
+  if (text.find('\n') == std::string::npos) std::replace(text.begin(), text.end(), '\r', '\n');
+  return text;
+}
+
+/// Takes the texture coordinates of a PLY's vertices for rest positions, or not (rest_choice.h).
+void take_texture(MeshData& mesh, std::vector<Point2> textures, const std::string& name, RestFrom rest) {
+  if (rest == RestFrom::plane || rest == RestFrom::space || textures.empty()) return;
+  mesh.rest = std::move(textures);
+  if (rest == RestFrom::vt) return;
+  const RestDecision decision = decide_rest(mesh);
+  if (!decision.note.empty()) mesh.notes.push_back(name + ": " + decision.note);
+  if (!decision.vt) mesh.rest.clear();
 }
 
 template <class Reader>
@@ -168,24 +213,25 @@ MeshData read_soup(std::istream& in, const std::string& name, const char* format
 }  // namespace
 
 MeshData read_off(const std::string& text, const std::string& name, bool triangulated) {
-  std::istringstream in(with_edge_count(text));
+  std::istringstream in(with_edge_count(with_line_feeds(text)));
   return read_soup(in, name, "OFF", triangulated, [&](std::istream& s, SpacePoints& points, Faces& faces) {
     if (announces_more_than_it_holds(s, text.size())) return false;
     return CGAL::IO::read_OFF(s, points, faces, CGAL::parameters::verbose(false));
   });
 }
 
-MeshData read_ply(const std::string& text, const std::string& name, bool triangulated) {
-  std::istringstream in(text);
-  return read_soup(in, name, "PLY", triangulated, [](std::istream& s, SpacePoints& points, Faces& faces) {
-    if (!has_ply_header(s)) return false;
-    if (CGAL::IO::read_PLY(s, points, faces, CGAL::parameters::verbose(false))) return true;
-    points.clear();
-    faces.clear();
-    s.clear();
-    s.seekg(0);
-    return read_narrow_ply(s, points, faces);
-  });
+MeshData read_ply(const std::string& text, const std::string& name, const MeshReading& reading) {
+  std::istringstream in(with_line_feeds(text));
+  const PlyHeader header = header_of_ply(in);
+  if (header.elements.contains("tristrips"))
+    throw InputError(name + ": its triangles are strips (tristrips), which are not read; export them as faces");
+  std::vector<Point2> textures;
+  MeshData mesh =
+      read_soup(in, name, "PLY", reading.triangulate, [&](std::istream& s, SpacePoints& points, Faces& faces) {
+        return header.sound && read_ply_parts(s, points, textures, faces);
+      });
+  take_texture(mesh, std::move(textures), name, reading.rest);
+  return mesh;
 }
 
 }  // namespace cutbench

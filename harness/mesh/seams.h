@@ -25,8 +25,10 @@ struct Seam {
   bool operator==(const Seam&) const = default;
 };
 
-/// The border edges of `mesh` whose ends are sewn to those of another one. Of three such edges two are a seam each with
-/// the first. \pre `mesh` passed check_and_repair()
+/// The border edges of `mesh` whose ends are sewn to those of another one; of three such edges two are a seam each with
+/// the first. Where vertices along a seam are not those of the other side, as a method leaves them that refines one
+/// side alone, the straight lines between vertices that both have.
+/// \pre `mesh` passed check_and_repair()
 std::vector<Seam> seams_of(const MeshData& mesh);
 
 /// A part of a seam's side: an edge of the border.
@@ -48,13 +50,14 @@ std::vector<SewnEdge> sewn_edges(const Sheet& sheet);
 /// What a seam asks of a vertex of the opened sheet: it goes along with one or two others.
 struct SeamTie {
   DeformedIndex vertex;
-  std::array<DeformedIndex, 2> masters;  ///< that are in no tie; [1] is invalid where the weight is 0
+  std::array<DeformedIndex, 2> masters;  ///< [1] is invalid where its weight is 0; may hang on those of another seam
   std::array<double, 2> weights;         ///< add up to 1
   bool operator==(const SeamTie&) const = default;
 };
 
 /// The ties that keep the sheet sewn. The lips of an incision that runs over a seam stay apart. A vertex that only one
-/// side has hangs on the other side's edge, where it is the second side's; one of the first side stays free.
+/// side has hangs on the nearest two along the seam that both have: between these both sides are straight, so no gap
+/// opens.
 /// \param rank  per deformed slot: of those that are one, that of the highest rank is the master; one of pinned_rank
 ///              hangs on nothing. Empty: all are equal, and the first one is
 /// Each vertex once, in rising order. Cost: the whole sheet.

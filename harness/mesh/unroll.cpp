@@ -159,12 +159,20 @@ class Unrolling {
       for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
         auto& sides = sides_[ends(p, q)];
         sides.push_back(t);
+        for (const std::size_t other : sides)
+          if (other != t && has_same_corners(other, t))
+            throw InputError(name() + " has the same corners as triangle " + std::to_string(other + 1) +
+                             "; delete one of them");
         if (sides.size() > 2)
           throw InputError(name() + ": three triangles meet at one of its edges in space (with triangles " +
                            std::to_string(sides[0] + 1) + " and " + std::to_string(sides[1] + 1) +
                            "); a sheet has two at most: delete one");
       }
     }
+  }
+
+  bool has_same_corners(std::size_t s, std::size_t t) const {
+    return std::is_permutation(mesh_.triangles[s].begin(), mesh_.triangles[s].end(), mesh_.triangles[t].begin());
   }
 
   /// The triangle across edge k of t; none on the border.

@@ -1,0 +1,113 @@
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "harness/base/conversions.h"
+#include "harness/mesh/seams.h"
+
+namespace cutbench {
+
+namespace {
+
+/// In lengths of the line: what a file's last digits may put a vertex beside the straight line that it is on.
+constexpr double beside_line = 1e-4;
+
+/// Consecutive edges of the border, by their vertices.
+using Line = std::vector<std::int32_t>;
+
+class SeamFinder {
+ public:
+  explicit SeamFinder(const MeshData& mesh) : mesh_(mesh), next_(mesh.rest.size(), -1) { find_border(); }
+
+  std::vector<Seam> find() {
+    std::vector<Line> edges;
+    for (const auto& [a, b] : border_) edges.push_back({a, b});
+    join(edges);
+    join(straight_lines());
+    return std::move(seams_);
+  }
+
+ private:
+  std::int32_t point(std::int32_t v) const { return mesh_.sewn[to_size(v)]; }
+  Point2 rest(std::int32_t v) const { return mesh_.rest[to_size(v)]; }
+  Point3 in_space(std::int32_t v) const { return mesh_.deformed[to_size(v)]; }
+
+  void find_border() {
+    using Edge = std::pair<std::int32_t, std::int32_t>;
+    std::map<Edge, int> uses;
+    const auto for_each_edge = [&](const auto& act) {
+      for (const auto& t : mesh_.triangles)
+        for (std::size_t k = 0; k < 3; ++k) act(t[k], t[(k + 1) % 3]);
+    };
+    for_each_edge([&](std::int32_t a, std::int32_t b) { ++uses[std::minmax(a, b)]; });
+    for_each_edge([&](std::int32_t a, std::int32_t b) {
+      if (uses[std::minmax(a, b)] == 1) border_.emplace_back(a, b);
+    });
+    std::map<std::int32_t, std::int32_t> first;
+    shared_.assign(mesh_.rest.size(), false);
+    for (const auto& [a, b] : border_) {
+      next_[to_size(a)] = b;
+      const auto [other, is_first] = first.try_emplace(point(a), a);
+      if (!is_first) shared_[to_size(a)] = shared_[to_size(other->second)] = true;
+    }
+  }
+
+  /// Lines between the same two points are a seam, each later one with the first; the lips of an incision are none.
+  void join(const std::vector<Line>& lines) {
+    std::map<std::pair<std::int32_t, std::int32_t>, const Line*> first_of;  // by the numbers of the points
+    for (const Line& line : lines) {
+      const std::int32_t p = point(line.front()), q = point(line.back());
+      const auto [other, is_first] = first_of.try_emplace(std::minmax(p, q), &line);
+      if (is_first || p == q) continue;
+      const Seam seam{side(*other->second), side(line)};
+      if (seam.first == seam.second) continue;
+      seams_.push_back(seam);
+      for (const Line* joined : {other->second, &line}) next_[to_size(joined->front())] = -1;
+    }
+  }
+
+  /// The rest positions of its ends, in the order of their points.
+  std::array<Point2, 2> side(const Line& line) const {
+    const std::array ends{rest(line.front()), rest(line.back())};
+    return point(line.front()) < point(line.back()) ? ends : std::array{ends[1], ends[0]};
+  }
+
+  /// From vertex to vertex that another side has, too, over those that this side alone has.
+  std::vector<Line> straight_lines() const {
+    std::vector<Line> lines;
+    for (const auto& [a, b] : border_) {
+      if (!shared_[to_size(a)] || next_[to_size(a)] != b) continue;
+      Line line{a, b};
+      while (!shared_[to_size(line.back())] && next_[to_size(line.back())] >= 0)
+        line.push_back(next_[to_size(line.back())]);
+      if (shared_[to_size(line.back())] && is_straight(line)) lines.push_back(line);
+    }
+    return lines;
+  }
+
+  /// At rest and in space, with the same shares of the length.
+  bool is_straight(const Line& line) const {
+    const Point2 from = rest(line.front()), way = rest(line.back()) - from;
+    const Point3 from_in_space = in_space(line.front()), way_in_space = in_space(line.back()) + -1.0 * from_in_space;
+    return std::all_of(line.begin(), line.end(), [&](std::int32_t v) {
+      const double share = dot(way, rest(v) - from) / squared_length(way);
+      const Point3 off = in_space(v) + -1.0 * (from_in_space + share * way_in_space);
+      return length(rest(v) - from - share * way) <= beside_line * length(way) &&
+             length(off) <= beside_line * length(way_in_space);
+    });
+  }
+
+  const MeshData& mesh_;
+  std::vector<std::pair<std::int32_t, std::int32_t>> border_;
+  std::vector<std::int32_t> next_;  // per vertex, along the border where it is on no seam yet; -1: none
+  std::vector<bool> shared_;        // per vertex: another one of the border is sewn to it
+  std::vector<Seam> seams_;
+};
+
+}  // namespace
+
+std::vector<Seam> seams_of(const MeshData& mesh) {
+  return mesh.sewn.empty() ? std::vector<Seam>() : SeamFinder(mesh).find();
+}
+
+}  // namespace cutbench
