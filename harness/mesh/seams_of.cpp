@@ -13,14 +13,14 @@ namespace {
 constexpr double beside_line = 1e-4;
 
 /// Consecutive edges of the border, by their vertices.
-using Line = std::vector<std::int32_t>;
+using BorderLine = std::vector<std::int32_t>;
 
 class SeamFinder {
  public:
   explicit SeamFinder(const MeshData& mesh) : mesh_(mesh), next_(mesh.rest.size(), -1) { find_border(); }
 
   std::vector<Seam> find() {
-    std::vector<Line> edges;
+    std::vector<BorderLine> edges;
     for (const auto& [a, b] : border_) edges.push_back({a, b});
     join(edges);
     join(straight_lines());
@@ -53,31 +53,31 @@ class SeamFinder {
   }
 
   /// Lines between the same two points are a seam, each later one with the first; the lips of an incision are none.
-  void join(const std::vector<Line>& lines) {
-    std::map<std::pair<std::int32_t, std::int32_t>, const Line*> first_of;  // by the numbers of the points
-    for (const Line& line : lines) {
+  void join(const std::vector<BorderLine>& lines) {
+    std::map<std::pair<std::int32_t, std::int32_t>, const BorderLine*> first_of;  // by the numbers of the points
+    for (const BorderLine& line : lines) {
       const std::int32_t p = point(line.front()), q = point(line.back());
       const auto [other, is_first] = first_of.try_emplace(std::minmax(p, q), &line);
       if (is_first || p == q) continue;
       const Seam seam{side(*other->second), side(line)};
       if (seam.first == seam.second) continue;
       seams_.push_back(seam);
-      for (const Line* joined : {other->second, &line}) next_[to_size(joined->front())] = -1;
+      for (const BorderLine* joined : {other->second, &line}) next_[to_size(joined->front())] = -1;
     }
   }
 
   /// The rest positions of its ends, in the order of their points.
-  std::array<Point2, 2> side(const Line& line) const {
+  std::array<Point2, 2> side(const BorderLine& line) const {
     const std::array ends{rest(line.front()), rest(line.back())};
     return point(line.front()) < point(line.back()) ? ends : std::array{ends[1], ends[0]};
   }
 
   /// From vertex to vertex that another side has, too, over those that this side alone has.
-  std::vector<Line> straight_lines() const {
-    std::vector<Line> lines;
+  std::vector<BorderLine> straight_lines() const {
+    std::vector<BorderLine> lines;
     for (const auto& [a, b] : border_) {
       if (!shared_[to_size(a)] || next_[to_size(a)] != b) continue;
-      Line line{a, b};
+      BorderLine line{a, b};
       while (!shared_[to_size(line.back())] && next_[to_size(line.back())] >= 0)
         line.push_back(next_[to_size(line.back())]);
       if (shared_[to_size(line.back())] && is_straight(line)) lines.push_back(line);
@@ -86,7 +86,7 @@ class SeamFinder {
   }
 
   /// At rest and in space, with the same shares of the length.
-  bool is_straight(const Line& line) const {
+  bool is_straight(const BorderLine& line) const {
     const Point2 from = rest(line.front()), way = rest(line.back()) - from;
     const Point3 from_in_space = in_space(line.front()), way_in_space = in_space(line.back()) + -1.0 * from_in_space;
     return std::all_of(line.begin(), line.end(), [&](std::int32_t v) {
