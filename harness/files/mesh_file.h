@@ -23,8 +23,8 @@ namespace cutbench {
 /// without `vt` see check_and_repair. `vt` that are not taken are left to read_texture(), with a note. Positions are
 /// taken as written, without a unit.
 /// \throw InputError naming the file, the element (counted from 1; lines in an OBJ) and what to do: no such file,
-/// unknown extension, a text of another format, cut short or not of its format, faces that aren't triangles, and all that check_and_repair
-/// refuses.
+/// unknown extension, a text of another format, cut short or not of its format, faces that aren't triangles, and all
+/// that check_and_repair refuses.
 MeshData read_mesh(const std::filesystem::path& path, const MeshReading& reading = {});
 
 /// An OBJ whose `vt` are not its rest positions.
