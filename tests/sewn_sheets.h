@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "harness/base/conversions.h"
@@ -66,6 +67,56 @@ inline MeshData tube(int round, int along, double length) {
     const double angle = 2 * std::acos(-1.0) * u;
     return Point3{length * v, std::cos(angle), std::sin(angle)};
   });
+}
+
+/// Of radii 1 and 0.4, round the z axis.
+inline MeshData torus(int round, int along) {
+  const double pi = std::acos(-1.0);
+  MeshData mesh;
+  for (int j = 0; j < along; ++j)
+    for (int i = 0; i < round; ++i) {
+      const double u = 2 * pi * i / round, v = 2 * pi * j / along, r = 1 + 0.4 * std::cos(v);
+      mesh.deformed.push_back({r * std::cos(u), r * std::sin(u), 0.4 * std::sin(v)});
+    }
+  const auto at = [&](int i, int j) { return to_int32((j % along) * round + i % round); };
+  for (int j = 0; j < along; ++j)
+    for (int i = 0; i < round; ++i) {
+      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  return mesh;
+}
+
+/// From -1 to 1 along all axes, n x n squares a side, each two triangles.
+inline MeshData cube(int n) {
+  MeshData mesh;
+  std::map<std::tuple<int, int, int>, std::int32_t> number;
+  const auto vertex = [&](int x, int y, int z) {
+    const auto [place, is_new] = number.try_emplace({x, y, z}, to_int32(mesh.deformed.size()));
+    if (is_new) mesh.deformed.push_back({2.0 * x / n - 1, 2.0 * y / n - 1, 2.0 * z / n - 1});
+    return place->second;
+  };
+  for (int side = 0; side < 6; ++side)
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        const auto at = [&](int a, int b) {
+          const int w = side % 2 == 0 ? 0 : n;
+          if (side < 2) return vertex(w, a, b);
+          return side < 4 ? vertex(b, w, a) : vertex(a, b, w);
+        };
+        std::array<std::int32_t, 4> q{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+        if (side % 2 == 0) std::swap(q[1], q[3]);
+        mesh.triangles.push_back({q[0], q[1], q[2]});
+        mesh.triangles.push_back({q[0], q[2], q[3]});
+      }
+  return mesh;
+}
+
+/// A cube blown up.
+inline MeshData sphere(int n) {
+  MeshData mesh = cube(n);
+  for (Point3& p : mesh.deformed) p = (1 / length(p)) * p;
+  return mesh;
 }
 
 }  // namespace cutbench

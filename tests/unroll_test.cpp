@@ -39,31 +39,6 @@ MeshData cone(int round, int along) {  // from its tip
   return mesh;
 }
 
-MeshData sphere(int n) {  // a cube's sides blown up, in triangles
-  MeshData mesh;
-  std::map<std::tuple<int, int, int>, std::int32_t> number;
-  const auto vertex = [&](int x, int y, int z) {
-    const auto [place, is_new] = number.try_emplace({x, y, z}, to_int32(mesh.deformed.size()));
-    const Point3 p{2.0 * x / n - 1, 2.0 * y / n - 1, 2.0 * z / n - 1};
-    if (is_new) mesh.deformed.push_back((1 / length(p)) * p);
-    return place->second;
-  };
-  for (int side = 0; side < 6; ++side)
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j) {
-        const auto at = [&](int a, int b) {
-          const int w = side % 2 == 0 ? 0 : n;
-          if (side < 2) return vertex(w, a, b);
-          return side < 4 ? vertex(b, w, a) : vertex(a, b, w);
-        };
-        std::array<std::int32_t, 4> q{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
-        if (side % 2 == 0) std::swap(q[1], q[3]);
-        mesh.triangles.push_back({q[0], q[1], q[2]});
-        mesh.triangles.push_back({q[0], q[2], q[3]});
-      }
-  return mesh;
-}
-
 /// The largest |length at rest / length in space - 1| of all sides.
 double distortion(const MeshData& mesh) {
   double largest = 0;
@@ -216,6 +191,23 @@ TEST(Unroll, ARingRoundASphereGivesTwoPieces) {
     for (const double area : areas) all += area;
     EXPECT_NEAR(all, 4 * pi, 0.4) << method;
   }
+}
+
+/// On its inner side a shortest way runs along edges, most of which are seams: the ring goes beside them.
+TEST(Unroll, ARingRoundATorusLeavesItInOnePiece) {
+  const MeshData mesh = unrolled(torus(24, 12));
+  for (int i = 0; i < 40; ++i)
+    for (const int points : {3, 5, 8, 12}) {
+      const double u = 2 * pi * (i + 0.37) / 40;
+      PickedCurve path{Curve::Kind::polyline, true, {}};
+      for (int j = 0; j < points; ++j) {
+        const double v = 2 * pi * (j + 0.21) / points;
+        const Point3 out{std::cos(v) * std::cos(u), std::cos(v) * std::sin(u), std::sin(v)};
+        path.picks.push_back({{std::cos(u), std::sin(u), 0}, out});
+      }
+      const char* method = std::array{"conventional_split", "cgal_cdt", "cut_polygons"}[to_size(i % 3)];
+      EXPECT_EQ(cut(mesh, path, method).size(), 1u) << method << ", ring " << i << " of " << points << " picks";
+    }
 }
 
 /// A walk from triangle to triangle, or a ring through those round a vertex; a random place in each. Neighbours have

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <queue>
-#include <tuple>
+#include <unordered_map>
 
 #include "harness/base/conversions.h"
 #include "harness/base/errors.h"
@@ -19,11 +19,6 @@ namespace {
 constexpr double at_the_end = 1e-9;
 /// Lengths at rest and in space that differ by a smaller share are the same: parts lie beside each other in both.
 constexpr double beside = 1e-3;
-
-Point2 centroid(const Sheet& sheet, TriangleIndex t) {
-  const auto [a, b, c] = sheet.corners(t);
-  return (1.0 / 3) * (a + b + c);
-}
 
 /// Does a line share more than a point with a side? \param near  what is nearer is on it
 bool runs_along(Point2 from, Point2 to, Point2 begin, Point2 end, double near) {
@@ -101,49 +96,56 @@ std::vector<Router::Step> Router::steps_out_of(TriangleIndex t) const {
   return steps;
 }
 
-/// Dijkstra's (1959) over triangles, by the length of the straight way to each one's middle, laid flat. Where that does
-/// not lead through the edge of the last step, it bends at an end of it. Empty where there is none.
-std::vector<Router::Step> Router::way(const PlaceAtRest& from, TriangleIndex to) const {
+/// Dijkstra's (1959) over points on the edges, a few on each, joined by straight lines in the triangles between them.
+/// It says which triangles a way leads through that is a few percent longer than the shortest one. Empty where there is
+/// none.
+std::vector<Router::Step> Router::way(const PlaceAtRest& from, const PlaceAtRest& to) const {
+  constexpr std::array shares{0.1, 0.3, 0.5, 0.7, 0.9};  // of the part of an edge that a step leads through
+  constexpr std::uint64_t none = 0;
   struct Reached {
-    Step last;
-    Point2 apex;                                           // where it bent last, in the plane of the triangle
-    double before = 0;                                     // length up to there
-    double all = std::numeric_limits<double>::infinity();  // up to the middle
-    bool done = false;
+    Step step;
+    Point2 enters;  // in the plane of the triangle that it enters
+    double length;  // up to there
+    std::uint64_t before;
   };
-  using Entry = std::pair<double, std::size_t>;
+  const auto key = [&](const Step& step, std::size_t i) {
+    return (std::uint64_t{to_size(step.out())} << 32 | (to_size(step.in()) * shares.size() + i)) + 1;
+  };
+  using Entry = std::pair<double, std::uint64_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  std::vector<Reached> reached(sheet_.triangle_slots());
-  const auto enter = [&](TriangleIndex t, const Reached& r) {
-    if (r.all >= reached[t()].all || reached[t()].done) return;
-    reached[t()] = r;
-    open.emplace(r.all, t());
-  };
-  enter(from.triangle, {{}, from.point, 0, length(centroid(sheet_, from.triangle) - from.point)});
-  while (!open.empty() && !reached[to()].done) {
-    const TriangleIndex t(open.top().second);
-    open.pop();
-    if (std::exchange(reached[t()].done, true)) continue;
+  std::unordered_map<std::uint64_t, Reached> reached;
+  double shortest = std::numeric_limits<double>::infinity();
+  std::uint64_t last = none;
+  const auto leave = [&](TriangleIndex t, Point2 begin, double before, std::uint64_t where) {
     for (const Step& step : steps_out_of(t)) {
-      const TriangleIndex next = triangle_of(step.in);
-      const Point2 middle = centroid(sheet_, next);
-      Reached r{step, across(step)(reached[t()].apex), reached[t()].before};
       const Gate through = gate(step);
-      const std::array ends{at_share(step.in, through.in[0]), at_share(step.in, through.in[1])};
-      const auto by_way_of = [&](Point2 p) { return length(p - r.apex) + length(middle - p); };
-      if (cross(middle - r.apex, ends[0] - r.apex) * cross(middle - r.apex, ends[1] - r.apex) > 0) {
-        const Point2 bend = by_way_of(ends[0]) < by_way_of(ends[1]) ? ends[0] : ends[1];
-        r.before += length(bend - r.apex);
-        r.apex = bend;
+      for (std::size_t i = 0; i < shares.size(); ++i) {
+        const auto at = [&](const std::array<double, 2>& ends) { return ends[0] + shares[i] * (ends[1] - ends[0]); };
+        const double all = before + length(at_share(step.out, at(through.out)) - begin);
+        if (all >= shortest) continue;
+        const auto [place, is_new] = reached.try_emplace(key(step, i));
+        if (!is_new && all >= place->second.length) continue;
+        place->second = {step, at_share(step.in, at(through.in)), all, where};
+        open.emplace(all, place->first);
       }
-      r.all = r.before + length(middle - r.apex);
-      enter(next, r);
+    }
+  };
+  leave(from.triangle, from.point, 0, none);
+  while (!open.empty() && open.top().first < shortest) {
+    const auto [all, where] = open.top();
+    open.pop();
+    const Reached here = reached.at(where);
+    if (all > here.length) continue;
+    const TriangleIndex t = triangle_of(here.step.in);
+    if (t != to.triangle) {
+      leave(t, here.enters, all, where);
+    } else if (const double arrives = all + length(to.point - here.enters); arrives < shortest) {
+      shortest = arrives;
+      last = where;
     }
   }
   std::vector<Step> steps;
-  if (from.triangle != to && !reached[to()].last.out.valid()) return steps;
-  for (TriangleIndex t = to; t != from.triangle; t = triangle_of(reached[t()].last.out))
-    steps.push_back(reached[t()].last);
+  for (; last != none; last = reached.at(last).before) steps.push_back(reached.at(last).step);
   std::reverse(steps.begin(), steps.end());
   return steps;
 }
@@ -257,9 +259,31 @@ std::pair<double, double> Router::sides(std::size_t edge) const {
   return std::minmax({sheet_.rest(sheet_.origin(h)).x, sheet_.rest(sheet_.target(h)).x});
 }
 
+/// Does a line at rest share more than a point with a seam, where a cut opens nothing?
+bool Router::along_seam(Point2 from, Point2 to) const {
+  const double near = arrived * sheet_.mean_edge();
+  const auto begins_before = [&](std::size_t edge) {
+    return sides(edge).first < std::min(from.x, to.x) - widest_ - near;
+  };
+  const auto first = std::partition_point(by_x_.begin(), by_x_.end(), begins_before);
+  const auto last = std::find_if(first, by_x_.end(),
+                                 [&](std::size_t edge) { return sides(edge).first > std::max(from.x, to.x) + near; });
+  return std::any_of(first, last, [&](std::size_t i) {
+    const HalfEdge h = edges_[i].edge;
+    return runs_along(from, to, sheet_.rest(sheet_.origin(h)), sheet_.rest(sheet_.target(h)), near);
+  });
+}
+
+bool Router::along_seam(const PlaceAtRest& from, const PlaceAtRest& to, const std::vector<Bend>& bends) const {
+  Point2 begin = from.point;
+  for (const Bend& bend : bends)
+    if (along_seam(std::exchange(begin, bend.enters), bend.leaves)) return true;
+  return along_seam(begin, to.point);
+}
+
 bool Router::join(const PlaceAtRest& from, const PlaceAtRest& to, std::vector<Bend>& bends) const {
   if (from.triangle == to.triangle) return true;
-  const std::vector<Step> steps = way(from, to.triangle);
+  const std::vector<Step> steps = way(from, to);
   if (steps.empty()) return false;
   std::optional<std::vector<Bend>> found = straight(from, to, steps);
   if (!found) {
@@ -267,7 +291,9 @@ bool Router::join(const PlaceAtRest& from, const PlaceAtRest& to, std::vector<Be
     const bool in_one =
         std::none_of(steps.begin(), steps.end(), [](const Step& step) { return step.seam.has_value(); });
     if (in_one && !meets_seam(from.point, to.point)) return true;
-    found = shortened(from, to, steps);
+    const Strip strip = shortened(from, to, steps);
+    found = shortest_way(strip);
+    if (along_seam(from, to, *found)) found = shortest_way(narrowed(strip));
   }
   bends.insert(bends.end(), found->begin(), found->end());
   return true;
@@ -295,19 +321,6 @@ std::vector<Curve> Router::route(const std::vector<PlaceAtRest>& places, bool cl
     }
     if (next != 0) go_on(places[next].point);
   }
-  const auto along_seam = [&](Point2 from, Point2 to) {
-    const double near = arrived * sheet_.mean_edge();
-    const auto begins_before = [&](std::size_t edge) {
-      return sides(edge).first < std::min(from.x, to.x) - widest_ - near;
-    };
-    const auto first = std::partition_point(by_x_.begin(), by_x_.end(), begins_before);
-    const auto last = std::find_if(first, by_x_.end(),
-                                   [&](std::size_t edge) { return sides(edge).first > std::max(from.x, to.x) + near; });
-    return std::any_of(first, last, [&](std::size_t i) {
-      const HalfEdge h = edges_[i].edge;
-      return runs_along(from, to, sheet_.rest(sheet_.origin(h)), sheet_.rest(sheet_.target(h)), near);
-    });
-  };
   for (const Curve& curve : curves)
     for (std::size_t i = 1; i < curve.points.size(); ++i)
       if (along_seam(curve.points[i - 1], curve.points[i]))

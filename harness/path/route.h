@@ -78,7 +78,7 @@ class Router {
 
   Point2 at_share(HalfEdge h, double share) const;
   std::vector<Step> steps_out_of(TriangleIndex t) const;
-  std::vector<Step> way(const PlaceAtRest& from, TriangleIndex to) const;
+  std::vector<Step> way(const PlaceAtRest& from, const PlaceAtRest& to) const;
   Laying across(const Step& step) const;
   std::optional<Step> over_seam(HalfEdge out, double share, Bend& bend) const;
   std::optional<std::vector<Bend>> straight(const PlaceAtRest& from, const PlaceAtRest& to,
@@ -86,6 +86,8 @@ class Router {
   bool meets_seam(Point2 from, Point2 to) const;
   bool are_apart(const PlaceAtRest& from, const PlaceAtRest& to) const;
   std::pair<double, double> sides(std::size_t edge) const;
+  bool along_seam(Point2 from, Point2 to) const;
+  bool along_seam(const PlaceAtRest& from, const PlaceAtRest& to, const std::vector<Bend>& bends) const;
 
   // route_shortest.cpp
   Gate gate(const Step& step) const;
@@ -93,8 +95,9 @@ class Router {
   std::vector<Corner> shortest(const Strip& strip) const;
   static double length_of(const Strip& strip, const std::vector<Corner>& corners);
   std::optional<std::vector<Step>> past(const Strip& strip, const Corner& corner) const;
-  std::vector<Bend> shortened(const PlaceAtRest& from, const PlaceAtRest& to, const std::vector<Step>& way) const;
-  std::vector<Bend> bends_of(const Strip& strip, const std::vector<Corner>& corners) const;
+  Strip shortened(const PlaceAtRest& from, const PlaceAtRest& to, const std::vector<Step>& way) const;
+  Strip narrowed(Strip strip) const;
+  std::vector<Bend> shortest_way(const Strip& strip) const;
 
   bool join(const PlaceAtRest& from, const PlaceAtRest& to, std::vector<Bend>& bends) const;
 

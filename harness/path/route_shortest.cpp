@@ -131,8 +131,7 @@ std::optional<std::vector<Router::Step>> Router::past(const Strip& strip, const 
 /// The way made as short as it can be made without a jump: past each point at which it bends and that it is shorter to
 /// pass on the other side (Xin and Wang 2007; Sharp and Crane 2020). What bends are left are at the border, at the tips
 /// of incisions, and at vertices with more than 360 degrees round them.
-std::vector<Router::Bend> Router::shortened(const PlaceAtRest& from, const PlaceAtRest& to,
-                                            const std::vector<Step>& way) const {
+Router::Strip Router::shortened(const PlaceAtRest& from, const PlaceAtRest& to, const std::vector<Step>& way) const {
   constexpr double shorter = 1 - 1e-12;
   Strip strip = laid_flat(from, to, way);
   std::vector<Corner> corners = shortest(strip);
@@ -146,10 +145,31 @@ std::vector<Router::Bend> Router::shortened(const PlaceAtRest& from, const Place
     corners = std::move(its_corners);
     i = to_size(-1);  // from the first one again
   }
-  return bends_of(strip, corners);
+  return strip;
 }
 
-std::vector<Router::Bend> Router::bends_of(const Strip& strip, const std::vector<Corner>& corners) const {
+/// With a tenth of each gate closed at both ends. A shortest way bends at vertices that have more than 360 degrees round
+/// them, and runs along the edges between these, which may be seams; in the narrowed strip it goes past them. Gates that
+/// end where the way itself begins or ends are left.
+Router::Strip Router::narrowed(Strip strip) const {
+  constexpr double closed = 0.1;
+  const double near = arrived * sheet_.mean_edge();
+  for (Portal& portal : strip.portals) {
+    const Portal open = portal;
+    for (const std::size_t k : {0, 1}) {  // right, left
+      const Point2 end = open.ends[k];
+      if (length(end - strip.begin) <= near || length(end - strip.goal) <= near) continue;
+      portal.ends[k] = end + closed * (open.ends[1 - k] - end);
+      const std::size_t own = portal.turned_over ? 1 - k : k;
+      portal.gate.out[own] += closed * (open.gate.out[1 - own] - open.gate.out[own]);
+      portal.gate.in[own] += closed * (open.gate.in[1 - own] - open.gate.in[own]);
+    }
+  }
+  return strip;
+}
+
+std::vector<Router::Bend> Router::shortest_way(const Strip& strip) const {
+  const std::vector<Corner> corners = shortest(strip);
   std::vector<Bend> bends;
   auto corner = corners.begin();
   Point2 begin = strip.begin;
