@@ -148,9 +148,10 @@ Router::Strip Router::shortened(const PlaceAtRest& from, const PlaceAtRest& to, 
   return strip;
 }
 
-/// With a tenth of each gate closed at both ends. A shortest way bends at vertices that have more than 360 degrees round
-/// them, and runs along the edges between these, which may be seams; in the narrowed strip it goes past them. Gates that
-/// end where the way itself begins or ends are left.
+/// With a tenth of each gate closed at both ends, but for gates that end where the way itself begins or ends.
+///
+/// A shortest way bends at vertices that have more than 360 degrees round them, and runs along the edges between these,
+/// which may be seams; in the narrowed strip it goes past them.
 Router::Strip Router::narrowed(Strip strip) const {
   constexpr double closed = 0.1;
   const double near = arrived * sheet_.mean_edge();
