@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "harness/base/conversions.h"
+#include "methods/tools/creases.h"
 #include "methods/tools/divided.h"
 
 namespace cutbench {
@@ -331,7 +332,7 @@ class SliverConstraints {
         std::array<double, 3> weights{0, cross(c[2] - p, c[0] - p) / twice, cross(c[0] - p, c[1] - p) / twice};
         weights[0] = 1 - weights[1] - weights[2];
         const std::pair score{met, *std::min_element(weights.begin(), weights.end())};
-        if (met > 0 && (!constraint || score > best)) {
+        if (met > 0 && (!constraint || score > best) && is_at_rest(sheet_, made.vertex, masters, weights)) {
           best = score;
           constraint = Constraint{made.vertex, masters, weights, made.scale};
         }

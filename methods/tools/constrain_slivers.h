@@ -13,7 +13,8 @@
 //    stand-in for a corner and, where one triangle has them all, the stand-ins of the other stiff corners of the
 //    vertex's thinnest triangle. Of several, the one is taken in which the vertex lies farthest inside, or least
 //    outside (by its smallest barycentric coordinate). The search stays on the vertex's side, among triangles with a
-//    corner nearer than L. Masters are free, so there are no chains of constraints.
+//    corner nearer than L. Masters are free, so there are no chains of constraints. In a sheet that is its own rest
+//    shape the triangle lies in a plane with the vertex (methods/tools/creases.h).
 //  - No constraint reaches across the cut. Both lips share a tip; a tip is constrained to the nearest edge or vertex,
 //    and so are vertices of the lips that are a short distance from a tip. Each fan at a junction or a crossing is a
 //    side of its own, and so is each lip at the border.

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "harness/base/conversions.h"
+#include "methods/tools/creases.h"
 #include "methods/tools/divided.h"
 
 namespace cutbench {
@@ -168,7 +169,7 @@ class Merging {
   void merge_with_a_neighbour(std::size_t thin) {
     std::vector<std::pair<double, HalfEdge>> ways;
     for (const HalfEdge h : cells_[thin].outline)
-      if (!sheet_.separates(h)) ways.emplace_back(-length(h), h);
+      if (!sheet_.separates(h) && !is_creased(sheet_, h)) ways.emplace_back(-length(h), h);
     std::sort(ways.begin(), ways.end());
     for (const auto& [minus_length, h] : ways) {
       const std::size_t other = cell_at(triangle_of(sheet_.opposite(h)));

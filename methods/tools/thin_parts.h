@@ -4,7 +4,7 @@
 // thickness of the triangle before the first cut of which it is a part (of a polygon: of the thinnest of these). The
 // largest eigenvalue of an element goes like 1 / thickness^2. The rules:
 //  - The thinnest first, in relation, until none is thin or can be merged: it joins the neighbour across its longest
-//    edge that no cut separates. That may be a triangle that no cut met.
+//    edge that no cut separates, and that is no crease at rest. That may be a triangle that no cut met.
 //  - Where the result would have a hole, meet a vertex twice, hold a vertex inside that something is attached to
 //    (Sheet::is_held()), or be thicker than the thin one by less than a tenth, the neighbour across the next longest
 //    edge is taken. Where there is none, it stays thin until a neighbour has grown: at last strips between two cuts,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "harness/base/conversions.h"
+#include "harness/fem/elements/rest_corners.h"
 
 namespace cutbench {
 
@@ -13,7 +14,7 @@ Element element_of(const Sheet& sheet, TriangleIndex t) {
   if (!sheet.triangle(t).alive()) return {};
   Element e;
   e.vertex = sheet.triangle(t).deformed;
-  const auto c = sheet.corners(t);
+  const auto c = rest_corners(sheet, t);
   const double twice = cross(c[1] - c[0], c[2] - c[0]);
   e.area = twice / 2;
   // Each shape function rises across the triangle, at right angles to the edge opposite its corner.
