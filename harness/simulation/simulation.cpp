@@ -221,7 +221,9 @@ class SceneInMotion : public Simulation {
   }
 
   void begin_budget() {
-    const double noise = 1e-20 * scene_.material.stiffness / scene_.material.density * now_.model.lumped_mass().sum();
+    const double strain = now_.sheet.seams().empty() ? 1e-10 : seam_rounding;  // that is rounding
+    const double area = now_.model.lumped_mass().sum() / scene_.material.density;
+    const double noise = strain * strain * scene_.material.stiffness * area;
     if (watched_ && keeps_budget(scene_.integrator))
       budget_.emplace(balance(), scene_.integrator, noise, now_.state.time, scene_.robust);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "harness/base/conversions.h"
+#include "harness/fem/elements/rest_corners.h"
 
 namespace cutbench {
 
@@ -25,10 +26,20 @@ Eigen::MatrixXd rest_of_quadratics(const std::vector<Point2>& places) {
   return Eigen::MatrixXd::Identity(n, n) - base * base.transpose();
 }
 
+/// The others lie in its plane.
+TriangleIndex largest_of(const Sheet& sheet, const std::vector<TriangleIndex>& triangles) {
+  const auto twice_area = [&](TriangleIndex t) {
+    const auto c = sheet.corners(t);
+    return cross(c[1] - c[0], c[2] - c[0]);
+  };
+  return *std::max_element(triangles.begin(), triangles.end(),
+                           [&](TriangleIndex s, TriangleIndex t) { return twice_area(s) < twice_area(t); });
+}
+
 }  // namespace
 
 PolygonElement::PolygonElement(const Sheet& sheet, const Polygon& of) : polygon(of) {
-  const auto place = [&](DeformedIndex d) { return sheet.rest(sheet.rest_vertex(d)); };
+  const RestPlane place(sheet, largest_of(sheet, polygon.triangles));
   const std::size_t k = size();
   const Point2 origin = place(polygon.corners[0]);  // differences, so that a sheet far from zero loses nothing
   Point2 mean{};

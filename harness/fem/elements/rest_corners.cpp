@@ -10,15 +10,31 @@ constexpr double most_lost = 0.5;  // share of its area in the chart
 
 }  // namespace
 
-std::array<Point2, 3> rest_corners(const Sheet& sheet, TriangleIndex t) {
-  const std::array<Point2, 3> chart = sheet.corners(t);
-  if (!sheet.unrolled()) return chart;
+RestPlane::RestPlane(const Sheet& sheet, TriangleIndex t) : sheet_(sheet) {
+  if (!sheet.unrolled()) return;
   const auto& d = sheet.triangle(t).deformed;
-  const Point3 first = sheet.position(d[0]);
-  const Point3 side = sheet.position(d[1]) + -1.0 * first, other = sheet.position(d[2]) + -1.0 * first;
-  const double base = length(side), twice = length(cross(side, other));
-  if (!(twice > (1 - most_lost) * cross(chart[1] - chart[0], chart[2] - chart[0]))) return chart;
-  return {Point2{0, 0}, Point2{base, 0}, Point2{dot(side, other) / base, twice / base}};
+  const std::array<Point2, 3> chart = sheet.corners(t);
+  origin_ = sheet.position(d[0]);
+  const Point3 side = sheet.position(d[1]) + -1.0 * origin_, other = sheet.position(d[2]) + -1.0 * origin_;
+  const Point3 normal = cross(side, other);
+  if (!(length(normal) > (1 - most_lost) * cross(chart[1] - chart[0], chart[2] - chart[0]))) return;
+  is_chart_ = false;
+  x_ = (1 / length(side)) * side;
+  const Point3 up = cross(normal, side);
+  y_ = (1 / length(up)) * up;
+}
+
+Point2 RestPlane::operator()(DeformedIndex d) const {
+  if (is_chart_) return sheet_.rest(sheet_.rest_vertex(d));
+  const Point3 p = sheet_.position(d) + -1.0 * origin_;
+  return {dot(x_, p), dot(y_, p)};
+}
+
+std::array<Point2, 3> rest_corners(const Sheet& sheet, TriangleIndex t) {
+  if (!sheet.unrolled()) return sheet.corners(t);
+  const RestPlane place(sheet, t);
+  const auto& d = sheet.triangle(t).deformed;
+  return {place(d[0]), place(d[1]), place(d[2])};
 }
 
 }  // namespace cutbench

@@ -7,9 +7,20 @@
 
 namespace cutbench {
 
-/// In a plane of the triangle's own: its corners in the sheet's chart. Of a sheet that is its own rest shape
-/// (Sheet::unrolled()): as they lie in space at rest (Sheet::position()). That differs where a method moved a vertex or
+/// Places at rest in the plane of a triangle: those of the sheet's chart. Of a sheet that is its own rest shape
+/// (Sheet::unrolled()): as they lie at rest in space (Sheet::position()). That differs where a method moved a vertex or
 /// swapped an edge over a crease. Where the triangle would lose most of its area so, as over a sharp fold, the chart.
+class RestPlane {
+ public:
+  RestPlane(const Sheet& sheet, TriangleIndex t);
+  Point2 operator()(DeformedIndex d) const;
+
+ private:
+  const Sheet& sheet_;
+  bool is_chart_ = true;
+  Point3 origin_, x_, y_;
+};
+
 std::array<Point2, 3> rest_corners(const Sheet& sheet, TriangleIndex t);
 
 }  // namespace cutbench
