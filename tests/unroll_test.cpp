@@ -515,6 +515,7 @@ TEST(Unroll, ACutAtRestStoresNoEnergy) {
       Scene scene;
       scene.mesh = unrolled(raw);
       scene.physics.gravity = {};
+      scene.physics.bending = BendingKind::hinges;
       const auto motion = Simulation::start(scene);
       motion->watch();
       const auto tool = row.make(row.parameter.value);

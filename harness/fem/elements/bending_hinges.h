@@ -6,6 +6,7 @@
 
 #include "harness/base/conversions.h"
 #include "harness/fem/elements/bending_kinds.h"
+#include "harness/fem/elements/rest_corners.h"
 
 namespace cutbench {
 
@@ -14,9 +15,9 @@ namespace cutbench {
 /// triangle's side may have another length: then it counts as one that is scaled along its side to ours.
 inline void hinge_rows(BendingStencil& stencil, TriangleIndex t) {
   const Sheet& sheet = stencil.sheet;
-  const double twice = twice_area(sheet.corners(t));
+  const double twice = twice_area(rest_corners(sheet, t));
   const auto side_of = [&](TriangleIndex of, std::size_t side) {
-    const auto c = sheet.corners(of);
+    const auto c = rest_corners(sheet, of);
     return c[(side + 1) % 3] - c[side];
   };
   for (std::size_t k = 0; k < 3; ++k) {
@@ -24,13 +25,13 @@ inline void hinge_rows(BendingStencil& stencil, TriangleIndex t) {
     if (!across.valid()) continue;
     const TriangleIndex other = triangle_of(across);
     const std::size_t other_side = to_size(corner_of(across));
-    const double twice_other = twice_area(sheet.corners(other));
+    const double twice_other = twice_area(rest_corners(sheet, other));
     if (!(twice > 0 && twice_other > 0)) continue;  // positive by the exact predicate, but not in doubles
     const bool is_seam = !sheet.triangle(t).opposite[k].valid();
     const double scale = is_seam ? length(side_of(t, k)) / length(side_of(other, other_side)) : 1;
     const double weight = std::sqrt(stencil.rigidity * 3 / (twice + scale * twice_other));
     const auto add_slope = [&](TriangleIndex of, std::size_t side, double twice_its_area, double its_scale) {
-      const auto c = sheet.corners(of);
+      const auto c = rest_corners(sheet, of);
       const auto& d = sheet.triangle(of).deformed;
       const std::size_t next = (side + 1) % 3, far = (side + 2) % 3;
       const Point2 edge = side_of(of, side);

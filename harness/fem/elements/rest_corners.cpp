@@ -30,11 +30,4 @@ Point2 RestPlane::operator()(DeformedIndex d) const {
   return {dot(x_, p), dot(y_, p)};
 }
 
-std::array<Point2, 3> rest_corners(const Sheet& sheet, TriangleIndex t) {
-  if (!sheet.unrolled()) return sheet.corners(t);
-  const RestPlane place(sheet, t);
-  const auto& d = sheet.triangle(t).deformed;
-  return {place(d[0]), place(d[1]), place(d[2])};
-}
-
 }  // namespace cutbench

@@ -21,6 +21,11 @@ class RestPlane {
   Point3 origin_, x_, y_;
 };
 
-std::array<Point2, 3> rest_corners(const Sheet& sheet, TriangleIndex t);
+inline std::array<Point2, 3> rest_corners(const Sheet& sheet, TriangleIndex t) {
+  if (!sheet.unrolled()) return sheet.corners(t);
+  const RestPlane place(sheet, t);
+  const auto& d = sheet.triangle(t).deformed;
+  return {place(d[0]), place(d[1]), place(d[2])};
+}
 
 }  // namespace cutbench
