@@ -130,6 +130,23 @@ TEST(Texture, TrianglesThatReadingTurnsTakeTheirCornersAlong) {
   EXPECT_EQ(texture_of_vertices(mesh, texture)[2], (Point2{10, 10}));
 }
 
+TEST(Texture, OfAPlysVertices) {
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty float "
+      "s\n"
+      "property float t\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n";
+  const std::string faces = "3 0 1 2\n3 0 3 2\n";  // the second is clockwise
+  const std::string text = header + "0 0 0 0 0\n1 0 0 10 0\n1 1 0 10 10\n0 1 0 0 10\n" + faces;
+  MeshData mesh = read_ply(text, "m");
+  EXPECT_TRUE(mesh.rest.empty());
+  check_and_repair(mesh, "m");
+  const Map ten_times = [](Point2 p, Point2) { return 10.0 * p; };
+  EXPECT_EQ(error_of(mesh, read_ply_texture(text, "m", {}, mesh), ten_times), 0);
+  const std::string rest = header + "0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n" + faces;
+  EXPECT_FALSE(read_ply(rest, "m").rest.empty());
+  EXPECT_TRUE(read_ply_texture(rest, "m", {}, mesh).empty());
+}
+
 TEST(Texture, NoneWhereTheVtAreRestOrMissing) {
   const MeshData grid = make_sheet("grid", 2);
   EXPECT_TRUE(read_obj_texture(obj_text(grid), "m", {}, grid).empty());

@@ -28,6 +28,7 @@ std::vector<MeshColumn> with_texture(const MeshData& mesh, const Texture& textur
 Texture read_texture(const std::filesystem::path& path, const MeshReading& reading, const MeshData& read) {
   std::string extension = path.extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (extension == ".ply") return read_ply_texture(text_of(path), path.filename().string(), reading, read);
   if (extension != ".obj") return {};
   return read_obj_texture(text_of(path), path.filename().string(), reading, read);
 }

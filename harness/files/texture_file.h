@@ -11,7 +11,7 @@
 namespace cutbench {
 
 /// Of the file that `read` was read from by `reading`. Empty where its `vt` are its rest positions, where some corner
-/// has none, and where it is no OBJ.
+/// has none, and where it is neither OBJ nor PLY.
 Texture read_texture(const std::filesystem::path& path, const MeshReading& reading, const MeshData& read);
 
 /// mesh_file() with the texture, if there is one: an OBJ has it as `vt` (textured_obj_text()). A VTU has it as

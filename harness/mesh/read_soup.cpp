@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -10,6 +11,7 @@
 #include "harness/base/conversions.h"
 #include "harness/mesh/cgal_kernel.h"
 #include "harness/mesh/mesh_text.h"
+#include "harness/mesh/texture.h"
 #include "harness/mesh/triangulate.h"
 
 namespace cutbench {
@@ -210,6 +212,17 @@ MeshData read_soup(std::istream& in, const std::string& name, const char* format
   return from_soup(points, faces, name, triangulated);
 }
 
+/// \param textures  of its vertices; none where it says nothing of them
+MeshData ply_of(const std::string& text, const std::string& name, bool triangulated, std::vector<Point2>& textures) {
+  std::istringstream in(with_line_feeds(text));
+  const PlyHeader header = header_of_ply(in);
+  if (header.elements.contains("tristrips"))
+    throw InputError(name + ": its triangles are strips (tristrips), which are not read; export them as faces");
+  return read_soup(in, name, "PLY", triangulated, [&](std::istream& s, SpacePoints& points, Faces& faces) {
+    return header.sound && read_ply_parts(s, points, textures, faces);
+  });
+}
+
 }  // namespace
 
 MeshData read_off(const std::string& text, const std::string& name, bool triangulated) {
@@ -221,17 +234,32 @@ MeshData read_off(const std::string& text, const std::string& name, bool triangu
 }
 
 MeshData read_ply(const std::string& text, const std::string& name, const MeshReading& reading) {
-  std::istringstream in(with_line_feeds(text));
-  const PlyHeader header = header_of_ply(in);
-  if (header.elements.contains("tristrips"))
-    throw InputError(name + ": its triangles are strips (tristrips), which are not read; export them as faces");
   std::vector<Point2> textures;
-  MeshData mesh =
-      read_soup(in, name, "PLY", reading.triangulate, [&](std::istream& s, SpacePoints& points, Faces& faces) {
-        return header.sound && read_ply_parts(s, points, textures, faces);
-      });
+  MeshData mesh = ply_of(text, name, reading.triangulate, textures);
   take_texture(mesh, std::move(textures), name, reading.rest);
   return mesh;
+}
+
+Texture read_ply_texture(const std::string& text, const std::string& name, const MeshReading& reading,
+                         const MeshData& read) {
+  std::vector<Point2> textures;
+  MeshData mesh = ply_of(text, name, reading.triangulate, textures);
+  take_texture(mesh, textures, name, reading.rest);
+  if (textures.empty() || !mesh.rest.empty()) return {};
+  Texture result;
+  for (std::size_t t = 0; t < mesh.triangles.size() && t < read.triangles.size(); ++t) {
+    auto& corners = result.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners[k] = textures[to_size(mesh.triangles[t][k])];
+      if (!std::isfinite(corners[k].x) || !std::isfinite(corners[k].y)) return {};
+    }
+    const Point3 second = read.deformed[to_size(read.triangles[t][1])];
+    const auto off = [&](std::size_t k) {
+      return length(second + -1.0 * mesh.deformed[to_size(mesh.triangles[t][k])]);
+    };
+    if (off(2) < off(1)) std::swap(corners[1], corners[2]);  // reading turned it round
+  }
+  return result;
 }
 
 }  // namespace cutbench

@@ -24,6 +24,9 @@ constexpr std::string_view vt_are_texture = "# vt: texture; #vr, #fr: rest posit
 /// positions, where some corner has none, and where one is not finite.
 Texture read_obj_texture(std::string_view text, const std::string& name, const MeshReading& reading,
                          const MeshData& read);
+/// The same of a PLY whose vertices have texture coordinates.
+Texture read_ply_texture(const std::string& text, const std::string& name, const MeshReading& reading,
+                         const MeshData& read);
 /// read_obj() gives back mesh and texture, bit for bit.
 std::string textured_obj_text(const MeshData& mesh, const Texture& texture);
 
