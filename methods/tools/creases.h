@@ -10,7 +10,7 @@
 
 namespace cutbench {
 
-/// Lengths that differ by a smaller share are equal: both are computed with rounding.
+/// Lengths that differ by a smaller share are equal, and places by a smaller share of the mean edge: rounding.
 constexpr double plane_rounding = 1e-9;
 
 /// Do the triangles at an edge lie in two planes at rest? \pre h is not on the border

@@ -26,7 +26,7 @@ Eigen::MatrixXd rest_of_quadratics(const std::vector<Point2>& places) {
   return Eigen::MatrixXd::Identity(n, n) - base * base.transpose();
 }
 
-/// The others lie in its plane.
+/// The others lie in its plane, which its corners give best.
 TriangleIndex largest_of(const Sheet& sheet, const std::vector<TriangleIndex>& triangles) {
   const auto twice_area = [&](TriangleIndex t) {
     const auto c = sheet.corners(t);
