@@ -19,11 +19,7 @@ namespace {
 
 const double pi = std::acos(-1.0);
 
-Sheet unrolled(MeshData mesh) {
-  unroll(mesh, "it");
-  check_and_repair(mesh, "it");
-  return Sheet(mesh);
-}
+Sheet unrolled_sheet(const MeshData& mesh) { return Sheet(unrolled(mesh)); }
 
 /// A strip round a cylinder, half as wide as it is long, of area 2 for any radius.
 MeshData strip(int n, double radius) {
@@ -71,7 +67,8 @@ Field noise(Eigen::Index size, double scale) {
 }
 
 const std::vector<Sheet>& sheets() {
-  static const std::vector<Sheet> all{unrolled(strip(12, 1)), unrolled(tube(12, 5, 2)), unrolled(half_sphere(6))};
+  static const std::vector<Sheet> all{unrolled_sheet(strip(12, 1)), unrolled_sheet(tube(12, 5, 2)),
+                                      unrolled_sheet(half_sphere(6))};
   return all;
 }
 
@@ -126,7 +123,7 @@ TEST(CurvedBending, TheTangentIsThatOfTheForceAtRest) {
 TEST(CurvedBending, AnArcIsOpenedAtTheCostOfItsChangeOfCurvature) {
   std::vector<double> error;
   for (const int n : {10, 20, 40}) {
-    Model<3> arc = model_of(unrolled(strip(n, 1))), flat = model_of(unrolled(strip(n, 1e6)));
+    Model<3> arc = model_of(unrolled_sheet(strip(n, 1))), flat = model_of(unrolled_sheet(strip(n, 1e6)));
     const double opened = energy(arc, places(strip(n, 2))).bending;
     const double bent = energy(flat, places(strip(n, 2))).bending;
     error.push_back(std::abs(opened / bent - 1));
@@ -161,7 +158,7 @@ TEST(CurvedBending, FollowsCuts) {
   }
   for (const char* method :
        {"conventional_split", "warp_and_refine", "cgal_cdt", "bowyer_watson", "element_deletion"}) {
-    const Sheet uncut = unrolled(tube(24, 9, 2));
+    const Sheet uncut = unrolled_sheet(tube(24, 9, 2));
     Body<3> body(uncut.to_mesh_data(), {.stiffness = 1000, .bending = 0.1},
                  {.bending = BendingKind::hinges, .gravity = {}});
     for (const Curve& curve : Picker(uncut).rest_curves(ring, "ring")) body.cut(curve, method);
@@ -183,7 +180,7 @@ TEST(CurvedBending, FollowsCuts) {
 
 /// Seams that it does not touch are left alone.
 TEST(CurvedBending, ASmallCutRebuildsWhatIsNearIt) {
-  Sheet sheet = unrolled(tube(24, 20, 4));
+  Sheet sheet = unrolled_sheet(tube(24, 20, 4));
   Bending bending(sheet, BendingKind::hinges, 0.1, 0.3);
   ASSERT_EQ(bending.rebuilt().size(), sheet.triangle_slots());
   PickedCurve slit{Curve::Kind::polyline, false, {}};

@@ -11,6 +11,7 @@
 #include "harness/mesh/check_and_repair.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/mesh_data.h"
+#include "harness/mesh/unroll.h"
 
 namespace cutbench {
 
@@ -116,6 +117,26 @@ inline MeshData cube(int n) {
 inline MeshData sphere(int n) {
   MeshData mesh = cube(n);
   for (Point3& p : mesh.deformed) p = (1 / length(p)) * p;
+  return mesh;
+}
+
+/// Its own rest shape.
+inline MeshData unrolled(MeshData mesh) {
+  unroll(mesh, "it");
+  check_and_repair(mesh, "it");
+  return mesh;
+}
+
+/// From its tip, round the z axis.
+inline MeshData cone(int round, int along) {
+  const double pi = std::acos(-1.0);
+  MeshData mesh = surface(round, along, true, [pi](double u, double v) {
+    const double r = 0.1 + 0.9 * v;
+    return Point3{r * std::cos(2 * pi * u), r * std::sin(2 * pi * u), 2 * r};
+  });
+  const auto tip = to_int32(mesh.deformed.size());
+  mesh.deformed.push_back({0, 0, 0});
+  for (int i = 0; i < round; ++i) mesh.triangles.push_back({tip, to_int32((i + 1) % round), to_int32(i)});
   return mesh;
 }
 

@@ -8,8 +8,6 @@
 #include <cmath>
 
 #include "harness/base/random.h"
-#include "harness/mesh/check_and_repair.h"
-#include "harness/mesh/unroll.h"
 #include "harness/path/pick.h"
 #include "tests/helpers.h"
 #include "tests/sewn_sheets.h"
@@ -36,10 +34,7 @@ Mesh for_cgal(const MeshData& mesh) {
 
 /// Ours over the shortest, for random pairs of places.
 std::vector<double> too_long(const MeshData& raw, int pairs) {
-  MeshData mesh = raw;
-  unroll(mesh, "it");
-  check_and_repair(mesh, "it");
-  const Sheet sheet(mesh);
+  const Sheet sheet(unrolled(raw));
   const Picker picker(sheet);
   const Mesh surface = for_cgal(raw);
   Random random(11);

@@ -12,8 +12,6 @@
 #include "harness/mesh/rest_choice.h"
 #include "harness/oracle/surface.h"
 #include "harness/path/pick.h"
-#include "harness/simulation/moving_sheet.h"
-#include "harness/simulation/simulation.h"
 #include "methods/registry.h"
 #include "tests/helpers.h"
 #include "tests/sewn_sheets.h"
@@ -22,23 +20,6 @@ namespace cutbench {
 namespace {
 
 const double pi = std::acos(-1.0);
-
-MeshData unrolled(MeshData mesh) {
-  unroll(mesh, "it");
-  check_and_repair(mesh, "it");
-  return mesh;
-}
-
-MeshData cone(int round, int along) {  // from its tip
-  MeshData mesh = surface(round, along, true, [](double u, double v) {
-    const double r = 0.1 + 0.9 * v;
-    return Point3{r * std::cos(2 * pi * u), r * std::sin(2 * pi * u), 2 * r};
-  });
-  const auto tip = to_int32(mesh.deformed.size());
-  mesh.deformed.push_back({0, 0, 0});
-  for (int i = 0; i < round; ++i) mesh.triangles.push_back({tip, to_int32((i + 1) % round), to_int32(i)});
-  return mesh;
-}
 
 /// The largest |length at rest / length in space - 1| of all sides.
 double distortion(const MeshData& mesh) {
@@ -456,102 +437,6 @@ TEST(Unroll, TheDistortionOfAChartIsSaid) {
   char said[48];
   std::snprintf(said, sizeof said, "lengths kept to %.1g", off);
   EXPECT_NE(laid.notes.back().find(said), std::string::npos) << laid.notes.back() << ", " << off;
-}
-
-/// With its vertices, which are at rest, put elsewhere.
-Balance balance_at(const MeshData& mesh, const std::function<Point3(Point3)>& to) {
-  Scene scene;
-  scene.mesh = mesh;
-  scene.physics.gravity = {};
-  MovingSheet<3> moving(scene);
-  for (Eigen::Index i = 0; i < moving.state.x.size(); i += 3) {
-    const Point3 p = to({moving.state.x[i], moving.state.x[i + 1], moving.state.x[i + 2]});
-    moving.state.x.segment<3>(i) << p.x, p.y, p.z;
-  }
-  return moving.balance();
-}
-
-TEST(Unroll, ATubeTurnedInSpaceHasNoForces) {
-  const Balance balance = balance_at(unrolled(tube(24, 9, 2)), [](Point3 p) {
-    return Point3{p.y + 3, 0.6 * p.z - 0.8 * p.x, 0.8 * p.z + 0.6 * p.x};
-  });
-  const double stiffness = Scene().material.stiffness;
-  EXPECT_LT(balance.residual, 1e-12 * stiffness * 2);
-  EXPECT_LT(balance.energy.membrane, 1e-12 * stiffness);
-}
-
-/// A tube and a dome that are blown up evenly hold what flat sheets of their area do, stretched by as much.
-TEST(Unroll, AnEvenStretchCostsWhatItDoesInThePlane) {
-  const auto energy_per_area = [&](const MeshData& mesh) {
-    double area = 0;
-    for (const double piece : areas_of_pieces(Sheet(mesh))) area += piece;
-    return balance_at(mesh, [](Point3 p) { return 1.03 * p; }).energy.membrane / area;
-  };
-  const double flat = energy_per_area(make_sheet("delaunay", 8));
-  EXPECT_NEAR(energy_per_area(unrolled(tube(24, 9, 2))) / flat, 1, 1e-12);
-  EXPECT_NEAR(energy_per_area(unrolled(sphere(6))) / flat, 1, 1e-12);
-}
-
-/// By no method: triangles over creases, where it moved vertices or swapped edges, are at rest as they lie in space.
-TEST(Unroll, ACutAtRestStoresNoEnergy) {
-  const auto path_round = [](const std::function<Pick(double, double)>& ray) {
-    PickedCurve path{Curve::Kind::polyline, true, {}};
-    for (int i = 0; i < 7; ++i) path.picks.push_back(ray(std::cos(2 * pi * i / 7), std::sin(2 * pi * i / 7)));
-    return path;
-  };
-  const PickedCurve round_x = path_round([](double c, double s) {
-    return Pick{{0.9 + 0.2 * c, 0, 0}, Point3{0, c, s}};
-  });
-  const PickedCurve round_z = path_round([](double c, double s) {
-    return Pick{{0, 0, 0.9 + 0.2 * c}, Point3{c, s, 0}};
-  });
-  std::size_t made = 0;
-  MeshData in_a_file = cone(24, 7);  // of few digits: the two sides of its seam differ by as much in the plane
-  for (Point3& p : in_a_file.deformed)
-    p = {1e-6 * std::round(1e6 * p.x), 1e-6 * std::round(1e6 * p.y), 1e-6 * std::round(1e6 * p.z)};
-  for (const auto& [raw, path] : {std::pair{tube(24, 9, 2), round_x}, std::pair{cone(24, 7), round_z},
-                                  std::pair{in_a_file, round_z}, std::pair{sphere(6), ring_at_height(0.31)}})
-    for (const MethodRow& row : all_methods()) {
-      Scene scene;
-      scene.mesh = unrolled(raw);
-      scene.physics.gravity = {};
-      scene.physics.bending = BendingKind::hinges;
-      const auto motion = Simulation::start(scene);
-      motion->watch();
-      const auto tool = row.make(row.parameter.value);
-      const std::vector<Curve> curves = Picker(motion->posed_sheet()).rest_curves(path, "it");
-      if (motion->cut_now(curves, *tool).cut.status == Status::refused) continue;
-      ++made;
-      const Energy energy = motion->balance().energy;
-      EXPECT_LT(energy.membrane, 1e-12 * scene.material.stiffness) << row.name << ", " << raw.triangles.size();
-      EXPECT_LT(energy.bending, 1e-12 * scene.material.stiffness) << row.name << ", " << raw.triangles.size();
-      motion->step();
-      EXPECT_EQ(motion->outcome().verdict, Verdict::ok) << motion->outcome().text() << ", " << row.name;
-    }
-  EXPECT_GT(made, 4 * 10u);
-}
-
-TEST(Unroll, WhatCurvedSheetsCanNotHaveIsSaid) {
-  Scene scene;
-  scene.stem = "tube";
-  scene.mesh = unrolled(tube(12, 3, 1));
-  const auto error = [&] {
-    try {
-      Simulation::start(scene);
-      return std::string();
-    } catch (const InputError& e) {
-      return std::string(e.what());
-    }
-  };
-  EXPECT_EQ(error(), "");
-  scene.cuts.emplace_back().curve = {Curve::Kind::polyline, false, {{0, 0}, {1, 1}}};
-  EXPECT_NE(error().find("places at rest mean nothing"), std::string::npos);
-  scene.cuts.clear();
-  scene.integrator = Integrator::symplectic_euler;
-  EXPECT_NE(error().find("has seams"), std::string::npos);
-  scene.integrator = Integrator::backward_euler;
-  scene.physics.bending = BendingKind::patches;
-  EXPECT_NE(error().find("curved at rest"), std::string::npos);
 }
 
 }  // namespace
