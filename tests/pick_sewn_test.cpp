@@ -133,6 +133,33 @@ TEST_F(SewnFiles, APathOverSeamsIsOneCutAndCanBeScored) {
   EXPECT_NE(wrong.out.find("crosses a seam where a side of it is whole"), std::string::npos) << wrong.out;
 }
 
+/// Wherever the seam of a tube is, cuts along its edges are right in the file, too: over the seam, along it, and with
+/// a tip on it, where the file has one `v` with equal `vt` in two fans of triangles.
+TEST_F(SewnFiles, CutsAlongTheEdgesOfATubeCanBeScored) {
+  const int round = 8;
+  const MeshData raw = tube(round, 4, 2);
+  std::string obj;
+  for (const Point3 p : raw.deformed)
+    obj += "v " + std::to_string(p.x) + ' ' + std::to_string(p.y) + ' ' + std::to_string(p.z) + '\n';
+  for (const auto& [a, b, c] : raw.triangles)
+    obj += "f " + std::to_string(a + 1) + ' ' + std::to_string(b + 1) + ' ' + std::to_string(c + 1) + '\n';
+  write(folder_ / "tube.obj", obj);
+  const auto place = [&](int i, int j) {
+    const Point3 p = raw.deformed[to_size(j * round + i % round)];
+    return '[' + std::to_string(p.x) + ',' + std::to_string(p.y) + ',' + std::to_string(p.z) + ']';
+  };
+  for (int i = 0; i < round; ++i)
+    for (const std::string& points : {place(i, 0) + ',' + place(i, 4),  // from end to end
+                                      place(i, 2) + ',' + place(i + 1, 2) + ',' + place(i + 2, 2)}) {
+      write(folder_ / "path.json", R"({"cuts": [{"space": "world", "polyline": [)" + points + "]}]}");
+      const std::string common = " --mesh tube.obj --path path.json ";
+      ASSERT_EQ(run("cut --method conventional_split --out a.obj" + common).code, 0) << points;
+      const auto right = run("score --result a.obj" + common);
+      EXPECT_EQ(right.code, 0) << points << right.out << right.error;
+      EXPECT_NE(right.out.find("0 triangles"), std::string::npos) << right.out;  // none added
+    }
+}
+
 /// Vertices that the file has twice: the same sheet by --sew, for both commands.
 TEST_F(SewnFiles, ASheetThatIsSewnOnRequestCanBeScored) {
   MeshData panels = in_panels(make_sheet("delaunay", 6), [](Point2 p) { return p.x > 0.5 ? 1 : 0; });

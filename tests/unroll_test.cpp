@@ -329,31 +329,6 @@ TEST(Unroll, AWayOverASphereHasTheLengthOfAnArc) {
   EXPECT_GT(fine / finest, 3);
 }
 
-/// It would open nothing there.
-TEST(Unroll, APathAlongASeamIsRefused) {
-  const MeshData raw = tube(8, 4, 2), mesh = unrolled(raw);
-  const Sheet sheet(mesh);
-  const Picker picker(sheet);
-  std::size_t refused = 0, opened = 0;
-  for (std::size_t i = 0; i < 8; ++i) {  // lines of edges, from end to end
-    const PickedCurve path{Curve::Kind::polyline, false, {{raw.deformed[i], {}}, {raw.deformed[4 * 8 + i], {}}}};
-    try {
-      Sheet cut = sheet;
-      Locator locator(cut);
-      Cutter cutter;
-      const auto tool = find_method("conventional_split").make(0);
-      for (const Curve& curve : picker.rest_curves(path, "it"))
-        EXPECT_EQ(cutter.cut(cut, locator, curve, *tool, {}).status, Status::ok);
-      opened += cut.deformed_count() == sheet.deformed_count() + 5;
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find("along a seam"), std::string::npos) << error.what();
-      ++refused;
-    }
-  }
-  EXPECT_GE(refused, 1u);
-  EXPECT_EQ(refused + opened, 8u);
-}
-
 /// A path over a net of seams is in one piece: each stretch ends where the next one begins, as the oracle sees it.
 TEST(Unroll, TheStretchesOfAPathMeetAtSeams) {
   const MeshData dome = surface(12, 9, false, [](double u, double v) {

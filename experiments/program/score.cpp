@@ -9,7 +9,7 @@
 #include "harness/files/whole_file.h"
 #include "harness/judge/assessment.h"
 #include "harness/judge/result_svg.h"
-#include "harness/path/pick.h"
+#include "harness/path/clear_of_seams.h"
 #include "harness/records/report_json.h"
 #include "methods/registry.h"
 
@@ -85,8 +85,9 @@ void print(const Assessment& a, double h, std::size_t cuts) {
 
 bool score(const ScoreArguments& arguments, const CutOptions& options) {
   const std::vector<AnyCurve> path = read_path_with_picks(arguments.path);
-  const MeshData data = read_mesh(arguments.mesh, arguments.reading);
+  MeshData data = read_mesh(arguments.mesh, arguments.reading);
   for (const auto& note : data.notes) std::cerr << "note: " << note << '\n';
+  clear_of_seams(data, arguments.mesh, path, arguments.path);
   const bool texture = leaves_vt(arguments.mesh, arguments.reading);
   const MeshReading of_result{texture ? RestFrom::automatic : RestFrom::vt, arguments.reading.triangulate};
   const MeshData result = read_mesh_as_is(arguments.result, of_result);

@@ -13,6 +13,7 @@
 #include "harness/mesh/parents.h"
 #include "harness/mesh/row_numbers.h"
 #include "harness/mesh/texture.h"
+#include "harness/path/clear_of_seams.h"
 #include "harness/records/report_json.h"
 #include "methods/registry.h"
 
@@ -29,10 +30,22 @@ namespace {
 
 using Row = std::int32_t;
 
-std::shared_ptr<HeldCut> cut(const SheetPointer& before, const std::vector<AnyCurve>& path, const HeldMethod& method,
+/// The sheet, or one that is unrolled anew for the path.
+SheetPointer clear_of_seams(const SheetPointer& sheet, const std::vector<AnyCurve>& path) {
+  if (!sheet->mesh.unrolled || sheet->sheet != sheet->uncut) return sheet;
+  check_path(path);
+  MeshData mesh = sheet->mesh;
+  clear_of_seams(mesh, "sheet", path, "path");
+  if (mesh.rest == sheet->mesh.rest) return sheet;
+  const auto anew = std::make_shared<HeldSheet>(std::move(mesh));
+  anew->texture = sheet->texture;
+  return anew;
+}
+
+std::shared_ptr<HeldCut> cut(const SheetPointer& given, const std::vector<AnyCurve>& path, const HeldMethod& method,
                              double chord_tolerance, bool allow_miss) {
   auto made = std::make_shared<HeldCut>();
-  made->before = before;
+  const SheetPointer before = made->before = clear_of_seams(given, path);
   made->method = method;
   made->options = options_of(chord_tolerance);
   const auto maker = method.make();

@@ -55,7 +55,9 @@ struct CutNotMade : std::runtime_error {
   Verdict verdict;
 };
 
-/// The curves in rest space; picks are found on the sheet. Throws InputError.
+/// Throws InputError: no curve, or one that is none.
+void check_path(const std::vector<AnyCurve>& path);
+/// The curves in rest space; picks are found on the sheet. Throws InputError, as check_path() does.
 std::vector<Curve> in_rest_space(const std::vector<AnyCurve>& path, const Sheet& posed);
 CutOptions options_of(double chord_tolerance);
 

@@ -24,7 +24,7 @@ HeldSheet::HeldSheet(MeshData data) : sheet(std::make_shared<Sheet>(data)), uncu
 HeldSheet::HeldSheet(Sheet cut, std::shared_ptr<const Sheet> before_all)
     : sheet(std::make_shared<Sheet>(std::move(cut))), uncut(std::move(before_all)), mesh(sheet->to_mesh_data()) {}
 
-std::vector<Curve> in_rest_space(const std::vector<AnyCurve>& path, const Sheet& posed) {
+void check_path(const std::vector<AnyCurve>& path) {
   if (path.empty()) throw InputError("path: no curve; give at least one");
   for (std::size_t i = 0; i < path.size(); ++i) {
     const std::string name = "path, cut " + std::to_string(i);
@@ -33,6 +33,10 @@ std::vector<Curve> in_rest_space(const std::vector<AnyCurve>& path, const Sheet&
     else
       check_picks(std::get<PickedCurve>(path[i]), name);
   }
+}
+
+std::vector<Curve> in_rest_space(const std::vector<AnyCurve>& path, const Sheet& posed) {
+  check_path(path);
   return curves_at_rest(path, posed, "path").curves;
 }
 

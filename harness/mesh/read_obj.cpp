@@ -8,6 +8,7 @@
 #include "harness/base/conversions.h"
 #include "harness/base/number_from_chars.h"
 #include "harness/mesh/mesh_text.h"
+#include "harness/mesh/seam_fans.h"
 #include "harness/mesh/texture.h"
 #include "harness/mesh/triangulate.h"
 
@@ -295,6 +296,7 @@ class ObjReader {
       mesh.sewn = mesh.file_vertices;
       result.notes.push_back(name_ + ": vertices added where one v has several vt: " + std::to_string(copies.size()) +
                              "; the sheet is sewn along these seams");
+      part_fans_at_seams(mesh);
     }
     mesh.notes = std::move(result.notes);
     result = std::move(mesh);

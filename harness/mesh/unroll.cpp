@@ -32,9 +32,11 @@ Point2 third_corner(Point2 a, Point2 b, Point3 in_space_a, Point3 in_space_b, Po
 /// Triangles as they are laid into the plane, one part after the other.
 class Unrolling {
  public:
-  Unrolling(const MeshData& mesh, const std::string& name) : mesh_(mesh), name_(name) {
+  Unrolling(const MeshData& mesh, const std::string& name, const FileEdges& whole)
+      : mesh_(mesh), name_(name), whole_(whole) {
     triangles_.resize(mesh.triangles.size());
     find_neighbours();
+    join_over_whole_edges();
     lay_all();
   }
 
@@ -44,13 +46,13 @@ class Unrolling {
       const MeshData laid = result();
       const std::optional<Overlap> overlap = find_overlap(laid);
       if (!overlap) return;
-      // The one that was laid later begins a part of its own.
+      // The one that was laid later begins a part of its own, with what whole edges join to it.
       const std::size_t later = std::max(overlap->low, overlap->high, [&](std::size_t a, std::size_t b) {
         return triangles_[a].turn < triangles_[b].turn;
       });
-      if (!begins_.insert(later).second || begins_.size() > most_parts)
-        throw InputError(name_ + ": can't be unrolled without parts that cover each other; flatten it, and write the " +
-                         "flat places as vt");
+      if (waits_[later] != 0 && !leave_whole_edges_of(later)) can_not_be_unrolled();
+      if (begins_.size() == most_parts) can_not_be_unrolled();
+      begins_.insert(later);
       lay_all();
     }
   }
@@ -182,31 +184,79 @@ class Unrolling {
     return sides[0] == t ? sides[1] : sides[0];
   }
 
+  [[noreturn]] void can_not_be_unrolled() const {
+    throw InputError(name_ + ": can't be unrolled without parts that cover each other; flatten it, and write the " +
+                     "flat places as vt");
+  }
+
+  std::pair<std::int32_t, std::int32_t> ends_of(std::size_t t, std::size_t k) const {
+    return ends(vertex(t, k), vertex(t, (k + 1) % 3));
+  }
+
+  void join_over_whole_edges() {
+    joined_.reset(triangles_.size());
+    for (const auto& edge : whole_)
+      if (const auto sides = sides_.find(edge); sides != sides_.end() && sides->second.size() == 2)
+        joined_.join(sides->second[0], sides->second[1]);
+  }
+
+  /// False: it has none.
+  bool leave_whole_edges_of(std::size_t t) {
+    std::size_t left = 0;
+    for (std::size_t k = 0; k < 3; ++k) left += whole_.erase(ends_of(t, k));
+    join_over_whole_edges();
+    return left > 0;
+  }
+
   void lay_all() {
     std::fill(triangles_.begin(), triangles_.end(), Laid{});
     parts_ = laid_ = 0;
     double left = 0;
+    waits_.assign(triangles_.size(), 0);
+    std::set<std::size_t> first;
+    for (const std::size_t t : begins_) first.insert(joined_.find(t));
+    for (std::size_t t = 0; t < triangles_.size(); ++t) waits_[t] = first.contains(joined_.find(t));
     for (const bool only_begins : {false, true})
       for (std::size_t t = 0; t < triangles_.size(); ++t)
-        if (triangles_[t].turn == 0 && begins_.contains(t) == only_begins) left = lay_part(t, left);
+        if (triangles_[t].turn == 0 && (waits_[t] != 0) == only_begins) left = lay_part(t, left);
   }
 
   /// From triangle t on, as far as there are neighbours, `left` of which nothing is put. \return  the same for the next
   double lay_part(std::size_t t, double left) {
     std::vector<std::size_t> part;
     lay_first(t);
-    for (std::deque<std::size_t> waiting{t}; !waiting.empty(); waiting.pop_front()) {
+    std::deque<std::size_t> waiting;
+    for (lay_over_whole_edges(t, waiting); !waiting.empty(); waiting.pop_front()) {
       const std::size_t from = waiting.front();
       part.push_back(from);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto next = neighbour(from, k);
-        if (!next || triangles_[*next].turn != 0 || begins_.contains(*next)) continue;
-        lay_beside(from, k, *next);
-        waiting.push_back(*next);
-      }
+      for (std::size_t k = 0; k < 3; ++k)
+        if (const auto next = next_to_lay(from, k); next && waits_[*next] == 0) {
+          lay_beside(from, k, *next);
+          lay_over_whole_edges(*next, waiting);
+        }
     }
     ++parts_;
     return move_beside(part, left);
+  }
+
+  /// Before any others, so that these edges are laid from one side to the other.
+  void lay_over_whole_edges(std::size_t laid, std::deque<std::size_t>& waiting) {
+    for (std::vector<std::size_t> open{laid}; !open.empty();) {
+      const std::size_t from = open.back();
+      open.pop_back();
+      waiting.push_back(from);
+      for (std::size_t k = 0; k < 3; ++k)
+        if (const auto next = next_to_lay(from, k); next && whole_.contains(ends_of(from, k))) {
+          lay_beside(from, k, *next);
+          open.push_back(*next);
+        }
+    }
+  }
+
+  /// The triangle across edge k, if it is not laid yet.
+  std::optional<std::size_t> next_to_lay(std::size_t from, std::size_t k) const {
+    const auto next = neighbour(from, k);
+    return next && triangles_[*next].turn == 0 ? next : std::nullopt;
   }
 
   /// Its frame is as near to x and y of space as its plane allows.
@@ -216,8 +266,8 @@ class Unrolling {
     const Point3 a = in_space(vertex(t, 0)), u = minus(in_space(vertex(t, 1)), a), w = minus(in_space(vertex(t, 2)), a);
     Point3 normal = cross(u, w);
     normal = (1 / length(normal)) * normal;
-    if (triangles_[t].turned = normal.z < 0 && parts_ == 0 && std::abs(normal.z) > 0.5; triangles_[t].turned)
-      normal = -1.0 * normal;
+    triangles_[t].turned = !mesh_.unrolled && normal.z < 0 && parts_ == 0 && std::abs(normal.z) > 0.5;
+    if (triangles_[t].turned) normal = -1.0 * normal;
     Point3 x = minus({1, 0, 0}, normal.x * normal);
     if (length(x) < 0.5) x = minus({0, 1, 0}, normal.y * normal);
     x = (1 / length(x)) * x;
@@ -283,9 +333,12 @@ class Unrolling {
 
   const MeshData& mesh_;
   const std::string& name_;
+  FileEdges whole_;
+  UnionFind joined_;  // triangles, over whole edges
   std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::size_t>> sides_;
   std::vector<Laid> triangles_;
   std::set<std::size_t> begins_;  // triangles that are the first of a part
+  std::vector<char> waits_;       // per triangle: it begins a part, or is joined to one that does
   std::size_t parts_ = 0, laid_ = 0;
 };
 
@@ -301,10 +354,34 @@ double distortion(const MeshData& laid) {
   return largest;
 }
 
+/// As it was before it was unrolled: the vertices of the file.
+MeshData rolled_up(const MeshData& mesh) {
+  MeshData file;
+  file.unrolled = true;
+  file.notes = mesh.notes;
+  const auto number = [&](std::int32_t v) { return mesh.file_vertices[to_size(mesh.sewn[to_size(v)])]; };
+  for (std::size_t v = 0; v < mesh.deformed.size(); ++v) {
+    const std::size_t n = to_size(number(to_int32(v)));
+    if (n >= file.deformed.size()) file.deformed.resize(n + 1);
+    file.deformed[n] = mesh.deformed[v];
+  }
+  for (const auto& [a, b, c] : mesh.triangles) file.triangles.push_back({number(a), number(b), number(c)});
+  return file;
+}
+
 }  // namespace
 
+void unroll_anew(MeshData& mesh, const std::string& name, const FileEdges& whole) {
+  const MeshData file = rolled_up(mesh);
+  Unrolling unrolling(file, name, whole);
+  unrolling.part_overlaps();
+  mesh = unrolling.result();
+  mesh.notes = file.notes;
+}
+
 void unroll(MeshData& mesh, const std::string& name) {
-  Unrolling unrolling(mesh, name);
+  const FileEdges none;
+  Unrolling unrolling(mesh, name, none);
   unrolling.part_overlaps();
   MeshData laid = unrolling.result();
   laid.notes = std::move(mesh.notes);

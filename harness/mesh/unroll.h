@@ -6,7 +6,10 @@
 // has one seam, a cone one, a sphere one for nearly every vertex.
 #pragma once
 
+#include <cstdint>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "harness/mesh/mesh_data.h"
 
@@ -22,6 +25,14 @@ constexpr double unrolled_gap = 1e-3;
 /// \throw InputError, beginning with `name`: a corner beyond the vertices, an edge of three triangles, a triangle
 /// without area, or more parts than `most_parts`
 void unroll(MeshData& mesh, const std::string& name);
+
+/// Edges of a file, as the numbers of their two vertices there, the lower one first.
+using FileEdges = std::set<std::pair<std::int32_t, std::int32_t>>;
+
+/// Unrolls anew a mesh that was unrolled and is not cut, so that none of `whole` is a seam. Where they go round a vertex
+/// or lie in a part that covers another one, some stay seams. Triangles keep their order, and corners theirs.
+/// \pre `mesh` passed check_and_repair(), and does again
+void unroll_anew(MeshData& mesh, const std::string& name, const FileEdges& whole);
 
 constexpr std::size_t most_parts = 1000;
 

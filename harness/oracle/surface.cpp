@@ -183,7 +183,7 @@ class SurfaceJudge {
     const std::vector<char> inside = inside_faces(map, border_count);
     std::set<int> faces;
     for (std::size_t i = 1; i < map.faces.size(); ++i)
-      if (inside[i] && 2 * map.faces[i].area >= tip_ * map.faces[i].perimeter) faces.insert(to_int(i));
+      if (inside[i] && 2 * map.faces[i].area > tip_ * map.faces[i].perimeter) faces.insert(to_int(i));
     std::vector<Along> parts;
     for (const PlanarMap::Edge& edge : map.edges) {
       if (edge.segments.front() >= to_int(border_count)) continue;

@@ -9,11 +9,9 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <set>
 
 #include "harness/base/conversions.h"
 #include "harness/base/errors.h"
-#include "harness/mesh/seams.h"
 
 namespace cutbench {
 
@@ -117,12 +115,10 @@ Picker::Picker(const Sheet& posed) : tree_(std::make_unique<Tree>(posed)), mean_
 }
 
 void Picker::add_border(const Sheet& posed) {
-  std::set<HalfEdge> seams;
-  for (const SewnEdge& edge : sewn_edges(posed)) seams.insert(edge.edge);
   for (const TriangleIndex t : tree_->number)
     for (int k = 0; k < 3; ++k) {
       const HalfEdge h = half_edge(t, k);
-      if (!posed.on_border(h) || seams.contains(h)) continue;
+      if (!posed.on_border(h) || tree_->router.is_seam(h)) continue;
       const auto& ends = posed.triangle(t).deformed;
       tree_->border.push_back({t,
                                {posed.rest(posed.origin(h)), posed.rest(posed.target(h))},
@@ -181,7 +177,8 @@ PlaceAtRest Picker::place(const Pick& pick, const std::string& name) const {
   return tree_->at_rest(hit->second, weights_of(triangle, origin, direction));
 }
 
-std::vector<Curve> Picker::rest_curves(const PickedCurve& picked, const std::string& name) const {
+std::vector<Curve> Picker::rest_curves(const PickedCurve& picked, const std::string& name,
+                                       std::vector<HalfEdge>* along) const {
   Curve curve{picked.kind, picked.closed, {}};
   std::vector<PlaceAtRest> places;
   for (std::size_t i = 0; i < picked.picks.size(); ++i) {
@@ -193,11 +190,11 @@ std::vector<Curve> Picker::rest_curves(const PickedCurve& picked, const std::str
   const bool is_bezier = curve.kind == Curve::Kind::bezier;
   // Found once is found alike: the first pick again.
   if (curve.closed && is_bezier) curve.points.back() = curve.points.front();
-  if (!is_bezier) return tree_->router.route(places, curve.closed, name);
+  if (!is_bezier) return tree_->router.route(places, curve.closed, name, along);
   if (!tree_->router.has_seams()) return {curve};
   std::vector<PlaceAtRest> flat = flattened(places);
   if (curve.closed) flat.pop_back();
-  std::vector<Curve> curves = tree_->router.route(flat, curve.closed, name + ", flattened");
+  std::vector<Curve> curves = tree_->router.route(flat, curve.closed, name + ", flattened", along);
   return curves.size() > 1 ? curves : std::vector{curve};
 }
 
@@ -223,7 +220,8 @@ std::vector<PlaceAtRest> Picker::flattened(const std::vector<PlaceAtRest>& contr
   return places;
 }
 
-CurvesAtRest curves_at_rest(std::span<const AnyCurve> path, const Sheet& posed, const std::string& name) {
+CurvesAtRest curves_at_rest(std::span<const AnyCurve> path, const Sheet& posed, const std::string& name,
+                            std::vector<HalfEdge>* along) {
   CurvesAtRest at_rest;
   const auto add = [&](Curve curve, std::size_t cut) {
     at_rest.curves.push_back(std::move(curve));
@@ -239,7 +237,7 @@ CurvesAtRest curves_at_rest(std::span<const AnyCurve> path, const Sheet& posed, 
       continue;
     }
     if (!picker) picker.emplace(posed);
-    for (const Curve& curve : picker->rest_curves(std::get<PickedCurve>(path[i]), which)) add(curve, i);
+    for (const Curve& curve : picker->rest_curves(std::get<PickedCurve>(path[i]), which, along)) add(curve, i);
   }
   return at_rest;
 }

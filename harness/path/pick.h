@@ -51,8 +51,11 @@ class Picker {
   /// stretch between two of them (route.h). A Bezier that crosses one would be another curve on each side: it is taken
   /// as the curve in space of its picked points, and from there to the nearest places of the sheet, in chords of
   /// `flatness` mean edges.
-  /// Throws InputError, beginning with `name` and the number of the point: a miss, no way over the seams.
-  std::vector<Curve> rest_curves(const PickedCurve& curve, const std::string& name) const;
+  /// \param along  where given, gets the seams that the curve would run along, where a cut opens nothing
+  /// Throws InputError, beginning with `name` and the number of the point: a miss, no way over the seams, and a way
+  /// along one without `along`.
+  std::vector<Curve> rest_curves(const PickedCurve& curve, const std::string& name,
+                                 std::vector<HalfEdge>* along = nullptr) const;
 
  private:
   PlaceAtRest place(const Pick& pick, const std::string& name) const;
@@ -71,9 +74,11 @@ struct CurvesAtRest {
 };
 
 /// All of them in rest space. Nothing moves between them, so all picks are made on the same sheet.
+/// \param along  as of Picker::rest_curves()
 /// Throws InputError, beginning with `name` and the number of the cut: as Picker::rest_curves(), and places at rest of
 /// a sheet that is unrolled, where they mean nothing.
-CurvesAtRest curves_at_rest(std::span<const AnyCurve> path, const Sheet& posed, const std::string& name);
+CurvesAtRest curves_at_rest(std::span<const AnyCurve> path, const Sheet& posed, const std::string& name,
+                            std::vector<HalfEdge>* along = nullptr);
 
 /// Throws InputError: too few points for the kind, a closed Bezier that doesn't end where it began, no direction, or a
 /// number that is not finite or beyond 1e60. `name` says where the curve comes from.

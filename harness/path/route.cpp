@@ -259,8 +259,8 @@ std::pair<double, double> Router::sides(std::size_t edge) const {
   return std::minmax({sheet_.rest(sheet_.origin(h)).x, sheet_.rest(sheet_.target(h)).x});
 }
 
-/// Does a line at rest share more than a point with a seam, where a cut opens nothing?
-bool Router::along_seam(Point2 from, Point2 to) const {
+/// With which a line at rest shares more than a point.
+std::vector<HalfEdge> Router::seams_along(Point2 from, Point2 to) const {
   const double near = arrived * sheet_.mean_edge();
   const auto begins_before = [&](std::size_t edge) {
     return sides(edge).first < std::min(from.x, to.x) - widest_ - near;
@@ -268,20 +268,29 @@ bool Router::along_seam(Point2 from, Point2 to) const {
   const auto first = std::partition_point(by_x_.begin(), by_x_.end(), begins_before);
   const auto last = std::find_if(first, by_x_.end(),
                                  [&](std::size_t edge) { return sides(edge).first > std::max(from.x, to.x) + near; });
-  return std::any_of(first, last, [&](std::size_t i) {
+  std::vector<HalfEdge> along;
+  for (const std::size_t i : std::span(first, last)) {
     const HalfEdge h = edges_[i].edge;
-    return runs_along(from, to, sheet_.rest(sheet_.origin(h)), sheet_.rest(sheet_.target(h)), near);
-  });
+    if (runs_along(from, to, sheet_.rest(sheet_.origin(h)), sheet_.rest(sheet_.target(h)), near)) along.push_back(h);
+  }
+  return along;
 }
 
-bool Router::along_seam(const PlaceAtRest& from, const PlaceAtRest& to, const std::vector<Bend>& bends) const {
+std::vector<HalfEdge> Router::seams_along(const PlaceAtRest& from, const PlaceAtRest& to,
+                                          const std::vector<Bend>& bends) const {
+  std::vector<HalfEdge> along;
+  const auto add = [&](Point2 begin, Point2 end) {
+    const std::vector<HalfEdge> more = seams_along(begin, end);
+    along.insert(along.end(), more.begin(), more.end());
+  };
   Point2 begin = from.point;
-  for (const Bend& bend : bends)
-    if (along_seam(std::exchange(begin, bend.enters), bend.leaves)) return true;
-  return along_seam(begin, to.point);
+  for (const Bend& bend : bends) add(std::exchange(begin, bend.enters), bend.leaves);
+  add(begin, to.point);
+  return along;
 }
 
-bool Router::join(const PlaceAtRest& from, const PlaceAtRest& to, std::vector<Bend>& bends) const {
+bool Router::join(const PlaceAtRest& from, const PlaceAtRest& to, std::vector<Bend>& bends,
+                  std::vector<HalfEdge>* along) const {
   if (from.triangle == to.triangle) return true;
   const std::vector<Step> steps = way(from, to);
   if (steps.empty()) return false;
@@ -293,13 +302,17 @@ bool Router::join(const PlaceAtRest& from, const PlaceAtRest& to, std::vector<Be
     if (in_one && !meets_seam(from.point, to.point)) return true;
     const Strip strip = shortened(from, to, steps);
     found = shortest_way(strip);
-    if (along_seam(from, to, *found)) found = shortest_way(narrowed(strip));
+    if (const std::vector<HalfEdge> seams = seams_along(from, to, *found); !seams.empty()) {
+      if (along != nullptr) along->insert(along->end(), seams.begin(), seams.end());
+      found = shortest_way(narrowed(strip));
+    }
   }
   bends.insert(bends.end(), found->begin(), found->end());
   return true;
 }
 
-std::vector<Curve> Router::route(const std::vector<PlaceAtRest>& places, bool closed, const std::string& name) const {
+std::vector<Curve> Router::route(const std::vector<PlaceAtRest>& places, bool closed, const std::string& name,
+                                 std::vector<HalfEdge>* along) const {
   std::vector<Curve> curves{{Curve::Kind::polyline, false, {places.front().point}}};
   const auto go_on = [&](Point2 p) {
     if (!has_seams() || curves.back().points.back() != p) curves.back().points.push_back(p);
@@ -313,7 +326,7 @@ std::vector<Curve> Router::route(const std::vector<PlaceAtRest>& places, bool cl
       throw InputError(which +
                        ": nothing joins the parts they are on; give each a path of its own, or sew them (--sew)");
     const bool is_in_one = part_[places[i].triangle()] == part_[places[next].triangle()];
-    if (has_seams() && is_in_one && !join(places[i], places[next], bends))
+    if (has_seams() && is_in_one && !join(places[i], places[next], bends, along))
       throw InputError(which + ": no way over seams leads from one to the other");
     for (const Bend& bend : bends) {
       go_on(bend.leaves);
@@ -321,20 +334,25 @@ std::vector<Curve> Router::route(const std::vector<PlaceAtRest>& places, bool cl
     }
     if (next != 0) go_on(places[next].point);
   }
-  for (const Curve& curve : curves)
-    for (std::size_t i = 1; i < curve.points.size(); ++i)
-      if (along_seam(curve.points[i - 1], curve.points[i]))
-        throw InputError(name + ": runs along a seam, where a cut opens nothing; put the points a little beside it");
   if (curves.size() == 1) {
     curves.front().closed = closed;
-    return curves;
+  } else {
+    if (closed) {  // the last one ends where the first one begins
+      for (const Point2 p : curves.front().points) go_on(p);
+      curves.erase(curves.begin());
+    }
+    // Of one point: where the way leads through a corner of a panel.
+    std::erase_if(curves, [](const Curve& curve) { return curve.points.size() == 1; });
   }
-  if (closed) {  // the last one ends where the first one begins
-    for (const Point2 p : curves.front().points) go_on(p);
-    curves.erase(curves.begin());
-  }
-  // Of one point: where the way leads through a corner of a panel.
-  std::erase_if(curves, [](const Curve& curve) { return curve.points.size() == 1; });
+  for (const Curve& curve : curves)
+    for (std::size_t i = curve.closed ? 0 : 1; i < curve.points.size(); ++i) {
+      const Point2 begin = i == 0 ? curve.points.back() : curve.points[i - 1];
+      const std::vector<HalfEdge> seams = seams_along(begin, curve.points[i]);
+      if (along != nullptr)
+        along->insert(along->end(), seams.begin(), seams.end());
+      else if (!seams.empty())
+        throw InputError(name + ": runs along a seam, where a cut opens nothing; put the points a little beside it");
+    }
   return curves;
 }
 

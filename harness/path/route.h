@@ -30,10 +30,13 @@ class Router {
   explicit Router(const Sheet& sheet);
   /// The polyline through the places, in a curve for each stretch between two seams: open, in their order, each ending
   /// on the border where the next begins. Without seams on the way it is one curve of these points, closed if `closed`.
+  /// \param along  where given, gets the seams that the way would run along, where a cut opens nothing
   /// \throw InputError, beginning with `name` and the numbers of two places: they are on parts that nothing joins, and
-  /// that don't lie beside each other at rest as in space; or the way runs along a seam, where a cut opens nothing
-  std::vector<Curve> route(const std::vector<PlaceAtRest>& places, bool closed, const std::string& name) const;
+  /// that don't lie beside each other at rest as in space; or the way runs along a seam, without `along`
+  std::vector<Curve> route(const std::vector<PlaceAtRest>& places, bool closed, const std::string& name,
+                           std::vector<HalfEdge>* along = nullptr) const;
   bool has_seams() const { return !edges_.empty(); }
+  bool is_seam(HalfEdge h) const { return first_edge_[h()] >= 0; }
 
  private:
   /// A rotation or reflection of the plane, and a shift.
@@ -86,8 +89,9 @@ class Router {
   bool meets_seam(Point2 from, Point2 to) const;
   bool are_apart(const PlaceAtRest& from, const PlaceAtRest& to) const;
   std::pair<double, double> sides(std::size_t edge) const;
-  bool along_seam(Point2 from, Point2 to) const;
-  bool along_seam(const PlaceAtRest& from, const PlaceAtRest& to, const std::vector<Bend>& bends) const;
+  std::vector<HalfEdge> seams_along(Point2 from, Point2 to) const;
+  std::vector<HalfEdge> seams_along(const PlaceAtRest& from, const PlaceAtRest& to,
+                                    const std::vector<Bend>& bends) const;
 
   // route_shortest.cpp
   Gate gate(const Step& step) const;
@@ -99,7 +103,8 @@ class Router {
   Strip narrowed(Strip strip) const;
   std::vector<Bend> shortest_way(const Strip& strip) const;
 
-  bool join(const PlaceAtRest& from, const PlaceAtRest& to, std::vector<Bend>& bends) const;
+  bool join(const PlaceAtRest& from, const PlaceAtRest& to, std::vector<Bend>& bends,
+            std::vector<HalfEdge>* along) const;
 
   const Sheet& sheet_;
   std::vector<SewnEdge> edges_;

@@ -22,7 +22,7 @@
 #include "harness/files/whole_file.h"
 #include "harness/judge/assessment.h"
 #include "harness/judge/judged_sheet.h"
-#include "harness/path/pick.h"
+#include "harness/path/clear_of_seams.h"
 #include "harness/records/context.h"
 #include "harness/records/report_json.h"
 
@@ -84,9 +84,10 @@ Exit cut_sheet(const CutArguments& arguments) {
   if (!arguments.picture.empty())
     drawing.emplace("--picture", arguments.picture, std::initializer_list<const char*>{".png", ".svg"});
   const auto path = read_path_with_picks(arguments.path);
-  const MeshData data = read_mesh(arguments.mesh, arguments.reading.reading());
-  const Texture texture = read_texture(arguments.mesh, arguments.reading.reading(), data);
+  MeshData data = read_mesh(arguments.mesh, arguments.reading.reading());
   print_notes(data);
+  clear_of_seams(data, arguments.mesh, path, arguments.path);
+  const Texture texture = read_texture(arguments.mesh, arguments.reading.reading(), data);
 
   const Sheet before(data);
   StopWatch watch;

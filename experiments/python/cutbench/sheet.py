@@ -210,7 +210,13 @@ class Sheet:
         """Cuts the sheet; see cutbench.cut()."""
         maker = method_of(method, parameters)
         tolerance = arrays.number(chord_tolerance, "chord_tolerance")
-        return Cut(self, _core.cut(self._core, curves_of(path), maker, tolerance, bool(allow_miss)), maker)
+        made = _core.cut(self._core, curves_of(path), maker, tolerance, bool(allow_miss))
+        return Cut(self if made.before is self._core else self._unrolled_anew(made.before), made, maker)
+
+    def _unrolled_anew(self, core):
+        sheet = Sheet._of(core)
+        sheet._of_row, sheet._rows = self._of_row, self._rows
+        return sheet
 
     def plot(self, ax=None, **how):
         """Draws the sheet at rest; see cutbench.pictures.plot()."""
@@ -252,7 +258,8 @@ class Cut:
 
     Attributes:
         before, sheet: the Sheet before and after. The sheet's `vertices`, `triangles`, `rest`, `texture`, `incision` and
-            `pieces` can be asked of the cut, too.
+            `pieces` can be asked of the cut, too. Where the path runs along a seam of a curved sheet that was not cut yet,
+            `before` is that sheet with its seams elsewhere, so that other vertices are there twice.
         path: the curves in rest space.
         method: its name.
         status: "ok"; "noop", nothing was there to cut; "deviated", done otherwise than asked by the method's policy.
