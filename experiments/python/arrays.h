@@ -5,6 +5,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -39,6 +40,17 @@ Array<Number> array_of(std::vector<Row> rows) {
   auto* const held = new std::vector<Row>(std::move(rows));
   const py::capsule owner(held, [](void* p) { delete static_cast<std::vector<Row>*>(p); });
   return view_of<Number>(*held, owner);
+}
+
+/// Nothing where the library could not take it as it is, or it is of a subclass, as masked arrays are.
+template <class Number>
+std::optional<Array<Number>> plain_rows(const py::handle given, py::ssize_t fewest_columns, py::ssize_t most_columns) {
+  const bool exactly = Py_TYPE(given.ptr()) == py::detail::npy_api::get().PyArray_Type_;
+  if (!exactly || !Array<Number>::check_(given)) return {};
+  auto array = py::reinterpret_borrow<Array<Number>>(given);
+  const bool fits =
+      array.ndim() == 2 && array.shape(0) > 0 && array.shape(1) >= fewest_columns && array.shape(1) <= most_columns;
+  return fits ? std::optional(std::move(array)) : std::nullopt;
 }
 
 template <class Row, class Number>

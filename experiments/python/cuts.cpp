@@ -73,6 +73,17 @@ std::shared_ptr<HeldCut> cut(const SheetPointer& given, const std::vector<AnyCur
   return made;
 }
 
+/// In one call: a sheet of some thousand triangles drives Python out of the caches, and it would have to come back
+/// for each step in between. \return  null: as of sheet_of_plain()
+std::shared_ptr<HeldCut> cut_of_arrays(const py::handle vertices, const py::handle triangles, const py::handle path,
+                                       const HeldMethod& method, double chord_tolerance, bool allow_miss) {
+  const std::optional<Curve> curve = polyline_of_plain(path);
+  const SheetPointer before = curve ? sheet_of_plain(vertices, triangles) : nullptr;
+  if (!before) return nullptr;
+  const py::gil_scoped_release others_go_on;
+  return cut(before, {*curve}, method, chord_tolerance, allow_miss);
+}
+
 std::string report(const HeldCut& cut) {
   const Sheet &before = *cut.before->sheet, &after = *cut.after->sheet;
   const Judgement judgement =
@@ -207,6 +218,7 @@ void bind_cuts(py::module_& m) {
       });
   m.def("lips", [](const HeldSheet& sheet) { return array_of<Row>(lips(sheet)); });
   m.def("cut", &cut, Released());
+  m.def("cut_of_arrays", &cut_of_arrays);
   m.def("score",
         [](const std::shared_ptr<HeldSheet>& before, const std::vector<Curve>& curves, const Array<double>& vertices,
            const Array<Row>& triangles, const std::optional<Array<double>>& rest, double chord_tolerance,

@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,10 @@ void check_path(const std::vector<AnyCurve>& path);
 /// The curves in rest space; picks are found on the sheet. Throws InputError, as check_path() does.
 std::vector<Curve> in_rest_space(const std::vector<AnyCurve>& path, const Sheet& posed);
 CutOptions options_of(double chord_tolerance);
+/// Of arrays that Python has not checked. Warns of repairs. Null: they need conversion, or Python has to say what is
+/// wrong.
+SheetPointer sheet_of_plain(pybind11::handle vertices, pybind11::handle triangles);
+std::optional<Curve> polyline_of_plain(pybind11::handle points);
 
 // Each adds its part to the module.
 void bind_sheets(pybind11::module_& m);

@@ -136,6 +136,29 @@ PickedCurve picked_of(bool bezier, const Array<double>& origins, const std::opti
 
 }  // namespace
 
+SheetPointer sheet_of_plain(const py::handle vertices, const py::handle triangles) try {
+  const auto places = plain_rows<double>(vertices, 2, 3);
+  const auto wide = plain_rows<std::int64_t>(triangles, 3, 3);
+  const auto narrow = plain_rows<std::int32_t>(triangles, 3, 3);
+  if (!places || (!wide && !narrow)) return nullptr;
+  const SheetPointer sheet =
+      wide ? sheet_of(*places, *wide, {}, {}, "auto") : sheet_of(*places, *narrow, {}, {}, "auto");
+  for (const std::string& note : sheet->mesh.notes) py::module_::import("cutbench.sheet").attr("warn")(note);
+  return sheet;
+} catch (const InputError&) {
+  return nullptr;
+}
+
+std::optional<Curve> polyline_of_plain(const py::handle points) try {
+  const auto rows = plain_rows<double>(points, 2, 2);
+  if (!rows) return {};
+  Curve curve{Curve::Kind::polyline, false, rows_of<Point2>(*rows)};
+  check_curve(curve, "path");
+  return curve;
+} catch (const InputError&) {
+  return {};
+}
+
 void bind_sheets(py::module_& m) {
   py::class_<HeldSheet, std::shared_ptr<HeldSheet>>(m, "Sheet")
       .def_property_readonly(

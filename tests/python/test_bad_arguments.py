@@ -200,9 +200,12 @@ class BadArguments(unittest.TestCase):
             self.assertTrue(caught.exception.__suppress_context__)
 
     def test_notes_are_of_the_callers_line(self):
-        with self.assertWarns(UserWarning) as caught:
-            cutbench.cut(V, T[:, ::-1], P)
-        self.assertEqual(caught.filename, __file__)
+        for turned in (T[:, ::-1], T[:, ::-1].copy()):  # converted, and as the library takes it
+            with self.assertWarns(UserWarning) as caught:
+                cutbench.cut(V, turned, P)
+            self.assertEqual(caught.filename, __file__)
+            with self.assertWarnsRegex(UserWarning, "clockwise"), self.assertRaisesRegex(cutbench.InputError, "misses"):
+                cutbench.cut(V, turned, P + 5)
         simulation = cutbench.Simulation(cutbench.Scene(sheet=cutbench.Sheet(V, T)))
         with self.assertWarnsRegex(UserWarning, "nothing was cut") as caught:
             simulation.cut(P + 5)

@@ -75,11 +75,11 @@ def curves_of(path):
     curves and arrays."""
     if isinstance(path, (Curve, PickedCurve)):
         return [path]
-    if isinstance(path, (str, os.PathLike)):
-        return read_path(path)
     if isinstance(path, np.ndarray):
         return [polyline(path)]
     if not isinstance(path, (list, tuple)):
+        if isinstance(path, (str, os.PathLike)):
+            return read_path(path)
         raise InputError(f"path: is a {type(path).__name__}; give points (k x 2 or k x 3), cutbench.bezier(...), or a list "
                          "of these")
     if len(path) == 0:

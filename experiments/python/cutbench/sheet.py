@@ -136,9 +136,9 @@ class Sheet:
             warn(note)
 
     @classmethod
-    def _of(cls, core):
+    def _of(cls, core, rows=None):
         sheet = cls.__new__(cls)
-        sheet._core, sheet._of_row, sheet._rows = core, None, None
+        sheet._core, sheet._of_row, sheet._rows = core, None, rows
         return sheet
 
     @classmethod
@@ -172,9 +172,9 @@ class Sheet:
         """Writes an OBJ, OFF or VTU file, numbers to the last bit."""
         self._core.write(os.fspath(file))
 
-    vertices = cached_property(lambda self: self._core.vertices)
-    rest = cached_property(lambda self: self._core.rest)
-    triangles = cached_property(lambda self: self._core.triangles)
+    vertices = property(lambda self: self._core.vertices)  # views: cheaper than the lock of a cached_property
+    rest = property(lambda self: self._core.rest)
+    triangles = property(lambda self: self._core.triangles)
     sewn = cached_property(lambda self: self._core.sewn)
 
     @cached_property
@@ -270,8 +270,8 @@ class Cut:
 
     def __init__(self, before, core, maker):
         self.before, self._core, self._maker = before, core, maker
+        self.sheet = Sheet._of(core.after)
 
-    sheet = cached_property(lambda self: Sheet._of(self._core.after))
     method = property(lambda self: self._core.method)
     status = property(lambda self: self._core.status)
     reason = property(lambda self: self._core.reason)
@@ -370,10 +370,15 @@ def cut(vertices, triangles=None, path=None, method="warp_and_refine", rest="aut
     """
     if triangles is not None and isinstance(vertices, (Sheet, Cut)):
         raise InputError("triangles: the sheet has its own; leave them out")
-    if triangles is None:
-        if texture is not None:
-            raise InputError("texture: the sheet has its own; leave it out")
-        return sheet_of(vertices).cut(path, method, chord_tolerance, allow_miss, **parameters)
+    if triangles is None and texture is not None:
+        raise InputError("texture: the sheet has its own; leave it out")
     if path is None:
         raise InputError("path: is not given")
-    return Sheet(vertices, triangles, rest, texture).cut(path, method, chord_tolerance, allow_miss, **parameters)
+    maker = method_of(method, parameters)
+    if triangles is not None and texture is None and isinstance(rest, str) and rest == "auto":  # most calls: no detours
+        tolerance = arrays.number(chord_tolerance, "chord_tolerance")
+        core = _core.cut_of_arrays(vertices, triangles, path, maker, tolerance, bool(allow_miss))
+        if core is not None:
+            return Cut(Sheet._of(core.before, len(vertices)), core, maker)
+    sheet = sheet_of(vertices) if triangles is None else Sheet(vertices, triangles, rest, texture)
+    return sheet.cut(path, maker, chord_tolerance, allow_miss)
