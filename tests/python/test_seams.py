@@ -43,6 +43,22 @@ class Seams(unittest.TestCase):
         self.assertTrue((again.sewn == sewn.sewn).all())
         self.assertEqual(again.pieces.max(), 0)
 
+    def test_a_path_along_a_seam_puts_the_seam_elsewhere(self):
+        vertices, triangles = tube()
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            sheet = cutbench.Sheet(vertices, triangles)
+        elsewhere = 0
+        for i in range(24):
+            cut = sheet.cut(cutbench.polyline(vertices[[i, 24 * 8 + i]]), "conventional_split")
+            elsewhere += cut.before is not sheet
+            self.assertEqual((cut.verdict, len(cut.sheet.triangles)), ("ok", len(triangles)))
+            self.assertEqual(len(np.unique(cut.sheet.sewn)), len(vertices) + 9)
+            carried = cut.parents.carry(vertices)
+            self.assertTrue(np.allclose(carried, cut.vertices))
+        self.assertGreater(elsewhere, 0)
+        self.assertLess(elsewhere, 24)
+
     def test_a_tube_is_cut_round(self):
         vertices, triangles = tube()
         with self.assertWarnsRegex(UserWarning, "unrolled, sewn along 8 of"):

@@ -214,8 +214,8 @@ class Sheet:
         return Cut(self if made.before is self._core else self._unrolled_anew(made.before), made, maker)
 
     def _unrolled_anew(self, core):
-        sheet = Sheet._of(core)
-        sheet._of_row, sheet._rows = self._of_row, self._rows
+        sheet = Sheet._of(core, self._rows)
+        sheet._of_row = self._of_row
         return sheet
 
     def plot(self, ax=None, **how):
