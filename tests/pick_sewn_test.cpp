@@ -157,6 +157,31 @@ TEST_F(SewnFiles, CutsAlongTheEdgesOfATubeCanBeScored) {
       const auto right = run("score --result a.obj" + common);
       EXPECT_EQ(right.code, 0) << points << right.out << right.error;
       EXPECT_NE(right.out.find("0 triangles"), std::string::npos) << right.out;  // none added
+
+      write(folder_ / "scene.toml", R"(effect = "a cut"
+truth = "none"
+duration = 0.01
+[sheet]
+file = "tube.obj"
+rest = "space"
+[material]
+density = 0.2
+stiffness = 30.0
+poisson = 0.3
+[physics]
+gravity = [3.0, 0.0, -9.3]
+[[pins]]
+space = "world"
+box = [[-1.0, -2.0, -2.0], [0.1, 2.0, 2.0]]
+[integrator]
+name = "backward_euler"
+step = 0.004
+[[cuts]]
+time = 0.0
+space = "world"
+polyline = [)" + points + "]\n");
+      const auto moved = run("simulate scene.toml --out moved.obj");
+      EXPECT_EQ(moved.code, 0) << points << moved.out << moved.error;
     }
 }
 

@@ -12,6 +12,7 @@
 #include "harness/files/mesh_file.h"
 #include "harness/mesh/families.h"
 #include "harness/path/blade.h"
+#include "harness/path/clear_of_seams.h"
 #include "harness/scenes/scene_file_cuts.h"
 #include "harness/scenes/toml_reader.h"
 
@@ -295,7 +296,12 @@ Scene read_scene(const toml::table& table, const std::filesystem::path& file) {
   scene.cuts = read_cuts(reader, file.parent_path(), sheet_file.scale);
   check_times(scene, reader.where);
   check_scene_suits_active_radius(scene, reader.where);
-  if (!scene.mesh_file.empty()) scene.mesh = read_scaled(scene.mesh_file, sheet_file);
+  if (scene.mesh_file.empty()) return scene;
+  scene.mesh = read_scaled(scene.mesh_file, sheet_file);
+  std::vector<AnyCurve> at_once;  // before anything moves
+  for (const Scene::Cut& cut : scene.cuts)
+    if (cut.time == 0 && !cut.picked.picks.empty()) at_once.emplace_back(cut.picked);
+  clear_of_seams(*scene.mesh, scene.mesh_file, at_once, scene.stem);
   return scene;
 }
 
