@@ -324,5 +324,25 @@ TEST(PolygonSheet, NoCornerLeavesThePlaneForNothing) {
   EXPECT_GT(checked, 100u);
 }
 
+/// Its twist is a quadratic, and bending of two triangles alone sees none. What holds its corners is that it stretches:
+/// as von Karman's plate does (compound_sheet.h), to a quarter.
+TEST(PolygonSheet, NoCornerGoesFarFromThePlaneForNothing) {
+  const Sheet sheet(make_sheet("alternating", 1));
+  ASSERT_EQ(sheet.triangle_count(), 2u);
+  const auto corner_at = [&](Point2 p) {
+    for (std::size_t d = 0;; ++d)
+      if (sheet.rest(sheet.rest_vertex(DeformedIndex(d))) == p) return DeformedIndex(d);
+  };
+  const std::vector<DeformedIndex> corners{corner_at({0, 0}), corner_at({1, 0}), corner_at({1, 1}), corner_at({0, 1})};
+  Model<3> model(sheet, skin, {.bending = BendingKind::patches}, {}, {});
+  model.constrain(sheet, {.polygons = {{corners, {TriangleIndex(0), TriangleIndex(1)}, {}}}});
+  for (const double up : {0.01, 0.3}) {
+    Field x = model.positions(sheet);
+    for (std::size_t i = 0; i < 4; ++i) x[3 * corners[i].value + 2] = i % 2 == 0 ? up : -up;
+    model.rotate(x);
+    EXPECT_NEAR(model.energy(x, Field::Zero(x.size())).membrane / (skin.stiffness * std::pow(up, 4)), 1.24, 0.31);
+  }
+}
+
 }  // namespace
 }  // namespace cutbench

@@ -240,14 +240,16 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, std::span<const Curve> curve
     if (run.verdict != Verdict::ok) return result;
     StopWatch watch;
     const State phantoms = take_phantoms(moving.model.first_phantom(), D, moving.state);
-    const bool settles = D == 3 && scene_.robust && !source && moving.sheet.seams().empty();
-    const Field places_before = settles ? moving.state.x : Field();
+    const bool merges = source && source->constraint_kind() == ConstraintKind::polygons;
+    const bool settles = D == 3 && scene_.robust && (!source || merges) && moving.sheet.seams().empty();
+    const bool looks = settles && !merges;  // whether there is something to settle
+    const Field places_before = looks ? moving.state.x : Field();
     transfer(moving.sheet.log(), moving.sheet.deformed_slots(), D, moving.state);
     result.transfer_us += watch.lap();
     moving.model.update(moving.sheet);
     result.pattern_us += watch.lap();
     const PlacesAtCut places{places_before, moving.state.x};
-    const double bent = moving.model.update_bending(moving.sheet, settles ? &places : nullptr);
+    const double bent = moving.model.update_bending(moving.sheet, looks ? &places : nullptr);
     result.bending_us += watch.lap();
     if (!source && moving.sheet.seams().empty()) {
       if (bent > 0) settle_new_vertices(moving.model, moving.sheet, moving.state.x);
@@ -263,8 +265,10 @@ MotionCut SceneCuts<D>::cut(MovingSheet<D>& moving, std::span<const Curve> curve
     begin_phantoms(moving.sheet, moving.constraints, constraints, vertices_before, phantoms, moving.model,
                    moving.state);
     moving.constraints = std::move(constraints);
-    moving.keep_together();  // the state of before the cut need not
     result.pattern_us += watch.lap();
+    if (settles) settle_new_vertices(moving.model, moving.sheet, moving.state.x);
+    moving.keep_together();  // the state of before the cut need not
+    result.transfer_us += watch.lap();
   }
   if (refusal) {
     result.cut.status = Status::refused;

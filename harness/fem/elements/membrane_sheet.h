@@ -18,7 +18,8 @@ template <int D>
 class MembraneSheet {
  public:
   /// \param twist  (1 - nu) D of bending, N m: it keeps compounds flat (compound_sheet.h); 0: none does
-  explicit MembraneSheet(const MembraneLaw& law, double twist = 0) : law_(law), compounds_(law, twist) {}
+  explicit MembraneSheet(const MembraneLaw& law, double twist = 0)
+      : law_(law), compounds_(CompoundLaw<D>(law, twist)) {}
   void resize(std::size_t elements);
   void reserve_spare();
 

@@ -56,6 +56,7 @@ PolygonElement::PolygonElement(const Sheet& sheet, const Polygon& of) : polygon(
   departure = Eigen::MatrixXd::Identity(n, n) - Eigen::MatrixXd::Constant(n, n, 1.0 / to_double(k));
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j) departure(i, j) -= dot(offset[to_size(i)], gradient[to_size(j)]);
+  departure2 = departure.transpose() * departure;
   unbent = rest_of_quadratics(offset);
 }
 

@@ -41,6 +41,7 @@ struct PolygonElement {
   std::vector<Point2> offset;    ///< of corner i from the mean of all
   std::vector<Point2> inside;    ///< likewise of the vertices inside
   Eigen::MatrixXd departure;     ///< I - Pi at the corners, k x k
+  Eigen::MatrixXd departure2;    ///< departure^T departure
   /// The corners' distance from the quadratic that fits them best, k x k: what the bending of a sheet may not see.
   Eigen::MatrixXd unbent;
   double area = 0;

@@ -16,8 +16,7 @@ Model<D>::Model(const Sheet& sheet, const Material& material, const Physics& phy
       pins_(std::move(pins)),
       tractions_(std::move(tractions)),
       elements_(sheet),
-      membrane_(law_of(material, physics),
-                physics.bending == BendingKind::none ? 0 : (1 - material.poisson) * material.bending) {
+      membrane_(law_of(material, physics), twist()) {
   if (physics.mass == Mass::consistent) consistent_mass_.emplace();
   resize(sheet);
   ++round_;

@@ -101,6 +101,10 @@ class Model {
   double held_displacement(std::size_t unknown, double time) const;
   double held_velocity(std::size_t unknown) const;  ///< m/s
   const Material& material() const { return material_; }
+  /// Of CompoundLaw, N m.
+  double twist() const {
+    return physics_.bending == BendingKind::none ? 0 : (1 - material_.poisson) * material_.bending;
+  }
   const Physics& physics() const { return physics_; }
 
  private:

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "harness/base/conversions.h"
+#include "harness/fem/elements/compound_sheet.h"
 #include "harness/fem/elements/element_stiffness.h"
 
 namespace cutbench {
@@ -28,24 +29,34 @@ class NearVertices {
  public:
   /// \param movers  in order
   NearVertices(const Model<3>& model, const std::vector<Mover>& movers, std::int32_t groups)
-      : model_(model), law_(law_of(model.material(), model.physics())), movers_(movers), groups_(groups) {
-    if (law_.of_stress == StressStiffness::full) law_.of_stress = StressStiffness::positive;
+      : model_(model),
+        law_(positive(law_of(model.material(), model.physics()))),
+        compound_law_(law_, model.twist()),
+        movers_(movers),
+        groups_(groups) {
     for (const Mover& mover : movers_) {
       const auto v = to_size(mover.vertex);
-      for (const HalfEdge corner : model.incidence().at(v)) elements_.push_back(triangle_of(corner)());
+      for (const HalfEdge corner : model.incidence().at(v))
+        if (const std::size_t e = triangle_of(corner)(); model.elements()[e].is_triangle()) triangles_.push_back(e);
+      for (const std::int32_t p : model.elements().polygons_of(v)) compounds_.push_back(to_size(p));
       for (const auto& holder : model.bending()->stencils_of(v)) stencils_.push_back(to_size(holder.triangle));
     }
-    for (auto* list : {&elements_, &stencils_}) {
+    for (auto* list : {&triangles_, &compounds_, &stencils_}) {
       std::sort(list->begin(), list->end());
       list->erase(std::unique(list->begin(), list->end()), list->end());
     }
   }
 
-  double energy(const Field& x) const {
+  double energy(const Field& x) {
     double sum = 0;
-    for (const std::size_t e : elements_) {
+    for (const std::size_t e : triangles_) {
       const Element& element = model_.elements()[e];
       sum += element.material_area() * deformation_of<3>(element, x, law_.strain, law_.lame).energy;
+    }
+    for (const std::size_t p : compounds_) {
+      const PolygonElement& compound = model_.elements().polygon(p);
+      compound_law_.bend(compound, x, bent_);
+      sum += compound_law_.energy(compound, bent_);
     }
     for (const std::size_t t : stencils_) sum += stencil_energy(model_.bending()->stencil(t), x, 3);
     return sum;
@@ -55,7 +66,8 @@ class NearVertices {
   bool solve(const Field& x, Field& force, Field& dx) {
     force.setZero(3 * groups_);
     entries_.clear();
-    for (const std::size_t e : elements_) add_element(model_.elements()[e], x, force);
+    for (const std::size_t e : triangles_) add_triangle(model_.elements()[e], x, force);
+    for (const std::size_t p : compounds_) add_compound(model_.elements().polygon(p), x, force);
     for (const Mover& mover : movers_) add_bending(mover, x, force);
     matrix_.resize(3 * groups_, 3 * groups_);
     matrix_.setFromTriplets(entries_.begin(), entries_.end());
@@ -78,7 +90,12 @@ class NearVertices {
     return at != movers_.end() && at->vertex == vertex ? at->group : -1;
   }
 
-  void add_element(const Element& element, const Field& x, Field& force) {
+  static MembraneLaw positive(MembraneLaw law) {
+    if (law.of_stress == StressStiffness::full) law.of_stress = StressStiffness::positive;
+    return law;
+  }
+
+  void add_triangle(const Element& element, const Field& x, Field& force) {
     const Deformation<3> now = deformation_of<3>(element, x, law_.strain, law_.lame);
     const ElementStiffness<3> tangent(element, now, law_);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -89,10 +106,28 @@ class NearVertices {
         const std::int32_t column = group_of(element.vertex[j].value);
         if (column < 0) continue;
         const auto block = tangent.block(i, j);
-        for (int c = 0; c < 3; ++c)
-          for (int r = 0; r < 3; ++r) entries_.emplace_back(3 * row + r, 3 * column + c, block[to_size(3 * c + r)]);
+        add_block(row, column, Eigen::Map<const Eigen::Matrix3d>(block.data()));
       }
     }
+  }
+
+  void add_compound(const PolygonElement& compound, const Field& x, Field& force) {
+    compound_law_.bend(compound, x, bent_);
+    compound_law_.stiffness(compound, bent_, blocks_);
+    const std::size_t k = compound.size();
+    for (std::size_t i = 0; i < k; ++i) {
+      const std::int32_t row = group_of(compound.polygon.corners[i].value);
+      if (row < 0) continue;
+      force.segment<3>(3 * row) += bent_.force.col(to_index(i));
+      for (std::size_t j = 0; j < k; ++j)
+        if (const std::int32_t column = group_of(compound.polygon.corners[j].value); column >= 0)
+          add_block(row, column, blocks_[k * i + j]);
+    }
+  }
+
+  void add_block(std::int32_t row, std::int32_t column, const Eigen::Matrix3d& block) {
+    for (int c = 0; c < 3; ++c)
+      for (int r = 0; r < 3; ++r) entries_.emplace_back(3 * row + r, 3 * column + c, block(r, c));
   }
 
   void add_bending(const Mover& mover, const Field& x, Field& force) {
@@ -108,10 +143,13 @@ class NearVertices {
   }
 
   const Model<3>& model_;
-  MembraneLaw law_;
+  const MembraneLaw law_;
+  const CompoundLaw<3> compound_law_;
   const std::vector<Mover>& movers_;
   const std::int32_t groups_;
-  std::vector<std::size_t> elements_, stencils_;
+  std::vector<std::size_t> triangles_, compounds_, stencils_;
+  BentCompound<3> bent_;
+  std::vector<Eigen::Matrix3d> blocks_;
   std::vector<Eigen::Triplet<double, std::int32_t>> entries_;
   Eigen::SparseMatrix<double> matrix_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;

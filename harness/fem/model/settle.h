@@ -15,7 +15,7 @@ namespace cutbench {
 /// to open them is the next steps' work. Held vertices stay. Velocities are not touched. Needs bending, and a sheet in
 /// space that is flat at rest; does nothing otherwise. Cost: by the number of these vertices.
 /// \param x  m: after transfer()
-/// \pre model.update() and update_bending() are done, constrain() is not
+/// \pre model.update() and update_bending() are done, and constrain() for polygons, but for no other constraints
 template <int D>
 void settle_new_vertices(const Model<D>& model, const Sheet& sheet, Field& x);
 
