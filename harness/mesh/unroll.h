@@ -29,8 +29,8 @@ void unroll(MeshData& mesh, const std::string& name);
 /// Edges of a file, as the numbers of their two vertices there, the lower one first.
 using FileEdges = std::set<std::pair<std::int32_t, std::int32_t>>;
 
-/// Unrolls anew a mesh that was unrolled and is not cut, so that none of `whole` is a seam. Where they go round a vertex
-/// or lie in a part that covers another one, some stay seams. Triangles keep their order, and corners theirs.
+/// Unrolls anew a mesh that was unrolled and is not cut, so that none of `whole` is a seam; but where laying them side
+/// by side would cover a part of the sheet, some stay seams. Triangles keep their order, and corners theirs.
 /// \pre `mesh` passed check_and_repair(), and does again
 void unroll_anew(MeshData& mesh, const std::string& name, const FileEdges& whole);
 
