@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "harness/mesh/check_and_repair.h"
 #include "harness/mesh/families.h"
 #include "harness/mesh/mesh_data.h"
+#include "harness/mesh/sheet.h"
 #include "harness/mesh/unroll.h"
 
 namespace cutbench {
@@ -42,6 +44,12 @@ inline MeshData in_panels(const MeshData& whole, const std::function<int(Point2)
   mesh.file_vertices = mesh.sewn;
   check_and_repair(mesh, "panels");
   return mesh;
+}
+
+/// What is sewn together is one.
+inline std::size_t points_in_space(const Sheet& sheet) {
+  const MeshData mesh = sheet.to_mesh_data();
+  return mesh.sewn.empty() ? mesh.deformed.size() : std::set(mesh.sewn.begin(), mesh.sewn.end()).size();
 }
 
 inline int in_quarters(Point2 p) { return (p.x > 0.5 ? 1 : 0) + (p.y > 0.5 ? 2 : 0); }

@@ -7,7 +7,9 @@
 #include "harness/cut/embed_carefully.h"
 #include "harness/cut/open.h"
 #include "harness/cut/patch.h"
+#include "harness/mesh/one_ring.h"
 #include "harness/mesh/tolerances.h"
+#include "harness/path/tips.h"
 
 namespace cutbench {
 
@@ -98,7 +100,33 @@ bool CutUnderWay::improve() {
   return true;
 }
 
+/// What a method made of the path may be one edge between seams on which the path ends. In space these ends are tips, so
+/// that nothing would open: as between other tips (Tracer) it gets a vertex in the middle.
+void CutUnderWay::divide_lone_edge() {
+  if (sheet_.seams().empty()) return;
+  std::vector<VertexIndex> ends;
+  for (const VertexIndex v : sheet_.log().path_vertices)
+    if (sheet_.triangle_of_vertex(v).valid()) ends.push_back(v);
+  if (ends.size() != 2) return;
+  HalfEdge lone;
+  const Point2 first = polyline_.points.front(), last = polyline_.points.back();
+  for (const VertexIndex v : ends) {
+    const Point2 p = sheet_.rest(v);
+    const bool is_last = squared_length(p - last) < squared_length(p - first);
+    for (const HalfEdge out : outgoing_edges(sheet_, v))
+      for (const HalfEdge h : {out, Sheet::previous(out)})
+        if (sheet_.mark(h) == EdgeMark::path)
+          lone = h;
+        else if (is_open(sheet_, h, is_last ? polyline_.goes_on : polyline_.continues))
+          return;
+  }
+  if (!lone.valid()) return;
+  const Point2 from = sheet_.rest(sheet_.origin(lone)), to = sheet_.rest(sheet_.target(lone));
+  sheet_.split_edge(lone, 0.5, from + 0.5 * (to - from));
+}
+
 bool CutUnderWay::open() {
+  divide_lone_edge();
   open_path(sheet_);
   return true;
 }

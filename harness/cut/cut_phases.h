@@ -31,6 +31,7 @@ class CutUnderWay {
 
  private:
   bool end(Status status, const char* reason);
+  void divide_lone_edge();
 
   Tracer& tracer_;
   Polyline& polyline_;

@@ -81,7 +81,11 @@ bool leaves_vt(const std::filesystem::path& path, const MeshReading& reading) {
   if (lower_case_extension(path) != ".obj") return false;
   if (text_of(path).starts_with(vt_are_texture)) return true;
   if (!read_unchecked(path, true, reading).rest.empty()) return false;
-  return !read_unchecked(path, true, {RestFrom::vt, reading.triangulate}).rest.empty();
+  try {
+    return !read_unchecked(path, true, {RestFrom::vt, reading.triangulate}).rest.empty();
+  } catch (const InputError&) {  // some corners have one
+    return true;
+  }
 }
 
 MeshData read_mesh_as_is(const std::filesystem::path& path, const MeshReading& reading) {

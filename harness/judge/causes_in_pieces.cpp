@@ -11,7 +11,8 @@
 namespace cutbench::causes {
 
 auto Causes::all_pieces(const std::vector<int>& piece) const -> std::vector<Piece> {
-  std::vector<Piece> all(to_size(judgement_.pieces));
+  // Over seams the judgement counts fewer.
+  std::vector<Piece> all(piece.empty() ? 0 : to_size(*std::max_element(piece.begin(), piece.end()) + 1));
   for (int t = 0; t < to_int(piece.size()); ++t) {
     const double a = area_of(t);
     Piece& p = all[piece[t]];

@@ -14,6 +14,10 @@ oracle::Surface surface_of(const Sheet& sheet) {
   const MeshData data = sheet.to_mesh_data();
   oracle::Surface surface{{{}, data.triangles}, data.sewn};
   for (const Point2 p : data.rest) surface.mesh.rest.push_back({p.x, p.y});
+  const auto segment = [](const std::array<Point2, 2>& side) {
+    return oracle::Segment{{{side[0].x, side[0].y}, {side[1].x, side[1].y}}};
+  };
+  for (const Seam& seam : sheet.seams()) surface.seams.push_back({segment(seam.first), segment(seam.second)});
   return surface;
 }
 

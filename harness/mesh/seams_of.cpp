@@ -47,6 +47,7 @@ class SeamFinder {
     shared_.assign(mesh_.rest.size(), false);
     for (const auto& [a, b] : border_) {
       next_[to_size(a)] = b;
+      places_.insert({{rest(a).x, rest(a).y}, a});
       const auto [other, is_first] = first.try_emplace(point(a), a);
       if (!is_first) shared_[to_size(a)] = shared_[to_size(other->second)] = true;
     }
@@ -78,11 +79,26 @@ class SeamFinder {
     for (const auto& [a, b] : border_) {
       if (!shared_[to_size(a)] || next_[to_size(a)] != b) continue;
       BorderLine line{a, b};
-      while (!shared_[to_size(line.back())] && next_[to_size(line.back())] >= 0)
-        line.push_back(next_[to_size(line.back())]);
+      while (!shared_[to_size(line.back())])
+        if (const std::int32_t next = straight_on(line); next >= 0)
+          line.push_back(next);
+        else
+          break;
       if (shared_[to_size(line.back())] && is_straight(line)) lines.push_back(line);
     }
     return lines;
+  }
+
+  /// The next vertex of the border; past an incision that ends here, of its other lip. -1: none
+  std::int32_t straight_on(const BorderLine& line) const {
+    const Point2 at = rest(line.back()), way = at - rest(line.front());
+    for (auto [twin, end] = places_.equal_range({at.x, at.y}); twin != end; ++twin) {
+      const std::int32_t next = next_[to_size(twin->second)];
+      if (next < 0) continue;
+      const Point2 step = rest(next) - at;
+      if (dot(way, step) > 0 && std::abs(cross(way, step)) <= beside_line * dot(way, step)) return next;
+    }
+    return -1;
   }
 
   /// At rest and in space, with the same shares of the length.
@@ -101,6 +117,7 @@ class SeamFinder {
   std::vector<std::pair<std::int32_t, std::int32_t>> border_;
   std::vector<std::int32_t> next_;  // per vertex, along the border where it is on no seam yet; -1: none
   std::vector<bool> shared_;        // per vertex: another one of the border is sewn to it
+  std::multimap<std::pair<double, double>, std::int32_t> places_;  // vertices of the border
   std::vector<Seam> seams_;
 };
 

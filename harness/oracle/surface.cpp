@@ -84,6 +84,9 @@ class Seams {
  private:
   static std::vector<Side> sides_of(const Surface& surface, const HalfEdges& edges) {
     std::vector<Side> sides;
+    for (int i = 0; i < to_int(surface.seams.size()); ++i)
+      for (const bool second : {false, true}) sides.push_back({i, second, surface.seams[to_size(i)][second ? 1 : 0]});
+    if (!sides.empty()) return sides;
     std::map<std::array<int, 2>, Segment> first;
     int seams = 0;
     for (int e = 0; e < to_int(edges.opposite.size()); ++e) {
@@ -149,17 +152,20 @@ class SurfaceJudge {
  private:
   void find_ends(int curve) {
     std::vector<Segment>& path = paths_[to_size(curve)];
-    bool ends[2] = {false, false};
+    bool ends[2] = {false, false}, at_vertex[2] = {false, false};
     for (const bool last : {false, true}) {
       const Point p = last ? path.back()[1] : path.front()[0];
       seams_.for_each_under({p, p}, [&](int side, double share, double) {
         ends_.push_back({curve, p, side, share});
         ends[last] = true;
+        const Segment& line = seams_.sides()[to_size(side)].line;
+        at_vertex[last] |= p == line[0] || p == line[1];
       });
     }
-    // By rounding it may end on this side of the seam: a little further.
-    if (ends[0]) path.front()[0] = beyond(path.front()[1], path.front()[0]);
-    if (ends[1]) path.back()[1] = beyond(path.back()[0], path.back()[1]);
+    // By rounding it may end on this side of the seam: a little further. At a vertex there is no rounding, and where the
+    // sheet reaches round the vertex a path beyond it might pass it by on the wrong side.
+    if (ends[0] && !at_vertex[0]) path.front()[0] = beyond(path.front()[1], path.front()[0]);
+    if (ends[1] && !at_vertex[1]) path.back()[1] = beyond(path.back()[0], path.back()[1]);
   }
 
   Point beyond(const Point& from, const Point& end) const {

@@ -11,10 +11,12 @@
 
 namespace cutbench::oracle {
 
-/// A sheet before a cut. Vertices with equal numbers in `point` are one point of the surface.
+/// A sheet before a cut.
 struct Surface {
   Mesh mesh;
-  std::vector<int> point;  ///< per vertex
+  std::vector<int> point;  ///< per vertex: those with equal numbers are one point of the surface
+  /// The two sides of each, from the same end; none: edges of the border between the same points.
+  std::vector<std::array<Segment, 2>> seams = {};
 };
 
 struct SurfaceJudgement {

@@ -78,6 +78,7 @@ void flatten(const Curve& curve, double tolerance, double snap, Polyline& out) {
   out.kept.clear();
   out.closed = curve.closed;
   out.curved = curve.kind == Curve::Kind::bezier;
+  out.continues = curve.continues;
   out.goes_on = curve.goes_on;
   if (curve.kind == Curve::Kind::bezier)
     flatten_bezier(curve, tolerance, snap, out);

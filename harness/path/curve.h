@@ -15,7 +15,9 @@ struct Curve {
   Kind kind = Kind::polyline;
   bool closed = false;         ///< a closed polyline repeats no point; a closed Bezier ends where it began
   std::vector<Point2> points;  ///< rest positions; a chain of m cubic Beziers has 3 m + 1
-  bool goes_on = false;        ///< a part of a curve: the next one begins where it ends, so its end has to stay there
+  /// Parts of one curve: the part before it ends where it begins, or the next one begins where it ends. So it has no tip
+  /// there, and the place has to stay.
+  bool continues = false, goes_on = false;
 };
 
 /// Are the points at most `distance` apart, along x and along y?
@@ -26,10 +28,10 @@ inline bool within(Point2 a, Point2 b, double distance) {
 /// Where a curve goes, for tracing only.
 struct Polyline {
   std::vector<Point2> points;
-  std::vector<std::uint8_t> kept;  ///< per point: it must become a vertex (tip, corner of the curve)
-  bool closed = false;             ///< goes on from the last point to the first, which it doesn't repeat
-  bool curved = false;             ///< it stands for a Bezier: what lies within the tolerances of it will do
-  bool goes_on = false;            ///< Curve::goes_on
+  std::vector<std::uint8_t> kept;           ///< per point: it must become a vertex (tip, corner of the curve)
+  bool closed = false;                      ///< goes on from the last point to the first, which it doesn't repeat
+  bool curved = false;                      ///< it stands for a Bezier: what lies within the tolerances of it will do
+  bool continues = false, goes_on = false;  ///< as of Curve
 };
 
 /// The curve as a polyline no farther from it than `tolerance` (rest units): each Bezier in equal steps of its

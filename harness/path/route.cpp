@@ -8,6 +8,7 @@
 
 #include "harness/base/conversions.h"
 #include "harness/base/errors.h"
+#include "harness/base/products_in_space.h"
 #include "harness/base/union_find.h"
 #include "harness/mesh/predicates.h"
 
@@ -289,6 +290,17 @@ std::vector<HalfEdge> Router::seams_along(const PlaceAtRest& from, const PlaceAt
   return along;
 }
 
+bool Router::lies_on(const std::vector<HalfEdge>& seams, const Point3& place) const {
+  return std::any_of(seams.begin(), seams.end(), [&](HalfEdge h) {
+    const Triangle& t = sheet_.triangle(triangle_of(h));
+    const Point3 begin = sheet_.position(t.deformed[to_size(corner_of(h))]);
+    const Point3 way = sheet_.position(t.deformed[to_size(next_corner(corner_of(h)))]) + -1.0 * begin;
+    const Point3 to = place + -1.0 * begin;
+    const double share = std::clamp(dot(to, way) / dot(way, way), 0.0, 1.0);
+    return length(to + -share * way) <= arrived * sheet_.mean_edge();
+  });
+}
+
 bool Router::join(const PlaceAtRest& from, const PlaceAtRest& to, std::vector<Bend>& bends,
                   std::vector<HalfEdge>* along) const {
   if (from.triangle == to.triangle) return true;
@@ -304,7 +316,8 @@ bool Router::join(const PlaceAtRest& from, const PlaceAtRest& to, std::vector<Be
     found = shortest_way(strip);
     if (const std::vector<HalfEdge> seams = seams_along(from, to, *found); !seams.empty()) {
       if (along != nullptr) along->insert(along->end(), seams.begin(), seams.end());
-      found = shortest_way(narrowed(strip));
+      const bool is_asked_for = lies_on(seams, from.in_space) && lies_on(seams, to.in_space);
+      if (sheet_.unrolled() || !is_asked_for) found = shortest_way(narrowed(strip));
     }
   }
   bends.insert(bends.end(), found->begin(), found->end());
@@ -341,8 +354,16 @@ std::vector<Curve> Router::route(const std::vector<PlaceAtRest>& places, bool cl
       for (const Point2 p : curves.front().points) go_on(p);
       curves.erase(curves.begin());
     }
-    // Of one point: where the way leads through a corner of a panel.
-    std::erase_if(curves, [](const Curve& curve) { return curve.points.size() == 1; });
+    // Of no length: where the way leads through a corner of a panel, or begins or ends on a seam.
+    const double near = arrived * sheet_.mean_edge();
+    std::erase_if(curves, [&](const Curve& curve) {
+      return std::all_of(curve.points.begin(), curve.points.end(),
+                         [&](Point2 p) { return within(p, curve.points.front(), near); });
+    });
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      curves[i].continues = closed || i > 0;
+      curves[i].goes_on = closed || i + 1 < curves.size();
+    }
   }
   for (const Curve& curve : curves)
     for (std::size_t i = curve.closed ? 0 : 1; i < curve.points.size(); ++i) {

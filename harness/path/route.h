@@ -103,6 +103,7 @@ class Router {
   Strip narrowed(Strip strip) const;
   std::vector<Bend> shortest_way(const Strip& strip) const;
 
+  bool lies_on(const std::vector<HalfEdge>& seams, const Point3& place) const;
   bool join(const PlaceAtRest& from, const PlaceAtRest& to, std::vector<Bend>& bends,
             std::vector<HalfEdge>* along) const;
 

@@ -6,6 +6,7 @@
 #include "harness/base/conversions.h"
 #include "harness/mesh/one_ring.h"
 #include "harness/mesh/predicates.h"
+#include "harness/path/tips.h"
 
 namespace cutbench {
 
@@ -106,13 +107,13 @@ const Place* Tracer::found_before(Point2 p) const {
   return nullptr;
 }
 
-/// Does neither the border nor an open incision pass through the place?
-bool Tracer::is_free(const Place& place) const {
+/// Does neither the border nor an open incision pass through the place where the path ends? \param goes_on  beyond it
+bool Tracer::is_free(const Place& place, bool goes_on) const {
   if (place.kind == Place::Kind::face) return true;
-  if (place.kind == Place::Kind::edge) return !sheet_->separates(place.edge);
-  for (const HalfEdge h : outgoing_edges(*sheet_, place.vertex)) {
-    if (sheet_->separates(h)) return false;
-  }
+  if (place.kind == Place::Kind::edge) return !is_open(*sheet_, place.edge, goes_on);
+  for (const HalfEdge h : outgoing_edges(*sheet_, place.vertex))
+    for (const HalfEdge at : {h, Sheet::previous(h)})
+      if (is_open(*sheet_, at, goes_on)) return false;
   return true;
 }
 
@@ -120,7 +121,7 @@ bool Tracer::is_free(const Place& place) const {
 /// Between tips less than two snap distances apart, too.
 void Tracer::split_lone_piece() {
   const Place a = trace_.node(0).place, b = trace_.node(1).place;
-  if (!is_free(a) || !is_free(b)) return;
+  if (!is_free(a, path_->continues) || !is_free(b, path_->goes_on)) return;
   const Point2 middle = a.point + 0.5 * (b.point - a.point);
   if (!trace_.along.empty()) {
     const HalfEdge h = trace_.along[0].edge;

@@ -76,7 +76,7 @@ class Tracer {
 
   void note(Point2 p, const Place& at);
   const Place* found_before(Point2 p) const;
-  bool is_free(const Place& place) const;
+  bool is_free(const Place& place, bool goes_on) const;
   void split_lone_piece();
   int common_edge(TriangleIndex t, const Place& a, const Place& b) const;
   int edges_of(TriangleIndex t, const Place& place) const;
