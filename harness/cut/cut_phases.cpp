@@ -100,8 +100,8 @@ bool CutUnderWay::improve() {
   return true;
 }
 
-/// What a method made of the path may be one edge between seams on which the path ends. In space these ends are tips, so
-/// that nothing would open: as between other tips (Tracer) it gets a vertex in the middle.
+/// What a method made of the path may be one edge between seams on which the path ends. In space these ends are tips,
+/// so that nothing would open: as between other tips (Tracer) it gets a vertex in the middle.
 void CutUnderWay::divide_lone_edge() {
   if (sheet_.seams().empty()) return;
   std::vector<VertexIndex> ends;

@@ -162,8 +162,8 @@ class SurfaceJudge {
         at_vertex[last] |= p == line[0] || p == line[1];
       });
     }
-    // By rounding it may end on this side of the seam: a little further. At a vertex there is no rounding, and where the
-    // sheet reaches round the vertex a path beyond it might pass it by on the wrong side.
+    // By rounding it may end on this side of the seam: a little further. At a vertex there is no rounding, and where
+    // the sheet reaches round the vertex a path beyond it might pass it by on the wrong side.
     if (ends[0] && !at_vertex[0]) path.front()[0] = beyond(path.front()[1], path.front()[0]);
     if (ends[1] && !at_vertex[1]) path.back()[1] = beyond(path.back()[0], path.back()[1]);
   }

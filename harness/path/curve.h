@@ -15,8 +15,8 @@ struct Curve {
   Kind kind = Kind::polyline;
   bool closed = false;         ///< a closed polyline repeats no point; a closed Bezier ends where it began
   std::vector<Point2> points;  ///< rest positions; a chain of m cubic Beziers has 3 m + 1
-  /// Parts of one curve: the part before it ends where it begins, or the next one begins where it ends. So it has no tip
-  /// there, and the place has to stay.
+  /// Parts of one curve: the part before it ends where it begins, or the next one begins where it ends. So it has no
+  /// tip there, and the place has to stay.
   bool continues = false, goes_on = false;
 };
 
