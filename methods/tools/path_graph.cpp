@@ -7,6 +7,7 @@
 #include "harness/cut/patch.h"
 #include "harness/mesh/one_ring.h"
 #include "harness/mesh/predicates.h"
+#include "harness/path/tips.h"
 
 namespace cutbench {
 
@@ -89,11 +90,13 @@ double PathGraph::fraction_from(VertexIndex v, const Place& place) const {
   return sheet_->origin(place.edge) == v ? place.lambda : 1 - place.lambda;
 }
 
-/// A plain crossing of an edge, or the path's end on the border or an older incision.
+/// A plain crossing of an edge, or the path's end on the border or an older incision. Not on a seam: beyond it the path
+/// is another graph, which must meet this one.
 bool PathGraph::may_move(int node) const {
   const Node& n = at(node);
   if (n.gone || n.place.kind != Place::Kind::edge) return false;
-  if (n.degree == 1) return sheet_->separates(n.place.edge);
+  if (n.degree == 1)
+    return sheet_->separates(n.place.edge) && !(sheet_->on_border(n.place.edge) && is_on_seam(*sheet_, n.place.edge));
   if (n.degree != 2 || sheet_->on_border(n.place.edge)) return false;
   return piece(n.piece[0]).triangle != piece(n.piece[1]).triangle;
 }
