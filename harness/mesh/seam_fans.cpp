@@ -8,13 +8,11 @@
 #include "harness/base/conversions.h"
 #include "harness/base/products_in_space.h"
 #include "harness/base/union_find.h"
+#include "harness/mesh/seam_pairs.h"
 
 namespace cutbench {
 
 namespace {
-
-/// In lengths of an edge: what the last digits of a file may put a vertex beside the straight line that it is on.
-constexpr double beside_line = 1e-4;
 
 /// Edges of the border that leave one point.
 struct BorderEdge {

@@ -8,6 +8,9 @@
 
 namespace cutbench {
 
+/// In lengths of a line: what a file's last digits may put a vertex beside the straight line that it is on.
+constexpr double beside_line = 1e-4;
+
 /// Of one seam, on both its sides.
 inline bool share_more_than_a_point(const SewnEdge& a, const SewnEdge& b) {
   return a.first != b.first && std::min(a.high(), b.high()) - std::max(a.low(), b.low()) > seam_rounding;

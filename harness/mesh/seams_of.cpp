@@ -3,14 +3,11 @@
 #include <utility>
 
 #include "harness/base/conversions.h"
-#include "harness/mesh/seams.h"
+#include "harness/mesh/seam_pairs.h"
 
 namespace cutbench {
 
 namespace {
-
-/// In lengths of the line: what a file's last digits may put a vertex beside the straight line that it is on.
-constexpr double beside_line = 1e-4;
 
 /// Consecutive edges of the border, by their vertices.
 using BorderLine = std::vector<std::int32_t>;
