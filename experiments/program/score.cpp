@@ -9,6 +9,7 @@
 #include "harness/files/whole_file.h"
 #include "harness/judge/assessment.h"
 #include "harness/judge/result_svg.h"
+#include "harness/mesh/winding.h"
 #include "harness/path/clear_of_seams.h"
 #include "harness/records/report_json.h"
 #include "methods/registry.h"
@@ -90,7 +91,8 @@ bool score(const ScoreArguments& arguments, const CutOptions& options) {
   clear_of_seams(data, arguments.mesh, path, arguments.path);
   const bool texture = leaves_vt(arguments.mesh, arguments.reading);
   const MeshReading of_result{texture ? RestFrom::automatic : RestFrom::vt, arguments.reading.triangulate};
-  const MeshData result = read_mesh_as_is(arguments.result, of_result);
+  MeshData result = read_mesh_as_is(arguments.result, of_result);
+  turn_clockwise_parts(data, result);
   const Sheet before(data);
   const std::vector<Curve> cuts = curves_at_rest(path, before, arguments.path).curves;
   Promises asked = promises_of_everybody;

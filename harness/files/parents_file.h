@@ -39,7 +39,7 @@ struct CutDetails {
   Parents parents;
   std::vector<IncisionEdge> incision;
   Constraints constraints;
-  Texture texture = {};  ///< per triangle of cut.to_mesh_data()
+  Texture texture = {};  ///< per triangle of cut.to_mesh_data(), its corners in the order of the file that is written
 };
 
 std::string details_json(const CutDetails& details);

@@ -13,6 +13,7 @@
 #include "harness/mesh/predicates.h"
 #include "harness/mesh/rest_choice.h"
 #include "harness/mesh/unroll.h"
+#include "harness/mesh/winding.h"
 
 namespace cutbench {
 
@@ -124,17 +125,12 @@ class Repair {
 
   /// Every triangle on its own: in the plane, a mesh that is not folded is then consistent too.
   void orient() {
-    std::size_t reversed = 0;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      auto& [a, b, c] = mesh_.triangles[t];
-      const int turn = orientation(mesh_.rest[at(a)], mesh_.rest[at(b)], mesh_.rest[at(c)]);
-      if (turn == 0)
+      const auto& [a, b, c] = mesh_.triangles[t];
+      if (orientation(mesh_.rest[at(a)], mesh_.rest[at(b)], mesh_.rest[at(c)]) == 0)
         fail(triangle_name(t) + " has zero area in " + (of_vt_ ? vt_mend() : "rest space; collapse or delete it"));
-      if (turn < 0) {
-        std::swap(b, c);
-        ++reversed;
-      }
     }
+    const std::size_t reversed = turn_clockwise_triangles(mesh_);
     const std::size_t all = mesh_.triangles.size();
     if (reversed > 0)
       note("clockwise triangles reversed: " + (reversed < all ? std::to_string(reversed) + " of " : "all ") +

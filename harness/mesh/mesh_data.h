@@ -22,6 +22,8 @@ struct MeshData {
   /// Per vertex: the number of one of those that are one point of the sheet with it, though apart at rest
   /// (harness/mesh/seams.h), the same for all of them. Empty: none are.
   std::vector<std::int32_t> sewn = {};
+  /// Per triangle: 1 where its part of the file runs clockwise at rest (harness/mesh/winding.h). Empty: none does.
+  std::vector<std::uint8_t> clockwise = {};
   bool unrolled = false;  ///< rest positions are no coordinates that a user knows (harness/mesh/unroll.h)
 };
 

@@ -22,6 +22,7 @@
 #include "harness/files/whole_file.h"
 #include "harness/judge/assessment.h"
 #include "harness/judge/judged_sheet.h"
+#include "harness/mesh/winding.h"
 #include "harness/path/clear_of_seams.h"
 #include "harness/records/context.h"
 #include "harness/records/report_json.h"
@@ -112,13 +113,12 @@ Exit cut_sheet(const CutArguments& arguments) {
   const Parents all_parents = parents_of(before, sheet);
   std::vector<IncisionEdge> incision = incisions.edges(sheet, cuts);
   for (IncisionEdge& edge : incision) edge.cut = cut_of[edge.cut];
-  const CutDetails details{data,
-                           sheet,
-                           all_parents,
-                           incision,
-                           constraints_of(*method, before, sheet),
-                           carried_over(texture, before, sheet, all_parents)};
-  WholeFile out = textured_file(sheet.to_mesh_data(), details.texture, arguments.out, details_columns(details));
+  MeshData after = sheet.to_mesh_data();
+  Texture texture_after = carried_over(texture, before, sheet, all_parents);
+  wind_as_read(data, sheet, all_parents, after, texture_after);
+  const CutDetails details{
+      data, sheet, all_parents, incision, constraints_of(*method, before, sheet), std::move(texture_after)};
+  WholeFile out = textured_file(after, details.texture, arguments.out, details_columns(details));
   std::optional<WholeFile> parents;
   if (!arguments.parents.empty()) parents.emplace(arguments.parents, details_json(details));
   if (!arguments.report.empty())
