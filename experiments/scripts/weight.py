@@ -5,7 +5,7 @@ from pathlib import Path
 
 MB = 1_000_000
 TOTAL = 12 * MB
-KINDS = {"results": 5 * MB, "pictures": 3 * MB, "all else": 6.15 * MB}  # results: rows, tables and texts
+KINDS = {"results": 5 * MB, "pictures": 3 * MB, "all else": 6.2 * MB}  # results: rows, tables and texts
 ENDS = {".png": 0.25 * MB, ".svg": 0.25 * MB, ".webp": 0.4 * MB, ".ipynb": 0.15 * MB}  # of pictures, and what one may weigh
 MENDS = {"results": "drop columns that nothing reads (experiments/publish.toml)",
          "pictures": "draw fewer marks, or a smaller figure (write_png in plots/figures/common/style.py)",

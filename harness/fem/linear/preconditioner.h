@@ -19,7 +19,7 @@ class Preconditioner {
   /// z = B r, with B symmetric and positive definite. On entry z holds the residual times the inverse diagonal blocks.
   /// \pre r is zero where unknowns are held. Then z is, too.
   virtual void apply(const Field& r, Field& z) = 0;
-  /// y = A x as exactly as floats are, and sooner than by `a`; or false, and nothing is done. \pre as apply().
+  /// y = A x at least as exactly as floats are, and sooner than by `a`; or false, and nothing is done. \pre as apply().
   virtual bool multiply_roughly(const Field& /*x*/, Field& /*y*/) { return false; }
 };
 

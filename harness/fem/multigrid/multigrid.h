@@ -10,8 +10,10 @@
 // - where a free piece is light beside its stiffness: its diagonal is over 2^20 times the sum of its entries, so the
 //   last of 24 bits is a sixteenth of what it weighs;
 // - likewise where a pivot of a stiff cluster is below 2^-20 of its diagonal.
-// Else the cycle would not be symmetric, nor positive definite. Without places of the vertices there is the finest
-// level alone, which is symmetric Gauss-Seidel.
+// Else the cycle would not be symmetric, nor positive definite. Conjugate gradients take their product from the finest
+// level, too. Where that is in floats, rows with large entries are multiplied in doubles.
+//
+// Without places of the vertices there is the finest level alone, which is symmetric Gauss-Seidel.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -39,7 +41,7 @@ class Multigrid final : public Preconditioner<D> {
   using typename Preconditioner<D>::Blocks;
   void setup(const SystemMatrix<D>& a, const Blocks& diagonals) override;
   void apply(const Field& r, Field& z) override;
-  /// By the finest level, in floats.
+  /// By the finest level.
   bool multiply_roughly(const Field& x, Field& y) override;
   std::size_t levels() const { return coarse_.size() + 1; }
   /// Microseconds that the last setup() took for the rows of all levels, without their values.
@@ -119,6 +121,8 @@ class Multigrid final : public Preconditioner<D> {
   void choose_precision(const SystemMatrix<D>& a);
   bool has_light_piece(const SystemMatrix<D>& a);
   void fill_finest(const SystemMatrix<D>& a, const Blocks& diagonals);
+  void list_stiff_rows(const SystemMatrix<D>& a);
+  void multiply_stiff_rows(const Field& x, Field& y) const;
   void fill_coarse_levels(const SystemMatrix<D>& a);
   template <class S>
   void fill(const SystemMatrix<D>& a, const Blocks& diagonals, Level<S>& level, bool& is_new);
@@ -150,6 +154,12 @@ class Multigrid final : public Preconditioner<D> {
   bool in_doubles_ = false, float_is_new_ = true, double_is_new_ = true;  // new: the rows are to be set
   Level<float> finest_;
   Level<double> finest_in_doubles_;
+  struct StiffRow {
+    std::int32_t row;
+    std::size_t first_block;
+  };
+  std::vector<StiffRow> stiff_rows_;  // whose product takes doubles where the finest level is in floats
+  Blocks stiff_blocks_;               // of these, by the columns of rows_.blocks
   StiffClusters<D> clusters_;
   std::deque<CoarseLevel> coarse_;  // each refers to rows of its own
   Eigen::LLT<Eigen::MatrixXd> coarsest_;

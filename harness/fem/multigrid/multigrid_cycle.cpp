@@ -10,9 +10,6 @@ namespace cutbench {
 
 namespace {
 
-/// Largest diagonal block over the median one: the float nearest to an entry of it is wrong by 6e-5 of the median.
-constexpr double widest_for_product = 1000;
-
 /// The D values of each vertex over the largest one, so that floats hold them; returns that.
 template <int D, class Vector>
 double take_scaled(const Field& field, Vector& packed, Workers& workers) {
@@ -102,13 +99,36 @@ void Multigrid<D>::apply(const Field& r, Field& z) {
 }
 
 template <int D>
-bool Multigrid<D>::multiply_roughly(const Field& x, Field& y) {
-  if (in_doubles_ || !(largest_size_ < widest_for_product * median_size_)) return false;
-  const double scale = take_scaled<D>(x, finest_.t, *workers_);
-  workers_->for_ranges(finest_.t.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      give_scaled<D>(scale, row_product<Widest<float>>(finest_.matrix, i, finest_.t), i, y);
+void Multigrid<D>::multiply_stiff_rows(const Field& x, Field& y) const {
+  const auto at = [](auto& field, std::size_t i) { return field.template segment<D>(to_index(D * i)); };
+  workers_->for_ranges(stiff_rows_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t i = to_size(stiff_rows_[k].row);
+      const Block* block = stiff_blocks_.data() + stiff_rows_[k].first_block;
+      const double* scalar = rows_.scalar.data() + rows_.scalars.first_slot(i);
+      Eigen::Matrix<double, D, 1> sum = Eigen::Matrix<double, D, 1>::Zero();
+      for (const std::int32_t j : rows_.blocks[i]) sum += *block++ * at(x, to_size(j));
+      for (const std::int32_t j : rows_.scalars[i]) sum += *scalar++ * at(x, to_size(j));
+      at(y, i) = sum;
+    }
   });
+}
+
+template <int D>
+bool Multigrid<D>::multiply_roughly(const Field& x, Field& y) {
+  const auto multiply = [&]<class S>(Level<S>& level) {
+    const double scale = take_scaled<D>(x, level.t, *workers_);
+    workers_->for_ranges(level.t.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        give_scaled<D>(scale, row_product<Widest<S>>(level.matrix, i, level.t), i, y);
+    });
+  };
+  if (in_doubles_) {
+    multiply(finest_in_doubles_);
+  } else {
+    multiply(finest_);
+    multiply_stiff_rows(x, y);
+  }
   for (const Eigen::Index u : held_) y[u] = 0;
   return true;
 }

@@ -17,6 +17,7 @@ constexpr std::size_t most_factored = 200;                     // unknowns of a 
 constexpr double widest_for_floats = 1e5;                      // largest diagonal block over the median one
 constexpr double stiffest_for_floats = 1 << 20;                // diagonal of a free piece over the sum of its entries
 constexpr double smallest_pivot_for_floats = 1.0 / (1 << 20);  // of a stiff cluster, over its diagonal
+constexpr double largest_for_product = 1000;                   // entry over the median diagonal: 6e-5 of that is lost
 constexpr std::size_t most_parts_of_coarse_rows = 8;           // each has working storage of its own
 constexpr double same_trace = 0.01;                            // a larger change shows another step or material
 
@@ -147,7 +148,7 @@ template <int D>
 template <class S>
 void Multigrid<D>::fill(const SystemMatrix<D>& a, const Blocks& diagonals, Level<S>& level, bool& is_new) {
   if (is_new) {
-    level.matrix.follow(rows_, swept_, order_, std::is_same_v<S, float>);
+    level.matrix.follow(rows_, swept_, order_, true);
     level.resize();
     is_new = false;
   }
@@ -181,6 +182,22 @@ void Multigrid<D>::fill_finest(const SystemMatrix<D>& a, const Blocks& diagonals
     clusters_.factor(finest_in_doubles_.matrix, *a.held);
   }
   clusters_need_doubles_ = is_soft();
+  if (!in_doubles_) list_stiff_rows(a);
+}
+
+/// Those that can have an entry over largest_for_product: none exceeds the root of both its diagonal blocks.
+template <int D>
+void Multigrid<D>::list_stiff_rows(const SystemMatrix<D>& a) {
+  stiff_rows_.clear();
+  stiff_blocks_.clear();
+  const double largest = largest_for_product * median_size_;
+  for (std::size_t i = 0; i < sizes_.size(); ++i) {
+    if (sizes_[i] * largest_size_ < largest * largest) continue;
+    stiff_rows_.push_back({to_int32(i), stiff_blocks_.size()});
+    const std::size_t first = rows_.blocks.first_slot(i);
+    for (std::size_t k = 0; k < rows_.blocks[i].size(); ++k)
+      stiff_blocks_.push_back(a.blocks->block(slots_[first + k]));
+  }
 }
 
 /// P^T A P, row by row: first that of P^T A, which is the sum of the members' rows, each times its weight; then columns
