@@ -13,7 +13,7 @@ import weight
 
 HEAVY = {"a picture": {"docs/a.png": 0.3}, "an animation": {"results/reference/a.webp": 0.5},
          "pictures": {f"results/reference/{i}.png": 0.24 for i in range(13)}, "rows": {"results/reference/a.records.csv.xz": 5.1},
-         "all else": {"harness/a.cpp": 6.2}, "the sum": {"results/a.csv": 4.9, "docs/a.md": 5.0} | {f"{i}.png": 0.24 for i in range(12)}}
+         "all else": {"harness/a.cpp": 6.3}, "the sum": {"results/a.csv": 4.9, "docs/a.md": 5.0} | {f"{i}.png": 0.24 for i in range(12)}}
 LIGHT = {"results/a.csv": 4.9, "docs/a.md": 3.9, "a.png": 0.2}
 problems = []
 
