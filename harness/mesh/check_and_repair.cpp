@@ -125,16 +125,21 @@ class Repair {
 
   /// Every triangle on its own: in the plane, a mesh that is not folded is then consistent too.
   void orient() {
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      const auto& [a, b, c] = mesh_.triangles[t];
-      if (orientation(mesh_.rest[at(a)], mesh_.rest[at(b)], mesh_.rest[at(c)]) == 0)
-        fail(triangle_name(t) + " has zero area in " + (of_vt_ ? vt_mend() : "rest space; collapse or delete it"));
-    }
-    const std::size_t reversed = turn_clockwise_triangles(mesh_);
     const std::size_t all = mesh_.triangles.size();
-    if (reversed > 0)
-      note("clockwise triangles reversed: " + (reversed < all ? std::to_string(reversed) + " of " : "all ") +
-           std::to_string(all));
+    std::vector<std::uint8_t> clockwise(all);
+    for (std::size_t t = 0; t < all; ++t) {
+      auto& [a, b, c] = mesh_.triangles[t];
+      const int turn = orientation(mesh_.rest[at(a)], mesh_.rest[at(b)], mesh_.rest[at(c)]);
+      if (turn == 0)
+        fail(triangle_name(t) + " has zero area in " + (of_vt_ ? vt_mend() : "rest space; collapse or delete it"));
+      clockwise[t] = turn < 0;
+      if (clockwise[t]) std::swap(b, c);
+    }
+    const auto reversed = to_size(std::count(clockwise.begin(), clockwise.end(), 1));
+    if (reversed == 0) return;
+    mesh_.clockwise = of_clockwise_parts(mesh_, clockwise);
+    note("clockwise triangles reversed: " + (reversed < all ? std::to_string(reversed) + " of " : "all ") +
+         std::to_string(all));
   }
 
   /// Who reads vt as rest positions has to mend them, not the triangles.

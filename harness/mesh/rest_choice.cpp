@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "harness/base/conversions.h"
-#include "harness/base/union_find.h"
+#include "harness/mesh/parts_at_rest.h"
 
 namespace cutbench {
 
@@ -120,11 +120,7 @@ Stretch stretch_if_in_range(const MeshData& mesh, const std::array<std::int32_t,
 /// Is there a part, of those that hang together in the `vt`, whose stretches are those of a texture?
 /// \pre all corners are in range
 bool any_part_is_texture(const MeshData& mesh, bool flat) {
-  UnionFind joined(mesh.rest.size());
-  for (const auto& [a, b, c] : mesh.triangles) {
-    joined.join(to_size(a), to_size(b));
-    joined.join(to_size(b), to_size(c));
-  }
+  UnionFind joined = parts_at_rest(mesh);
   std::vector<Gathered> parts(mesh.rest.size());
   for (const auto& triangle : mesh.triangles)
     parts[joined.find(to_size(triangle[0]))].add(stretch_if_in_range(mesh, triangle));

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "harness/base/conversions.h"
-#include "harness/base/union_find.h"
+#include "harness/mesh/parts_at_rest.h"
 #include "harness/mesh/predicates.h"
 
 namespace cutbench {
@@ -23,21 +23,6 @@ bool runs_clockwise(const MeshData& mesh, const Corners& triangle) {
 
 void turn(Corners& triangle) { std::swap(triangle[1], triangle[2]); }
 
-/// Per triangle: it is of a part that runs clockwise as a whole. Empty: none is.
-std::vector<std::uint8_t> of_clockwise_parts(const MeshData& mesh, const std::vector<std::uint8_t>& clockwise) {
-  UnionFind joined(mesh.rest.size());
-  for (const auto& [a, b, c] : mesh.triangles) {
-    joined.join(to_size(a), to_size(b));
-    joined.join(to_size(a), to_size(c));
-  }
-  std::vector<std::uint8_t> otherwise(mesh.rest.size(), 0);  // some triangle of the part runs counter-clockwise
-  for (std::size_t t = 0; t < clockwise.size(); ++t)
-    if (!clockwise[t]) otherwise[joined.find(to_size(mesh.triangles[t][0]))] = 1;
-  std::vector<std::uint8_t> result(clockwise.size());
-  for (std::size_t t = 0; t < result.size(); ++t) result[t] = !otherwise[joined.find(to_size(mesh.triangles[t][0]))];
-  return std::find(result.begin(), result.end(), 1) == result.end() ? std::vector<std::uint8_t>{} : result;
-}
-
 bool in_range(const MeshData& mesh) {
   return mesh.rest.size() == mesh.deformed.size() &&
          std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Corners& triangle) {
@@ -46,25 +31,17 @@ bool in_range(const MeshData& mesh) {
          });
 }
 
-std::vector<std::uint8_t> clockwise_triangles(const MeshData& mesh) {
-  std::vector<std::uint8_t> result(mesh.triangles.size());
-  std::transform(mesh.triangles.begin(), mesh.triangles.end(), result.begin(),
-                 [&](const Corners& triangle) { return runs_clockwise(mesh, triangle); });
-  return result;
-}
-
 }  // namespace
 
-std::size_t turn_clockwise_triangles(MeshData& mesh) {
-  const std::vector<std::uint8_t> clockwise = clockwise_triangles(mesh);
-  std::size_t turned = 0;
-  for (std::size_t t = 0; t < clockwise.size(); ++t) {
-    if (!clockwise[t]) continue;
-    turn(mesh.triangles[t]);
-    ++turned;
-  }
-  if (turned > 0) mesh.clockwise = of_clockwise_parts(mesh, clockwise);
-  return turned;
+std::vector<std::uint8_t> of_clockwise_parts(const MeshData& mesh, const std::vector<std::uint8_t>& clockwise) {
+  UnionFind part = parts_at_rest(mesh);
+  const auto part_of = [&](std::size_t t) { return part.find(to_size(mesh.triangles[t][0])); };
+  std::vector<std::uint8_t> otherwise(mesh.rest.size(), 0);  // some triangle of the part runs counter-clockwise
+  for (std::size_t t = 0; t < clockwise.size(); ++t)
+    if (!clockwise[t]) otherwise[part_of(t)] = 1;
+  std::vector<std::uint8_t> result(clockwise.size());
+  for (std::size_t t = 0; t < result.size(); ++t) result[t] = !otherwise[part_of(t)];
+  return std::find(result.begin(), result.end(), 1) == result.end() ? std::vector<std::uint8_t>{} : result;
 }
 
 void wind_as_read(const MeshData& read, const Sheet& cut, const Parents& parents, MeshData& result, Texture& texture) {
@@ -82,7 +59,10 @@ void wind_as_read(const MeshData& read, const Sheet& cut, const Parents& parents
 
 void turn_clockwise_parts(const MeshData& read, MeshData& result) {
   if (read.clockwise.empty() || !in_range(result)) return;
-  const std::vector<std::uint8_t> turned = of_clockwise_parts(result, clockwise_triangles(result));
+  std::vector<std::uint8_t> clockwise(result.triangles.size());
+  std::transform(result.triangles.begin(), result.triangles.end(), clockwise.begin(),
+                 [&](const Corners& triangle) { return runs_clockwise(result, triangle); });
+  const std::vector<std::uint8_t> turned = of_clockwise_parts(result, clockwise);
   for (std::size_t t = 0; t < turned.size(); ++t)
     if (turned[t]) turn(result.triangles[t]);
 }

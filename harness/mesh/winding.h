@@ -2,16 +2,20 @@
 // side up where its `vt` are mirrored, as those of a left sleeve laid over a right one: files keep their winding.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "harness/mesh/mesh_data.h"
 #include "harness/mesh/parents.h"
 #include "harness/mesh/texture.h"
 
 namespace cutbench {
 
-/// Makes all triangles counter-clockwise at rest. Parts that hang together at rest and run clockwise as a whole are
-/// noted in MeshData::clockwise; single triangles that do are faults. \pre corners are in range, no triangle is flat
-/// \return how many were turned
-std::size_t turn_clockwise_triangles(MeshData& mesh);
+/// Which of the `clockwise` triangles are of a part that hangs together at rest and runs clockwise as a whole. All
+/// others are faults of the file. \pre corners are in range
+/// \param clockwise  per triangle
+/// \return the same; empty: none is
+std::vector<std::uint8_t> of_clockwise_parts(const MeshData& mesh, const std::vector<std::uint8_t>& clockwise);
 
 /// Turns the triangles of a cut sheet, and their texture, back to how the file's run.
 /// \param result   to_mesh_data() of `cut`

@@ -3,8 +3,8 @@
 
 #include "harness/base/conversions.h"
 #include "harness/base/number_from_chars.h"
-#include "harness/base/union_find.h"
 #include "harness/mesh/mesh_text.h"
+#include "harness/mesh/parts_at_rest.h"
 #include "harness/mesh/quality.h"
 #include "harness/mesh/rest_choice.h"
 
@@ -45,11 +45,7 @@ double rest_aspect_ratio(const MeshData& mesh, const std::array<std::int32_t, 3>
 }  // namespace
 
 std::vector<std::int32_t> pieces_of(const MeshData& mesh) {
-  UnionFind joined(mesh.rest.size());
-  for (const auto& [a, b, c] : mesh.triangles) {
-    joined.join(a, b);
-    joined.join(a, c);
-  }
+  UnionFind joined = parts_at_rest(mesh);
   for (std::size_t v = 0; v < mesh.sewn.size(); ++v) joined.join(v, to_size(mesh.sewn[v]));
   std::map<std::size_t, std::int32_t> number;
   std::vector<std::int32_t> result;
