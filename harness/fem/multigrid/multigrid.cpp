@@ -62,17 +62,17 @@ void Multigrid<D>::read_row(const SystemMatrix<D>& a, std::size_t i) {
     std::int32_t slot = term.matrix->first_slot(i);
     for (const std::int32_t j : term.matrix->columns(i)) scalars_[j] += term.factor * term.matrix->block(slot++)(0);
   }
-  const bool has_new_scalars = rows_.set_scalars(i, scalars_.columns(), scalars_.sums()),
-             is_elsewhere = read_place(a, i);
+  const bool has_new_scalars = rows_.set_scalars(i, scalars_.columns(), scalars_.sums());
   if (is_linked_anew || has_new_scalars) changes_.rows.push_back(to_int32(i));
-  if (is_linked_anew || is_elsewhere) changes_.links.push_back(to_int32(i));
+  if (is_linked_anew) changes_.links.push_back(to_int32(i));
 }
 
+/// The levels leave out what is held, and small pieces.
 template <int D>
-bool Multigrid<D>::read_place(const SystemMatrix<D>& a, std::size_t i) {
-  const bool is_known = a.places && i < a.places->size() && !is_held_altogether(a, i);
+void Multigrid<D>::read_place(const SystemMatrix<D>& a, std::size_t i) {
+  const bool is_known = a.places && i < a.places->size() && !is_held_altogether(a, i) && !small_.holds(i);
   const Point2 place = is_known ? (*a.places)[i] : Point2{std::numeric_limits<double>::quiet_NaN(), 0};
-  return !is_same(std::exchange(places_[i], place), place);
+  if (!is_same(std::exchange(places_[i], place), place)) changes_.links.push_back(to_int32(i));
 }
 
 template <int D>
@@ -118,6 +118,7 @@ void Multigrid<D>::setup(const SystemMatrix<D>& a, const Blocks& diagonals) {
     if (!follows) {
       rows_ = {};
       factors_.clear();
+      small_ = {};
     }
     rows_.resize(n);
     places_.resize(n);
@@ -129,6 +130,11 @@ void Multigrid<D>::setup(const SystemMatrix<D>& a, const Blocks& diagonals) {
       read_row(a, to_size(i));
       looked_at_[to_size(i)] = sizes_[to_size(i)] / median_size_;
     }
+    const auto moved = small_.follow(rows_, *a.held, changed_);
+    changed_.insert(changed_.end(), moved.begin(), moved.end());
+    sort_unique(changed_);
+    for (const std::int32_t i : changed_) read_place(a, to_size(i));
+    sort_unique(changes_.links);
     if (!follows)
       for (const auto& term : a.scalar) factors_.push_back(term.factor);
     follows ? update_levels(a) : make_levels(a);
@@ -136,6 +142,7 @@ void Multigrid<D>::setup(const SystemMatrix<D>& a, const Blocks& diagonals) {
   pattern_ = a.pattern;
   rows_us_ = watch.lap();
   find_held(a);
+  leave_out_small_pieces(a);
   if (!changed_.empty()) clusters_.find(sizes_, median_size_, rows_);
   choose_precision(a);
   fill_finest(a, diagonals);

@@ -1,14 +1,15 @@
 // Multigrid for a sheet that is cut: one V-cycle as a preconditioner of conjugate gradients (Trottenberg, Oosterlee and
 // Schueller, Multigrid, 2001, 7.8). The levels are those of Coarsening, with lattices of twice the median edge, four
 // times, and so on; their matrices are the Galerkin products P^T A P, so each is symmetric and positive definite where
-// A is. Vertices that slivers constraint together are one more unknown of the first coarse level, and clusters of stiff
-// vertices are solved exactly (StiffClusters). On the coarsest level a Cholesky factorisation solves.
+// A is. Vertices that slivers constraint together are one more unknown of the first coarse level. Clusters of stiff
+// vertices are solved exactly (StiffClusters), and so are small free pieces, which the levels leave out (SmallPieces).
+// On the coarsest level a Cholesky factorisation solves.
 //
 // Levels are in floats: a preconditioner need not be accurate, and the time is that of reading the matrix. The finest
 // level is in doubles where floats would not do:
 // - where diagonal blocks of A differ too much (slivers);
-// - where a free piece is light beside its stiffness: its diagonal is over 2^20 times the sum of its entries, so the
-//   last of 24 bits is a sixteenth of what it weighs;
+// - where another free piece is light beside its stiffness: its diagonal is over 2^20 times the sum of its entries, so
+//   the last of 24 bits is a sixteenth of what it weighs;
 // - likewise where a pivot of a stiff cluster is below 2^-20 of its diagonal.
 // Else the cycle would not be symmetric, nor positive definite. Conjugate gradients take their product from the finest
 // level, too. Where that is in floats, rows with large entries are multiplied in doubles.
@@ -25,6 +26,7 @@
 #include "harness/fem/linear/preconditioner.h"
 #include "harness/fem/multigrid/coarsening.h"
 #include "harness/fem/multigrid/packed_rows.h"
+#include "harness/fem/multigrid/small_pieces.h"
 #include "harness/fem/multigrid/stiff_clusters.h"
 
 namespace cutbench {
@@ -95,7 +97,7 @@ class Multigrid final : public Preconditioner<D> {
   bool find_changed(const SystemMatrix<D>& a);
   void find_restiffened();
   void read_row(const SystemMatrix<D>& a, std::size_t i);
-  bool read_place(const SystemMatrix<D>& a, std::size_t i);  // true: it is another
+  void read_place(const SystemMatrix<D>& a, std::size_t i);
   Coarsening::Regrouping regroup(const SystemMatrix<D>& a);
   void find_held(const SystemMatrix<D>& a);
   static bool is_held_altogether(const SystemMatrix<D>& a, std::size_t i) {
@@ -118,6 +120,7 @@ class Multigrid final : public Preconditioner<D> {
   static Finer finer_than_next(const CoarseLevel& level);
   static void update_rows(CoarseLevel& level, const Finer& fine, const Coarsening::Regrouping& regrouping);
   void look_at_sizes(const SystemMatrix<D>& a, const Blocks& diagonals);
+  void leave_out_small_pieces(const SystemMatrix<D>& a);
   void choose_precision(const SystemMatrix<D>& a);
   bool has_light_piece(const SystemMatrix<D>& a);
   void fill_finest(const SystemMatrix<D>& a, const Blocks& diagonals);
@@ -161,11 +164,12 @@ class Multigrid final : public Preconditioner<D> {
   std::vector<StiffRow> stiff_rows_;  // whose product takes doubles where the finest level is in floats
   Blocks stiff_blocks_;               // of these, by the columns of rows_.blocks
   StiffClusters<D> clusters_;
+  SmallPieces<D> small_;
   std::deque<CoarseLevel> coarse_;  // each refers to rows of its own
   Eigen::LLT<Eigen::MatrixXd> coarsest_;
   bool solves_coarsest_ = false;
   Blocks diagonals_;           // of A, where nobody else has them
-  std::vector<double> sizes_;  // per vertex: the trace of its diagonal block
+  std::vector<double> sizes_;  // per vertex: the trace of its diagonal block, 0 in small pieces
   double median_size_ = 0, largest_size_ = 0;
   std::vector<double> looked_at_;  // per vertex: its size over the median when groups and clusters were found there
   double trace_of_pieces_ = 0;

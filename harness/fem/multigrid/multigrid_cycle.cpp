@@ -96,6 +96,7 @@ void Multigrid<D>::apply(const Field& r, Field& z) {
     run(finest_in_doubles_);
   else
     run(finest_);
+  small_.solve(r, z, *workers_);
 }
 
 template <int D>

@@ -60,7 +60,7 @@ Coarsening::Regrouping Multigrid<D>::regroup(const SystemMatrix<D>& a) {
   std::vector<std::int32_t> group_of(front_.size(), -1);
   for (std::size_t k = 0; k < front_.size(); ++k) {
     place_in_front_[to_size(front_[k])] = -1;
-    if (joined.size(k) == 1) continue;
+    if (joined.size(k) == 1 || small_.holds(to_size(front_[k]))) continue;
     auto& group = group_of[joined.find(k)];
     if (group < 0) {
       group = to_int32(found.groups.size());

@@ -45,7 +45,7 @@ template <int D>
 void Multigrid<D>::look_at_sizes(const SystemMatrix<D>& a, const Blocks& diagonals) {
   sizes_.assign(a.vertices(), 0);
   sorted_.clear();
-  trace_ = median_size_ = largest_size_ = 0;
+  trace_ = median_size_ = 0;
   for (std::size_t i = 0; i < a.vertices(); ++i) {
     if (a.blocks->columns(i).empty()) continue;
     const Block& diagonal = diagonals[i];
@@ -62,10 +62,19 @@ void Multigrid<D>::look_at_sizes(const SystemMatrix<D>& a, const Blocks& diagona
     if (std::isfinite(sizes_[i])) sorted_.push_back(sizes_[i]);  // NaN has no place in an order
   }
   if (sorted_.empty()) return;
-  largest_size_ = *std::max_element(sorted_.begin(), sorted_.end());
   const auto middle = sorted_.begin() + to_index(sorted_.size() / 2);
   std::nth_element(sorted_.begin(), middle, sorted_.end());
   median_size_ = *middle;
+}
+
+template <int D>
+void Multigrid<D>::leave_out_small_pieces(const SystemMatrix<D>& a) {
+  small_.factor(a, rows_, *workers_);
+  largest_size_ = 0;
+  for (std::size_t i = 0; i < sizes_.size(); ++i) {
+    if (small_.holds(i)) sizes_[i] = 0;
+    if (std::isfinite(sizes_[i])) largest_size_ = std::max(largest_size_, sizes_[i]);
+  }
 }
 
 /// Whether floats do for the finest level.
@@ -79,8 +88,8 @@ void Multigrid<D>::choose_precision(const SystemMatrix<D>& a) {
                                       median_size_ > 1e-30 && !has_light_piece_);
 }
 
-/// Whether a free piece's diagonal exceeds the sum of its entries too far. The sum is what the piece weighs: no
-/// stiffness resists a translation.
+/// Whether the diagonal of a free piece that is not small exceeds the sum of its entries too far. The sum is what the
+/// piece weighs: no stiffness resists a translation.
 template <int D>
 bool Multigrid<D>::has_light_piece(const SystemMatrix<D>& a) {
   const std::size_t n = a.vertices();
@@ -88,6 +97,7 @@ bool Multigrid<D>::has_light_piece(const SystemMatrix<D>& a) {
   weights_.assign(n, 0);
   bool any = false;
   for (std::size_t i = 0; i < n; ++i) {
+    if (small_.holds(i)) continue;
     std::int32_t slot = a.blocks->first_slot(i);
     double sum = 0;
     for (std::size_t k = 0; k < a.blocks->columns(i).size(); ++k) sum += a.blocks->block(slot++).trace();
@@ -160,7 +170,7 @@ void Multigrid<D>::fill(const SystemMatrix<D>& a, const Blocks& diagonals, Level
       level.matrix.fill_row(i, columns_at);
       if (rows_.blocks[i].empty()) continue;
       std::array<bool, D> is_held{};
-      for (std::size_t c = 0; c < D; ++c) is_held[c] = (*a.held)[D * i + c] != 0;
+      for (std::size_t c = 0; c < D; ++c) is_held[c] = (*a.held)[D * i + c] != 0 || small_.holds(i);
       set_inverse(level, i, diagonals[i] + swept_.left_out(i) * Block::Identity(), is_held);
     }
   });
@@ -185,14 +195,15 @@ void Multigrid<D>::fill_finest(const SystemMatrix<D>& a, const Blocks& diagonals
   if (!in_doubles_) list_stiff_rows(a);
 }
 
-/// Those that can have an entry over largest_for_product: none exceeds the root of both its diagonal blocks.
+/// Those of small pieces, and those that can have an entry over largest_for_product: none exceeds the root of both its
+/// diagonal blocks.
 template <int D>
 void Multigrid<D>::list_stiff_rows(const SystemMatrix<D>& a) {
   stiff_rows_.clear();
   stiff_blocks_.clear();
   const double largest = largest_for_product * median_size_;
   for (std::size_t i = 0; i < sizes_.size(); ++i) {
-    if (sizes_[i] * largest_size_ < largest * largest) continue;
+    if (sizes_[i] * largest_size_ < largest * largest && !small_.holds(i)) continue;
     stiff_rows_.push_back({to_int32(i), stiff_blocks_.size()});
     const std::size_t first = rows_.blocks.first_slot(i);
     for (std::size_t k = 0; k < rows_.blocks[i].size(); ++k)
@@ -329,10 +340,12 @@ void Multigrid<D>::fill_coarse_levels(const SystemMatrix<D>& a) {
 
 // What setup() calls; multigrid.cpp instantiates the rest of the class.
 template void Multigrid<2>::look_at_sizes(const SystemMatrix<2>&, const Blocks&);
+template void Multigrid<2>::leave_out_small_pieces(const SystemMatrix<2>&);
 template void Multigrid<2>::choose_precision(const SystemMatrix<2>&);
 template void Multigrid<2>::fill_finest(const SystemMatrix<2>&, const Blocks&);
 template void Multigrid<2>::fill_coarse_levels(const SystemMatrix<2>&);
 template void Multigrid<3>::look_at_sizes(const SystemMatrix<3>&, const Blocks&);
+template void Multigrid<3>::leave_out_small_pieces(const SystemMatrix<3>&);
 template void Multigrid<3>::choose_precision(const SystemMatrix<3>&);
 template void Multigrid<3>::fill_finest(const SystemMatrix<3>&, const Blocks&);
 template void Multigrid<3>::fill_coarse_levels(const SystemMatrix<3>&);

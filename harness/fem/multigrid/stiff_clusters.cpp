@@ -10,7 +10,7 @@ namespace cutbench {
 
 namespace {
 
-constexpr double stiff = 8;                  // diagonal over the median one
+constexpr double stiff = 3;                  // diagonal over the median one
 constexpr std::size_t largest_cluster = 48;  // vertices; where more hang together, they are parted
 
 /// The values of a vertex.

@@ -1,4 +1,4 @@
-// Small clusters of vertices that are far stiffer than the rest of the sheet: round slivers, and where edges are so
+// Small clusters of vertices that are stiffer than the rest of the sheet: round slivers, and where edges are so
 // short that bending, which grows with 1/length^2, exceeds all else. A cluster that moves against its neighbours hardly
 // strains them, but the sweeps move one vertex at a time, so they take very many to find that out, and the hats of the
 // coarse levels are too wide. Each cluster is therefore solved exactly, with its surroundings held: a subspace
