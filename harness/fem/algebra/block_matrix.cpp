@@ -63,16 +63,19 @@ void spread(const Field& x, std::vector<Lanes>& vertices, Workers& workers) {
   });
 }
 
-void add_product_per_coordinate(const BlockMatrix<1>& a, int dimension, double factor, const Field& x, Field& y) {
+void add_product_per_coordinate(const BlockMatrix<1>& a, int dimension, double factor, const Field& x, Field& y,
+                                Workers& workers) {
   const auto add = [&]<int D>(std::integral_constant<int, D>) {
     using Vector = Eigen::Matrix<double, D, 1>;
-    for (std::size_t i = 0; i < a.rows(); ++i) {
-      const auto columns = a.columns(i);
-      std::int32_t slot = a.first_slot(i);
-      Vector sum = Vector::Zero();
-      for (const std::int32_t j : columns) sum += a.block(slot++)(0) * Eigen::Map<const Vector>(x.data() + D * j);
-      Eigen::Map<Vector>(y.data() + D * i) += factor * sum;
-    }
+    workers.for_ranges(a.rows(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto columns = a.columns(i);
+        std::int32_t slot = a.first_slot(i);
+        Vector sum = Vector::Zero();
+        for (const std::int32_t j : columns) sum += a.block(slot++)(0) * Eigen::Map<const Vector>(x.data() + D * j);
+        Eigen::Map<Vector>(y.data() + D * i) += factor * sum;
+      }
+    });
   };
   if (dimension == 3)
     add(std::integral_constant<int, 3>());

@@ -115,7 +115,8 @@ template <int D>
 void spread(const Field& x, std::vector<Lanes>& vertices, Workers& workers = Workers::none());
 
 /// y += factor (A (x) I) x, for `dimension` values per vertex.
-void add_product_per_coordinate(const BlockMatrix<1>& a, int dimension, double factor, const Field& x, Field& y);
+void add_product_per_coordinate(const BlockMatrix<1>& a, int dimension, double factor, const Field& x, Field& y,
+                                Workers& workers = Workers::none());
 
 /// Largest |entry|, and largest |entry| of the difference of two matrices with rows in any order of columns. They look
 /// at everything: for tests, and outside the clock.

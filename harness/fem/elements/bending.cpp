@@ -46,10 +46,12 @@ double Bending::update(const Sheet& sheet, const ElementTable* elements, std::sp
   return rebuild(sheet, places);
 }
 
-double Bending::energy(const Field& x, int dimension) const {
-  double sum = 0;
-  for (std::size_t t = 0; t < stencils_.size(); ++t) sum += stencil_energy(stencils_[t], x, dimension);
-  return sum;
+double Bending::energy(const Field& x, int dimension, Workers& workers) const {
+  return workers.sum_ranges(stencils_.size(), [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (std::size_t t = begin; t < end; ++t) sum += stencil_energy(stencils_[t], x, dimension);
+    return sum;
+  });
 }
 
 void Bending::resize(std::size_t triangles, std::size_t vertices) {

@@ -14,6 +14,7 @@
 #include "harness/fem/algebra/block_matrix.h"
 #include "harness/fem/algebra/growing_rows.h"
 #include "harness/fem/algebra/row_sum.h"
+#include "harness/fem/algebra/workers.h"
 #include "harness/fem/elements/bending_kinds.h"
 #include "harness/fem/elements/element_table.h"
 #include "harness/fem/elements/physics.h"
@@ -77,7 +78,7 @@ class Bending {
   const std::vector<std::int32_t>& written_rows() const { return work_.rows; }
   /// The triangle slots whose stencils the last update() made again, or the constructor.
   const std::vector<TriangleIndex>& rebuilt() const { return work_.rebuilt; }
-  double energy(const Field& x, int dimension) const;
+  double energy(const Field& x, int dimension, Workers& workers = Workers::none()) const;
   /// The three rows of a triangle's energy, in sqrt(N/m); none where it is free, or not the first of its element.
   std::span<const StencilTerm> stencil(std::size_t triangle) const { return stencils_[triangle]; }
   /// Side k of a triangle as the one on its other side has it, also over a seam.

@@ -292,18 +292,21 @@ void MembraneSheet<D>::add_forces(const Four& four, const Strained& e, const Has
 }
 
 template <int D>
-double MembraneSheet<D>::energy(const ElementTable& elements) const {
-  Lanes sum{};
-  for (std::size_t i = 0; i < strained_.size(); ++i) {
-    const Four four(elements, lane_count * i);
-    if (law_.strain == Strain::springs) {
-      sum += four.area * Springs<D, Lanes>(four.gradient, strained_[i].frame).energy(young_of(law_.lame));
-      continue;
+double MembraneSheet<D>::energy(const ElementTable& elements, Workers& workers) const {
+  const auto energy_of = [&](std::size_t begin, std::size_t end) {
+    Lanes sum{};
+    for (std::size_t i = begin; i < end; ++i) {
+      const Four four(elements, lane_count * i);
+      if (law_.strain == Strain::springs) {
+        sum += four.area * Springs<D, Lanes>(four.gradient, strained_[i].frame).energy(young_of(law_.lame));
+        continue;
+      }
+      const Lanes xx = strained_[i].xx, yy = strained_[i].yy, xy = strained_[i].xy, trace = xx + yy;
+      sum += four.area * (law_.lame.mu * (xx * xx + yy * yy + 2 * (xy * xy)) + law_.lame.lambda / 2 * (trace * trace));
     }
-    const Lanes xx = strained_[i].xx, yy = strained_[i].yy, xy = strained_[i].xy, trace = xx + yy;
-    sum += four.area * (law_.lame.mu * (xx * xx + yy * yy + 2 * (xy * xy)) + law_.lame.lambda / 2 * (trace * trace));
-  }
-  return sum[0] + sum[1] + sum[2] + sum[3] + compounds_.energy(elements);
+    return sum[0] + sum[1] + sum[2] + sum[3];
+  };
+  return workers.sum_ranges(strained_.size(), energy_of) + compounds_.energy(elements);
 }
 
 template <int D>

@@ -36,7 +36,7 @@ class MembraneSheet {
   /// Deformations of all elements at x, and the forces they exert; the functions below refer to this x.
   void rotate(const ElementTable& elements, const Field& x, Workers& workers = Workers::none());
   const Field& force() const { return force_; }  ///< N
-  double energy(const ElementTable& elements) const;
+  double energy(const ElementTable& elements, Workers& workers = Workers::none()) const;
   Deformation<D> deformation(const ElementTable& elements, std::size_t element) const;
   /// Adds factor x stiffness to the blocks at the slots.
   void add_stiffness(const ElementTable& elements, double factor, BlockMatrix<D>& blocks,

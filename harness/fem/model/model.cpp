@@ -207,8 +207,8 @@ SystemMatrix<D> Model<D>::system() const {
 }
 
 template <int D>
-void Model<D>::add_mass_product(double factor, const Field& x, Field& y) const {
-  if (const auto* mass = mass_matrix()) add_product_per_coordinate(*mass, D, factor, x, y);
+void Model<D>::add_mass_product(double factor, const Field& x, Field& y, Workers& workers) const {
+  if (const auto* mass = mass_matrix()) add_product_per_coordinate(*mass, D, factor, x, y, workers);
   if (consistent_mass_) return;
   for (std::size_t v = 0; v < mass_.size(); ++v) {
     const auto at = to_index(D * v);
@@ -217,14 +217,14 @@ void Model<D>::add_mass_product(double factor, const Field& x, Field& y) const {
 }
 
 template <int D>
-Energy Model<D>::energy(const Field& x, const Field& v) {
+Energy Model<D>::energy(const Field& x, const Field& v, Workers& workers) {
   if (!elastic_) {
-    elastic_ = Energy{.membrane = membrane_.energy(elements_)};
-    if (bending_) elastic_->bending = curved_ ? curved_->energy() : bending_->energy(x, D);
+    elastic_ = Energy{.membrane = membrane_.energy(elements_, workers)};
+    if (bending_) elastic_->bending = curved_ ? curved_->energy() : bending_->energy(x, D, workers);
   }
   Energy energy = *elastic_;
   Field momentum = Field::Zero(v.size());
-  add_mass_product(1, v, momentum);
+  add_mass_product(1, v, momentum, workers);
   energy.kinetic = v.dot(momentum) / 2;
   energy.potential = -external_force().dot(x);
   return energy;

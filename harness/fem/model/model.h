@@ -81,8 +81,9 @@ class Model {
     return is_constrained_ ? &*constrained_ : nullptr;
   }  ///< null where no vertex is constrained
   /// y += factor M x.
-  void add_mass_product(double factor, const Field& x, Field& y) const;
-  Energy energy(const Field& x, const Field& v);  ///< \pre rotate(x)
+  void add_mass_product(double factor, const Field& x, Field& y, Workers& workers = Workers::none()) const;
+  /// \pre rotate(x)
+  Energy energy(const Field& x, const Field& v, Workers& workers = Workers::none());
 
   // --- of the model --------------------------------------------------------------------------------------------------
   const ElementTable& elements() const { return elements_; }

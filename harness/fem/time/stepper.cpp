@@ -159,7 +159,7 @@ void Stepper<D>::implicit_step(Model<D>& model, State& state, double h, StepRepo
       PhaseClock clock(report.time_us.rotate);
       if (options_.robust) {
         model.rotate_once(x_, workers_);
-        before = model.energy(x_, state.v);
+        before = model.energy(x_, state.v, workers_);
       } else {
         model.rotate(x_, workers_);
       }
@@ -204,12 +204,12 @@ void Stepper<D>::right_hand_side(Model<D>& model, const State& state, double h, 
   PhaseClock clock(report.time_us.rotate);
   const double alpha = model.material().mass_damping, beta = model.material().stiffness_damping;
   rhs_ = h * model.external_force();
-  model.add_mass_product(1, state.v, rhs_);
+  model.add_mass_product(1, state.v, rhs_, workers_);
   if (first) return model.add_impulse(h, x_, 1, v_, rhs_, workers_);
   // beta K v from A v: K v = (A v - (1 + h alpha) M v) / (h beta + h^2)
   const double damped = beta / (beta + h);
   model.add_impulse(h, x_, damped, v_, rhs_, workers_);
-  model.add_mass_product((damped - 1) * (1 + h * alpha), v_, rhs_);
+  model.add_mass_product((damped - 1) * (1 + h * alpha), v_, rhs_, workers_);
 }
 
 template <int D>
@@ -300,7 +300,7 @@ void Stepper<D>::solve_added_mass(const Model<D>& model, const State& state, Ste
   for (Eigen::Index i = 0; i < v_.size(); ++i)
     if (model.held()[to_size(i)]) dv_[i] += v_[i] - state.v[i];
   rhs_ = h * force_;
-  model.add_mass_product(-1, dv_, rhs_);
+  model.add_mass_product(-1, dv_, rhs_, workers_);
   dv_ = v_ - state.v;
   mass_solver_.solve(rhs_, dv_);
   v_ = state.v + dv_;

@@ -50,10 +50,10 @@ double Stepper<D>::merit(Model<D>& model, const State& state, double h, const Fi
                          Energy& energy) {
   const double alpha = model.material().mass_damping, beta = model.material().stiffness_damping;
   model.rotate_once(x, workers_);
-  energy = model.energy(x, v);
+  energy = model.energy(x, v, workers_);
   const Field dv = v - state.v;
   product_.setZero(v.size());
-  model.add_mass_product(1, dv, product_);
+  model.add_mass_product(1, dv, product_, workers_);
   double phi = energy.membrane + energy.bending + energy.potential + dv.dot(product_) / 2 + h * alpha * energy.kinetic;
   if (beta == 0) return phi;
   product_.setZero(v.size());
@@ -67,12 +67,12 @@ template <int D>
 void Stepper<D>::residual(Model<D>& model, const State& state, double h) {
   const double alpha = model.material().mass_damping, beta = model.material().stiffness_damping;
   rhs_ = h * model.external_force();
-  model.add_mass_product(1, state.v, rhs_);
+  model.add_mass_product(1, state.v, rhs_, workers_);
   model.add_impulse(h, x_, 0, v_, rhs_, workers_);
   // beta K v from A v, as in right_hand_side()
   const double damped = beta / (beta + h);
   if (beta > 0) rhs_ -= damped * product_;
-  model.add_mass_product((damped - 1) * (1 + h * alpha), v_, rhs_);
+  model.add_mass_product((damped - 1) * (1 + h * alpha), v_, rhs_, workers_);
 }
 
 /// Of the step to v_, J. \pre rhs_ is that of residual(). Changes reduced_.
