@@ -25,6 +25,13 @@ auto values_at(Quads& field, std::int32_t vertex) {
     return Eigen::Map<Values>(reinterpret_cast<S*>(&quad));
 }
 
+template <class S, int D>
+auto transpose_of(const Eigen::Matrix<S, D, D>& block) {
+  return block.transpose();
+}
+float transpose_of(float scalar) { return scalar; }
+double transpose_of(double scalar) { return scalar; }
+
 }  // namespace
 
 template <int D>
@@ -50,6 +57,9 @@ void StiffClusters<D>::find(const std::vector<double>& sizes, double median, con
     }
     if (members.size() > 1) clusters_.emplace_back().vertices = std::move(members);
   }
+  cluster_of_.assign(n, -1);
+  for (std::size_t k = 0; k < clusters_.size(); ++k)
+    for (const std::int32_t v : clusters_[k].vertices) cluster_of_[to_size(v)] = to_int32(k);
 }
 
 template <int D>
@@ -98,6 +108,19 @@ void StiffClusters<D>::solve(const Cluster& cluster) {
   cluster.factor.solveInPlace(correction_);
 }
 
+/// Calls visit(j, entry) for what couples the vertex with those outside its cluster: blocks, then scalars.
+template <int D>
+template <class S, class Visit>
+void StiffClusters<D>::for_each_outside(const PackedRows<D, S>& a, std::size_t vertex, const Visit& visit) const {
+  const std::int32_t own = cluster_of_[vertex];
+  const auto visit_outside = [&](std::int32_t j, const auto& entry) {
+    if (cluster_of_[to_size(j)] != own) visit(j, entry);
+  };
+  a.for_each_block(vertex, visit_outside);
+  a.for_each_scalar(vertex, visit_outside);
+}
+
+/// Inside the cluster nothing is left of t, exactly: the products that would say so are of its large entries.
 template <int D>
 template <class S>
 void StiffClusters<D>::correct_forwards(const PackedRows<D, S>& a, Vector<S>& z, Vector<S>& t) {
@@ -110,16 +133,16 @@ void StiffClusters<D>::correct_forwards(const PackedRows<D, S>& a, Vector<S>& z,
     solve(cluster);
     for (std::size_t k = 0; k < cluster.vertices.size(); ++k) {
       const Values by = correction_.segment<D>(to_index(D * k)).template cast<S>();
-      const auto v = to_size(cluster.vertices[k]);
       values_at<D>(z, cluster.vertices[k]) += by;
-      a.for_each_block(v, [&](std::int32_t j, const auto& block) {  // the row is the column, transposed
-        values_at<D>(t, j) -= block.transpose() * by;
+      values_at<D>(t, cluster.vertices[k]).setZero();
+      for_each_outside(a, to_size(cluster.vertices[k]), [&](std::int32_t j, const auto& entry) {
+        values_at<D>(t, j) -= transpose_of(entry) * by;  // the row is the column, transposed
       });
-      a.for_each_scalar(v, [&](std::int32_t j, S value) { values_at<D>(t, j) -= value * by; });
     }
   }
 }
 
+/// z inside the cluster anew from what is outside: the same as a correction, without products of its large entries.
 template <int D>
 template <class S>
 void StiffClusters<D>::correct_backwards(const PackedRows<D, S>& a, const Vector<S>& r, Vector<S>& z) {
@@ -128,15 +151,14 @@ void StiffClusters<D>::correct_backwards(const PackedRows<D, S>& a, const Vector
     if (!cluster->is_positive) continue;
     correction_.resize(to_index(D * cluster->vertices.size()));
     for (std::size_t k = 0; k < cluster->vertices.size(); ++k) {
-      const auto v = to_size(cluster->vertices[k]);
       Values left = values_at<D>(r, cluster->vertices[k]);
-      a.for_each_block(v, [&](std::int32_t j, const auto& block) { left -= block * values_at<D>(z, j); });
-      a.for_each_scalar(v, [&](std::int32_t j, S value) { left -= value * values_at<D>(z, j); });
+      for_each_outside(a, to_size(cluster->vertices[k]),
+                       [&](std::int32_t j, const auto& entry) { left -= entry * values_at<D>(z, j); });
       correction_.segment<D>(to_index(D * k)) = left.template cast<double>();
     }
     solve(*cluster);
     for (std::size_t k = 0; k < cluster->vertices.size(); ++k)
-      values_at<D>(z, cluster->vertices[k]) += correction_.segment<D>(to_index(D * k)).template cast<S>();
+      values_at<D>(z, cluster->vertices[k]) = correction_.segment<D>(to_index(D * k)).template cast<S>();
   }
 }
 

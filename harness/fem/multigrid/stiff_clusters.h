@@ -43,8 +43,11 @@ class StiffClusters {
     bool is_positive = false;
   };
   void solve(const Cluster& cluster);  // in correction_
+  template <class S, class Visit>
+  void for_each_outside(const PackedRows<D, S>& a, std::size_t vertex, const Visit& visit) const;
 
   std::vector<Cluster> clusters_;
+  std::vector<std::int32_t> cluster_of_;  // per vertex: its number, or -1
   double smallest_pivot_ = 1;
   // Working storage.
   std::vector<std::int32_t> place_;  // per vertex: in the cluster at hand, or -1
