@@ -68,7 +68,9 @@ TYPED_TEST(LinearSolvers, AgreeWithDenseCholesky) {
       EXPECT_LT((s.x - exact).norm(), 1e-9 * exact.norm());
       EXPECT_NEAR(s.report.residual, system.residual(b, s.x), 1e-14);
       EXPECT_LE(s.report.residual, 1e-11);
-      EXPECT_EQ(s.report.iterations == 0, is_direct(options.name));
+      if (options.name != "multigrid") {  // which solves small free pieces directly
+        EXPECT_EQ(s.report.iterations == 0, is_direct(options.name));
+      }
       for (Eigen::Index u = 0; u < s.x.size(); ++u) EXPECT_TRUE(!system.is_held(u) || s.x[u] == 0);
     }
 }

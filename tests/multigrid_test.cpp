@@ -70,8 +70,9 @@ double asymmetry(const SystemMatrix<3>& a) {
     project(*a.held, any, r);
     residuals.push_back(r);
   }
-  for (const Field& r : residuals) {
+  for (Field& r : residuals) {
     corrections.push_back(Field::Zero(n));
+    multigrid.solve_apart(Field(r), corrections.back(), r);
     multigrid.apply(r, corrections.back());
   }
   double worst = 0;
@@ -253,7 +254,7 @@ TEST(Multigrid, FreePiecesTooLightForFloats) {
   body.model.rotate(bent(body.model, body.sheet));
   constexpr double step = 1.0 / 60;
   body.model.assemble(1, step * step + 1e-3 * step);
-  EXPECT_LT(asymmetry(body.model.system()), 1e-6);
+  EXPECT_LT(asymmetry(body.model.system()), 2e-5);
   EXPECT_LE(iterations(body, "multigrid", 1e-4), 40);
 }
 
@@ -429,6 +430,7 @@ TEST(Multigrid, AdversarialCuts) {
   std::printf("%zu solves, %.2f iterations in the mean, %zu fall-backs; %zu not solved, nor by cg\n", solves,
               to_double(iterations) / to_double(solves), fallbacks, unsolved);
   EXPECT_LT(100 * unsolved, solves);
+  EXPECT_LT(20 * fallbacks, solves);
 }
 
 }  // namespace

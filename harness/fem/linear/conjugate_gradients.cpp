@@ -128,6 +128,7 @@ SolveReport ConjugateGradients<D>::solve(const Field& b, Field& x, const Field& 
   for (int restart = 0, begun = 0;;) {
     const int left = options_.max_iterations - begun,
               most = begun + (trial_ < trials_.size() ? std::min(left, trials_[trial_].most_iterations) : left);
+    if (trial_ < trials_.size()) trials_[trial_].preconditioner->solve_apart(b_, x, r_);
     Products now = advance(0, x);  // whatever the last round left in p and q, times 0
     precondition(now);
     p_ = z_;

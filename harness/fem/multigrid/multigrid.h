@@ -2,7 +2,7 @@
 // Schueller, Multigrid, 2001, 7.8). The levels are those of Coarsening, with lattices of twice the median edge, four
 // times, and so on; their matrices are the Galerkin products P^T A P, so each is symmetric and positive definite where
 // A is. Vertices that slivers constraint together are one more unknown of the first coarse level. Clusters of stiff
-// vertices are solved exactly (StiffClusters), and so are small free pieces, which the levels leave out (SmallPieces).
+// vertices are solved exactly (StiffClusters), and so are small free pieces, before the iteration begins (SmallPieces).
 // On the coarsest level a Cholesky factorisation solves.
 //
 // Levels are in floats: a preconditioner need not be accurate, and the time is that of reading the matrix. The finest
@@ -42,6 +42,8 @@ class Multigrid final : public Preconditioner<D> {
   void setup(const SystemMatrix<D>& a) override;
   using typename Preconditioner<D>::Blocks;
   void setup(const SystemMatrix<D>& a, const Blocks& diagonals) override;
+  /// Small free pieces.
+  void solve_apart(const Field& b, Field& x, Field& r) override { small_.solve(b, x, r, *workers_); }
   void apply(const Field& r, Field& z) override;
   /// By the finest level.
   bool multiply_roughly(const Field& x, Field& y) override;

@@ -96,7 +96,7 @@ void Multigrid<D>::apply(const Field& r, Field& z) {
     run(finest_in_doubles_);
   else
     run(finest_);
-  small_.solve(r, z, *workers_);
+  small_.apply(r, z);
 }
 
 template <int D>
@@ -131,6 +131,7 @@ bool Multigrid<D>::multiply_roughly(const Field& x, Field& y) {
     multiply_stiff_rows(x, y);
   }
   for (const Eigen::Index u : held_) y[u] = 0;
+  small_.set_zero(y);
   return true;
 }
 

@@ -195,15 +195,15 @@ void Multigrid<D>::fill_finest(const SystemMatrix<D>& a, const Blocks& diagonals
   if (!in_doubles_) list_stiff_rows(a);
 }
 
-/// Those of small pieces, and those that can have an entry over largest_for_product: none exceeds the root of both its
-/// diagonal blocks.
+/// Those of small pieces that are not solved, and those that can have an entry over largest_for_product: none exceeds
+/// the root of both its diagonal blocks.
 template <int D>
 void Multigrid<D>::list_stiff_rows(const SystemMatrix<D>& a) {
   stiff_rows_.clear();
   stiff_blocks_.clear();
   const double largest = largest_for_product * median_size_;
   for (std::size_t i = 0; i < sizes_.size(); ++i) {
-    if (sizes_[i] * largest_size_ < largest * largest && !small_.holds(i)) continue;
+    if (sizes_[i] * largest_size_ < largest * largest && !(small_.holds(i) && !small_.solves(i))) continue;
     stiff_rows_.push_back({to_int32(i), stiff_blocks_.size()});
     const std::size_t first = rows_.blocks.first_slot(i);
     for (std::size_t k = 0; k < rows_.blocks[i].size(); ++k)

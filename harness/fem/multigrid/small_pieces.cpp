@@ -70,7 +70,6 @@ void SmallPieces<D>::factor(const SystemMatrix<D>& a, const LevelRows& rows, Wor
   workers.run(pieces_.size(), [&](std::size_t k) { factor(pieces_[k], a, rows); });
 }
 
-/// Where A is not positive definite, of its diagonal alone.
 template <int D>
 void SmallPieces<D>::factor(Piece& piece, const SystemMatrix<D>& a, const LevelRows& rows) {
   const auto n = to_index(D * piece.vertices.size());
@@ -78,38 +77,63 @@ void SmallPieces<D>::factor(Piece& piece, const SystemMatrix<D>& a, const LevelR
   const auto block_at = [&](std::size_t i, std::int32_t j) {
     return dense.template block<D, D>(D * place_[i], D * place_[to_size(j)]);
   };
-  piece.held.clear();
   for (const std::int32_t vertex : piece.vertices) {
     const auto i = to_size(vertex);
     std::int32_t slot = a.blocks->first_slot(i);
     for (const std::int32_t j : a.blocks->columns(i)) block_at(i, j) += a.blocks->block(slot++);
     std::size_t scalar = rows.scalars.first_slot(i);
     for (const std::int32_t j : rows.scalars[i]) block_at(i, j).diagonal().array() += rows.scalar[scalar++];
-    for (int c = 0; c < D; ++c)
-      if ((*a.held)[D * i + to_size(c)]) piece.held.push_back(D * place_[i] + c);
   }
-  for (const Eigen::Index u : piece.held) {
-    dense.row(u).setZero();
-    dense.col(u).setZero();
-    dense(u, u) = 1;
-  }
+  Eigen::VectorXd& inverse = piece.inverse_diagonal;
+  inverse = dense.diagonal().cwiseAbs().cwiseInverse();
+  for (const std::int32_t vertex : piece.vertices)
+    for (int c = 0; c < D; ++c) {
+      if (!(*a.held)[D * to_size(vertex) + to_size(c)]) continue;
+      const Eigen::Index u = D * place_[to_size(vertex)] + c;
+      dense.row(u).setZero();
+      dense.col(u).setZero();
+      dense(u, u) = 1;
+      inverse[u] = 0;
+    }
   piece.factor.compute(dense);
-  if (piece.factor.info() == Eigen::Success) return;
-  const Eigen::VectorXd diagonal = dense.diagonal().cwiseAbs();
-  piece.factor.compute(Eigen::MatrixXd(diagonal.asDiagonal()));
+  piece.is_positive = piece.factor.info() == Eigen::Success;
 }
 
 template <int D>
-void SmallPieces<D>::solve(const Field& r, Field& z, Workers& workers) {
+void SmallPieces<D>::solve(const Field& b, Field& x, Field& r, Workers& workers) {
   workers.run(pieces_.size(), [&](std::size_t p) {
-    auto& [vertices, held, factor, values] = pieces_[p];
-    const auto at = [](auto& field, std::int32_t i) { return field.template segment<D>(to_index(D) * i); };
-    values.resize(to_index(D * vertices.size()));
-    for (std::size_t k = 0; k < vertices.size(); ++k) at(values, to_int32(k)) = at(r, vertices[k]);
-    for (const Eigen::Index u : held) values[u] = 0;
-    factor.solveInPlace(values);
-    for (std::size_t k = 0; k < vertices.size(); ++k) at(z, vertices[k]) = at(values, to_int32(k));
+    Piece& piece = pieces_[p];
+    if (!piece.is_positive) return;
+    piece.values.resize(to_index(D * piece.vertices.size()));
+    for (std::size_t k = 0; k < piece.vertices.size(); ++k)
+      piece.values.template segment<D>(to_index(D * k)) = b.template segment<D>(to_index(D) * piece.vertices[k]);
+    piece.factor.solveInPlace(piece.values);
+    for (std::size_t k = 0; k < piece.vertices.size(); ++k) {
+      const auto at = to_index(D) * piece.vertices[k];
+      x.template segment<D>(at) = piece.values.template segment<D>(to_index(D * k));
+      r.template segment<D>(at).setZero();
+    }
   });
+}
+
+template <int D>
+void SmallPieces<D>::apply(const Field& r, Field& z) const {
+  for (const Piece& piece : pieces_)
+    for (std::size_t k = 0; k < piece.vertices.size(); ++k) {
+      const auto at = to_index(D) * piece.vertices[k];
+      auto to = z.template segment<D>(at);
+      if (piece.is_positive)
+        to.setZero();
+      else
+        to = piece.inverse_diagonal.template segment<D>(to_index(D * k)).cwiseProduct(r.template segment<D>(at));
+    }
+}
+
+template <int D>
+void SmallPieces<D>::set_zero(Field& field) const {
+  for (const Piece& piece : pieces_)
+    if (piece.is_positive)
+      for (const std::int32_t v : piece.vertices) field.template segment<D>(to_index(D) * v).setZero();
 }
 
 template class SmallPieces<2>;

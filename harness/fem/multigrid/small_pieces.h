@@ -1,12 +1,14 @@
 // Free pieces of a few vertices. Nothing links them to the rest of the sheet, so the levels leave them out, and each is
-// solved exactly, in doubles: a cut leaves slivers in them, which take the sweeps long, and some weigh so little beside
-// their stiffness that floats lose it.
+// solved exactly, in doubles, before the iteration begins: a cut leaves slivers in them, which take the sweeps long,
+// and some weigh so little beside their stiffness that floats lose it. One that rounding leaves not positive definite
+// stays in the iteration, by its diagonal.
 #pragma once
 
 #include <Eigen/Cholesky>
 #include <span>
 #include <vector>
 
+#include "harness/base/conversions.h"
 #include "harness/fem/algebra/workers.h"
 #include "harness/fem/linear/system_matrix.h"
 #include "harness/fem/multigrid/level_rows.h"
@@ -29,15 +31,22 @@ class SmallPieces {
   void factor(const SystemMatrix<D>& a, const LevelRows& rows, Workers& workers);
   /// Whether the vertex is in one.
   bool holds(std::size_t vertex) const { return piece_[vertex] >= 0; }
-  /// z there, from the residual r.
-  void solve(const Field& r, Field& z, Workers& workers);
+  /// Whether the vertex is in one whose matrix could be factored.
+  bool solves(std::size_t vertex) const { return holds(vertex) && pieces_[to_size(piece_[vertex])].is_positive; }
+  /// Solves A x = b in these, and sets the residual r to zero there.
+  void solve(const Field& b, Field& x, Field& r, Workers& workers);
+  /// z in all pieces: zero in these, and r over the diagonal in the others.
+  void apply(const Field& r, Field& z) const;
+  /// In the pieces that are solved.
+  void set_zero(Field& field) const;
 
  private:
   struct Piece {
     std::vector<std::int32_t> vertices;
-    std::vector<Eigen::Index> held;  ///< unknowns of it
     Eigen::LLT<Eigen::MatrixXd> factor;
-    Eigen::VectorXd values;  ///< working storage
+    bool is_positive = false;
+    Eigen::VectorXd inverse_diagonal;  ///< where it is not, 0 where unknowns are held
+    Eigen::VectorXd values;            ///< working storage
   };
   void drop(std::int32_t piece);
   bool fill_front(const LevelRows& rows, const std::vector<std::uint8_t>& held, std::int32_t from);
