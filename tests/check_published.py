@@ -23,7 +23,10 @@ sys.dont_write_bytecode = True
 loader.exec_module(publish)
 
 # Stages of the publication before, which wait to be made anew at the commit that all others name
-WAITING = set()
+WAITING = {
+    "comparison", "parameters", "whole_step", "accuracy", "motion", "out_of_plane", "remedies", "one_change", "tips",
+    "rounds", "stability", "limits", "robustness", "recommend", "swirl", "closed", "models", "claims",
+}
 problems = []
 
 

@@ -48,10 +48,10 @@ def errors_mm(published, method, tolerance=1e-2):
 
 
 @condition("residual_hides_errors", "after conventional_split cg errs by more than 10 mm at a residual of 1e-2 and by 4 to 6 mm at 1e-4; multigrid by "
-           "less than 2 mm at 1e-2, and at 1e-4 by within one percent of a direct solve")
+           "1.5 to 2.5 mm at 1e-2, and at 1e-4 by within one percent of a direct solve")
 def residual_hides_errors(published):
     rough, fine = (errors_mm(published, SPLIT, tolerance) for tolerance in (1e-2, 1e-4))
-    return (rough["cg"] > 10 and 4 < fine["cg"] < 6 and rough["multigrid"] < 2
+    return (rough["cg"] > 10 and 4 < fine["cg"] < 6 and 1.5 < rough["multigrid"] < 2.5
             and abs(fine["multigrid"] / fine["cholmod"] - 1) < 0.01)
 
 
@@ -70,24 +70,17 @@ def real_time(published):
         [f"`{method}`", *(until[method, size] for size in sizes)] for method in methods]
 
 
-KEEP_UP = ["`edge_release`", "`element_deletion`", "`active_node`"]
+KEEP_UP = {"`edge_release`", "`element_deletion`", "`active_node`"}
 
 
-@condition("largest_sheet_is_late", "at 800 triangles edge_release, element_deletion and active_node, and no others, keep up for all 20 s; at 12,800 no "
-           "method for half a second")
+@condition("largest_sheet_is_late", "at 3,200 triangles edge_release, element_deletion and active_node, and no others, keep up for all 20 s, and they do at "
+           "800; at 12,800 no method for 5 s")
 def largest_sheet_is_late(published):
     rows = real_time(published)[1]
-    return {row[0] for row in rows if float(row[1]) == 20} == set(KEEP_UP) and all(float(row[-1]) < 0.5 for row in rows)
+    all_along = [{row[0] for row in rows if float(row[size]) == 20} for size in (1, 2)]
+    return KEEP_UP <= all_along[0] and all_along[1] == KEEP_UP and all(float(row[-1]) < 5 for row in rows)
 
 
-@condition("polygons_stall", "realtime.txt: the solver stalls after cut_polygons at all sizes, and after no other method")
-def polygons_stall(published):
-    return all((words[2] == "solver_stalled") == (words[0] == "cut_polygons") for words in real_time_rows(published))
-
-
-@condition("cut_is_not_the_reason", "at 12,800 triangles the median frame with a cut takes less than 2 times the median of all, by virtual_node and "
-           "phantom_node over 3 times")
+@condition("cut_is_not_the_reason", "at 12,800 triangles the median frame with a cut takes less than 2 times the median of all, by every method")
 def cut_is_not_the_reason(published):
-    ratios = {words[0]: float(words[7]) / float(words[4]) for words in real_time_rows(published) if words[1] == "12800"}
-    dear = [ratios.pop("virtual_node"), ratios.pop("phantom_node")]
-    return max(ratios.values()) < 2 and min(dear) > 3
+    return max(float(words[7]) / float(words[4]) for words in real_time_rows(published) if words[1] == "12800") < 2
