@@ -22,11 +22,11 @@ from figures.scenes import contact_sheet
 
 
 def looks_of(methods):
-    """The colour of the family; the second of a family is dashed."""
+    """The colour of the family; the second of a family is dashed, the third has dots and dashes."""
     looks, seen = {}, []
     for method in methods:
         colour = family(method).colour
-        looks[method] = {"color": colour, "linestyle": "--" if colour in seen else "-", "linewidth": 1}
+        looks[method] = {"color": colour, "linestyle": ("-", "--", "-.")[seen.count(colour)], "linewidth": 1}
         seen.append(colour)
     return looks
 
